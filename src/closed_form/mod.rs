@@ -1,0 +1,3 @@
+//! What the paper gives in formulas, corrected and numerically safe.
+
+pub mod harmonic;

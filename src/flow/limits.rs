@@ -1,0 +1,79 @@
+//! What a computation may cost, and why it may end without an answer.
+
+use std::fmt;
+
+use serde::Serialize;
+
+/// Bounds on a computation: evaluations it may spend, and a way to be told to stop.
+#[derive(Clone, Copy)]
+pub struct Limits<'a> {
+    /// Most evaluations of the field (a Taylor series of order N counts as N).
+    pub evaluations: u64,
+    /// Asked at every step; `true` ends the computation with [`Reason::Interrupted`].
+    pub interrupted: &'a (dyn Fn() -> bool + Sync),
+}
+
+impl Limits<'static> {
+    /// The budget of one question when nobody interrupts: some seconds of work.
+    pub const PATIENT: Limits<'static> =
+        Limits { evaluations: 400_000_000, interrupted: &|| false };
+}
+
+impl Default for Limits<'static> {
+    fn default() -> Self {
+        Limits::PATIENT
+    }
+}
+
+/// Why a computation gave up. The numbers say how far it came.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case", tag = "why")]
+pub enum Reason {
+    /// A newer question took its place.
+    Interrupted,
+    /// The budget of evaluations is spent.
+    Budget {
+        /// Evaluations spent.
+        evaluations: u64,
+    },
+    /// The step that the tolerance asks for no longer moves the time.
+    StepTooSmall {
+        /// Size of that step.
+        step: f64,
+    },
+    /// A number left the range of floating point.
+    OutOfRange,
+    /// The method cannot serve these parameters.
+    NotApplicable {
+        /// What it would need.
+        needs: &'static str,
+    },
+    /// An iteration did not settle.
+    NoConvergence {
+        /// What was sought.
+        sought: &'static str,
+        /// Smallest relative change reached.
+        change: f64,
+    },
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Reason::Interrupted => write!(out, "interrupted"),
+            Reason::Budget { evaluations } => {
+                write!(out, "budget of {evaluations} evaluations spent")
+            }
+            Reason::StepTooSmall { step } => {
+                write!(out, "step {step:.1e} is too small to move the time")
+            }
+            Reason::OutOfRange => write!(out, "left the range of floating-point numbers"),
+            Reason::NotApplicable { needs } => write!(out, "the method needs {needs}"),
+            Reason::NoConvergence { sought, change } => {
+                write!(out, "{sought} did not settle (last relative change {change:.1e})")
+            }
+        }
+    }
+}
+
+impl std::error::Error for Reason {}

@@ -1,0 +1,13 @@
+//! Trajectories, half swing by half swing.
+//!
+//! A motion is a chain of smooth half swings glued at `v = 0`. Each is integrated in the frame of
+//! [`crate::oscillator::HalfPlane`] by one of the [`Method`]s, and ends at the first root of `v` after
+//! its start. No step ever crosses the switching line, so no method sees the discontinuity.
+
+pub mod limits;
+pub mod method;
+pub mod trajectory;
+
+pub use limits::{Limits, Reason};
+pub use method::{METHODS, Method, MethodSpec};
+pub use trajectory::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory};

@@ -1,0 +1,9 @@
+//! hopfscope: how dry friction turns a Hopf bifurcation into a set of equilibria with a basin that
+//! one must know.
+
+pub mod closed_form;
+pub mod flow;
+pub mod oscillator;
+pub mod scene;
+pub mod session;
+pub mod study;

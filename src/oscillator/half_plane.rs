@@ -1,0 +1,111 @@
+//! The smooth field on one side of `v = 0`, in a frame in which both sides look alike.
+//!
+//! On the upper side friction pulls with `-r`, on the lower with `+r`. With `x = q + r` above and
+//! `x = -(q - r)`, `v -> -v`, `D2 -> -D2` below, both become the same smooth equation
+//!
+//! `x' = v,  v' = -x - 2 D v - D2 v^2 - D3 v^3,  v > 0`
+//!
+//! which no longer contains `r` (equation 14; the mirror symmetry of equation 4). A half swing starts
+//! at `(-c, 0)`, where `c` is the clearance `abs(q) - r` of its turning point from the sticking set,
+//! and ends at `(X, 0)`; the next clearance is `X - 2 r`.
+
+use super::parameters::{Parameters, State};
+
+/// A side of the switching line `v = 0`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// `v > 0`.
+    Upper,
+    /// `v < 0`.
+    Lower,
+}
+
+impl Side {
+    /// The side into which a motion through `state` goes on, or `None` where it rests.
+    ///
+    /// The side follows from the sign of `v`; on `v = 0` from `q` alone, which must lie beyond the
+    /// sticking set.
+    #[must_use]
+    pub fn entered_from(state: State, r: f64) -> Option<Self> {
+        if state.v > 0.0 || (state.v == 0.0 && state.q < -r) {
+            Some(Side::Upper)
+        } else if state.v < 0.0 || (state.v == 0.0 && state.q > r) {
+            Some(Side::Lower)
+        } else {
+            None
+        }
+    }
+
+    /// The other side.
+    #[must_use]
+    pub fn opposite(self) -> Self {
+        match self {
+            Side::Upper => Side::Lower,
+            Side::Lower => Side::Upper,
+        }
+    }
+
+    /// `+1` above, `-1` below.
+    #[must_use]
+    pub fn sign(self) -> f64 {
+        match self {
+            Side::Upper => 1.0,
+            Side::Lower => -1.0,
+        }
+    }
+
+    /// Displacement `q` of a point `x` of this side's frame.
+    #[must_use]
+    pub fn displacement(self, x: f64, r: f64) -> f64 {
+        self.sign() * (x - r)
+    }
+
+    /// Position `x` in this side's frame of a displacement `q`.
+    #[must_use]
+    pub fn position(self, q: f64, r: f64) -> f64 {
+        self.sign() * q + r
+    }
+}
+
+/// Damping of one side: the right-hand side without friction, as seen in the side's own frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HalfPlane {
+    /// Linear damping D.
+    pub d: f64,
+    /// Asymmetric damping in this frame: `D2` above, `-D2` below.
+    pub d2: f64,
+    /// Cubic damping D3.
+    pub d3: f64,
+}
+
+impl HalfPlane {
+    /// The field on one side of the switching line.
+    #[must_use]
+    pub fn new(parameters: &Parameters, side: Side) -> Self {
+        HalfPlane { d: parameters.d, d2: side.sign() * parameters.d2, d3: parameters.d3 }
+    }
+
+    /// Acceleration `v'` at `(x, v)` (equation 8 in the frame of this side).
+    #[must_use]
+    pub fn acceleration(&self, x: f64, v: f64) -> f64 {
+        -x - v * (2.0 * self.d + v * (self.d2 + v * self.d3))
+    }
+
+    /// Divergence of the field, `-(2 D + 2 D2 v + 3 D3 v^2)`; the Jacobian is `[[0, 1], [-1, this]]`.
+    #[must_use]
+    pub fn divergence(&self, v: f64) -> f64 {
+        -(2.0 * self.d + v * (2.0 * self.d2 + v * 3.0 * self.d3))
+    }
+
+    /// The same field for a motion measured in units of `unit`: `D2` and `D3` take its powers up.
+    #[must_use]
+    pub fn in_units_of(&self, unit: f64) -> Self {
+        HalfPlane { d: self.d, d2: self.d2 * unit, d3: self.d3 * unit * unit }
+    }
+
+    /// Whether the field is linear.
+    #[must_use]
+    pub fn is_linear(&self) -> bool {
+        self.d2 == 0.0 && self.d3 == 0.0
+    }
+}

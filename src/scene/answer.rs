@@ -1,0 +1,86 @@
+//! Answers to requests.
+
+use super::request::Request;
+use crate::flow::trajectory::trajectory;
+use crate::flow::{Cost, Detail, Limits, Reason, Trajectory};
+use crate::study::branch::branch;
+use crate::study::cycle::cycles;
+use crate::study::{Branch, Cycles};
+
+/// What the worker found.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Answer {
+    /// To [`Request::Trajectory`].
+    Trajectory(Trajectory),
+    /// To [`Request::Cycles`].
+    Cycles(Cycles),
+    /// To [`Request::Branch`].
+    Branch(Branch),
+}
+
+/// An answer with its question and its price, as it comes back from the worker.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Answered {
+    /// The question.
+    pub request: Request,
+    /// The answer, or why there is none.
+    pub result: Result<Answer, Failure>,
+    /// Wall-clock seconds that it took.
+    pub seconds: f64,
+}
+
+/// Why a request has no answer.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Failure {
+    /// The computation gave up.
+    Reason(Reason),
+    /// The computation panicked, with this message; a defect of the program.
+    Panic(String),
+}
+
+impl std::fmt::Display for Failure {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Failure::Reason(reason) => write!(out, "{reason}"),
+            Failure::Panic(message) => write!(out, "internal error: {message}"),
+        }
+    }
+}
+
+/// Points drawn on each integration step of a trajectory.
+const SAMPLES_PER_STEP: usize = 16;
+
+/// Points of a branch, a piece.
+const BRANCH_POINTS: usize = 160;
+
+/// Answers a request: the only place where a question becomes a computation.
+///
+/// # Errors
+/// The [`Reason`] why there is no answer.
+pub fn answer(request: &Request, limits: &Limits) -> Result<Answer, Reason> {
+    match request {
+        Request::Trajectory(problem) => {
+            let detail = Detail { samples_per_step: SAMPLES_PER_STEP, energy: true };
+            Ok(Answer::Trajectory(trajectory(problem, detail, limits)))
+        }
+        Request::Cycles { parameters, tolerance } => {
+            cycles(parameters, *tolerance, true, limits).map(Answer::Cycles)
+        }
+        Request::Branch { parameters, parameter, range, tolerance } => {
+            branch(parameters, *parameter, *range, BRANCH_POINTS, *tolerance, limits)
+                .map(Answer::Branch)
+        }
+    }
+}
+
+impl Answer {
+    /// What the computation cost, counted.
+    #[must_use]
+    pub fn cost(&self) -> Cost {
+        match self {
+            Answer::Trajectory(answer) => answer.cost,
+            Answer::Cycles(answer) => answer.cost,
+            Answer::Branch(answer) => answer.cost,
+        }
+    }
+}

@@ -1,0 +1,52 @@
+//! Requests: exactly the inputs that a layer depends on, so that equal requests need no new answer.
+
+use crate::flow::Problem;
+use crate::oscillator::{Parameters, Symbol};
+
+/// A question to the worker. Two equal requests have the same answer.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Request {
+    /// The motion on show, with points for drawing and its energy ledger.
+    Trajectory(Problem),
+    /// All cycles at these parameters, with their curves and the basin's edge.
+    Cycles {
+        /// The parameters.
+        parameters: Parameters,
+        /// Relative error wanted.
+        tolerance: f64,
+    },
+    /// The cycles along a parameter.
+    Branch {
+        /// The parameters; the one that varies is set to 0 so that stepping it changes nothing here.
+        parameters: Parameters,
+        /// The parameter that varies.
+        parameter: Symbol,
+        /// From and to.
+        range: (f64, f64),
+        /// Relative error wanted.
+        tolerance: f64,
+    },
+}
+
+/// The kind of a request: at most one answer of each kind is on show.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Slot {
+    /// The motion.
+    Trajectory,
+    /// Cycles and basin edge.
+    Cycles,
+    /// The diagram.
+    Branch,
+}
+
+impl Request {
+    /// Which kind of request this is.
+    #[must_use]
+    pub fn slot(&self) -> Slot {
+        match self {
+            Request::Trajectory(_) => Slot::Trajectory,
+            Request::Cycles { .. } => Slot::Cycles,
+            Request::Branch { .. } => Slot::Branch,
+        }
+    }
+}

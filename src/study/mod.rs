@@ -1,0 +1,7 @@
+//! Questions asked of the flow: limit cycles, branches, folds, the basin of the sticking set.
+
+pub mod branch;
+pub mod cycle;
+
+pub use branch::{Branch, BranchPoint, Special, SpecialKind};
+pub use cycle::{Cycle, Cycles, Edge};
