@@ -4,8 +4,15 @@
 //! [`crate::oscillator::HalfPlane`] by one of the [`Method`]s, and ends at the first root of `v` after
 //! its start. No step ever crosses the switching line, so no method sees the discontinuity.
 
+pub mod exact;
+pub mod explicit;
 pub mod limits;
 pub mod method;
+pub mod scaling;
+pub mod step;
+pub mod swing;
+pub mod tableau;
+pub mod taylor;
 pub mod trajectory;
 
 pub use limits::{Limits, Reason};

@@ -1,0 +1,89 @@
+//! What a way of integrating must offer: one step of the smooth field on one side of `v = 0`.
+
+use super::limits::Reason;
+use crate::oscillator::HalfPlane;
+
+/// A point `(x, v)` in the frame of a half plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// Position.
+    pub x: f64,
+    /// Velocity, not negative inside a half swing.
+    pub v: f64,
+}
+
+impl Point {
+    /// Size of the state, `max(abs(x), abs(v))`, the measure of all relative errors.
+    #[must_use]
+    pub fn size(self) -> f64 {
+        self.x.abs().max(self.v.abs())
+    }
+}
+
+/// An accepted step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Step {
+    /// How long it took.
+    pub duration: f64,
+    /// Where it ended.
+    pub end: Point,
+    /// Whether it ended by arriving at `v = 0`; then `end.v` is exactly 0.
+    pub crossed: bool,
+}
+
+/// Integrals of powers of `v` over a piece of a motion; the works of the damping terms follow from them.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Powers {
+    /// Integral of `v^2`.
+    pub second: f64,
+    /// Integral of `v^3`.
+    pub third: f64,
+    /// Integral of `v^4`.
+    pub fourth: f64,
+}
+
+impl Powers {
+    /// Adds `weight * (v^2, v^3, v^4)`: one node of a quadrature.
+    pub fn add_node(&mut self, weight: f64, v: f64) {
+        let square = v * v;
+        self.second += weight * square;
+        self.third += weight * square * v;
+        self.fourth += weight * square * square;
+    }
+}
+
+/// A way of integrating the smooth field of one side.
+///
+/// Between [`Stepper::begin`] calls the field stays the same. After an accepted step, [`Stepper::at`]
+/// and [`Stepper::powers`] speak of that step.
+pub trait Stepper {
+    /// Prepares for steps in this field.
+    fn begin(&mut self, field: &HalfPlane);
+
+    /// Takes one step from a point with `v >= 0` (on `v = 0`: with `x < 0`), at most `longest` long,
+    /// and not beyond the first arrival at `v = 0`.
+    ///
+    /// # Errors
+    /// [`Reason::StepTooSmall`] or [`Reason::OutOfRange`] where no step meets the tolerance.
+    fn advance(&mut self, from: Point, longest: f64) -> Result<Step, Reason>;
+
+    /// Makes [`Stepper::at`] usable for the last step, if that costs something.
+    fn prepare_dense(&mut self) {}
+
+    /// The point at `time` after the start of the last step.
+    fn at(&self, time: f64) -> Point;
+
+    /// The integrals of powers of `v` over the last step.
+    fn powers(&self) -> Powers;
+
+    /// How many pieces of moderate curvature the last step has, for drawing.
+    fn pieces(&self) -> usize {
+        1
+    }
+
+    /// Evaluations so far; a Taylor series of order N counts as N.
+    fn evaluations(&self) -> u64;
+
+    /// Rejected steps so far.
+    fn rejected(&self) -> u64;
+}

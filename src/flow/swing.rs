@@ -1,0 +1,150 @@
+//! One half swing: steps of the smooth field until `v = 0`, the end time, or certain escape.
+//!
+//! The state is kept near 1 in units of a power of two, so that motions of any size are computed alike
+//! and a motion scaled by a power of two is the same to the last bit.
+
+use super::limits::{Limits, Reason};
+use super::scaling::{exponent, field_in_units, times_power};
+use super::step::{Point, Step, Stepper};
+use crate::oscillator::HalfPlane;
+
+/// Size, as a power of two, at which the unit is chosen anew.
+const FAR: i32 = 300;
+
+/// Relative error left in the time of a blow-up when it is read off its asymptotic form.
+const BLOW_UP_ERROR: f64 = 1e-14;
+
+/// How a half swing ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum End {
+    /// At `v = 0`, at this position.
+    Crossing {
+        /// Position in the frame of the half plane.
+        x: f64,
+    },
+    /// At the end time.
+    Time {
+        /// Where.
+        point: Point,
+    },
+    /// Before the end time the velocity becomes infinite.
+    Escape,
+}
+
+/// A half swing and how long it took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Swing {
+    /// How it ended.
+    pub end: End,
+    /// How long it took (to the blow-up where it escaped).
+    pub duration: f64,
+    /// Accepted steps.
+    pub steps: u64,
+}
+
+/// A half swing that could not be completed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Failed {
+    /// Why.
+    pub reason: Reason,
+    /// How far it came.
+    pub duration: f64,
+    /// Accepted steps.
+    pub steps: u64,
+}
+
+/// Runs one half swing from `start` (`v > 0`, or `v = 0` and `x < 0`) for at most `longest`.
+///
+/// `watch` sees each accepted step: the stepper that holds it, the time at which it began, the exponent
+/// of the unit in which its numbers are measured, and the step. `budget` is the number of evaluations
+/// at which the stepper must stop.
+///
+/// # Errors
+/// [`Failed`] with the reason and the time reached.
+pub fn swing<S: Stepper>(
+    stepper: &mut S,
+    field: &HalfPlane,
+    start: Point,
+    longest: f64,
+    limits: &Limits,
+    mut watch: impl FnMut(&mut S, f64, i32, &Step),
+) -> Result<Swing, Failed> {
+    let mut unit = exponent(start.size());
+    let mut scaled = field_in_units(field, unit);
+    let mut point = Point { x: times_power(start.x, -unit), v: times_power(start.v, -unit) };
+    let mut time = 0.0;
+    let mut steps = 0;
+    stepper.begin(&scaled);
+    loop {
+        let failed = |reason| Failed { reason, duration: time, steps };
+        if (limits.interrupted)() {
+            return Err(failed(Reason::Interrupted));
+        }
+        if stepper.evaluations() > limits.evaluations {
+            return Err(failed(Reason::Budget { evaluations: stepper.evaluations() }));
+        }
+        if !(scaled.d2.is_finite() && scaled.d3.is_finite()) {
+            return Err(failed(Reason::OutOfRange));
+        }
+        let remaining = longest - time;
+        let step = stepper.advance(point, remaining).map_err(failed)?;
+        steps += 1;
+        watch(stepper, time, unit, &step);
+        time += step.duration;
+        point = step.end;
+        let done = |end| Ok(Swing { end, duration: time, steps });
+        if step.crossed {
+            return done(End::Crossing { x: times_power(point.x, unit) });
+        }
+        if step.duration >= remaining {
+            let (x, v) = (times_power(point.x, unit), times_power(point.v, unit));
+            return Ok(Swing {
+                end: End::Time { point: Point { x, v } },
+                duration: longest,
+                steps,
+            });
+        }
+        if time + step.duration == time {
+            return Err(Failed {
+                reason: Reason::StepTooSmall { step: step.duration },
+                duration: time,
+                steps,
+            });
+        }
+        if let Some(rest) = time_to_blow_up(&scaled, point, time) {
+            if time + rest <= longest {
+                return Ok(Swing { end: End::Escape, duration: time + rest, steps });
+            }
+        }
+        let drift = exponent(point.size());
+        if drift.abs() > FAR {
+            unit += drift;
+            scaled = field_in_units(field, unit);
+            point = Point { x: times_power(point.x, -drift), v: times_power(point.v, -drift) };
+            stepper.begin(&scaled);
+        }
+    }
+}
+
+/// Time until v becomes infinite, where escape is certain and this time is known to rounding.
+///
+/// With `D3 < 0` the term `-D3 v^3` drives v, with `D3 = 0` and `D2 < 0` (in the frame of the side) the
+/// term `-D2 v^2`. Escape is certain once the driving term exceeds eight times all others together and
+/// x cannot catch up any more: from then on v grows and the ratio with it. The time is the leading
+/// asymptotic term; it is used when the next one is below [`BLOW_UP_ERROR`] of the time so far.
+fn time_to_blow_up(field: &HalfPlane, point: Point, elapsed: f64) -> Option<f64> {
+    let v = point.v;
+    let others = point.x.abs() + 2.0 * field.d.abs() * v;
+    let (drive, others, rest) = if field.d3 < 0.0 {
+        let drive = -field.d3 * v * v * v;
+        (drive, others + field.d2.abs() * v * v, 0.5 * v / drive)
+    } else if field.d3 == 0.0 && field.d2 < 0.0 {
+        let drive = -field.d2 * v * v;
+        (drive, others, v / drive)
+    } else {
+        return None;
+    };
+    let catching_up = rest * v;
+    let certain = drive > 8.0 * (others + catching_up);
+    (certain && rest * (others / drive) <= BLOW_UP_ERROR * elapsed).then_some(rest)
+}

@@ -1,0 +1,301 @@
+//! Taylor series of the polynomial field, with crossings as roots of the step's own polynomial.
+//!
+//! The field of a half plane is a cubic polynomial in `v`, so the coefficients of the solution obey a
+//! recurrence of two Cauchy products. The radius of convergence rho is estimated from the last few
+//! coefficients, and the step is `h = rho e^(1/N)` with order N and tolerance e, so that the last term
+//! is about e times the size of the state (Jorba and Zou, *A software package for the numerical
+//! integration of ODEs by means of high-order Taylor methods*, Experimental Mathematics 14 (2005),
+//! section 3.2). Assumption: the series has settled by its last four terms. Then the truncation error
+//! of a step is about `e h/(rho - h)` of the state.
+
+use super::limits::Reason;
+use super::scaling::{exponent, rough_exp2, rough_log2, times_power};
+use super::step::{Point, Powers, Step, Stepper};
+use super::tableau::GAUSS;
+use crate::oscillator::HalfPlane;
+
+/// Highest order.
+const MOST: usize = 28;
+
+/// Length of a coefficient array: a multiple of the block length beyond `MOST + 1`.
+const LENGTH: usize = 32;
+
+/// Coefficients summed at a time; zeros fill the last block.
+const BLOCK: usize = 4;
+
+/// The last term of a step is kept this much below the tolerance, so that the error of some dozens of
+/// steps together still stays near it.
+const AIM: f64 = 0.125;
+
+/// How many of the last coefficients decide on the length of a step.
+const TAIL: usize = 4;
+
+/// Longest step. Half of the shortest half swing of a linear oscillator (pi), rounded up: no step of
+/// this length or less passes two crossings.
+const LONGEST: f64 = 2.0;
+
+/// Order for each tolerance: the smallest bound not below the tolerance decides. The orders minimise
+/// the measured time of the benchmark `flow` at these tolerances.
+const ORDERS: [(f64, usize); 6] =
+    [(1e-4, 8), (1e-7, 12), (1e-10, 16), (1e-13, 20), (1e-15, 24), (0.0, 26)];
+
+/// The stepper.
+#[derive(Clone, Debug)]
+pub struct Taylor {
+    field: HalfPlane,
+    order: usize,
+    /// `log2` of the tolerance of a step.
+    log_tolerance: f64,
+    /// Coefficients of x and v in powers of `t / 2^time_exponent`.
+    x: [f64; LENGTH],
+    v: [f64; LENGTH],
+    time_exponent: i32,
+    /// Unit of time for the next step, near the length of the last one.
+    next_time_exponent: i32,
+    duration: f64,
+    evaluations: u64,
+    rejected: u64,
+}
+
+/// `1 / k`.
+const INVERSE: [f64; LENGTH] = {
+    let mut table = [0.0; LENGTH];
+    let mut k = 1;
+    while k < LENGTH {
+        #[expect(clippy::cast_precision_loss, reason = "k is below 32")]
+        {
+            table[k] = 1.0 / k as f64;
+        }
+        k += 1;
+    }
+    table
+};
+
+impl Taylor {
+    /// A stepper whose relative truncation error a step is about `tolerance`.
+    #[must_use]
+    pub fn new(tolerance: f64) -> Self {
+        let order = ORDERS.iter().find(|row| tolerance >= row.0).map_or(MOST, |row| row.1);
+        Self::with_order(tolerance, order)
+    }
+
+    /// The same with a chosen order, at most 28.
+    #[must_use]
+    pub fn with_order(tolerance: f64, order: usize) -> Self {
+        Taylor {
+            field: HalfPlane { d: 0.0, d2: 0.0, d3: 0.0 },
+            order: order.clamp(4, MOST),
+            log_tolerance: rough_log2((AIM * tolerance).max(1e-300)),
+            x: [0.0; LENGTH],
+            v: [0.0; LENGTH],
+            time_exponent: 0,
+            next_time_exponent: 0,
+            duration: 0.0,
+            evaluations: 0,
+            rejected: 0,
+        }
+    }
+
+    /// Fills the coefficient arrays at a point.
+    ///
+    /// With `force = D2 v + D3 v^2`, coefficient k of the damping is a sum over products of earlier
+    /// coefficients. The first and the newest coefficient are kept in registers and multiplied by
+    /// themselves; the sums in between run over memory written at least one round ago, in blocks.
+    fn expand(&mut self, from: Point) {
+        let HalfPlane { d, d2, d3 } = self.field;
+        let unit = times_power(1.0, self.time_exponent);
+        let order = self.order;
+        let nonlinear = !self.field.is_linear();
+        // Element i - 1 holds coefficient i; `reversed[LENGTH - i]` holds coefficient i of v, so that
+        // both factors of a product are read forwards.
+        let mut v = [0.0; LENGTH];
+        let mut force = [0.0; LENGTH];
+        let mut reversed = [0.0; 2 * LENGTH];
+        let first_force = from.v * (d2 + d3 * from.v);
+        let mut newest = unit * (-from.x - from.v * (2.0 * d + first_force));
+        (self.x[0], self.x[1]) = (from.x, unit * from.v);
+        (self.v[0], self.v[1]) = (from.v, newest);
+        for k in 1..order {
+            let mut acceleration = -self.x[k] - 2.0 * d * newest;
+            if nonlinear {
+                let (square, product) = inner_sums(&v, &force, &reversed, k);
+                let square = 2.0 * from.v * newest + square;
+                let newest_force = d2 * newest + d3 * square;
+                acceleration -= first_force * newest + (newest_force * from.v + product);
+                force[k - 1] = newest_force;
+                v[k - 1] = newest;
+                reversed[LENGTH - k] = newest;
+            }
+            let factor = unit * INVERSE[k + 1];
+            self.x[k + 1] = newest * factor;
+            newest = acceleration * factor;
+            self.v[k + 1] = newest;
+        }
+        self.evaluations += order as u64;
+    }
+
+    /// The step length for this tolerance, or `None` where coefficients overflowed.
+    ///
+    /// The radius of convergence is the least of the estimates `(size / abs(v_k))^(1/k)` from the last
+    /// [`TAIL`] coefficients: near a turning point every other one almost vanishes, and those of a pair
+    /// of complex poles pass through zero now and then, so that fewer would sometimes see nothing.
+    fn allowed(&self, from: Point) -> Option<f64> {
+        let size = rough_log2(from.size());
+        let mut log_radius = f64::INFINITY;
+        for k in self.order + 1 - TAIL..=self.order {
+            let coefficient = self.v[k].abs();
+            if !coefficient.is_finite() {
+                return None;
+            }
+            if coefficient > 0.0 {
+                log_radius = log_radius.min((size - rough_log2(coefficient)) * INVERSE[k]);
+            }
+        }
+        let log_step = log_radius + self.log_tolerance * INVERSE[self.order];
+        Some(rough_exp2(log_step.min(60.0)))
+    }
+
+    /// First root of v in `(0, end]`, in units of the coefficients, given `v(end) <= 0`.
+    ///
+    /// Newton's method on the polynomial, kept inside a bracket that shrinks by bisection wherever a
+    /// Newton step leaves it. `v > 0` just after 0 is known (from the side entered), whatever `v(0)` is.
+    fn root(&self, end: f64) -> f64 {
+        /// A Newton step of this relative length leaves an error below rounding: it is squared.
+        const SETTLED: f64 = 1e-9;
+        let (mut low, mut high, mut t) = (0.0, end, end);
+        for _ in 0..200 {
+            let (value, slope) = value_and_slope(&self.v[..=self.order], t);
+            let newton = t - value / slope;
+            if (newton - t).abs() <= SETTLED * t {
+                return newton.clamp(low, high);
+            }
+            if value > 0.0 {
+                low = t;
+            } else {
+                high = t;
+            }
+            t = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        }
+        t
+    }
+}
+
+/// The sums over `0 < i < k` of `v_i v_(k-i)` and of `force_i v_(k-i)`.
+fn inner_sums(
+    v: &[f64; LENGTH],
+    force: &[f64; LENGTH],
+    reversed: &[f64; 2 * LENGTH],
+    k: usize,
+) -> (f64, f64) {
+    let blocks = (k + BLOCK - 2) / BLOCK;
+    let partner = &reversed[LENGTH + 1 - k..];
+    let mut squares = [0.0; BLOCK];
+    let mut products = [0.0; BLOCK];
+    let rows = v.chunks_exact(BLOCK).zip(force.chunks_exact(BLOCK));
+    for ((v, force), partner) in rows.zip(partner.chunks_exact(BLOCK)).take(blocks) {
+        for lane in 0..BLOCK {
+            squares[lane] += v[lane] * partner[lane];
+            products[lane] += force[lane] * partner[lane];
+        }
+    }
+    let sum = |lanes: [f64; BLOCK]| (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
+    (sum(squares), sum(products))
+}
+
+/// A polynomial by Horner's rule in even and odd powers, two chains of half the length.
+fn value(coefficients: &[f64], t: f64) -> f64 {
+    let square = t * t;
+    let (mut even, mut odd) = (0.0, 0.0);
+    let pairs = coefficients.chunks_exact(2);
+    if let [last] = pairs.remainder() {
+        even = *last;
+    }
+    for pair in pairs.rev() {
+        even = even * square + pair[0];
+        odd = odd * square + pair[1];
+    }
+    even + t * odd
+}
+
+/// A polynomial and its derivative by Horner's rule.
+fn value_and_slope(coefficients: &[f64], t: f64) -> (f64, f64) {
+    let (mut value, mut slope) = (0.0, 0.0);
+    for &coefficient in coefficients.iter().rev() {
+        slope = slope * t + value;
+        value = value * t + coefficient;
+    }
+    (value, slope)
+}
+
+impl Stepper for Taylor {
+    fn begin(&mut self, field: &HalfPlane) {
+        self.field = *field;
+    }
+
+    fn advance(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {
+        self.time_exponent = self.next_time_exponent;
+        self.expand(from);
+        let mut allowed = self.allowed(from);
+        // Coefficients that overflow belong to a time scale far below 1: expand in a smaller unit.
+        while allowed.is_none() {
+            if self.time_exponent < -1000 {
+                return Err(Reason::OutOfRange);
+            }
+            self.time_exponent -= 40;
+            self.expand(from);
+            allowed = self.allowed(from);
+        }
+        let unit = times_power(1.0, self.time_exponent);
+        let mut scaled = allowed.unwrap_or(0.0).min(LONGEST / unit).min(longest / unit);
+        let order = self.order;
+        loop {
+            let duration = scaled * unit;
+            if duration == 0.0 {
+                return Err(Reason::StepTooSmall { step: duration });
+            }
+            let v = value(&self.v[..=order], scaled);
+            if v <= 0.0 {
+                let root = self.root(scaled);
+                self.duration = root * unit;
+                let x = value(&self.x[..=order], root);
+                let end = Point { x, v: 0.0 };
+                return Ok(Step { duration: self.duration, end, crossed: true });
+            }
+            let x = value(&self.x[..=order], scaled);
+            // Above v = 0 the position grows; if it did not, the step passed two crossings.
+            if x >= from.x {
+                self.duration = duration;
+                // Keep the unit of time near the step, so that coefficients neither over- nor underflow.
+                let drift = exponent(duration);
+                if (drift - self.time_exponent).abs() > 20 {
+                    self.next_time_exponent = drift;
+                }
+                return Ok(Step { duration, end: Point { x, v }, crossed: false });
+            }
+            self.rejected += 1;
+            scaled *= 0.5;
+        }
+    }
+
+    fn at(&self, time: f64) -> Point {
+        let t = times_power(time, -self.time_exponent);
+        let order = self.order;
+        Point { x: value(&self.x[..=order], t), v: value(&self.v[..=order], t) }
+    }
+
+    fn powers(&self) -> Powers {
+        let mut powers = Powers::default();
+        for &(node, weight) in &GAUSS {
+            powers.add_node(weight * self.duration, self.at(node * self.duration).v);
+        }
+        powers
+    }
+
+    fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+
+    fn rejected(&self) -> u64 {
+        self.rejected
+    }
+}
