@@ -1,7 +1,15 @@
-//! What is on show: a scene, the requests it needs answered, and their answers.
+//! What is on show: a scene, the layers it is drawn in, the requests they need answered, and their
+//! answers.
 
 pub mod answer;
+pub mod layer;
 pub mod request;
+#[expect(clippy::module_inception, reason = "the scene itself, beside what belongs to it")]
+pub mod scene;
+pub mod window;
 
 pub use answer::{Answer, Answered};
+pub use layer::{LAYERS, Layer, LayerSpec, PANES, Pane};
 pub use request::{Request, Slot};
+pub use scene::Scene;
+pub use window::{Point, Span, Window};

@@ -1,0 +1,158 @@
+//! Panes, and the layers that are drawn in them.
+//!
+//! [`LAYERS`] is the one table of layers. It says which pane shows a layer and which question must be
+//! answered for it: a layer that is off asks nothing, and several layers may share one answer.
+
+use serde::{Deserialize, Serialize};
+
+use super::request::Slot;
+
+/// A part of the screen that can have the focus.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Pane {
+    /// The list of parameters, method and tolerance.
+    Parameters,
+    /// The phase plane, q to the right and v upwards.
+    Phase,
+    /// The bifurcation diagram: `q_max` of the cycles over a parameter.
+    Diagram,
+}
+
+/// Every pane, in the order in which the focus visits them.
+pub const PANES: [Pane; 3] = [Pane::Parameters, Pane::Phase, Pane::Diagram];
+
+/// Something drawn in a pane that can be switched on and off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Layer {
+    /// The motion from the initial state.
+    Trajectory,
+    /// The segment of equilibria.
+    Sticking,
+    /// The limit cycles.
+    Cycles,
+    /// The basin of attraction of the sticking set, shaded.
+    Basin,
+    /// Directions of the flow.
+    Field,
+    /// The circle of equation (24).
+    Lyapunov,
+    /// Computed cycles along the diagram's parameter.
+    Branch,
+    /// First-order harmonic amplitudes.
+    Harmonic,
+    /// The asymptotes of the harmonic amplitudes.
+    Asymptotes,
+    /// Labels at the special points.
+    Special,
+}
+
+/// One row of [`LAYERS`].
+#[derive(Clone, Copy, Debug)]
+pub struct LayerSpec {
+    /// The layer.
+    pub layer: Layer,
+    /// Its name in scene files and on the screen.
+    pub name: &'static str,
+    /// The pane that shows it.
+    pub pane: Pane,
+    /// What it shows, in a few words.
+    pub meaning: &'static str,
+    /// The question whose answer it draws; `None` where formulas do.
+    pub needs: Option<Slot>,
+}
+
+/// Every layer, in the order in which they are listed.
+pub const LAYERS: [LayerSpec; 10] = [
+    LayerSpec {
+        layer: Layer::Trajectory,
+        name: "trajectory",
+        pane: Pane::Phase,
+        meaning: "the motion from (q0, v0)",
+        needs: Some(Slot::Trajectory),
+    },
+    LayerSpec {
+        layer: Layer::Sticking,
+        name: "sticking",
+        pane: Pane::Phase,
+        meaning: "the sticking set: every point of it is at rest",
+        needs: None,
+    },
+    LayerSpec {
+        layer: Layer::Cycles,
+        name: "cycles",
+        pane: Pane::Phase,
+        meaning: "limit cycles, stable and unstable",
+        needs: Some(Slot::Cycles),
+    },
+    LayerSpec {
+        layer: Layer::Basin,
+        name: "basin",
+        pane: Pane::Phase,
+        meaning: "starts that come to rest, shaded",
+        needs: Some(Slot::Cycles),
+    },
+    LayerSpec {
+        layer: Layer::Field,
+        name: "field",
+        pane: Pane::Phase,
+        meaning: "directions of the flow",
+        needs: None,
+    },
+    LayerSpec {
+        layer: Layer::Lyapunov,
+        name: "lyapunov",
+        pane: Pane::Phase,
+        meaning: "the circle in which a Lyapunov function proves capture",
+        needs: None,
+    },
+    LayerSpec {
+        layer: Layer::Branch,
+        name: "branch",
+        pane: Pane::Diagram,
+        meaning: "computed limit cycles, stable and unstable",
+        needs: Some(Slot::Branch),
+    },
+    LayerSpec {
+        layer: Layer::Harmonic,
+        name: "harmonic",
+        pane: Pane::Diagram,
+        meaning: "amplitudes of the first-order harmonic balance",
+        needs: None,
+    },
+    LayerSpec {
+        layer: Layer::Asymptotes,
+        name: "asymptotes",
+        pane: Pane::Diagram,
+        meaning: "asymptotes A1 and A2 of the harmonic amplitudes",
+        needs: None,
+    },
+    LayerSpec {
+        layer: Layer::Special,
+        name: "special",
+        pane: Pane::Diagram,
+        meaning: "special points: fold, crossing, escape, Hopf",
+        needs: Some(Slot::Branch),
+    },
+];
+
+impl Layer {
+    /// The row of [`LAYERS`] that describes this layer.
+    #[must_use]
+    pub fn spec(self) -> &'static LayerSpec {
+        &LAYERS[self as usize]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_layer_stands_at_its_own_row_under_the_name_of_scene_files() {
+        for row in &LAYERS {
+            assert_eq!(row.layer.spec().name, row.name);
+            assert_eq!(serde_json::to_value(row.layer).unwrap(), row.name);
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! A scene: one phenomenon, set up to be looked at.
+//!
+//! A scene declares the terms of the model that it needs. Only those parameters stand in the pane, and
+//! a term that is not declared is zero, so that nothing is evaluated for it. It also says where to look
+//! (windows, layers) and, in a few sentences, what for.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::layer::Layer;
+use super::window::Window;
+use crate::flow::{Method, Problem};
+use crate::oscillator::{Parameters, State, Symbol};
+
+/// Relative error of a step where a scene does not say otherwise: ten digits, at a few percent of the
+/// cost of drawing them.
+pub const TOLERANCE: f64 = 1e-10;
+
+/// End time where a scene does not say otherwise: about ten periods of the undamped oscillator.
+pub const UNTIL: f64 = 60.0;
+
+/// A phenomenon, set up to be looked at.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// The name by which it is opened.
+    pub name: String,
+    /// One line.
+    pub title: String,
+    /// What to look at, in a sentence or two.
+    pub look: String,
+    /// What to press to see more.
+    pub press: String,
+    /// The parameters that this scene is about, in the order of the table; all others are zero.
+    pub terms: BTreeSet<Symbol>,
+    /// The motion on show: parameters, start, end time, method and tolerance.
+    pub problem: Problem,
+    /// Steps of the keys that differ from those of the table.
+    pub steps: BTreeMap<Symbol, f64>,
+    /// The layers that are on.
+    pub layers: BTreeSet<Layer>,
+    /// Window of the phase plane: q and v.
+    pub phase: Window,
+    /// Window of the diagram: the abscissa and `q_max`.
+    pub diagram: Window,
+    /// The parameter along the diagram's horizontal axis.
+    pub abscissa: Symbol,
+}
+
+impl Scene {
+    /// Whether a parameter belongs to this scene; initial values always do.
+    #[must_use]
+    pub fn declares(&self, symbol: Symbol) -> bool {
+        matches!(symbol, Symbol::Q0 | Symbol::V0) || self.terms.contains(&symbol)
+    }
+
+    /// The plain oscillator: linear damping and friction with the defaults of the parameter table.
+    #[must_use]
+    pub fn plain_problem() -> Problem {
+        Problem {
+            parameters: Parameters::default(),
+            initial: State::default(),
+            until: UNTIL,
+            method: Method::Auto,
+            tolerance: TOLERANCE,
+        }
+    }
+}

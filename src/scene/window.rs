@@ -1,0 +1,256 @@
+//! Windows of world coordinates: finite and never empty, by construction.
+//!
+//! Everything that a plot divides by is the width of a [`Span`], so a span that exists is one that can
+//! be drawn: both ends finite, the right one larger, and wide enough that its ticks differ.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+/// Largest magnitude of an end, so that sums and products of a few of them stay finite.
+const FARTHEST: f64 = 1e300;
+
+/// Smallest width relative to the larger end: some thousand floating-point numbers fit in between.
+const NARROWEST: f64 = 1e-12;
+
+/// Smallest width next to zero, above the subnormal numbers.
+const TINIEST: f64 = 1e-300;
+
+/// An interval of one axis.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "[f64; 2]", into = "[f64; 2]")]
+pub struct Span {
+    from: f64,
+    to: f64,
+}
+
+/// Two numbers that are no [`Span`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NoSpan {
+    /// The left end asked for.
+    pub from: f64,
+    /// The right end asked for.
+    pub to: f64,
+}
+
+impl fmt::Display for NoSpan {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { from, to } = self;
+        write!(
+            out,
+            "[{from:?}, {to:?}] is no interval: two finite numbers up to {FARTHEST:?} are needed, \
+             the second larger"
+        )
+    }
+}
+
+impl std::error::Error for NoSpan {}
+
+impl Span {
+    /// The interval between two numbers.
+    ///
+    /// # Errors
+    /// [`NoSpan`] unless both are finite, `from < to`, and far enough apart to be told apart.
+    pub fn new(from: f64, to: f64) -> Result<Self, NoSpan> {
+        let largest = from.abs().max(to.abs());
+        // Written so that NaN fails.
+        let valid = largest <= FARTHEST && to - from >= TINIEST.max(NARROWEST * largest);
+        if valid { Ok(Span { from, to }) } else { Err(NoSpan { from, to }) }
+    }
+
+    /// The smallest span around all finite values, widened where they coincide; `None` without any.
+    #[must_use]
+    pub fn covering(values: impl IntoIterator<Item = f64>) -> Option<Self> {
+        let (from, to) = values
+            .into_iter()
+            .filter(|value| value.is_finite())
+            .map(|value| value.clamp(-0.25 * FARTHEST, 0.25 * FARTHEST))
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(from, to), value| {
+                (from.min(value), to.max(value))
+            });
+        if from > to {
+            return None;
+        }
+        Span::new(from, to).ok().or_else(|| {
+            let half = if from == 0.0 { 1.0 } else { (0.5 * from.abs()).max(TINIEST) };
+            Span::new(from - half, to + half).ok()
+        })
+    }
+
+    /// The left end.
+    #[must_use]
+    pub fn from(self) -> f64 {
+        self.from
+    }
+
+    /// The right end.
+    #[must_use]
+    pub fn to(self) -> f64 {
+        self.to
+    }
+
+    /// The width, positive.
+    #[must_use]
+    pub fn width(self) -> f64 {
+        self.to - self.from
+    }
+
+    /// The middle.
+    #[must_use]
+    pub fn center(self) -> f64 {
+        0.5 * (self.from + self.to)
+    }
+
+    /// Whether a value lies within, ends included.
+    #[must_use]
+    pub fn contains(self, value: f64) -> bool {
+        (self.from..=self.to).contains(&value)
+    }
+
+    /// The nearest value within; `NaN` becomes the middle.
+    #[must_use]
+    pub fn clamp(self, value: f64) -> f64 {
+        if value.is_nan() { self.center() } else { value.clamp(self.from, self.to) }
+    }
+
+    /// Where a value lies: 0 at the left end, 1 at the right one.
+    #[must_use]
+    pub fn fraction(self, value: f64) -> f64 {
+        (value - self.from) / self.width()
+    }
+
+    /// The value at a fraction of the width: the inverse of [`Span::fraction`].
+    #[must_use]
+    pub fn at(self, fraction: f64) -> f64 {
+        self.from + fraction * self.width()
+    }
+
+    /// The span `factor` times as wide, with `about` at the same fraction; unchanged at the limits.
+    #[must_use]
+    pub fn scaled(self, about: f64, factor: f64) -> Self {
+        let about = self.clamp(about);
+        let from = about - (about - self.from) * factor;
+        let to = about + (self.to - about) * factor;
+        Span::new(from, to).unwrap_or(self)
+    }
+
+    /// The span moved by a fraction of its width; unchanged at the limits.
+    #[must_use]
+    pub fn shifted(self, fraction: f64) -> Self {
+        let by = fraction * self.width();
+        Span::new(self.from + by, self.to + by).unwrap_or(self)
+    }
+
+    /// The part within `min ..= max`, if that is a span.
+    #[must_use]
+    pub fn within(self, min: f64, max: f64) -> Option<Self> {
+        Span::new(self.from.max(min), self.to.min(max)).ok()
+    }
+}
+
+impl TryFrom<[f64; 2]> for Span {
+    type Error = NoSpan;
+
+    fn try_from([from, to]: [f64; 2]) -> Result<Self, NoSpan> {
+        Span::new(from, to)
+    }
+}
+
+impl std::convert::From<Span> for [f64; 2] {
+    fn from(span: Span) -> Self {
+        [span.from, span.to]
+    }
+}
+
+/// A rectangle of a plot's world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Window {
+    /// The horizontal axis.
+    pub x: Span,
+    /// The vertical axis.
+    pub y: Span,
+}
+
+/// A point of a plot's world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// Along the horizontal axis.
+    pub x: f64,
+    /// Along the vertical axis.
+    pub y: f64,
+}
+
+impl Window {
+    /// Whether a point lies within, edges included.
+    #[must_use]
+    pub fn contains(self, point: Point) -> bool {
+        self.x.contains(point.x) && self.y.contains(point.y)
+    }
+
+    /// The nearest point within.
+    #[must_use]
+    pub fn clamp(self, point: Point) -> Point {
+        Point { x: self.x.clamp(point.x), y: self.y.clamp(point.y) }
+    }
+
+    /// The middle.
+    #[must_use]
+    pub fn center(self) -> Point {
+        Point { x: self.x.center(), y: self.y.center() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    #[test]
+    fn what_cannot_be_drawn_is_no_span() {
+        for (from, to) in [
+            (1.0, 1.0),
+            (2.0, 1.0),
+            (f64::NAN, 1.0),
+            (0.0, f64::NAN),
+            (0.0, f64::INFINITY),
+            (-f64::MAX, f64::MAX),
+            (0.0, 5e-324),
+            (1.0, 1.0 + f64::EPSILON),
+        ] {
+            assert!(Span::new(from, to).is_err(), "[{from}, {to}]");
+        }
+    }
+
+    #[test]
+    fn a_single_value_is_covered_too() {
+        for value in [0.0, 3.0, -1e-300, 1e300] {
+            let span = Span::covering([value, f64::NAN, f64::INFINITY]).unwrap();
+            assert!(span.width() > 0.0);
+        }
+        assert_eq!(Span::covering([f64::NAN]), None);
+    }
+
+    proptest! {
+        #[test]
+        fn zooming_and_panning_keep_a_span(
+            a in -1e300..1e300_f64,
+            b in -1e300..1e300_f64,
+            factors in prop::collection::vec(0.1..10.0_f64, 0..200),
+        ) {
+            if let Ok(mut span) = Span::new(a.min(b), a.max(b)) {
+                for factor in factors {
+                    span = span.scaled(span.at(0.3), factor).shifted(factor - 5.0);
+                    prop_assert!(Span::new(span.from(), span.to()).is_ok());
+                }
+            }
+        }
+
+        #[test]
+        fn zooming_keeps_its_point_in_place(at in 0.0..1.0_f64, factor in 0.1..10.0_f64) {
+            let span = Span::new(-3.0, 5.0).unwrap();
+            let about = span.at(at);
+            prop_assert!((span.scaled(about, factor).fraction(about) - at).abs() < 1e-12);
+        }
+    }
+}
