@@ -8,8 +8,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::layer::Layer;
 use super::window::Window;
-use crate::flow::{Method, Problem};
-use crate::oscillator::{Parameters, State, Symbol};
+use crate::flow::Problem;
+use crate::oscillator::Symbol;
 
 /// Relative error of a step where a scene does not say otherwise: ten digits, at a few percent of the
 /// cost of drawing them.
@@ -50,17 +50,5 @@ impl Scene {
     #[must_use]
     pub fn declares(&self, symbol: Symbol) -> bool {
         matches!(symbol, Symbol::Q0 | Symbol::V0) || self.terms.contains(&symbol)
-    }
-
-    /// The plain oscillator: linear damping and friction with the defaults of the parameter table.
-    #[must_use]
-    pub fn plain_problem() -> Problem {
-        Problem {
-            parameters: Parameters::default(),
-            initial: State::default(),
-            until: UNTIL,
-            method: Method::Auto,
-            tolerance: TOLERANCE,
-        }
     }
 }

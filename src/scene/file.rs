@@ -1,0 +1,254 @@
+//! Scene files: TOML in, [`Scene`] out, or one line that names what is wrong and where.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
+use std::ops::Range;
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::layer::Layer;
+use super::scene::{Scene, TOLERANCE, UNTIL};
+use super::window::{Span, Window};
+use crate::flow::{Method, Problem};
+use crate::oscillator::{PARAMETERS, Parameters, State, Symbol};
+
+/// End times up to which motions are computed.
+pub const UNTIL_RANGE: (f64, f64) = (0.0, 1e9);
+
+/// Tolerances that make sense for double precision.
+pub const TOLERANCE_RANGE: (f64, f64) = (1e-15, 1e-2);
+
+/// What is wrong in a scene file, and where.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SceneError {
+    /// The file.
+    pub file: String,
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+    /// What is wrong and what is allowed, in one line.
+    pub message: String,
+}
+
+impl fmt::Display for SceneError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { file, line, column, message } = self;
+        write!(out, "{file}:{line}:{column}: {message}")
+    }
+}
+
+impl std::error::Error for SceneError {}
+
+/// The file as it stands on disk.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    title: String,
+    look: String,
+    press: String,
+    terms: BTreeSet<Symbol>,
+    #[serde(default)]
+    values: BTreeMap<Symbol, Spanned<f64>>,
+    #[serde(default)]
+    steps: BTreeMap<Symbol, Spanned<f64>>,
+    until: Option<Spanned<f64>>,
+    #[serde(default = "auto")]
+    method: Method,
+    tolerance: Option<Spanned<f64>>,
+    layers: BTreeSet<Layer>,
+    phase: Phase,
+    diagram: Diagram,
+}
+
+/// The window of the phase plane.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Phase {
+    q: Span,
+    v: Span,
+}
+
+/// The window of the diagram.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Diagram {
+    over: Spanned<Symbol>,
+    range: Span,
+    q_max: Span,
+}
+
+fn auto() -> Method {
+    Method::Auto
+}
+
+/// A complaint about a part of the text.
+struct Complaint {
+    at: Range<usize>,
+    message: String,
+}
+
+/// Reads a scene; `name` is the name by which it is opened, `file` the one in error messages.
+///
+/// # Errors
+/// [`SceneError`] with the place and what is allowed there.
+pub fn parse(name: &str, file: &str, text: &str) -> Result<Scene, SceneError> {
+    let complain = |complaint: Complaint| {
+        let (line, column) = place(text, complaint.at.start);
+        SceneError { file: file.to_owned(), line, column, message: complaint.message }
+    };
+    let read: File = toml::from_str(text).map_err(|error| {
+        complain(Complaint { at: error.span().unwrap_or(0..0), message: one_line(error.message()) })
+    })?;
+    scene(name, read).map_err(complain)
+}
+
+/// Line and column, from 1, of a byte of a text.
+fn place(text: &str, byte: usize) -> (usize, usize) {
+    let before = text.get(..byte).unwrap_or(text);
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+}
+
+/// The message of a library as one line.
+fn one_line(message: &str) -> String {
+    message.lines().map(str::trim).filter(|line| !line.is_empty()).collect::<Vec<_>>().join("; ")
+}
+
+fn scene(name: &str, read: File) -> Result<Scene, Complaint> {
+    let problem = problem(&read)?;
+    let over = *read.diagram.over.get_ref();
+    if !matches!(over, Symbol::D | Symbol::D2 | Symbol::D3 | Symbol::R) {
+        return Err(Complaint {
+            at: read.diagram.over.span(),
+            message: format!("a diagram over {over} does not exist; D, D2, D3 and r are allowed"),
+        });
+    }
+    Ok(Scene {
+        name: name.to_owned(),
+        title: read.title,
+        look: read.look,
+        press: read.press,
+        problem,
+        steps: steps(&read.steps)?,
+        terms: read.terms,
+        layers: read.layers,
+        phase: Window { x: read.phase.q, y: read.phase.v },
+        diagram: Window { x: read.diagram.range, y: read.diagram.q_max },
+        abscissa: over,
+    })
+}
+
+/// The motion of a scene: declared terms have the values of the file or of the table, others are zero.
+fn problem(read: &File) -> Result<Problem, Complaint> {
+    let mut parameters = Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 0.0 };
+    let mut initial = State { q: 0.0, v: 0.0 };
+    for row in &PARAMETERS {
+        let declared =
+            matches!(row.symbol, Symbol::Q0 | Symbol::V0) || read.terms.contains(&row.symbol);
+        let value = match read.values.get(&row.symbol) {
+            Some(given) if !declared => {
+                return Err(Complaint {
+                    at: given.span(),
+                    message: format!("{0} has a value but is not in terms; add \"{0}\"", row.name),
+                });
+            }
+            Some(given) => row
+                .check(*given.get_ref())
+                .map_err(|refused| Complaint { at: given.span(), message: refused.to_string() })?,
+            None if declared => row.default,
+            None => 0.0,
+        };
+        row.symbol.set(&mut parameters, &mut initial, value);
+    }
+    Ok(Problem {
+        parameters,
+        initial,
+        until: within("until", read.until.as_ref(), UNTIL_RANGE, UNTIL)?,
+        method: read.method,
+        tolerance: within("tolerance", read.tolerance.as_ref(), TOLERANCE_RANGE, TOLERANCE)?,
+    })
+}
+
+/// A number of the file, or its default.
+fn within(
+    name: &str,
+    given: Option<&Spanned<f64>>,
+    (min, max): (f64, f64),
+    default: f64,
+) -> Result<f64, Complaint> {
+    let Some(given) = given else { return Ok(default) };
+    let value = *given.get_ref();
+    if (min..=max).contains(&value) {
+        Ok(value)
+    } else {
+        let message = format!("{name} = {value:?} is outside its range {min:?} .. {max:?}");
+        Err(Complaint { at: given.span(), message })
+    }
+}
+
+fn steps(given: &BTreeMap<Symbol, Spanned<f64>>) -> Result<BTreeMap<Symbol, f64>, Complaint> {
+    given
+        .iter()
+        .map(|(symbol, step)| {
+            let value = *step.get_ref();
+            if value > 0.0 && value.is_finite() {
+                Ok((*symbol, value))
+            } else {
+                let message = format!("a step of {symbol} is {value:?}; it must be positive");
+                Err(Complaint { at: step.span(), message })
+            }
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GOOD: &str = r#"title = "A test"
+look = "At this."
+press = "That."
+terms = ["D", "r"]
+values = { D = -0.4, q0 = 2 }
+layers = ["trajectory"]
+phase = { q = [-3, 3], v = [-2.5, 2.5] }
+diagram = { over = "D", range = [-1, 0.1], q_max = [0, 2] }
+"#;
+
+    #[test]
+    fn declared_terms_have_values_and_all_others_are_zero() {
+        let scene = parse("test", "test.toml", GOOD).unwrap();
+        let Problem { parameters, initial, .. } = scene.problem;
+        assert_eq!(
+            parameters,
+            Parameters { d: -0.4, d2: 0.0, d3: 0.0, r: Symbol::R.spec().default }
+        );
+        assert_eq!(initial, State { q: 2.0, v: 0.0 });
+        assert!(scene.declares(Symbol::R) && scene.declares(Symbol::V0));
+        assert!(!scene.declares(Symbol::D3));
+    }
+
+    #[test]
+    fn what_is_wrong_is_said_with_its_place_and_what_is_allowed() {
+        for (from, to, place, words) in [
+            ("title", "titel", "1:1", "expected one of `title`"),
+            ("A test\"", "A test", "1:", ""),
+            ("D = -0.4", "D = nan", "5:16", "D = NaN is outside its range -1000000.0 .. 1000000.0"),
+            ("D = -0.4", "D3 = 1", "5:17", "add \"D3\""),
+            ("D = -0.4", "D4 = 1", "5:12", "expected one of `D`, `D2`"),
+            ("D = -0.4", "D = \"a\"", "5:16", "expected f64"),
+            ("[-3, 3]", "[3, -3]", "7:15", "the second larger"),
+            ("over = \"D\"", "over = \"q0\"", "8:20", "D, D2, D3 and r are allowed"),
+            ("\"trajectory\"", "\"tail\"", "6:11", "expected one of `trajectory`"),
+            ("layers", "until = -1\nlayers", "6:9", "until = -1.0 is outside its range 0.0 .."),
+            ("layers", "steps = { r = 0 }\nlayers", "6:15", "must be positive"),
+        ] {
+            let error = parse("test", "test.toml", &GOOD.replacen(from, to, 1)).unwrap_err();
+            let line = error.to_string();
+            assert!(line.starts_with(&format!("test.toml:{place}")), "{to}: {line}");
+            assert!(line.contains(words) && !line.contains('\n'), "{to}: {line}");
+        }
+    }
+}

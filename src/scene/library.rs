@@ -1,0 +1,151 @@
+//! The scenes that come with the program, and how to find one by its name.
+
+use std::fmt;
+use std::sync::{Arc, LazyLock};
+
+use super::file::parse;
+use super::scene::Scene;
+
+/// The scene without a phenomenon: where everything starts from.
+pub const PLAIN: &str = "plain";
+
+/// Name and text of a scene file.
+macro_rules! scene_file {
+    ($name:literal) => {
+        ($name, include_str!(concat!("../../assets/scenes/", $name, ".toml")))
+    };
+}
+
+/// The files, in the order in which they are listed.
+const FILES: [(&str, &str); 9] = [
+    scene_file!("plain"),
+    scene_file!("capture"),
+    scene_file!("basin"),
+    scene_file!("marginal"),
+    scene_file!("hopf"),
+    scene_file!("supercritical"),
+    scene_file!("subcritical"),
+    scene_file!("asymmetry"),
+    scene_file!("escape"),
+];
+
+/// The scenes that come with the program, in the order in which they are listed.
+///
+/// # Panics
+/// Never: a test reads every file.
+#[must_use]
+pub fn library() -> &'static [Arc<Scene>] {
+    static SCENES: LazyLock<Vec<Arc<Scene>>> = LazyLock::new(|| {
+        let read = |(name, text): (&str, &str)| match parse(name, &format!("{name}.toml"), text) {
+            Ok(scene) => Arc::new(scene),
+            Err(error) => unreachable!("a scene of the program is broken: {error}"),
+        };
+        FILES.into_iter().map(read).collect()
+    });
+    &SCENES
+}
+
+/// The plain oscillator: linear damping and dry friction with the defaults of the parameter table.
+#[must_use]
+pub fn plain() -> Arc<Scene> {
+    Arc::clone(&library()[0])
+}
+
+/// A name that no scene has.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NoScene {
+    /// The name.
+    pub name: String,
+    /// The names that look like it, best first.
+    pub nearest: Vec<&'static str>,
+}
+
+impl fmt::Display for NoScene {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (lead, names) = if self.nearest.is_empty() {
+            ("there are ", library().iter().map(|scene| scene.name.as_str()).collect())
+        } else {
+            ("did you mean ", self.nearest.clone())
+        };
+        write!(out, "no scene {:?}; {lead}{}", self.name, names.join(", "))
+    }
+}
+
+impl std::error::Error for NoScene {}
+
+/// How much two names must have in common to be suggested (0: nothing, 1: equal).
+const ALIKE: f64 = 0.7;
+
+/// The scene with this name.
+///
+/// # Errors
+/// [`NoScene`] with the names that look like it.
+pub fn find(name: &str) -> Result<Arc<Scene>, NoScene> {
+    library().iter().find(|scene| scene.name == name).cloned().ok_or_else(|| {
+        let wanted = name.to_lowercase();
+        let mut rated: Vec<_> = library()
+            .iter()
+            .map(|scene| (strsim::jaro(&wanted, &scene.name), scene.name.as_str()))
+            .filter(|(likeness, _)| *likeness >= ALIKE)
+            .collect();
+        rated.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let nearest = rated.into_iter().take(3).map(|(_, name)| name).collect();
+        NoScene { name: name.to_owned(), nearest }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Span;
+
+    #[test]
+    fn every_scene_of_the_program_reads_and_explains_itself() {
+        for (name, text) in FILES {
+            let scene = parse(name, name, text).unwrap_or_else(|error| panic!("{error}"));
+            assert!(!scene.layers.is_empty(), "{name} shows nothing");
+            for (what, sentence) in [("look", &scene.look), ("press", &scene.press)] {
+                assert!(sentence.ends_with('.') && sentence.len() > 20, "{name}: {what}");
+            }
+            assert!(scene.title.chars().count() <= 52, "{name}: the title is one short line");
+            assert!(
+                scene.diagram.x.contains(
+                    scene.abscissa.get(&scene.problem.parameters, &scene.problem.initial)
+                )
+            );
+            assert!(scene.phase.contains(crate::scene::Point {
+                x: scene.problem.initial.q,
+                y: scene.problem.initial.v
+            }));
+        }
+    }
+
+    #[test]
+    fn the_library_lists_every_file_of_the_folder() {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/scenes");
+        let mut on_disk: Vec<String> = std::fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().path().file_stem().unwrap().to_string_lossy().into_owned())
+            .collect();
+        let mut listed: Vec<String> = FILES.iter().map(|(name, _)| (*name).to_owned()).collect();
+        on_disk.sort();
+        listed.sort();
+        assert_eq!(on_disk, listed);
+    }
+
+    #[test]
+    fn plain_is_the_oscillator_of_the_parameter_table() {
+        assert_eq!(plain().name, PLAIN);
+        assert_eq!(plain().problem.parameters, crate::oscillator::Parameters::default());
+        assert_eq!(plain().problem.initial, crate::oscillator::State::default());
+        assert!(plain().phase.x.width() > Span::new(0.0, 1.0).unwrap().width());
+    }
+
+    #[test]
+    fn a_wrong_name_gets_the_nearest_ones() {
+        assert_eq!(find("super-critical").unwrap_err().nearest[0], "supercritical");
+        assert_eq!(find("Basin").unwrap_err().nearest[0], "basin");
+        let line = find("xyz").unwrap_err().to_string();
+        assert!(line.starts_with("no scene \"xyz\"; there are plain, capture"), "{line}");
+    }
+}
