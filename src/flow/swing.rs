@@ -3,6 +3,8 @@
 //! The state is kept near 1 in units of a power of two, so that motions of any size are computed alike
 //! and a motion scaled by a power of two is the same to the last bit.
 
+use std::ops::ControlFlow;
+
 use super::limits::{Limits, Reason};
 use super::scaling::{exponent, field_in_units, times_power};
 use super::step::{Point, Step, Stepper};
@@ -22,8 +24,8 @@ pub enum End {
         /// Position in the frame of the half plane.
         x: f64,
     },
-    /// At the end time.
-    Time {
+    /// At the end time, or where the watcher said so.
+    Stopped {
         /// Where.
         point: Point,
     },
@@ -56,8 +58,7 @@ pub struct Failed {
 /// Runs one half swing from `start` (`v > 0`, or `v = 0` and `x < 0`) for at most `longest`.
 ///
 /// `watch` sees each accepted step: the stepper that holds it, the time at which it began, the exponent
-/// of the unit in which its numbers are measured, and the step. `budget` is the number of evaluations
-/// at which the stepper must stop.
+/// of the unit in which its numbers are measured, and the step; it may stop the swing there.
 ///
 /// # Errors
 /// [`Failed`] with the reason and the time reached.
@@ -67,7 +68,7 @@ pub fn swing<S: Stepper>(
     start: Point,
     longest: f64,
     limits: &Limits,
-    mut watch: impl FnMut(&mut S, f64, i32, &Step),
+    mut watch: impl FnMut(&mut S, f64, i32, &Step) -> ControlFlow<()>,
 ) -> Result<Swing, Failed> {
     let mut unit = exponent(start.size());
     let mut scaled = field_in_units(field, unit);
@@ -89,20 +90,18 @@ pub fn swing<S: Stepper>(
         let remaining = longest - time;
         let step = stepper.advance(point, remaining).map_err(failed)?;
         steps += 1;
-        watch(stepper, time, unit, &step);
+        let goes_on = watch(stepper, time, unit, &step).is_continue();
         time += step.duration;
         point = step.end;
         let done = |end| Ok(Swing { end, duration: time, steps });
         if step.crossed {
             return done(End::Crossing { x: times_power(point.x, unit) });
         }
-        if step.duration >= remaining {
+        let in_time = step.duration < remaining;
+        if !(in_time && goes_on) {
             let (x, v) = (times_power(point.x, unit), times_power(point.v, unit));
-            return Ok(Swing {
-                end: End::Time { point: Point { x, v } },
-                duration: longest,
-                steps,
-            });
+            let duration = if in_time { time } else { longest };
+            return Ok(Swing { end: End::Stopped { point: Point { x, v } }, duration, steps });
         }
         if time + step.duration == time {
             return Err(Failed {

@@ -49,6 +49,8 @@ pub struct Taylor {
     /// Coefficients of x and v in powers of `t / 2^time_exponent`.
     x: [f64; LENGTH],
     v: [f64; LENGTH],
+    /// Coefficients of the integral of `v^2`; only kept up where the field is not linear.
+    square_integral: [f64; LENGTH],
     time_exponent: i32,
     /// Unit of time for the next step, near the length of the last one.
     next_time_exponent: i32,
@@ -88,6 +90,7 @@ impl Taylor {
             log_tolerance: rough_log2((AIM * tolerance).max(1e-300)),
             x: [0.0; LENGTH],
             v: [0.0; LENGTH],
+            square_integral: [0.0; LENGTH],
             time_exponent: 0,
             next_time_exponent: 0,
             duration: 0.0,
@@ -115,7 +118,9 @@ impl Taylor {
         let mut newest = unit * (-from.x - from.v * (2.0 * d + first_force));
         (self.x[0], self.x[1]) = (from.x, unit * from.v);
         (self.v[0], self.v[1]) = (from.v, newest);
+        self.square_integral[1] = unit * from.v * from.v;
         for k in 1..order {
+            let factor = unit * INVERSE[k + 1];
             let mut acceleration = -self.x[k] - 2.0 * d * newest;
             if nonlinear {
                 let (square, product) = inner_sums(&v, &force, &reversed, k);
@@ -125,8 +130,8 @@ impl Taylor {
                 force[k - 1] = newest_force;
                 v[k - 1] = newest;
                 reversed[LENGTH - k] = newest;
+                self.square_integral[k + 1] = square * factor;
             }
-            let factor = unit * INVERSE[k + 1];
             self.x[k + 1] = newest * factor;
             newest = acceleration * factor;
             self.v[k + 1] = newest;
@@ -177,6 +182,50 @@ impl Taylor {
             t = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
         }
         t
+    }
+}
+
+impl Taylor {
+    /// The integral of `v^2` over the last step, from the series itself; nonlinear fields only.
+    #[must_use]
+    pub fn square_integral(&self) -> f64 {
+        let t = times_power(self.duration, -self.time_exponent);
+        value(&self.square_integral[..=self.order], t)
+    }
+
+    /// The largest v in the last step, if the acceleration changes its sign there.
+    ///
+    /// Newton's method on the slope of the step's polynomial, from the middle, inside a bracket.
+    #[must_use]
+    pub fn fastest(&self) -> Option<f64> {
+        let end = times_power(self.duration, -self.time_exponent);
+        let mut slopes = [0.0; LENGTH];
+        for k in 1..=self.order {
+            #[expect(clippy::cast_precision_loss, reason = "k is below 32")]
+            {
+                slopes[k - 1] = k as f64 * self.v[k];
+            }
+        }
+        let slopes = &slopes[..self.order];
+        if !(slopes[0] > 0.0 && value(slopes, end) <= 0.0) {
+            return None;
+        }
+        let (mut low, mut high, mut t) = (0.0, end, 0.5 * end);
+        for _ in 0..60 {
+            let (slope, change) = value_and_slope(slopes, t);
+            let newton = t - slope / change;
+            // v is flat here: an error e of the time costs e^2 of v.
+            if (newton - t).abs() <= 1e-9 * end {
+                break;
+            }
+            if slope > 0.0 {
+                low = t;
+            } else {
+                high = t;
+            }
+            t = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        }
+        Some(value(&self.v[..=self.order], t))
     }
 }
 

@@ -1,5 +1,7 @@
 //! A motion: swings until it is captured, escapes, reaches its end or is given up.
 
+use std::ops::ControlFlow;
+
 use serde::Serialize;
 
 use super::exact::Exact;
@@ -258,6 +260,7 @@ impl Run {
                     if detail.energy {
                         works.add(&stepper.powers(), &field, unit);
                     }
+ ControlFlow::Continue(())
                 });
             let (duration, steps) = match &result {
                 Ok(swing) => (swing.duration, swing.steps),
@@ -269,7 +272,7 @@ impl Run {
             match result.map(|swing| swing.end) {
                 Err(failed) => break Outcome::GaveUp { tau, reason: failed.reason },
                 Ok(End::Escape) => break Outcome::Escaped { tau },
-                Ok(End::Time { point: end }) => {
+                Ok(End::Stopped { point: end }) => {
                     self.powers.path += end.x - point.x;
                     let (q, v) = (here.displacement(end.x, r), here.sign() * end.v);
                     last = State { q, v };

@@ -1,7 +1,10 @@
 //! Questions asked of the flow: limit cycles, branches, folds, the basin of the sticking set.
 
 pub mod branch;
+pub mod closing;
 pub mod cycle;
+pub mod half_map;
+pub mod search;
 
 pub use branch::{Branch, BranchPoint, Special, SpecialKind};
 pub use cycle::{Cycle, Cycles, Edge};

@@ -1,0 +1,266 @@
+//! The equation that a closed pair of half swings obeys.
+//!
+//! A cycle starts its first swing with clearance `c0`, ends it at `X1`, starts the second with
+//! `c1 = X1 - 2 r` and ends it at `X0 = c0 + 2 r`. The unknown is `u = ln c0`. Three routes lead to the
+//! same roots, and near a root one of them contracts:
+//!
+//! - `Mixed`: the first swing forward to `X1`, the second backward from `X0`; both increase with u.
+//! - `Forward`: both forward; contracts at stable cycles.
+//! - `Backward`: both backward; contracts at unstable cycles, and needs `c0` only through `X0`, so that
+//!   a `c0` that underflows does no harm.
+//!
+//! The first swing is the one in whose frame `D2 >= 0`, so that with `D3 = 0` neither it nor the
+//! second swing run backward can escape.
+
+use super::half_map::{HalfMap, HalfSwing, Length, NoEnd};
+use super::search::Node;
+use crate::flow::{Cost, Limits, Reason};
+use crate::oscillator::{HalfPlane, Parameters, Side};
+
+/// Which way the two swings of a cycle are computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Route {
+    /// First forward, second backward.
+    Mixed,
+    /// Both forward.
+    Forward,
+    /// Both backward.
+    Backward,
+}
+
+/// The two swings at one value of the unknown, and how far they are from closing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Closing {
+    /// The unknown, and the residual as a difference of two increasing functions of it.
+    pub node: Node,
+    /// Clearance at which the first swing starts.
+    pub first: Length,
+    /// Clearance at which the second swing starts.
+    pub second: Length,
+    /// Duration of both swings.
+    pub duration: f64,
+    /// Integral of `v^2` over both swings.
+    pub square: f64,
+    /// Largest speed in the first and in the second swing, if asked for.
+    pub fastest: [f64; 2],
+}
+
+/// The half maps of both swings in both directions.
+#[derive(Clone, Debug)]
+pub struct Equation {
+    /// The parameters.
+    pub parameters: Parameters,
+    /// The side of the first swing.
+    pub side: Side,
+    forward: [HalfMap; 2],
+    backward: [HalfMap; 2],
+}
+
+/// Multiplies a field by -1: the field of the motion run backward (see [`super::half_map`]).
+fn reversed(field: &HalfPlane) -> HalfPlane {
+    HalfPlane { d: -field.d, d2: -field.d2, d3: -field.d3 }
+}
+
+impl Equation {
+    /// The equation at these parameters, each integration step within the relative `tolerance`.
+    #[must_use]
+    pub fn new(parameters: &Parameters, tolerance: f64) -> Self {
+        Self::with(parameters, |field| HalfMap::new(field, tolerance))
+    }
+
+    /// The same with half maps made by `map`.
+    #[must_use]
+    pub fn with(parameters: &Parameters, map: impl Fn(HalfPlane) -> HalfMap) -> Self {
+        let side = if parameters.d2 < 0.0 { Side::Lower } else { Side::Upper };
+        let fields = [side, side.opposite()].map(|side| HalfPlane::new(parameters, side));
+        Equation {
+            parameters: *parameters,
+            side,
+            forward: fields.map(&map),
+            backward: fields.map(|field| map(reversed(&field))),
+        }
+    }
+
+    /// Whether to find the largest speeds.
+    pub fn want_fastest(&mut self, wanted: bool) {
+        for map in self.forward.iter_mut().chain(&mut self.backward) {
+            map.fastest = wanted;
+        }
+    }
+
+    /// What all swings so far cost.
+    #[must_use]
+    pub fn cost(&self) -> Cost {
+        let mut cost = Cost::default();
+        for map in self.forward.iter().chain(&self.backward) {
+            cost += map.cost();
+        }
+        cost
+    }
+
+    /// The smallest clearance whose first swing passes the sticking set: the preimage of its far end.
+    ///
+    /// No cycle starts with less. `None` where no swing of any clearance passes it: every motion is
+    /// captured.
+    ///
+    /// # Errors
+    /// The [`Reason`] why a swing failed.
+    pub fn smallest_clearance(&mut self, limits: &Limits) -> Result<Option<Length>, Reason> {
+        let end = Length::new(2.0 * self.parameters.r);
+        match self.backward[0].swing(end, limits) {
+            Ok(swing) => Ok(Some(swing.end)),
+            Err(NoEnd::Never) => Ok(Some(Length { value: 0.0, log: f64::NEG_INFINITY })),
+            Err(NoEnd::Escapes) => Ok(None),
+            Err(NoEnd::Failed(reason)) => Err(reason),
+        }
+    }
+
+    /// The two swings for `u = ln c0`.
+    ///
+    /// # Errors
+    /// The [`Reason`] why a swing failed.
+    pub fn at(&mut self, route: Route, u: f64, limits: &Limits) -> Result<Closing, Reason> {
+        let start = Length::from_log(u);
+        match route {
+            Route::Mixed => self.mixed(start, limits),
+            Route::Forward => self.both_forward(start, limits),
+            Route::Backward => self.both_backward(start, limits),
+        }
+    }
+
+    fn mixed(&mut self, start: Length, limits: &Limits) -> Result<Closing, Reason> {
+        let gap = 2.0 * self.parameters.r;
+        let first = match self.forward[0].swing(start, limits) {
+            Err(NoEnd::Escapes) => return Ok(Closing::beyond(start, f64::INFINITY, 0.0)),
+            Err(NoEnd::Never) => return Ok(Closing::beyond(start, f64::NEG_INFINITY, 0.0)),
+            Err(NoEnd::Failed(reason)) => return Err(reason),
+            Ok(swing) => swing,
+        };
+        let second = match self.backward[1].swing(start.plus(gap), limits) {
+            Err(NoEnd::Escapes) => return Ok(Closing::beyond(start, 0.0, f64::INFINITY)),
+            Err(NoEnd::Never) => HalfSwing::collapsed(start.plus(gap)),
+            Err(NoEnd::Failed(reason)) => return Err(reason),
+            Ok(swing) => swing,
+        };
+        let target = second.end.plus(gap);
+        let pull = second.log_elasticity.exp() * share(second.end, gap) * share(start, gap);
+        let node = Node {
+            at: start.log,
+            rise: first.end.log,
+            fall: target.log,
+            slope: first.log_elasticity.exp() - pull,
+        };
+        Ok(Closing::of(node, start, second.end, [first, second]))
+    }
+
+    fn both_forward(&mut self, start: Length, limits: &Limits) -> Result<Closing, Reason> {
+        let gap = 2.0 * self.parameters.r;
+        let (mut clearance, mut swings) = (start, [HalfSwing::collapsed(start); 2]);
+        let mut seconds = start;
+        for (index, map) in self.forward.iter_mut().enumerate() {
+            let swing = match map.swing(clearance, limits) {
+                Err(NoEnd::Escapes) => return Ok(Closing::beyond(start, f64::INFINITY, 0.0)),
+                Err(NoEnd::Never) => return Ok(Closing::beyond(start, f64::NEG_INFINITY, 0.0)),
+                Err(NoEnd::Failed(reason)) => return Err(reason),
+                Ok(swing) => swing,
+            };
+            let passed = swing.end.value - gap;
+            if passed <= 0.0 {
+                return Ok(Closing::beyond(start, f64::NEG_INFINITY, 0.0));
+            }
+            clearance = if gap == 0.0 { swing.end } else { Length::new(passed) };
+            swings[index] = swing;
+            if index == 0 {
+                seconds = clearance;
+            }
+        }
+        let stretch = (swings[0].log_elasticity + swings[1].log_elasticity).exp()
+            / (share(seconds, gap) * share(clearance, gap));
+        let node =
+            Node { at: start.log, rise: clearance.log, fall: start.log, slope: stretch - 1.0 };
+        Ok(Closing::of(node, start, seconds, swings))
+    }
+
+    fn both_backward(&mut self, start: Length, limits: &Limits) -> Result<Closing, Reason> {
+        let gap = 2.0 * self.parameters.r;
+        let (mut length, mut swings) = (start, [HalfSwing::collapsed(start); 2]);
+        let mut ends = [start; 2];
+        let mut shrink = 1.0;
+        for index in [1, 0] {
+            shrink *= share(length, gap);
+            let swing = match self.backward[index].swing(length.plus(gap), limits) {
+                Err(NoEnd::Escapes) => return Ok(Closing::beyond(start, 0.0, f64::INFINITY)),
+                Err(NoEnd::Never) => HalfSwing::collapsed(length.plus(gap)),
+                Err(NoEnd::Failed(reason)) => return Err(reason),
+                Ok(swing) => swing,
+            };
+            shrink *= swing.log_elasticity.exp();
+            (length, ends[index], swings[index]) = (swing.end, swing.end, swing);
+        }
+        let [back, second] = ends;
+        let node = Node { at: start.log, rise: start.log, fall: back.log, slope: 1.0 - shrink };
+        Ok(Closing::of(node, start, second, swings))
+    }
+}
+
+/// `d ln(c + gap) / d ln(c)`.
+fn share(clearance: Length, gap: f64) -> f64 {
+    if gap == 0.0 { 1.0 } else { clearance.value / (clearance.value + gap) }
+}
+
+impl HalfSwing {
+    /// The swing that creeps back to the centre for ever: its end is 0.
+    fn collapsed(start: Length) -> Self {
+        HalfSwing {
+            start,
+            end: Length { value: 0.0, log: f64::NEG_INFINITY },
+            duration: f64::INFINITY,
+            square: 0.0,
+            fastest: 0.0,
+            log_elasticity: f64::NEG_INFINITY,
+        }
+    }
+}
+
+impl Closing {
+    fn of(node: Node, first: Length, second: Length, swings: [HalfSwing; 2]) -> Self {
+        Closing {
+            node,
+            first,
+            second,
+            duration: swings[0].duration + swings[1].duration,
+            square: swings[0].square + swings[1].square,
+            fastest: [swings[0].fastest, swings[1].fastest],
+        }
+    }
+
+    /// Outside the domain of one of the two functions: only the sign is known.
+    fn beyond(start: Length, rise: f64, fall: f64) -> Self {
+        let node = Node { at: start.log, rise, fall, slope: f64::NAN };
+        let nothing = Length { value: 0.0, log: f64::NEG_INFINITY };
+        Closing { node, first: start, second: nothing, duration: 0.0, square: 0.0, fastest: [0.0; 2] }
+    }
+
+    /// Logarithm of the Floquet multiplier if this closing is a cycle.
+    ///
+    /// `mu = c0/(c0 + 2 r) c1/(c1 + 2 r) exp(-integral of (2 D + 3 D3 v^2))`: the divergence with the
+    /// turning points built in. The D2 part of the integral vanishes on a closed curve.
+    #[must_use]
+    pub fn log_multiplier(&self, parameters: &Parameters) -> f64 {
+        let gap = 2.0 * parameters.r;
+        let past_friction: f64 =
+            [self.first, self.second].iter().map(|&clearance| log_share(clearance, gap)).sum();
+        past_friction - 2.0 * parameters.d * self.duration - 3.0 * parameters.d3 * self.square
+    }
+}
+
+/// `ln(c/(c + gap))`, with all digits for large and for underflowing c.
+fn log_share(clearance: Length, gap: f64) -> f64 {
+    if gap == 0.0 {
+        0.0
+    } else if gap / clearance.value < 1e10 {
+        -(gap / clearance.value).ln_1p()
+    } else {
+        clearance.log - (gap + clearance.value).ln()
+    }
+}

@@ -1,0 +1,268 @@
+//! The half-swing map: from the clearance at which a swing starts to the position at which it ends.
+//!
+//! In the frame of a half plane a swing leads from `(-c, 0)` to `(X, 0)`. The map `c -> X` contains no
+//! friction; dry friction only turns the end of one swing into the start of the next, `c' = X - 2 r`.
+//! It is smooth, increasing and invertible, and its inverse is the same map of another field: with
+//! time reversed, `y = -x` obeys the equation of `-D, -D2, -D3`. So inverse half maps need no code of
+//! their own, and they contract where the forward map explodes.
+//!
+//! Lengths are carried with their logarithm. Near the end point of the sticking set the motion is a
+//! linear spiral that scales with `c` exactly, so a swing may start or end at lengths that underflow.
+
+use std::ops::ControlFlow;
+
+use crate::flow::scaling::times_power;
+use crate::flow::step::{Point, Step, Stepper};
+use crate::flow::swing::{End, Failed, swing};
+use crate::flow::taylor::Taylor;
+use crate::flow::{Cost, Limits, Reason};
+use crate::oscillator::HalfPlane;
+
+/// Below this part of its natural scale the damping is linear to far below rounding.
+const LINEAR_BELOW: f64 = 1e-21;
+
+/// A half swing longer than this is taken to never arrive.
+const LONGEST: f64 = 1e7;
+
+/// A positive length with its logarithm, which exists even where the length underflows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Length {
+    /// The length; 0 where it underflows.
+    pub value: f64,
+    /// Its natural logarithm.
+    pub log: f64,
+}
+
+impl Length {
+    /// From a length.
+    #[must_use]
+    pub fn new(value: f64) -> Self {
+        Length { value, log: value.ln() }
+    }
+
+    /// From the logarithm of a length.
+    #[must_use]
+    pub fn from_log(log: f64) -> Self {
+        Length { value: log.exp(), log }
+    }
+
+    /// This length and another one put together.
+    #[must_use]
+    pub fn plus(self, more: f64) -> Self {
+        if more == 0.0 { self } else { Length::new(self.value + more) }
+    }
+}
+
+/// One half swing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HalfSwing {
+    /// Clearance at which it starts: at `(-start, 0)`.
+    pub start: Length,
+    /// Position at which it ends: at `(end, 0)`.
+    pub end: Length,
+    /// How long it takes.
+    pub duration: f64,
+    /// Integral of `v^2` (0 for a linear field, where nothing needs it).
+    pub square: f64,
+    /// Largest v, if asked for.
+    pub fastest: f64,
+    /// Logarithm of the elasticity of the map, `d ln(end) / d ln(start)`.
+    ///
+    /// From the divergence with the turning points built in (Liouville): `dX/dc = (c/X) exp(integral of
+    /// the divergence)`; the D2 part of the integral is exact because the integral of v is `X + c`.
+    pub log_elasticity: f64,
+}
+
+/// Why a half swing has no end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NoEnd {
+    /// The velocity runs to infinity.
+    Escapes,
+    /// The motion creeps towards the centre of its spiral and never arrives at `v = 0`.
+    Never,
+    /// The computation failed.
+    Failed(Reason),
+}
+
+/// The half-swing map of one field.
+#[derive(Clone, Debug)]
+pub struct HalfMap {
+    field: HalfPlane,
+    taylor: Taylor,
+    /// States smaller than this move linearly.
+    linear_below: f64,
+    /// Whether to find the largest velocity of each swing.
+    pub fastest: bool,
+    steps: u64,
+}
+
+impl HalfMap {
+    /// The map of this field, each step within the relative `tolerance`.
+    #[must_use]
+    pub fn new(field: HalfPlane, tolerance: f64) -> Self {
+        let natural = (1.0 / field.d2.abs()).min(1.0 / field.d3.abs().sqrt());
+        Self::integrating_above(LINEAR_BELOW * natural, field, tolerance)
+    }
+
+    /// The same map, integrated by series wherever the state is larger than `linear_below`.
+    #[must_use]
+    pub fn integrating_above(linear_below: f64, field: HalfPlane, tolerance: f64) -> Self {
+        let taylor = Taylor::new(tolerance);
+        // Beyond critical damping the linear motion does not turn: nothing to skip.
+        let linear_below = if field.d.abs() < 1.0 { linear_below } else { 0.0 };
+        HalfMap { field, taylor, linear_below, fastest: false, steps: 0 }
+    }
+
+    /// The field.
+    #[must_use]
+    pub fn field(&self) -> &HalfPlane {
+        &self.field
+    }
+
+    /// What the swings so far cost.
+    #[must_use]
+    pub fn cost(&self) -> Cost {
+        Cost {
+            evaluations: self.taylor.evaluations(),
+            steps: self.steps,
+            rejected: self.taylor.rejected(),
+        }
+    }
+
+    /// Swings from `(-start, 0)`, handing each step to `watch` as (stepper, unit exponent, begin, end).
+    ///
+    /// # Errors
+    /// [`NoEnd`] if the motion does not come back to `v = 0`.
+    pub fn swing_watched(
+        &mut self,
+        start: Length,
+        limits: &Limits,
+        mut watch: impl FnMut(&Taylor, i32),
+    ) -> Result<HalfSwing, NoEnd> {
+        let mut leg = Leg { point: Point { x: -start.value, v: 0.0 }, duration: 0.0 };
+        if self.linear_below > 0.0 {
+            match Linear::of(self.field.d).grow(start, self.linear_below) {
+                Growth::Whole(end, duration) => {
+                    return Ok(self.finish(start, end, duration, 0.0, 0.0));
+                }
+                Growth::Until(grown) => leg = grown,
+            }
+        }
+        let (mut square, mut fastest) = (0.0, 0.0_f64);
+        let nonlinear = !self.field.is_linear();
+        let (wants_fastest, linear_below) = (self.fastest, self.linear_below);
+        let mut see = |taylor: &mut Taylor, _: f64, unit: i32, step: &Step| {
+            if nonlinear {
+                square += times_power(times_power(taylor.square_integral(), unit), unit);
+            }
+            if wants_fastest && let Some(v) = taylor.fastest() {
+                fastest = fastest.max(times_power(v, unit));
+            }
+            watch(taylor, unit);
+            if !step.crossed && times_power(step.end.size(), unit) < linear_below {
+                return ControlFlow::Break(());
+            }
+            ControlFlow::Continue(())
+        };
+        let done =
+            match swing(&mut self.taylor, &self.field, leg.point, LONGEST, limits, &mut see) {
+                Ok(done) => done,
+                Err(Failed { reason, steps, .. }) => {
+                    self.steps += steps;
+                    return Err(NoEnd::Failed(reason));
+                }
+            };
+        self.steps += done.steps;
+        let duration = leg.duration + done.duration;
+        let (end, rest) = match done.end {
+            End::Crossing { x } => (Length::new(x), 0.0),
+            End::Escape => return Err(NoEnd::Escapes),
+            End::Stopped { point } if point.size() < linear_below => {
+                Linear::of(self.field.d).arrive(point)
+            }
+            End::Stopped { .. } => return Err(NoEnd::Never),
+        };
+        Ok(self.finish(start, end, duration + rest, square, fastest))
+    }
+
+    /// Swings from `(-start, 0)`.
+    ///
+    /// # Errors
+    /// [`NoEnd`] if the motion does not come back to `v = 0`.
+    pub fn swing(&mut self, start: Length, limits: &Limits) -> Result<HalfSwing, NoEnd> {
+        self.swing_watched(start, limits, |_, _| {})
+    }
+
+    fn finish(
+        &self,
+        start: Length,
+        end: Length,
+        duration: f64,
+        square: f64,
+        fastest: f64,
+    ) -> HalfSwing {
+        let HalfPlane { d, d2, d3 } = self.field;
+        let path = start.value + end.value;
+        let divergence = -2.0 * d * duration - 2.0 * d2 * path - 3.0 * d3 * square;
+        let log_elasticity = 2.0 * (start.log - end.log) + divergence;
+        HalfSwing { start, end, duration, square, fastest, log_elasticity }
+    }
+}
+
+/// A state and when it was reached.
+struct Leg {
+    point: Point,
+    duration: f64,
+}
+
+/// How far the linear part of a swing goes.
+enum Growth {
+    /// To its end: position and duration.
+    Whole(Length, f64),
+    /// Until the state is no longer small.
+    Until(Leg),
+}
+
+/// The linear spiral about the centre of a half plane, `abs(D) < 1`.
+struct Linear {
+    d: f64,
+    omega: f64,
+}
+
+impl Linear {
+    fn of(d: f64) -> Self {
+        Linear { d, omega: ((1.0 - d) * (1.0 + d)).sqrt() }
+    }
+
+    /// Follows the spiral from `(-start, 0)` while it is smaller than `bound`.
+    fn grow(&self, start: Length, bound: f64) -> Growth {
+        let half_turn = std::f64::consts::PI / self.omega;
+        // The spiral scales as e^(-D t); beside this factor it is at most 1 + t in size.
+        let room = bound.ln() - start.log - half_turn.ln_1p();
+        if room <= 0.0 {
+            return Growth::Until(Leg {
+                point: Point { x: -start.value, v: 0.0 },
+                duration: 0.0,
+            });
+        }
+        if -self.d * half_turn <= room {
+            return Growth::Whole(Length::from_log(start.log - self.d * half_turn), half_turn);
+        }
+        let time = room / -self.d;
+        let (sine, cosine) = (self.omega * time).sin_cos();
+        let size = (start.log + room).exp();
+        let velocity = sine / self.omega;
+        let point = Point { x: -size * (cosine + self.d * velocity), v: size * velocity };
+        Growth::Until(Leg { point, duration: time })
+    }
+
+    /// Follows the spiral from a point with `v > 0` to `v = 0`: position there, and duration.
+    ///
+    /// `x^2 + 2 D x v + v^2` decays as `e^(-2 D t)` exactly and equals `x^2` at the end.
+    fn arrive(&self, point: Point) -> (Length, f64) {
+        let along = point.x + self.d * point.v;
+        let across = self.omega * point.v;
+        let time = across.atan2(along) / self.omega;
+        (Length::from_log(along.hypot(across).ln() - self.d * time), time)
+    }
+}

@@ -1,0 +1,197 @@
+//! A search for all roots of a smooth function on an interval, that cannot pass over a close pair.
+//!
+//! The function is a difference `rise - fall` of two increasing functions (for limit cycles: where a
+//! swing ends and where the next one has to start). That alone proves intervals empty: between a and b
+//! the difference lies between `rise(a) - fall(b)` and `rise(b) - fall(a)`. Where this is not enough,
+//! the cubic through values and slopes at both ends is compared with the middle: if the cubic stays away
+//! from zero by more than eight times its error there, the interval is taken to be empty; if it crosses
+//! zero once and monotonically, to hold one root. Otherwise the interval is halved, and an interval at
+//! the limit of halving whose slopes point at an extremum towards zero is decided at that extremum.
+//!
+//! Guarantee: every interval between the roots found is excluded by monotonicity, or by a cubic whose
+//! error was measured. Assumption: the function varies on scales not below [`FINEST`].
+
+/// Intervals of this length are not halved any more.
+const FINEST: f64 = 1e-4;
+
+/// How far the cubic must stay from zero, in units of its error at the middle.
+const SAFETY: f64 = 8.0;
+
+/// Values of the two increasing functions, and the slope of their difference.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Node {
+    /// Where.
+    pub at: f64,
+    /// The increasing function that counts positive; `+inf` beyond its domain.
+    pub rise: f64,
+    /// The increasing function that counts negative; `+inf` beyond its domain.
+    pub fall: f64,
+    /// Slope of the difference (of no meaning where it is infinite).
+    pub slope: f64,
+}
+
+impl Node {
+    /// `rise - fall`: positive outside the domain of `rise`, negative outside that of `fall`.
+    #[must_use]
+    pub fn value(&self) -> f64 {
+        self.rise - self.fall
+    }
+
+    fn is_finite(&self) -> bool {
+        self.value().is_finite() && self.slope.is_finite()
+    }
+}
+
+/// Two nodes between which the function changes its sign.
+pub type Bracket = (Node, Node);
+
+/// Collects brackets of all roots between two nodes.
+///
+/// # Errors
+/// Whatever the function fails with.
+pub fn search<E>(
+    low: Node,
+    high: Node,
+    function: &mut impl FnMut(f64) -> Result<Node, E>,
+    found: &mut Vec<Bracket>,
+) -> Result<(), E> {
+    let surely_negative = high.rise < low.fall;
+    let surely_positive = low.rise > high.fall;
+    if surely_negative || surely_positive {
+        return Ok(());
+    }
+    let changes = (low.value() > 0.0) != (high.value() > 0.0);
+    let width = high.at - low.at;
+    if width <= FINEST {
+        if changes {
+            found.push((low, high));
+        } else if let Some(extremum) = extremum_towards_zero(low, high, function)?
+            && (extremum.value() > 0.0) != (low.value() > 0.0)
+        {
+            found.extend([(low, extremum), (extremum, high)]);
+        }
+        return Ok(());
+    }
+    let middle = function(low.at + 0.5 * width)?;
+    if low.is_finite() && high.is_finite() && middle.is_finite() {
+        let error = SAFETY * (middle.value() - cubic(&low, &high, 0.5)).abs();
+        let halves = [(low, middle), (middle, high)];
+        if !changes && halves.iter().all(|(a, b)| stays_away(a, b, error)) {
+            return Ok(());
+        }
+        if changes && halves.iter().all(|(a, b)| is_monotone(a, b, error)) {
+            found.push(if (low.value() > 0.0) == (middle.value() > 0.0) {
+                (middle, high)
+            } else {
+                (low, middle)
+            });
+            return Ok(());
+        }
+    }
+    search(low, middle, function, found)?;
+    search(middle, high, function, found)
+}
+
+/// The cubic with the values and slopes of two nodes, at a fraction of the way.
+fn cubic(low: &Node, high: &Node, fraction: f64) -> f64 {
+    let (s, t) = (fraction, 1.0 - fraction);
+    let width = high.at - low.at;
+    let ends = t * t * (1.0 + 2.0 * s) * low.value() + s * s * (1.0 + 2.0 * t) * high.value();
+    ends + width * s * t * (t * low.slope - s * high.slope)
+}
+
+/// Fractions at which cubics are looked at between their ends.
+const FRACTIONS: [f64; 7] = [0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875];
+
+fn stays_away(low: &Node, high: &Node, error: f64) -> bool {
+    let sign = low.value().signum();
+    let nearest = FRACTIONS
+        .iter()
+        .map(|&fraction| sign * cubic(low, high, fraction))
+        .fold((sign * low.value()).min(sign * high.value()), f64::min);
+    nearest > error
+}
+
+fn is_monotone(low: &Node, high: &Node, error: f64) -> bool {
+    let sign = low.slope.signum();
+    let mean = sign * (high.value() - low.value()) / (high.at - low.at);
+    // Sufficient for a monotone cubic (Fritsch and Carlson): end slopes of at most three times the mean.
+    let bounded = |slope: f64| sign * slope > 0.0 && sign * slope <= 3.0 * mean;
+    bounded(low.slope) && bounded(high.slope) && error < mean * (high.at - low.at)
+}
+
+/// The extremum between two nodes of one sign, if their slopes say that it lies towards zero.
+fn extremum_towards_zero<E>(
+    mut low: Node,
+    mut high: Node,
+    function: &mut impl FnMut(f64) -> Result<Node, E>,
+) -> Result<Option<Node>, E> {
+    let sign = low.value().signum();
+    let towards_zero = sign * low.slope < 0.0 && sign * high.slope > 0.0;
+    if !(towards_zero && low.is_finite() && high.is_finite()) {
+        return Ok(None);
+    }
+    let mut best = if low.value().abs() < high.value().abs() { low } else { high };
+    for _ in 0..60 {
+        let secant = low.at + (high.at - low.at) * low.slope / (low.slope - high.slope);
+        let inside = secant > low.at && secant < high.at;
+        let node = function(if inside { secant } else { 0.5 * (low.at + high.at) })?;
+        if sign * node.value() < sign * best.value() {
+            best = node;
+        }
+        if sign * node.value() < 0.0 || node.at == low.at || node.at == high.at {
+            break;
+        }
+        let before = high.at - low.at;
+        if sign * node.slope < 0.0 {
+            low = node;
+        } else {
+            high = node;
+        }
+        if before <= 4.0 * f64::EPSILON * high.at.abs().max(1.0) {
+            break;
+        }
+    }
+    Ok(Some(best))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `(u - a)(u - b)` as a difference of two increasing functions on [0, 4].
+    fn parabola(a: f64, b: f64) -> impl FnMut(f64) -> Result<Node, ()> {
+        move |u| {
+            let rise = u * u + 10.0 * u + a * b;
+            Ok(Node { at: u, rise, fall: (a + b + 10.0) * u, slope: 2.0 * u - a - b })
+        }
+    }
+
+    fn roots_of(mut function: impl FnMut(f64) -> Result<Node, ()>) -> Vec<Bracket> {
+        let mut found = Vec::new();
+        let (low, high) = (function(0.0).unwrap(), function(4.0).unwrap());
+        search(low, high, &mut function, &mut found).unwrap();
+        found
+    }
+
+    #[test]
+    fn two_roots_are_bracketed_however_close() {
+        for gap in [1.0, 1e-2, 1e-5, 1e-7] {
+            let found = roots_of(parabola(1.234_5, 1.234_5 + gap));
+            assert_eq!(found.len(), 2, "gap {gap}");
+            assert!(found[0].0.at <= 1.234_5 && found[0].1.at >= 1.234_5);
+            assert!(found[1].0.at <= 1.234_5 + gap && found[1].1.at >= 1.234_5 + gap);
+        }
+    }
+
+    #[test]
+    fn a_near_miss_is_no_root() {
+        for lift in [1e-1, 1e-4, 1e-9] {
+            let mut touching = parabola(2.2, 2.2);
+            let lifted = |u: f64| {
+                touching(u).map(|node| Node { rise: node.rise + lift, ..node })
+            };
+            assert!(roots_of(lifted).is_empty(), "lift {lift}");
+        }
+    }
+}
