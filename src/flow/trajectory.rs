@@ -260,7 +260,7 @@ impl Run {
                     if detail.energy {
                         works.add(&stepper.powers(), &field, unit);
                     }
- ControlFlow::Continue(())
+                    ControlFlow::Continue(())
                 });
             let (duration, steps) = match &result {
                 Ok(swing) => (swing.duration, swing.steps),

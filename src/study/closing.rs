@@ -88,6 +88,17 @@ impl Equation {
         }
     }
 
+    /// The maps of the first and the second swing along a route.
+    pub fn maps(&mut self, route: Route) -> [&mut HalfMap; 2] {
+        let ([forward0, forward1], [backward0, backward1]) =
+            (&mut self.forward, &mut self.backward);
+        match route {
+            Route::Mixed => [forward0, backward1],
+            Route::Forward => [forward0, forward1],
+            Route::Backward => [backward0, backward1],
+        }
+    }
+
     /// What all swings so far cost.
     #[must_use]
     pub fn cost(&self) -> Cost {
@@ -131,13 +142,13 @@ impl Equation {
     fn mixed(&mut self, start: Length, limits: &Limits) -> Result<Closing, Reason> {
         let gap = 2.0 * self.parameters.r;
         let first = match self.forward[0].swing(start, limits) {
-            Err(NoEnd::Escapes) => return Ok(Closing::beyond(start, f64::INFINITY, 0.0)),
-            Err(NoEnd::Never) => return Ok(Closing::beyond(start, f64::NEG_INFINITY, 0.0)),
+            Err(NoEnd::Escapes) => return Ok(Closing::beyond(start, f64::INFINITY, f64::MAX)),
+            Err(NoEnd::Never) => return Ok(Closing::beyond(start, f64::NEG_INFINITY, f64::MIN)),
             Err(NoEnd::Failed(reason)) => return Err(reason),
             Ok(swing) => swing,
         };
         let second = match self.backward[1].swing(start.plus(gap), limits) {
-            Err(NoEnd::Escapes) => return Ok(Closing::beyond(start, 0.0, f64::INFINITY)),
+            Err(NoEnd::Escapes) => return Ok(Closing::beyond(start, f64::MAX, f64::INFINITY)),
             Err(NoEnd::Never) => HalfSwing::collapsed(start.plus(gap)),
             Err(NoEnd::Failed(reason)) => return Err(reason),
             Ok(swing) => swing,
@@ -159,14 +170,16 @@ impl Equation {
         let mut seconds = start;
         for (index, map) in self.forward.iter_mut().enumerate() {
             let swing = match map.swing(clearance, limits) {
-                Err(NoEnd::Escapes) => return Ok(Closing::beyond(start, f64::INFINITY, 0.0)),
-                Err(NoEnd::Never) => return Ok(Closing::beyond(start, f64::NEG_INFINITY, 0.0)),
+                Err(NoEnd::Escapes) => return Ok(Closing::beyond(start, f64::INFINITY, f64::MAX)),
+                Err(NoEnd::Never) => {
+                    return Ok(Closing::beyond(start, f64::NEG_INFINITY, f64::MIN));
+                }
                 Err(NoEnd::Failed(reason)) => return Err(reason),
                 Ok(swing) => swing,
             };
             let passed = swing.end.value - gap;
             if passed <= 0.0 {
-                return Ok(Closing::beyond(start, f64::NEG_INFINITY, 0.0));
+                return Ok(Closing::beyond(start, f64::NEG_INFINITY, f64::MIN));
             }
             clearance = if gap == 0.0 { swing.end } else { Length::new(passed) };
             swings[index] = swing;
@@ -189,7 +202,7 @@ impl Equation {
         for index in [1, 0] {
             shrink *= share(length, gap);
             let swing = match self.backward[index].swing(length.plus(gap), limits) {
-                Err(NoEnd::Escapes) => return Ok(Closing::beyond(start, 0.0, f64::INFINITY)),
+                Err(NoEnd::Escapes) => return Ok(Closing::beyond(start, f64::MAX, f64::INFINITY)),
                 Err(NoEnd::Never) => HalfSwing::collapsed(length.plus(gap)),
                 Err(NoEnd::Failed(reason)) => return Err(reason),
                 Ok(swing) => swing,
@@ -234,11 +247,19 @@ impl Closing {
         }
     }
 
-    /// Outside the domain of one of the two functions: only the sign is known.
+    /// Outside the domain of one of the two functions: it is infinite, the other a bound that says
+    /// nothing.
     fn beyond(start: Length, rise: f64, fall: f64) -> Self {
         let node = Node { at: start.log, rise, fall, slope: f64::NAN };
         let nothing = Length { value: 0.0, log: f64::NEG_INFINITY };
-        Closing { node, first: start, second: nothing, duration: 0.0, square: 0.0, fastest: [0.0; 2] }
+        Closing {
+            node,
+            first: start,
+            second: nothing,
+            duration: 0.0,
+            square: 0.0,
+            fastest: [0.0; 2],
+        }
     }
 
     /// Logarithm of the Floquet multiplier if this closing is a cycle.

@@ -1,10 +1,21 @@
 //! Every limit cycle at given parameters.
+//!
+//! The roots of the closing equation ([`super::closing`]) are searched for between the smallest
+//! clearance that a swing past the sticking set can have and the edge of escape ([`super::search`]),
+//! then polished by Newton's method in the logarithm of the clearance along the route that contracts,
+//! and weighed as energy ([`super::balance`]) where the multiplier is close to 1.
 
 use serde::Serialize;
 
+use super::balance::weighed_residual;
+use super::closing::{Closing, Equation, Route};
+use super::half_map::{HalfMap, NoEnd};
+use super::search::{Bracket, Node, search};
 use crate::closed_form::harmonic::Harmonic;
+use crate::flow::scaling::times_power;
+use crate::flow::step::Stepper;
 use crate::flow::{Cost, Limits, Reason};
-use crate::oscillator::{Parameters, State};
+use crate::oscillator::{HalfPlane, Parameters, Side, State};
 
 /// A limit cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -64,7 +75,21 @@ pub struct Cycles {
     pub cost: Cost,
 }
 
+/// Tolerance of the integration steps of the search and the polish: rounding.
+const STEP: f64 = 1e-16;
+
+/// Slope of the residual below which it is weighed as energy.
+const FLAT: f64 = 0.3;
+
+/// Logarithm of the multiplier beyond which a contracting route is taken.
+const STEEP: f64 = 1.0;
+
+/// Newton steps before giving up; bisection alone needs 60.
+const ITERATIONS: usize = 200;
+
 /// Finds all limit cycles at these parameters; `curves` asks for the drawn curves too.
+///
+/// `tolerance` is the relative error wanted of the clearance; `error` of each cycle is the one reached.
 ///
 /// # Errors
 /// The [`Reason`] why the search could not be completed.
@@ -74,6 +99,229 @@ pub fn cycles(
     curves: bool,
     limits: &Limits,
 ) -> Result<Cycles, Reason> {
-    let _ = (tolerance, curves, limits);
-    todo!("{parameters:?}")
+    let mut equation = Equation::new(parameters, STEP);
+    let closings = closings(&mut equation, limits)?;
+    let mut found = Cycles {
+        parameters: *parameters,
+        cycles: Vec::new(),
+        curves: Vec::new(),
+        harmonic: Vec::new(),
+        edge: Edge::None,
+        edge_curve: Vec::new(),
+        cost: Cost::default(),
+    };
+    let _ = tolerance;
+    for closing in &closings {
+        found.cycles.push(equation.describe(closing));
+        if curves {
+            found.curves.push(curve(parameters, equation.side, closing, limits)?);
+        }
+    }
+    found.edge = edge(parameters, &found.cycles);
+    if found.edge == Edge::Cycle {
+        found.edge_curve = found.curves.first().cloned().unwrap_or_default();
+    }
+    found.cost = equation.cost();
+    Ok(found)
+}
+
+/// What borders the basin: the innermost cycle, else a separatrix where motions can escape.
+fn edge(parameters: &Parameters, cycles: &[Cycle]) -> Edge {
+    let self_excited_node = parameters.d <= -1.0 && parameters.r > 0.0;
+    let escapes = parameters.d3 == 0.0 && parameters.d2 != 0.0;
+    match cycles.first() {
+        Some(innermost) if !innermost.stable => Edge::Cycle,
+        Some(_) if !self_excited_node => Edge::None,
+        None if !(escapes || self_excited_node) => Edge::None,
+        _ => Edge::Separatrix,
+    }
+}
+
+/// All closings, by amplitude.
+///
+/// # Errors
+/// The [`Reason`] why a swing failed.
+pub fn closings(equation: &mut Equation, limits: &Limits) -> Result<Vec<Closing>, Reason> {
+    let Parameters { d, d3, .. } = equation.parameters;
+    // The first integral of D2 decreases along every motion (paper's system, PHYSICS notes 5).
+    if d >= 0.0 && d3 >= 0.0 {
+        return Ok(Vec::new());
+    }
+    let Some(low) = lower_end(equation, limits)? else { return Ok(Vec::new()) };
+    let brackets = brackets(equation, low, limits)?;
+    equation.want_fastest(true);
+    brackets.into_iter().map(|bracket| polish(equation, bracket, limits)).collect()
+}
+
+/// Where the search begins, or `None` where no swing passes the sticking set.
+fn lower_end(equation: &mut Equation, limits: &Limits) -> Result<Option<f64>, Reason> {
+    /// Without friction the linear terms alone decide about amplitudes this much below balance.
+    const SMALL: f64 = 1e-4;
+    let Parameters { d, d2, d3, r } = equation.parameters;
+    let smallest = equation.smallest_clearance(limits)?;
+    Ok(smallest.map(|smallest| {
+        if smallest.log.is_finite() {
+            smallest.log
+        } else if r > 0.0 {
+            // Beyond critical damping a swing passes from any clearance, however small.
+            (SMALL * f64::EPSILON * r).ln()
+        } else {
+            let natural = (1.0 / d2.abs()).min(1.0 / d3.abs().sqrt());
+            (SMALL * d.abs().sqrt().min(1.0) * natural).ln()
+        }
+    }))
+}
+
+/// Where the search ends if no escape ends it before.
+fn upper_end(parameters: &Parameters) -> f64 {
+    let Parameters { d, d2, d3, r } = *parameters;
+    if d3 != 0.0 {
+        f64::INFINITY
+    } else if d2 != 0.0 {
+        // A swing from far out forgets where it began as exp(-2 D2 c): beyond this all are one.
+        (60.0 / d2.abs() + 2.0 * r).ln()
+    } else {
+        // The piecewise linear cycle is near 2 r/(pi abs(D)).
+        (2.0 * r / d.abs()).ln() + 3.0
+    }
+}
+
+/// Marches outwards in `ln c0` until the end of the domain, collecting brackets of roots.
+fn brackets(equation: &mut Equation, low: f64, limits: &Limits) -> Result<Vec<Bracket>, Reason> {
+    /// First stride and longest stride, in `ln c0`.
+    const STRIDES: (f64, f64) = (0.5, 2.0);
+    let high = upper_end(&equation.parameters);
+    let mut function = |u: f64| Ok(equation.at(Route::Mixed, u, limits)?.node);
+    let mut found = Vec::new();
+    let (mut here, mut stride) = (function(low)?, STRIDES.0);
+    while here.at < high {
+        let next: Node = function((here.at + stride).min(high))?;
+        search(here, next, &mut function, &mut found)?;
+        if !next.value().is_finite() {
+            break;
+        }
+        here = next;
+        stride = (1.5 * stride).min(STRIDES.1);
+    }
+    Ok(found)
+}
+
+/// Newton's method on the contracting route, inside the bracket.
+///
+/// # Errors
+/// The [`Reason`] why a swing failed, or [`Reason::NoConvergence`].
+pub fn polish(
+    equation: &mut Equation,
+    bracket: Bracket,
+    limits: &Limits,
+) -> Result<Closing, Reason> {
+    let rising = bracket.1.value() > bracket.0.value();
+    let (mut low, mut high) = (bracket.0.at, bracket.1.at);
+    let mut route = Route::Mixed;
+    let mut u = secant(&bracket);
+    let mut change = f64::INFINITY;
+    for _ in 0..ITERATIONS {
+        let closing = equation.at(route, u, limits)?;
+        let mut node = closing.node;
+        let log_multiplier = closing.log_multiplier(&equation.parameters);
+        let contracting = if log_multiplier > STEEP {
+            Route::Backward
+        } else if log_multiplier < -STEEP {
+            Route::Forward
+        } else {
+            Route::Mixed
+        };
+        if node.value().is_finite() && contracting != route {
+            route = contracting;
+            continue;
+        }
+        if route == Route::Mixed
+            && node.slope.abs() < FLAT
+            && let Some(weighed) = weighed_residual(equation, u, limits)?
+        {
+            node = Node { rise: weighed, fall: 0.0, ..node };
+        }
+        if (node.value() > 0.0) == rising {
+            high = u;
+        } else {
+            low = u;
+        }
+        let newton = u - node.value() / node.slope;
+        change = (newton - u).abs();
+        if change <= 4.0 * f64::EPSILON * u.abs().max(1.0) || high - low <= f64::EPSILON * u.abs() {
+            return Ok(closing);
+        }
+        u = if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
+    }
+    Err(Reason::NoConvergence { sought: "a limit cycle", change })
+}
+
+/// Where the line through both ends of a bracket vanishes; its middle where an end is infinite.
+fn secant((low, high): &Bracket) -> f64 {
+    let middle = 0.5 * (low.at + high.at);
+    let secant = low.at - low.value() * (high.at - low.at) / (high.value() - low.value());
+    if secant > low.at && secant < high.at { secant } else { middle }
+}
+
+impl Equation {
+    /// The cycle that a closing is.
+    #[must_use]
+    pub fn describe(&self, closing: &Closing) -> Cycle {
+        let r = self.parameters.r;
+        let log_multiplier = closing.log_multiplier(&self.parameters);
+        let multiplier = log_multiplier.exp();
+        let slope = closing.node.slope.abs();
+        let turning = [closing.first, closing.second];
+        // The first swing starts on the far side of the half plane that it crosses.
+        let ([left, right], [up, down]) = match self.side {
+            Side::Upper => (turning, closing.fastest),
+            Side::Lower => ([turning[1], turning[0]], [closing.fastest[1], closing.fastest[0]]),
+        };
+        Cycle {
+            stable: log_multiplier < 0.0,
+            q_min: -(r + left.value),
+            q_max: r + right.value,
+            v_min: -down,
+            v_max: up,
+            period: closing.duration,
+            multiplier: multiplier.is_finite().then_some(multiplier),
+            log_multiplier,
+            clearance: right.value,
+            log_clearance: right.log,
+            error: 8.0 * f64::EPSILON / slope.min(1.0),
+        }
+    }
+}
+
+/// The closed curve of a cycle.
+fn curve(
+    parameters: &Parameters,
+    side: Side,
+    closing: &Closing,
+    limits: &Limits,
+) -> Result<Vec<State>, Reason> {
+    /// Points drawn on each integration step.
+    const POINTS: u8 = 16;
+    /// Error and smallest detail of a drawn curve.
+    const FINE: f64 = 1e-9;
+    let mut points = Vec::new();
+    for (start, side) in [(closing.first, side), (closing.second, side.opposite())] {
+        let field = HalfPlane::new(parameters, side);
+        let detail = FINE * (start.value + parameters.r);
+        let mut map = HalfMap::integrating_above(detail, field, FINE);
+        let swing = map.swing_watched(start, limits, |taylor, unit, duration| {
+            for index in 0..=POINTS {
+                let point = taylor.at(duration * f64::from(index) / f64::from(POINTS));
+                points.push(State {
+                    q: side.displacement(times_power(point.x, unit), parameters.r),
+                    v: side.sign() * times_power(point.v, unit),
+                });
+            }
+        });
+        if let Err(NoEnd::Failed(reason)) = swing {
+            return Err(reason);
+        }
+    }
+    points.extend(points.first().copied());
+    Ok(points)
 }

@@ -113,6 +113,11 @@ impl HalfMap {
         HalfMap { field, taylor, linear_below, fastest: false, steps: 0 }
     }
 
+    /// Changes the size below which the motion is taken to be linear; returns the former one.
+    pub fn set_linear_below(&mut self, bound: f64) -> f64 {
+        std::mem::replace(&mut self.linear_below, bound)
+    }
+
     /// The field.
     #[must_use]
     pub fn field(&self) -> &HalfPlane {
@@ -129,7 +134,7 @@ impl HalfMap {
         }
     }
 
-    /// Swings from `(-start, 0)`, handing each step to `watch` as (stepper, unit exponent, begin, end).
+    /// Swings from `(-start, 0)`, handing each step to `watch` as (stepper, unit exponent, duration).
     ///
     /// # Errors
     /// [`NoEnd`] if the motion does not come back to `v = 0`.
@@ -137,13 +142,14 @@ impl HalfMap {
         &mut self,
         start: Length,
         limits: &Limits,
-        mut watch: impl FnMut(&Taylor, i32),
+        mut watch: impl FnMut(&Taylor, i32, f64),
     ) -> Result<HalfSwing, NoEnd> {
         let mut leg = Leg { point: Point { x: -start.value, v: 0.0 }, duration: 0.0 };
         if self.linear_below > 0.0 {
             match Linear::of(self.field.d).grow(start, self.linear_below) {
                 Growth::Whole(end, duration) => {
-                    return Ok(self.finish(start, end, duration, 0.0, 0.0));
+                    let fastest = Linear::of(self.field.d).fastest(start);
+                    return Ok(self.finish(start, end, duration, 0.0, fastest));
                 }
                 Growth::Until(grown) => leg = grown,
             }
@@ -158,20 +164,20 @@ impl HalfMap {
             if wants_fastest && let Some(v) = taylor.fastest() {
                 fastest = fastest.max(times_power(v, unit));
             }
-            watch(taylor, unit);
+            watch(taylor, unit, step.duration);
             if !step.crossed && times_power(step.end.size(), unit) < linear_below {
                 return ControlFlow::Break(());
             }
             ControlFlow::Continue(())
         };
-        let done =
-            match swing(&mut self.taylor, &self.field, leg.point, LONGEST, limits, &mut see) {
-                Ok(done) => done,
-                Err(Failed { reason, steps, .. }) => {
-                    self.steps += steps;
-                    return Err(NoEnd::Failed(reason));
-                }
-            };
+        let done = match swing(&mut self.taylor, &self.field, leg.point, LONGEST, limits, &mut see)
+        {
+            Ok(done) => done,
+            Err(Failed { reason, steps, .. }) => {
+                self.steps += steps;
+                return Err(NoEnd::Failed(reason));
+            }
+        };
         self.steps += done.steps;
         let duration = leg.duration + done.duration;
         let (end, rest) = match done.end {
@@ -190,7 +196,7 @@ impl HalfMap {
     /// # Errors
     /// [`NoEnd`] if the motion does not come back to `v = 0`.
     pub fn swing(&mut self, start: Length, limits: &Limits) -> Result<HalfSwing, NoEnd> {
-        self.swing_watched(start, limits, |_, _| {})
+        self.swing_watched(start, limits, |_, _, _| {})
     }
 
     fn finish(
@@ -234,16 +240,18 @@ impl Linear {
         Linear { d, omega: ((1.0 - d) * (1.0 + d)).sqrt() }
     }
 
+    /// Largest v of the spiral from `(-start, 0)` (equation 33, corrected).
+    fn fastest(&self, start: Length) -> f64 {
+        (start.log - self.d * self.omega.atan2(self.d) / self.omega).exp()
+    }
+
     /// Follows the spiral from `(-start, 0)` while it is smaller than `bound`.
     fn grow(&self, start: Length, bound: f64) -> Growth {
         let half_turn = std::f64::consts::PI / self.omega;
         // The spiral scales as e^(-D t); beside this factor it is at most 1 + t in size.
         let room = bound.ln() - start.log - half_turn.ln_1p();
         if room <= 0.0 {
-            return Growth::Until(Leg {
-                point: Point { x: -start.value, v: 0.0 },
-                duration: 0.0,
-            });
+            return Growth::Until(Leg { point: Point { x: -start.value, v: 0.0 }, duration: 0.0 });
         }
         if -self.d * half_turn <= room {
             return Growth::Whole(Length::from_log(start.log - self.d * half_turn), half_turn);

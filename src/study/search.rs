@@ -188,9 +188,7 @@ mod tests {
     fn a_near_miss_is_no_root() {
         for lift in [1e-1, 1e-4, 1e-9] {
             let mut touching = parabola(2.2, 2.2);
-            let lifted = |u: f64| {
-                touching(u).map(|node| Node { rise: node.rise + lift, ..node })
-            };
+            let lifted = |u: f64| touching(u).map(|node| Node { rise: node.rise + lift, ..node });
             assert!(roots_of(lifted).is_empty(), "lift {lift}");
         }
     }

@@ -1,0 +1,80 @@
+//! The closing of a cycle weighed as energy, for cycles whose multiplier is close to 1.
+//!
+//! As `D -> 0-` one turn changes the amplitude by a part `2 pi abs(D)` only, and the difference of two
+//! turning points keeps as few digits. The works over the turn keep all of theirs. With
+//! `K = (v^2/2 + x/(2 D2) - 1/(4 D2^2)) exp(2 D2 x)` (the first integral of the motion with D2 alone)
+//! `K' = -exp(2 D2 x) (2 D v^2 + D3 v^4)`, so that D2 itself, which takes on one side what it gives on
+//! the other, drops out; with D2 = 0, K is the energy. On `v = 0`, `dK/dx = x exp(2 D2 x)`. Adding both
+//! swings of a turn, what friction takes must equal what the damping gives:
+//!
+//! `integral of x exp(2 D2 x) over [c1, c1 + 2 r] + integral of x exp(-2 D2 x) over [c0, c0 + 2 r] = W`
+
+use super::closing::{Equation, Route};
+use super::half_map::{HalfMap, Length, NoEnd};
+use crate::flow::scaling::times_power;
+use crate::flow::step::Stepper;
+use crate::flow::tableau::GAUSS;
+use crate::flow::{Limits, Reason};
+use crate::oscillator::HalfPlane;
+
+/// The residual of [`Route::Mixed`] at `u = ln c0`, with the digits that a difference would lose.
+///
+/// `None` where a swing does not end.
+///
+/// # Errors
+/// The [`Reason`] why a swing failed.
+pub fn weighed_residual(
+    equation: &mut Equation,
+    u: f64,
+    limits: &Limits,
+) -> Result<Option<f64>, Reason> {
+    let gap = 2.0 * equation.parameters.r;
+    let start = Length::from_log(u);
+    let [forward, backward] = equation.maps(Route::Mixed);
+    let Some((_, gained_first)) = weigh(forward, start, 1.0, limits)? else { return Ok(None) };
+    // Run backward, positions and damping change their signs; the work is that of the motion forward.
+    let Some((second, gained_second)) = weigh(backward, start.plus(gap), -1.0, limits)? else {
+        return Ok(None);
+    };
+    let d2 = forward.field().d2;
+    let taken = friction(second.value, gap, d2) + friction(start.value, gap, -d2);
+    let target = second.value + gap;
+    let excess = (gained_first + gained_second - taken) / (target * (2.0 * d2 * target).exp());
+    Ok(Some((excess / target).ln_1p()))
+}
+
+/// Swings and integrates `-exp(2 D2 x) (2 D v^2 + D3 v^4)` along the motion in forward time.
+fn weigh(
+    map: &mut HalfMap,
+    start: Length,
+    direction: f64,
+    limits: &Limits,
+) -> Result<Option<(Length, f64)>, Reason> {
+    let HalfPlane { d, d2, d3 } = *map.field();
+    let mut gained = 0.0;
+    // Every part of the swing counts: none may be skipped by a closed form.
+    let skipped = map.set_linear_below(0.0);
+    let swing = map.swing_watched(start, limits, |taylor, unit, duration| {
+        for &(node, weight) in &GAUSS {
+            let point = taylor.at(node * duration);
+            let (x, v) = (times_power(point.x, unit), times_power(point.v, unit));
+            let square = v * v;
+            gained -= weight * duration * (2.0 * d2 * x).exp() * square * (2.0 * d + d3 * square);
+        }
+    });
+    map.set_linear_below(skipped);
+    match swing {
+        Ok(swing) => Ok(Some((swing.end, direction * gained))),
+        Err(NoEnd::Failed(reason)) => Err(reason),
+        Err(NoEnd::Escapes | NoEnd::Never) => Ok(None),
+    }
+}
+
+/// The integral of `x exp(2 d2 x)` over `[start, start + gap]`: what friction takes between two swings.
+fn friction(start: f64, gap: f64, d2: f64) -> f64 {
+    let node = |(node, weight): &(f64, f64)| {
+        let x = start + node * gap;
+        weight * x * (2.0 * d2 * x).exp()
+    };
+    gap * GAUSS.iter().map(node).sum::<f64>()
+}
