@@ -7,6 +7,7 @@
 pub mod energy;
 pub mod half_plane;
 pub mod parameters;
+pub mod scaling;
 pub mod sticking;
 
 pub use energy::Ledger;

@@ -1,0 +1,327 @@
+//! The piecewise linear oscillator, `D2 = D3 = 0`: half swings and the cycle in closed form
+//! (equations 25 to 33, corrected).
+//!
+//! With the clearance `c = abs(q) - r` of a turning point as the unknown, a half swing is one
+//! multiplication: it takes `pi/omega` and ends at `X = c e^x` in the frame of its half plane, where
+//! `x = -pi D/omega`; the next clearance is `X - 2 r`. For `D < 0` that map has one fixed point, the
+//! unstable cycle that borders the basin of attraction of the sticking set.
+//!
+//! Clearances are computed as such and never as differences `q_max - r`, and their logarithms exist
+//! where they underflow: at `D = -0.999` the clearance is 6.5e-31 r, at `D = -0.999999` it is
+//! `e^(-2221)` r.
+
+use std::fmt;
+
+use serde::Serialize;
+
+use super::linear::Linear;
+use crate::oscillator::State;
+
+/// A half swing from rest outside the sticking set.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HalfSwing {
+    /// How long it takes, `pi/omega`.
+    pub duration: f64,
+    /// Where it ends in the frame of its half plane, `X = c e^x`; infinite where that overflows.
+    pub arrival: f64,
+}
+
+impl HalfSwing {
+    /// The half swing that starts with clearance `c > 0` (equation 29).
+    ///
+    /// `None` where `abs(D) >= 1`: an overdamped motion creeps to the rim of the sticking set or runs
+    /// away, and never returns to `v = 0`. Guarantee: right to a few units in the last place.
+    #[must_use]
+    pub fn from_clearance(d: f64, clearance: f64) -> Option<Self> {
+        let rest = Linear::new(d).first_standstill(-clearance, 0.0)?;
+        Some(HalfSwing { duration: rest.time, arrival: rest.x })
+    }
+
+    /// Clearance of the next half swing; zero or less means that this one ends in the sticking set.
+    #[must_use]
+    pub fn next_clearance(&self, r: f64) -> f64 {
+        self.arrival - 2.0 * r
+    }
+}
+
+/// The unstable cycle that borders the basin of attraction of the sticking set.
+///
+/// It is symmetric: `q_min = -q_max`, `v_min = -v_max`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct LinearCycle {
+    /// Linear damping, between -1 and 0.
+    pub d: f64,
+    /// Friction, positive.
+    pub r: f64,
+    /// `c = q_max - r = 2 r/(e^x - 1)` (equation 30); 0 where it underflows.
+    pub clearance: f64,
+    /// Natural logarithm of the clearance; always finite.
+    pub log_clearance: f64,
+    /// Right turning point `A_q = r + c` (equation 32).
+    pub q_max: f64,
+    /// Largest velocity `A_v` (equation 33, corrected: as printed it has the wrong sign).
+    pub v_max: f64,
+    /// Period `2 pi/omega`.
+    pub period: f64,
+    /// Floquet multiplier `e^(2 x)`; `None` where it overflows.
+    pub multiplier: Option<f64>,
+    /// Natural logarithm `2 x` of the multiplier.
+    pub log_multiplier: f64,
+}
+
+/// Why the piecewise linear oscillator has no cycle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NoCycle {
+    /// `D >= 0` or D is not a number: every motion loses energy (or, for `D = r = 0`, keeps it).
+    NotSelfExcited,
+    /// `D <= -1`: no swing recurs, every motion beyond the sticking set runs away.
+    Overdamped,
+    /// `r = 0`: the cycle has shrunk to the steady state.
+    NoFriction,
+    /// The cycle exists, but its size exceeds the range of floating point.
+    TooLarge {
+        /// Natural logarithm of its clearance.
+        log_clearance: f64,
+    },
+}
+
+impl fmt::Display for NoCycle {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NoCycle::NotSelfExcited => write!(out, "no cycle: D is not negative"),
+            NoCycle::Overdamped => write!(out, "no cycle: no swing recurs for D <= -1"),
+            NoCycle::NoFriction => write!(out, "no cycle: r = 0"),
+            NoCycle::TooLarge { log_clearance } => {
+                write!(out, "the cycle is too large for a number: clearance e^{log_clearance:.1}")
+            }
+        }
+    }
+}
+
+impl std::error::Error for NoCycle {}
+
+/// Above this exponent `e^x` comes near its overflow and is taken in two factors.
+const LARGE_EXPONENT: f64 = 600.0;
+
+impl LinearCycle {
+    /// The cycle at damping `d` and friction `r`.
+    ///
+    /// Guarantee: every number is right to a few units in its last place, from `D = -1e-300` to the
+    /// last double above -1 (`log_clearance` to a few units of 1e-16 where it is small itself).
+    ///
+    /// # Errors
+    /// [`NoCycle`] says why there is none.
+    pub fn new(d: f64, r: f64) -> Result<Self, NoCycle> {
+        if d.is_nan() || d >= 0.0 {
+            return Err(NoCycle::NotSelfExcited);
+        }
+        let linear = Linear::new(d);
+        let (Some(omega), Some(growth)) = (linear.omega(), linear.log_growth()) else {
+            return Err(NoCycle::Overdamped);
+        };
+        if r.is_nan() || r <= 0.0 {
+            return Err(NoCycle::NoFriction);
+        }
+        let x = growth.high;
+        let clearance = if x < LARGE_EXPONENT {
+            2.0 * r / growth.exp_m1()
+        } else {
+            let half = growth.times(-0.5).exp();
+            2.0 * r * half * half
+        };
+        let log_clearance = if clearance.is_normal() {
+            clearance.ln()
+        } else if x < 1.0 {
+            (2.0 * r).ln() - growth.exp_m1().ln()
+        } else {
+            (2.0 * r).ln() - x - (-(-x).exp()).ln_1p()
+        };
+        let q_max = r + clearance;
+        // The largest velocity comes a quarter turn and some before the end of the half swing: counted
+        // back from there, nothing under- or overflows.
+        let before_end = omega.high.atan2(-d);
+        let v_max = 2.0 * r / -(-x).exp_m1() * (d * (before_end / omega.high)).exp();
+        if !(q_max.is_finite() && v_max.is_finite()) {
+            return Err(NoCycle::TooLarge { log_clearance });
+        }
+        let multiplier = growth.times(2.0).exp();
+        Ok(LinearCycle {
+            d,
+            r,
+            clearance,
+            log_clearance,
+            q_max,
+            v_max,
+            period: 2.0 * linear.half_period().unwrap_or(f64::INFINITY),
+            multiplier: multiplier.is_finite().then_some(multiplier),
+            log_multiplier: 2.0 * x,
+        })
+    }
+
+    /// The closed curve (equation 31, with (25) corrected), clockwise from the left turning point, with
+    /// `points` points on each half; the first is repeated at the end.
+    ///
+    /// The points are evenly spaced in the direction in which they are seen from the focus of their
+    /// half plane, because near `D = -1` almost all of the time passes next to the turning points.
+    #[must_use]
+    pub fn curve(&self, points: usize) -> Vec<State> {
+        let upper = |index: usize| self.point(index, points);
+        let half: Vec<State> = (0..points).map(upper).collect();
+        let lower = half.iter().map(|state| state.mirrored());
+        half.iter().copied().chain(lower).chain(half.first().copied()).collect()
+    }
+
+    /// Point number `index` of `points` on the upper half.
+    fn point(&self, index: usize, points: usize) -> State {
+        let Self { d, r, .. } = *self;
+        let linear = Linear::new(d);
+        let (Some(omega), Some(growth)) = (linear.omega(), linear.log_growth()) else {
+            return State { q: -r, v: 0.0 };
+        };
+        if index == 0 {
+            return State { q: -self.q_max, v: 0.0 };
+        }
+        #[expect(clippy::cast_precision_loss, reason = "a count of points on a screen")]
+        let direction = std::f64::consts::PI * (index as f64 / points as f64);
+        let (sin, cos) = direction.sin_cos();
+        // Phase angle left until the end of the half swing.
+        let left = (omega.high * sin).atan2(d * sin - cos);
+        let arrival = 2.0 * r / -(-growth.high).exp_m1();
+        let size = arrival * (d * (left / omega.high)).exp();
+        let (sin, cos) = left.sin_cos();
+        let sine = sin / omega.high;
+        State { q: size * (cos - d * sine) - r, v: size * sine }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::reference::CYCLES;
+    use super::*;
+
+    fn close(got: f64, expected: f64, ulps: f64) -> bool {
+        (got - expected).abs() <= ulps * f64::EPSILON * expected.abs()
+    }
+
+    #[test]
+    fn cycles_agree_with_sixty_digit_arithmetic() {
+        for &(d, clearance, log_clearance, v_max, period, log_multiplier) in CYCLES {
+            let cycle = LinearCycle::new(d, 1.0).unwrap();
+            assert!(close(cycle.clearance, clearance, 4.0), "{cycle:?}");
+            assert!(close(cycle.log_clearance, log_clearance, 4.0), "{cycle:?}");
+            assert!(close(cycle.v_max, v_max, 4.0), "{cycle:?}");
+            assert!(close(cycle.period, period, 4.0), "{cycle:?}");
+            assert!(close(cycle.log_multiplier, log_multiplier, 4.0), "{cycle:?}");
+        }
+    }
+
+    #[test]
+    fn multipliers_that_overflow_are_absent_but_have_a_logarithm() {
+        let cycle = LinearCycle::new(-0.999_999, 1.0).unwrap();
+        assert_eq!((cycle.multiplier, cycle.clearance, cycle.q_max), (None, 0.0, 1.0));
+        let cycle = LinearCycle::new(-0.999, 1.0).unwrap();
+        assert!(close(cycle.multiplier.unwrap(), cycle.log_multiplier.exp(), 200.0));
+    }
+
+    #[test]
+    fn next_to_the_ends_of_the_range_the_cycle_is_still_there() {
+        let below = LinearCycle::new(-1.0_f64.next_up(), 1.0);
+        assert_eq!(below, Err(NoCycle::Overdamped));
+        let above = LinearCycle::new((-1.0_f64).next_up(), 1.0).unwrap();
+        // omega = sqrt(2^-52 - 2^-106), and A_v tends to 2 r/e.
+        let omega = (2.0_f64.powi(-52)).sqrt();
+        assert!(close(above.log_clearance, 2.0_f64.ln() - std::f64::consts::PI / omega, 8.0));
+        assert!(close(above.v_max, 2.0 / std::f64::consts::E, 1e8));
+        let weak = LinearCycle::new(-1e-300, 1e-12).unwrap();
+        assert!(close(weak.q_max, 2e-12 / std::f64::consts::PI / 1e-300, 8.0));
+        assert_eq!(weak.multiplier, Some(1.0));
+        assert!(matches!(
+            LinearCycle::new(-1e-300, 1e12),
+            Err(NoCycle::TooLarge { log_clearance }) if (log_clearance - 717.95).abs() < 0.01
+        ));
+        assert_eq!(LinearCycle::new(-0.5, 5e-324).unwrap().r, 5e-324);
+    }
+
+    #[test]
+    fn without_self_excitation_or_friction_there_is_no_cycle() {
+        for d in [0.0, -0.0, 1e-300, 0.5, 1.0, 2.0, f64::NAN] {
+            assert_eq!(LinearCycle::new(d, 1.0), Err(NoCycle::NotSelfExcited), "{d}");
+        }
+        for d in [-1.0, -1.001, -1e6] {
+            assert_eq!(LinearCycle::new(d, 1.0), Err(NoCycle::Overdamped), "{d}");
+        }
+        assert_eq!(LinearCycle::new(-0.1, 0.0), Err(NoCycle::NoFriction));
+    }
+
+    #[test]
+    fn undamped_half_swings_lose_exactly_two_r() {
+        for d in [0.0, -0.0, 1e-300] {
+            let swing = HalfSwing::from_clearance(d, 2.875).unwrap();
+            assert_eq!(swing.duration, std::f64::consts::PI);
+            assert_eq!(swing.next_clearance(0.125), 2.625);
+        }
+    }
+
+    #[test]
+    fn three_half_swings_bring_the_known_motion_to_rest() {
+        // PHYSICS: from (2, 0) at D = -0.1, r = 0.5 the motion rests at q = -0.116144440390138.
+        let (r, mut clearance, mut swings) = (0.5, 1.5, 0);
+        let q = loop {
+            let swing = HalfSwing::from_clearance(-0.1, clearance).unwrap();
+            swings += 1;
+            clearance = swing.next_clearance(r);
+            if clearance <= 0.0 {
+                break swing.arrival - r;
+            }
+        };
+        // The third half swing runs to the left.
+        assert_eq!(swings, 3);
+        assert!((-q - -0.116_144_440_390_138).abs() < 1e-15, "{q}");
+    }
+
+    proptest! {
+        #[test]
+        fn the_cycle_is_the_fixed_point_of_the_half_swing(d in -0.99..-1e-6, r in 1e-3..1e3) {
+            let cycle = LinearCycle::new(d, r).unwrap();
+            let swing = HalfSwing::from_clearance(d, cycle.clearance).unwrap();
+            // X - 2 r, with X = c e^x, is c again to rounding of X.
+            prop_assert!((swing.next_clearance(r) - cycle.clearance).abs() <= 8.0 * f64::EPSILON * swing.arrival);
+            prop_assert!(close(2.0 * swing.duration, cycle.period, 2.0));
+            let growth = swing.arrival / cycle.clearance;
+            prop_assert!(close(growth * growth, cycle.multiplier.unwrap(), 100.0));
+        }
+
+        #[test]
+        fn the_curve_lies_on_the_motion(d in -0.9..-1e-3, points in 2_usize..60) {
+            let cycle = LinearCycle::new(d, 1.0).unwrap();
+            let curve = cycle.curve(points);
+            prop_assert_eq!(curve.len(), 2 * points + 1);
+            prop_assert_eq!(curve[0], curve[2 * points]);
+            prop_assert_eq!(curve[points].q, cycle.q_max);
+            let size = cycle.q_max + cycle.v_max;
+            // Energy of the shifted spiral, x^2 + 2 D x v + v^2 = c^2 e^(-2 D t), at each point's time.
+            let linear = Linear::new(d);
+            let omega = linear.omega().unwrap().high;
+            for state in &curve[1..points] {
+                let x = state.q + 1.0;
+                let phase = (omega * state.v).atan2(-(x + d * state.v));
+                let (x_there, v_there) = linear.state(-cycle.clearance, 0.0, phase / omega);
+                let apart = (x - x_there).abs().max((state.v - v_there).abs());
+                prop_assert!(apart <= 1e-13 * size, "{state:?} {x_there} {v_there}");
+            }
+            let highest = curve.iter().map(|state| state.v).fold(0.0, f64::max);
+            prop_assert!(highest <= cycle.v_max * (1.0 + 1e-14));
+        }
+
+        #[test]
+        fn scaling_by_a_power_of_two_changes_no_bit(d in -0.999..-1e-9, r in 0.5..2.0, k in -300_i32..300) {
+            let unit = f64::from(k).exp2();
+            let (plain, big) = (LinearCycle::new(d, r).unwrap(), LinearCycle::new(d, r * unit).unwrap());
+            prop_assert_eq!(plain.clearance * unit, big.clearance);
+            prop_assert_eq!((plain.q_max * unit, plain.v_max * unit), (big.q_max, big.v_max));
+            prop_assert_eq!((plain.period, plain.multiplier), (big.period, big.multiplier));
+        }
+    }
+}

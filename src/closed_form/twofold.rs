@@ -1,0 +1,169 @@
+//! Numbers of twice the working precision, for the few places where a difference decides.
+//!
+//! A [`Twofold`] is the unevaluated sum of two doubles. It carries a frequency `sqrt(1 - D^2)` near
+//! `abs(D) = 1`, an exponent of some thousand, or a discriminant near zero without loss, so that what
+//! is derived from them is right to the last digits of a double (T. J. Dekker, *A floating-point
+//! technique for extending the available precision*, Numerische Mathematik 18, 1971).
+
+/// The sum `high + low`, where `low` is at most half a unit in the last place of `high`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Twofold {
+    /// The sum rounded to a double.
+    pub high: f64,
+    /// What that rounding took.
+    pub low: f64,
+}
+
+/// The number pi.
+pub const PI: Twofold = Twofold { high: std::f64::consts::PI, low: 1.224_646_799_147_353_2e-16 };
+
+/// Relative error of one operation of [`Twofold`], generously.
+#[cfg(test)]
+pub const UNIT: f64 = 1e-31;
+
+impl Twofold {
+    /// A double.
+    #[must_use]
+    pub fn of(value: f64) -> Self {
+        Twofold { high: value, low: 0.0 }
+    }
+
+    /// `a + b` without error.
+    #[must_use]
+    pub fn sum(a: f64, b: f64) -> Self {
+        let high = a + b;
+        let b_part = high - a;
+        Twofold { high, low: (a - (high - b_part)) + (b - b_part) }
+    }
+
+    /// `a * b` without error, as long as nothing over- or underflows.
+    #[must_use]
+    pub fn product(a: f64, b: f64) -> Self {
+        let high = a * b;
+        Twofold { high, low: a.mul_add(b, -high) }
+    }
+
+    /// `abs(1 - d^2)`, right to all digits however near `abs(d)` is to 1.
+    #[must_use]
+    pub fn from_one_minus_square(d: f64) -> Self {
+        let square = Self::product(d, d);
+        let difference = Self::sum(1.0, -square.high);
+        let exact = Self::sum(difference.high, difference.low - square.low);
+        if exact.high < 0.0 { Twofold { high: -exact.high, low: -exact.low } } else { exact }
+    }
+
+    /// `1 - self`.
+    #[must_use]
+    pub fn one_minus(self) -> Self {
+        let difference = Self::sum(1.0, -self.high);
+        Self::sum(difference.high, difference.low - self.low)
+    }
+
+    /// The product with a double.
+    #[must_use]
+    pub fn times(self, factor: f64) -> Self {
+        let product = Self::product(self.high, factor);
+        Self::sum(product.high, self.low.mul_add(factor, product.low))
+    }
+
+    /// The product of two of them.
+    #[must_use]
+    pub fn by(self, other: Self) -> Self {
+        let product = Self::product(self.high, other.high);
+        let cross = self.high.mul_add(other.low, self.low * other.high);
+        Self::sum(product.high, product.low + cross)
+    }
+
+    /// The quotient; the divisor is not zero.
+    #[must_use]
+    pub fn over(self, divisor: Self) -> Self {
+        let first = self.high / divisor.high;
+        let back = divisor.times(first);
+        let rest = (self.high - back.high) + (self.low - back.low);
+        Self::sum(first, rest / divisor.high)
+    }
+
+    /// The square root of a number that is not negative.
+    #[must_use]
+    pub fn sqrt(self) -> Self {
+        let root = self.high.sqrt();
+        if root == 0.0 {
+            return Self::of(0.0);
+        }
+        let rest = root.mul_add(-root, self.high) + self.low;
+        Self::sum(root, rest / (2.0 * root))
+    }
+
+    /// The exponential as a double, right to its last digits even where the exponent is large.
+    #[must_use]
+    pub fn exp(self) -> f64 {
+        let value = self.high.exp();
+        if value.is_finite() { value.mul_add(self.low, value) } else { value }
+    }
+
+    /// `exp(self) - 1` as a double.
+    #[must_use]
+    pub fn exp_m1(self) -> f64 {
+        let value = self.high.exp_m1();
+        if value.is_finite() { (value + 1.0).mul_add(self.low, value) } else { value }
+    }
+
+    /// `(sin, cos)` as doubles.
+    #[must_use]
+    pub fn sin_cos(self) -> (f64, f64) {
+        let (sin, cos) = self.high.sin_cos();
+        (cos.mul_add(self.low, sin), sin.mul_add(-self.low, cos))
+    }
+
+    /// Rounded to a double.
+    #[must_use]
+    pub fn value(self) -> f64 {
+        self.high + self.low
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    #[test]
+    fn one_minus_a_square_keeps_all_digits_next_to_one() {
+        for ulps in [1, 2, 3, 1000] {
+            let step = f64::EPSILON / 2.0;
+            let gap = step * f64::from(ulps);
+            // 1 - (1 - g)^2 = 2 g - g^2, both terms exact here.
+            let got = Twofold::from_one_minus_square(-(1.0 - gap));
+            assert_eq!((got.high - 2.0 * gap) + (got.low + gap * gap), 0.0, "{ulps}");
+        }
+    }
+
+    #[test]
+    fn sine_of_pi_is_zero_to_thirty_digits() {
+        assert!(PI.sin_cos().0.abs() < 1e-31);
+        assert_eq!(PI.sin_cos().1, -1.0);
+    }
+
+    #[test]
+    fn a_large_exponent_costs_no_digits() {
+        // e^700 to twenty digits; a double's rounding of 700.1 alone would take three of them.
+        let exponent = Twofold::product(700.1, 1.0);
+        assert_eq!(exponent.exp(), 700.1_f64.exp());
+        let split = Twofold::sum(700.0, 0.1);
+        let expected = 700.0_f64.exp() * 0.1_f64.exp();
+        assert!((split.exp() / expected - 1.0).abs() < 3.0 * f64::EPSILON);
+    }
+
+    proptest! {
+        #[test]
+        fn quotients_and_roots_give_back_what_they_came_from(a in 1e-3..1e3, b in 1e-3..1e3) {
+            let (a, b): (f64, f64) = (a, b);
+            let back = Twofold::of(a).over(Twofold::of(b)).times(b);
+            prop_assert!(((back.high - a) + back.low).abs() <= 4.0 * UNIT * a);
+            let root = Twofold::of(a).sqrt();
+            let square = root.by(root);
+            prop_assert!(((square.high - a) + square.low).abs() <= 8.0 * UNIT * a);
+        }
+    }
+}
