@@ -1,0 +1,106 @@
+//! Keystroke files: a session as text that people can read, write and play.
+//!
+//! [`parse`] reads a whole file before anything runs. A [`Player`] says what to do next, whether the
+//! keys go to a session without a terminal or into the running explorer. A [`Recorder`] writes the
+//! file of a live session. The notation of keys is that of [`super::key`].
+
+mod parse;
+mod player;
+mod recorder;
+
+pub use parse::{BadScript, parse};
+pub use player::{Action, Player, Unmet};
+pub use recorder::Recorder;
+
+use super::key::Key;
+
+/// One instruction of a keystroke file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// A key, pressed so many times: `x`, `<right>`, `<right*5>`.
+    Key {
+        /// The key.
+        key: Key,
+        /// How many times.
+        count: u32,
+    },
+    /// Text pasted at once: `<paste "text">`.
+    Paste(String),
+    /// Go on when no computation is pending: `<wait>`.
+    Wait,
+    /// From here on, do not wait after each key: `<async>`.
+    Async,
+    /// Give the screen this size: `<resize 80x24>`.
+    Resize {
+        /// Columns.
+        width: u16,
+        /// Rows.
+        height: u16,
+    },
+    /// The screen must show this text on one of its rows: `<expect "text">`.
+    Expect(String),
+    /// Keep the screen under this name: `<screen name>`.
+    Screen(String),
+}
+
+/// A step and where it stands, counted from 1.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Located {
+    /// Line.
+    pub line: usize,
+    /// Column, in characters.
+    pub column: usize,
+    /// The step.
+    pub step: Step,
+}
+
+/// A keystroke file, read.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Script {
+    /// Its steps, in order.
+    pub steps: Vec<Located>,
+}
+
+impl Script {
+    /// How many keys it presses.
+    #[must_use]
+    pub fn keys(&self) -> u64 {
+        let presses = |located: &Located| match located.step {
+            Step::Key { count, .. } => u64::from(count),
+            _ => 0,
+        };
+        self.steps.iter().map(presses).sum()
+    }
+}
+
+impl std::fmt::Display for Step {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Step::Key { key, count: 1 } => write!(out, "{key}"),
+            Step::Key { key, count } => {
+                let key = key.to_string();
+                let name = key.strip_prefix('<').and_then(|name| name.strip_suffix('>'));
+                write!(out, "<{}*{count}>", name.unwrap_or(&key))
+            }
+            Step::Paste(text) => write!(out, "<paste {}>", quoted(text)),
+            Step::Wait => write!(out, "<wait>"),
+            Step::Async => write!(out, "<async>"),
+            Step::Resize { width, height } => write!(out, "<resize {width}x{height}>"),
+            Step::Expect(text) => write!(out, "<expect {}>", quoted(text)),
+            Step::Screen(name) => write!(out, "<screen {name}>"),
+        }
+    }
+}
+
+/// Text in quotes on one line; the parser knows the same escapes and no others.
+fn quoted(text: &str) -> String {
+    let mut quoted = String::from("\"");
+    for char in text.chars() {
+        match parse::ESCAPES.iter().find(|(plain, _)| *plain == char) {
+            Some((_, letter)) => quoted.extend(['\\', *letter]),
+            None => quoted.push(char),
+        }
+    }
+    quoted.push('"');
+    quoted
+}

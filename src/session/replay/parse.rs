@@ -1,0 +1,291 @@
+//! Reading keystroke files.
+
+use std::fmt;
+
+use super::{Located, Script, Step};
+use crate::session::key::{Code, Key};
+
+/// Text that is no keystroke file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BadScript {
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+    /// What is wrong and what is allowed, in one line.
+    pub message: String,
+}
+
+impl fmt::Display for BadScript {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "line {}, column {}: {}", self.line, self.column, self.message)
+    }
+}
+
+impl std::error::Error for BadScript {}
+
+/// Most presses of one key in one step.
+pub(super) const MOST: u32 = 100_000;
+
+/// Largest width and height that a file may ask for.
+const LARGEST: u16 = 1000;
+
+/// Characters that are written with a backslash in quoted text, and the letter behind it.
+pub(super) const ESCAPES: [(char, char); 5] =
+    [('"', '"'), ('\\', '\\'), ('\n', 'n'), ('\r', 'r'), ('\t', 't')];
+
+/// How the rest of a directive becomes a step, or why it does not.
+type Reading = fn(&str) -> Result<Step, String>;
+
+/// What stands between angle brackets and is no key: its first word, and how the rest is read.
+const DIRECTIVES: [(&str, Reading); 6] = [
+    ("wait", |rest| alone(rest, "wait", Step::Wait)),
+    ("async", |rest| alone(rest, "async", Step::Async)),
+    ("resize", resize),
+    ("expect", |rest| text(rest, "expect").map(Step::Expect)),
+    ("paste", |rest| text(rest, "paste").map(Step::Paste)),
+    ("screen", screen),
+];
+
+/// Reads a whole keystroke file.
+///
+/// # Errors
+/// [`BadScript`] with the place of the first mistake.
+pub fn parse(text: &str) -> Result<Script, BadScript> {
+    let mut steps = Vec::new();
+    for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
+        let mut rest = line;
+        while let Some(first) = rest.chars().next() {
+            let column = line[..line.len() - rest.len()].chars().count() + 1;
+            let length = match first {
+                '#' => break,
+                '<' => length_of_name(rest),
+                _ => first.len_utf8(),
+            };
+            let (token, after) = rest.split_at(length);
+            rest = after;
+            if first.is_ascii_whitespace() {
+                continue;
+            }
+            let line = index + 1;
+            let step = step(token).map_err(|message| BadScript { line, column, message })?;
+            steps.push(Located { line, column, step });
+        }
+    }
+    Ok(Script { steps })
+}
+
+/// Bytes up to and including the `>` that ends a name; those in quotes do not.
+fn length_of_name(text: &str) -> usize {
+    let (mut in_quotes, mut escaped) = (false, false);
+    for (at, char) in text.char_indices().skip(1) {
+        match char {
+            _ if escaped => escaped = false,
+            '\\' if in_quotes => escaped = true,
+            // A quote opens text only behind the word that takes one; `<">` is a key.
+            '"' if in_quotes || text[..at].ends_with(' ') => in_quotes = !in_quotes,
+            '>' if !in_quotes => return at + 1,
+            _ => {}
+        }
+    }
+    text.len()
+}
+
+fn step(token: &str) -> Result<Step, String> {
+    if !token.starts_with('<') {
+        let char = token.chars().next().unwrap_or(' ');
+        return Ok(Step::Key { key: Key::plain(Code::Char(char)), count: 1 });
+    }
+    let Some(name) = token[1..].strip_suffix('>') else {
+        return Err("\"<\" without \">\" on its line; the character itself is <lt>".to_owned());
+    };
+    let (word, rest) = name.split_once(' ').unwrap_or((name, ""));
+    match DIRECTIVES.iter().find(|(directive, _)| *directive == word) {
+        Some((_, read)) => read(rest.trim()),
+        None => keys(name),
+    }
+}
+
+/// A key, perhaps with a count: `right`, `right*5`, `*`, `**5`.
+fn keys(name: &str) -> Result<Step, String> {
+    let counted = name.rsplit_once('*').filter(|(key, count)| {
+        !key.is_empty() && !count.is_empty() && count.bytes().all(|byte| byte.is_ascii_digit())
+    });
+    let (key, count) = match counted {
+        Some((key, digits)) => match digits.parse() {
+            Ok(count @ 1..=MOST) => (key, count),
+            _ => return Err(format!("a key is pressed 1 to {MOST} times, not {digits}")),
+        },
+        None => (name, 1),
+    };
+    match Key::named(key) {
+        Ok(key) => Ok(Step::Key { key, count }),
+        Err(unknown) => Err(nearest_directive(key).unwrap_or_else(|| unknown.to_string())),
+    }
+}
+
+/// A suggestion, where a misspelt directive is more likely than a misspelt key.
+fn nearest_directive(name: &str) -> Option<String> {
+    let word = name.split(' ').next().unwrap_or(name);
+    let (likeness, directive) = DIRECTIVES
+        .iter()
+        .map(|(directive, _)| (strsim::jaro(word, directive), directive))
+        .max_by(|a, b| a.0.total_cmp(&b.0))?;
+    (likeness >= 0.8).then(|| format!("unknown key <{name}>; did you mean <{directive}>?"))
+}
+
+fn alone(rest: &str, word: &str, step: Step) -> Result<Step, String> {
+    if rest.is_empty() {
+        Ok(step)
+    } else {
+        Err(format!("<{word}> stands alone, not with {rest:?}"))
+    }
+}
+
+fn resize(rest: &str) -> Result<Step, String> {
+    let read = |text: &str| text.parse().ok().filter(|cells| (1..=LARGEST).contains(cells));
+    let size = rest.split_once('x').and_then(|(w, h)| Some((read(w)?, read(h)?)));
+    match size {
+        Some((width, height)) => Ok(Step::Resize { width, height }),
+        None => Err(format!(
+            "<resize {rest}> needs columns and rows from 1 to {LARGEST}, as in <resize 80x24>"
+        )),
+    }
+}
+
+fn screen(name: &str) -> Result<Step, String> {
+    let allowed = |char: char| char.is_ascii_alphanumeric() || matches!(char, '-' | '_' | '.');
+    if !name.is_empty() && name.chars().all(allowed) && !name.starts_with('.') {
+        Ok(Step::Screen(name.to_owned()))
+    } else {
+        Err(format!("<screen {name}> needs a name of letters, digits, \"-\", \"_\" and \".\""))
+    }
+}
+
+/// Text in quotes, with the escapes of [`ESCAPES`].
+fn text(rest: &str, word: &str) -> Result<String, String> {
+    let refused = || format!("<{word}> needs text in quotes, as in <{word} \"captured\">");
+    let inner = rest.strip_prefix('"').and_then(|rest| rest.strip_suffix('"'));
+    let mut chars = inner.ok_or_else(refused)?.chars();
+    let mut text = String::new();
+    while let Some(char) = chars.next() {
+        text.push(match char {
+            '\\' => {
+                let letter = chars.next().ok_or_else(refused)?;
+                let escape = ESCAPES.iter().find(|(_, escape)| *escape == letter);
+                let known =
+                    || format!("unknown escape \\{letter}; \\\" \\\\ \\n \\r \\t are known");
+                escape.ok_or_else(known)?.0
+            }
+            '"' => return Err(refused()),
+            char => char,
+        });
+    }
+    if text.is_empty() { Err(refused()) } else { Ok(text) }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn steps(text: &str) -> Vec<Step> {
+        let script = parse(text).unwrap_or_else(|error| panic!("{text}: {error}"));
+        script.steps.into_iter().map(|located| located.step).collect()
+    }
+
+    fn key(text: &str, count: u32) -> Step {
+        Step::Key { key: text.parse().unwrap(), count }
+    }
+
+    #[test]
+    fn every_instruction_of_the_contract_is_read() {
+        let text = "# a comment\n<right*5> <wait>\n[ ] j k   one # and a comment\n<space><lt>\
+                    <C-r><S-tab> <f1> <pgup>\n<resize 80x24><expect \"captured\">\n\
+                    <screen after-five-steps>\n<async>";
+        let mut wanted = vec![key("<right>", 5), Step::Wait];
+        wanted.extend("[]jkone".chars().map(|char| key(&char.to_string(), 1)));
+        for name in ["<space>", "<lt>", "<C-r>", "<S-tab>", "<f1>", "<pgup>"] {
+            wanted.push(key(name, 1));
+        }
+        wanted.push(Step::Resize { width: 80, height: 24 });
+        wanted.push(Step::Expect("captured".to_owned()));
+        wanted.push(Step::Screen("after-five-steps".to_owned()));
+        wanted.push(Step::Async);
+        assert_eq!(steps(text), wanted);
+    }
+
+    #[test]
+    fn brackets_and_quotes_may_be_keys_and_text() {
+        assert_eq!(steps(">"), [key(">", 1)]);
+        assert_eq!(steps("<gt*2>x"), [key(">", 2), key("x", 1)]);
+        assert_eq!(steps("<\">"), [key("\"", 1)]);
+        assert_eq!(steps("<**3>"), [key("*", 3)]);
+        assert_eq!(steps("a>>b"), [key("a", 1), key(">", 1), key(">", 1), key("b", 1)]);
+        assert_eq!(steps("<esc>>"), [key("<esc>", 1), key(">", 1)]);
+        let text = r#"<expect "a > b \"c\" # \\ d">x"#;
+        assert_eq!(steps(text), [Step::Expect("a > b \"c\" # \\ d".to_owned()), key("x", 1)]);
+    }
+
+    #[test]
+    fn places_are_lines_and_columns_in_characters() {
+        let script = parse("# é\n éé <wait>\r\n  x").unwrap();
+        let places: Vec<_> = script.steps.iter().map(|step| (step.line, step.column)).collect();
+        assert_eq!(places, [(2, 2), (2, 3), (2, 5), (3, 3)]);
+    }
+
+    #[test]
+    fn mistakes_are_named_with_their_place_before_anything_runs() {
+        for (text, line) in [
+            ("j k\n  <rigth*5>", "line 2, column 3: unknown key <rigth>; did you mean <right>?"),
+            ("<right", "line 1, column 1: \"<\" without \">\""),
+            ("a <right*0>", "line 1, column 3: a key is pressed 1 to 100000 times, not 0"),
+            ("<right*99999999999>", "line 1, column 1: a key is pressed 1 to"),
+            ("<resize 80>", "line 1, column 1: <resize 80> needs columns and rows"),
+            ("<resize 0x24>", "line 1, column 1: <resize 0x24> needs columns and rows"),
+            ("<expect captured>", "line 1, column 1: <expect> needs text in quotes"),
+            ("<expect \"a>", "line 1, column 1: <expect> needs text in quotes"),
+            ("<expect \"\\q\">", "line 1, column 1: unknown escape \\q"),
+            ("<screen ../x>", "line 1, column 1: <screen ../x> needs a name of letters"),
+            ("<screen>", "line 1, column 1: <screen > needs a name"),
+            ("<wait 3>", "line 1, column 1: <wait> stands alone"),
+            (
+                "<excpect \"a\">",
+                "line 1, column 1: unknown key <excpect \"a\">; did you mean <expect>?",
+            ),
+        ] {
+            let said = parse(text).unwrap_err().to_string();
+            assert!(said.starts_with(line), "{text}: {said}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn no_text_is_too_strange(text in any::<String>()) {
+            let _ = parse(&text);
+        }
+
+        #[test]
+        fn nor_any_soup_of_brackets(text in "[<>\"\\\\*# a-cCS0-3x-]{0,40}") {
+            let _ = parse(&text);
+        }
+
+        #[test]
+        fn what_is_printed_is_read_back(
+            key in crate::session::key::tests::any_key(),
+            count in 1..=MOST,
+            quoted in any::<String>(),
+        ) {
+            for step in [Step::Key { key, count }, Step::Key { key, count: 1 }] {
+                prop_assert_eq!(steps(&format!("x{step}x"))[1].clone(), step);
+            }
+            let one_line: String = quoted.chars().filter(|char| *char != '\u{feff}').collect();
+            if !one_line.is_empty() {
+                for step in [Step::Expect(one_line.clone()), Step::Paste(one_line)] {
+                    prop_assert_eq!(steps(&format!("x{step}x"))[1].clone(), step);
+                }
+            }
+        }
+    }
+}

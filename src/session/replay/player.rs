@@ -1,0 +1,162 @@
+//! Playing a keystroke file: what to do next.
+
+use std::collections::VecDeque;
+use std::fmt;
+
+use super::{Located, Script, Step};
+use crate::session::message::Msg;
+
+/// What to do next.
+#[derive(Clone, Debug)]
+pub enum Action {
+    /// Give this to the session.
+    Give(Msg),
+    /// Keep the screen under this name.
+    Keep(String),
+    /// Ask again when the session is idle.
+    Wait,
+    /// The file is at its end and the session idle.
+    Done,
+}
+
+/// An expectation that the screen does not meet.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unmet {
+    /// Line of the expectation, from 1.
+    pub line: usize,
+    /// Column, from 1.
+    pub column: usize,
+    /// The text that no row of the screen shows.
+    pub text: String,
+}
+
+impl fmt::Display for Unmet {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { line, column, text } = self;
+        write!(out, "line {line}, column {column}: the screen does not show {text:?}")
+    }
+}
+
+impl std::error::Error for Unmet {}
+
+/// A keystroke file being played.
+///
+/// The player knows no clock: it goes on when whoever drives it says that the session is idle. Until
+/// the file says `<async>` it waits for that before each step, so that each key finds the picture that
+/// its author saw.
+#[derive(Clone, Debug)]
+pub struct Player {
+    steps: VecDeque<Located>,
+    asynchronous: bool,
+}
+
+impl Player {
+    /// Plays a file from its beginning.
+    #[must_use]
+    pub fn new(script: Script) -> Self {
+        Player { steps: script.steps.into(), asynchronous: false }
+    }
+
+    /// Plays another file first, and then what is left of this one.
+    pub fn interject(&mut self, script: Script) {
+        for step in script.steps.into_iter().rev() {
+            self.steps.push_front(step);
+        }
+    }
+
+    /// What to do next, given whether the session is idle and, if asked, what the screen shows: its
+    /// rows, separated by newlines.
+    ///
+    /// # Errors
+    /// [`Unmet`] if the screen does not show what it should. The player then stands behind that step.
+    pub fn next(&mut self, idle: bool, screen: impl Fn() -> String) -> Result<Action, Unmet> {
+        loop {
+            let Some(Located { line, column, step }) = self.steps.front().cloned() else {
+                return Ok(if idle { Action::Done } else { Action::Wait });
+            };
+            if !idle && (!self.asynchronous || step == Step::Wait) {
+                return Ok(Action::Wait);
+            }
+            self.advance();
+            match step {
+                Step::Wait => {}
+                Step::Async => self.asynchronous = true,
+                Step::Key { key, .. } => return Ok(Action::Give(Msg::Key(key))),
+                Step::Paste(text) => return Ok(Action::Give(Msg::Paste(text))),
+                Step::Resize { width, height } => {
+                    return Ok(Action::Give(Msg::Resize { width, height }));
+                }
+                Step::Screen(name) => return Ok(Action::Keep(name)),
+                Step::Expect(text) if screen().contains(&text) => {}
+                Step::Expect(text) => return Err(Unmet { line, column, text }),
+            }
+        }
+    }
+
+    /// Goes behind the first step, or behind one press of it.
+    fn advance(&mut self) {
+        if let Some(Located { step: Step::Key { count, .. }, .. }) = self.steps.front_mut()
+            && *count > 1
+        {
+            *count -= 1;
+        } else {
+            self.steps.pop_front();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::session::replay::parse;
+
+    /// What the player does in turn, on a screen that shows `screen`; idle as often as it waits.
+    fn play(text: &str, screen: &str) -> Vec<String> {
+        let mut player = Player::new(parse(text).unwrap());
+        let (mut acts, mut idle) = (Vec::new(), true);
+        loop {
+            let act = player.next(idle, || screen.to_owned());
+            idle = matches!(act, Ok(Action::Wait));
+            match act {
+                Ok(Action::Give(Msg::Key(key))) => acts.push(key.to_string()),
+                Ok(Action::Give(message)) => acts.push(format!("{message:?}")),
+                Ok(Action::Keep(name)) => acts.push(format!("keep {name}")),
+                Ok(Action::Wait) => acts.push("wait".to_owned()),
+                Ok(Action::Done) => break,
+                Err(unmet) => {
+                    acts.push(unmet.to_string());
+                    break;
+                }
+            }
+        }
+        acts
+    }
+
+    #[test]
+    fn it_waits_after_each_key_unless_told_otherwise() {
+        assert_eq!(play("<right*2>x", ""), ["<right>", "wait", "<right>", "wait", "x", "wait"]);
+        assert_eq!(play("<async><right*2>x", ""), ["<right>", "<right>", "x", "wait"]);
+        assert_eq!(play("<async>x<wait>y", ""), ["x", "wait", "y", "wait"]);
+    }
+
+    #[test]
+    fn the_first_unmet_expectation_ends_it_with_its_place() {
+        assert_eq!(
+            play("<expect \"here\">\n  <screen a> <expect \"there\"> x", "I am\nhere"),
+            ["keep a", "wait", "line 2, column 14: the screen does not show \"there\""]
+        );
+    }
+
+    #[test]
+    fn another_file_is_played_in_between() {
+        let mut player = Player::new(parse("a b").unwrap());
+        let next = |player: &mut Player| match player.next(true, String::new).unwrap() {
+            Action::Give(Msg::Key(key)) => key.to_string(),
+            other => format!("{other:?}"),
+        };
+        let mut keys = vec![next(&mut player)];
+        player.interject(parse("x<y*2>").unwrap());
+        keys.extend((0..5).map(|_| next(&mut player)));
+        assert_eq!(keys, ["a", "x", "y", "y", "b", "Done"]);
+    }
+}
