@@ -4,6 +4,8 @@
 pub mod closed_form;
 pub mod flow;
 pub mod oscillator;
+pub mod runtime;
 pub mod scene;
 pub mod session;
 pub mod study;
+pub mod terminal;

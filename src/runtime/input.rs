@@ -1,0 +1,263 @@
+//! The keyboard: bytes from the terminal to events.
+//!
+//! A thread of its own blocks in `read` and sends what it understands. It reads the terminal itself and
+//! hands the bytes to termina's parser, because crossterm's reader keeps cursor position reports to
+//! itself, leaves what lies beyond 1,024 bytes unread until the next key (crossterm#1057), and spins
+//! when the terminal hangs up (crossterm#793).
+
+use std::io;
+use std::os::fd::AsFd;
+use std::thread;
+use std::time::Duration;
+
+use crossbeam_channel::Sender;
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
+use rustix::io::Errno;
+use termina::Parser;
+use termina::escape::csi::{Csi, Cursor};
+use termina::event::{KeyCode, KeyEvent, KeyEventKind, Modifiers};
+
+use super::event::Event;
+use crate::session::{Code, Key, Msg};
+
+/// How long an escape byte at the end of what was read may wait for the rest of its sequence: over a
+/// slow line `ESC` and `[A` can arrive apart (crossterm#993). After that it was the key.
+const ESCAPE_TIME: Duration = Duration::from_millis(50);
+
+/// Bytes read at once.
+const BUFFER: usize = 4096;
+
+/// Starts the thread that reads the terminal at standard input until it is gone.
+///
+/// # Errors
+/// If the system gives no thread.
+pub fn start(events: Sender<Event>) -> io::Result<()> {
+    thread::Builder::new().name("input".to_owned()).spawn(move || {
+        read(&io::stdin(), |event| drop(events.send(event)));
+        drop(events.send(Event::Closed));
+    })?;
+    Ok(())
+}
+
+/// Reads until the end of input.
+fn read(terminal: &impl AsFd, mut send: impl FnMut(Event)) {
+    let mut parser = Parser::default();
+    let mut buffer = [0; BUFFER];
+    loop {
+        let bytes = match rustix::io::read(terminal, &mut buffer) {
+            Ok(0) => return,
+            Ok(count) => &buffer[..count],
+            // Someone else made the terminal non-blocking.
+            Err(Errno::AGAIN) if more(terminal, None) => continue,
+            Err(Errno::INTR) => continue,
+            Err(_) => return,
+        };
+        parser.parse(bytes, true);
+        drain(&mut parser, &mut send);
+        if bytes.last() == Some(&b'\x1b') && !more(terminal, Some(ESCAPE_TIME)) {
+            parser.parse(&[], false);
+            drain(&mut parser, &mut send);
+        }
+    }
+}
+
+/// Whether there is something to read within this time; `None` waits for ever.
+fn more(terminal: &impl AsFd, time: Option<Duration>) -> bool {
+    let time = time.and_then(|time| Timespec::try_from(time).ok());
+    let mut waiting = [PollFd::new(terminal, PollFlags::IN)];
+    poll(&mut waiting, time.as_ref()).is_ok_and(|ready| ready > 0)
+}
+
+fn drain(parser: &mut Parser, send: &mut impl FnMut(Event)) {
+    while let Some(parsed) = parser.pop() {
+        if let Some(event) = event(parsed) {
+            send(event);
+        }
+    }
+}
+
+/// What a parsed sequence means here; releases of keys, and all that was not asked for, mean nothing.
+fn event(parsed: termina::Event) -> Option<Event> {
+    match parsed {
+        termina::Event::Key(pressed) => key(pressed).map(|key| Event::Session(Msg::Key(key))),
+        termina::Event::Paste(text) => {
+            let lines = text.replace("\r\n", "\n").replace('\r', "\n");
+            Some(Event::Session(Msg::Paste(lines)))
+        }
+        termina::Event::Csi(Csi::Cursor(Cursor::ActivePositionReport { .. })) => Some(Event::Shown),
+        _ => None,
+    }
+}
+
+fn key(event: KeyEvent) -> Option<Key> {
+    let code = match event.code {
+        KeyCode::Char(char) => Code::Char(char),
+        KeyCode::Function(number @ 1..=12) => Code::F(number),
+        KeyCode::Tab | KeyCode::BackTab => Code::Tab,
+        KeyCode::Left => Code::Left,
+        KeyCode::Right => Code::Right,
+        KeyCode::Up => Code::Up,
+        KeyCode::Down => Code::Down,
+        KeyCode::Enter => Code::Enter,
+        KeyCode::Escape => Code::Esc,
+        KeyCode::Backspace => Code::Backspace,
+        KeyCode::Delete => Code::Delete,
+        KeyCode::Insert => Code::Insert,
+        KeyCode::Home => Code::Home,
+        KeyCode::End => Code::End,
+        KeyCode::PageUp => Code::PageUp,
+        KeyCode::PageDown => Code::PageDown,
+        _ => return None,
+    };
+    let held = |modifier| event.modifiers.contains(modifier);
+    (event.kind != KeyEventKind::Release).then_some(Key {
+        code,
+        control: held(Modifiers::CONTROL),
+        alt: held(Modifiers::ALT),
+        shift: held(Modifiers::SHIFT) && !matches!(code, Code::Char(_)),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Write;
+    use std::os::unix::net::UnixStream;
+
+    use crossbeam_channel::{Receiver, unbounded};
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// A terminal that the tests type into, and what arrives.
+    struct Keyboard {
+        terminal: UnixStream,
+        events: Receiver<Event>,
+    }
+
+    fn keyboard() -> Keyboard {
+        let (terminal, end) = UnixStream::pair().unwrap();
+        let (send, events) = unbounded();
+        thread::spawn(move || {
+            read(&end, |event| drop(send.send(event)));
+            drop(send.send(Event::Closed));
+        });
+        Keyboard { terminal, events }
+    }
+
+    impl Keyboard {
+        fn types(&mut self, bytes: &[u8]) {
+            self.terminal.write_all(bytes).unwrap();
+        }
+
+        fn hears(&self) -> String {
+            name(&self.events.recv().unwrap())
+        }
+
+        /// All that was typed, heard after hanging up.
+        fn all(self) -> Vec<String> {
+            drop(self.terminal);
+            self.events.iter().map(|event| name(&event)).collect()
+        }
+    }
+
+    fn name(event: &Event) -> String {
+        match event {
+            Event::Session(Msg::Key(key)) => {
+                let Key { code, control, alt, shift } = key;
+                let held = [(control, "C-"), (alt, "A-"), (shift, "S-")];
+                let held: String =
+                    held.iter().filter(|(held, _)| **held).map(|(_, name)| *name).collect();
+                format!("{held}{code:?}")
+            }
+            Event::Session(Msg::Paste(text)) => format!("paste {text:?}"),
+            other => format!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn keys_have_their_names() {
+        let cases: [(&[u8], &str); 14] = [
+            (b"a", "Char('a')"),
+            (b"Z", "Char('Z')"),
+            ("\u{e9}".as_bytes(), "Char('\u{e9}')"),
+            (b"\r", "Enter"),
+            (b"\t", "Tab"),
+            (b"\x1b[Z", "S-Tab"),
+            (b"\x7f", "Backspace"),
+            (b"\x12", "C-Char('r')"),
+            (b"\x1b[A", "Up"),
+            (b"\x1bOA", "Up"),
+            (b"\x1b[1;2C", "S-Right"),
+            (b"\x1b[5~", "PageUp"),
+            (b"\x1bx", "A-Char('x')"),
+            (b"\x1b[15~", "F(5)"),
+        ];
+        let mut keyboard = keyboard();
+        for (bytes, name) in cases {
+            keyboard.types(bytes);
+            assert_eq!(keyboard.hears(), name, "{bytes:?}");
+        }
+    }
+
+    #[test]
+    fn escape_is_a_key_when_nothing_follows_and_else_begins_a_sequence() {
+        let mut keyboard = keyboard();
+        keyboard.types(b"\x1b");
+        assert_eq!(keyboard.hears(), "Esc");
+        keyboard.types(b"\x1b[");
+        keyboard.types(b"A");
+        assert_eq!(keyboard.hears(), "Up");
+    }
+
+    #[test]
+    fn five_hundred_arrows_at_once_are_five_hundred_arrows() {
+        let mut keyboard = keyboard();
+        keyboard.types(&[b"\x1b[C".repeat(500), b"q".to_vec()].concat());
+        let heard = keyboard.all();
+        assert_eq!(heard.len(), 502);
+        assert!(heard[..500].iter().all(|name| name == "Right"));
+        assert_eq!(heard[500..], ["Char('q')", "Closed"]);
+    }
+
+    #[test]
+    fn a_paste_is_one_message_with_lines() {
+        let mut keyboard = keyboard();
+        let text = "<right*5>\r\n<wait>\rq".repeat(1000);
+        keyboard.types(format!("\x1b[200~{text}\x1b[201~").as_bytes());
+        let lines = "<right*5>\n<wait>\nq".repeat(1000);
+        assert_eq!(keyboard.all(), [format!("paste {lines:?}"), "Closed".to_owned()]);
+    }
+
+    #[test]
+    fn a_report_among_keys_is_not_a_key() {
+        let mut keyboard = keyboard();
+        keyboard.types(b"a\x1b[24;80Rb");
+        assert_eq!(keyboard.all(), ["Char('a')", "Shown", "Char('b')", "Closed"]);
+    }
+
+    #[test]
+    fn the_release_of_a_key_is_nothing() {
+        let mut keyboard = keyboard();
+        keyboard.types(b"\x1b[97;1:3u\x1b[97;1:1u");
+        assert_eq!(keyboard.all(), ["Char('a')", "Closed"]);
+    }
+
+    proptest! {
+        /// Whatever arrives, in whatever pieces: no panic, and the end is noticed.
+        #[test]
+        fn any_bytes_are_survived(pieces in prop::collection::vec(
+            prop_oneof![
+                prop::collection::vec(any::<u8>(), 0..12),
+                "(\x1b[\\[O\\]P]|[0-9;:<?>=]|[A-Za-z~]|\x1b){0,8}".prop_map(String::into_bytes),
+            ],
+            0..8,
+        )) {
+            let mut keyboard = keyboard();
+            for piece in pieces {
+                keyboard.types(&piece);
+            }
+            let heard = keyboard.all();
+            prop_assert_eq!(heard.last().map(String::as_str), Some("Closed"));
+        }
+    }
+}

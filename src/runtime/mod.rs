@@ -1,0 +1,15 @@
+//! What runs: the loop, the worker, and the threads that listen to keyboard and signals.
+//!
+//! Everything that happens arrives as an [`Event`] in one channel. Three threads send into it, each
+//! blocked in one place while nothing happens: [`input`] reads the terminal, [`signals`] waits for
+//! signals, [`worker`] computes. The [`pump`] takes events out, hands them to the session, asks the
+//! worker what the session then wants, and draws.
+
+pub mod event;
+pub mod input;
+pub mod panics;
+pub mod signals;
+pub mod worker;
+
+pub use event::Event;
+pub use worker::Worker;

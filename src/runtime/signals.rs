@@ -1,0 +1,95 @@
+//! Signals, turned into events by a thread that waits for them.
+//!
+//! A signal that ends the program lets the loop restore the terminal and leave with exit code 128 + n.
+//! A second one, or a loop that does not react because the terminal takes no output, ends the program
+//! from here.
+
+use std::io;
+use std::thread;
+use std::time::Duration;
+
+use crossbeam_channel::Sender;
+use rustix::process::{Signal, getpgrp, getsid, kill_current_process_group};
+use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SIGWINCH};
+use signal_hook::iterator::Signals;
+use signal_hook::low_level::emulate_default_handler;
+
+use super::event::Event;
+use crate::terminal::Guard;
+
+/// How long the loop may take to end after the first signal that asks for it.
+const GRACE: Duration = Duration::from_secs(2);
+
+/// Signals that end the program.
+const ENDING: [i32; 4] = [SIGTERM, SIGHUP, SIGINT, SIGQUIT];
+
+/// Starts the thread that waits for signals.
+///
+/// # Errors
+/// If the system gives no thread, or refuses a handler.
+pub fn start(events: Sender<Event>, guard: Guard) -> io::Result<()> {
+    let mut signals = Signals::new(ENDING.into_iter().chain([SIGTSTP, SIGCONT, SIGWINCH]))?;
+    thread::Builder::new().name("signals".to_owned()).spawn(move || {
+        let mut ending = false;
+        for signal in signals.forever() {
+            let event = match signal {
+                SIGTSTP => Event::Suspend,
+                SIGCONT => Event::Continued,
+                SIGWINCH => Event::Resized,
+                _ if ending => end_at_once(&guard, signal),
+                _ => {
+                    ending = true;
+                    end_after(GRACE, guard.clone(), signal);
+                    Event::Ended { signal }
+                }
+            };
+            drop(events.send(event));
+        }
+    })?;
+    Ok(())
+}
+
+/// Ends the program without waiting for anything, the terminal included.
+fn end_at_once(guard: &Guard, signal: i32) -> ! {
+    guard.leave_at_once();
+    std::process::exit(exit_code(signal).into());
+}
+
+fn end_after(time: Duration, guard: Guard, signal: i32) {
+    thread::spawn(move || {
+        thread::sleep(time);
+        end_at_once(&guard, signal);
+    });
+}
+
+/// The exit code of a program that a signal has ended.
+#[must_use]
+pub fn exit_code(signal: i32) -> u8 {
+    u8::try_from(128 + signal).unwrap_or(u8::MAX)
+}
+
+/// Whether someone can make the process go on after it was stopped: a shell with job control.
+///
+/// There is none above the leader of a session, as in `ssh -t host hopfscope`: stopped, it would hang
+/// for ever.
+#[must_use]
+pub fn can_be_continued() -> bool {
+    getsid(None).is_ok_and(|session| session != getpgrp())
+}
+
+/// Asks all processes of the job to stop, as the terminal does for Ctrl-Z; one of them may be a
+/// wrapper for which the shell waits. This process gets [`Event::Suspend`].
+///
+/// # Errors
+/// If the system refuses.
+pub fn suspend_job() -> io::Result<()> {
+    Ok(kill_current_process_group(Signal::TSTP)?)
+}
+
+/// Stops this process; returns when it goes on.
+///
+/// # Errors
+/// If the system refuses.
+pub fn stop() -> io::Result<()> {
+    emulate_default_handler(SIGTSTP)
+}

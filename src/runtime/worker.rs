@@ -1,0 +1,294 @@
+//! The worker: one thread that answers the requests wanted now, and drops those wanted no longer.
+//!
+//! [`Worker::submit`] replaces the set of wanted requests. The running job goes on if it is among them;
+//! else one atomic counter moves on, the job sees that at its next step, and what it found is thrown
+//! away. A request that panics becomes a [`Failure::Panic`]; the thread lives on.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread;
+use std::time::Instant;
+
+use super::panics::{self, Notes};
+use crate::flow::{Limits, Reason};
+use crate::scene::answer::Failure;
+use crate::scene::{Answer, Answered, Request};
+use crate::session::Msg;
+
+/// The handle of the worker thread; dropping it ends the thread at the job's next step.
+#[derive(Debug)]
+pub struct Worker {
+    shared: Arc<Shared>,
+}
+
+#[derive(Debug, Default)]
+struct Shared {
+    desk: Mutex<Desk>,
+    changed: Condvar,
+    /// Moves on when the running job is to stop.
+    generation: AtomicU64,
+}
+
+/// What there is to do.
+#[derive(Debug, Default)]
+struct Desk {
+    /// Requests that wait, the most urgent first.
+    waiting: Vec<Request>,
+    /// The request in work, unless nobody wants it any more.
+    running: Option<Request>,
+    /// Whether the thread works on something, wanted or not.
+    busy: bool,
+    closed: bool,
+}
+
+impl Shared {
+    fn desk(&self) -> MutexGuard<'_, Desk> {
+        self.desk.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Waits for the next request; `None` when the worker was dropped.
+    fn next(&self) -> Option<(Request, u64)> {
+        let mut desk = self.desk();
+        while desk.waiting.is_empty() && !desk.closed {
+            desk = self.changed.wait(desk).unwrap_or_else(PoisonError::into_inner);
+        }
+        if desk.closed {
+            return None;
+        }
+        let request = desk.waiting.remove(0);
+        desk.running = Some(request.clone());
+        desk.busy = true;
+        Some((request, self.generation.load(Ordering::Relaxed)))
+    }
+}
+
+impl Worker {
+    /// Starts the thread. `answer` computes; `report` gets a message for every answer that is still
+    /// wanted, and [`Msg::Idle`] when there is nothing left to do.
+    ///
+    /// # Errors
+    /// If the system gives no thread.
+    pub fn start(
+        answer: impl Fn(&Request, &Limits) -> Result<Answer, Reason> + Send + 'static,
+        notes: Notes,
+        report: impl Fn(Msg) + Send + 'static,
+    ) -> std::io::Result<Worker> {
+        let shared = Arc::new(Shared::default());
+        let theirs = Arc::clone(&shared);
+        thread::Builder::new().name("worker".to_owned()).spawn(move || {
+            while let Some((request, generation)) = theirs.next() {
+                let superseded = || theirs.generation.load(Ordering::Relaxed) != generation;
+                let limits = Limits { interrupted: &superseded, ..Limits::PATIENT };
+                let started = Instant::now();
+                let result = match catch_unwind(AssertUnwindSafe(|| answer(&request, &limits))) {
+                    Ok(result) => result.map_err(Failure::Reason),
+                    Err(panic) => {
+                        let told = notes.take();
+                        Err(Failure::Panic(told.unwrap_or_else(|| panics::message(&*panic))))
+                    }
+                };
+                let seconds = started.elapsed().as_secs_f64();
+                let mut desk = theirs.desk();
+                desk.busy = false;
+                if desk.running.take().is_some() {
+                    report(Msg::Answered(Box::new(Answered { request, result, seconds })));
+                }
+                if desk.waiting.is_empty() && !desk.closed {
+                    report(Msg::Idle);
+                }
+            }
+        })?;
+        Ok(Worker { shared })
+    }
+
+    /// Says which requests are wanted now and not answered yet, the most urgent first.
+    pub fn submit(&self, wanted: Vec<Request>) {
+        let mut desk = self.shared.desk();
+        desk.waiting = wanted;
+        match desk.running.clone() {
+            Some(running) if desk.waiting.contains(&running) => {
+                desk.waiting.retain(|request| *request != running);
+            }
+            Some(_) => {
+                desk.running = None;
+                self.shared.generation.fetch_add(1, Ordering::Relaxed);
+            }
+            None => {}
+        }
+        drop(desk);
+        self.shared.changed.notify_one();
+    }
+
+    /// Whether nothing is in work and nothing waits.
+    #[must_use]
+    pub fn is_idle(&self) -> bool {
+        let desk = self.shared.desk();
+        !desk.busy && desk.waiting.is_empty()
+    }
+}
+
+impl Drop for Worker {
+    fn drop(&mut self) {
+        let mut desk = self.shared.desk();
+        desk.closed = true;
+        desk.running = None;
+        drop(desk);
+        self.shared.generation.fetch_add(1, Ordering::Relaxed);
+        self.shared.changed.notify_one();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crossbeam_channel::{Receiver, Sender, bounded, unbounded};
+
+    use super::*;
+    use crate::flow::Cost;
+    use crate::oscillator::Parameters;
+    use crate::study::{Cycles, Edge};
+
+    /// A request told apart from others by its number.
+    fn request(number: f64) -> Request {
+        let parameters = Parameters { d: number, d2: 0.0, d3: 0.0, r: 0.1 };
+        Request::Cycles { parameters, tolerance: 1e-9 }
+    }
+
+    fn number(request: &Request) -> f64 {
+        match request {
+            Request::Cycles { parameters, .. } => parameters.d,
+            other => unreachable!("{other:?}"),
+        }
+    }
+
+    fn nothing(request: &Request) -> Answer {
+        Answer::Cycles(Cycles {
+            parameters: Parameters { d: number(request), d2: 0.0, d3: 0.0, r: 0.1 },
+            cycles: Vec::new(),
+            curves: Vec::new(),
+            harmonic: Vec::new(),
+            edge: Edge::None,
+            edge_curve: Vec::new(),
+            cost: Cost::default(),
+        })
+    }
+
+    /// A worker whose jobs tell that they have started, and end when they are told to or superseded.
+    struct Bench {
+        worker: Worker,
+        started: Receiver<f64>,
+        finish: Sender<()>,
+        messages: Receiver<Msg>,
+    }
+
+    fn bench() -> Bench {
+        let (start, started) = unbounded();
+        let (finish, finished) = bounded::<()>(0);
+        let (message, messages) = unbounded();
+        let job = move |request: &Request, limits: &Limits| {
+            let _ = start.send(number(request));
+            assert!(number(request) >= 0.0, "a negative number");
+            while !(limits.interrupted)() {
+                if finished.try_recv().is_ok() {
+                    return Ok(nothing(request));
+                }
+                thread::yield_now();
+            }
+            Err(Reason::Interrupted)
+        };
+        let report = move |msg| drop(message.send(msg));
+        let worker = Worker::start(job, Notes::default(), report).unwrap();
+        Bench { worker, started, finish, messages }
+    }
+
+    impl Bench {
+        /// The next answer: its number, and whether there is one.
+        fn answered(&self) -> (f64, Result<(), Failure>) {
+            match self.messages.recv().unwrap() {
+                Msg::Answered(answered) => (number(&answered.request), answered.result.map(drop)),
+                other => panic!("{other:?}"),
+            }
+        }
+
+        /// The worker says that it is idle, and has said nothing else.
+        fn idle(&self) {
+            assert!(matches!(self.messages.recv().unwrap(), Msg::Idle));
+            assert!(self.worker.is_idle());
+            assert!(self.messages.is_empty());
+        }
+    }
+
+    #[test]
+    fn requests_are_answered_in_their_order_and_then_the_worker_is_idle() {
+        let bench = bench();
+        bench.worker.submit(vec![request(1.0), request(2.0)]);
+        for wanted in [1.0, 2.0] {
+            assert_eq!(bench.started.recv(), Ok(wanted));
+            bench.finish.send(()).unwrap();
+            assert_eq!(bench.answered(), (wanted, Ok(())));
+        }
+        bench.idle();
+    }
+
+    #[test]
+    fn a_newer_request_supersedes_the_running_one() {
+        let bench = bench();
+        bench.worker.submit(vec![request(1.0)]);
+        assert_eq!(bench.started.recv(), Ok(1.0));
+        bench.worker.submit(vec![request(2.0)]);
+        assert_eq!(bench.started.recv(), Ok(2.0));
+        bench.finish.send(()).unwrap();
+        assert_eq!(bench.answered(), (2.0, Ok(())));
+        bench.idle();
+    }
+
+    #[test]
+    fn a_request_that_never_started_is_dropped_when_nobody_wants_it() {
+        let bench = bench();
+        bench.worker.submit(vec![request(1.0), request(2.0)]);
+        assert_eq!(bench.started.recv(), Ok(1.0));
+        bench.worker.submit(vec![request(1.0), request(3.0)]);
+        bench.finish.send(()).unwrap();
+        assert_eq!(bench.answered(), (1.0, Ok(())));
+        assert_eq!(bench.started.recv(), Ok(3.0));
+        bench.finish.send(()).unwrap();
+        assert_eq!(bench.answered(), (3.0, Ok(())));
+        bench.idle();
+    }
+
+    #[test]
+    fn a_request_that_is_wanted_again_is_answered() {
+        let bench = bench();
+        bench.worker.submit(vec![request(1.0)]);
+        assert_eq!(bench.started.recv(), Ok(1.0));
+        bench.worker.submit(vec![]);
+        bench.worker.submit(vec![request(1.0)]);
+        assert_eq!(bench.started.recv(), Ok(1.0));
+        bench.finish.send(()).unwrap();
+        // The first run may have ended before the second was submitted; then it said so.
+        let answered = bench.messages.iter().find(|message| !matches!(message, Msg::Idle));
+        assert!(matches!(answered, Some(Msg::Answered(answered)) if answered.result.is_ok()));
+        bench.idle();
+    }
+
+    #[test]
+    fn a_panic_becomes_a_failure_and_the_worker_goes_on() {
+        let bench = bench();
+        bench.worker.submit(vec![request(-1.0), request(1.0)]);
+        let panic = Failure::Panic("a negative number".to_owned());
+        assert_eq!(bench.answered(), (-1.0, Err(panic)));
+        bench.finish.send(()).unwrap();
+        assert_eq!(bench.answered(), (1.0, Ok(())));
+        bench.idle();
+    }
+
+    #[test]
+    fn dropping_the_worker_ends_its_thread() {
+        let bench = bench();
+        bench.worker.submit(vec![request(1.0)]);
+        assert_eq!(bench.started.recv(), Ok(1.0));
+        drop(bench.worker);
+        // The channel ends when the thread does.
+        assert_eq!(bench.messages.iter().count(), 0);
+    }
+}

@@ -1,0 +1,214 @@
+//! What the terminal can do, as far as the environment tells.
+//!
+//! Nothing here reads the environment: [`Environment`] holds the values that matter, so that every
+//! decision is a function of them and has a test.
+
+use std::fmt;
+
+use crate::session::settings::{Colors, Glyphs, Look};
+
+/// The environment variables that say something about the terminal; an empty one counts as unset.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Environment {
+    /// Name of the terminal's kind.
+    pub term: Option<String>,
+    /// Set by users who want no colours.
+    pub no_color: Option<String>,
+    /// Set inside of tmux.
+    pub tmux: Option<String>,
+    /// Locale for everything; beats the two below.
+    pub lc_all: Option<String>,
+    /// Locale for characters; beats the one below.
+    pub lc_ctype: Option<String>,
+    /// Locale for what nothing else decides.
+    pub lang: Option<String>,
+    /// Whether standard input is a terminal.
+    pub input_is_terminal: bool,
+    /// Whether standard output is a terminal.
+    pub output_is_terminal: bool,
+}
+
+/// Why the explorer cannot run here.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Refusal {
+    /// Standard input or output is not a terminal; which.
+    NotATerminal(&'static str),
+    /// `TERM=dumb`: the cursor cannot be moved.
+    Dumb,
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Refusal::NotATerminal(stream) => write!(out, "{stream} is not a terminal")?,
+            Refusal::Dumb => write!(out, "TERM=dumb is a terminal without cursor movement")?,
+        }
+        write!(
+            out,
+            "; the explorer needs one. Without a terminal: hopfscope trajectory, cycles, scenes, \
+             replay FILE (hopfscope --help lists all)"
+        )
+    }
+}
+
+impl std::error::Error for Refusal {}
+
+impl Environment {
+    /// The environment of this process.
+    #[must_use]
+    pub fn of_process() -> Environment {
+        use std::io::IsTerminal;
+        let value = |name| std::env::var(name).ok().filter(|value| !value.is_empty());
+        Environment {
+            term: value("TERM"),
+            no_color: value("NO_COLOR"),
+            tmux: value("TMUX"),
+            lc_all: value("LC_ALL"),
+            lc_ctype: value("LC_CTYPE"),
+            lang: value("LANG"),
+            input_is_terminal: std::io::stdin().is_terminal(),
+            output_is_terminal: std::io::stdout().is_terminal(),
+        }
+    }
+
+    /// Whether the explorer can run here.
+    ///
+    /// # Errors
+    /// The [`Refusal`] to show; the exit code is 2.
+    pub fn admit(&self) -> Result<(), Refusal> {
+        if !self.input_is_terminal {
+            Err(Refusal::NotATerminal("standard input"))
+        } else if !self.output_is_terminal {
+            Err(Refusal::NotATerminal("standard output"))
+        } else if self.term.as_deref() == Some("dumb") {
+            Err(Refusal::Dumb)
+        } else {
+            Ok(())
+        }
+    }
+
+    /// The user's wishes with every `Auto` decided by the terminal at hand.
+    #[must_use]
+    pub fn fit(&self, wish: Look) -> Look {
+        let glyphs = match wish.glyphs {
+            Glyphs::Auto => self.glyphs(),
+            wanted => wanted,
+        };
+        let colors = match wish.colors {
+            Colors::Auto => self.colors(),
+            wanted => wanted,
+        };
+        Look { glyphs, colors, ..wish }
+    }
+
+    /// The glyphs to start with: braille where the locale or tmux says UTF-8, else ASCII.
+    ///
+    /// tmux counts because it draws UTF-8 itself, whatever locale a login over SSH left behind. The
+    /// Linux console knows UTF-8 but its fonts have no braille.
+    #[must_use]
+    pub fn glyphs(&self) -> Glyphs {
+        let locale = [&self.lc_all, &self.lc_ctype, &self.lang].into_iter().flatten().next();
+        let unicode = locale.is_some_and(|locale| {
+            let locale = locale.to_ascii_lowercase();
+            locale.contains("utf-8") || locale.contains("utf8")
+        });
+        let console = self.term.as_deref() == Some("linux");
+        match (unicode || self.tmux.is_some(), console) {
+            (true, false) => Glyphs::Braille,
+            (true, true) => Glyphs::Block,
+            (false, _) => Glyphs::Ascii,
+        }
+    }
+
+    /// The colours to start with: none where the user or the terminal wants none, 16 elsewhere.
+    ///
+    /// Sixteen even where the terminal has more, since those follow the user's own palette and cost
+    /// the fewest bytes; `--color 256` and `--color true` ask for more.
+    #[must_use]
+    pub fn colors(&self) -> Colors {
+        let term = self.term.as_deref().unwrap_or_default();
+        if self.no_color.is_some() || MONOCHROME.iter().any(|name| term.starts_with(name)) {
+            Colors::Never
+        } else {
+            Colors::Sixteen
+        }
+    }
+}
+
+/// Beginnings of `TERM` of terminals without colours.
+const MONOCHROME: [&str; 4] = ["vt1", "vt2", "vt3", "dumb"];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An environment in a terminal with these variables.
+    fn environment(variables: &[(&str, &str)]) -> Environment {
+        let value = |name| {
+            let found = variables.iter().find(|(given, _)| *given == name);
+            found.map(|(_, value)| (*value).to_owned())
+        };
+        Environment {
+            term: value("TERM"),
+            no_color: value("NO_COLOR"),
+            tmux: value("TMUX"),
+            lc_all: value("LC_ALL"),
+            lc_ctype: value("LC_CTYPE"),
+            lang: value("LANG"),
+            input_is_terminal: true,
+            output_is_terminal: true,
+        }
+    }
+
+    #[test]
+    fn glyphs_follow_the_locale_in_its_order_of_precedence() {
+        let cases: [(&[(&str, &str)], Glyphs); 8] = [
+            (&[], Glyphs::Ascii),
+            (&[("LANG", "C")], Glyphs::Ascii),
+            (&[("LANG", "C.UTF-8")], Glyphs::Braille),
+            (&[("LANG", "de_DE.utf8")], Glyphs::Braille),
+            (&[("LANG", "de_DE.UTF-8"), ("LC_CTYPE", "C")], Glyphs::Ascii),
+            (&[("LC_CTYPE", "C"), ("LC_ALL", "en_GB.UTF-8")], Glyphs::Braille),
+            (&[("LANG", "C"), ("TMUX", "/tmp/tmux-0/default,1,0")], Glyphs::Braille),
+            (&[("LANG", "C.UTF-8"), ("TERM", "linux")], Glyphs::Block),
+        ];
+        for (variables, glyphs) in cases {
+            assert_eq!(environment(variables).glyphs(), glyphs, "{variables:?}");
+        }
+    }
+
+    #[test]
+    fn colours_follow_no_color_and_the_terminal() {
+        let cases: [(&[(&str, &str)], Colors); 5] = [
+            (&[], Colors::Sixteen),
+            (&[("TERM", "xterm-256color")], Colors::Sixteen),
+            (&[("TERM", "xterm-256color"), ("NO_COLOR", "1")], Colors::Never),
+            (&[("TERM", "vt100")], Colors::Never),
+            (&[("TERM", "vt220")], Colors::Never),
+        ];
+        for (variables, colors) in cases {
+            assert_eq!(environment(variables).colors(), colors, "{variables:?}");
+        }
+    }
+
+    #[test]
+    fn a_wish_beats_what_the_terminal_says() {
+        let environment = environment(&[("LANG", "C"), ("NO_COLOR", "1")]);
+        let wish = Look { glyphs: Glyphs::Braille, colors: Colors::True, ..Look::default() };
+        assert_eq!(environment.fit(wish), wish);
+        let fitted = environment.fit(Look::default());
+        assert_eq!((fitted.glyphs, fitted.colors), (Glyphs::Ascii, Colors::Never));
+    }
+
+    #[test]
+    fn a_refusal_names_what_is_missing_and_what_to_do_instead() {
+        let terminal = environment(&[("TERM", "xterm")]);
+        assert_eq!(terminal.admit(), Ok(()));
+        let piped = Environment { output_is_terminal: false, ..terminal.clone() };
+        let line = piped.admit().unwrap_err().to_string();
+        assert!(line.contains("standard output") && line.contains("trajectory"), "{line}");
+        let piped = Environment { input_is_terminal: false, ..terminal };
+        assert_eq!(piped.admit(), Err(Refusal::NotATerminal("standard input")));
+        assert_eq!(environment(&[("TERM", "dumb")]).admit(), Err(Refusal::Dumb));
+    }
+}

@@ -1,0 +1,148 @@
+//! The modes that the explorer turns on in the terminal, turned off again whatever happens.
+//!
+//! One [`Guard`] knows whether the terminal is taken. [`Guard::enter`] turns on the modes of [`MODES`]
+//! in their order, [`Guard::leave`] turns them off in the reverse order, once, from any thread: at the
+//! end of the program, in the panic hook, before the process is stopped, when a signal ends it.
+
+use std::fs::File;
+use std::io::{self, Write};
+use std::os::fd::AsFd;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use crossterm::terminal::{disable_raw_mode, enable_raw_mode};
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
+
+use super::painter::{END, PLAIN};
+
+/// A mode of the terminal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Mode {
+    /// Turns it on.
+    pub on: &'static str,
+    /// Turns it off.
+    pub off: &'static str,
+    /// What it does, for the handbook.
+    pub meaning: &'static str,
+}
+
+/// The modes of the explorer, in the order in which they are turned on.
+pub const MODES: [Mode; 3] = [
+    Mode {
+        on: "\x1b[?1049h",
+        off: "\x1b[?1049l",
+        meaning: "alternate screen: what was on the terminal comes back at the end",
+    },
+    Mode {
+        on: "\x1b[?2004h",
+        off: "\x1b[?2004l",
+        meaning: "bracketed paste: a paste arrives as one message, not as keys",
+    },
+    Mode { on: "\x1b[?25l", off: "\x1b[?25h", meaning: "hidden cursor" },
+];
+
+/// What `enter` writes.
+fn entering() -> String {
+    MODES.iter().map(|mode| mode.on).collect()
+}
+
+/// What `leave` writes: the end of a frame that was cut off, plain colours, all modes off.
+fn leaving() -> String {
+    let off = MODES.iter().rev().map(|mode| mode.off);
+    [END, PLAIN].into_iter().chain(off).collect()
+}
+
+/// The terminal, taken or not. Clones share that state.
+#[derive(Clone, Debug)]
+pub struct Guard {
+    taken: Arc<Mutex<bool>>,
+    out: Arc<File>,
+}
+
+impl Guard {
+    /// A guard for the terminal at standard output, not yet taken.
+    ///
+    /// # Errors
+    /// If standard output is closed.
+    pub fn new() -> io::Result<Guard> {
+        let out = File::from(io::stdout().as_fd().try_clone_to_owned()?);
+        Ok(Guard { taken: Arc::default(), out: Arc::new(out) })
+    }
+
+    /// The terminal to write frames to.
+    #[must_use]
+    pub fn out(&self) -> Arc<File> {
+        Arc::clone(&self.out)
+    }
+
+    /// Takes the terminal: raw mode, then [`MODES`]. Does nothing if it is taken.
+    ///
+    /// # Errors
+    /// If the terminal cannot be switched to raw mode or written to; then it is as it was.
+    pub fn enter(&self) -> io::Result<()> {
+        let mut taken = self.taken.lock().unwrap_or_else(PoisonError::into_inner);
+        if *taken {
+            return Ok(());
+        }
+        enable_raw_mode()?;
+        *taken = true;
+        let written = self.write(&entering());
+        drop(taken);
+        written.inspect_err(|_| self.leave())
+    }
+
+    /// Gives the terminal back. Does nothing if it is not taken; there is nobody to tell an error.
+    pub fn leave(&self) {
+        self.restore(|sequence| drop(self.write(sequence)));
+    }
+
+    /// Gives the terminal back without ever waiting for it: a terminal that takes no more output
+    /// keeps its modes, but raw mode ends.
+    pub fn leave_at_once(&self) {
+        self.restore(|sequence| {
+            let mut ready = [PollFd::new(&*self.out, PollFlags::OUT)];
+            let at_once = Timespec { tv_sec: 0, tv_nsec: 0 };
+            if poll(&mut ready, Some(&at_once)).is_ok_and(|ready| ready > 0) {
+                drop(self.write(sequence));
+            }
+        });
+    }
+
+    fn restore(&self, write: impl FnOnce(&str)) {
+        let mut taken = self.taken.lock().unwrap_or_else(PoisonError::into_inner);
+        if std::mem::take(&mut *taken) {
+            write(&leaving());
+            drop(disable_raw_mode());
+        }
+    }
+
+    fn write(&self, sequence: &str) -> io::Result<()> {
+        (&*self.out).write_all(sequence.as_bytes())
+    }
+}
+
+impl Drop for Guard {
+    /// The last clone gives the terminal back; usually that has been done.
+    fn drop(&mut self) {
+        if Arc::strong_count(&self.taken) == 1 {
+            self.leave();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn leaving_undoes_entering_in_reverse_order() {
+        let (entering, leaving) = (entering(), leaving());
+        let switched: Vec<&str> = entering.split('\x1b').skip(1).collect();
+        let undone: Vec<&str> = leaving.split('\x1b').skip(3).collect();
+        assert_eq!(switched.len(), MODES.len());
+        for (on, off) in switched.iter().zip(undone.iter().rev()) {
+            assert_eq!(on[..on.len() - 1], off[..off.len() - 1], "{entering:?} {leaving:?}");
+            assert_ne!(on, off);
+        }
+        assert!(leaving.starts_with("\x1b[?2026l\x1b[m"));
+    }
+}

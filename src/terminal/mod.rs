@@ -1,0 +1,17 @@
+//! The terminal: what it can do, its modes, and the way of a frame to it.
+//!
+//! - [`capabilities`]: what the environment says the terminal can show;
+//! - [`guard`]: the modes that the explorer turns on, turned off again whatever happens;
+//! - [`painter`]: changed cells to bytes;
+//! - [`pacing`]: when the next frame may be sent;
+//! - [`screen`]: the three above in one place, for the loop to draw on.
+
+pub mod capabilities;
+pub mod guard;
+pub mod pacing;
+pub mod painter;
+pub mod screen;
+
+pub use capabilities::{Environment, Refusal};
+pub use guard::Guard;
+pub use screen::Screen;

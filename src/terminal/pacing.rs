@@ -1,0 +1,176 @@
+//! When the next frame may be sent: not too soon, and not before the terminal has shown the last.
+//!
+//! Over a slow line frames queue in the SSH server and in the network, where no reading of keys helps:
+//! without a limit the picture lags by minutes behind a held-down key. So every frame ends with a
+//! request for a cursor position report. The terminal answers when it has read that far, and until
+//! then no other frame is sent; what happens meanwhile is in the next one, which shows the newest
+//! state only.
+//!
+//! A terminal that never answers must not be slower for it. Until the first answer arrives frames are
+//! limited by [`FRAME_TIME`] alone, and after [`TRIES`] unanswered requests no more are made. A
+//! terminal that has answered and then stays silent (a dropped line) is waited for, but not for ever:
+//! [`Pacing::PATIENCE`], or four times the longest wait so far.
+
+use std::time::{Duration, Instant};
+
+/// Least time between two frames: 60 a second.
+pub const FRAME_TIME: Duration = Duration::from_millis(16);
+
+/// Requests without an answer after which a terminal counts as silent.
+const TRIES: u32 = 16;
+
+/// How a program leaves a terminal that may still owe it an answer: how long it waits at most.
+const FAREWELL: Duration = Duration::from_millis(300);
+
+/// The state of the line between program and terminal. Time is an argument, never read here.
+#[derive(Clone, Debug, Default)]
+pub struct Pacing {
+    /// When the last frame was sent.
+    last: Option<Instant>,
+    /// When the request was made that is not answered yet.
+    waiting_since: Option<Instant>,
+    /// Longest time that an answer took; `None` before the first answer.
+    slowest: Option<Duration>,
+    /// Requests since the last answer.
+    unanswered: u32,
+}
+
+impl Pacing {
+    /// Shortest time to wait for a terminal that is known to answer.
+    pub const PATIENCE: Duration = Duration::from_secs(1);
+
+    /// Whether the next frame should ask for an answer.
+    #[must_use]
+    pub fn asks(&self) -> bool {
+        self.unanswered < TRIES
+    }
+
+    /// Earliest time for the next frame; it comes forward when the terminal answers.
+    #[must_use]
+    pub fn next(&self, now: Instant) -> Instant {
+        let spaced = self.last.map_or(now, |last| last + FRAME_TIME);
+        match (self.waiting_since, self.slowest) {
+            (Some(since), Some(slowest)) => spaced.max(since + Self::PATIENCE.max(4 * slowest)),
+            _ => spaced,
+        }
+    }
+
+    /// A frame was sent, with or without a request.
+    pub fn sent(&mut self, now: Instant, asked: bool) {
+        self.last = Some(now);
+        if asked {
+            self.asked(now);
+        } else {
+            self.waiting_since = None;
+        }
+    }
+
+    /// A request was sent by itself.
+    pub fn asked(&mut self, now: Instant) {
+        self.waiting_since = Some(now);
+        self.unanswered += 1;
+    }
+
+    /// The terminal answered: `false` if nothing had been asked.
+    ///
+    /// Then what looks like an answer is a key: xterm sends `ESC[1;5R` for Ctrl-F3.
+    pub fn answered(&mut self, now: Instant) -> bool {
+        let Some(since) = self.waiting_since.take() else { return false };
+        let took = now.saturating_duration_since(since);
+        self.slowest = Some(self.slowest.map_or(took, |slowest| slowest.max(took)));
+        self.unanswered = 0;
+        true
+    }
+
+    /// Until when to wait for an answer before the terminal is left, so that it does not turn up as
+    /// garbage on the shell's command line; `None` if none is due.
+    #[must_use]
+    pub fn farewell(&self) -> Option<Instant> {
+        let since = self.waiting_since?;
+        match self.slowest {
+            Some(slowest) => Some(since + FAREWELL.max(2 * slowest)),
+            None if self.unanswered < TRIES => Some(since + FAREWELL),
+            None => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MILLISECOND: Duration = Duration::from_millis(1);
+
+    #[test]
+    fn the_first_frame_goes_at_once_and_the_second_a_frame_time_later() {
+        let now = Instant::now();
+        let mut pacing = Pacing::default();
+        assert_eq!(pacing.next(now), now);
+        pacing.sent(now, false);
+        assert_eq!(pacing.next(now + MILLISECOND), now + FRAME_TIME);
+    }
+
+    #[test]
+    fn a_terminal_that_answers_gets_one_frame_at_a_time() {
+        let start = Instant::now();
+        let mut pacing = Pacing::default();
+        pacing.asked(start);
+        assert!(pacing.answered(start + 200 * MILLISECOND));
+        let sent = start + 300 * MILLISECOND;
+        pacing.sent(sent, pacing.asks());
+        assert_eq!(pacing.next(sent), sent + Pacing::PATIENCE);
+        assert!(pacing.answered(sent + 700 * MILLISECOND));
+        assert_eq!(pacing.next(sent + 700 * MILLISECOND), sent + FRAME_TIME);
+        let again = sent + 700 * MILLISECOND;
+        pacing.sent(again, pacing.asks());
+        assert_eq!(pacing.next(again), again + 4 * 700 * MILLISECOND);
+    }
+
+    #[test]
+    fn a_silent_terminal_is_as_fast_as_any_and_soon_left_alone() {
+        let mut now = Instant::now();
+        let mut pacing = Pacing::default();
+        let mut requests = 0;
+        for _ in 0..100 {
+            now = pacing.next(now);
+            requests += u32::from(pacing.asks());
+            pacing.sent(now, pacing.asks());
+            assert_eq!(pacing.next(now), now + FRAME_TIME);
+        }
+        assert_eq!(requests, TRIES);
+        assert_eq!(pacing.farewell(), None);
+    }
+
+    #[test]
+    fn a_terminal_that_falls_silent_is_given_up_after_a_while() {
+        let mut now = Instant::now();
+        let mut pacing = Pacing::default();
+        pacing.asked(now);
+        assert!(pacing.answered(now + MILLISECOND));
+        for _ in 0..TRIES {
+            now = pacing.next(now + MILLISECOND);
+            pacing.sent(now, pacing.asks());
+        }
+        assert!(!pacing.asks());
+        pacing.sent(now, pacing.asks());
+        assert_eq!(pacing.next(now), now + FRAME_TIME);
+    }
+
+    #[test]
+    fn an_answer_that_nobody_asked_for_is_none() {
+        assert!(!Pacing::default().answered(Instant::now()));
+    }
+
+    #[test]
+    fn leaving_waits_only_for_an_answer_that_is_due() {
+        let now = Instant::now();
+        let mut pacing = Pacing::default();
+        assert_eq!(pacing.farewell(), None);
+        pacing.asked(now);
+        assert_eq!(pacing.farewell(), Some(now + FAREWELL));
+        pacing.answered(now + 400 * MILLISECOND);
+        assert_eq!(pacing.farewell(), None);
+        pacing.sent(now, true);
+        assert_eq!(pacing.farewell(), Some(now + 800 * MILLISECOND));
+    }
+}

@@ -1,0 +1,121 @@
+//! The screen: where the loop draws, one frame at a time, each in one write.
+
+use std::io::{self, Write};
+use std::time::Instant;
+
+use ratatui::layout::{Rect, Size};
+use ratatui::{Frame, Terminal};
+
+use super::pacing::Pacing;
+use super::painter::{Painter, REQUEST};
+
+/// Size to draw at where the terminal says that it has none, as some do that nobody looks at.
+const UNKNOWN: Size = Size { width: 80, height: 24 };
+
+/// A terminal to draw on: the painter's bytes, and when they may be sent.
+#[derive(Debug)]
+pub struct Screen<W: Write> {
+    terminal: Terminal<Painter<W>>,
+    pacing: Pacing,
+    frames: u64,
+}
+
+/// What was sent so far, for tests and for the diagnostics on the screen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Traffic {
+    /// Frames that changed something.
+    pub frames: u64,
+    /// Bytes, frames and other sequences.
+    pub bytes: u64,
+}
+
+impl<W: Write> Screen<W> {
+    /// A screen of this size on a terminal that was just taken.
+    ///
+    /// # Errors
+    /// None that a [`Painter`] gives; the signature is ratatui's.
+    pub fn new(out: W, size: Size) -> io::Result<Screen<W>> {
+        let terminal = Terminal::new(Painter::new(out, known(size)))?;
+        Ok(Screen { terminal, pacing: Pacing::default(), frames: 0 })
+    }
+
+    /// Asks the terminal whether it answers, before there is a picture to wait for.
+    ///
+    /// # Errors
+    /// The error of writing to the terminal.
+    pub fn probe(&mut self, now: Instant) -> io::Result<()> {
+        self.terminal.backend_mut().control(REQUEST)?;
+        self.pacing.asked(now);
+        Ok(())
+    }
+
+    /// Earliest time for the next frame.
+    #[must_use]
+    pub fn next(&self, now: Instant) -> Instant {
+        self.pacing.next(now)
+    }
+
+    /// The terminal has shown the last frame; `false` if nothing had been asked of it.
+    pub fn answered(&mut self, now: Instant) -> bool {
+        self.pacing.answered(now)
+    }
+
+    /// Until when to wait for an answer before the terminal is left.
+    #[must_use]
+    pub fn farewell(&self) -> Option<Instant> {
+        self.pacing.farewell()
+    }
+
+    /// Draws a frame; one that looks like the last sends nothing.
+    ///
+    /// # Errors
+    /// The error of writing to the terminal.
+    pub fn draw(&mut self, now: Instant, picture: impl FnOnce(&mut Frame)) -> io::Result<()> {
+        let before = self.traffic().bytes;
+        let asks = self.pacing.asks();
+        self.terminal.backend_mut().ask(asks);
+        self.terminal.draw(picture)?;
+        if self.traffic().bytes > before {
+            self.pacing.sent(now, asks);
+            self.frames += 1;
+        }
+        Ok(())
+    }
+
+    /// The terminal has this size now.
+    pub fn resize(&mut self, size: Size) {
+        self.terminal.backend_mut().set_size(known(size));
+    }
+
+    /// Makes the next frame send everything: something else may have written to the terminal.
+    ///
+    /// # Errors
+    /// The error of writing to the terminal.
+    pub fn repaint(&mut self, size: Size) -> io::Result<()> {
+        let size = known(size);
+        let painter = self.terminal.backend_mut();
+        painter.set_size(size);
+        painter.forget();
+        // Not `Terminal::clear`, which asks where the cursor is and waits for the answer.
+        self.terminal.resize(Rect::from((ratatui::layout::Position::ORIGIN, size)))
+    }
+
+    /// Writes a sequence that draws nothing, such as one for the clipboard.
+    ///
+    /// # Errors
+    /// The error of writing to the terminal.
+    pub fn control(&mut self, sequence: &str) -> io::Result<()> {
+        self.terminal.backend_mut().control(sequence)
+    }
+
+    /// What was sent so far.
+    #[must_use]
+    pub fn traffic(&self) -> Traffic {
+        Traffic { frames: self.frames, bytes: self.terminal.backend().written() }
+    }
+}
+
+/// The size, unless it is none.
+fn known(size: Size) -> Size {
+    if size.width == 0 || size.height == 0 { UNKNOWN } else { size }
+}
