@@ -1,6 +1,8 @@
 //! What goes into the machine, and what it asks of the outer rings.
 
 use super::key::Key;
+use super::replay::Script;
+use super::state::Notice;
 use crate::scene::Answered;
 
 /// Everything that can happen to a session.
@@ -21,6 +23,8 @@ pub enum Msg {
     Answered(Box<Answered>),
     /// The worker has nothing left to do (sent after the last answer).
     Idle,
+    /// The outer rings tell how an effect ended, such as a file written or not, or a replay.
+    Told(Notice),
 }
 
 /// What a session asks of the outer rings; `update` itself touches nothing.
@@ -34,6 +38,8 @@ pub enum Effect {
     Repaint,
     /// Put this text on the clipboard (OSC 52) and into a file beside the session.
     Copy(String),
+    /// Play these keys, as if they were typed.
+    Play(Script),
     /// Write a file; the outcome comes back as a message line.
     Write {
         /// Where.
