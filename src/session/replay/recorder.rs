@@ -32,7 +32,7 @@ impl Recorder {
                     _ => self.steps.push(step),
                 }
             }
-            Msg::Paste(_) | Msg::Answered(_) | Msg::Idle => {}
+            Msg::Paste(_) | Msg::Answered(_) | Msg::Idle | Msg::Told(_) => {}
         }
     }
 
