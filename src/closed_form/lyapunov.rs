@@ -1,0 +1,152 @@
+//! Energy as Lyapunov function: a circle that surely belongs to the basin (equations 17 to 24).
+//!
+//! Along every motion `V' = -2 D v^2 - D2 v^3 - D3 v^4 - r abs(v)`. Wherever that is not positive on a
+//! whole disk about the origin, no motion leaves the disk, and by LaSalle's principle all that start
+//! in it are captured. The paper keeps only the terms of lowest order and finds the radius
+//! `l = -r/(2 D)` (24); with all terms the radius is a root of a cubic, found here too, since (24)
+//! promises too much where `D2` or negative `D3` feed energy in.
+
+use crate::oscillator::{Parameters, State};
+
+/// The rate of change `V'` of the energy (equations 17 to 19, with the terms of higher order).
+#[must_use]
+pub fn energy_rate(parameters: &Parameters, state: State) -> f64 {
+    let Parameters { d, d2, d3, r } = *parameters;
+    let v = state.v;
+    let damping = 2.0 * d + v * (d2 + v * d3);
+    -(v * v * damping + r * v.abs())
+}
+
+/// Radius `l = -r/(2 D)` of the circle on which the linearised energy stops falling (equation 24).
+///
+/// `None` where it is not a finite number: for `D >= 0` the linearised energy never grows.
+/// Assumption: `D2` and `D3` negligible within the circle; [`full_disk`] assumes nothing.
+#[must_use]
+pub fn radius(parameters: &Parameters) -> Option<f64> {
+    let Parameters { d, r, .. } = *parameters;
+    let radius = -r / (2.0 * d);
+    (d < 0.0 && radius.is_finite()).then_some(radius)
+}
+
+/// Where the energy of the full system never grows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Disk {
+    /// Within this distance of the origin. For `r > 0` every motion that starts there is captured.
+    Radius(f64),
+    /// In the whole plane.
+    Plane,
+}
+
+/// Largest disk within which the energy of the full system never grows.
+///
+/// Its radius is the smallest `v` beyond which `r + 2 D v - abs(D2) v^2 + D3 v^3`, the loss of energy
+/// per length of path on the worse side of `v = 0`, is negative. Guarantee: the radius is bracketed
+/// between neighbouring doubles by the sign of that polynomial as rounded.
+#[must_use]
+pub fn full_disk(parameters: &Parameters) -> Disk {
+    let Parameters { d, d2, d3, r } = *parameters;
+    let asymmetry = d2.abs();
+    let loss = |v: f64| r + v * (2.0 * d - v * (asymmetry - v * d3));
+    // Without friction the lowest term that is not zero decides next to the origin.
+    let feeds_small_motions = d < 0.0 || (d == 0.0 && (asymmetry > 0.0 || d3 < 0.0));
+    if r == 0.0 && feeds_small_motions {
+        return Disk::Radius(0.0);
+    }
+    // By the rule of signs the loss turns negative at most once for D3 <= 0, and then stays so; for
+    // D3 > 0 it turns negative and positive again or never, and is least in between.
+    let least = (asymmetry + (asymmetry * asymmetry - 6.0 * d * d3).sqrt()) / (3.0 * d3);
+    let negative = if d3 > 0.0 && !least.is_infinite() {
+        Some(least).filter(|&v| v > 0.0 && loss(v) < 0.0)
+    } else {
+        std::iter::successors(Some(f64::MIN_POSITIVE), |v| Some(2.0 * v))
+            .take_while(|v| v.is_finite())
+            .find(|&v| loss(v) < 0.0)
+    };
+    negative.map_or(Disk::Plane, |negative| Disk::Radius(last_not_negative(loss, negative)))
+}
+
+/// The last double before the sign of `function` changes, given that it is negative at `high` and not
+/// at 0. Halves the number of doubles in between, which are ordered like their bit patterns.
+fn last_not_negative(function: impl Fn(f64) -> f64, high: f64) -> f64 {
+    let (mut low, mut high) = (0, high.to_bits());
+    while high - low > 1 {
+        let middle = low + (high - low) / 2;
+        if function(f64::from_bits(middle)) < 0.0 {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    f64::from_bits(low)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::piecewise_linear::LinearCycle;
+    use super::*;
+
+    fn oscillator(d: f64, d2: f64, d3: f64, r: f64) -> Parameters {
+        Parameters { d, d2, d3, r }
+    }
+
+    #[test]
+    fn with_linear_damping_alone_both_radii_are_r_over_two_d() {
+        let parameters = oscillator(-0.1, 0.0, 0.0, 0.5);
+        assert_eq!(radius(&parameters), Some(2.5));
+        let Disk::Radius(full) = full_disk(&parameters) else { panic!("a radius") };
+        assert!((full - 2.5).abs() <= 4.0 * f64::EPSILON);
+        for d in [0.0, -0.0, 0.3] {
+            assert_eq!(radius(&oscillator(d, 0.0, 0.0, 0.5)), None);
+            assert_eq!(full_disk(&oscillator(d, 0.0, 0.0, 0.5)), Disk::Plane);
+        }
+        assert_eq!(radius(&oscillator(-1e-300, 0.0, 0.0, 1e12)), None);
+    }
+
+    #[test]
+    fn terms_of_higher_order_move_the_radius() {
+        // 0.5 - 0.2 v - 0.1 v^2 = 0 at v = sqrt(6) - 1.
+        let Disk::Radius(full) = full_disk(&oscillator(-0.1, -0.1, 0.0, 0.5)) else { panic!() };
+        assert!((full - (6.0_f64.sqrt() - 1.0)).abs() <= 4.0 * f64::EPSILON);
+        // 0.1 - 0.6 v + 0.5 v^3 has its least value below zero at v = sqrt(0.4); with r = 0.3 above.
+        assert!(matches!(full_disk(&oscillator(-0.3, 0.0, 0.5, 0.1)), Disk::Radius(_)));
+        assert_eq!(full_disk(&oscillator(-0.3, 0.0, 0.5, 0.3)), Disk::Plane);
+        // Negative cubic damping feeds energy in even at D > 0: 1 + v - v^3/4 = 0.
+        let Disk::Radius(full) = full_disk(&oscillator(0.5, 0.0, -0.25, 1.0)) else { panic!() };
+        assert!((1.0 + full - full.powi(3) / 4.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn without_friction_the_origin_decides() {
+        assert_eq!(full_disk(&oscillator(-1e-300, 0.0, 1.0, 0.0)), Disk::Radius(0.0));
+        assert_eq!(full_disk(&oscillator(-0.0, 1e-300, 1.0, 0.0)), Disk::Radius(0.0));
+        assert_eq!(full_disk(&oscillator(0.0, 0.0, 0.0, 0.0)), Disk::Plane);
+        assert_eq!(full_disk(&oscillator(0.1, 0.0, 1.0, 0.0)), Disk::Plane);
+    }
+
+    proptest! {
+        #[test]
+        fn the_circle_lies_inside_the_cycle(d in -0.999..-1e-6, r in 1e-3..1e3) {
+            let circle = radius(&oscillator(d, 0.0, 0.0, r)).unwrap();
+            let cycle = LinearCycle::new(d, r).unwrap();
+            prop_assert!(circle < cycle.q_max && circle < cycle.v_max);
+        }
+
+        #[test]
+        fn energy_falls_inside_the_disk_and_grows_somewhere_just_outside(
+            d in -1.0..1.0, d2 in -1.0..1.0, d3 in -1.0..1.0, r in 1e-3..1.0, part in 0.0..1.0,
+        ) {
+            let parameters = oscillator(d, d2, d3, r);
+            let (inside, outside) = match full_disk(&parameters) {
+                Disk::Radius(radius) => (part * radius, Some(radius * (1.0 + 1e-9))),
+                Disk::Plane => (part * 1e3, None),
+            };
+            let rate = |v: f64| energy_rate(&parameters, State { q: 0.0, v });
+            prop_assert!(rate(inside) <= 0.0 && rate(-inside) <= 0.0);
+            if let Some(outside) = outside {
+                prop_assert!(rate(outside).max(rate(-outside)) > 0.0);
+            }
+        }
+    }
+}
