@@ -9,3 +9,4 @@ pub mod scene;
 pub mod session;
 pub mod study;
 pub mod terminal;
+pub mod view;

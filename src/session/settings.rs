@@ -10,7 +10,7 @@ pub enum Glyphs {
     Braille,
     /// Two by four blocks a cell.
     Octant,
-    /// One by two blocks a cell.
+    /// Two by two blocks a cell.
     Block,
     /// Printable ASCII only.
     Ascii,

@@ -1,0 +1,414 @@
+//! A raster finer than the cells of the terminal: strokes with dashes, sparse textures and symbols.
+//!
+//! Each cell shows one thing in one colour, which keeps the stream of bytes short: a symbol hides
+//! strokes, strokes hide texture, and where strokes share a cell the dots of both are shown in the
+//! colour of the later one. Coordinates count dots from the top left corner; lines are clipped in
+//! floating point before they become dots, and what is not finite is not drawn.
+
+#![expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "numbers are clipped to the raster before they count dots"
+)]
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::symbols::braille::BRAILLE;
+use ratatui::symbols::pixel::{OCTANTS, QUADRANTS};
+
+use super::look::{Look, Role};
+use crate::session::settings::Glyphs;
+
+/// How a stroke is interrupted; told apart without colour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dash {
+    /// Not at all.
+    Solid,
+    /// Long dashes.
+    Dashed,
+    /// Dot by dot.
+    Dotted,
+    /// Few dots.
+    Sparse,
+}
+
+/// What a curve is drawn with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pen {
+    /// What the curve is.
+    pub role: Role,
+    /// How it is interrupted.
+    pub dash: Dash,
+}
+
+/// A point in dots from the top left corner.
+type Point = (f64, f64);
+
+/// What a cell shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+enum Content {
+    #[default]
+    Empty,
+    Texture(char, Role),
+    Ink(u8, Role),
+    Symbol(char, Role),
+}
+
+/// The raster of one plot.
+#[derive(Clone, Debug)]
+pub struct Dots {
+    area: Rect,
+    glyphs: Glyphs,
+    cells: Vec<Content>,
+}
+
+impl Dots {
+    /// An empty raster over `area`.
+    #[must_use]
+    pub fn new(area: Rect, glyphs: Glyphs) -> Self {
+        let cells = usize::from(area.width) * usize::from(area.height);
+        Dots { area, glyphs, cells: vec![Content::Empty; cells] }
+    }
+
+    /// Size in dots.
+    #[must_use]
+    pub fn size(&self) -> Point {
+        let (across, down) = self.glyphs.dots();
+        (
+            f64::from(self.area.width) * f64::from(across),
+            f64::from(self.area.height) * f64::from(down),
+        )
+    }
+
+    /// The cell (column, row) in which a point lies, if it lies on the raster.
+    #[must_use]
+    pub fn cell_at(&self, (x, y): Point) -> Option<(u16, u16)> {
+        let (width, height) = self.size();
+        let (across, down) = self.glyphs.dots();
+        let inside = (0.0..=width).contains(&x) && (0.0..=height).contains(&y);
+        let column = ((x / f64::from(across)) as u16).min(self.area.width.saturating_sub(1));
+        let row = ((y / f64::from(down)) as u16).min(self.area.height.saturating_sub(1));
+        (inside && !self.area.is_empty()).then_some((column, row))
+    }
+
+    /// Draws a polyline; a point that is not finite interrupts it.
+    pub fn stroke(&mut self, points: impl IntoIterator<Item = Point>, pen: Pen) {
+        let mut stroke = Stroke::default();
+        let mut previous: Option<Point> = None;
+        let size = self.size();
+        for point in points {
+            if !(point.0.is_finite() && point.1.is_finite()) {
+                self.lift(&mut stroke, pen);
+                previous = None;
+                continue;
+            }
+            let segment = clip(previous.unwrap_or(point), point, size);
+            if let Some(((x0, y0), (x1, y1), _)) = segment {
+                let steps = (x1 - x0).abs().max((y1 - y0).abs()).ceil().max(1.0);
+                for index in 0..=steps as u32 {
+                    let along = f64::from(index) / steps;
+                    let (x, y) = (x0 + (x1 - x0) * along, y0 + (y1 - y0) * along);
+                    self.visit(&mut stroke, pen, (x as i32, y as i32));
+                }
+            }
+            if segment.is_none_or(|(.., whole)| !whole) {
+                self.lift(&mut stroke, pen);
+            }
+            previous = Some(point);
+        }
+        self.lift(&mut stroke, pen);
+    }
+
+    /// Moves a stroke to a dot. A dot that would only make a corner between its neighbours is left
+    /// out, so that curves stay one dot wide.
+    fn visit(&mut self, stroke: &mut Stroke, pen: Pen, dot: (i32, i32)) {
+        let Some(waiting) = stroke.waiting else {
+            stroke.waiting = Some(dot);
+            return;
+        };
+        if waiting == dot {
+            return;
+        }
+        let corner = stroke
+            .last
+            .is_some_and(|last| (dot.0 - last.0).abs() == 1 && (dot.1 - last.1).abs() == 1);
+        if !corner {
+            self.commit(stroke, pen, waiting);
+        }
+        stroke.waiting = Some(dot);
+    }
+
+    fn commit(&mut self, stroke: &mut Stroke, pen: Pen, dot: (i32, i32)) {
+        let (on, period) = self.glyphs.dash(pen.dash);
+        if stroke.length % period < on {
+            self.ink(dot, pen.role);
+        }
+        stroke.length += 1;
+        stroke.last = Some(dot);
+    }
+
+    fn lift(&mut self, stroke: &mut Stroke, pen: Pen) {
+        if let Some(waiting) = stroke.waiting.take() {
+            self.commit(stroke, pen, waiting);
+        }
+        stroke.last = None;
+    }
+
+    fn ink(&mut self, (x, y): (i32, i32), role: Role) {
+        let (across, down) = self.glyphs.dots();
+        let (across, down) = (i32::from(across), i32::from(down));
+        let bit = 1_u8 << (y.rem_euclid(down) * across + x.rem_euclid(across));
+        let cell = (x.div_euclid(across), y.div_euclid(down));
+        let (Ok(column), Ok(row)) = (u16::try_from(cell.0), u16::try_from(cell.1)) else { return };
+        if let Some(content) = self.at(column, row) {
+            *content = match *content {
+                Content::Ink(bits, _) => Content::Ink(bits | bit, role),
+                Content::Symbol(..) => return,
+                Content::Empty | Content::Texture(..) => Content::Ink(bit, role),
+            };
+        }
+    }
+
+    /// Puts texture into a cell, if nothing else is there.
+    pub fn texture(&mut self, column: u16, row: u16, symbol: char, role: Role) {
+        if let Some(content @ (Content::Empty | Content::Texture(..))) = self.at(column, row) {
+            *content = Content::Texture(symbol, role);
+        }
+    }
+
+    /// Puts a symbol into a cell, over everything else.
+    pub fn symbol(&mut self, column: u16, row: u16, symbol: char, role: Role) {
+        if let Some(content) = self.at(column, row) {
+            *content = Content::Symbol(symbol, role);
+        }
+    }
+
+    /// Whether a cell shows neither stroke nor symbol.
+    #[must_use]
+    pub fn is_free(&self, column: u16, row: u16) -> bool {
+        let index = usize::from(row) * usize::from(self.area.width) + usize::from(column);
+        column < self.area.width
+            && matches!(self.cells.get(index), Some(Content::Empty | Content::Texture(..)))
+    }
+
+    fn at(&mut self, column: u16, row: u16) -> Option<&mut Content> {
+        let index = usize::from(row) * usize::from(self.area.width) + usize::from(column);
+        if column < self.area.width { self.cells.get_mut(index) } else { None }
+    }
+
+    /// Writes the raster into the buffer; empty cells leave what is there.
+    pub fn paint(&self, buffer: &mut Buffer, look: &Look) {
+        for (position, content) in self.area.positions().zip(&self.cells) {
+            let (symbol, role) = match *content {
+                Content::Empty => continue,
+                Content::Texture(symbol, role) | Content::Symbol(symbol, role) => (symbol, role),
+                Content::Ink(bits, role) => (self.glyphs.draw(bits, look.letter(role)), role),
+            };
+            if let Some(cell) = buffer.cell_mut(position) {
+                cell.set_char(symbol).set_style(look.style(role));
+            }
+        }
+    }
+}
+
+/// Where the pen is: the dot drawn last, the one to be drawn next, and how many were drawn.
+#[derive(Default)]
+struct Stroke {
+    last: Option<(i32, i32)>,
+    waiting: Option<(i32, i32)>,
+    length: u32,
+}
+
+impl Glyphs {
+    /// Dots of one cell, across and down.
+    #[must_use]
+    pub fn dots(self) -> (u8, u8) {
+        match self {
+            Glyphs::Auto | Glyphs::Braille | Glyphs::Octant => (2, 4),
+            Glyphs::Block => (2, 2),
+            Glyphs::Ascii => (1, 1),
+        }
+    }
+
+    /// Dots drawn, and dots until the pattern repeats.
+    fn dash(self, dash: Dash) -> (u32, u32) {
+        let coarse = matches!(self, Glyphs::Ascii);
+        match dash {
+            Dash::Solid => (1, 1),
+            Dash::Dashed if coarse => (2, 3),
+            Dash::Dashed => (4, 7),
+            Dash::Dotted if coarse => (1, 2),
+            Dash::Dotted => (1, 2),
+            Dash::Sparse if coarse => (1, 3),
+            Dash::Sparse => (1, 4),
+        }
+    }
+
+    /// The character that shows these dots, bit by bit from the top left, row by row.
+    fn draw(self, bits: u8, letter: char) -> char {
+        match self {
+            Glyphs::Auto | Glyphs::Braille => BRAILLE[usize::from(bits)],
+            Glyphs::Octant => OCTANTS[usize::from(bits)],
+            Glyphs::Block => QUADRANTS[usize::from(bits & 0b1111)],
+            Glyphs::Ascii => letter,
+        }
+    }
+}
+
+/// The part of a segment that lies on a raster of this size, by Liang and Barsky: its two ends, just
+/// short of the far borders so that they are on dots, and whether the second is the segment's own.
+fn clip(start: Point, end: Point, size: Point) -> Option<(Point, Point, bool)> {
+    const SHORT: f64 = 1e-6;
+    let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
+    let limits = (size.0 - SHORT, size.1 - SHORT);
+    for (from, to, limit) in [(start.0, end.0, limits.0), (start.1, end.1, limits.1)] {
+        let run = to - from;
+        if run == 0.0 {
+            if !(0.0..=limit).contains(&from) {
+                return None;
+            }
+            continue;
+        }
+        let (at_zero, at_limit) = (-from / run, (limit - from) / run);
+        enter = enter.max(at_zero.min(at_limit));
+        leave = leave.min(at_zero.max(at_limit));
+    }
+    let point = |along: f64| {
+        let (x, y) = (start.0 + (end.0 - start.0) * along, start.1 + (end.1 - start.1) * along);
+        (x.clamp(0.0, limits.0), y.clamp(0.0, limits.1))
+    };
+    // Runs beyond the range of floating point make no visible line.
+    let finite = (end.0 - start.0).is_finite() && (end.1 - start.1).is_finite();
+    let visible = finite && enter <= leave && limits.0 > 0.0 && limits.1 > 0.0;
+    visible.then(|| (point(enter), point(leave), leave >= 1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use ratatui::style::Color;
+
+    use super::*;
+    use crate::session::settings;
+
+    const SOLID: Pen = Pen { role: Role::Trajectory, dash: Dash::Solid };
+
+    fn painted(dots: &Dots) -> Vec<String> {
+        let look = Look::new(settings::Look { glyphs: dots.glyphs, ..settings::Look::default() });
+        let mut buffer = Buffer::empty(dots.area);
+        dots.paint(&mut buffer, &look);
+        let rows = buffer.content.chunks(usize::from(dots.area.width.max(1)));
+        rows.map(|row| row.iter().map(ratatui::buffer::Cell::symbol).collect()).collect()
+    }
+
+    #[test]
+    fn a_diagonal_is_one_dot_wide() {
+        let mut dots = Dots::new(Rect::new(0, 0, 2, 1), Glyphs::Braille);
+        dots.stroke([(0.0, 0.0), (3.9, 3.9)], SOLID);
+        assert_eq!(painted(&dots), ["⠑⢄"]);
+    }
+
+    #[test]
+    fn corners_of_a_curve_in_small_steps_are_cut() {
+        let mut dots = Dots::new(Rect::new(0, 0, 2, 1), Glyphs::Braille);
+        dots.stroke(
+            [(0.5, 0.5), (1.5, 0.5), (1.5, 1.5), (2.5, 1.5), (2.5, 2.5), (3.5, 3.5)],
+            SOLID,
+        );
+        assert_eq!(painted(&dots), ["⠑⢄"]);
+    }
+
+    #[test]
+    fn dashes_differ_in_their_dots() {
+        let drawn = |dash| {
+            let mut dots = Dots::new(Rect::new(0, 0, 8, 1), Glyphs::Braille);
+            dots.stroke([(0.0, 0.0), (15.9, 0.0)], Pen { role: Role::Stable, dash });
+            painted(&dots).remove(0)
+        };
+        assert_eq!(drawn(Dash::Solid), "⠉⠉⠉⠉⠉⠉⠉⠉");
+        assert_eq!(drawn(Dash::Dashed), "⠉⠉ ⠈⠉⠁ ⠉");
+        assert_eq!(drawn(Dash::Dotted), "⠁⠁⠁⠁⠁⠁⠁⠁");
+        assert_eq!(drawn(Dash::Sparse), "⠁ ⠁ ⠁ ⠁ ");
+    }
+
+    #[test]
+    fn each_set_of_glyphs_draws_the_same_cross() {
+        let drawn = |glyphs| {
+            let mut dots = Dots::new(Rect::new(0, 0, 3, 3), glyphs);
+            let (width, height) = dots.size();
+            dots.stroke([(0.0, height / 2.0), (width, height / 2.0)], SOLID);
+            dots.stroke([(width / 2.0, 0.0), (width / 2.0, height)], SOLID);
+            painted(&dots)
+        };
+        assert_eq!(drawn(Glyphs::Ascii), [" * ", "***", " * "]);
+        assert_eq!(drawn(Glyphs::Block), [" ▐ ", "▄▟▄", " ▐ "]);
+        assert_eq!(drawn(Glyphs::Braille), [" ⢸ ", "⠤⢼⠤", " ⢸ "]);
+    }
+
+    #[test]
+    fn strokes_hide_texture_and_symbols_hide_strokes() {
+        let mut dots = Dots::new(Rect::new(0, 0, 3, 1), Glyphs::Ascii);
+        (0..3).for_each(|column| dots.texture(column, 0, '.', Role::Basin));
+        dots.symbol(2, 0, 'F', Role::Special);
+        dots.stroke([(1.0, 0.0), (2.9, 0.0)], SOLID);
+        dots.texture(1, 0, '.', Role::Basin);
+        assert_eq!(painted(&dots), [".*F"]);
+        assert!(dots.is_free(0, 0) && !dots.is_free(1, 0) && !dots.is_free(3, 0));
+    }
+
+    #[test]
+    fn a_later_stroke_takes_the_colour_of_a_shared_cell() {
+        let look = Look::new(settings::Look::default());
+        let mut dots = Dots::new(Rect::new(0, 0, 1, 1), Glyphs::Braille);
+        dots.stroke([(0.0, 0.0)], SOLID);
+        dots.stroke([(1.0, 3.0)], Pen { role: Role::Stable, dash: Dash::Solid });
+        let mut buffer = Buffer::empty(dots.area);
+        dots.paint(&mut buffer, &look);
+        assert_eq!((buffer[(0, 0)].symbol(), buffer[(0, 0)].fg), ("⢁", Color::Green));
+    }
+
+    #[test]
+    fn a_line_from_far_out_enters_where_it_should() {
+        let mut dots = Dots::new(Rect::new(0, 0, 4, 4), Glyphs::Ascii);
+        dots.stroke([(-1e300, -1e300), (1e300, 1e300)], SOLID);
+        assert_eq!(painted(&dots)[0], "*   ");
+        let mut dots = Dots::new(Rect::new(0, 0, 3, 1), Glyphs::Ascii);
+        dots.stroke([(-1e9, 0.5), (1.5, 0.5), (1.5, f64::NAN), (2.5, 0.5)], SOLID);
+        assert_eq!(painted(&dots), ["***"]);
+    }
+
+    proptest! {
+        #[test]
+        fn whatever_is_drawn_nothing_breaks(
+            width in 0_u16..40, height in 0_u16..20,
+            points in proptest::collection::vec((any::<f64>(), any::<f64>()), 0..20),
+            near in proptest::collection::vec((-50.0..150.0, -50.0..150.0), 0..20),
+        ) {
+            for glyphs in [Glyphs::Braille, Glyphs::Octant, Glyphs::Block, Glyphs::Ascii] {
+                let mut dots = Dots::new(Rect::new(3, 5, width, height), glyphs);
+                for dash in [Dash::Solid, Dash::Dashed, Dash::Dotted, Dash::Sparse] {
+                    dots.stroke(points.iter().chain(&near).copied(), Pen { role: Role::Stable, dash });
+                }
+                prop_assert!(near.iter().all(|point| dots.cell_at(*point).is_none_or(|(column, row)| column < width && row < height)));
+                painted(&dots);
+            }
+        }
+
+        #[test]
+        fn a_clipped_line_is_the_visible_part_of_the_whole(
+            start in (-200.0..200.0, -200.0..200.0), end in (-200.0..200.0, -200.0..200.0),
+        ) {
+            let size = (40.0, 30.0);
+            let on = |(x, y): Point| (0.0..=size.0).contains(&x) && (0.0..=size.1).contains(&y);
+            let samples = (0..=1000).map(|index| f64::from(index) / 1000.0)
+                .map(|t| (start.0 + (end.0 - start.0) * t, start.1 + (end.1 - start.1) * t));
+            let visible = samples.clone().any(|(x, y)| {
+                (0.1..39.9).contains(&x) && (0.1..29.9).contains(&y)
+            });
+            match clip(start, end, size) {
+                None => prop_assert!(!visible),
+                Some((from, to, _)) => prop_assert!(on(from) && on(to)),
+            }
+        }
+    }
+}

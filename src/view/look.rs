@@ -1,0 +1,384 @@
+//! How things look: a theme, a set of glyphs and a depth of colour, resolved into one table of styles.
+//!
+//! Themes are data (`assets/themes/*.toml`): one line for each [`Role`], with one of the terminal's 16
+//! colours, attributes, and a finer colour for terminals that have more. Without colour the attributes
+//! remain, and every distinction that matters is also made by marker, dash or text.
+
+use std::fmt;
+use std::str::FromStr;
+
+use ratatui::style::{Color, Modifier, Style};
+
+use crate::session::settings::{self, Colors, Glyphs, Theme};
+
+/// What a piece of the screen is, as far as its style goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// Ordinary text.
+    Text,
+    /// Text of second rank: labels, units, explanations.
+    Quiet,
+    /// Headings.
+    Title,
+    /// Heading of the pane that the keys go to.
+    Focus,
+    /// The selected row.
+    Selected,
+    /// A value that the last key changed.
+    Changed,
+    /// Keys in footer and help.
+    Key,
+    /// What needs attention: stale, busy, a limit reached.
+    Warning,
+    /// What went wrong.
+    Failure,
+    /// Axes, ticks and their labels.
+    Axis,
+    /// Direction field.
+    Field,
+    /// Shading of the basin of attraction.
+    Basin,
+    /// Circle of the Lyapunov estimate.
+    Lyapunov,
+    /// The segment of equilibria.
+    Sticking,
+    /// The motion on show.
+    Trajectory,
+    /// Stable cycles.
+    Stable,
+    /// Unstable cycles, and the separatrix.
+    Unstable,
+    /// First-order harmonic curve.
+    Harmonic,
+    /// Asymptotes.
+    Asymptote,
+    /// Special points and their names.
+    Special,
+    /// The current parameter value in the diagram.
+    Current,
+    /// The cursor and its read-out.
+    Cursor,
+}
+
+/// Name in theme files, and glyph in a plot without dots, of every role in order.
+const ROLES: [(Role, &str, char); 22] = [
+    (Role::Text, "text", '*'),
+    (Role::Quiet, "quiet", '.'),
+    (Role::Title, "title", '*'),
+    (Role::Focus, "focus", '*'),
+    (Role::Selected, "selected", '*'),
+    (Role::Changed, "changed", '*'),
+    (Role::Key, "key", '*'),
+    (Role::Warning, "warning", '!'),
+    (Role::Failure, "failure", '!'),
+    (Role::Axis, "axis", '.'),
+    (Role::Field, "field", '.'),
+    (Role::Basin, "basin", '.'),
+    (Role::Lyapunov, "lyapunov", ':'),
+    (Role::Sticking, "sticking", '='),
+    (Role::Trajectory, "trajectory", '*'),
+    (Role::Stable, "stable", '#'),
+    (Role::Unstable, "unstable", 'o'),
+    (Role::Harmonic, "harmonic", '~'),
+    (Role::Asymptote, "asymptote", '\''),
+    (Role::Special, "special", '*'),
+    (Role::Current, "current", '|'),
+    (Role::Cursor, "cursor", '+'),
+];
+
+/// The text of a theme that comes with the program.
+fn text_of(theme: Theme) -> &'static str {
+    match theme {
+        Theme::Dark => include_str!("../../assets/themes/dark.toml"),
+        Theme::Light => include_str!("../../assets/themes/light.toml"),
+        Theme::Contrast => include_str!("../../assets/themes/contrast.toml"),
+        Theme::Mono => include_str!("../../assets/themes/mono.toml"),
+    }
+}
+
+/// Symbols that exist in a plain and in a letters-only form.
+#[derive(Clone, Copy, Debug)]
+pub struct Symbols {
+    /// Marks the selected row.
+    pub pointer: &'static str,
+    /// Plus or minus.
+    pub plus_minus: &'static str,
+    /// Separates remarks on a line.
+    pub dot: &'static str,
+    /// A cut text goes on.
+    pub more: &'static str,
+    /// Horizontal rule.
+    pub rule: &'static str,
+    /// Vertical rule.
+    pub upright: &'static str,
+    /// Corner of an axis: vertical line, tick on it, corner, horizontal line, tick on it.
+    pub axis: [&'static str; 5],
+    /// Where a motion starts.
+    pub start: char,
+    /// Where a motion came to rest.
+    pub rest: char,
+    /// Where a motion is at its end time.
+    pub head: char,
+    /// A stable and an unstable point.
+    pub points: [char; 2],
+    /// The current value, pointing at the axis from below.
+    pub current: char,
+    /// Corners and sides of a box: top left, top right, bottom left, bottom right.
+    pub corners: [&'static str; 4],
+    /// Direction of motion, from east counter-clockwise in eighths of a turn.
+    pub arrows: [char; 8],
+    /// Sparse shading.
+    pub shade: char,
+    /// Cross of the cursor, and its horizontal and vertical arms.
+    pub cross: [char; 3],
+}
+
+const RICH: Symbols = Symbols {
+    pointer: "▸",
+    plus_minus: "±",
+    dot: "·",
+    more: "…",
+    rule: "─",
+    upright: "│",
+    axis: ["│", "┤", "└", "─", "┴"],
+    start: '○',
+    rest: '■',
+    head: '●',
+    points: ['●', '○'],
+    current: '▲',
+    corners: ["┌", "┐", "└", "┘"],
+    arrows: ['→', '↗', '↑', '↖', '←', '↙', '↓', '↘'],
+    shade: '·',
+    cross: ['┼', '─', '│'],
+};
+
+const LETTERS: Symbols = Symbols {
+    pointer: ">",
+    plus_minus: "+-",
+    dot: "|",
+    more: "~",
+    rule: "-",
+    upright: "|",
+    axis: ["|", "+", "+", "-", "+"],
+    start: 'S',
+    rest: 'X',
+    head: '@',
+    points: ['#', 'o'],
+    current: '^',
+    corners: ["+", "+", "+", "+"],
+    arrows: ['>', '/', '^', '\\', '<', '/', 'v', '\\'],
+    shade: '.',
+    cross: ['+', '-', '|'],
+};
+
+/// A theme that cannot be used, and where it is wrong.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ThemeError {
+    /// Not a TOML table of texts; the message has line and column.
+    Syntax(String),
+    /// A role that does not exist.
+    Role(String),
+    /// A role without a line.
+    Missing(&'static str),
+    /// A word that is neither a colour nor an attribute.
+    Word {
+        /// The role.
+        role: &'static str,
+        /// The word.
+        word: String,
+    },
+}
+
+impl fmt::Display for ThemeError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ThemeError::Syntax(message) => write!(out, "theme: {message}"),
+            ThemeError::Role(role) => write!(out, "theme: {role:?} is nothing that has a style"),
+            ThemeError::Missing(role) => write!(out, "theme: {role} has no style"),
+            ThemeError::Word { role, word } => write!(
+                out,
+                "theme: {role}: {word:?} is no colour (red, light-red, #ff8800, default), \
+                 and not bold, dim, italic, underlined or reversed"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for ThemeError {}
+
+/// Everything that decides how the screen looks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Look {
+    /// How curves and symbols are drawn.
+    pub glyphs: Glyphs,
+    styles: [Style; ROLES.len()],
+}
+
+impl Look {
+    /// The look that these settings ask for; what they leave open becomes braille in 16 colours.
+    #[must_use]
+    pub fn new(settings: settings::Look) -> Self {
+        let settings::Look { glyphs, colors, theme } = settings;
+        // A test reads every theme, so the plain look never serves.
+        Look::from_text(text_of(theme), glyphs, colors)
+            .unwrap_or(Look { glyphs, styles: [Style::new(); ROLES.len()] })
+    }
+
+    /// The look that a theme file describes.
+    ///
+    /// # Errors
+    /// [`ThemeError`] names the line, the role or the word that is wrong.
+    pub fn from_text(text: &str, glyphs: Glyphs, colors: Colors) -> Result<Self, ThemeError> {
+        let lines: std::collections::BTreeMap<String, String> =
+            toml::from_str(text).map_err(|error| ThemeError::Syntax(error.to_string()))?;
+        if let Some(role) = lines.keys().find(|key| ROLES.iter().all(|(_, name, _)| name != key)) {
+            return Err(ThemeError::Role(role.clone()));
+        }
+        let mut styles = [Style::new(); ROLES.len()];
+        for (style, (_, role, _)) in styles.iter_mut().zip(ROLES) {
+            let words = lines.get(role).ok_or(ThemeError::Missing(role))?;
+            *style = style_from(words, colors)
+                .map_err(|word| ThemeError::Word { role, word: word.into() })?;
+        }
+        Ok(Look { glyphs, styles })
+    }
+
+    /// The style of a role.
+    #[must_use]
+    pub fn style(&self, role: Role) -> Style {
+        self.styles[role as usize]
+    }
+
+    /// The letter that draws the curves of a role where there are no dots.
+    #[must_use]
+    pub fn letter(&self, role: Role) -> char {
+        ROLES[role as usize].2
+    }
+
+    /// The symbols of this set of glyphs.
+    #[must_use]
+    pub fn symbols(&self) -> &'static Symbols {
+        if self.glyphs == Glyphs::Ascii { &LETTERS } else { &RICH }
+    }
+}
+
+/// Reads a style such as `red bold #ff7b72`: the finer colour serves where the terminal has more
+/// than 16. Returns the word that it does not know.
+fn style_from(words: &str, colors: Colors) -> Result<Style, &str> {
+    let mut style = Style::new();
+    let mut fine = None;
+    for word in words.split_whitespace() {
+        match word {
+            "default" => {}
+            "bold" => style = style.add_modifier(Modifier::BOLD),
+            "dim" => style = style.add_modifier(Modifier::DIM),
+            "italic" => style = style.add_modifier(Modifier::ITALIC),
+            "underlined" => style = style.add_modifier(Modifier::UNDERLINED),
+            "reversed" => style = style.add_modifier(Modifier::REVERSED),
+            colour => match Color::from_str(colour).map_err(|_| colour)? {
+                Color::Rgb(red, green, blue) => fine = Some((red, green, blue)),
+                basic => style = style.fg(basic),
+            },
+        }
+    }
+    match (colors, fine) {
+        (Colors::Never, _) => style.fg = None,
+        // A finer colour is quiet by itself where the 16 colours need the attribute.
+        (Colors::Indexed, Some(rgb)) => style = style.fg(Color::Indexed(nearest(rgb))),
+        (Colors::True, Some((red, green, blue))) => style = style.fg(Color::Rgb(red, green, blue)),
+        _ => return Ok(style),
+    }
+    if fine.is_some() && colors != Colors::Never {
+        style.add_modifier.remove(Modifier::DIM);
+    }
+    Ok(style)
+}
+
+/// The nearest of xterm's 240 fixed colours: a cube of 6 levels a side and a ramp of 24 greys.
+fn nearest((red, green, blue): (u8, u8, u8)) -> u8 {
+    const LEVELS: [u8; 6] = [0, 95, 135, 175, 215, 255];
+    let distance = |other: (u8, u8, u8)| {
+        let part = |a: u8, b: u8| u32::from(a.abs_diff(b)).pow(2);
+        part(red, other.0) + part(green, other.1) + part(blue, other.2)
+    };
+    let of_index = |index: u8| {
+        if index < 216 {
+            let level = |place: u8| LEVELS[usize::from(index / place % 6)];
+            (level(36), level(6), level(1))
+        } else {
+            let grey = 8 + 10 * (index - 216);
+            (grey, grey, grey)
+        }
+    };
+    16 + (0..240).min_by_key(|index| distance(of_index(*index))).unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::session::settings::THEMES;
+
+    #[test]
+    fn every_role_stands_at_its_own_row() {
+        for (index, (role, ..)) in ROLES.iter().enumerate() {
+            assert_eq!(*role as usize, index);
+        }
+    }
+
+    fn look(theme: Theme, glyphs: Glyphs, colors: Colors) -> Look {
+        Look::new(settings::Look { glyphs, colors, theme })
+    }
+
+    #[test]
+    fn every_theme_gives_every_role_a_style() {
+        for (theme, name) in THEMES {
+            let read = Look::from_text(text_of(theme), Glyphs::Braille, Colors::Sixteen);
+            assert!(read.is_ok(), "{name}: {read:?}");
+        }
+    }
+
+    #[test]
+    fn each_depth_has_its_own_colours_and_no_others() {
+        for (theme, name) in THEMES {
+            let colours = |colors| {
+                let look = look(theme, Glyphs::Braille, colors);
+                look.styles.into_iter().filter_map(|style| style.fg).collect::<Vec<_>>()
+            };
+            assert_eq!(colours(Colors::Never), [], "{name}");
+            let fine = |colour: &Color| matches!(colour, Color::Rgb(..) | Color::Indexed(_));
+            assert!(!colours(Colors::Sixteen).iter().any(fine), "{name}");
+            assert!(colours(Colors::True).iter().all(|colour| matches!(colour, Color::Rgb(..))));
+        }
+    }
+
+    #[test]
+    fn letters_tell_what_colours_tell() {
+        let look = look(Theme::Mono, Glyphs::Ascii, Colors::Never);
+        let pens = [Role::Trajectory, Role::Stable, Role::Unstable, Role::Harmonic, Role::Lyapunov];
+        for (index, one) in pens.iter().enumerate() {
+            assert!(pens[..index].iter().all(|other| look.letter(*other) != look.letter(*one)));
+        }
+        assert!(ROLES.iter().all(|(_, _, letter)| letter.is_ascii()));
+    }
+
+    #[test]
+    fn a_wrong_theme_says_what_is_wrong() {
+        let refused = |text: &str| {
+            Look::from_text(text, Glyphs::Braille, Colors::Sixteen).unwrap_err().to_string()
+        };
+        assert!(refused("text = 3").contains("line 1"), "{}", refused("text = 3"));
+        assert!(refused("tex = 'red'").contains("\"tex\""));
+        assert!(refused("text = 'default'").contains("quiet"));
+        let full = text_of(Theme::Dark).replace("stable = \"", "stable = \"mauve ");
+        assert!(refused(&full).contains("\"mauve\""), "{}", refused(&full));
+    }
+
+    #[test]
+    fn fixed_colours_are_their_own_nearest() {
+        for (rgb, index) in
+            [((0, 0, 0), 16), ((255, 255, 255), 231), ((95, 135, 175), 67), ((238, 238, 238), 255)]
+        {
+            assert_eq!(nearest(rgb), index);
+        }
+    }
+}

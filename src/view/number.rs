@@ -1,0 +1,128 @@
+//! Numbers as people read them: a few significant digits, or exactly, and never wider than the place
+//! they stand in.
+
+/// Writes `value` with at most `digits` significant digits, without trailing zeros.
+///
+/// Magnitudes from `1e-4` up to `1e6` are written plainly, others with an exponent.
+#[must_use]
+pub fn significant(value: f64, digits: usize) -> String {
+    if !value.is_finite() {
+        return "-".into();
+    }
+    if value == 0.0 {
+        return "0".into();
+    }
+    let digits = digits.max(1);
+    let scientific = format!("{value:.*e}", digits - 1);
+    let Some((mantissa, exponent)) = scientific.split_once('e') else { return scientific };
+    match exponent.parse::<i32>() {
+        Ok(power @ -4..6) => {
+            let whole = power.unsigned_abs() as usize;
+            let decimals =
+                if power < 0 { digits - 1 + whole } else { (digits - 1).saturating_sub(whole) };
+            without_trailing_zeros(&format!("{value:.decimals$}")).into()
+        }
+        _ => format!("{}e{exponent}", without_trailing_zeros(mantissa)),
+    }
+}
+
+/// Writes `value` so that it can be typed in again and means the same number, if `width` columns
+/// suffice; else rounds it to what fits.
+#[must_use]
+pub fn exact(value: f64, width: usize) -> String {
+    let full = format!("{value:?}");
+    let full = full.strip_suffix(".0").unwrap_or(&full);
+    if full.len() <= width {
+        return full.into();
+    }
+    (1..=15)
+        .rev()
+        .map(|digits| significant(value, digits))
+        .find(|text| text.len() <= width)
+        .unwrap_or_else(|| significant(value, 1))
+}
+
+/// Writes a count in at most six columns: `950`, `12.4k`, `3.1M`.
+#[must_use]
+pub fn count(value: u64) -> String {
+    const UNITS: [(u64, f64, &str); 3] =
+        [(1_000_000_000, 1e9, "G"), (1_000_000, 1e6, "M"), (10_000, 1e3, "k")];
+    match UNITS.iter().find(|(least, ..)| value >= *least) {
+        Some((_, divisor, unit)) => {
+            #[expect(clippy::cast_precision_loss, reason = "three digits are shown")]
+            let value = value as f64;
+            format!("{}{unit}", significant(value / divisor, 3))
+        }
+        None => value.to_string(),
+    }
+}
+
+/// Writes a duration given in seconds: `0.21 ms`, `35 ms`, `2.4 s`.
+#[must_use]
+pub fn duration(seconds: f64) -> String {
+    if seconds < 1.0 {
+        format!("{} ms", significant(seconds * 1e3, 2))
+    } else {
+        format!("{} s", significant(seconds, 3))
+    }
+}
+
+fn without_trailing_zeros(text: &str) -> &str {
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    #[test]
+    fn digits_are_those_that_matter() {
+        let cases = [
+            (-0.116_144, 3, "-0.116"),
+            (9.4699, 3, "9.47"),
+            (1.0, 4, "1"),
+            (0.1 + 0.2, 6, "0.3"),
+            (6.5e-31, 3, "6.5e-31"),
+            (1e12, 3, "1e12"),
+            (123_456.7, 3, "123457"),
+            (0.000_123, 2, "0.00012"),
+            (999.96, 4, "1000"),
+            (f64::NAN, 3, "-"),
+            (-0.0, 3, "0"),
+        ];
+        for (value, digits, text) in cases {
+            assert_eq!(significant(value, digits), text, "{value} to {digits}");
+        }
+    }
+
+    #[test]
+    fn counts_and_durations_stay_short() {
+        assert_eq!(
+            [0, 950, 9_999, 12_400, 3_100_000].map(count),
+            ["0", "950", "9999", "12.4k", "3.1M"]
+        );
+        assert_eq!([0.000_21, 0.035, 2.4].map(duration), ["0.21 ms", "35 ms", "2.4 s"]);
+    }
+
+    proptest! {
+        #[test]
+        fn an_exact_number_reads_back_and_a_rounded_one_fits(value: f64, width in 7_usize..30) {
+            prop_assume!(value.is_finite());
+            let text = exact(value, width);
+            let back: f64 = text.parse().unwrap();
+            if width >= 25 {
+                prop_assert_eq!(back, value);
+            }
+            prop_assert!(text.len() <= width.max(8), "{}", text);
+        }
+
+        #[test]
+        fn rounding_to_three_digits_loses_less_than_half_a_percent(value: f64) {
+            prop_assume!(value.is_normal());
+            let back: f64 = significant(value, 3).parse().unwrap();
+            prop_assert!(((back - value) / value).abs() <= 0.005_01 || back.is_infinite());
+        }
+    }
+}

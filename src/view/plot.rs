@@ -1,0 +1,318 @@
+//! A plot: title line, axes with ticks, and a raster that takes points of the world.
+//!
+//! This is the one gate between numbers and cells. World coordinates may be anything, also infinite
+//! or not a number; what cannot be shown is left out.
+
+#![expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "fractions of the screen count cells"
+)]
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+
+use super::dots::{Dash, Dots, Pen};
+use super::look::{Look, Role};
+use super::pane;
+use super::ticks::{Tick, Ticks};
+use crate::scene::{Point, Window};
+
+/// Smallest area in which axes stand outside the picture; below it labels lie inside.
+const ROOMY: (u16, u16) = (22, 9);
+
+/// Fewest columns of the labels at the left, so that the picture does not jump when they change.
+const GUTTER: u16 = 5;
+
+/// What a plot is called.
+#[derive(Clone, Copy, Debug)]
+pub struct Names<'a> {
+    /// The plot.
+    pub title: &'a str,
+    /// Its horizontal axis.
+    pub x: &'a str,
+    /// Its vertical axis.
+    pub y: &'a str,
+}
+
+/// A plot being drawn.
+#[derive(Debug)]
+pub struct Plot<'a> {
+    look: &'a Look,
+    window: Window,
+    inner: Rect,
+    dots: Dots,
+    inside: Option<(Ticks, Ticks)>,
+}
+
+impl<'a> Plot<'a> {
+    /// Writes title and axes into `area`, and gives the raster between them.
+    pub fn new(
+        area: Rect,
+        window: Window,
+        names: Names,
+        heading: pane::Heading,
+        look: &'a Look,
+        buffer: &mut Buffer,
+    ) -> Self {
+        let body = Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area };
+        let roomy = body.width >= ROOMY.0 && body.height >= ROOMY.1;
+        let rows = if roomy { body.height - 2 } else { body.height };
+        let upward = Ticks::fitting(window.y, |ticks| ticks.len() <= usize::from(rows / 3).max(2));
+        let widest = upward.ticks.iter().map(|tick| tick.label.len()).max().unwrap_or(0) as u16;
+        let gutter = if roomy { (widest + 1).max(GUTTER) } else { 0 };
+        let inner = Rect {
+            x: body.x + gutter,
+            width: body.width.saturating_sub(gutter),
+            height: rows,
+            ..body
+        };
+        let rightward = Ticks::fitting(window.x, |ticks| apart(ticks, inner.width));
+        let (x, y) = (named(names.x, &rightward), named(names.y, &upward));
+        pane::title(area, &format!("{}  {y} over {x}", names.title), heading, look, buffer);
+        let dots = Dots::new(inner, look.glyphs);
+        let mut plot = Plot { look, window, inner, dots, inside: None };
+        if roomy {
+            plot.axes(&rightward, &upward, buffer);
+        } else {
+            plot.inside = Some((rightward, upward));
+        }
+        plot
+    }
+
+    /// The cells between the axes.
+    #[must_use]
+    pub fn inner(&self) -> Rect {
+        self.inner
+    }
+
+    fn axes(&self, rightward: &Ticks, upward: &Ticks, buffer: &mut Buffer) {
+        let style = self.look.style(Role::Axis);
+        let [line, notch, corner, rule, stub] = self.look.symbols().axis;
+        let Rect { x, y, width, height } = self.inner;
+        let (left, bottom) = (x - 1, y + height);
+        for row in y..bottom {
+            buffer.set_string(left, row, line, style);
+        }
+        buffer.set_string(left, bottom, corner, style);
+        buffer.set_string(x, bottom, rule.repeat(width.into()), style);
+        for tick in &upward.ticks {
+            let row = y + self.row(tick.fraction);
+            let start = left.saturating_sub(tick.label.len() as u16);
+            buffer.set_string(start, row, &tick.label, style);
+            buffer.set_string(left, row, notch, style);
+        }
+        for tick in &rightward.ticks {
+            let column = column(tick.fraction, width);
+            buffer.set_string(x + column, bottom, stub, style);
+            buffer.set_string(x + centred(tick, width), bottom + 1, &tick.label, style);
+        }
+    }
+
+    /// Labels over the edge of the picture, where there is no room beside it.
+    fn labels_inside(&self, rightward: &Ticks, upward: &Ticks, buffer: &mut Buffer) {
+        let style = self.look.style(Role::Axis);
+        let Rect { x, y, width, height } = self.inner;
+        let Some(last) = height.checked_sub(1) else { return };
+        let fits = |tick: &&Tick| tick.label.len() < usize::from(width);
+        for tick in upward.ticks.iter().filter(fits) {
+            let row = self.row(tick.fraction);
+            if row < last {
+                buffer.set_string(x, y + row, &tick.label, style);
+            }
+        }
+        for tick in rightward.ticks.iter().filter(fits) {
+            buffer.set_string(x + centred(tick, width), y + last, &tick.label, style);
+        }
+    }
+
+    fn row(&self, fraction: f64) -> u16 {
+        column(1.0 - fraction, self.inner.height)
+    }
+
+    fn place(&self, point: Point) -> (f64, f64) {
+        let (width, height) = self.dots.size();
+        let Window { x, y } = self.window;
+        (x.fraction(point.x) * width, (1.0 - y.fraction(point.y)) * height)
+    }
+
+    /// The world at the middle of a cell.
+    #[must_use]
+    pub fn world(&self, column: u16, row: u16) -> Point {
+        let fraction = |cell: u16, cells: u16| (f64::from(cell) + 0.5) / f64::from(cells.max(1));
+        Point {
+            x: self.window.x.at(fraction(column, self.inner.width)),
+            y: self.window.y.at(1.0 - fraction(row, self.inner.height)),
+        }
+    }
+
+    /// Draws a polyline.
+    pub fn curve(&mut self, points: impl IntoIterator<Item = Point>, role: Role, dash: Dash) {
+        let placed: Vec<_> = points.into_iter().map(|point| self.place(point)).collect();
+        self.dots.stroke(placed, Pen { role, dash });
+    }
+
+    /// Draws `y(x)`, sampled once for each dot across; where there is no value there is no line.
+    pub fn function(&mut self, role: Role, dash: Dash, value: impl Fn(f64) -> Option<f64>) {
+        let across = self.dots.size().0 as u32;
+        let x = self.window.x;
+        let points: Vec<Point> = (0..=across)
+            .map(|dot| x.at(f64::from(dot) / f64::from(across.max(1))))
+            .map(|x| Point { x, y: value(x).unwrap_or(f64::NAN) })
+            .collect();
+        self.curve(points, role, dash);
+    }
+
+    /// Draws a straight line two dots thick.
+    pub fn bar(&mut self, from: Point, to: Point, role: Role) {
+        for offset in [-0.5, 0.5] {
+            let ends = [from, to].map(|end| {
+                let (x, y) = self.place(end);
+                (x, y + offset)
+            });
+            self.dots.stroke(ends, Pen { role, dash: Dash::Solid });
+        }
+    }
+
+    /// Shades the cells that `curve` does not separate from the origin.
+    ///
+    /// The curve may be closed, or open with ends outside the window.
+    pub fn shade(&mut self, curve: &[Point], role: Role) {
+        let symbol = self.look.symbols().shade;
+        let Rect { width, height, .. } = self.inner;
+        for row in 0..height {
+            let y = self.world(0, row).y;
+            let walls = crossings(curve, |point| point.y - y, |point| point.x);
+            let climbed = crossings(curve, |point| point.x, |point| point.y);
+            let between = |a: f64, b: f64, value: f64| a.min(b) < value && value < a.max(b);
+            let climbs = climbed.iter().filter(|wall| between(0.0, y, **wall)).count();
+            for column in (0..width).filter(|column| (column + 2 * row) % 4 == 0) {
+                let x = self.world(column, row).x;
+                let walks = walls.iter().filter(|wall| between(0.0, x, **wall)).count();
+                if (climbs + walks) % 2 == 0 {
+                    self.dots.texture(column, row, symbol, role);
+                }
+            }
+        }
+    }
+
+    /// Puts arrows on a sparse lattice of cells, in the direction that `flow` gives there.
+    pub fn arrows(&mut self, role: Role, flow: impl Fn(Point) -> Point) {
+        let arrows = self.look.symbols().arrows;
+        let Rect { width, height, .. } = self.inner;
+        let (dots_across, dots_down) = self.dots.size();
+        let (across, down) = (dots_across / self.window.x.width(), dots_down / self.window.y.width());
+        for row in (1..height).step_by(3) {
+            for column in (3..width).step_by(6) {
+                let direction = flow(self.world(column, row));
+                let angle = (direction.y * down).atan2(direction.x * across);
+                if angle.is_finite() {
+                    let eighth = (angle / std::f64::consts::FRAC_PI_4).round().rem_euclid(8.0);
+                    self.dots.texture(column, row, arrows[eighth as usize % 8], role);
+                }
+            }
+        }
+    }
+
+    /// Puts a symbol on a point, if it is in the window.
+    pub fn mark(&mut self, point: Point, symbol: char, role: Role) {
+        if let Some((column, row)) = self.dots.cell_at(self.place(point)) {
+            self.dots.symbol(column, row, symbol, role);
+        }
+    }
+
+    /// Writes a text beside a point, where it hides least.
+    pub fn caption(&mut self, point: Point, text: &str, role: Role) {
+        let Some((column, row)) = self.dots.cell_at(self.place(point)) else { return };
+        let (column, row) = (i32::from(column), i32::from(row));
+        let length = text.chars().count() as i32;
+        let width = i32::from(self.inner.width);
+        let places = [(1, 0), (-length, 0), (1, -1), (-length, -1), (1, 1), (-length, 1), (0, -2), (0, 2)];
+        let inside = |(x, y): &(i32, i32)| {
+            *x >= 0 && x + length <= width && (0..i32::from(self.inner.height)).contains(y)
+        };
+        let free = |(x, y): &(i32, i32)| {
+            (0..length).all(|offset| self.dots.is_free((x + offset) as u16, *y as u16))
+        };
+        let candidates = || places.iter().map(|(x, y)| (column + x, row + y)).filter(inside);
+        let Some((x, y)) = candidates().find(free).or_else(|| candidates().next()) else { return };
+        for (offset, letter) in (0..).zip(text.chars()) {
+            self.dots.symbol((x + offset) as u16, y as u16, letter, role);
+        }
+    }
+
+    /// Draws the cross of the cursor.
+    pub fn cross(&mut self, point: Point) {
+        let [centre, level, upright] = self.look.symbols().cross;
+        let Some((column, row)) = self.dots.cell_at(self.place(point)) else { return };
+        let arms = [
+            (column.checked_sub(2), Some(row), level),
+            (column.checked_sub(1), Some(row), level),
+            (Some(column + 1), Some(row), level),
+            (Some(column + 2), Some(row), level),
+            (Some(column), row.checked_sub(1), upright),
+            (Some(column), Some(row + 1), upright),
+            (Some(column), Some(row), centre),
+        ];
+        for (column, row, symbol) in arms {
+            if let (Some(column), Some(row)) = (column, row) {
+                self.dots.symbol(column, row, symbol, Role::Cursor);
+            }
+        }
+    }
+
+    /// Puts the picture on the screen.
+    pub fn finish(self, buffer: &mut Buffer) {
+        self.dots.paint(buffer, self.look);
+        if let Some((rightward, upward)) = &self.inside {
+            self.labels_inside(rightward, upward, buffer);
+        }
+    }
+}
+
+/// Where a polyline crosses the line `height = 0`, measured by `place`.
+fn crossings(
+    curve: &[Point],
+    height: impl Fn(Point) -> f64,
+    place: impl Fn(Point) -> f64,
+) -> Vec<f64> {
+    let crossing = |pair: &[Point]| {
+        let (before, after) = (height(pair[0]), height(pair[1]));
+        ((before < 0.0) != (after < 0.0)).then(|| {
+            let along = before / (before - after);
+            place(pair[0]) + (place(pair[1]) - place(pair[0])) * along
+        })
+    };
+    curve.windows(2).filter_map(crossing).collect()
+}
+
+/// The cell in which a fraction of the axis lies.
+fn column(fraction: f64, cells: u16) -> u16 {
+    ((fraction * f64::from(cells)) as u16).min(cells.saturating_sub(1))
+}
+
+/// Where the label of a tick begins, so that it is centred below its tick and inside the axis.
+fn centred(tick: &Tick, cells: u16) -> u16 {
+    let length = tick.label.len() as u16;
+    column(tick.fraction, cells).saturating_sub(length / 2).min(cells.saturating_sub(length))
+}
+
+/// Whether the labels of a horizontal axis keep their distance, and are not too many.
+fn apart(ticks: &[Tick], cells: u16) -> bool {
+    const GAP: u16 = 3;
+    let places = || ticks.iter().map(|tick| (centred(tick, cells), tick.label.len() as u16));
+    let fits = places().all(|(start, length)| start + length <= cells);
+    let clear = places().zip(places().skip(1)).all(|((start, length), (next, _))| start + length + GAP <= next);
+    fits && clear
+}
+
+/// The name of an axis whose labels may count from a base.
+fn named(name: &str, ticks: &Ticks) -> String {
+    match ticks.base.as_deref() {
+        None => name.into(),
+        Some(base) => match base.strip_prefix('-') {
+            Some(positive) => format!("{name}+{positive}"),
+            None => format!("{name}-{base}"),
+        },
+    }
+}
