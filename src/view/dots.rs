@@ -236,7 +236,7 @@ impl Glyphs {
         match dash {
             Dash::Solid => (1, 1),
             Dash::Dashed if coarse => (2, 3),
-            Dash::Dashed => (4, 7),
+            Dash::Dashed => (5, 8),
             Dash::Dotted if coarse => (1, 2),
             Dash::Dotted => (1, 2),
             Dash::Sparse if coarse => (1, 3),
@@ -326,7 +326,7 @@ mod tests {
             painted(&dots).remove(0)
         };
         assert_eq!(drawn(Dash::Solid), "⠉⠉⠉⠉⠉⠉⠉⠉");
-        assert_eq!(drawn(Dash::Dashed), "⠉⠉ ⠈⠉⠁ ⠉");
+        assert_eq!(drawn(Dash::Dashed), "⠉⠉⠁ ⠉⠉⠁ ");
         assert_eq!(drawn(Dash::Dotted), "⠁⠁⠁⠁⠁⠁⠁⠁");
         assert_eq!(drawn(Dash::Sparse), "⠁ ⠁ ⠁ ⠁ ");
     }

@@ -1,5 +1,20 @@
-//! The screen: what a session looks like.
+//! The screen: a session, drawn.
+//!
+//! [`frame::draw`] is the only way in. It divides the screen ([`layout`]), and each pane draws itself
+//! into its part with the help of [`plot`] and [`pane`]. How things look is decided in [`look`] alone.
+
+pub mod diagram;
 pub mod dots;
+pub mod frame;
+pub mod layout;
 pub mod look;
 pub mod number;
+pub mod pane;
+pub mod parameters;
+pub mod phase_plane;
+pub mod plot;
+pub mod status;
 pub mod ticks;
+
+pub use frame::draw;
+pub use look::Look;

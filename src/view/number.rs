@@ -35,6 +35,10 @@ pub fn exact(value: f64, width: usize) -> String {
     if full.len() <= width {
         return full.into();
     }
+    let scientific = format!("{value:e}");
+    if scientific.len() <= width {
+        return scientific;
+    }
     (1..=15)
         .rev()
         .map(|digits| significant(value, digits))

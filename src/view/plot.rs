@@ -51,14 +51,15 @@ impl<'a> Plot<'a> {
         area: Rect,
         window: Window,
         names: Names,
-        heading: pane::Heading,
+        heading: &pane::Heading,
         look: &'a Look,
         buffer: &mut Buffer,
     ) -> Self {
         let body = Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area };
         let roomy = body.width >= ROOMY.0 && body.height >= ROOMY.1;
         let rows = if roomy { body.height - 2 } else { body.height };
-        let upward = Ticks::fitting(window.y, |ticks| ticks.len() <= usize::from(rows / 3).max(2));
+        let upward =
+            Ticks::fitting(window.y, |ticks| ticks.len() <= usize::from(rows / 3).clamp(2, 9));
         let widest = upward.ticks.iter().map(|tick| tick.label.len()).max().unwrap_or(0) as u16;
         let gutter = if roomy { (widest + 1).max(GUTTER) } else { 0 };
         let inner = Rect {
@@ -69,7 +70,7 @@ impl<'a> Plot<'a> {
         };
         let rightward = Ticks::fitting(window.x, |ticks| apart(ticks, inner.width));
         let (x, y) = (named(names.x, &rightward), named(names.y, &upward));
-        pane::title(area, &format!("{}  {y} over {x}", names.title), heading, look, buffer);
+        pane::title(area, names.title, &format!("{y} over {x}"), heading, look, buffer);
         let dots = Dots::new(inner, look.glyphs);
         let mut plot = Plot { look, window, inner, dots, inside: None };
         if roomy {
@@ -163,6 +164,12 @@ impl<'a> Plot<'a> {
         self.curve(points, role, dash);
     }
 
+    /// Draws an upright through the whole window.
+    pub fn upright(&mut self, x: f64, role: Role, dash: Dash) {
+        let Window { y, .. } = self.window;
+        self.curve([y.from(), y.to()].map(|y| Point { x, y }), role, dash);
+    }
+
     /// Draws a straight line two dots thick.
     pub fn bar(&mut self, from: Point, to: Point, role: Role) {
         for offset in [-0.5, 0.5] {
@@ -180,16 +187,18 @@ impl<'a> Plot<'a> {
     pub fn shade(&mut self, curve: &[Point], role: Role) {
         let symbol = self.look.symbols().shade;
         let Rect { width, height, .. } = self.inner;
+        let climbed = crossings(curve, |point| point.x, |point| point.y);
         for row in 0..height {
             let y = self.world(0, row).y;
             let walls = crossings(curve, |point| point.y - y, |point| point.x);
-            let climbed = crossings(curve, |point| point.x, |point| point.y);
             let between = |a: f64, b: f64, value: f64| a.min(b) < value && value < a.max(b);
             let climbs = climbed.iter().filter(|wall| between(0.0, y, **wall)).count();
-            for column in (0..width).filter(|column| (column + 2 * row) % 4 == 0) {
+            for column in 0..width {
                 let x = self.world(column, row).x;
                 let walks = walls.iter().filter(|wall| between(0.0, x, **wall)).count();
                 if (climbs + walks) % 2 == 0 {
+                    // The blanks belong to the texture: to write them is shorter than to skip them.
+                    let symbol = if (column + row) % 2 == 0 { symbol } else { ' ' };
                     self.dots.texture(column, row, symbol, role);
                 }
             }
@@ -201,7 +210,8 @@ impl<'a> Plot<'a> {
         let arrows = self.look.symbols().arrows;
         let Rect { width, height, .. } = self.inner;
         let (dots_across, dots_down) = self.dots.size();
-        let (across, down) = (dots_across / self.window.x.width(), dots_down / self.window.y.width());
+        let (across, down) =
+            (dots_across / self.window.x.width(), dots_down / self.window.y.width());
         for row in (1..height).step_by(3) {
             for column in (3..width).step_by(6) {
                 let direction = flow(self.world(column, row));
@@ -227,7 +237,8 @@ impl<'a> Plot<'a> {
         let (column, row) = (i32::from(column), i32::from(row));
         let length = text.chars().count() as i32;
         let width = i32::from(self.inner.width);
-        let places = [(1, 0), (-length, 0), (1, -1), (-length, -1), (1, 1), (-length, 1), (0, -2), (0, 2)];
+        let places =
+            [(1, 0), (-length, 0), (1, -1), (-length, -1), (1, 1), (-length, 1), (0, -2), (0, 2)];
         let inside = |(x, y): &(i32, i32)| {
             *x >= 0 && x + length <= width && (0..i32::from(self.inner.height)).contains(y)
         };
@@ -302,7 +313,9 @@ fn apart(ticks: &[Tick], cells: u16) -> bool {
     const GAP: u16 = 3;
     let places = || ticks.iter().map(|tick| (centred(tick, cells), tick.label.len() as u16));
     let fits = places().all(|(start, length)| start + length <= cells);
-    let clear = places().zip(places().skip(1)).all(|((start, length), (next, _))| start + length + GAP <= next);
+    let clear = places()
+        .zip(places().skip(1))
+        .all(|((start, length), (next, _))| start + length + GAP <= next);
     fits && clear
 }
 

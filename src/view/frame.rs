@@ -1,0 +1,63 @@
+//! The whole screen: layout, panes, and what lies over them.
+
+use ratatui::Frame;
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+
+use super::layout::{Layout, SMALLEST, layout};
+use super::look::{Look, Role};
+use super::{diagram, parameters, phase_plane, status};
+use crate::session::Session;
+use crate::session::settings::Glyphs;
+
+/// Draws a session. Nothing is decided or computed here except what a visible cell shows.
+pub fn draw(frame: &mut Frame, session: &Session, look: &Look) {
+    let screen = frame.area();
+    render(screen, session, look, frame.buffer_mut());
+}
+
+/// [`draw`] without a terminal.
+pub fn render(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
+    match layout(screen, session) {
+        None => card(screen, look, buffer),
+        Some(parts) => panes(&parts, session, look, buffer),
+    }
+    if look.glyphs == Glyphs::Ascii {
+        only_letters(buffer);
+    }
+}
+
+fn panes(parts: &Layout, session: &Session, look: &Look, buffer: &mut Buffer) {
+    status::title(parts.title, session, look, buffer);
+    parameters::draw(parts.parameters, session, look, buffer);
+    if !parts.phase.is_empty() {
+        phase_plane::draw(parts.phase, session, look, buffer);
+    }
+    if !parts.diagram.is_empty() {
+        diagram::draw(parts.diagram, session, look, buffer);
+    }
+    status::draw(parts.status, session, look, buffer);
+}
+
+/// What a screen too small for everything else shows.
+fn card(screen: Rect, look: &Look, buffer: &mut Buffer) {
+    let Rect { x, y, width, height } = screen;
+    let (columns, rows) = SMALLEST;
+    let lines = [
+        format!("hopfscope needs {columns} x {rows}"),
+        format!("this screen is {width} x {height}"),
+    ];
+    let top = height.saturating_sub(2) / 2;
+    for (row, line) in (top..height).zip(lines) {
+        let left = usize::from(width).saturating_sub(line.len()) / 2;
+        let left = u16::try_from(left).unwrap_or(0);
+        buffer.set_stringn(x + left, y + row, line, width.into(), look.style(Role::Text));
+    }
+}
+
+/// Replaces what a terminal without Unicode cannot show, wherever the text came from.
+fn only_letters(buffer: &mut Buffer) {
+    for cell in buffer.content.iter_mut().filter(|cell| !cell.symbol().is_ascii()) {
+        cell.set_char('?');
+    }
+}

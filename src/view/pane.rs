@@ -1,0 +1,103 @@
+//! What all panes share: a title line that says what the pane shows, whether the keys go to it, and
+//! whether its picture is today's.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+
+use super::look::{Look, Role};
+use crate::scene::{Pane, Slot};
+use crate::session::Session;
+
+/// What stands in a title line besides the title.
+#[derive(Clone, Debug, Default)]
+pub struct Heading {
+    /// Whether the keys go to this pane.
+    pub focused: bool,
+    /// Why the picture is not today's.
+    pub mark: Option<&'static str>,
+    /// What the cursor reads.
+    pub reading: Option<String>,
+}
+
+impl Heading {
+    /// The heading of a pane, as the session has it.
+    #[must_use]
+    pub fn of(session: &Session, pane: Pane) -> Self {
+        Heading {
+            focused: session.focus == pane && session.overlay.is_none(),
+            mark: mark(session, pane),
+            reading: None,
+        }
+    }
+}
+
+/// Why the picture of a pane is not today's: the worst of what its layers need.
+fn mark(session: &Session, pane: Pane) -> Option<&'static str> {
+    let mut needed: Vec<Slot> = session
+        .layers
+        .iter()
+        .filter(|layer| layer.spec().pane == pane)
+        .filter_map(|layer| layer.spec().needs)
+        .collect();
+    needed.dedup();
+    let any = |test: &dyn Fn(Slot) -> bool| needed.iter().any(|slot| test(*slot));
+    if any(&|slot| session.failure(slot).is_some()) {
+        Some("no answer")
+    } else if any(&|slot| session.is_stale(slot) && session.answers.contains_key(&slot)) {
+        Some("stale")
+    } else if any(&|slot| session.is_stale(slot)) {
+        Some("computing")
+    } else {
+        None
+    }
+}
+
+/// Writes a title line into the first row of `area`: the title, then what fits of `names`, and the
+/// marks at the right.
+pub fn title(
+    area: Rect,
+    title: &str,
+    names: &str,
+    heading: &Heading,
+    look: &Look,
+    buffer: &mut Buffer,
+) {
+    let (pointer, role) =
+        if heading.focused { (look.symbols().pointer, Role::Focus) } else { (" ", Role::Title) };
+    let mut left = vec![Span::styled(format!("{pointer}{title}"), look.style(role))];
+    let mut right = Vec::new();
+    if let Some(mark) = heading.mark {
+        right.push(Span::styled(format!(" {mark}"), look.style(Role::Warning)));
+    }
+    if let Some(reading) = &heading.reading {
+        right.push(Span::styled(format!(" {reading}"), look.style(Role::Cursor)));
+    }
+    let width = |spans: &[Span]| spans.iter().map(Span::width).sum::<usize>();
+    let room = usize::from(area.width).saturating_sub(width(&left) + width(&right));
+    if room > names.len() + 2 {
+        left.push(Span::styled(format!("  {names}"), look.style(Role::Quiet)));
+    }
+    line(area, 0, left, right, buffer);
+}
+
+/// Writes a row of `area`: `left` from its left end and, where it fits, `right` at its right end.
+pub fn line(
+    area: Rect,
+    row: u16,
+    left: impl Into<Line<'static>>,
+    right: impl Into<Line<'static>>,
+    buffer: &mut Buffer,
+) {
+    if row >= area.height {
+        return;
+    }
+    let (left, right) = (left.into(), right.into());
+    let (x, y) = (area.x, area.y + row);
+    let needed = u16::try_from(right.width()).unwrap_or(u16::MAX);
+    let start = area.width.saturating_sub(needed);
+    let (end, _) = buffer.set_line(x, y, &left, area.width);
+    if needed > 0 && x + start >= end {
+        buffer.set_line(x + start, y, &right, needed);
+    }
+}
