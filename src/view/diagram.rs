@@ -13,6 +13,10 @@ use super::number::significant;
 use super::pane::Heading;
 use super::phase_plane::stability;
 use super::plot::{Names, Plot};
+use crate::closed_form::harmonic::{
+    amplitudes, damping_at, large_asymptote, mean, small_asymptote,
+};
+use crate::oscillator::{Parameters, Symbol};
 use crate::scene::{Layer, Pane, Point};
 use crate::session::Session;
 use crate::study::{BranchPoint, Special, SpecialKind};
@@ -35,6 +39,13 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
 
     plot.upright(0.0, Role::Axis, Dash::Sparse);
     plot.upright(current, Role::Current, Dash::Sparse);
+    if shows(Layer::Asymptotes) {
+        plot.function(Role::Asymptote, Dash::Sparse, |x| small_asymptote(&at(session, x)));
+        plot.function(Role::Asymptote, Dash::Sparse, |x| large_asymptote(&at(session, x)));
+    }
+    if shows(Layer::Harmonic) {
+        harmonic(&mut plot, session);
+    }
     if shows(Layer::Branch) {
         for piece in session.branch().iter().flat_map(|branch| &branch.pieces) {
             branch(&mut plot, piece);
@@ -53,6 +64,41 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         plot.cross(cursor);
     }
     plot.finish(buffer);
+}
+
+/// The parameters of the session, with the diagram's own at `value`.
+fn at(session: &Session, value: f64) -> Parameters {
+    let (mut parameters, mut initial) = (session.problem.parameters, session.problem.initial);
+    session.abscissa.set(&mut parameters, &mut initial, value);
+    parameters
+}
+
+/// The first-order harmonic answer, `q_max = A0 + A`.
+///
+/// Over D it is drawn along the amplitude, which leads through the fold without a gap; over the other
+/// parameters each amplitude is a curve of its own.
+fn harmonic(plot: &mut Plot, session: &Session) {
+    /// Samples along the amplitude: more than any screen has dots.
+    const SAMPLES: u16 = 1000;
+    let Parameters { d2, d3, r, .. } = session.problem.parameters;
+    if session.abscissa == Symbol::D {
+        let y = session.diagram.window.y;
+        let largest = 2.0 * y.from().abs().max(y.to().abs());
+        let points = (1..=SAMPLES).map(|sample| {
+            let amplitude = largest * f64::from(sample) / f64::from(SAMPLES);
+            let x = damping_at(d3, r, amplitude).unwrap_or(f64::NAN);
+            Point { x, y: amplitude + mean(d2, amplitude) }
+        });
+        plot.curve(points, Role::Harmonic, Dash::Dotted);
+        return;
+    }
+    for stable in [false, true] {
+        plot.function(Role::Harmonic, Dash::Dotted, |value| {
+            let found = amplitudes(&at(session, value)).into_iter();
+            let mut found = found.filter(|answer| answer.stable == stable);
+            found.next().map(|answer| answer.mean + answer.amplitude)
+        });
+    }
 }
 
 fn place(point: &BranchPoint) -> Point {

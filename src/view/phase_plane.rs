@@ -12,6 +12,7 @@ use super::look::{Look, Role};
 use super::number::significant;
 use super::pane::Heading;
 use super::plot::{Names, Plot};
+use crate::closed_form::lyapunov;
 use crate::flow::Outcome;
 use crate::oscillator::{HalfPlane, Side, State};
 use crate::scene::{Layer, Pane, Point};
@@ -36,7 +37,7 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     }
     plot.function(Role::Axis, Dash::Sparse, |_| Some(0.0));
     if shows(Layer::Lyapunov) {
-        lyapunov(&mut plot, session);
+        circle(&mut plot, session);
     }
     if shows(Layer::Trajectory) {
         trajectory(&mut plot, session);
@@ -80,18 +81,16 @@ fn basin(plot: &mut Plot, session: &Session) {
     }
 }
 
-fn lyapunov(plot: &mut Plot, session: &Session) {
+fn circle(plot: &mut Plot, session: &Session) {
     /// Corners of the polygon that stands for the circle.
     const CORNERS: u16 = 180;
-    let parameters = &session.problem.parameters;
-    let radius = -parameters.r / (2.0 * parameters.d);
-    if radius > 0.0 {
-        let circle = (0..=CORNERS).map(|corner| {
+    if let Some(radius) = lyapunov::radius(&session.problem.parameters) {
+        let corners = (0..=CORNERS).map(|corner| {
             let (sin, cos) =
                 (std::f64::consts::TAU * f64::from(corner) / f64::from(CORNERS)).sin_cos();
             Point { x: radius * cos, y: radius * sin }
         });
-        plot.curve(circle, Role::Lyapunov, Dash::Dotted);
+        plot.curve(corners, Role::Lyapunov, Dash::Dotted);
     }
 }
 

@@ -6,6 +6,7 @@
 
 #![expect(
     clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
     reason = "powers of ten and counts of ticks are small, whatever the axis"
 )]
 
