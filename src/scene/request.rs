@@ -39,6 +39,18 @@ pub enum Slot {
     Branch,
 }
 
+impl Slot {
+    /// The name on the screen.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Slot::Trajectory => "trajectory",
+            Slot::Cycles => "cycles",
+            Slot::Branch => "branch",
+        }
+    }
+}
+
 impl Request {
     /// Which kind of request this is.
     #[must_use]

@@ -1,4 +1,4 @@
-//! Undo and redo of every change of a parameter, and of opening another scene.
+//! Undo and redo of every change of a parameter, and of opening or resetting a scene.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -8,16 +8,22 @@ use crate::flow::Problem;
 use crate::oscillator::Symbol;
 use crate::scene::{Layer, Scene, Window};
 
-/// What undo brings back.
-///
-/// The scene, its windows and its layers come back only where the scene differs: undoing a step of D
-/// leaves the zoom alone.
+/// The state before a change, as far as the change reached.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Before {
+    /// A parameter was changed. Undoing it leaves zoom and layers alone.
+    Problem(Problem),
+    /// A scene was opened or reset, and everything that a scene sets with it.
+    Scene(Box<Snapshot>),
+}
+
+/// Everything that a scene sets.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snapshot {
-    /// Parameters, start, end time, method and tolerance.
-    pub problem: Problem,
     /// The scene.
     pub scene: Arc<Scene>,
+    /// Parameters, start, end time, method and tolerance.
+    pub problem: Problem,
     /// Step sizes.
     pub steps: Steps,
     /// Layers that are on.
@@ -33,28 +39,28 @@ pub struct Snapshot {
 /// The past and, after an undo, the future.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct History {
-    past: Vec<Snapshot>,
-    future: Vec<Snapshot>,
+    past: Vec<Before>,
+    future: Vec<Before>,
 }
 
 impl History {
     /// Notes the state before a change. What had been undone can no longer be redone.
-    pub fn record(&mut self, before: Snapshot) {
+    pub fn record(&mut self, before: Before) {
         self.past.push(before);
         self.future.clear();
     }
 
-    /// Exchanges the present for the state before the last change.
-    pub fn undo(&mut self, present: impl FnOnce() -> Snapshot) -> Option<Snapshot> {
+    /// The state before the last change. `present` tells today's state to the same extent, for redo.
+    pub fn undo(&mut self, present: impl FnOnce(&Before) -> Before) -> Option<Before> {
         let before = self.past.pop()?;
-        self.future.push(present());
+        self.future.push(present(&before));
         Some(before)
     }
 
-    /// Exchanges the present for the state that was last undone.
-    pub fn redo(&mut self, present: impl FnOnce() -> Snapshot) -> Option<Snapshot> {
+    /// The state that was last undone. `present` tells today's state to the same extent, for undo.
+    pub fn redo(&mut self, present: impl FnOnce(&Before) -> Before) -> Option<Before> {
         let after = self.future.pop()?;
-        self.past.push(present());
+        self.past.push(present(&after));
         Some(after)
     }
 

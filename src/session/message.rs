@@ -36,10 +36,10 @@ pub enum Effect {
     Suspend,
     /// Repaint everything (the screen may be disturbed).
     Repaint,
+    /// Play these keys, as if they were typed, before anything else.
+    Play(Script),
     /// Put this text on the clipboard (OSC 52) and into a file beside the session.
     Copy(String),
-    /// Play these keys, as if they were typed.
-    Play(Script),
     /// Write a file; the outcome comes back as a message line.
     Write {
         /// Where.

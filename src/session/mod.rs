@@ -1,15 +1,22 @@
 //! The session: a pure machine of state, commands and keys.
 
+pub mod command;
+pub mod fit;
 pub mod history;
 pub mod key;
+pub mod keymap;
 pub mod message;
 pub mod overlay;
 pub mod replay;
 pub mod settings;
 pub mod state;
 pub mod step;
+pub mod update;
 
+pub use command::{COMMANDS, Command};
 pub use key::{Code, Key};
+pub use keymap::{Context, Hint, Keymap};
 pub use message::{Effect, Msg};
 pub use overlay::{Entry, List, Overlay};
 pub use state::{Framing, Notice, Plot, Price, ROWS, Row, Session, Size, Steps};
+pub use update::update;

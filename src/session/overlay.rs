@@ -43,3 +43,61 @@ pub struct Entry {
     /// Why the text was refused, until it changes.
     pub refused: Option<String>,
 }
+
+impl List {
+    /// Whether a row with these words is among those searched for.
+    #[must_use]
+    pub fn matches(&self, words: &[&str]) -> bool {
+        let wanted = self.search.to_lowercase();
+        words.iter().any(|word| word.to_lowercase().contains(&wanted))
+    }
+}
+
+impl Entry {
+    /// A line with this text, the caret behind it.
+    #[must_use]
+    pub fn new(row: Row, text: String) -> Self {
+        Entry { row, caret: text.chars().count(), text, refused: None }
+    }
+
+    /// Byte at which a character begins.
+    fn byte(&self, index: usize) -> usize {
+        self.text.char_indices().nth(index).map_or(self.text.len(), |(byte, _)| byte)
+    }
+
+    /// Types a character at the caret.
+    pub fn insert(&mut self, char: char) {
+        let at = self.byte(self.caret);
+        self.text.insert(at, char);
+        self.caret += 1;
+        self.refused = None;
+    }
+
+    /// Deletes the character before the caret.
+    pub fn delete_before(&mut self) {
+        if self.caret > 0 {
+            self.caret -= 1;
+            self.delete_after();
+        }
+    }
+
+    /// Deletes the character after the caret.
+    pub fn delete_after(&mut self) {
+        let at = self.byte(self.caret);
+        if at < self.text.len() {
+            self.text.remove(at);
+        }
+        self.refused = None;
+    }
+
+    /// Moves the caret, as far as there is text.
+    pub fn move_caret(&mut self, by: isize) {
+        let last = self.text.chars().count();
+        self.caret = self.caret.saturating_add_signed(by).min(last);
+    }
+
+    /// Deletes everything.
+    pub fn clear(&mut self) {
+        *self = Entry::new(self.row, String::new());
+    }
+}

@@ -6,8 +6,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use super::history::{History, Snapshot};
+use super::history::History;
 use super::key::Key;
+use super::keymap::Keymap;
 use super::overlay::Overlay;
 use super::settings::Look;
 use super::step::StepSize;
@@ -135,10 +136,11 @@ pub struct Plot {
 }
 
 impl Plot {
-    /// A plot as the scene wants it.
+    /// A plot without a cursor, in a scene that would show `scene`.
     #[must_use]
-    pub fn new(window: Window) -> Self {
-        Plot { window, framing: Framing::Scene, cursor: None }
+    pub fn new(window: Window, scene: Window) -> Self {
+        let framing = if window == scene { Framing::Scene } else { Framing::User };
+        Plot { window, framing, cursor: None }
     }
 }
 
@@ -233,6 +235,8 @@ pub struct Session {
     pub price: Price,
     /// A line for the user.
     pub notice: Option<Notice>,
+    /// Which key means which command.
+    pub keymap: Arc<Keymap>,
     /// What the user wishes of the screen.
     pub look: Look,
     /// The size of the screen.
@@ -253,8 +257,8 @@ impl Session {
             focus: Pane::Parameters,
             plot: Pane::Phase,
             enlarged: false,
-            phase: Plot::new(scene.phase),
-            diagram: Plot::new(scene.diagram),
+            phase: Plot::new(scene.phase, scene.phase),
+            diagram: Plot::new(scene.diagram, scene.diagram),
             abscissa: scene.abscissa,
             layers: scene.layers.clone(),
             overlay: None,
@@ -263,6 +267,7 @@ impl Session {
             failures: BTreeMap::new(),
             price: Price::default(),
             notice: None,
+            keymap: Arc::new(Keymap::default()),
             look: Look::default(),
             size,
             quit: false,
@@ -395,20 +400,6 @@ impl Session {
         match self.answers.get(&Slot::Branch).map(|held| &held.result) {
             Some(Ok(Answer::Branch(found))) => Some(found),
             _ => None,
-        }
-    }
-
-    /// What undo would have to bring back.
-    #[must_use]
-    pub fn snapshot(&self) -> Snapshot {
-        Snapshot {
-            problem: self.problem,
-            scene: Arc::clone(&self.scene),
-            steps: self.steps,
-            layers: self.layers.clone(),
-            phase: self.phase.window,
-            diagram: self.diagram.window,
-            abscissa: self.abscissa,
         }
     }
 }

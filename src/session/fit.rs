@@ -1,0 +1,105 @@
+//! Windows fitted to what is on show.
+
+use super::state::{Framing, Plot, Session};
+use crate::flow::Outcome;
+use crate::scene::{Layer, Pane, Point, Slot, Span, Window};
+
+/// Room around what is fitted, as a factor of its width.
+const ROOM: f64 = 1.1;
+
+/// How far a motion that escapes is followed, in extents of all else.
+const ESCAPE: f64 = 2.0;
+
+/// The part of a branch that must fit: where it goes to infinity, its end need not.
+const QUANTILE: f64 = 0.9;
+
+/// Fits the plots that wait for it, once their answers are there.
+pub(super) fn resolve(session: &mut Session) {
+    for pane in [Pane::Phase, Pane::Diagram] {
+        let waits = session.plot_mut(pane).is_some_and(|plot| plot.framing == Framing::Fitting);
+        if !waits || is_pending(session, pane) {
+            continue;
+        }
+        let window = match pane {
+            Pane::Parameters => None,
+            Pane::Phase => phase(session),
+            Pane::Diagram => diagram(session),
+        };
+        if let Some(plot) = session.plot_mut(pane) {
+            let window = window.unwrap_or(plot.window);
+            *plot = Plot { window, framing: Framing::Fitted, ..*plot };
+        }
+    }
+}
+
+/// Whether something that a pane shows is still to be computed.
+fn is_pending(session: &Session, pane: Pane) -> bool {
+    let needs = |slot: Slot| {
+        session.layers.iter().any(|layer| {
+            let spec = layer.spec();
+            spec.pane == pane && spec.needs == Some(slot) && session.shows(*layer)
+        })
+    };
+    session.wants().iter().any(|request| needs(request.slot()) && session.is_open(request))
+}
+
+/// Around the motion, the cycles and the sticking set.
+fn phase(session: &Session) -> Option<Window> {
+    let r = session.problem.parameters.r;
+    let start = session.problem.initial;
+    let mut points = vec![Point { x: start.q, y: start.v }];
+    points.extend([Point { x: -r, y: 0.0 }, Point { x: r, y: 0.0 }]);
+    if session.shows(Layer::Cycles)
+        && let Some(found) = session.cycles()
+    {
+        for cycle in &found.cycles {
+            points.push(Point { x: cycle.q_min, y: cycle.v_min });
+            points.push(Point { x: cycle.q_max, y: cycle.v_max });
+        }
+    }
+    if session.shows(Layer::Trajectory)
+        && let Some(found) = session.trajectory()
+    {
+        let samples = found.samples.iter().map(|sample| Point { x: sample.q, y: sample.v });
+        if let Outcome::Escaped { .. } = found.outcome {
+            let extent = points.iter().map(|point| point.x.hypot(point.y)).fold(0.0, f64::max);
+            let near = |point: &Point| point.x.hypot(point.y) <= ESCAPE * extent;
+            points.extend(samples.filter(near));
+        } else {
+            points.extend(samples);
+        }
+    }
+    let x = Span::covering(points.iter().map(|point| point.x))?;
+    // A motion at rest has no extent in v: then the plane is as high as it is wide.
+    let y = Span::covering(points.iter().map(|point| point.y))?;
+    let y = if y.contains(0.0) && points.iter().all(|point| point.y == 0.0) {
+        Span::new(-0.5 * x.width(), 0.5 * x.width()).ok()?
+    } else {
+        y
+    };
+    Some(Window { x: x.scaled(x.center(), ROOM), y: y.scaled(y.center(), ROOM) })
+}
+
+/// The same values of the parameter, and the amplitudes that its branch has there.
+fn diagram(session: &Session) -> Option<Window> {
+    let x = session.diagram.window.x;
+    let found = session.branch()?;
+    let points = found.pieces.iter().flatten().filter(|point| x.contains(point.value));
+    let mut amplitudes: Vec<f64> =
+        points.map(|point| point.cycle.q_max).filter(|value| value.is_finite()).collect();
+    amplitudes.sort_by(f64::total_cmp);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        clippy::cast_precision_loss,
+        reason = "an index into a few hundred points"
+    )]
+    let last = (amplitudes.len() as f64 * QUANTILE) as usize;
+    let special = found.special.iter().filter(|point| x.contains(point.value));
+    let largest = special
+        .filter_map(|point| point.q_max)
+        .chain(amplitudes.get(last).copied())
+        .filter(|value| value.is_finite())
+        .fold(0.0, f64::max);
+    Span::new(0.0, ROOM * largest).ok().map(|y| Window { x, y })
+}

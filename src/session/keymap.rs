@@ -1,0 +1,189 @@
+//! Which key means which command, and where.
+//!
+//! A [`Keymap`] is built from the default keys of [`COMMANDS`]. Several contexts hold at once (a plot,
+//! the phase plane, everywhere); no key may have two meanings in contexts that can hold together.
+
+use std::collections::BTreeMap;
+
+use super::command::{COMMANDS, Command};
+use super::key::Key;
+use super::overlay::{List, Overlay};
+use super::state::Session;
+use crate::scene::Pane;
+
+/// Where a key has its meaning.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Context {
+    /// The focus is on the parameter pane.
+    Parameters,
+    /// The focus is on the phase plane.
+    Phase,
+    /// The focus is on the diagram.
+    Diagram,
+    /// The focus is on a plot.
+    Plots,
+    /// No overlay is open.
+    Everywhere,
+    /// The help is open.
+    Help,
+    /// The scene picker is open.
+    Scenes,
+    /// The layer list is open.
+    Layers,
+    /// Some list is open.
+    Lists,
+    /// The search of a list is being typed.
+    Search,
+    /// A value is being typed.
+    Entry,
+    /// A pasted keystroke file waits for a yes.
+    Offer,
+    /// Whatever is open.
+    Always,
+}
+
+impl Context {
+    /// A heading for the keys of this context.
+    #[must_use]
+    pub fn title(self) -> &'static str {
+        match self {
+            Context::Parameters => "Parameters",
+            Context::Phase => "Phase plane",
+            Context::Diagram => "Bifurcation diagram",
+            Context::Plots => "Both plots",
+            Context::Everywhere => "Everywhere",
+            Context::Help => "In this help",
+            Context::Scenes => "In the scene picker",
+            Context::Layers => "In the layer list",
+            Context::Lists => "In every list",
+            Context::Search => "While searching",
+            Context::Entry => "While typing a value",
+            Context::Offer => "After pasting keystrokes",
+            Context::Always => "At any time",
+        }
+    }
+
+    /// Whether characters without a command are typed into a line.
+    #[must_use]
+    pub fn takes_text(self) -> bool {
+        matches!(self, Context::Search | Context::Entry)
+    }
+}
+
+/// Every set of contexts that can hold together, the most specific first.
+pub const CHAINS: [&[Context]; 9] = [
+    &[Context::Parameters, Context::Everywhere, Context::Always],
+    &[Context::Phase, Context::Plots, Context::Everywhere, Context::Always],
+    &[Context::Diagram, Context::Plots, Context::Everywhere, Context::Always],
+    &[Context::Help, Context::Lists, Context::Always],
+    &[Context::Scenes, Context::Lists, Context::Always],
+    &[Context::Layers, Context::Lists, Context::Always],
+    &[Context::Search, Context::Always],
+    &[Context::Entry, Context::Always],
+    &[Context::Offer, Context::Always],
+];
+
+impl Session {
+    /// The contexts that hold now, the most specific first: one of [`CHAINS`].
+    #[must_use]
+    pub fn contexts(&self) -> &'static [Context] {
+        let first = match &self.overlay {
+            None => match self.focus {
+                Pane::Parameters => Context::Parameters,
+                Pane::Phase => Context::Phase,
+                Pane::Diagram => Context::Diagram,
+            },
+            Some(
+                Overlay::Help(List { searching: true, .. })
+                | Overlay::Scenes(List { searching: true, .. })
+                | Overlay::Layers(List { searching: true, .. }),
+            ) => Context::Search,
+            Some(Overlay::Help(_)) => Context::Help,
+            Some(Overlay::Scenes(_)) => Context::Scenes,
+            Some(Overlay::Layers(_)) => Context::Layers,
+            Some(Overlay::Entry(_)) => Context::Entry,
+            Some(Overlay::Offer(_)) => Context::Offer,
+        };
+        CHAINS.into_iter().find(|chain| chain[0] == first).unwrap_or(CHAINS[0])
+    }
+
+    /// The keys that matter now, with a word each: for the footer.
+    #[must_use]
+    pub fn hints(&self) -> Vec<Hint> {
+        let mut hints: Vec<Hint> = Vec::new();
+        for context in self.contexts() {
+            for command in COMMANDS.iter().filter(|command| !command.hint.is_empty()) {
+                let Some(key) = self.keymap.keys_in(*context, command).next() else { continue };
+                match hints.iter_mut().find(|hint| hint.text == command.hint) {
+                    Some(hint) => hint.keys.push(key),
+                    None => hints.push(Hint { keys: vec![key], text: command.hint }),
+                }
+            }
+        }
+        hints
+    }
+}
+
+/// What to press for what, in the footer.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Hint {
+    /// The keys, one for each command that the word stands for.
+    pub keys: Vec<Key>,
+    /// The word.
+    pub text: &'static str,
+}
+
+/// Which key means which command in each context.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Keymap {
+    bindings: BTreeMap<(Context, Key), &'static Command>,
+}
+
+impl Default for Keymap {
+    /// The default keys of every command.
+    fn default() -> Self {
+        let mut bindings = BTreeMap::new();
+        for command in COMMANDS {
+            for (context, keys) in command.keys {
+                for key in keys.iter().filter_map(|text| text.parse().ok()) {
+                    bindings.insert((*context, key), command);
+                }
+            }
+        }
+        Keymap { bindings }
+    }
+}
+
+impl Keymap {
+    /// What a key means in contexts that hold together.
+    #[must_use]
+    pub fn command(&self, contexts: &[Context], key: Key) -> Option<&'static Command> {
+        contexts.iter().find_map(|context| self.bindings.get(&(*context, key)).copied())
+    }
+
+    /// The keys of a command in a context, in the order in which its row names them.
+    pub fn keys_in(&self, context: Context, command: &Command) -> impl Iterator<Item = Key> {
+        let mut keys: Vec<Key> = self
+            .bindings
+            .iter()
+            .filter(|((at, _), bound)| *at == context && bound.name == command.name)
+            .map(|((_, key), _)| *key)
+            .collect();
+        let place = |key: &Key| {
+            let named = command.keys.iter().flat_map(|(_, keys)| keys.iter());
+            named.clone().position(|text| text.parse() == Ok(*key)).unwrap_or(usize::MAX)
+        };
+        keys.sort_by_key(place);
+        keys.into_iter()
+    }
+
+    /// The contexts in which a command has keys, with them.
+    #[must_use]
+    pub fn places(&self, command: &Command) -> Vec<(Context, Vec<Key>)> {
+        let contexts = command.keys.iter().map(|(context, _)| *context);
+        contexts
+            .map(|context| (context, self.keys_in(context, command).collect::<Vec<_>>()))
+            .filter(|(_, keys)| !keys.is_empty())
+            .collect()
+    }
+}

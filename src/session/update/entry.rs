@@ -1,0 +1,76 @@
+//! Typing a value: the line opens, takes characters, and is accepted or refused.
+
+use super::parameters::{change, number, range, with_number};
+use crate::flow::{METHODS, Method, Problem};
+use crate::session::key::Key;
+use crate::session::message::Effect;
+use crate::session::overlay::{Entry, Overlay};
+use crate::session::state::{Row, Session};
+use crate::session::step::shortest;
+
+/// Opens the line with the value of the selected row.
+pub fn edit(session: &mut Session) -> Vec<Effect> {
+    let row = session.selected;
+    let text = match row {
+        Row::Method => session.problem.method.to_string(),
+        Row::Parameter(_) | Row::Until | Row::Tolerance => shortest(number(&session.problem, row)),
+    };
+    session.overlay = Some(Overlay::Entry(Entry::new(row, text)));
+    Vec::new()
+}
+
+/// Opens the line with the character that was typed.
+pub fn begin(session: &mut Session, key: Key) -> Vec<Effect> {
+    let text = key.typed().map(String::from).unwrap_or_default();
+    session.overlay = Some(Overlay::Entry(Entry::new(session.selected, text)));
+    Vec::new()
+}
+
+/// Does something to the open line.
+pub fn with(session: &mut Session, act: impl FnOnce(&mut Entry)) -> Vec<Effect> {
+    if let Some(Overlay::Entry(entry)) = &mut session.overlay {
+        act(entry);
+    }
+    Vec::new()
+}
+
+/// Takes the typed value, or says in the line why not.
+pub fn accept(session: &mut Session) -> Vec<Effect> {
+    let Some(Overlay::Entry(entry)) = &mut session.overlay else { return Vec::new() };
+    match read(session.problem, entry.row, &entry.text) {
+        Ok(problem) => {
+            session.overlay = None;
+            change(session, problem);
+        }
+        Err(why) => entry.refused = Some(why),
+    }
+    Vec::new()
+}
+
+/// The motion with the typed value in a row, or one line that says what is allowed.
+fn read(problem: Problem, row: Row, text: &str) -> Result<Problem, String> {
+    let text = text.trim();
+    if row == Row::Method {
+        let method = Method::named(text).ok_or_else(|| {
+            let names: Vec<_> = METHODS.iter().map(|row| row.name).collect();
+            format!("no method {text:?}; there are {}", names.join(", "))
+        })?;
+        return Ok(Problem { method, ..problem });
+    }
+    let name = row.name();
+    let (min, max) = range(row);
+    let takes = format!("{name} takes {} to {}", shortest(min), shortest(max));
+    // Documents print the minus sign as a character of its own.
+    let value: f64 = text
+        .replace('\u{2212}', "-")
+        .parse()
+        .map_err(|_| format!("{text:?} is no number; {takes}"))?;
+    if !value.is_finite() {
+        return Err(format!("{text} is no finite number; {takes}"));
+    }
+    if !(min..=max).contains(&value) {
+        return Err(format!("{name} = {text} is out of range; {takes}"));
+    }
+    // The sum turns -0.0 into 0.0.
+    Ok(with_number(problem, row, value + 0.0))
+}

@@ -1,0 +1,192 @@
+//! Commands that belong to no pane: focus, layers, undo, looks, leaving.
+
+use std::sync::Arc;
+
+use super::{inform, refuse};
+use crate::flow::Problem;
+use crate::scene::{Layer, PANES, Pane, Scene};
+use crate::session::history::{Before, Snapshot};
+use crate::session::message::Effect;
+use crate::session::overlay::Overlay;
+use crate::session::settings::{GLYPHS, THEMES, next_of};
+use crate::session::state::{Plot, ROWS, Row, Session, Steps};
+use crate::session::step::shortest;
+
+/// Gives the focus to another pane.
+pub fn focus(session: &mut Session, by: isize) -> Vec<Effect> {
+    let at = PANES.iter().position(|pane| *pane == session.focus).unwrap_or(0);
+    let next = at.checked_add_signed(by).unwrap_or(PANES.len() - 1) % PANES.len();
+    session.focus = PANES[next];
+    if session.focus != Pane::Parameters {
+        session.plot = session.focus;
+    }
+    Vec::new()
+}
+
+/// Gives one plot the place of both, or shares it again.
+pub fn enlarge(session: &mut Session) -> Vec<Effect> {
+    session.enlarged = !session.enlarged;
+    Vec::new()
+}
+
+/// Shows or hides a layer.
+pub fn toggle(session: &mut Session, layer: Layer) -> Vec<Effect> {
+    let on = !session.layers.remove(&layer);
+    if on {
+        session.layers.insert(layer);
+    }
+    let spec = layer.spec();
+    inform(session, format!("{} {}: {}", spec.name, if on { "on" } else { "off" }, spec.meaning));
+    Vec::new()
+}
+
+/// Undoes the last change.
+pub fn undo(session: &mut Session) -> Vec<Effect> {
+    let mut history = std::mem::take(&mut session.history);
+    let found = history.undo(|before| present(session, before));
+    session.history = history;
+    bring_back(session, found, "undo")
+}
+
+/// Redoes what was undone last.
+pub fn redo(session: &mut Session) -> Vec<Effect> {
+    let mut history = std::mem::take(&mut session.history);
+    let found = history.redo(|after| present(session, after));
+    session.history = history;
+    bring_back(session, found, "redo")
+}
+
+/// Today's state, as far as `other` reaches.
+fn present(session: &Session, other: &Before) -> Before {
+    match other {
+        Before::Problem(_) => Before::Problem(session.problem),
+        Before::Scene(_) => Before::Scene(Box::new(snapshot(session))),
+    }
+}
+
+/// Everything that a scene sets, as it is now.
+fn snapshot(session: &Session) -> Snapshot {
+    Snapshot {
+        scene: Arc::clone(&session.scene),
+        problem: session.problem,
+        steps: session.steps,
+        layers: session.layers.clone(),
+        phase: session.phase.window,
+        diagram: session.diagram.window,
+        abscissa: session.abscissa,
+    }
+}
+
+/// Everything that a scene sets, as it opens.
+fn opening(scene: Arc<Scene>) -> Snapshot {
+    Snapshot {
+        problem: scene.problem,
+        steps: Steps::of_scene(&scene),
+        layers: scene.layers.clone(),
+        phase: scene.phase,
+        diagram: scene.diagram,
+        abscissa: scene.abscissa,
+        scene,
+    }
+}
+
+fn bring_back(session: &mut Session, found: Option<Before>, name: &str) -> Vec<Effect> {
+    match found {
+        None => refuse(session, format!("nothing to {name}")),
+        Some(Before::Problem(problem)) => {
+            inform(session, format!("{name}: {}", difference(&session.problem, &problem)));
+            session.problem = problem;
+        }
+        Some(Before::Scene(snapshot)) => {
+            inform(session, format!("{name}: scene {}", snapshot.scene.name));
+            restore(session, *snapshot);
+        }
+    }
+    Vec::new()
+}
+
+/// What is different in `new`, as `name = value`.
+fn difference(old: &Problem, new: &Problem) -> String {
+    let value = |problem: &Problem, row: Row| match row {
+        Row::Parameter(symbol) => shortest(symbol.get(&problem.parameters, &problem.initial)),
+        Row::Until => shortest(problem.until),
+        Row::Method => problem.method.to_string(),
+        Row::Tolerance => shortest(problem.tolerance),
+    };
+    let changed = ROWS.into_iter().filter(|row| value(old, *row) != value(new, *row));
+    let said: Vec<_> = changed.map(|row| format!("{} = {}", row.name(), value(new, row))).collect();
+    said.join(", ")
+}
+
+fn restore(session: &mut Session, snapshot: Snapshot) {
+    session.scene = snapshot.scene;
+    session.problem = snapshot.problem;
+    session.steps = snapshot.steps;
+    session.layers = snapshot.layers;
+    session.phase = Plot::new(snapshot.phase, session.scene.phase);
+    session.diagram = Plot::new(snapshot.diagram, session.scene.diagram);
+    session.abscissa = snapshot.abscissa;
+}
+
+/// Opens a scene, as one change that can be undone.
+pub(in crate::session) fn open_scene(session: &mut Session, scene: Arc<Scene>) {
+    let before = snapshot(session);
+    let opened = opening(scene);
+    if before != opened {
+        session.history.record(Before::Scene(Box::new(before)));
+    }
+    restore(session, opened);
+    session.unfolded = false;
+    session.selected = ROWS[0];
+}
+
+/// Brings the scene back as it was opened.
+pub fn reset_scene(session: &mut Session) -> Vec<Effect> {
+    let scene = Arc::clone(&session.scene);
+    inform(session, format!("scene {} as it was opened", scene.name));
+    open_scene(session, scene);
+    Vec::new()
+}
+
+/// Draws with other characters.
+pub fn glyphs(session: &mut Session) -> Vec<Effect> {
+    let (glyphs, name) = next_of(&GLYPHS, session.look.glyphs);
+    session.look.glyphs = glyphs;
+    inform(session, format!("glyphs: {name}"));
+    Vec::new()
+}
+
+/// Uses the next theme.
+pub fn theme(session: &mut Session) -> Vec<Effect> {
+    let (theme, name) = next_of(&THEMES, session.look.theme);
+    session.look.theme = theme;
+    inform(session, format!("theme: {name}"));
+    Vec::new()
+}
+
+/// Closes what is open, or drops the cursor of the plot in focus.
+pub fn back(session: &mut Session) -> Vec<Effect> {
+    if session.overlay.take().is_none()
+        && let Some(plot) = session.plot_mut(session.focus)
+    {
+        plot.cursor = None;
+    }
+    Vec::new()
+}
+
+/// Agrees to press the pasted keys.
+pub fn accept_offer(session: &mut Session) -> Vec<Effect> {
+    match session.overlay.take() {
+        Some(Overlay::Offer(script)) => vec![Effect::Play(script)],
+        other => {
+            session.overlay = other;
+            Vec::new()
+        }
+    }
+}
+
+/// Leaves.
+pub fn quit(session: &mut Session) -> Vec<Effect> {
+    session.quit = true;
+    vec![Effect::Quit]
+}

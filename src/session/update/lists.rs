@@ -1,0 +1,152 @@
+//! Lists over the panes: help, scenes, layers; moving, searching, choosing.
+
+use std::sync::Arc;
+
+use super::general::{open_scene, toggle};
+use crate::scene::{LAYERS, LayerSpec, Scene, library};
+use crate::session::command::{COMMANDS, Command};
+use crate::session::message::Effect;
+use crate::session::overlay::{List, Overlay};
+use crate::session::state::Session;
+
+/// Rows that the page keys move.
+pub const PAGE: isize = 10;
+
+impl Session {
+    /// The commands that the help lists, in the order of the table.
+    #[must_use]
+    pub fn help_rows(&self, list: &List) -> Vec<&'static Command> {
+        let matches = |command: &&Command| {
+            let keys = self.keymap.places(command);
+            let keys: Vec<_> =
+                keys.iter().flat_map(|(_, keys)| keys).map(ToString::to_string).collect();
+            let words = [command.name, command.doc].into_iter();
+            list.matches(&words.chain(keys.iter().map(String::as_str)).collect::<Vec<_>>())
+        };
+        COMMANDS.iter().filter(matches).collect()
+    }
+
+    /// The scenes that the picker lists.
+    #[must_use]
+    pub fn scene_rows(&self, list: &List) -> Vec<&'static Arc<Scene>> {
+        library().iter().filter(|scene| list.matches(&[&scene.name, &scene.title])).collect()
+    }
+
+    /// The layers that the layer list shows.
+    #[must_use]
+    pub fn layer_rows(&self, list: &List) -> Vec<&'static LayerSpec> {
+        LAYERS.iter().filter(|row| list.matches(&[row.name, row.meaning])).collect()
+    }
+
+    /// How many rows the open list has.
+    fn list_length(&self) -> usize {
+        match &self.overlay {
+            Some(Overlay::Help(list)) => self.help_rows(list).len(),
+            Some(Overlay::Scenes(list)) => self.scene_rows(list).len(),
+            Some(Overlay::Layers(list)) => self.layer_rows(list).len(),
+            Some(Overlay::Entry(_) | Overlay::Offer(_)) | None => 0,
+        }
+    }
+
+    fn list_mut(&mut self) -> Option<&mut List> {
+        match &mut self.overlay {
+            Some(Overlay::Help(list) | Overlay::Scenes(list) | Overlay::Layers(list)) => Some(list),
+            Some(Overlay::Entry(_) | Overlay::Offer(_)) | None => None,
+        }
+    }
+}
+
+/// Opens the help.
+pub fn open_help(session: &mut Session) -> Vec<Effect> {
+    session.overlay = Some(Overlay::Help(List::default()));
+    Vec::new()
+}
+
+/// Opens the scene picker, with the present scene selected.
+pub fn open_scenes(session: &mut Session) -> Vec<Effect> {
+    let present = library().iter().position(|scene| scene.name == session.scene.name);
+    let list = List { selected: present.unwrap_or(0), ..List::default() };
+    session.overlay = Some(Overlay::Scenes(list));
+    Vec::new()
+}
+
+/// Opens the list of layers, with the first one of the plot in use selected.
+pub fn open_layers(session: &mut Session) -> Vec<Effect> {
+    let first = LAYERS.iter().position(|row| row.pane == session.plot);
+    let list = List { selected: first.unwrap_or(0), ..List::default() };
+    session.overlay = Some(Overlay::Layers(list));
+    Vec::new()
+}
+
+/// Moves the selection of the open list, as far as there are rows.
+pub fn move_by(session: &mut Session, by: isize) -> Vec<Effect> {
+    let last = session.list_length().saturating_sub(1);
+    if let Some(list) = session.list_mut() {
+        list.selected = list.selected.saturating_add_signed(by).min(last);
+    }
+    Vec::new()
+}
+
+/// Lets typed characters go to the search.
+pub fn search(session: &mut Session) -> Vec<Effect> {
+    if let Some(list) = session.list_mut() {
+        list.searching = true;
+    }
+    Vec::new()
+}
+
+/// Ends the search and keeps the rows found; what is to be picked is picked at once.
+pub fn search_done(session: &mut Session) -> Vec<Effect> {
+    if let Some(list) = session.list_mut() {
+        list.searching = false;
+    }
+    match session.overlay {
+        Some(Overlay::Scenes(_)) => choose(session),
+        _ => Vec::new(),
+    }
+}
+
+/// Ends the search and shows all rows.
+pub fn search_drop(session: &mut Session) -> Vec<Effect> {
+    if let Some(list) = session.list_mut() {
+        *list = List::default();
+    }
+    Vec::new()
+}
+
+/// Deletes the last character of the search.
+pub fn search_delete(session: &mut Session) -> Vec<Effect> {
+    if let Some(list) = session.list_mut() {
+        list.search.pop();
+        list.selected = 0;
+    }
+    Vec::new()
+}
+
+/// Clears the search.
+pub fn search_clear(session: &mut Session) -> Vec<Effect> {
+    if let Some(list) = session.list_mut() {
+        list.search.clear();
+        list.selected = 0;
+    }
+    Vec::new()
+}
+
+/// Opens the selected scene, or switches the selected layer.
+pub fn choose(session: &mut Session) -> Vec<Effect> {
+    match &session.overlay {
+        Some(Overlay::Scenes(list)) => {
+            if let Some(scene) = session.scene_rows(list).get(list.selected) {
+                session.overlay = None;
+                open_scene(session, Arc::clone(scene));
+            }
+        }
+        Some(Overlay::Layers(list)) => {
+            if let Some(row) = session.layer_rows(list).get(list.selected) {
+                return toggle(session, row.layer);
+            }
+        }
+        Some(Overlay::Help(_) | Overlay::Entry(_) | Overlay::Offer(_)) | None => {}
+    }
+    Vec::new()
+}

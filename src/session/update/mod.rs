@@ -1,0 +1,139 @@
+//! What happens to a session: [`update`] takes a message in and says what the outer rings must do.
+//!
+//! Nothing here reads a clock or touches a file, so that a session is determined by its messages and
+//! every defect can be told as a keystroke file. The files beside this one hold what commands do, one
+//! concern each.
+
+pub mod entry;
+pub mod general;
+pub mod lists;
+pub mod parameters;
+pub mod plots;
+pub mod starts;
+
+use super::fit;
+use super::key::Key;
+use super::message::{Effect, Msg};
+use super::overlay::{Entry, Overlay};
+use super::replay;
+use super::state::{Notice, Price, Recomputed, Row, Session, Size};
+use crate::flow::Reason;
+use crate::scene::answer::Failure;
+use crate::scene::{Answered, Pane};
+
+/// Takes a message in.
+pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
+    let effects = match message {
+        Msg::Key(key) => press(session, key),
+        Msg::Paste(text) => paste(session, &text),
+        Msg::Resize { width, height } => {
+            session.size = Size { width, height };
+            Vec::new()
+        }
+        Msg::Answered(answered) => {
+            take(session, *answered);
+            Vec::new()
+        }
+        Msg::Told(notice) => {
+            session.notice = Some(notice);
+            Vec::new()
+        }
+        Msg::Idle => Vec::new(),
+    };
+    keep_selection(session);
+    fit::resolve(session);
+    effects
+}
+
+/// Shows a line that is no complaint.
+pub(super) fn inform(session: &mut Session, text: impl Into<String>) {
+    session.notice = Some(Notice { error: false, text: text.into() });
+}
+
+/// Shows a line that says what was refused.
+pub(super) fn refuse(session: &mut Session, text: impl Into<String>) {
+    session.notice = Some(Notice { error: true, text: text.into() });
+}
+
+fn press(session: &mut Session, key: Key) -> Vec<Effect> {
+    session.notice = None;
+    session.price = Price { key: Some(key), recomputed: Vec::new() };
+    let contexts = session.contexts();
+    if let Some(command) = session.keymap.command(contexts, key) {
+        return (command.run)(session, key);
+    }
+    match key.typed().filter(|_| contexts[0].takes_text()) {
+        Some(char) => type_text(session, &char.to_string()),
+        None => inform(session, format!("{key} has no meaning here; ? lists the keys")),
+    }
+    Vec::new()
+}
+
+/// Types into the line that is open, if one is; characters that cannot be shown are dropped.
+fn type_text(session: &mut Session, text: &str) {
+    let visible = text.chars().filter(|char| !char.is_control());
+    match &mut session.overlay {
+        Some(Overlay::Entry(entry)) => visible.for_each(|char| entry.insert(char)),
+        Some(Overlay::Help(list) | Overlay::Scenes(list) | Overlay::Layers(list)) => {
+            list.search.extend(visible);
+            list.selected = 0;
+        }
+        Some(Overlay::Offer(_)) | None => {}
+    }
+}
+
+/// Pasted text goes into the open line; a number into a new one; keystrokes are offered for replay.
+fn paste(session: &mut Session, text: &str) -> Vec<Effect> {
+    session.notice = None;
+    if session.contexts()[0].takes_text() {
+        type_text(session, text);
+        return Vec::new();
+    }
+    let number = text.trim().parse::<f64>().is_ok();
+    if number && session.overlay.is_none() && session.focus == Pane::Parameters {
+        let entry = Entry::new(session.selected, text.trim().to_owned());
+        session.overlay = Some(Overlay::Entry(entry));
+        return Vec::new();
+    }
+    match replay::parse(text) {
+        Ok(script) if script.keys() > 0 => session.overlay = Some(Overlay::Offer(script)),
+        Ok(_) => inform(session, "the pasted text presses no key"),
+        Err(error) => refuse(session, format!("the pasted text is no keystroke file: {error}")),
+    }
+    Vec::new()
+}
+
+/// Takes an answer of the worker.
+///
+/// One that comes late, to a question that is no longer asked, is still newer than what is shown,
+/// unless that is the answer to today's question.
+fn take(session: &mut Session, answered: Answered) {
+    let slot = answered.request.slot();
+    let asked = session.request(slot).as_ref() == Some(&answered.request);
+    match &answered.result {
+        Err(Failure::Reason(Reason::Interrupted)) => {}
+        Err(failure) => {
+            if asked {
+                refuse(session, format!("{}: {failure}", slot.name()));
+            }
+            session.failures.insert(slot, (answered.request, failure.clone()));
+        }
+        Ok(answer) => {
+            let (cost, seconds) = (answer.cost(), answered.seconds);
+            session.price.recomputed.push(Recomputed { slot, cost, seconds });
+            if asked || session.is_stale(slot) {
+                session.failures.remove(&slot);
+                session.answers.insert(slot, answered);
+            }
+        }
+    }
+}
+
+/// Keeps the selection on a row that stands in the pane.
+fn keep_selection(session: &mut Session) {
+    let rows = session.rows();
+    if !rows.contains(&session.selected) {
+        let after = rows.iter().copied().find(|row| *row > session.selected);
+        session.selected = after.or(rows.last().copied()).unwrap_or(Row::Tolerance);
+    }
+}

@@ -1,0 +1,139 @@
+//! Commands of the parameter pane: select, step, reset.
+
+use super::{inform, refuse};
+use crate::flow::{METHODS, Problem};
+use crate::scene::file::{TOLERANCE_RANGE, UNTIL_RANGE};
+use crate::session::history::Before;
+use crate::session::message::Effect;
+use crate::session::state::{Row, Session, Steps};
+use crate::session::step::shortest;
+
+/// Makes another motion the one on show, as one change that can be undone. Returns whether it differs.
+pub(in crate::session) fn change(session: &mut Session, problem: Problem) -> bool {
+    let differs = problem != session.problem;
+    if differs {
+        session.history.record(Before::Problem(session.problem));
+        session.problem = problem;
+    }
+    differs
+}
+
+/// Moves the selection among the rows that stand in the pane.
+pub fn select(session: &mut Session, by: isize) -> Vec<Effect> {
+    let rows = session.rows();
+    let at = rows.iter().position(|row| *row == session.selected).unwrap_or(0);
+    session.selected = rows[at.saturating_add_signed(by).min(rows.len() - 1)];
+    Vec::new()
+}
+
+/// Steps the selected value.
+pub fn step(session: &mut Session, count: i32) -> Vec<Effect> {
+    match session.selected {
+        Row::Method => return next_method(session, count.signum() as isize),
+        Row::Tolerance => return dial(session, count.signum()),
+        Row::Parameter(_) | Row::Until => {}
+    }
+    let row = session.selected;
+    let Some(size) = session.steps.of(row) else { return Vec::new() };
+    let (min, max) = range(row);
+    let value = number(&session.problem, row);
+    let stepped = size.from(value, count).clamp(min, max);
+    let changed = with_number(session.problem, row, stepped);
+    if !change(session, changed) {
+        let name = row.name();
+        let why = if (min..=max).contains(&size.from(value, count)) {
+            format!("the step is too small to change {name} = {}", shortest(value))
+        } else {
+            format!("{name} ends at {}", shortest(stepped))
+        };
+        refuse(session, why);
+    }
+    Vec::new()
+}
+
+/// Makes the step of the selected row larger or smaller.
+pub fn step_size(session: &mut Session, larger: bool) -> Vec<Effect> {
+    match session.steps.of_mut(session.selected) {
+        Some(size) => *size = if larger { size.larger() } else { size.smaller() },
+        None => refuse(session, format!("{} has no step size", session.selected.name())),
+    }
+    Vec::new()
+}
+
+/// Gives the selected row the scene's value and step size.
+pub fn reset_row(session: &mut Session) -> Vec<Effect> {
+    let row = session.selected;
+    let scene = session.scene.problem;
+    let steps = Steps::of_scene(&session.scene);
+    if let (Some(size), Some(wanted)) = (session.steps.of_mut(row), steps.of(row)) {
+        *size = wanted;
+    }
+    let reset = match row {
+        Row::Method => Problem { method: scene.method, ..session.problem },
+        Row::Parameter(_) | Row::Until | Row::Tolerance => {
+            with_number(session.problem, row, number(&scene, row))
+        }
+    };
+    if !change(session, reset) {
+        inform(session, format!("{} has the scene's value", row.name()));
+    }
+    Vec::new()
+}
+
+/// Shows or hides the parameters that the scene does not declare.
+pub fn unfold(session: &mut Session) -> Vec<Effect> {
+    session.unfolded = !session.unfolded;
+    Vec::new()
+}
+
+/// Multiplies the tolerance by a power of ten.
+pub fn dial(session: &mut Session, decades: i32) -> Vec<Effect> {
+    let (min, max) = TOLERANCE_RANGE;
+    let exponent = session.problem.tolerance.log10().round() + f64::from(decades);
+    // A power of ten to the last bit, which powi does not promise.
+    let tolerance = format!("1e{exponent}").parse().unwrap_or(max).clamp(min, max);
+    if !change(session, Problem { tolerance, ..session.problem }) {
+        refuse(session, format!("tolerance ends at {}", shortest(tolerance)));
+    }
+    Vec::new()
+}
+
+/// Takes the next method of the list, around its end.
+pub fn next_method(session: &mut Session, by: isize) -> Vec<Effect> {
+    let methods = METHODS.iter().map(|row| row.method);
+    let at = methods.clone().position(|method| method == session.problem.method).unwrap_or(0);
+    let next = at.checked_add_signed(by).unwrap_or(METHODS.len() - 1) % METHODS.len();
+    let row = &METHODS[next];
+    change(session, Problem { method: row.method, ..session.problem });
+    inform(session, format!("{}: {}", row.name, row.guarantee));
+    Vec::new()
+}
+
+/// The range of a row that is a number.
+pub(super) fn range(row: Row) -> (f64, f64) {
+    match row {
+        Row::Parameter(symbol) => (symbol.spec().min, symbol.spec().max),
+        Row::Until => UNTIL_RANGE,
+        Row::Tolerance | Row::Method => TOLERANCE_RANGE,
+    }
+}
+
+/// The value of a row that is a number.
+pub(super) fn number(problem: &Problem, row: Row) -> f64 {
+    match row {
+        Row::Parameter(symbol) => symbol.get(&problem.parameters, &problem.initial),
+        Row::Until => problem.until,
+        Row::Tolerance | Row::Method => problem.tolerance,
+    }
+}
+
+/// The same motion with another value of a row that is a number.
+pub(super) fn with_number(mut problem: Problem, row: Row, value: f64) -> Problem {
+    match row {
+        Row::Parameter(symbol) => symbol.set(&mut problem.parameters, &mut problem.initial, value),
+        Row::Until => problem.until = value,
+        Row::Tolerance => problem.tolerance = value,
+        Row::Method => {}
+    }
+    problem
+}

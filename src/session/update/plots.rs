@@ -1,0 +1,161 @@
+//! Commands of the plots: cursor, zoom, pan, and taking the point under the cursor.
+
+use super::parameters::change;
+use super::refuse;
+use crate::flow::Problem;
+use crate::oscillator::State;
+use crate::scene::{Pane, Point, Span, Window};
+use crate::session::message::Effect;
+use crate::session::state::{Framing, Plot, Session};
+use crate::session::step::StepSize;
+
+/// Steps of the cursor that a far move takes.
+pub const FAR: i32 = 8;
+
+/// Steps of the cursor across a window, about the columns of a plot at 80 columns.
+///
+/// A part of the window and not of the screen, so that a keystroke file does the same on every screen.
+const STEPS_ACROSS: f64 = 64.0;
+
+/// How much a zoom makes of the width.
+const ZOOM: f64 = 1.5;
+
+/// How much of the width a pan moves.
+const PAN: f64 = 0.125;
+
+impl Session {
+    /// The plot of a pane, if it is one.
+    pub fn plot_mut(&mut self, pane: Pane) -> Option<&mut Plot> {
+        match pane {
+            Pane::Parameters => None,
+            Pane::Phase => Some(&mut self.phase),
+            Pane::Diagram => Some(&mut self.diagram),
+        }
+    }
+
+    /// Where the cursor of a plot appears: on the start of the motion, or on today's value.
+    fn cursor_origin(&self, pane: Pane) -> Point {
+        let initial = self.problem.initial;
+        match pane {
+            Pane::Parameters | Pane::Phase => {
+                self.phase.window.clamp(Point { x: initial.q, y: initial.v })
+            }
+            Pane::Diagram => {
+                let window = self.diagram.window;
+                window.clamp(Point { x: self.value(self.abscissa), y: window.center().y })
+            }
+        }
+    }
+}
+
+/// Moves the cursor of the plot in focus; the first move shows it.
+pub fn move_cursor(session: &mut Session, right: i32, up: i32) -> Vec<Effect> {
+    let origin = session.cursor_origin(session.focus);
+    if let Some(plot) = session.plot_mut(session.focus) {
+        let Point { x, y } = plot.cursor.unwrap_or(origin);
+        let Window { x: across, y: along } = plot.window;
+        plot.cursor = Some(Point { x: moved(across, x, right), y: moved(along, y, up) });
+    }
+    Vec::new()
+}
+
+/// A coordinate some steps on, on round numbers, not beyond the window.
+fn moved(span: Span, value: f64, count: i32) -> f64 {
+    let step = StepSize::near(span.width() / STEPS_ACROSS);
+    // A start or a value of today need not lie on a round number: then it is met again by a zero move.
+    if count == 0 {
+        return value;
+    }
+    let goal = step.multiple_from(value, count);
+    if span.contains(goal) {
+        return goal;
+    }
+    // The last round number inside lies one step before the first one outside.
+    let edge = if count > 0 { span.to() } else { span.from() };
+    let inside = step.multiple_from(step.multiple_from(edge, count.signum()), -count.signum());
+    if span.contains(inside) { inside } else { value }
+}
+
+/// Zooms the plot in focus about its cursor, or about its middle.
+pub fn zoom(session: &mut Session, closer: bool) -> Vec<Effect> {
+    let factor = if closer { 1.0 / ZOOM } else { ZOOM };
+    frame(session, |plot| {
+        let Window { x, y } = plot.window;
+        let about = plot.cursor.unwrap_or(plot.window.center());
+        Window { x: x.scaled(about.x, factor), y: y.scaled(about.y, factor) }
+    })
+}
+
+/// Moves the window of the plot in focus.
+pub fn pan(session: &mut Session, right: i32, up: i32) -> Vec<Effect> {
+    frame(session, |plot| {
+        let Window { x, y } = plot.window;
+        Window { x: x.shifted(PAN * f64::from(right)), y: y.shifted(PAN * f64::from(up)) }
+    })
+}
+
+/// Gives the plot in focus a window of the user's.
+fn frame(session: &mut Session, window: impl FnOnce(&Plot) -> Window) -> Vec<Effect> {
+    let framed = session.plot_mut(session.focus).map(|plot| {
+        let (before, after) = (plot.window, window(plot));
+        *plot = Plot { window: after, framing: Framing::User, ..*plot };
+        before != after
+    });
+    if framed == Some(false) {
+        refuse(session, "the window ends here: numbers closer or farther cannot be told apart");
+    }
+    Vec::new()
+}
+
+/// Fits the window of the plot in focus, as soon as what it shows is computed.
+pub fn fit(session: &mut Session) -> Vec<Effect> {
+    if let Some(plot) = session.plot_mut(session.focus) {
+        plot.framing = Framing::Fitting;
+    }
+    Vec::new()
+}
+
+/// Gives the plot in focus the scene's window.
+pub fn home(session: &mut Session) -> Vec<Effect> {
+    let (phase, diagram) = (session.scene.phase, session.scene.diagram);
+    match session.focus {
+        Pane::Parameters => {}
+        Pane::Phase => {
+            session.phase = Plot { cursor: session.phase.cursor, ..Plot::new(phase, phase) }
+        }
+        Pane::Diagram => {
+            session.diagram =
+                Plot { cursor: session.diagram.cursor, ..Plot::new(diagram, diagram) };
+        }
+    }
+    Vec::new()
+}
+
+/// Starts the motion at the cursor of the phase plane.
+pub fn start_here(session: &mut Session) -> Vec<Effect> {
+    match session.phase.cursor {
+        Some(Point { x, y }) => {
+            let initial = State { q: x, v: y };
+            change(session, Problem { initial, ..session.problem });
+        }
+        None => refuse(session, "no cursor yet: the arrows show it and move it"),
+    }
+    Vec::new()
+}
+
+/// Gives the diagram's parameter the value under its cursor.
+pub fn jump_here(session: &mut Session) -> Vec<Effect> {
+    let Some(cursor) = session.diagram.cursor else {
+        refuse(session, "no cursor yet: the arrows show it and move it");
+        return Vec::new();
+    };
+    match session.abscissa.spec().check(cursor.x) {
+        Ok(value) => {
+            let mut problem = session.problem;
+            session.abscissa.set(&mut problem.parameters, &mut problem.initial, value);
+            change(session, problem);
+        }
+        Err(refused) => refuse(session, refused.to_string()),
+    }
+    Vec::new()
+}
