@@ -11,6 +11,8 @@ pub mod replay;
 pub mod settings;
 pub mod state;
 pub mod step;
+#[cfg(test)]
+mod tests;
 pub mod update;
 
 pub use command::{COMMANDS, Command};

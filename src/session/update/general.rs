@@ -138,6 +138,8 @@ pub(in crate::session) fn open_scene(session: &mut Session, scene: Arc<Scene>) {
     restore(session, opened);
     session.unfolded = false;
     session.selected = ROWS[0];
+    // Where the sentences of a scene begin.
+    session.focus = Pane::Parameters;
 }
 
 /// Brings the scene back as it was opened.

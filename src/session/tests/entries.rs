@@ -1,0 +1,106 @@
+//! Typed and pasted values.
+
+use super::Desk;
+use crate::flow::Method;
+use crate::session::{Effect, Entry, Msg, Overlay};
+
+fn entry(desk: &Desk) -> &Entry {
+    match &desk.session.overlay {
+        Some(Overlay::Entry(entry)) => entry,
+        other => panic!("no line is open but {other:?}"),
+    }
+}
+
+#[test]
+fn a_value_is_typed_from_its_first_digit_or_edited_after_enter() {
+    let mut desk = Desk::open("plain");
+    desk.press("-0.25<enter>");
+    assert_eq!(desk.session.problem.parameters.d, -0.25);
+    assert_eq!(desk.session.overlay, None);
+    desk.press("<enter>");
+    assert_eq!(entry(&desk).text, "-0.25");
+    desk.press("<left><backspace>3<enter>");
+    assert_eq!(desk.session.problem.parameters.d, -0.35);
+    desk.press("<enter><C-u>1e-3<home>-<enter>");
+    assert_eq!(desk.session.problem.parameters.d, -1e-3);
+    desk.press("<enter><home><del><end>5<esc>");
+    assert_eq!(desk.session.problem.parameters.d, -1e-3, "esc leaves the value alone");
+}
+
+#[test]
+fn what_cannot_be_a_value_is_refused_with_the_range() {
+    for (row, typed, line) in [
+        (3, "nan", "nan is no finite number; r takes 0 to 1e300"),
+        (3, "1e400", "1e400 is no finite number; r takes 0 to 1e300"),
+        (3, "-1", "r = -1 is out of range; r takes 0 to 1e300"),
+        (3, "zero", "\"zero\" is no number; r takes 0 to 1e300"),
+        (3, "0,1", "\"0,1\" is no number; r takes 0 to 1e300"),
+        (6, "1e10", "until = 1e10 is out of range; until takes 0 to 1000000000"),
+        (7, "euler", "no method \"euler\"; there are auto, exact, taylor, dop853"),
+        (8, "1", "tolerance = 1 is out of range; tolerance takes 1e-15 to 0.01"),
+    ] {
+        let mut desk = Desk::open("plain");
+        let before = desk.session.problem;
+        desk.press(&format!("<down*{row}><enter><C-u>{typed}<enter>"));
+        let refused = entry(&desk).refused.clone().unwrap_or_default();
+        assert!(refused.starts_with(line), "{refused}");
+        assert!(!refused.contains('\n'));
+        assert_eq!(desk.session.problem, before);
+        desk.press("<backspace>");
+        assert_eq!(entry(&desk).refused, None, "the complaint goes when the text changes");
+    }
+}
+
+#[test]
+fn every_row_takes_its_values() {
+    let mut desk = Desk::open("plain");
+    desk.press("<down*6>99<enter> <down><enter><C-u>dop853<enter> <down>1e-12<enter>");
+    let problem = desk.session.problem;
+    assert_eq!((problem.until, problem.method, problem.tolerance), (99.0, Method::Dop853, 1e-12));
+    desk.press("<home>");
+    desk.press("<up*9>-0<enter>");
+    assert!(desk.session.problem.parameters.d.is_sign_positive(), "zero has one sign");
+}
+
+#[test]
+fn pasted_text_goes_into_the_open_line_or_opens_one() {
+    let mut desk = Desk::open("plain");
+    desk.press("<enter><C-u> <paste \"\u{2212}0.2\\n\"> <enter>");
+    assert_eq!(desk.session.problem.parameters.d, -0.2);
+    desk.press("<paste \" -0.3 \">");
+    assert_eq!(entry(&desk).text, "-0.3");
+    desk.press("<enter>");
+    assert_eq!(desk.session.problem.parameters.d, -0.3);
+    desk.press("?/<paste \"undo\"><enter>");
+    let Some(Overlay::Help(list)) = &desk.session.overlay else { panic!("the help is open") };
+    let names: Vec<_> = desk.session.help_rows(list).iter().map(|row| row.name).collect();
+    assert_eq!(names, ["undo", "redo"]);
+}
+
+#[test]
+fn pasted_keystrokes_are_offered_and_played_only_after_a_yes() {
+    let mut desk = Desk::open("plain");
+    let before = desk.session.problem;
+    desk.give(Msg::Paste("# a walk\n<right*5> <wait> q".to_owned()));
+    assert!(matches!(&desk.session.overlay, Some(Overlay::Offer(script)) if script.keys() == 6));
+    assert_eq!(desk.session.problem, before);
+    desk.press("<esc>");
+    assert_eq!((desk.effects.len(), &desk.session.overlay), (0, &None));
+    desk.give(Msg::Paste("<right*5>".to_owned()));
+    desk.press("<enter>");
+    assert!(matches!(&desk.effects[..], [Effect::Play(script)] if script.keys() == 5));
+    assert_eq!(desk.session.problem, before, "the outer rings press the keys");
+}
+
+#[test]
+fn pasted_text_that_is_nothing_gets_one_line() {
+    let mut desk = Desk::open("plain");
+    desk.give(Msg::Paste("hello\n  <wrold>".to_owned()));
+    assert_eq!(
+        desk.notice().split("; ").next(),
+        Some("the pasted text is no keystroke file: line 2, column 3: unknown key <wrold>")
+    );
+    desk.give(Msg::Paste("# only a comment".to_owned()));
+    assert_eq!(desk.notice(), "the pasted text presses no key");
+    assert_eq!(desk.session.overlay, None);
+}

@@ -1,0 +1,136 @@
+//! What keys do to a session: (state, keys, state), the keys read by the product's own parser and the
+//! questions answered by hand.
+
+mod entries;
+mod plots;
+mod requests;
+mod strange;
+mod undo;
+
+use std::sync::Arc;
+
+use super::replay::{Action, Player, parse};
+use super::{Effect, Msg, Session, Size, update};
+use crate::flow::{Cost, Method, Outcome, Problem, Sample, Trajectory};
+use crate::oscillator::State;
+use crate::scene::{Answer, Answered, Request, Slot, find};
+use crate::study::{Branch, BranchPoint, Cycle, Cycles, Edge, Special, SpecialKind};
+
+/// A session whose questions are answered as soon as they are asked.
+struct Desk {
+    session: Session,
+    /// What was asked since the last keys.
+    asked: Vec<Slot>,
+    /// What the outer rings were told to do.
+    effects: Vec<Effect>,
+}
+
+/// Evaluations that each answer by hand claims to have cost.
+const COST: u64 = 100;
+
+impl Desk {
+    /// A session that has just opened a scene and shows it.
+    fn open(scene: &str) -> Self {
+        let scene = find(scene).unwrap();
+        let session = Session::new(Arc::clone(&scene), Size { width: 80, height: 24 });
+        let mut desk = Desk { session, asked: Vec::new(), effects: Vec::new() };
+        desk.settle();
+        desk
+    }
+
+    /// Gives a message and answers what it makes the session ask.
+    fn give(&mut self, message: Msg) {
+        let effects = update(&mut self.session, message);
+        self.effects.extend(effects);
+        self.settle();
+    }
+
+    /// Presses keys; returns what had to be computed for them.
+    fn press(&mut self, keys: &str) -> Vec<Slot> {
+        self.asked.clear();
+        let mut player = Player::new(parse(keys).unwrap_or_else(|error| panic!("{keys}: {error}")));
+        while let Action::Give(message) = player.next(true, String::new).unwrap() {
+            self.give(message);
+        }
+        self.asked.clone()
+    }
+
+    fn settle(&mut self) {
+        for round in 0.. {
+            assert!(round < 3, "answers make the session ask again and again");
+            let open: Vec<Request> = self.session.wants();
+            let open: Vec<_> =
+                open.into_iter().filter(|request| self.session.is_open(request)).collect();
+            if open.is_empty() {
+                break;
+            }
+            for request in open {
+                self.asked.push(request.slot());
+                update(&mut self.session, Msg::Answered(Box::new(answered(request))));
+            }
+        }
+        assert!(!self.session.is_busy());
+    }
+
+    /// The line for the user.
+    fn notice(&self) -> &str {
+        self.session.notice.as_ref().map_or("", |notice| &notice.text)
+    }
+}
+
+/// An unstable cycle at `r + 1` and a stable one at `r + 3`.
+fn cycle(stable: bool, r: f64) -> Cycle {
+    let clearance = if stable { 3.0 } else { 1.0 };
+    let q = r + clearance;
+    Cycle {
+        stable,
+        q_min: -q,
+        q_max: q,
+        v_min: -q,
+        v_max: q,
+        period: 6.0,
+        multiplier: Some(if stable { 0.5 } else { 2.0 }),
+        log_multiplier: if stable { 0.5_f64.ln() } else { 2.0_f64.ln() },
+        clearance,
+        log_clearance: clearance.ln(),
+        error: 0.0,
+    }
+}
+
+/// An answer by hand: a motion that stays where it starts, two cycles, one fold.
+fn answered(request: Request) -> Answered {
+    let cost = Cost { evaluations: COST, steps: 1, rejected: 0 };
+    let answer = match &request {
+        Request::Trajectory(problem) => {
+            let Problem { initial: State { q, v }, until, .. } = *problem;
+            Answer::Trajectory(Trajectory {
+                problem: *problem,
+                method: Method::Taylor,
+                outcome: Outcome::Moving { tau: until, q, v },
+                crossings: Vec::new(),
+                ledger: None,
+                samples: vec![Sample { tau: 0.0, q, v }],
+                cost,
+            })
+        }
+        Request::Cycles { parameters, .. } => Answer::Cycles(Cycles {
+            parameters: *parameters,
+            cycles: vec![cycle(false, parameters.r), cycle(true, parameters.r)],
+            curves: Vec::new(),
+            harmonic: Vec::new(),
+            edge: Edge::Cycle,
+            edge_curve: Vec::new(),
+            cost,
+        }),
+        Request::Branch { parameter, range: (from, to), parameters, .. } => {
+            let point = |stable| BranchPoint { value: *from, cycle: cycle(stable, parameters.r) };
+            Answer::Branch(Branch {
+                parameter: *parameter,
+                pieces: vec![vec![point(false), point(true)]],
+                special: vec![Special { kind: SpecialKind::Fold, value: *to, q_max: Some(1.5) }],
+                cost,
+            })
+        }
+    };
+    Answered { request, result: Ok(answer), seconds: 0.001 }
+}

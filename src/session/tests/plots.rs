@@ -1,0 +1,132 @@
+//! Cursor, zoom, pan, fit; starts beside the cycle.
+
+use super::Desk;
+use crate::oscillator::State;
+use crate::scene::{Pane, Point, Span, Window};
+use crate::session::Framing;
+
+#[test]
+fn the_cursor_moves_on_round_numbers_and_sets_the_start() {
+    let mut desk = Desk::open("plain");
+    desk.press("<tab><right>");
+    // A 64th of the width 4 is near 0.05.
+    assert_eq!(desk.session.phase.cursor, Some(Point { x: 1.05, y: 0.0 }));
+    desk.press("k k h <C-left>");
+    assert_eq!(desk.session.phase.cursor, Some(Point { x: 0.6, y: 0.1 }));
+    desk.press("<enter>");
+    assert_eq!(desk.session.problem.initial, State { q: 0.6, v: 0.1 });
+    desk.press("<esc>");
+    assert_eq!((desk.session.phase.cursor, desk.session.quit), (None, false));
+    desk.press("<enter>");
+    assert_eq!(desk.notice(), "no cursor yet: the arrows show it and move it");
+}
+
+#[test]
+fn the_cursor_stays_inside_its_window() {
+    for keys in ["<right*500>", "<C-right*99>", "<left*500>", "<up*99>", "<C-down*99>"] {
+        let mut desk = Desk::open("plain");
+        desk.press("<tab>+L");
+        desk.press(keys);
+        let plot = desk.session.phase;
+        assert!(plot.window.contains(plot.cursor.unwrap()), "{keys}");
+    }
+}
+
+#[test]
+fn the_diagram_is_jumped_to_and_knows_its_limits() {
+    let mut desk = Desk::open("plain");
+    desk.press("<tab><tab><left*3><enter>");
+    assert_eq!(desk.session.focus, Pane::Diagram);
+    assert_eq!(desk.session.problem.parameters.d, -0.13);
+    desk.session.abscissa = crate::oscillator::Symbol::R;
+    desk.session.diagram.cursor = Some(Point { x: -0.2, y: 1.0 });
+    desk.press("<enter>");
+    assert!(desk.notice().starts_with("r = -0.2 is outside its range"), "{}", desk.notice());
+}
+
+#[test]
+fn a_diagram_outside_the_range_of_its_parameter_asks_nothing() {
+    let mut desk = Desk::open("plain");
+    desk.session.abscissa = crate::oscillator::Symbol::R;
+    desk.session.diagram.window.x = Span::new(-2.0, -1.0).unwrap();
+    assert_eq!(desk.session.request(crate::scene::Slot::Branch), None);
+    assert_eq!(desk.session.wants().len(), 2);
+}
+
+#[test]
+fn zoom_keeps_the_cursor_in_place_and_home_undoes_it() {
+    let mut desk = Desk::open("plain");
+    desk.press("<tab><right*4><up*4>");
+    let before = desk.session.phase;
+    let cursor = before.cursor.unwrap();
+    desk.press("++");
+    let after = desk.session.phase;
+    assert_eq!((after.cursor, after.framing), (Some(cursor), Framing::User));
+    assert!(after.window.x.width() < before.window.x.width());
+    let place = |window: Window| (window.x.fraction(cursor.x), window.y.fraction(cursor.y));
+    assert!((place(after.window).0 - place(before.window).0).abs() < 1e-12);
+    assert!((place(after.window).1 - place(before.window).1).abs() < 1e-12);
+    desk.press("L K <home>");
+    assert_eq!(
+        (desk.session.phase.window, desk.session.phase.framing),
+        (before.window, Framing::Scene)
+    );
+}
+
+#[test]
+fn fit_shows_all_that_is_computed() {
+    let mut desk = Desk::open("supercritical");
+    desk.press("<tab>0");
+    let window = desk.session.phase.window;
+    assert_eq!(desk.session.phase.framing, Framing::Fitted);
+    // The stable cycle by hand reaches r + 3 in every direction.
+    assert!(window.contains(Point { x: 3.1, y: -3.1 }) && window.x.to() < 3.5);
+    desk.press("<tab>0");
+    assert_eq!(desk.session.diagram.framing, Framing::Fitted);
+    assert!(desk.session.diagram.window.y.contains(3.1));
+    assert_eq!(desk.session.diagram.window.x, desk.session.scene.diagram.x);
+}
+
+#[test]
+fn fit_waits_for_what_is_being_computed() {
+    let mut desk = Desk::open("supercritical");
+    for key in ["<down*2>", "<right>", "<tab>", "0"] {
+        let script = crate::session::replay::parse(key).unwrap();
+        let mut player = crate::session::replay::Player::new(script);
+        while let Ok(crate::session::replay::Action::Give(message)) = player.next(true, String::new)
+        {
+            crate::session::update(&mut desk.session, message);
+        }
+    }
+    assert_eq!(desk.session.phase.framing, Framing::Fitting);
+    assert_eq!(desk.session.phase.window, desk.session.scene.phase);
+    desk.settle();
+    assert_eq!(desk.session.phase.framing, Framing::Fitted);
+}
+
+#[test]
+fn the_motion_starts_on_either_side_of_the_unstable_cycle() {
+    // By hand the unstable cycle has clearance 1.
+    let mut desk = Desk::open("supercritical");
+    let r = desk.session.problem.parameters.r;
+    desk.press("<tab><up><enter> i");
+    assert_eq!(desk.session.problem.initial, State { q: r + 0.95, v: 0.0 });
+    desk.press("o");
+    assert_eq!(desk.session.problem.initial, State { q: r + 1.05, v: 0.0 });
+    desk.press("u");
+    assert_eq!(desk.session.problem.initial, State { q: r + 0.95, v: 0.0 });
+    desk.press("c b <S-tab><right> i");
+    assert_eq!(desk.notice(), "the cycles are not computed: c shows them");
+}
+
+#[test]
+fn a_cycle_closer_to_the_sticking_set_than_numbers_are_still_has_an_outside() {
+    let mut desk = Desk::open("basin");
+    let held = desk.session.answers.get_mut(&crate::scene::Slot::Cycles).unwrap();
+    let Ok(crate::scene::Answer::Cycles(found)) = &mut held.result else { panic!("cycles") };
+    found.cycles[0].clearance = 6.5e-31;
+    desk.press("o");
+    assert_eq!(desk.session.problem.initial.q, 1.0_f64.next_up());
+    desk.press("i");
+    assert_eq!(desk.session.problem.initial.q, 1.0);
+}

@@ -1,0 +1,129 @@
+//! Any keys in any order: nothing panics, nothing impossible is asked, nothing is lost by accident.
+
+use proptest::prelude::*;
+
+use super::Desk;
+use crate::scene::{Request, library};
+use crate::session::command::COMMANDS;
+use crate::session::{Effect, Key, Msg, Session, update};
+
+/// Keys that mean something somewhere, and some that are only typed.
+fn any_key() -> impl Strategy<Value = Key> {
+    let bound: Vec<Key> = COMMANDS
+        .iter()
+        .flat_map(|command| command.keys.iter().flat_map(|(_, keys)| keys.iter()))
+        .map(|text| text.parse().unwrap())
+        .collect();
+    let typed = prop::char::range(' ', '~').prop_map(|char| {
+        let code = crate::session::Code::Char(char);
+        Key::plain(code)
+    });
+    prop_oneof![4 => prop::sample::select(bound), 1 => typed]
+}
+
+/// What must hold whatever was pressed.
+fn check(session: &Session) {
+    assert!(session.rows().contains(&session.selected));
+    assert!(session.panes().contains(&session.focus));
+    for window in [session.phase.window, session.diagram.window] {
+        for span in [window.x, window.y] {
+            assert!(span.width() > 0.0 && span.width().is_finite());
+        }
+    }
+    for plot in [session.phase, session.diagram] {
+        if let Some(cursor) = plot.cursor {
+            assert!(cursor.x.is_finite() && cursor.y.is_finite());
+        }
+    }
+    for row in &crate::oscillator::PARAMETERS {
+        let value = session.value(row.symbol);
+        assert_eq!(row.check(value), Ok(value));
+    }
+    for request in session.wants() {
+        if let Request::Branch { range: (from, to), parameter, .. } = request {
+            let spec = parameter.spec();
+            assert!(from < to && spec.min <= from && to <= spec.max);
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(128))]
+
+    #[test]
+    fn any_keys_keep_a_session_whole(
+        scene in 0..library().len(),
+        keys in prop::collection::vec(any_key(), 0..120),
+    ) {
+        let mut desk = Desk::open(&library()[scene].name);
+        for key in keys {
+            desk.give(Msg::Key(key));
+            check(&desk.session);
+        }
+    }
+
+    #[test]
+    fn escape_never_quits_and_never_discards(keys in prop::collection::vec(any_key(), 0..40)) {
+        let mut desk = Desk::open("supercritical");
+        for key in keys {
+            desk.give(Msg::Key(key));
+            let mut session = desk.session.clone();
+            let effects = update(&mut session, Msg::Key("<esc>".parse().unwrap()));
+            prop_assert!(!effects.contains(&Effect::Quit));
+            prop_assert_eq!(session.problem, desk.session.problem);
+            prop_assert_eq!(session.history, desk.session.history.clone());
+        }
+    }
+
+    #[test]
+    fn undoing_everything_leads_back_to_the_start(keys in prop::collection::vec(any_key(), 0..60)) {
+        let mut desk = Desk::open("supercritical");
+        let start = desk.session.clone();
+        for key in keys {
+            desk.give(Msg::Key(key));
+        }
+        desk.press("<esc*3>");
+        while desk.session.history.depth().1 > 0 {
+            desk.press("U");
+        }
+        let last = desk.session.problem;
+        while desk.session.history.depth().0 > 0 {
+            desk.press("u");
+        }
+        prop_assert_eq!(desk.session.problem, start.problem);
+        prop_assert_eq!(&desk.session.scene.name, &start.scene.name);
+        while desk.session.history.depth().1 > 0 {
+            desk.press("U");
+        }
+        prop_assert_eq!(desk.session.problem, last);
+    }
+
+    #[test]
+    fn the_same_keys_do_the_same_on_every_screen(
+        keys in prop::collection::vec(any_key(), 0..60),
+        width in 1..500_u16,
+        height in 1..200_u16,
+    ) {
+        let mut here = Desk::open("plain");
+        let mut there = Desk::open("plain");
+        there.give(Msg::Resize { width, height });
+        for key in keys {
+            here.give(Msg::Key(key));
+            there.give(Msg::Key(key));
+        }
+        there.session.size = here.session.size;
+        prop_assert!(here.session == there.session);
+    }
+
+    #[test]
+    fn any_text_can_be_pasted(text in any::<String>(), keys in prop::collection::vec(any_key(), 0..5)) {
+        let mut desk = Desk::open("plain");
+        for key in keys {
+            desk.give(Msg::Key(key));
+        }
+        let before = desk.session.problem;
+        desk.give(Msg::Paste(text));
+        check(&desk.session);
+        prop_assert_eq!(desk.session.problem, before);
+    }
+}

@@ -1,0 +1,108 @@
+//! Undo, redo, reset, and scenes.
+
+use super::Desk;
+use crate::scene::{Layer, library};
+use crate::session::Overlay;
+
+#[test]
+fn undo_and_redo_restore_the_requests_exactly() {
+    let mut desk = Desk::open("plain");
+    let mut states = vec![desk.session.wants()];
+    let changes =
+        ["<right>", "<S-left>", "-0.3<enter>", "<down><right>", "m", "}", "i", "<tab><up><enter>"];
+    for keys in changes {
+        desk.press(keys);
+        states.push(desk.session.wants());
+    }
+    assert_eq!(desk.session.history.depth(), (changes.len(), 0));
+    for state in states.iter().rev().skip(1) {
+        desk.press("u");
+        assert_eq!(desk.session.wants(), *state);
+    }
+    desk.press("u");
+    assert_eq!(desk.notice(), "nothing to undo");
+    for state in states.iter().skip(1) {
+        desk.press("<C-r>");
+        assert_eq!(desk.session.wants(), *state);
+    }
+    desk.press("U");
+    assert_eq!(desk.notice(), "nothing to redo");
+}
+
+#[test]
+fn undo_says_what_it_brought_back_and_leaves_the_zoom_alone() {
+    let mut desk = Desk::open("plain");
+    desk.press("<right> <tab>++ b");
+    let (window, layers) = (desk.session.phase.window, desk.session.layers.clone());
+    desk.press("u");
+    assert_eq!(desk.notice(), "undo: D = -0.1");
+    assert_eq!((desk.session.phase.window, &desk.session.layers), (window, &layers));
+}
+
+#[test]
+fn a_change_after_an_undo_ends_the_future() {
+    let mut desk = Desk::open("plain");
+    desk.press("<right*3> u u <left> U");
+    assert_eq!(desk.notice(), "nothing to redo");
+    assert_eq!(desk.session.problem.parameters.d, -0.1);
+}
+
+#[test]
+fn a_repeated_reset_is_one_change() {
+    let mut desk = Desk::open("plain");
+    desk.press("<right*3>");
+    assert_eq!(desk.session.history.depth(), (3, 0));
+    desk.press("r r r");
+    assert_eq!(desk.session.problem, desk.session.scene.problem);
+    assert_eq!(desk.session.history.depth(), (4, 0));
+    desk.press("R R");
+    assert_eq!(desk.session.history.depth(), (4, 0), "nothing was left to reset");
+    desk.press("b R R u");
+    assert!(
+        !desk.session.layers.contains(&Layer::Basin),
+        "a reset of the scene brings layers back"
+    );
+}
+
+#[test]
+fn reset_gives_a_row_its_value_and_its_step() {
+    let mut desk = Desk::open("basin");
+    desk.press("[[ <right*2>");
+    assert_ne!(desk.session.steps, crate::session::Steps::of_scene(&desk.session.scene));
+    desk.press("r");
+    assert_eq!(desk.session.steps, crate::session::Steps::of_scene(&desk.session.scene));
+    assert_eq!(desk.session.value(crate::oscillator::Symbol::D), -0.4);
+}
+
+#[test]
+fn scenes_are_picked_from_a_list_and_undone_as_a_whole() {
+    let mut desk = Desk::open("plain");
+    desk.press("<right> <tab>+ b");
+    let before = desk.session.clone();
+    desk.press("s/marg<enter>");
+    assert_eq!(desk.session.scene.name, "marginal");
+    assert_eq!(desk.session.problem, desk.session.scene.problem);
+    assert_eq!(desk.session.layers, desk.session.scene.layers);
+    desk.press("<right> u u");
+    assert_eq!(desk.notice(), "undo: scene plain");
+    assert_eq!(desk.session.wants(), before.wants());
+    assert_eq!(desk.session.phase.window, before.phase.window);
+    assert_eq!(desk.session.layers, before.layers);
+    desk.press("U");
+    assert_eq!(desk.session.scene.name, "marginal");
+}
+
+#[test]
+fn lists_move_search_and_close() {
+    let mut desk = Desk::open("plain");
+    desk.press("s<down*99><up><enter>");
+    assert_eq!(desk.session.scene.name, library()[library().len() - 2].name);
+    desk.press("s/no such scene<enter>");
+    assert!(matches!(desk.session.overlay, Some(Overlay::Scenes(_))), "nothing to open");
+    desk.press("q");
+    assert_eq!((&desk.session.overlay, desk.session.quit), (&None, false));
+    desk.press("v/basin<enter><space>");
+    assert!(!desk.session.layers.contains(&Layer::Basin));
+    desk.press("<space> v ? G gg ? q");
+    assert!(desk.session.layers.contains(&Layer::Basin) && desk.session.quit);
+}
