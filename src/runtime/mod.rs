@@ -5,11 +5,15 @@
 //! signals, [`worker`] computes. The [`pump`] takes events out, hands them to the session, asks the
 //! worker what the session then wants, and draws.
 
+pub mod effects;
 pub mod event;
 pub mod input;
 pub mod panics;
+pub mod picture;
+pub mod pump;
 pub mod signals;
 pub mod worker;
 
 pub use event::Event;
+pub use pump::{Machine, Pump, Stop};
 pub use worker::Worker;

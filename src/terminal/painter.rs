@@ -183,6 +183,12 @@ impl<W: Write> Painter<W> {
         self.size = size;
     }
 
+    /// The size that the painter was told.
+    #[must_use]
+    pub fn shown_size(&self) -> Size {
+        self.size
+    }
+
     /// Forgets what is known of the terminal: something else has written to it.
     pub fn forget(&mut self) {
         self.pen = None;

@@ -87,6 +87,12 @@ impl<W: Write> Screen<W> {
         self.terminal.backend_mut().set_size(known(size));
     }
 
+    /// The size that frames have now, in cells.
+    #[must_use]
+    pub fn size(&self) -> Size {
+        self.terminal.backend().shown_size()
+    }
+
     /// Makes the next frame send everything: something else may have written to the terminal.
     ///
     /// # Errors

@@ -1,0 +1,464 @@
+//! The loop: takes what happened, changes the session, asks the worker, draws.
+//!
+//! The loop waits in one place, the channel, and without a deadline when there is nothing to draw: an
+//! idle explorer uses no processor time and writes no byte. When something happened it first takes
+//! everything there is out of the channel and draws once after that, so that 500 keys at once cost one
+//! frame. A frame waits until the last one is old enough and shown (see [`crate::terminal::pacing`]),
+//! and a moment for the worker, whose answer often comes within it: one frame instead of two.
+
+use std::io::{self, Write};
+use std::time::{Duration, Instant};
+
+use crossbeam_channel::{Receiver, RecvTimeoutError};
+use ratatui::Frame;
+use ratatui::layout::Size;
+
+use super::effects::Files;
+use super::event::Event;
+use super::picture;
+use super::worker::Worker;
+use crate::scene::Request;
+use crate::session::replay::{Action, Player, Recorder};
+use crate::session::{Code, Effect, Key, Msg, Notice};
+use crate::terminal::Screen;
+
+/// How long a frame waits for the worker before it shows what is there, marked as old.
+const ANSWER_TIME: Duration = Duration::from_millis(8);
+
+/// What the loop runs: a session and the way it is drawn.
+pub trait Machine {
+    /// Something happened.
+    fn update(&mut self, msg: Msg) -> Vec<Effect>;
+
+    /// The requests to be computed now: wanted, and neither answered nor failed.
+    fn wants(&self) -> Vec<Request>;
+
+    /// Draws the state.
+    fn draw(&self, frame: &mut Frame);
+}
+
+/// Why the loop stopped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// The user has left.
+    Quit,
+    /// The user wants the job to be stopped, as Ctrl-Z does.
+    Suspend,
+    /// A signal asks this process to stop until it is continued.
+    Suspended,
+    /// The process goes on after a stop.
+    Continued,
+    /// A signal ends the program.
+    Ended {
+        /// Its number.
+        signal: i32,
+    },
+    /// The terminal is gone.
+    Closed,
+}
+
+/// The loop's state.
+#[derive(Debug)]
+pub struct Pump<M, W: Write> {
+    machine: M,
+    screen: Screen<W>,
+    worker: Worker,
+    events: Receiver<Event>,
+    files: Files,
+    /// What the worker was asked last.
+    asked: Vec<Request>,
+    /// Since when the state differs from the screen.
+    changed: Option<Instant>,
+    /// No frames are drawn while the terminal is not ours.
+    held: bool,
+    player: Option<Player>,
+    recorder: Option<Recorder>,
+    terminal_size: fn() -> Size,
+}
+
+impl<M: Machine, W: Write> Pump<M, W> {
+    /// A loop whose screen has everything to draw.
+    pub fn new(
+        machine: M,
+        screen: Screen<W>,
+        worker: Worker,
+        events: Receiver<Event>,
+        files: Files,
+        terminal_size: fn() -> Size,
+    ) -> Pump<M, W> {
+        Pump {
+            machine,
+            screen,
+            worker,
+            events,
+            files,
+            asked: Vec::new(),
+            changed: Some(Instant::now()),
+            held: false,
+            player: None,
+            recorder: None,
+            terminal_size,
+        }
+    }
+
+    /// Plays a keystroke file: each key when the answer to the last one is on the screen.
+    #[must_use]
+    pub fn playing(mut self, player: Option<Player>) -> Self {
+        self.player = player;
+        self
+    }
+
+    /// Writes down what the user does.
+    #[must_use]
+    pub fn recording(mut self, recorder: Option<Recorder>) -> Self {
+        self.recorder = recorder;
+        self
+    }
+
+    /// What the user did, if it was to be written down.
+    pub fn recorder(&self) -> Option<&Recorder> {
+        self.recorder.as_ref()
+    }
+
+    /// Runs until something happens that concerns the whole process.
+    ///
+    /// # Errors
+    /// The error of writing to the terminal.
+    pub fn run(&mut self) -> io::Result<Stop> {
+        loop {
+            if let Some(stop) = self.play()? {
+                return Ok(stop);
+            }
+            self.ask();
+            let event = match self.due() {
+                None => self.events.recv().map_err(RecvTimeoutError::from),
+                Some(due) => self.events.recv_deadline(due),
+            };
+            let mut next = match event {
+                Ok(event) => Some(event),
+                Err(RecvTimeoutError::Timeout) => {
+                    self.draw()?;
+                    None
+                }
+                // Whoever reads the keys says so before; this is the end of the world.
+                Err(RecvTimeoutError::Disconnected) => return Ok(Stop::Closed),
+            };
+            while let Some(event) = next {
+                if let Some(stop) = self.handle(event)? {
+                    return Ok(stop);
+                }
+                next = self.events.try_recv().ok();
+            }
+        }
+    }
+
+    /// The terminal is not ours until [`Pump::repaint`].
+    pub fn hold(&mut self) {
+        self.held = true;
+    }
+
+    /// The terminal is ours again, in an unknown state.
+    ///
+    /// # Errors
+    /// The error of writing to the terminal.
+    pub fn repaint(&mut self) -> io::Result<()> {
+        self.held = false;
+        let size = (self.terminal_size)();
+        self.screen.repaint(size)?;
+        self.screen.probe(Instant::now())?;
+        self.resized(size);
+        Ok(())
+    }
+
+    /// Waits for an answer that the terminal owes, so that it does not arrive after the program.
+    pub fn take_leave(&mut self) {
+        while let Some(until) = self.screen.farewell() {
+            match self.events.recv_deadline(until) {
+                Ok(Event::Shown) => drop(self.screen.answered(Instant::now())),
+                Ok(_) => {}
+                Err(_) => return,
+            }
+        }
+    }
+
+    fn handle(&mut self, event: Event) -> io::Result<Option<Stop>> {
+        match event {
+            Event::Session(Msg::Idle) if !self.worker.is_idle() => Ok(None),
+            Event::Session(Msg::Key(Key { code: Code::Esc, .. })) if self.player.is_some() => {
+                self.played(false, "replay stopped".to_owned())
+            }
+            Event::Session(msg) => {
+                if let Some(recorder) = &mut self.recorder {
+                    recorder.note(&msg);
+                }
+                self.update(msg)
+            }
+            Event::Shown => {
+                self.screen.answered(Instant::now());
+                Ok(None)
+            }
+            Event::Resized => {
+                let size = (self.terminal_size)();
+                self.resized(size);
+                Ok(None)
+            }
+            Event::Suspend => Ok(Some(Stop::Suspended)),
+            Event::Continued => Ok(Some(Stop::Continued)),
+            Event::Ended { signal } => Ok(Some(Stop::Ended { signal })),
+            Event::Closed => Ok(Some(Stop::Closed)),
+        }
+    }
+
+    fn resized(&mut self, size: Size) {
+        self.screen.resize(size);
+        let Size { width, height } = self.screen.size();
+        let msg = Msg::Resize { width, height };
+        if let Some(recorder) = &mut self.recorder {
+            recorder.note(&msg);
+        }
+        // A size asks for nothing.
+        drop(self.machine.update(msg));
+        self.mark();
+    }
+
+    fn mark(&mut self) {
+        self.changed.get_or_insert_with(Instant::now);
+    }
+
+    /// Changes the session and does what it asks for.
+    fn update(&mut self, msg: Msg) -> io::Result<Option<Stop>> {
+        let effects = self.machine.update(msg);
+        self.mark();
+        for effect in effects {
+            let stop = match effect {
+                Effect::Quit => Some(Stop::Quit),
+                Effect::Suspend => Some(Stop::Suspend),
+                Effect::Repaint => {
+                    self.repaint()?;
+                    None
+                }
+                Effect::Copy(text) => {
+                    self.screen.control(&Files::clipboard(&text))?;
+                    let notice = self.files.copy(&text);
+                    self.update(Msg::Told(notice))?
+                }
+                Effect::Write { path, text } => {
+                    let notice = Files::write(&path, &text);
+                    self.update(Msg::Told(notice))?
+                }
+                Effect::Play(script) => {
+                    match &mut self.player {
+                        Some(player) => player.interject(script),
+                        None => self.player = Some(Player::new(script)),
+                    }
+                    None
+                }
+            };
+            if stop.is_some() {
+                return Ok(stop);
+            }
+        }
+        Ok(None)
+    }
+
+    /// The next step of a replay, if the screen shows all that happened before it.
+    ///
+    /// A replay inside the explorer has the size of the terminal and keeps no pictures.
+    fn play(&mut self) -> io::Result<Option<Stop>> {
+        if self.changed.is_some() || !self.events.is_empty() {
+            return Ok(None);
+        }
+        let Some(player) = &mut self.player else { return Ok(None) };
+        let (machine, size) = (&self.machine, self.screen.size());
+        let idle = machine.wants().is_empty();
+        let screen = || picture::text(&picture::of(machine, size));
+        loop {
+            return match player.next(idle, screen) {
+                Ok(Action::Give(Msg::Resize { .. }) | Action::Keep(_)) => continue,
+                Ok(Action::Wait) => Ok(None),
+                Ok(Action::Give(msg)) => self.update(msg),
+                Ok(Action::Done) => self.played(false, "replay done".to_owned()),
+                Err(unmet) => self.played(true, format!("replay stopped: {unmet}")),
+            };
+        }
+    }
+
+    /// Ends a replay.
+    fn played(&mut self, error: bool, text: String) -> io::Result<Option<Stop>> {
+        self.player = None;
+        self.update(Msg::Told(Notice { error, text }))
+    }
+
+    /// Tells the worker what is wanted, if that has changed.
+    fn ask(&mut self) {
+        let wanted = self.machine.wants();
+        if wanted != self.asked {
+            self.worker.submit(wanted.clone());
+            self.asked = wanted;
+        }
+    }
+
+    /// When to draw; `None` if the screen shows everything.
+    fn due(&self) -> Option<Instant> {
+        let changed = self.changed.filter(|_| !self.held)?;
+        let answer = if self.asked.is_empty() { changed } else { changed + ANSWER_TIME };
+        Some(answer.max(self.screen.next(changed)))
+    }
+
+    fn draw(&mut self) -> io::Result<()> {
+        let machine = &self.machine;
+        self.screen.draw(Instant::now(), |frame| machine.draw(frame))?;
+        self.changed = None;
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crossbeam_channel::{Sender, unbounded};
+    use ratatui::layout::Size;
+
+    use super::*;
+    use crate::flow::Reason;
+    use crate::runtime::panics::Notes;
+    use crate::session::replay;
+    use crate::terminal::pacing::{FRAME_TIME, Pacing};
+
+    /// A machine that counts right-arrows, shows the last notice, and leaves at `q`.
+    #[derive(Debug, Default)]
+    struct Counter {
+        count: u32,
+        notice: String,
+    }
+
+    impl Machine for Counter {
+        fn update(&mut self, msg: Msg) -> Vec<Effect> {
+            match msg {
+                Msg::Key(Key { code: Code::Right, .. }) => self.count += 1,
+                Msg::Key(Key { code: Code::Char('q'), .. }) => return vec![Effect::Quit],
+                Msg::Told(notice) => self.notice = notice.text,
+                _ => {}
+            }
+            vec![]
+        }
+
+        fn wants(&self) -> Vec<Request> {
+            vec![]
+        }
+
+        fn draw(&self, frame: &mut Frame) {
+            frame.render_widget(format!("{} {}", self.count, self.notice), frame.area());
+        }
+    }
+
+    /// A terminal that tells what is written to it.
+    struct Line(Sender<String>);
+
+    impl Write for Line {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            let _ = self.0.send(String::from_utf8_lossy(bytes).into_owned());
+            Ok(bytes.len())
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    fn size() -> Size {
+        Size { width: 60, height: 1 }
+    }
+
+    struct Bench {
+        pump: Pump<Counter, Line>,
+        events: Sender<Event>,
+        written: Receiver<String>,
+    }
+
+    fn bench() -> Bench {
+        let (write, written) = unbounded();
+        let (events, received) = unbounded();
+        let screen = Screen::new(Line(write), size()).unwrap();
+        let job = |_: &Request, _: &crate::flow::Limits| Err(Reason::OutOfRange);
+        let worker = Worker::start(job, Notes::default(), |_| ()).unwrap();
+        let machine = Counter::default();
+        let pump = Pump::new(machine, screen, worker, received, Files::default(), size);
+        Bench { pump, events, written }
+    }
+
+    fn key(name: &str) -> Event {
+        Event::Session(Msg::Key(name.parse().unwrap()))
+    }
+
+    #[test]
+    fn five_hundred_keys_at_once_are_one_frame_of_the_newest_state() {
+        let Bench { mut pump, events, written } = bench();
+        for _ in 0..500 {
+            events.send(key("<right>")).unwrap();
+        }
+        let running = std::thread::spawn(move || pump.run().unwrap());
+        assert!(written.recv().unwrap().contains("500"));
+        events.send(key("q")).unwrap();
+        assert_eq!(running.join().unwrap(), Stop::Quit);
+        assert!(written.is_empty());
+    }
+
+    #[test]
+    fn when_the_screen_shows_everything_there_is_nothing_to_wait_for() {
+        let Bench { mut pump, .. } = bench();
+        assert!(pump.due().is_some());
+        pump.draw().unwrap();
+        assert_eq!(pump.due(), None);
+        pump.handle(key("x")).unwrap();
+        assert!(pump.due().is_some());
+        pump.hold();
+        assert_eq!(pump.due(), None);
+    }
+
+    #[test]
+    fn the_next_frame_waits_until_the_terminal_has_shown_the_last() {
+        let Bench { mut pump, .. } = bench();
+        pump.repaint().unwrap();
+        pump.handle(Event::Shown).unwrap();
+        let drawn = Instant::now();
+        pump.draw().unwrap();
+        pump.handle(key("<right>")).unwrap();
+        assert!(pump.due().unwrap() >= drawn + Pacing::PATIENCE);
+        pump.handle(Event::Shown).unwrap();
+        let shown = Instant::now();
+        assert!(pump.due().unwrap() <= shown + FRAME_TIME);
+    }
+
+    /// Plays a file and gives back what is on the screen when it is through.
+    fn play(file: &str) -> String {
+        let Bench { pump, events, written } = bench();
+        let mut pump = pump.playing(Some(Player::new(replay::parse(file).unwrap())));
+        let running = std::thread::spawn(move || (pump.run().unwrap(), pump));
+        while !written.recv().unwrap().contains("replay") {}
+        events.send(key("q")).unwrap();
+        let (stop, pump) = running.join().unwrap();
+        assert_eq!(stop, Stop::Quit);
+        picture::text(&picture::of(&pump.machine, size()))
+    }
+
+    #[test]
+    fn a_replay_types_its_keys_and_says_how_it_ended() {
+        assert_eq!(play("<right*3> <resize 20x5> <screen a> <expect \"3\">"), "3 replay done\n");
+        let stopped = play("<right> <expect \"2\"> <right>");
+        assert!(stopped.starts_with("1 replay stopped: line 1, column 9"), "{stopped}");
+    }
+
+    #[test]
+    fn what_concerns_the_process_stops_the_loop() {
+        let Bench { mut pump, events, .. } = bench();
+        for (event, stop) in [
+            (Event::Suspend, Stop::Suspended),
+            (Event::Continued, Stop::Continued),
+            (Event::Ended { signal: 15 }, Stop::Ended { signal: 15 }),
+            (Event::Closed, Stop::Closed),
+        ] {
+            events.send(event).unwrap();
+            assert_eq!(pump.run().unwrap(), stop);
+        }
+    }
+}
