@@ -7,7 +7,9 @@
 
 pub mod effects;
 pub mod event;
+pub mod headless;
 pub mod input;
+pub mod launch;
 pub mod panics;
 pub mod picture;
 pub mod pump;
@@ -15,5 +17,6 @@ pub mod signals;
 pub mod worker;
 
 pub use event::Event;
+pub use launch::{Ended, Options, launch};
 pub use pump::{Machine, Pump, Stop};
 pub use worker::Worker;

@@ -6,6 +6,7 @@
 //! frame. A frame waits until the last one is old enough and shown (see [`crate::terminal::pacing`]),
 //! and a moment for the worker, whose answer often comes within it: one frame instead of two.
 
+use std::collections::VecDeque;
 use std::io::{self, Write};
 use std::time::{Duration, Instant};
 
@@ -64,6 +65,8 @@ pub struct Pump<M, W: Write> {
     screen: Screen<W>,
     worker: Worker,
     events: Receiver<Event>,
+    /// What arrived while something else was waited for.
+    missed: VecDeque<Event>,
     files: Files,
     /// What the worker was asked last.
     asked: Vec<Request>,
@@ -91,6 +94,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
             screen,
             worker,
             events,
+            missed: VecDeque::new(),
             files,
             asked: Vec::new(),
             changed: Some(Instant::now()),
@@ -130,25 +134,30 @@ impl<M: Machine, W: Write> Pump<M, W> {
                 return Ok(stop);
             }
             self.ask();
-            let event = match self.due() {
-                None => self.events.recv().map_err(RecvTimeoutError::from),
-                Some(due) => self.events.recv_deadline(due),
-            };
-            let mut next = match event {
-                Ok(event) => Some(event),
-                Err(RecvTimeoutError::Timeout) => {
-                    self.draw()?;
-                    None
-                }
-                // Whoever reads the keys says so before; this is the end of the world.
-                Err(RecvTimeoutError::Disconnected) => return Ok(Stop::Closed),
-            };
+            let mut next = self.wait()?;
             while let Some(event) = next {
                 if let Some(stop) = self.handle(event)? {
                     return Ok(stop);
                 }
-                next = self.events.try_recv().ok();
+                next = self.missed.pop_front().or_else(|| self.events.try_recv().ok());
             }
+        }
+    }
+
+    /// Waits for the next event; draws and returns none if a frame is due first.
+    fn wait(&mut self) -> io::Result<Option<Event>> {
+        if let Some(event) = self.missed.pop_front() {
+            return Ok(Some(event));
+        }
+        let event = match self.due() {
+            None => self.events.recv().map_err(RecvTimeoutError::from),
+            Some(due) => self.events.recv_deadline(due),
+        };
+        match event {
+            Ok(event) => Ok(Some(event)),
+            Err(RecvTimeoutError::Timeout) => self.draw().map(|()| None),
+            // All threads are gone; the one that reads the keys says so before.
+            Err(RecvTimeoutError::Disconnected) => Ok(Some(Event::Closed)),
         }
     }
 
@@ -175,7 +184,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
         while let Some(until) = self.screen.farewell() {
             match self.events.recv_deadline(until) {
                 Ok(Event::Shown) => drop(self.screen.answered(Instant::now())),
-                Ok(_) => {}
+                Ok(event) => self.missed.push_back(event),
                 Err(_) => return,
             }
         }
@@ -265,7 +274,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
     ///
     /// A replay inside the explorer has the size of the terminal and keeps no pictures.
     fn play(&mut self) -> io::Result<Option<Stop>> {
-        if self.changed.is_some() || !self.events.is_empty() {
+        if self.changed.is_some() || !self.events.is_empty() || !self.missed.is_empty() {
             return Ok(None);
         }
         let Some(player) = &mut self.player else { return Ok(None) };

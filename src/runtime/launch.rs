@@ -1,0 +1,122 @@
+//! From a machine to a running program: takes the terminal, starts the threads, runs the loop, and
+//! gives the terminal back.
+
+use std::io;
+use std::process::ExitCode;
+
+use crossbeam_channel::unbounded;
+use ratatui::layout::Size;
+
+use super::effects::Files;
+use super::event::Event;
+use super::pump::{Machine, Pump, Stop};
+use super::signals::{self, exit_code};
+use super::worker::Worker;
+use super::{input, panics};
+use crate::flow::{Limits, Reason};
+use crate::scene::{Answer, Request};
+use crate::session::replay::{Player, Recorder, Script};
+use crate::terminal::{Guard, Screen};
+
+/// The signal that a process gets when its terminal goes away.
+const HANG_UP: i32 = signal_hook::consts::SIGHUP;
+
+/// What the explorer does besides exploring.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// Keys to play at the start.
+    pub replay: Option<Script>,
+    /// Whether to write down what the user does.
+    pub record: bool,
+    /// Where copies go, besides the clipboard.
+    pub files: Files,
+}
+
+/// How the program ended.
+#[derive(Debug)]
+pub struct Ended {
+    /// Its exit code: 0 when the user left, 128 + n after signal n.
+    pub code: ExitCode,
+    /// What the user did, if it was to be written down.
+    pub recorder: Option<Recorder>,
+}
+
+/// Runs a machine in the terminal at standard input and output; see
+/// [`crate::terminal::Environment::admit`] for whether there is one.
+///
+/// Call it from the thread that may take the terminal down with its panics; others may not.
+///
+/// # Errors
+/// If the terminal cannot be used, or goes away while it is written to.
+pub fn launch(
+    machine: impl Machine,
+    answer: impl Fn(&Request, &Limits) -> Result<Answer, Reason> + Send + 'static,
+    options: Options,
+) -> io::Result<Ended> {
+    let guard = Guard::new()?;
+    let notes = panics::install(guard.clone(), std::thread::current().id());
+    let (send, events) = unbounded();
+    signals::start(send.clone(), guard.clone())?;
+    guard.enter()?;
+    input::start(send.clone())?;
+    let report = move |msg| drop(send.send(Event::Session(msg)));
+    let worker = Worker::start(answer, notes, report)?;
+    let screen = Screen::new(guard.out(), terminal_size())?;
+    let mut pump = Pump::new(machine, screen, worker, events, options.files, terminal_size)
+        .playing(options.replay.map(Player::new))
+        .recording(options.record.then(Recorder::default));
+    pump.repaint()?;
+    let ended = conduct(&mut pump, &guard);
+    if !matches!(ended, Ok(Stop::Closed) | Err(_)) {
+        pump.take_leave();
+    }
+    guard.leave();
+    let code = match ended? {
+        Stop::Ended { signal } => exit_code(signal).into(),
+        Stop::Closed => exit_code(HANG_UP).into(),
+        _ => ExitCode::SUCCESS,
+    };
+    Ok(Ended { code, recorder: pump.recorder().cloned() })
+}
+
+/// Runs the loop through all stops and continuations to its end.
+fn conduct<M: Machine>(
+    pump: &mut Pump<M, std::sync::Arc<std::fs::File>>,
+    guard: &Guard,
+) -> io::Result<Stop> {
+    // A stop from here is followed by a message that the process goes on, which then says nothing new.
+    let mut expected = false;
+    loop {
+        match pump.run()? {
+            Stop::Suspend | Stop::Suspended if !signals::can_be_continued() => {}
+            Stop::Suspend => {
+                pump.hold();
+                pump.take_leave();
+                guard.leave();
+                signals::suspend_job()?;
+            }
+            Stop::Suspended => {
+                pump.hold();
+                pump.take_leave();
+                guard.leave();
+                signals::stop()?;
+                expected = true;
+                guard.enter()?;
+                pump.repaint()?;
+            }
+            Stop::Continued if std::mem::take(&mut expected) => {}
+            Stop::Continued => {
+                guard.leave();
+                guard.enter()?;
+                pump.repaint()?;
+            }
+            ended @ (Stop::Quit | Stop::Ended { .. } | Stop::Closed) => return Ok(ended),
+        }
+    }
+}
+
+/// The size of the terminal at standard output; nothing if it does not say.
+fn terminal_size() -> Size {
+    rustix::termios::tcgetwinsize(rustix::stdio::stdout())
+        .map_or(Size::default(), |size| Size { width: size.ws_col, height: size.ws_row })
+}

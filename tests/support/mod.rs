@@ -1,0 +1,267 @@
+//! A terminal for tests: a real pty with an emulator behind it.
+//!
+//! Everything waits for a condition with a deadline, never for time to pass. The emulator answers
+//! requests for the cursor position as terminals do, unless a test wants it slow or silent.
+
+use std::io::{Read, Write};
+use std::num::NonZero;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::time::{Duration, Instant};
+
+use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system};
+use rustix::process::{Pid, Signal, kill_process};
+use rustix::termios::{LocalModes, tcgetattr};
+
+/// How long a condition may take to come true before the test fails.
+const DEADLINE: Duration = Duration::from_secs(30);
+
+/// A request for the cursor position.
+const REQUEST: &[u8] = b"\x1b[6n";
+
+/// How the terminal answers requests for the cursor position.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Answers {
+    /// As soon as they are read.
+    AtOnce,
+    /// When the test says so.
+    WhenTold,
+    /// Not at all.
+    Never,
+}
+
+/// A program in a terminal.
+pub struct Terminal {
+    master: Box<dyn MasterPty + Send>,
+    keyboard: Box<dyn Write + Send>,
+    child: Box<dyn Child + Send + Sync>,
+    output: Receiver<Vec<u8>>,
+    screen: vt100::Parser,
+    /// Everything that the program has written.
+    pub written: Vec<u8>,
+    /// How the terminal answers.
+    pub answers: Answers,
+    /// Requests that the terminal owes an answer.
+    owed: usize,
+    /// How far requests were looked for.
+    searched: usize,
+}
+
+fn size(columns: u16, rows: u16) -> PtySize {
+    PtySize { cols: columns, rows, pixel_width: 0, pixel_height: 0 }
+}
+
+fn cells(number: u16) -> NonZero<u16> {
+    NonZero::new(number).expect("a terminal has cells")
+}
+
+impl Terminal {
+    /// Starts a program in a terminal with nothing else in its environment than what a UTF-8 terminal
+    /// has, and what `environment` adds or overrides; an empty value removes.
+    pub fn start(
+        program: &[&str],
+        environment: &[(&str, &str)],
+        (columns, rows): (u16, u16),
+        answers: Answers,
+    ) -> Terminal {
+        let pair = native_pty_system().openpty(size(columns, rows)).unwrap();
+        let mut command = CommandBuilder::new(program[0]);
+        command.args(&program[1..]);
+        command.env_clear();
+        let usual = [("PATH", "/usr/bin:/bin"), ("TERM", "xterm-256color"), ("LANG", "C.UTF-8")];
+        for (name, value) in usual.iter().chain(environment) {
+            command.env(name, value);
+        }
+        for (name, _) in environment.iter().filter(|(_, value)| value.is_empty()) {
+            command.env_remove(name);
+        }
+        let child = pair.slave.spawn_command(command).unwrap();
+        let mut reader = pair.master.try_clone_reader().unwrap();
+        let (send, output) = channel();
+        std::thread::spawn(move || {
+            let mut buffer = [0; 65536];
+            while let Ok(count @ 1..) = reader.read(&mut buffer) {
+                if send.send(buffer[..count].to_vec()).is_err() {
+                    break;
+                }
+            }
+        });
+        Terminal {
+            keyboard: pair.master.take_writer().unwrap(),
+            master: pair.master,
+            child,
+            output,
+            screen: vt100::Parser::new(cells(rows), cells(columns), 0),
+            written: Vec::new(),
+            answers,
+            owed: 0,
+            searched: 0,
+        }
+    }
+
+    /// Types bytes.
+    pub fn types(&mut self, bytes: &str) {
+        self.keyboard.write_all(bytes.as_bytes()).unwrap();
+        self.keyboard.flush().unwrap();
+    }
+
+    /// Gives the terminal another size.
+    pub fn resize(&mut self, columns: u16, rows: u16) {
+        self.screen.screen_mut().set_size(cells(rows), cells(columns));
+        self.master.resize(size(columns, rows)).unwrap();
+    }
+
+    /// The characters on the screen.
+    pub fn text(&self) -> String {
+        self.screen.screen().contents()
+    }
+
+    /// The emulated screen.
+    pub fn screen(&self) -> &vt100::Screen {
+        self.screen.screen()
+    }
+
+    /// The id of the program's process.
+    pub fn process(&self) -> Pid {
+        let id = self.child.process_id().expect("the program was started");
+        Pid::from_raw(i32::try_from(id).unwrap()).unwrap()
+    }
+
+    /// Sends a signal to the program.
+    pub fn signal(&self, signal: Signal) {
+        kill_process(self.process(), signal).unwrap();
+    }
+
+    /// Whether keys are echoed and lines collected, as in a shell.
+    pub fn is_cooked(&self) -> bool {
+        let name = self.master.tty_name().expect("a pty has a name");
+        let terminal = std::fs::File::open(name).unwrap();
+        let modes = tcgetattr(&terminal).unwrap().local_modes;
+        modes.contains(LocalModes::ECHO | LocalModes::ICANON)
+    }
+
+    /// Takes in what the program has written; `false` when there is no more and will be none.
+    fn listen(&mut self, until: Instant) -> bool {
+        let time = until.saturating_duration_since(Instant::now());
+        match self.output.recv_timeout(time) {
+            Ok(bytes) => {
+                self.screen.process(&bytes);
+                self.written.extend(bytes);
+                let new = &self.written[self.searched..];
+                let requests: Vec<usize> = new
+                    .windows(REQUEST.len())
+                    .enumerate()
+                    .filter(|(_, window)| *window == REQUEST)
+                    .map(|(place, _)| place)
+                    .collect();
+                if let Some(last) = requests.last() {
+                    self.searched += last + REQUEST.len();
+                }
+                self.owed += requests.len();
+                if self.answers == Answers::AtOnce {
+                    self.answer();
+                }
+                true
+            }
+            Err(RecvTimeoutError::Timeout) => true,
+            Err(RecvTimeoutError::Disconnected) => false,
+        }
+    }
+
+    /// Answers all requests for the cursor position.
+    pub fn answer(&mut self) {
+        let (row, column) = self.screen.screen().cursor_position();
+        for _ in 0..std::mem::take(&mut self.owed) {
+            // The program may have ended meanwhile.
+            let _ = write!(self.keyboard, "\x1b[{};{}R", row + 1, column + 1);
+        }
+    }
+
+    /// Requests for the cursor position that were not answered.
+    pub fn owed(&self) -> usize {
+        self.owed
+    }
+
+    /// Waits until the condition holds; `what` says what was waited for if it never does.
+    pub fn wait(&mut self, what: &str, condition: impl Fn(&Terminal) -> bool) {
+        let deadline = Instant::now() + DEADLINE;
+        while !condition(self) {
+            let alive = self.listen(deadline);
+            assert!(alive || condition(self), "the program ended before {what}\n{}", self.text());
+            assert!(Instant::now() < deadline, "no {what} in time\n{}", self.text());
+        }
+    }
+
+    /// Waits until the screen shows this text.
+    pub fn wait_for(&mut self, text: &str) {
+        self.wait(text, |terminal| terminal.text().contains(text));
+    }
+
+    /// Bytes that arrive until there are none for this long.
+    pub fn quiet(&mut self, time: Duration) -> usize {
+        let before = self.written.len();
+        let mut last = (before, Instant::now());
+        while last.1.elapsed() < time && self.listen(last.1 + time) {
+            if self.written.len() > last.0 {
+                last = (self.written.len(), Instant::now());
+            }
+        }
+        self.written.len() - before
+    }
+
+    /// Bytes that arrive within this time.
+    pub fn watch(&mut self, time: Duration) -> usize {
+        let before = self.written.len();
+        let until = Instant::now() + time;
+        while Instant::now() < until && self.listen(until) {}
+        self.written.len() - before
+    }
+
+    /// How many frames were written.
+    pub fn frames(&self) -> usize {
+        let begin = b"\x1b[?2026h";
+        self.written.windows(begin.len()).filter(|window| *window == begin).count()
+    }
+
+    /// Waits for the end of the program, and gives its exit code.
+    pub fn end(&mut self) -> u32 {
+        let deadline = Instant::now() + DEADLINE;
+        loop {
+            if let Some(status) = self.child.try_wait().unwrap() {
+                // What it wrote last may still be on its way.
+                self.quiet(Duration::from_millis(50));
+                return status.exit_code();
+            }
+            assert!(Instant::now() < deadline, "the program does not end\n{}", self.text());
+            self.listen(Instant::now() + Duration::from_millis(20));
+        }
+    }
+
+    /// Fails unless every mode that the program has turned on is off again.
+    pub fn assert_restored(&self) {
+        let screen = self.screen();
+        assert!(!screen.alternate_screen(), "alternate screen left on");
+        assert!(!screen.hide_cursor(), "cursor left hidden");
+        assert!(!screen.bracketed_paste(), "bracketed paste left on");
+        let text = String::from_utf8_lossy(&self.written);
+        let mut on = std::collections::BTreeSet::new();
+        for sequence in text.split("\x1b[?").skip(1) {
+            let end = sequence.find(|c: char| !c.is_ascii_digit()).unwrap_or(sequence.len());
+            let (mode, rest) = sequence.split_at(end);
+            match rest.chars().next() {
+                Some('h') => drop(on.insert(mode)),
+                Some('l') => drop(on.remove(mode)),
+                _ => {}
+            }
+        }
+        // The cursor is the one mode that is on in a shell.
+        assert_eq!(on.into_iter().collect::<Vec<_>>(), ["25"], "modes that are on");
+        assert!(self.is_cooked(), "raw mode left on");
+    }
+}
+
+impl Drop for Terminal {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
