@@ -7,6 +7,7 @@
 
 pub mod effects;
 pub mod event;
+pub mod explorer;
 pub mod headless;
 pub mod input;
 pub mod launch;
@@ -17,6 +18,7 @@ pub mod signals;
 pub mod worker;
 
 pub use event::Event;
+pub use explorer::{Explorer, explore, replay};
 pub use launch::{Ended, Options, launch};
 pub use pump::{Machine, Pump, Stop};
 pub use worker::Worker;

@@ -1,0 +1,96 @@
+//! The explorer: a session, drawn for the terminal at hand.
+
+use std::io;
+
+use ratatui::Frame;
+use ratatui::buffer::Buffer;
+use ratatui::layout::Size;
+
+use super::headless::{self, Played};
+use super::launch::{Ended, Options, launch};
+use super::pump::Machine;
+use crate::scene::Request;
+use crate::scene::answer::answer;
+use crate::session::replay::Script;
+use crate::session::{Effect, Msg, Session, settings, update};
+use crate::terminal::Environment;
+use crate::view::{self, Look};
+
+/// A session and how it looks here.
+#[derive(Clone, Debug)]
+pub struct Explorer {
+    session: Session,
+    environment: Environment,
+    /// The user's wishes that `look` was made from.
+    wishes: settings::Look,
+    look: Look,
+}
+
+impl Explorer {
+    /// A session that looks as the environment allows.
+    #[must_use]
+    pub fn new(session: Session, environment: Environment) -> Explorer {
+        let wishes = session.look;
+        let look = Look::new(environment.fit(wishes));
+        Explorer { session, environment, wishes, look }
+    }
+
+    /// The session.
+    #[must_use]
+    pub fn session(&self) -> &Session {
+        &self.session
+    }
+}
+
+impl Machine for Explorer {
+    fn update(&mut self, msg: Msg) -> Vec<Effect> {
+        let effects = update(&mut self.session, msg);
+        if self.session.look != self.wishes {
+            self.wishes = self.session.look;
+            self.look = Look::new(self.environment.fit(self.wishes));
+        }
+        effects
+    }
+
+    fn wants(&self) -> Vec<Request> {
+        let mut wants = self.session.wants();
+        wants.retain(|request| self.session.is_open(request));
+        wants
+    }
+
+    fn draw(&self, frame: &mut Frame) {
+        view::draw(frame, &self.session, &self.look);
+    }
+}
+
+/// Runs a session in the terminal, until the user leaves or a signal ends the program.
+///
+/// Ask [`Environment::admit`] first: it says in one line why there is no terminal to run in.
+///
+/// # Errors
+/// If the terminal cannot be used, or goes away while it is written to.
+pub fn explore(session: Session, environment: Environment, options: Options) -> io::Result<Ended> {
+    launch(Explorer::new(session, environment), answer, options)
+}
+
+/// Plays a keystroke file on a session without a terminal. [`headless::play`] says what comes back;
+/// [`super::picture::text`] turns its pictures into text.
+///
+/// # Errors
+/// If the system gives no thread for the worker.
+pub fn replay(
+    session: Session,
+    environment: Environment,
+    script: Script,
+    size: Size,
+) -> io::Result<Played<Explorer>> {
+    headless::play(Explorer::new(session, environment), answer, script, size)
+}
+
+/// The picture of a session at this size, computed to its end.
+///
+/// # Errors
+/// If the system gives no thread for the worker.
+pub fn picture(session: Session, environment: Environment, size: Size) -> io::Result<Buffer> {
+    Ok(replay(session, environment, Script::default(), size)?.screen)
+}
