@@ -1,0 +1,54 @@
+//! `hopfscope branch`: the limit cycles along a parameter.
+
+use clap::Args;
+
+use super::failure::Failure;
+use super::input::{self, Over};
+use super::output::{Format, Output, print};
+use super::start::Start;
+use super::timing::timed;
+use crate::export::{csv, json, table};
+use crate::flow::Limits;
+use crate::oscillator::Symbol;
+use crate::study::branch::branch;
+
+/// Follows the limit cycles along a parameter, with folds and other special points
+#[derive(Debug, Args)]
+pub struct Branch {
+    #[command(flatten)]
+    start: Start,
+    #[command(flatten)]
+    output: Output,
+    /// The parameter (D, D2, D3 or r), its range, and about how many points
+    #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = parameter, allow_hyphen_values = true)]
+    over: Over,
+}
+
+/// A range of a parameter on which cycles depend.
+fn parameter(text: &str) -> Result<Over, String> {
+    let over = input::over(text)?;
+    if matches!(over.symbol, Symbol::Q0 | Symbol::V0) {
+        return Err(format!("cycles do not depend on {}; allowed: D, D2, D3, r", over.symbol));
+    }
+    Ok(over)
+}
+
+impl Branch {
+    /// Computes and prints.
+    pub fn run(&self) -> Result<(), Failure> {
+        self.start.note_own_method();
+        let problem = self.start.problem()?;
+        let (base, tolerance) = (&problem.parameters, problem.tolerance);
+        let Over { symbol, range, count } = self.over;
+        let follow = || branch(base, symbol, range, count, tolerance, &Limits::PATIENT);
+        let (found, seconds) = timed(self.output.repeat, follow);
+        let found = found.map_err(|reason| {
+            Failure::Unanswered(format!("the branch could not be completed: {reason}"))
+        })?;
+        print(&match self.output.format {
+            Format::Table => table::branch(&found, base, tolerance, seconds),
+            Format::Json => json::branch(&found, seconds),
+            Format::Csv => csv::branch(&found),
+        })
+    }
+}

@@ -1,0 +1,81 @@
+//! Why a command did not answer: one line for the user, and an exit code.
+
+use std::fmt;
+use std::io;
+use std::process::ExitCode;
+
+/// Why a command did not answer.
+#[derive(Debug)]
+pub enum Failure {
+    /// What was asked makes no sense; exit code 2.
+    Usage(String),
+    /// What was asked could not be computed or shown; exit code 1.
+    Unanswered(String),
+}
+
+impl Failure {
+    /// What the parser of the command line complains about, as one line.
+    ///
+    /// `None` where it does not complain but shows help or version, which this prints.
+    pub fn from_parser(error: &clap::Error) -> Option<Self> {
+        let text = error.render().to_string();
+        if error.use_stderr() {
+            Some(Failure::Usage(first_paragraphs(&text)))
+        } else {
+            super::output::print(&text).err()
+        }
+    }
+
+    /// A file that cannot be read or written.
+    pub fn file(path: &std::path::Path, error: &io::Error) -> Self {
+        Failure::Usage(format!("{}: {error}", path.display()))
+    }
+
+    /// Prints the line to standard error.
+    pub fn report(&self) -> ExitCode {
+        eprintln!("hopfscope: {self}");
+        match self {
+            Failure::Usage(_) => ExitCode::from(2),
+            Failure::Unanswered(_) => ExitCode::FAILURE,
+        }
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Failure::Usage(line) | Failure::Unanswered(line) => out.write_str(line),
+        }
+    }
+}
+
+/// The parser's message and its tips on one line, without the usage that follows.
+fn first_paragraphs(text: &str) -> String {
+    let text = text.strip_prefix("error: ").unwrap_or(text);
+    let lines = text.lines().map(str::trim).take_while(|line| {
+        !line.starts_with("Usage:") && !line.starts_with("For more information")
+    });
+    let mut sentence = String::new();
+    for line in lines.filter(|line| !line.is_empty()) {
+        if !sentence.is_empty() {
+            sentence.push_str(if sentence.ends_with(':') { " " } else { "; " });
+        }
+        sentence.push_str(line);
+    }
+    sentence
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn messages_of_the_parser_become_one_line() {
+        let text = "error: unexpected argument '--sett' found\n\n  tip: a similar argument exists: \
+                    '--set'\n\nUsage: hopfscope\n\nFor more information, try '--help'.\n";
+        let line = "unexpected argument '--sett' found; tip: a similar argument exists: '--set'";
+        assert_eq!(first_paragraphs(text), line);
+        let text = "error: these were not provided:\n  --over <RANGE>\n\nUsage: hopfscope\n";
+        assert_eq!(first_paragraphs(text), "these were not provided: --over <RANGE>");
+    }
+}

@@ -1,0 +1,121 @@
+//! Reading values of options: each refusal names the value and what is allowed.
+
+use std::str::FromStr;
+
+use crate::flow::{METHODS, Method};
+use crate::oscillator::{PARAMETERS, Symbol};
+
+/// A finite number; `1e400` is none, since no double is that large.
+fn number(text: &str) -> Result<f64, String> {
+    match f64::from_str(text.trim()) {
+        Ok(value) if value.is_finite() => Ok(value),
+        Ok(_) => Err(format!("{text:?} is not a finite number")),
+        Err(_) => Err(format!("{text:?} is not a number")),
+    }
+}
+
+/// A number within a range, both ends included.
+pub fn within(name: &str, (min, max): (f64, f64), text: &str) -> Result<f64, String> {
+    let allowed = format!("allowed: {min:?} .. {max:?}");
+    let value = number(text).map_err(|refused| format!("{name}: {refused}; {allowed}"))?;
+    if (min..=max).contains(&value) {
+        Ok(value)
+    } else {
+        Err(format!("{name} = {text} is outside its range; {allowed}"))
+    }
+}
+
+/// One of the six numbers that define a motion.
+fn symbol(name: &str) -> Result<Symbol, String> {
+    Symbol::named(name).ok_or_else(|| {
+        let names = PARAMETERS.map(|row| row.name).join(", ");
+        format!("there is no parameter {name:?}; there are {names}")
+    })
+}
+
+/// A value of one of the six numbers.
+fn value_of(symbol: Symbol, text: &str) -> Result<f64, String> {
+    within(symbol.spec().name, (symbol.spec().min, symbol.spec().max), text)
+}
+
+/// `NAME=VALUE`.
+pub fn assignment(text: &str) -> Result<(Symbol, f64), String> {
+    let (name, value) = text.split_once('=').ok_or("expected NAME=VALUE, such as D=-0.3")?;
+    let symbol = symbol(name.trim())?;
+    Ok((symbol, value_of(symbol, value)?))
+}
+
+/// A parameter and the values through which it goes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Over {
+    /// Which parameter.
+    pub symbol: Symbol,
+    /// Smallest and largest value.
+    pub range: (f64, f64),
+    /// How many values.
+    pub count: usize,
+}
+
+/// Fewest and most values of an [`Over`].
+const COUNTS: std::ops::RangeInclusive<usize> = 2..=1_000_000;
+
+/// `NAME=FROM:TO:COUNT`.
+pub fn over(text: &str) -> Result<Over, String> {
+    let form = || "expected NAME=FROM:TO:COUNT, such as D=-0.95:0:400";
+    let (name, range) = text.split_once('=').ok_or_else(form)?;
+    let symbol = symbol(name.trim())?;
+    let [from, to, count] = range.split(':').collect::<Vec<_>>()[..] else {
+        return Err(form().to_owned());
+    };
+    let (from, to) = (value_of(symbol, from)?, value_of(symbol, to)?);
+    let count = usize::from_str(count.trim())
+        .ok()
+        .filter(|count| COUNTS.contains(count))
+        .ok_or_else(|| format!("COUNT = {count} is not a whole number in 2 .. 1000000"))?;
+    if from == to {
+        return Err(format!("FROM and TO are both {from:?}"));
+    }
+    Ok(Over { symbol, range: (from.min(to), from.max(to)), count })
+}
+
+/// A method by its name.
+pub fn method(name: &str) -> Result<Method, String> {
+    Method::named(name).ok_or_else(|| {
+        let names: Vec<_> = METHODS.iter().map(|row| row.name).collect();
+        format!("there is no method {name:?}; there are {}", names.join(", "))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn assignments_are_read_and_refused_with_the_range() {
+        assert_eq!(assignment("D=-0.3"), Ok((Symbol::D, -0.3)));
+        assert_eq!(assignment("q0= 1e300"), Ok((Symbol::Q0, 1e300)));
+        for (text, expected) in [
+            ("D", "NAME=VALUE"),
+            ("d=1", "D, D2, D3, r, q0, v0"),
+            ("r=-1", "r = -1 is outside its range; allowed: 0.0 .. 1e300"),
+            ("D=NaN", "\"NaN\" is not a finite number; allowed: -1000000.0 .. 1000000.0"),
+            ("q0=1e400", "\"1e400\" is not a finite number; allowed: -1e300 .. 1e300"),
+            ("v0=", "\"\" is not a number"),
+            ("D=1,5", "\"1,5\" is not a number"),
+        ] {
+            let refused = assignment(text).unwrap_err();
+            assert!(refused.contains(expected), "{text}: {refused}");
+        }
+    }
+
+    #[test]
+    fn ranges_are_read_in_either_direction() {
+        let expected = Over { symbol: Symbol::D, range: (-0.95, 0.0), count: 400 };
+        assert_eq!(over("D=-0.95:0:400"), Ok(expected));
+        assert_eq!(over("D=0:-0.95:400"), Ok(expected));
+        for text in ["D", "D=1", "D=0:1", "D=0:1:1", "D=0:1:x", "D=0:0:5", "D=0:inf:5", "D=0:1:2:3"]
+        {
+            assert!(over(text).is_err(), "{text}");
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! The command line: one file per command.
+//!
+//! `hopfscope [SCENE]` opens the explorer; every other command answers one question without a terminal
+//! and ends. What a command prints to standard output is its answer and nothing else; notes and errors
+//! go to standard error, one line each. Exit codes: 0 answered, 1 could not be computed, 2 bad input.
+
+mod branch;
+mod cycles;
+mod explore;
+mod failure;
+mod input;
+mod output;
+mod replay;
+mod scenes;
+mod start;
+mod timing;
+mod trajectory;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use failure::Failure;
+
+/// The command line.
+#[derive(Debug, Parser)]
+#[command(
+    name = "hopfscope",
+    version,
+    about = "Explorer of one oscillator: dry friction and the Hopf bifurcation",
+    long_about = "Explorer of one oscillator, q'' + 2 D q' + D2 q'^2 + D3 q'^3 + q = friction within -r .. r: \
+                  how dry friction turns a Hopf bifurcation into a set of equilibria with a basin that one \
+                  must know.\n\nWithout a command: the explorer in this terminal. With one: an answer on \
+                  standard output.",
+    args_conflicts_with_subcommands = true
+)]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+    #[command(flatten)]
+    explore: explore::Explore,
+}
+
+/// The commands that need no terminal.
+#[derive(Debug, Subcommand)]
+enum Command {
+    Trajectory(trajectory::Trajectory),
+    Cycles(cycles::Cycles),
+    Branch(branch::Branch),
+    Scenes(scenes::Scenes),
+    Replay(replay::Replay),
+}
+
+impl Command {
+    fn run(&self) -> Result<(), Failure> {
+        match self {
+            Command::Trajectory(command) => command.run(),
+            Command::Cycles(command) => command.run(),
+            Command::Branch(command) => command.run(),
+            Command::Scenes(command) => command.run(),
+            Command::Replay(command) => command.run(),
+        }
+    }
+}
+
+/// Parses the command line of this process, runs one command and says how it ended.
+#[must_use]
+pub fn main() -> ExitCode {
+    let result = match Cli::try_parse() {
+        Ok(Cli { command: Some(command), .. }) => command.run(),
+        Ok(Cli { command: None, explore }) => explore.run(),
+        Err(error) => Failure::from_parser(&error).map_or(Ok(()), Err),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}
+
+/// The names of the commands.
+fn command_names() -> Vec<String> {
+    use clap::CommandFactory;
+    Cli::command().get_subcommands().map(|command| command.get_name().to_owned()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+    use crate::scene::library::library;
+
+    #[test]
+    fn the_definition_of_the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn no_scene_hides_behind_a_command() {
+        let commands = command_names();
+        for scene in library() {
+            assert!(!commands.contains(&scene.name), "hopfscope {} runs a command", scene.name);
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! The options that say how an answer is printed, and the printing.
+
+use std::io::{self, Write};
+
+use clap::{Args, ValueEnum};
+
+use super::failure::Failure;
+
+/// How an answer is printed.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct Output {
+    /// Form of the answer
+    #[arg(long, value_enum, default_value_t = Format::Table, value_name = "FORM")]
+    pub format: Format,
+
+    /// Computes N times and reports the median of the times
+    #[arg(long, value_name = "N", default_value_t = 1, hide_default_value = true,
+          value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub repeat: u32,
+}
+
+/// The form of an answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// Aligned columns, to read.
+    Table,
+    /// One JSON document, all digits.
+    Json,
+    /// One row each, all digits.
+    Csv,
+}
+
+/// Prints an answer. A reader that has gone is no error: it has seen what it wanted.
+pub fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Failure::Unanswered(format!("cannot write to standard output: {error}")))
+        }
+        _ => Ok(()),
+    }
+}

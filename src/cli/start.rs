@@ -1,0 +1,86 @@
+//! The options that say which motion is meant: scene, parameters, method, tolerance.
+
+use std::sync::Arc;
+
+use clap::Args;
+
+use super::failure::Failure;
+use super::input;
+use crate::flow::{METHODS, Method, Problem};
+use crate::oscillator::{PARAMETERS, Symbol};
+use crate::scene::Scene;
+use crate::scene::file::TOLERANCE_RANGE;
+use crate::scene::library::{PLAIN, find};
+
+/// Which motion is meant.
+#[derive(Clone, Debug, Args)]
+pub struct Start {
+    /// Scene to start from
+    #[arg(long = "scene", value_name = "NAME", default_value = PLAIN, hide_default_value = true)]
+    pub scene: String,
+
+    #[arg(long, value_name = "NAME=VALUE", value_parser = input::assignment, help = parameters_help(),
+          allow_hyphen_values = true)]
+    set: Vec<(Symbol, f64)>,
+
+    #[arg(long, value_name = "NAME", value_parser = input::method, help = methods_help())]
+    method: Option<Method>,
+
+    /// Relative error of a step, 1e-15 .. 0.01
+    #[arg(long, value_name = "X", value_parser = tolerance, allow_hyphen_values = true)]
+    tol: Option<f64>,
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    input::within("tolerance", TOLERANCE_RANGE, text)
+}
+
+fn parameters_help() -> String {
+    let names = PARAMETERS.map(|row| format!("{} ({})", row.name, row.meaning));
+    format!("Sets a number; repeatable: {}", names.join(", "))
+}
+
+fn methods_help() -> String {
+    let names: Vec<_> = METHODS.iter().map(|row| row.name).collect();
+    format!("How to integrate: {}", names.join(", "))
+}
+
+impl Start {
+    /// The scene with what was set on the command line; a parameter that is set belongs to it.
+    pub fn scene(&self) -> Result<Arc<Scene>, Failure> {
+        self.scene_named(&self.scene)
+    }
+
+    /// The same with another scene.
+    pub fn scene_named(&self, name: &str) -> Result<Arc<Scene>, Failure> {
+        let mut scene = find(name).map_err(|missing| Failure::Usage(missing.to_string()))?;
+        if self.set.is_empty() && self.method.is_none() && self.tol.is_none() {
+            return Ok(scene);
+        }
+        let changed = Arc::make_mut(&mut scene);
+        let Problem { parameters, initial, .. } = &mut changed.problem;
+        for &(symbol, value) in &self.set {
+            symbol.set(parameters, initial, value);
+            if !matches!(symbol, Symbol::Q0 | Symbol::V0) {
+                changed.terms.insert(symbol);
+            }
+        }
+        changed.problem.method = self.method.unwrap_or(changed.problem.method);
+        changed.problem.tolerance = self.tol.unwrap_or(changed.problem.tolerance);
+        Ok(scene)
+    }
+
+    /// The motion of the scene with what was set on the command line.
+    pub fn problem(&self) -> Result<Problem, Failure> {
+        Ok(self.scene()?.problem)
+    }
+
+    /// Says on standard error that a study of cycles goes its own way, if a method was asked for.
+    pub fn note_own_method(&self) {
+        if self.method.is_some() {
+            eprintln!(
+                "hopfscope: note: cycles have their own way of integrating; --method is ignored"
+            );
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! How long a computation takes.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+/// Computes `times` times (at least once); returns the last answer and the median of the seconds.
+pub fn timed<T>(times: u32, mut compute: impl FnMut() -> T) -> (T, f64) {
+    let mut once = || {
+        let started = Instant::now();
+        let answer = black_box(compute());
+        (answer, started.elapsed().as_secs_f64())
+    };
+    let (mut answer, first) = once();
+    let mut seconds = vec![first];
+    for _ in 1..times {
+        let (again, next) = once();
+        answer = again;
+        seconds.push(next);
+    }
+    (answer, median(&mut seconds))
+}
+
+/// The median; of an even number of values, the mean of the middle two.
+fn median(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let middle = values.len() / 2;
+    if values.len() % 2 == 1 { values[middle] } else { 0.5 * (values[middle - 1] + values[middle]) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_median_ignores_outliers() {
+        assert_eq!(median(&mut [1e9, 2.0, 1.0]), 2.0);
+        assert_eq!(median(&mut [4.0, 1.0, 2.0, 1e9]), 3.0);
+    }
+
+    #[test]
+    fn every_repetition_computes() {
+        let mut count = 0;
+        let (last, seconds) = timed(5, || {
+            count += 1;
+            count
+        });
+        assert_eq!(last, 5);
+        assert!(seconds >= 0.0);
+    }
+}

@@ -1,0 +1,346 @@
+//! A screen as text, and as a picture in SVG.
+//!
+//! The picture needs no special font: braille dots and blocks are drawn as shapes, other characters as
+//! text in any monospaced font, stretched to its cells.
+
+use std::fmt::Write;
+
+use ratatui::buffer::{Buffer, Cell};
+use ratatui::style::{Color, Modifier};
+use unicode_width::UnicodeWidthStr;
+
+/// The rows of a screen, without the blanks at their ends.
+#[must_use]
+pub fn text(screen: &Buffer) -> String {
+    let mut out = String::new();
+    for row in rows(screen) {
+        let line: String = row.iter().map(|place| place.symbol).collect();
+        out.push_str(line.trim_end());
+        out.push('\n');
+    }
+    out
+}
+
+/// Width and height of a cell, and of the font in it, in the picture's units.
+const CELL: (f64, f64) = (8.0, 16.0);
+const FONT_SIZE: f64 = 13.0;
+
+/// Where letters stand in a cell, from its top.
+const BASELINE: f64 = 12.0;
+
+/// Colour of text and of the ground where the screen leaves them to the terminal.
+const INK: &str = "#d8d8d8";
+const GROUND: &str = "#101418";
+
+/// The picture of a screen.
+#[must_use]
+pub fn svg(screen: &Buffer) -> String {
+    let (width, height) = (f64::from(screen.area.width), f64::from(screen.area.height));
+    let (width, height) = (width * CELL.0, height * CELL.1);
+    let mut out = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+         viewBox=\"0 0 {width} {height}\" font-family=\"DejaVu Sans Mono, Menlo, Consolas, monospace\" \
+         font-size=\"{FONT_SIZE}\">\n<rect width=\"{width}\" height=\"{height}\" fill=\"{GROUND}\"/>\n"
+    );
+    for (number, row) in rows(screen).enumerate() {
+        let top = CELL.1 * units(number);
+        grounds(&mut out, &row, top);
+        shapes(&mut out, &row, top);
+        letters(&mut out, &row, top);
+    }
+    out + "</svg>\n"
+}
+
+/// One place on the screen: what stands there and how it is painted.
+struct Place<'a> {
+    /// Empty where the character before covers this place too.
+    symbol: &'a str,
+    paint: Paint,
+}
+
+/// The rows of a screen.
+fn rows(screen: &Buffer) -> impl Iterator<Item = Vec<Place<'_>>> {
+    screen.content.chunks(usize::from(screen.area.width).max(1)).map(places)
+}
+
+/// The places of a row; what a wide character covers looks as it does.
+fn places(row: &[Cell]) -> Vec<Place<'_>> {
+    let mut places: Vec<Place> = Vec::with_capacity(row.len());
+    for cell in row {
+        let wide = places.last().filter(|last| last.symbol.width() > 1);
+        let place = match wide {
+            Some(last) => Place { symbol: "", paint: last.paint.clone() },
+            None => Place { symbol: cell.symbol(), paint: Paint::of(cell) },
+        };
+        places.push(place);
+    }
+    places
+}
+
+/// A count of cells as a coordinate.
+fn units(count: usize) -> f64 {
+    f64::from(u32::try_from(count).unwrap_or(u32::MAX))
+}
+
+/// How a cell is painted: colours after reversal, and the modifiers that remain.
+#[derive(Clone, PartialEq)]
+struct Paint {
+    ink: String,
+    ground: Option<String>,
+    modifier: Modifier,
+}
+
+impl Paint {
+    fn of(cell: &Cell) -> Self {
+        let (ink, ground) = (hex(cell.fg), hex(cell.bg));
+        if cell.modifier.contains(Modifier::REVERSED) {
+            Paint {
+                ink: ground.unwrap_or_else(|| GROUND.to_owned()),
+                ground: Some(ink.unwrap_or_else(|| INK.to_owned())),
+                modifier: cell.modifier,
+            }
+        } else {
+            Paint { ink: ink.unwrap_or_else(|| INK.to_owned()), ground, modifier: cell.modifier }
+        }
+    }
+
+    /// Attributes of text in this paint.
+    fn attributes(&self) -> String {
+        let mut out = format!("fill=\"{}\"", self.ink);
+        for (modifier, attribute) in [
+            (Modifier::BOLD, " font-weight=\"bold\""),
+            (Modifier::ITALIC, " font-style=\"italic\""),
+            (Modifier::UNDERLINED, " text-decoration=\"underline\""),
+            (Modifier::CROSSED_OUT, " text-decoration=\"line-through\""),
+            (Modifier::DIM, " opacity=\"0.6\""),
+        ] {
+            if self.modifier.contains(modifier) {
+                out.push_str(attribute);
+            }
+        }
+        out
+    }
+}
+
+/// Runs of neighbouring places that `key` maps to the same value: first column, length, value.
+fn runs<K: PartialEq>(row: &[Place], key: impl Fn(&Paint) -> K) -> Vec<(usize, usize, K)> {
+    let mut runs: Vec<(usize, usize, K)> = Vec::new();
+    for (column, place) in row.iter().enumerate() {
+        let value = key(&place.paint);
+        match runs.last_mut() {
+            Some((_, length, last)) if *last == value => *length += 1,
+            _ => runs.push((column, 1, value)),
+        }
+    }
+    runs
+}
+
+/// Draws the grounds of a row.
+fn grounds(out: &mut String, row: &[Place], top: f64) {
+    for (column, length, ground) in runs(row, |paint| paint.ground.clone()) {
+        if let Some(ground) = ground {
+            let (x, width) = (CELL.0 * units(column), CELL.0 * units(length));
+            let height = CELL.1;
+            let _ = writeln!(
+                out,
+                "<rect x=\"{x}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" fill=\"{ground}\"/>"
+            );
+        }
+    }
+}
+
+/// Draws the braille dots and blocks of a row, one path for each run of a colour.
+fn shapes(out: &mut String, row: &[Place], top: f64) {
+    for (column, length, paint) in runs(row, Paint::clone) {
+        let mut path = String::new();
+        for (offset, place) in row[column..column + length].iter().enumerate() {
+            shape(&mut path, place.symbol, CELL.0 * units(column + offset), top);
+        }
+        if !path.is_empty() {
+            let opacity =
+                if paint.modifier.contains(Modifier::DIM) { " opacity=\"0.6\"" } else { "" };
+            let _ = writeln!(out, "<path fill=\"{}\"{opacity} d=\"{path}\"/>", paint.ink);
+        }
+    }
+}
+
+/// Appends the shape of a character to a path, if it is one of those drawn as shapes.
+fn shape(path: &mut String, symbol: &str, x: f64, top: f64) {
+    /// Radius of a braille dot.
+    const DOT: f64 = 1.3;
+    let mut chars = symbol.chars();
+    let (Some(char), None) = (chars.next(), chars.next()) else { return };
+    if let Some(dots) = braille(char) {
+        for (column, row) in dots {
+            let (x, y) = (x + CELL.0 * (0.25 + 0.5 * column), top + CELL.1 * (0.125 + 0.25 * row));
+            let _ = write!(
+                path,
+                "M{} {y}a{DOT} {DOT} 0 1 0 {} 0a{DOT} {DOT} 0 1 0 {} 0",
+                x - DOT,
+                2.0 * DOT,
+                -2.0 * DOT
+            );
+        }
+    } else if let Some((from, to)) = block(char) {
+        let (y, height) = (top + CELL.1 * from, CELL.1 * (to - from));
+        let _ = write!(path, "M{x} {y}h{}v{height}h{}z", CELL.0, -CELL.0);
+    }
+}
+
+/// The dots of a braille pattern as column 0 or 1 and row 0 to 3; none for other characters.
+fn braille(char: char) -> Option<Vec<(f64, f64)>> {
+    /// Bit of the code, column, row (Unicode chapter 21.1).
+    const DOTS: [(u32, f64, f64); 8] = [
+        (0x01, 0.0, 0.0),
+        (0x02, 0.0, 1.0),
+        (0x04, 0.0, 2.0),
+        (0x40, 0.0, 3.0),
+        (0x08, 1.0, 0.0),
+        (0x10, 1.0, 1.0),
+        (0x20, 1.0, 2.0),
+        (0x80, 1.0, 3.0),
+    ];
+    let pattern = u32::from(char).checked_sub(0x2800).filter(|pattern| *pattern < 0x100)?;
+    let set = DOTS.iter().filter(|dot| pattern & dot.0 != 0);
+    Some(set.map(|&(_, column, row)| (column, row)).collect())
+}
+
+/// The part of the cell's height that a block covers.
+fn block(char: char) -> Option<(f64, f64)> {
+    match char {
+        '█' => Some((0.0, 1.0)),
+        '▀' => Some((0.0, 0.5)),
+        '▄' => Some((0.5, 1.0)),
+        _ => None,
+    }
+}
+
+/// Draws what is left of a row as text, one element for each word of one paint.
+fn letters(out: &mut String, row: &[Place], top: f64) {
+    for (column, length, paint) in runs(row, Paint::clone) {
+        if paint.modifier.contains(Modifier::HIDDEN) {
+            continue;
+        }
+        let places = &row[column..column + length];
+        let mut next = 0;
+        for word in places.split_inclusive(|place| !is_letter(place.symbol)) {
+            let first = column + next;
+            next += word.len();
+            let text: String =
+                word.iter().map(|place| place.symbol).filter(|symbol| is_letter(symbol)).collect();
+            if !text.is_empty() {
+                let (x, y) = (CELL.0 * units(first), top + BASELINE);
+                let length = CELL.0 * units(text.width());
+                let (attributes, text) = (paint.attributes(), escaped(&text));
+                let _ = writeln!(
+                    out,
+                    "<text x=\"{x}\" y=\"{y}\" textLength=\"{length}\" \
+                     lengthAdjust=\"spacingAndGlyphs\" {attributes}>{text}</text>"
+                );
+            }
+        }
+    }
+}
+
+/// Whether a symbol is drawn as text, or belongs to a wide character that is.
+fn is_letter(symbol: &str) -> bool {
+    let shaped = |char| braille(char).is_some() || block(char).is_some();
+    symbol.is_empty() || !(symbol.trim().is_empty() || symbol.chars().all(shaped))
+}
+
+/// Text with the characters that mean something in XML replaced.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
+/// A colour as `#rrggbb`, or `None` where it is left to the terminal.
+fn hex(color: Color) -> Option<String> {
+    /// The sixteen colours of the terminal's palette, as in most terminals today.
+    const PALETTE: [u32; 16] = [
+        0x00_0000, 0xcd_3131, 0x0d_bc79, 0xe5_e510, 0x24_72c8, 0xbc_3fbc, 0x11_a8cd, 0xe5_e5e5,
+        0x66_6666, 0xf1_4c4c, 0x23_d18b, 0xf5_f543, 0x3b_8eea, 0xd6_70d6, 0x29_b8db, 0xff_ffff,
+    ];
+    let number = match color {
+        Color::Reset => return None,
+        Color::Black => PALETTE[0],
+        Color::Red => PALETTE[1],
+        Color::Green => PALETTE[2],
+        Color::Yellow => PALETTE[3],
+        Color::Blue => PALETTE[4],
+        Color::Magenta => PALETTE[5],
+        Color::Cyan => PALETTE[6],
+        Color::Gray => PALETTE[7],
+        Color::DarkGray => PALETTE[8],
+        Color::LightRed => PALETTE[9],
+        Color::LightGreen => PALETTE[10],
+        Color::LightYellow => PALETTE[11],
+        Color::LightBlue => PALETTE[12],
+        Color::LightMagenta => PALETTE[13],
+        Color::LightCyan => PALETTE[14],
+        Color::White => PALETTE[15],
+        Color::Rgb(red, green, blue) => u32::from_be_bytes([0, red, green, blue]),
+        Color::Indexed(index) => match index {
+            0..16 => PALETTE[usize::from(index)],
+            16..232 => {
+                // A cube of six levels a colour.
+                let level = |digit: u8| if digit == 0 { 0 } else { 55 + 40 * digit };
+                let cube = index - 16;
+                u32::from_be_bytes([0, level(cube / 36), level(cube / 6 % 6), level(cube % 6)])
+            }
+            232.. => u32::from(8 + 10 * (index - 232)) * 0x01_0101,
+        },
+    };
+    Some(format!("#{number:06x}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use ratatui::layout::Rect;
+    use ratatui::style::Style;
+
+    use super::*;
+
+    fn screen() -> Buffer {
+        let mut screen = Buffer::empty(Rect::new(0, 0, 12, 3));
+        screen.set_string(0, 0, "a < b", Style::new().fg(Color::Red).add_modifier(Modifier::BOLD));
+        screen.set_string(6, 0, "⣿⠁", Style::new().fg(Color::Indexed(196)));
+        screen.set_string(1, 1, "世x", Style::new().add_modifier(Modifier::REVERSED));
+        screen
+    }
+
+    #[test]
+    fn text_has_every_row_without_blanks_at_the_end() {
+        assert_eq!(text(&screen()), "a < b ⣿⠁\n 世x\n\n");
+    }
+
+    #[test]
+    fn the_picture_draws_letters_as_text_and_dots_as_shapes() {
+        let picture = svg(&screen());
+        assert!(picture.contains("font-weight=\"bold\">&lt;</text>"), "{picture}");
+        // Eight dots and one, two arcs each, in one path of one colour.
+        assert_eq!(picture.matches("a1.3 1.3").count(), 18);
+        assert!(picture.contains("<path fill=\"#ff0000\""), "{picture}");
+        assert!(!picture.contains('⣿'));
+        // The wide character covers two cells; with the next it is three, reversed.
+        assert!(picture.contains("textLength=\"24\""), "{picture}");
+        assert!(
+            picture.contains(&format!("width=\"24\" height=\"16\" fill=\"{INK}\"")),
+            "{picture}"
+        );
+        assert!(picture.contains("width=\"96\" height=\"48\""));
+    }
+
+    #[test]
+    fn indexed_colours_are_those_of_the_cube_and_the_greys() {
+        let cases = [
+            (16, "#000000"),
+            (21, "#0000ff"),
+            (231, "#ffffff"),
+            (232, "#080808"),
+            (255, "#eeeeee"),
+        ];
+        for (index, expected) in cases {
+            assert_eq!(hex(Color::Indexed(index)).as_deref(), Some(expected), "{index}");
+        }
+    }
+}

@@ -1,0 +1,255 @@
+//! Aligned columns of text, for reading.
+
+use std::fmt;
+
+use crate::flow::Trajectory;
+use crate::oscillator::{PARAMETERS, Parameters, State, Symbol};
+use crate::study::{Branch, Cycle, Cycles, Edge, SpecialKind};
+use crate::view::number::{duration, exact, significant};
+use crate::view::status::sentence;
+
+/// A table: titles, and rows of as many cells; numbers stand with their points above each other.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Table {
+    titles: Vec<&'static str>,
+    rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    /// A table with these titles and no rows.
+    #[must_use]
+    pub fn new(titles: &[&'static str]) -> Self {
+        Table { titles: titles.to_vec(), rows: Vec::new() }
+    }
+
+    /// Adds a row.
+    pub fn row(&mut self, cells: Vec<String>) {
+        self.rows.push(cells);
+    }
+
+    /// Width of a column before and from the point on.
+    fn widths(&self, column: usize) -> (usize, usize) {
+        let cells = self.rows.iter().filter_map(|row| row.get(column));
+        let (whole, part) = cells.map(|cell| split(cell)).fold((0, 0), |widest, (whole, part)| {
+            (widest.0.max(whole.chars().count()), widest.1.max(part.chars().count()))
+        });
+        let title = self.titles.get(column).map_or(0, |title| title.chars().count());
+        (whole.max(title.saturating_sub(part)), part)
+    }
+}
+
+/// A cell before and from its decimal point on.
+fn split(cell: &str) -> (&str, &str) {
+    cell.split_at(cell.find('.').unwrap_or(cell.len()))
+}
+
+impl fmt::Display for Table {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let widths: Vec<_> = (0..self.titles.len()).map(|column| self.widths(column)).collect();
+        let titles = self.titles.iter().zip(&widths);
+        let titles = titles.map(|(title, (whole, part))| format!("{title:>0$}", whole + part));
+        writeln!(out, "{}", titles.collect::<Vec<_>>().join("  "))?;
+        for row in &self.rows {
+            let cells = row.iter().zip(&widths).map(|(cell, &(before, after))| {
+                let (whole, part) = split(cell);
+                format!("{whole:>before$}{part:<after$}")
+            });
+            writeln!(out, "{}", cells.collect::<Vec<_>>().join("  ").trim_end())?;
+        }
+        Ok(())
+    }
+}
+
+/// How many digits a tolerance makes trustworthy, 3 to 16.
+fn digits(tolerance: f64) -> usize {
+    (3..16)
+        .find(|&digits| 10.0_f64.powi(-digits) <= tolerance * 1.5)
+        .map_or(16, |digits| usize::try_from(digits).unwrap_or(16))
+}
+
+/// `D = -0.1, D2 = 0, ...`.
+fn parameters(parameters: &Parameters, but: Option<Symbol>) -> String {
+    let initial = State { q: 0.0, v: 0.0 };
+    let symbols = PARAMETERS.iter().map(|row| row.symbol);
+    let shown =
+        symbols.filter(|&symbol| !matches!(symbol, Symbol::Q0 | Symbol::V0) && Some(symbol) != but);
+    let one =
+        |symbol: Symbol| format!("{symbol} = {}", exact(symbol.get(parameters, &initial), 24));
+    shown.map(one).collect::<Vec<_>>().join(", ")
+}
+
+fn rounded(value: Option<f64>, digits: usize) -> String {
+    value.map_or_else(|| "-".to_owned(), |value| significant(value, digits))
+}
+
+/// A motion: the question, every turning point, the outcome, where the energy went, the cost.
+#[must_use]
+pub fn trajectory(motion: &Trajectory, seconds: f64) -> String {
+    let problem = &motion.problem;
+    let places = digits(problem.tolerance);
+    let mut turns = Table::new(&["half swing", "tau", "q"]);
+    for (index, crossing) in motion.crossings.iter().enumerate() {
+        let number = (index + 1).to_string();
+        turns.row(vec![number, significant(crossing.tau, places), significant(crossing.q, places)]);
+    }
+    let mut out = format!(
+        "{}; from q = {}, v = {}\n",
+        parameters(&problem.parameters, None),
+        exact(problem.initial.q, 24),
+        exact(problem.initial.v, 24),
+    );
+    out += &format!("{}\n\n", sentence(motion));
+    if !turns.rows.is_empty() {
+        out += &format!("{turns}\n");
+    }
+    if let Some(energy) = &motion.ledger {
+        let mut ledger = Table::new(&["energy", "amount"]);
+        for (name, value) in [
+            ("at the start", energy.start),
+            ("from linear damping", energy.linear),
+            ("from quadratic damping", energy.quadratic),
+            ("from cubic damping", energy.cubic),
+            ("from friction", energy.friction),
+            ("at the end", energy.end),
+            ("unaccounted for", energy.residual),
+        ] {
+            ledger.row(vec![name.to_owned(), significant(value, 6)]);
+        }
+        out += &format!("{ledger}\n");
+    }
+    let cost = motion.cost;
+    out += &format!(
+        "method {}, tolerance {}: {} evaluations, {} steps, {} rejected, {}\n",
+        motion.method,
+        exact(problem.tolerance, 24),
+        cost.evaluations,
+        cost.steps,
+        cost.rejected,
+        duration(seconds),
+    );
+    out
+}
+
+/// Titles of the columns that describe a cycle.
+const CYCLE: [&str; 8] =
+    ["cycle", "q_min", "q_max", "v_min", "v_max", "period", "multiplier", "clearance"];
+
+fn cycle(cycle: &Cycle, places: usize) -> Vec<String> {
+    let multiplier = match cycle.multiplier {
+        Some(multiplier) => significant(multiplier, places),
+        None => format!("exp({})", significant(cycle.log_multiplier, places)),
+    };
+    let clearance = if cycle.clearance > 0.0 {
+        significant(cycle.clearance, places)
+    } else {
+        format!("exp({})", significant(cycle.log_clearance, places))
+    };
+    let stability = if cycle.stable { "stable" } else { "unstable" };
+    let mut cells = vec![stability.to_owned()];
+    let numbers = [cycle.q_min, cycle.q_max, cycle.v_min, cycle.v_max, cycle.period];
+    cells.extend(numbers.map(|value| significant(value, places)));
+    cells.extend([multiplier, clearance]);
+    cells
+}
+
+/// Every cycle, the harmonic answer beside it, and what borders the basin.
+#[must_use]
+pub fn cycles(found: &Cycles, tolerance: f64, seconds: f64) -> String {
+    let places = digits(tolerance);
+    let mut out = format!("{}\n\n", parameters(&found.parameters, None));
+    if found.cycles.is_empty() {
+        out += "no limit cycle\n";
+    } else {
+        let mut table = Table::new(&CYCLE);
+        for found in &found.cycles {
+            table.row(cycle(found, places));
+        }
+        out += &table.to_string();
+    }
+    out += "\nby one harmonic, for comparison: ";
+    if found.harmonic.is_empty() {
+        out += "none\n";
+    }
+    for (index, harmonic) in found.harmonic.iter().enumerate() {
+        out += &format!(
+            "{}{} amplitude {}, mean {}",
+            if index == 0 { "" } else { "; " },
+            if harmonic.stable { "stable" } else { "unstable" },
+            significant(harmonic.amplitude, 6),
+            significant(harmonic.mean, 6),
+        );
+    }
+    if !found.harmonic.is_empty() {
+        out.push('\n');
+    }
+    out += match found.edge {
+        Edge::None => "edge of the basin of the sticking set: none\n",
+        Edge::Cycle => "edge of the basin of the sticking set: the smallest cycle\n",
+        Edge::Separatrix => "edge of the basin of the sticking set: a separatrix of escape\n",
+    };
+    out += &format!("{} evaluations, {}\n", found.cost.evaluations, duration(seconds));
+    out
+}
+
+/// The cycles along a parameter, piece by piece, and the special points.
+#[must_use]
+pub fn branch(branch: &Branch, base: &Parameters, tolerance: f64, seconds: f64) -> String {
+    let places = digits(tolerance).min(10);
+    let mut out = format!("{}\n", parameters(base, Some(branch.parameter)));
+    for (number, piece) in branch.pieces.iter().enumerate() {
+        out += &format!("\npiece {}\n", number + 1);
+        let mut titles = vec![branch.parameter.spec().name];
+        titles.extend(CYCLE);
+        let mut table = Table::new(&titles);
+        for point in piece {
+            let mut cells = vec![significant(point.value, places)];
+            cells.extend(cycle(&point.cycle, places));
+            table.row(cells);
+        }
+        out += &table.to_string();
+    }
+    if branch.pieces.is_empty() {
+        out += "\nno limit cycle\n";
+    }
+    let mut special = Table::new(&["special point", branch.parameter.spec().name, "q_max"]);
+    for point in &branch.special {
+        let kind = match point.kind {
+            SpecialKind::Fold => "fold",
+            SpecialKind::Escape => "escape",
+            SpecialKind::Hopf => "Hopf",
+            SpecialKind::ZeroCrossing => "zero crossing",
+        };
+        special.row(vec![
+            kind.to_owned(),
+            significant(point.value, digits(tolerance)),
+            rounded(point.q_max, digits(tolerance)),
+        ]);
+    }
+    if !special.rows.is_empty() {
+        out += &format!("\n{special}");
+    }
+    out += &format!("\n{} evaluations, {}\n", branch.cost.evaluations, duration(seconds));
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_of_numbers_stand_above_each_other() {
+        let mut table = Table::new(&["tau", "q"]);
+        table.row(vec!["1.5".to_owned(), "-0.25".to_owned()]);
+        table.row(vec!["10.25".to_owned(), "1".to_owned()]);
+        table.row(vec!["100".to_owned(), "-".to_owned()]);
+        assert_eq!(table.to_string(), "   tau      q\n  1.5   -0.25\n 10.25   1\n100      -\n");
+    }
+
+    #[test]
+    fn a_tolerance_says_how_many_digits_count() {
+        let expected = [(1e-10, 10), (3e-11, 11), (1e-2, 3), (1e-15, 15), (1e-30, 16)];
+        for (tolerance, places) in expected {
+            assert_eq!(digits(tolerance), places, "{tolerance}");
+        }
+    }
+}
