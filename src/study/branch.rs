@@ -1,10 +1,18 @@
 //! Limit cycles along a parameter, with the special points of their branches.
+//!
+//! The cycles at both ends of the range and at a few values between are found first; from each, the
+//! curve is followed ([`super::continuation`]) until it leaves the range, goes to infinity or shrinks to
+//! nothing. Along D, D3 and r a curve is a graph over the amplitude: each of them changes the energy
+//! balance of a swing in one direction only, so for a given clearance one value closes the cycle.
 
 use serde::Serialize;
 
-use super::cycle::Cycle;
+use super::closing::{Equation, first_side};
+use super::continuation::{Curve, CurvePoint, route_of};
+use super::cycle::{Cycle, closings};
+use super::escape::escape_point;
 use crate::flow::{Cost, Limits, Reason};
-use crate::oscillator::{Parameters, Symbol};
+use crate::oscillator::{Parameters, Side, Symbol};
 
 /// A cycle and the parameter value at which it lives.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -54,10 +62,12 @@ pub struct Branch {
     pub cost: Cost,
 }
 
-/// Follows the cycles while `parameter` runs over `range`, at about `count` points a piece.
+/// Follows the cycles while `parameter` runs over `range`, at `count` points a connected piece.
+///
+/// Each point is a cycle whose clearance has a relative error of at most `tolerance`.
 ///
 /// # Errors
-/// The [`Reason`] why the branch could not be completed.
+/// The [`Reason`] why the branch could not be completed; [`Reason::NotApplicable`] for initial values.
 pub fn branch(
     parameters: &Parameters,
     parameter: Symbol,
@@ -66,6 +76,198 @@ pub fn branch(
     tolerance: f64,
     limits: &Limits,
 ) -> Result<Branch, Reason> {
-    let _ = (parameter, range, count, tolerance, limits);
-    todo!("{parameters:?}")
+    if matches!(parameter, Symbol::Q0 | Symbol::V0) {
+        return Err(Reason::NotApplicable { needs: "one of D, D2, D3, r to vary" });
+    }
+    let (mut from, to) = (range.0.min(range.1), range.0.max(range.1));
+    if parameter == Symbol::R {
+        // Without friction the innermost cycle has shrunk to the steady state: begin just above.
+        from = from.max(LEAST_FRICTION * to);
+    }
+    let mut tracer = Tracer {
+        curve: Curve::new(parameters, parameter, Side::Upper, to - from, tolerance, limits),
+        parameter,
+        count: count.max(2),
+        found: Branch { parameter, pieces: Vec::new(), special: Vec::new(), cost: Cost::default() },
+    };
+    // The side of the first swing follows the sign of D2, so a curve in D2 is followed on each side of 0.
+    if parameter == Symbol::D2 && from < 0.0 && to > 0.0 {
+        tracer.trace(from, 0.0)?;
+        tracer.trace(0.0, to)?;
+    } else {
+        tracer.trace(from, to)?;
+    }
+    tracer.special_points(from, to)?;
+    let mut found = tracer.found;
+    found.cost += tracer.curve.cost;
+    found.special.sort_by(|one, other| one.value.total_cmp(&other.value));
+    Ok(found)
+}
+
+/// A branch over r begins at this part of the largest r.
+const LEAST_FRICTION: f64 = 1e-6;
+
+/// A branch in the making.
+struct Tracer<'a> {
+    curve: Curve<'a>,
+    parameter: Symbol,
+    count: usize,
+    found: Branch,
+}
+
+/// Amplitudes beyond this, in units of friction and of the natural scale, are not followed.
+const LOG_FAR: f64 = 25.0;
+
+impl Tracer<'_> {
+    /// Follows every curve that passes one of the probing values.
+    fn trace(&mut self, from: f64, to: f64) -> Result<(), Reason> {
+        /// Fractions of the range at which cycles are sought: both ends, and between for curves that
+        /// reach neither.
+        const PROBES: [f64; 5] = [0.0, 1.0, 0.5, 0.25, 0.75];
+        let mut curves: Vec<Vec<CurvePoint>> = Vec::new();
+        self.curve.side = first_side(&self.curve.parameters_at(0.5 * (from + to)));
+        for fraction in PROBES {
+            let p = if fraction == 1.0 { to } else { from + fraction * (to - from) };
+            for seed in self.seeds(p)? {
+                if curves.iter().any(|curve| passes(curve, &seed)) {
+                    continue;
+                }
+                let mut points = Vec::new();
+                if fraction > 0.0 {
+                    points = self.follow(seed, -1.0, from, to)?;
+                    points.reverse();
+                    points.pop();
+                }
+                if fraction < 1.0 {
+                    points.extend(self.follow(seed, 1.0, from, to)?);
+                } else {
+                    points.push(seed);
+                }
+                curves.push(points);
+            }
+        }
+        for points in curves {
+            self.keep(&points)?;
+        }
+        Ok(())
+    }
+
+    /// All cycles at one value, as points of curves.
+    fn seeds(&mut self, p: f64) -> Result<Vec<CurvePoint>, Reason> {
+        let parameters = self.curve.parameters_at(p);
+        let mut equation = Equation::on_side(&parameters, self.curve.side, f64::EPSILON);
+        let closings = closings(&mut equation, self.curve.limits())?;
+        self.curve.cost += equation.cost();
+        Ok(closings
+            .into_iter()
+            .map(|closing| CurvePoint {
+                u: closing.node.at,
+                p,
+                closing,
+                log_multiplier: closing.log_multiplier(&parameters),
+            })
+            .collect())
+    }
+
+    /// Follows one curve and ends it exactly at the border that it crosses.
+    fn follow(
+        &mut self,
+        seed: CurvePoint,
+        direction: f64,
+        from: f64,
+        to: f64,
+    ) -> Result<Vec<CurvePoint>, Reason> {
+        let bounds = self.bounds_of_u();
+        let leaves = move |point: &CurvePoint| {
+            !(from..=to).contains(&point.p) || !(bounds.0..=bounds.1).contains(&point.u)
+        };
+        let mut points = self.curve.follow(seed, direction, &leaves)?;
+        if let [.., inside, outside] = points[..]
+            && !(from..=to).contains(&outside.p)
+        {
+            points.pop();
+            let border = if outside.p > to { to } else { from };
+            let fraction = (border - inside.p) / (outside.p - inside.p);
+            let u = inside.u + fraction * (outside.u - inside.u);
+            let route = route_of(inside.log_multiplier);
+            points.extend(self.curve.at_parameter(border, u, route)?);
+        }
+        Ok(points)
+    }
+
+    /// Smallest and largest `ln c0` followed: beyond, a curve counts as gone to nothing or to infinity.
+    fn bounds_of_u(&self) -> (f64, f64) {
+        let Parameters { d2, d3, r, .. } = self.curve.parameters_at(self.curve.scale);
+        let natural = (1.0 / d2.abs()).min(1.0 / d3.abs().sqrt());
+        let natural = if natural.is_finite() { natural } else { r };
+        if d3 == 0.0 && d2 != 0.0 {
+            // Beyond, swings from any start are one (see the search for cycles).
+            (-600.0, (60.0 / d2.abs() + 2.0 * r).ln())
+        } else {
+            let smallest = if r > 0.0 { -600.0 } else { natural.ln() - LOG_FAR };
+            (smallest, natural.max(r).ln() + LOG_FAR)
+        }
+    }
+
+    /// Spreads `count` points evenly over a curve, corrects and describes each; notes its folds.
+    fn keep(&mut self, points: &[CurvePoint]) -> Result<(), Reason> {
+        for pair in points.windows(2) {
+            let [one, other] = pair else { continue };
+            if (one.log_multiplier > 0.0) != (other.log_multiplier > 0.0)
+                && let Some(fold) = self.curve.fold_between(one, other)?
+            {
+                let q_max = Some(self.describe(&fold).q_max);
+                let special = Special { kind: SpecialKind::Fold, value: fold.p, q_max };
+                self.found.special.push(special);
+            }
+        }
+        let spread = self.curve.spread(points, self.count)?;
+        let describe =
+            |point: &CurvePoint| BranchPoint { value: point.p, cycle: self.describe(point) };
+        self.found.pieces.push(spread.iter().map(describe).collect());
+        Ok(())
+    }
+
+    fn describe(&self, point: &CurvePoint) -> Cycle {
+        point.closing.describe(&self.curve.parameters_at(point.p), self.curve.side)
+    }
+
+    /// The special points that are not folds.
+    fn special_points(&mut self, from: f64, to: f64) -> Result<(), Reason> {
+        let parameters = self.curve.parameters_at(0.0);
+        if self.parameter == Symbol::D && (from..=to).contains(&0.0) {
+            if parameters.r == 0.0 {
+                let hopf = Special { kind: SpecialKind::Hopf, value: 0.0, q_max: Some(0.0) };
+                self.found.special.push(hopf);
+            } else {
+                for seed in self.seeds(0.0)? {
+                    let q_max = Some(self.describe(&seed).q_max);
+                    let kind = SpecialKind::ZeroCrossing;
+                    self.found.special.push(Special { kind, value: 0.0, q_max });
+                }
+            }
+        }
+        if self.parameter == Symbol::D
+            && let Some(value) = escape_point(&parameters, self.curve.limits())?
+            && (from..=to).contains(&value)
+        {
+            self.found.special.push(Special { kind: SpecialKind::Escape, value, q_max: None });
+        }
+        Ok(())
+    }
+}
+
+/// Whether a curve passes a point: between neighbours in p, and close in u.
+fn passes(curve: &[CurvePoint], point: &CurvePoint) -> bool {
+    curve.windows(2).any(|pair| {
+        let (one, other) = (&pair[0], &pair[1]);
+        let (low, high) = (one.p.min(other.p), one.p.max(other.p));
+        let slack = 1e-9 * (high - low);
+        if point.p < low - slack || point.p > high + slack {
+            return false;
+        }
+        let fraction = if one.p == other.p { 0.5 } else { (point.p - one.p) / (other.p - one.p) };
+        let u = one.u + fraction * (other.u - one.u);
+        (u - point.u).abs() <= 0.25 * (other.u - one.u).abs() + 1e-6
+    })
 }

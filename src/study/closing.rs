@@ -56,6 +56,12 @@ pub struct Equation {
     backward: [HalfMap; 2],
 }
 
+/// The side in whose frame `D2 >= 0`.
+#[must_use]
+pub fn first_side(parameters: &Parameters) -> Side {
+    if parameters.d2 < 0.0 { Side::Lower } else { Side::Upper }
+}
+
 /// Multiplies a field by -1: the field of the motion run backward (see [`super::half_map`]).
 fn reversed(field: &HalfPlane) -> HalfPlane {
     HalfPlane { d: -field.d, d2: -field.d2, d3: -field.d3 }
@@ -65,13 +71,18 @@ impl Equation {
     /// The equation at these parameters, each integration step within the relative `tolerance`.
     #[must_use]
     pub fn new(parameters: &Parameters, tolerance: f64) -> Self {
-        Self::with(parameters, |field| HalfMap::new(field, tolerance))
+        Self::on_side(parameters, first_side(parameters), tolerance)
+    }
+
+    /// The same with the first swing on a given side.
+    #[must_use]
+    pub fn on_side(parameters: &Parameters, side: Side, tolerance: f64) -> Self {
+        Self::with(parameters, side, |field| HalfMap::new(field, tolerance))
     }
 
     /// The same with half maps made by `map`.
     #[must_use]
-    pub fn with(parameters: &Parameters, map: impl Fn(HalfPlane) -> HalfMap) -> Self {
-        let side = if parameters.d2 < 0.0 { Side::Lower } else { Side::Upper };
+    pub fn with(parameters: &Parameters, side: Side, map: impl Fn(HalfPlane) -> HalfMap) -> Self {
         let fields = [side, side.opposite()].map(|side| HalfPlane::new(parameters, side));
         Equation {
             parameters: *parameters,
@@ -141,15 +152,17 @@ impl Equation {
 
     fn mixed(&mut self, start: Length, limits: &Limits) -> Result<Closing, Reason> {
         let gap = 2.0 * self.parameters.r;
-        let first = match self.forward[0].swing(start, limits) {
-            Err(NoEnd::Escapes) => return Ok(Closing::beyond(start, f64::INFINITY, f64::MAX)),
-            Err(NoEnd::Never) => return Ok(Closing::beyond(start, f64::NEG_INFINITY, f64::MIN)),
-            Err(NoEnd::Failed(reason)) => return Err(reason),
-            Ok(swing) => swing,
-        };
+        // The second swing first: with D3 > 0 it is the one that escapes, and quickly, where the first
+        // one would be stiff.
         let second = match self.backward[1].swing(start.plus(gap), limits) {
             Err(NoEnd::Escapes) => return Ok(Closing::beyond(start, f64::MAX, f64::INFINITY)),
             Err(NoEnd::Never) => HalfSwing::collapsed(start.plus(gap)),
+            Err(NoEnd::Failed(reason)) => return Err(reason),
+            Ok(swing) => swing,
+        };
+        let first = match self.forward[0].swing(start, limits) {
+            Err(NoEnd::Escapes) => return Ok(Closing::beyond(start, f64::INFINITY, f64::MAX)),
+            Err(NoEnd::Never) => return Ok(Closing::beyond(start, f64::NEG_INFINITY, f64::MIN)),
             Err(NoEnd::Failed(reason)) => return Err(reason),
             Ok(swing) => swing,
         };

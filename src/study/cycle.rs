@@ -112,7 +112,7 @@ pub fn cycles(
     };
     let _ = tolerance;
     for closing in &closings {
-        found.cycles.push(equation.describe(closing));
+        found.cycles.push(closing.describe(parameters, equation.side));
         if curves {
             found.curves.push(curve(parameters, equation.side, closing, limits)?);
         }
@@ -263,19 +263,19 @@ fn secant((low, high): &Bracket) -> f64 {
     if secant > low.at && secant < high.at { secant } else { middle }
 }
 
-impl Equation {
-    /// The cycle that a closing is.
+impl Closing {
+    /// The cycle that this closed pair of swings is; the first swing runs on `side`.
     #[must_use]
-    pub fn describe(&self, closing: &Closing) -> Cycle {
-        let r = self.parameters.r;
-        let log_multiplier = closing.log_multiplier(&self.parameters);
+    pub fn describe(&self, parameters: &Parameters, side: Side) -> Cycle {
+        let r = parameters.r;
+        let log_multiplier = self.log_multiplier(parameters);
         let multiplier = log_multiplier.exp();
-        let slope = closing.node.slope.abs();
-        let turning = [closing.first, closing.second];
+        let slope = self.node.slope.abs();
+        let turning = [self.first, self.second];
         // The first swing starts on the far side of the half plane that it crosses.
-        let ([left, right], [up, down]) = match self.side {
-            Side::Upper => (turning, closing.fastest),
-            Side::Lower => ([turning[1], turning[0]], [closing.fastest[1], closing.fastest[0]]),
+        let ([left, right], [up, down]) = match side {
+            Side::Upper => (turning, self.fastest),
+            Side::Lower => ([turning[1], turning[0]], [self.fastest[1], self.fastest[0]]),
         };
         Cycle {
             stable: log_multiplier < 0.0,
@@ -283,7 +283,7 @@ impl Equation {
             q_max: r + right.value,
             v_min: -down,
             v_max: up,
-            period: closing.duration,
+            period: self.duration,
             multiplier: multiplier.is_finite().then_some(multiplier),
             log_multiplier,
             clearance: right.value,

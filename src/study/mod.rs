@@ -3,7 +3,9 @@
 pub mod balance;
 pub mod branch;
 pub mod closing;
+pub mod continuation;
 pub mod cycle;
+pub mod escape;
 pub mod half_map;
 pub mod search;
 

@@ -1,0 +1,424 @@
+//! One curve of limit cycles in the plane of `u = ln c0` and a parameter p, followed through folds.
+//!
+//! Pseudo-arclength continuation: from a point with a tangent, predict along the tangent and correct by
+//! Newton's method on the closing equation together with the demand to stay on the line through the
+//! prediction across the tangent. The slope in u is exact (the multiplier), the slope in p a difference
+//! quotient that is renewed only when the correction converges slowly. Lengths are measured with p in
+//! units of the range and u in units of [`UNIT_OF_U`].
+
+use super::closing::{Closing, Equation, Route};
+use crate::flow::{Cost, Limits, Reason};
+use crate::oscillator::{Parameters, Side, State, Symbol};
+
+/// Tolerance of the integration steps, in units of that of the points.
+const STEP: f64 = 1e-2;
+
+/// Length of u that counts as much as the whole range of the parameter.
+const UNIT_OF_U: f64 = 4.0;
+
+/// Logarithm of the multiplier beyond which a contracting route is taken.
+const STEEP: f64 = 2.0;
+
+/// Most evaluations of one swing, a hundred times the usual: beyond, a curve is not followed.
+const SWING_BUDGET: u64 = 60_000;
+
+/// Relative error of the clearance at a fold.
+const FOLD_TOLERANCE: f64 = 1e-13;
+
+/// Newton steps of a correction before it counts as failed.
+const CORRECTIONS: usize = 8;
+
+/// A cycle on the curve.
+#[derive(Clone, Copy, Debug)]
+pub struct CurvePoint {
+    /// The unknown `ln c0`.
+    pub u: f64,
+    /// The parameter.
+    pub p: f64,
+    /// The closed pair of swings.
+    pub closing: Closing,
+    /// Logarithm of the Floquet multiplier; it changes its sign at a fold.
+    pub log_multiplier: f64,
+}
+
+/// A direction in the scaled plane, of length 1.
+#[derive(Clone, Copy, Debug)]
+pub struct Tangent {
+    /// Component along `u/UNIT_OF_U`.
+    pub u: f64,
+    /// Component along `p/range`.
+    pub p: f64,
+}
+
+impl Tangent {
+    /// From one point to another.
+    fn between(from: &CurvePoint, to: &CurvePoint, scale: f64) -> Self {
+        let (u, p) = ((to.u - from.u) / UNIT_OF_U, (to.p - from.p) / scale);
+        let length = u.hypot(p);
+        Tangent { u: u / length, p: p / length }
+    }
+
+    fn dot(self, other: Tangent) -> f64 {
+        self.u * other.u + self.p * other.p
+    }
+}
+
+/// A family of closing equations along a parameter.
+pub struct Curve<'a> {
+    parameters: Parameters,
+    symbol: Symbol,
+    /// The side of the first swing, the same all along the curve.
+    pub side: Side,
+    /// Unit of the parameter.
+    pub scale: f64,
+    /// Relative error accepted in the clearance.
+    tolerance: f64,
+    limits: &'a Limits<'a>,
+    /// Difference quotient in p of the residual of a route, kept from point to point.
+    slope_in_p: Option<(Route, f64)>,
+    /// What it cost so far.
+    pub cost: Cost,
+}
+
+impl<'a> Curve<'a> {
+    /// The curve along `symbol` with p measured in units of `scale`; `side` is that of the first swing.
+    #[must_use]
+    pub fn new(
+        parameters: &Parameters,
+        symbol: Symbol,
+        side: Side,
+        scale: f64,
+        tolerance: f64,
+        limits: &'a Limits<'a>,
+    ) -> Self {
+        let (parameters, cost) = (*parameters, Cost::default());
+        Curve { parameters, symbol, side, scale, tolerance, limits, slope_in_p: None, cost }
+    }
+
+    /// The parameters with the varying one at `p`.
+    #[must_use]
+    pub fn parameters_at(&self, p: f64) -> Parameters {
+        let mut parameters = self.parameters;
+        self.symbol.set(&mut parameters, &mut State { q: 0.0, v: 0.0 }, p);
+        parameters
+    }
+
+    /// The limits under which it computes.
+    #[must_use]
+    pub fn limits(&self) -> &'a Limits<'a> {
+        self.limits
+    }
+
+    /// The pair of swings at a point that need not close; `None` where they are too dear or too large to
+    /// be computed, which ends a curve.
+    fn closing(&mut self, route: Route, u: f64, p: f64) -> Result<Option<Closing>, Reason> {
+        let step = STEP * self.tolerance;
+        let mut equation = Equation::on_side(&self.parameters_at(p), self.side, step);
+        equation.want_fastest(true);
+        let limits = Limits { evaluations: SWING_BUDGET, interrupted: self.limits.interrupted };
+        let closing = equation.at(route, u, &limits);
+        self.cost += equation.cost();
+        match closing {
+            Err(Reason::Budget { .. } | Reason::OutOfRange) => Ok(None),
+            Err(reason) => Err(reason),
+            Ok(closing) => Ok(closing.node.value().is_finite().then_some(closing)),
+        }
+    }
+
+    /// Renews the difference quotient in p.
+    fn renew_slope(&mut self, route: Route, u: f64, p: f64, value: f64) -> Result<f64, Reason> {
+        /// Small enough for two digits of the quotient, large enough to leave rounding behind.
+        const STRIDE: f64 = 1e-5;
+        let stride = STRIDE * self.scale;
+        let beside = self.closing(route, u, p + stride)?;
+        let slope = beside.map_or(f64::NAN, |beside| (beside.node.value() - value) / stride);
+        self.slope_in_p = slope.is_finite().then_some((route, slope));
+        Ok(slope)
+    }
+
+    /// Corrects a prediction along the line across `tangent`; `None` where it does not settle.
+    ///
+    /// # Errors
+    /// The [`Reason`] why a swing failed.
+    pub fn correct(
+        &mut self,
+        near: (f64, f64),
+        tangent: Tangent,
+        route: Route,
+    ) -> Result<Option<CurvePoint>, Reason> {
+        // Along the line: u = near.0 + UNIT_OF_U tangent.p s, p = near.1 - scale tangent.u s.
+        let scale = self.scale;
+        let place = |s: f64| (near.0 + UNIT_OF_U * tangent.p * s, near.1 - scale * tangent.u * s);
+        let per_s = UNIT_OF_U * tangent.p.abs().max(tangent.u.abs());
+        let (mut s, mut before) = (0.0, None::<(f64, f64)>);
+        for _ in 0..CORRECTIONS {
+            let (u, p) = place(s);
+            let Some(closing) = self.closing(route, u, p)? else { return Ok(None) };
+            let value = closing.node.value();
+            let in_u = closing.node.slope * UNIT_OF_U * tangent.p;
+            let along = match (before, self.slope_in_p) {
+                // A secant along the line, which renews the quotient on the way.
+                (Some((s_before, value_before)), _) => {
+                    let along = (value - value_before) / (s - s_before);
+                    if tangent.u.abs() > 0.01 {
+                        let slope = (in_u - along) / (self.scale * tangent.u);
+                        self.slope_in_p = slope.is_finite().then_some((route, slope));
+                    }
+                    along
+                }
+                (None, _) if tangent.u == 0.0 => in_u,
+                (None, Some((of, slope))) if of == route => in_u - slope * self.scale * tangent.u,
+                (None, _) => in_u - self.renew_slope(route, u, p, value)? * self.scale * tangent.u,
+            };
+            let change = -value / along;
+            if !change.is_finite() || per_s * change.abs() > 1.0 {
+                return Ok(None);
+            }
+            if per_s * change.abs() <= self.tolerance {
+                let log_multiplier = closing.log_multiplier(&self.parameters_at(p));
+                return Ok(Some(CurvePoint { u, p, closing, log_multiplier }));
+            }
+            before = Some((s, value));
+            s += change;
+        }
+        Ok(None)
+    }
+
+    /// The cycle at exactly `p`, near `u`.
+    ///
+    /// # Errors
+    /// The [`Reason`] why a swing failed.
+    pub fn at_parameter(
+        &mut self,
+        p: f64,
+        u: f64,
+        route: Route,
+    ) -> Result<Option<CurvePoint>, Reason> {
+        self.correct((u, p), Tangent { u: 0.0, p: 1.0 }, route)
+    }
+
+    /// Where the line between or beyond two points leads after `length` from the second one.
+    #[must_use]
+    pub fn ahead(&self, point: &CurvePoint, tangent: Tangent, length: f64) -> (f64, f64) {
+        (point.u + UNIT_OF_U * tangent.u * length, point.p + self.scale * tangent.p * length)
+    }
+
+    /// Follows the curve from `start` in the direction of growing or falling p until `leaves` says so.
+    ///
+    /// `leaves` sees each new point; the point that leaves is the last one. Steps adapt to the bend of
+    /// the curve and to the convergence of the corrections.
+    ///
+    /// # Errors
+    /// The [`Reason`] why a swing failed.
+    pub fn follow(
+        &mut self,
+        start: CurvePoint,
+        direction: f64,
+        leaves: &dyn Fn(&CurvePoint) -> bool,
+    ) -> Result<Vec<CurvePoint>, Reason> {
+        /// First, smallest and largest stride, in parts of the range.
+        const STRIDES: (f64, f64, f64) = (2e-3, 1e-9, 0.06);
+        /// Most points of a curve; a closed or endless one stops here.
+        const MOST: usize = 4000;
+        let mut points = vec![start];
+        let Some(mut tangent) = self.first_tangent(&start, direction)? else {
+            return Ok(points);
+        };
+        let mut stride = STRIDES.0;
+        while points.len() < MOST {
+            let here = points[points.len() - 1];
+            let near = self.ahead(&here, tangent, stride);
+            let route = route_of(here.log_multiplier);
+            let corrected = self.correct(near, tangent, route)?;
+            // A bend of more than about 15 degrees a step is taken in smaller steps.
+            let next = corrected.map(|next| (next, Tangent::between(&here, &next, self.scale)));
+            match next {
+                Some((next, chord)) if chord.dot(tangent) > 0.97 || stride < 1e-6 => {
+                    let bend = (1.0 - chord.dot(tangent)).max(0.0);
+                    tangent = self.tangent_at(&next, chord).unwrap_or(chord);
+                    points.push(next);
+                    if leaves(&next) {
+                        break;
+                    }
+                    stride *= if bend < 1e-3 {
+                        1.7
+                    } else if bend < 6e-3 {
+                        1.2
+                    } else {
+                        0.8
+                    };
+                    stride = stride.min(STRIDES.2);
+                }
+                _ => {
+                    stride *= 0.4;
+                    self.slope_in_p = None;
+                    if stride < STRIDES.1 {
+                        break;
+                    }
+                }
+            }
+        }
+        Ok(points)
+    }
+
+    /// Spreads `count` points evenly over a followed curve, both ends included, and corrects each.
+    ///
+    /// Distance is measured in p, u and amplitude together, each in parts of what the curve spans: this
+    /// is how far apart points look on a diagram. Between followed points the curve is interpolated by
+    /// polynomials through six of them.
+    ///
+    /// # Errors
+    /// The [`Reason`] why a swing failed.
+    pub fn spread(
+        &mut self,
+        points: &[CurvePoint],
+        count: usize,
+    ) -> Result<Vec<CurvePoint>, Reason> {
+        let (Some(first), Some(last)) = (points.first(), points.last()) else {
+            return Ok(Vec::new());
+        };
+        let arc = arc_lengths(points);
+        let total = arc[arc.len() - 1];
+        if points.len() < 2 || total == 0.0 {
+            return Ok(points.to_vec());
+        }
+        let window = points.len().min(6);
+        let mut spread = vec![*first];
+        self.slope_in_p = None;
+        for index in 1..count.saturating_sub(1) {
+            #[expect(clippy::cast_precision_loss, reason = "counts of points are small")]
+            let s = total * index as f64 / (count - 1) as f64;
+            let after = arc.partition_point(|&length| length <= s).clamp(1, points.len() - 1);
+            let base = after.saturating_sub(window / 2).min(points.len() - window);
+            let near = interpolate(&points[base..base + window], &arc[base..base + window], s);
+            let (one, other) = (&points[after - 1], &points[after]);
+            let tangent = Tangent::between(one, other, self.scale);
+            let route = route_of(0.5 * (one.log_multiplier + other.log_multiplier));
+            spread.extend(self.correct(near, tangent, route)?);
+        }
+        spread.push(*last);
+        Ok(spread)
+    }
+
+    /// The tangent from the slopes of the residual, turned the way of `along`.
+    fn tangent_at(&self, point: &CurvePoint, along: Tangent) -> Option<Tangent> {
+        let slope_p = self.slope_in_p?.1 * self.scale;
+        let slope_u = point.closing.node.slope * UNIT_OF_U;
+        let length = slope_u.hypot(slope_p);
+        let tangent = Tangent { u: -slope_p / length, p: slope_u / length };
+        let sign = tangent.dot(along).signum();
+        let turned = Tangent { u: sign * tangent.u, p: sign * tangent.p };
+        (turned.dot(along) > 0.9).then_some(turned)
+    }
+
+    fn first_tangent(
+        &mut self,
+        start: &CurvePoint,
+        direction: f64,
+    ) -> Result<Option<Tangent>, Reason> {
+        let route = route_of(start.log_multiplier);
+        let Some(closing) = self.closing(route, start.u, start.p)? else { return Ok(None) };
+        let slope_p = self.renew_slope(route, start.u, start.p, closing.node.value())? * self.scale;
+        let slope_u = closing.node.slope * UNIT_OF_U;
+        let length = slope_u.hypot(slope_p);
+        let sign = (slope_u * direction).signum();
+        let tangent = Tangent { u: -sign * slope_p / length, p: sign * slope_u / length };
+        Ok(length.is_finite().then_some(tangent))
+    }
+
+    /// The point between two neighbours of the curve where the multiplier is 1: a fold.
+    ///
+    /// Bracketing secant (the Illinois rule) on the logarithm of the multiplier along the chord. The
+    /// parameter is stationary there: an error e of the place costs e^2 of the parameter.
+    ///
+    /// # Errors
+    /// The [`Reason`] why a swing failed.
+    pub fn fold_between(
+        &mut self,
+        one: &CurvePoint,
+        other: &CurvePoint,
+    ) -> Result<Option<CurvePoint>, Reason> {
+        let tangent = Tangent::between(one, other, self.scale);
+        let chord = ((other.u - one.u) / UNIT_OF_U).hypot((other.p - one.p) / self.scale);
+        self.slope_in_p = None;
+        let tolerance = std::mem::replace(&mut self.tolerance, FOLD_TOLERANCE);
+        let fold =
+            self.multiplier_one(one, tangent, chord, [one, other].map(|end| end.log_multiplier));
+        self.tolerance = tolerance;
+        fold
+    }
+
+    fn multiplier_one(
+        &mut self,
+        one: &CurvePoint,
+        tangent: Tangent,
+        chord: f64,
+        ends: [f64; 2],
+    ) -> Result<Option<CurvePoint>, Reason> {
+        let (mut low, mut high) = ((0.0, ends[0]), (chord, ends[1]));
+        let mut best = None;
+        for _ in 0..60 {
+            let s = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
+            let Some(point) = self.correct(self.ahead(one, tangent, s), tangent, Route::Mixed)?
+            else {
+                return Ok(best);
+            };
+            best = Some(point);
+            let here = (s, point.log_multiplier);
+            if here.1.abs() < 1e-10 || (high.0 - low.0).abs() < 1e-13 {
+                break;
+            }
+            if (here.1 > 0.0) == (low.1 > 0.0) {
+                (low, high.1) = (here, 0.5 * high.1);
+            } else {
+                (high, low.1) = (here, 0.5 * low.1);
+            }
+        }
+        Ok(best)
+    }
+}
+
+/// The route that contracts at a cycle of this multiplier.
+#[must_use]
+pub fn route_of(log_multiplier: f64) -> Route {
+    if log_multiplier > STEEP {
+        Route::Backward
+    } else if log_multiplier < -STEEP {
+        Route::Forward
+    } else {
+        Route::Mixed
+    }
+}
+
+/// Length along a curve as it looks on a diagram, from its first point to each.
+fn arc_lengths(points: &[CurvePoint]) -> Vec<f64> {
+    let coordinates = |point: &CurvePoint| [point.p, point.u, point.closing.first.value];
+    let mut spans = [f64::MIN_POSITIVE; 3];
+    for (axis, span) in spans.iter_mut().enumerate() {
+        let values = points.iter().map(|point| coordinates(point)[axis]);
+        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+            (low.min(value), high.max(value))
+        });
+        *span = span.max(high - low);
+    }
+    let mut total = 0.0;
+    let mut lengths = vec![0.0];
+    for pair in points.windows(2) {
+        let (one, other) = (coordinates(&pair[0]), coordinates(&pair[1]));
+        let parts = (0..3).map(|axis| (other[axis] - one[axis]) / spans[axis]);
+        total += parts.map(|part| part * part).sum::<f64>().sqrt();
+        lengths.push(total);
+    }
+    lengths
+}
+
+/// `(u, p)` at arc length `s` on the polynomials through these points (Lagrange).
+fn interpolate(points: &[CurvePoint], arc: &[f64], s: f64) -> (f64, f64) {
+    let mut place = (0.0, 0.0);
+    for (i, point) in points.iter().enumerate() {
+        let others = arc.iter().enumerate().filter(|&(j, _)| j != i);
+        let weight: f64 = others.map(|(_, &other)| (s - other) / (arc[i] - other)).product();
+        place = (place.0 + weight * point.u, place.1 + weight * point.p);
+    }
+    place
+}

@@ -1,0 +1,94 @@
+//! Where the limit cycle goes to infinity: the escape point `D_c` of asymmetric damping.
+//!
+//! With `D3 = 0` and `D2 != 0`, on the side where D2 brakes, a swing from far out forgets where it began:
+//! it ends at a finite `X` for every start beyond some clearance. Run backward, the swing on the other
+//! side does the same. The cycle exists while the first reaches further out than the second asks for,
+//! and at `D_c` the two motions from and to infinity close the cycle: `X(D_c) = 2 r + c1(D_c)`.
+
+use super::closing::{Equation, Route};
+use crate::flow::{Limits, Reason};
+use crate::oscillator::Parameters;
+
+/// `D_c` at these values of D2 and r, or `None` where no cycle escapes (`D3 != 0`, `D2 = 0` or `r = 0`).
+///
+/// Bracketing secant (the Illinois rule) on the difference of the two swings from and to infinity, to
+/// rounding. To leading order `D_c = -sqrt(2/pi) r abs(D2)`.
+///
+/// # Errors
+/// The [`Reason`] why a swing failed.
+pub fn escape_point(parameters: &Parameters, limits: &Limits) -> Result<Option<f64>, Reason> {
+    let Parameters { d2, d3, r, .. } = *parameters;
+    if d3 != 0.0 || d2 == 0.0 || r == 0.0 {
+        return Ok(None);
+    }
+    let excess = |d: f64| excess_at_infinity(&Parameters { d, ..*parameters }, limits);
+    let leading = -(2.0 / std::f64::consts::PI).sqrt() * r * d2.abs();
+    // The excess falls from positive at D = -1 to negative at D = 0 (no cycle without self-excitation).
+    let mut low = (f64::max(1.2 * leading, -1.0 + f64::EPSILON), 0.0);
+    low.1 = excess(low.0)?;
+    let mut high = (0.8 * leading, 0.0);
+    if high.0 < -1.0 {
+        return Ok(None);
+    }
+    high.1 = excess(high.0)?;
+    if !(low.1 > 0.0 && high.1 < 0.0) {
+        low = (-1.0 + 1e-9, excess(-1.0 + 1e-9)?);
+        high = (0.0, excess(0.0)?);
+    }
+    if !(low.1 > 0.0 && high.1 < 0.0) {
+        return Ok(None);
+    }
+    for _ in 0..100 {
+        let d = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
+        let here = (d, excess(d)?);
+        if here.1 == 0.0 || d == low.0 || d == high.0 || high.0 - low.0 < 1e-16 * d.abs() {
+            return Ok(Some(d));
+        }
+        if (here.1 > 0.0) == (low.1 > 0.0) {
+            (low, high.1) = (here, 0.5 * high.1);
+        } else {
+            (high, low.1) = (here, 0.5 * low.1);
+        }
+        if (high.0 - low.0).abs() <= 2.0 * f64::EPSILON * d.abs() {
+            return Ok(Some(d));
+        }
+    }
+    Ok(Some(0.5 * (low.0 + high.0)))
+}
+
+/// By how much, as a logarithm, the swing from infinity passes the one to infinity.
+///
+/// # Errors
+/// The [`Reason`] why a swing failed.
+pub fn excess_at_infinity(parameters: &Parameters, limits: &Limits) -> Result<f64, Reason> {
+    /// Clearance, in units of `1/abs(D2)`, from which a swing has forgotten its start to rounding: what
+    /// is left of it decays as `exp(-2 D2 c)`.
+    const FAR: f64 = 40.0;
+    let far = (FAR / parameters.d2.abs() + 2.0 * parameters.r).ln();
+    let mut equation = Equation::new(parameters, f64::EPSILON);
+    Ok(equation.at(Route::Mixed, far, limits)?.node.value())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn escape_points_agree_with_those_computed_elsewhere() {
+        let table = [
+            (0.02, -0.015_958),
+            (0.05, -0.039_892),
+            (0.1, -0.079_769),
+            (0.25, -0.199_164),
+            (0.5, -0.396_442),
+            (1.0, -0.776_232),
+        ];
+        for (product, expected) in table {
+            for (d2, r) in [(1.0, product), (product / 0.3, 0.3), (-product, 1.0)] {
+                let parameters = Parameters { d: 0.0, d2, d3: 0.0, r };
+                let d = escape_point(&parameters, &Limits::PATIENT).unwrap().unwrap();
+                assert!((d - expected).abs() < 5e-7, "r D2 = {product}: {d}");
+            }
+        }
+    }
+}
