@@ -2,36 +2,97 @@
 
 use super::limits::Reason;
 use super::step::{Point, Powers, Step, Stepper};
+use super::tableau::GAUSS;
+use crate::closed_form::linear::Linear;
 use crate::oscillator::HalfPlane;
 
-/// The stepper.
-#[derive(Clone, Debug, Default)]
+/// Most pieces into which a step is cut for drawing and for quadrature; a piece is one unit of time.
+const MOST_PIECES: f64 = 4096.0;
+
+/// The stepper. It serves fields with `D2 = D3 = 0` and is exact to rounding for every D.
+#[derive(Clone, Debug)]
 pub struct Exact {
+    linear: Linear,
+    start: Point,
+    duration: f64,
     evaluations: u64,
 }
 
 impl Exact {
-    /// A stepper for fields with `D2 = D3 = 0`.
+    /// A stepper that has not begun.
     #[must_use]
     pub fn new() -> Self {
-        Self::default()
+        Exact {
+            linear: Linear::new(0.0),
+            start: Point { x: 0.0, v: 0.0 },
+            duration: 0.0,
+            evaluations: 0,
+        }
+    }
+}
+
+impl Default for Exact {
+    fn default() -> Self {
+        Self::new()
     }
 }
 
 impl Stepper for Exact {
-    fn begin(&mut self, _field: &HalfPlane) {}
-    fn advance(&mut self, _from: Point, _longest: f64) -> Result<Step, Reason> {
-        Err(Reason::OutOfRange)
+    fn begin(&mut self, field: &HalfPlane) {
+        self.linear = Linear::new(field.d);
     }
-    fn at(&self, _time: f64) -> Point {
-        Point { x: 0.0, v: 0.0 }
+
+    fn advance(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {
+        self.start = from;
+        self.evaluations += 1;
+        let arrival = self.linear.first_standstill(from.x, from.v);
+        let step = match arrival {
+            Some(arrival) if arrival.time <= longest => {
+                Step { duration: arrival.time, end: Point { x: arrival.x, v: 0.0 }, crossed: true }
+            }
+            _ => {
+                self.duration = longest;
+                Step { duration: longest, end: self.at(longest), crossed: false }
+            }
+        };
+        self.duration = step.duration;
+        if step.end.size().is_finite() { Ok(step) } else { Err(Reason::OutOfRange) }
     }
+
+    fn at(&self, time: f64) -> Point {
+        let (x, v) = self.linear.state(self.start.x, self.start.v, time);
+        Point { x, v }
+    }
+
     fn powers(&self) -> Powers {
-        Powers::default()
+        let pieces = self.duration.clamp(1.0, MOST_PIECES).ceil();
+        let width = self.duration / pieces;
+        let mut powers = Powers::default();
+        let mut begin = 0.0;
+        for _ in 0..self.pieces() {
+            for &(node, weight) in &GAUSS {
+                powers.add_node(weight * width, self.at(begin + node * width).v);
+            }
+            begin += width;
+        }
+        powers
     }
+
+    fn pieces(&self) -> usize {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "between 1 and 4096"
+        )]
+        {
+            self.duration.clamp(1.0, MOST_PIECES).ceil() as usize
+        }
+    }
+
     fn evaluations(&self) -> u64 {
         self.evaluations
     }
+
     fn rejected(&self) -> u64 {
         0
     }

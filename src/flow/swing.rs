@@ -110,10 +110,10 @@ pub fn swing<S: Stepper>(
                 steps,
             });
         }
-        if let Some(rest) = time_to_blow_up(&scaled, point, time) {
-            if time + rest <= longest {
-                return Ok(Swing { end: End::Escape, duration: time + rest, steps });
-            }
+        if let Some(rest) = time_to_blow_up(&scaled, point, time)
+            && time + rest <= longest
+        {
+            return Ok(Swing { end: End::Escape, duration: time + rest, steps });
         }
         let drift = exponent(point.size());
         if drift.abs() > FAR {

@@ -147,13 +147,14 @@ impl Taylor {
     fn allowed(&self, from: Point) -> Option<f64> {
         let size = rough_log2(from.size());
         let mut log_radius = f64::INFINITY;
-        for k in self.order + 1 - TAIL..=self.order {
-            let coefficient = self.v[k].abs();
+        let tail = self.order + 1 - TAIL..=self.order;
+        for (coefficient, inverse) in self.v[tail.clone()].iter().zip(&INVERSE[tail]) {
+            let coefficient = coefficient.abs();
             if !coefficient.is_finite() {
                 return None;
             }
             if coefficient > 0.0 {
-                log_radius = log_radius.min((size - rough_log2(coefficient)) * INVERSE[k]);
+                log_radius = log_radius.min((size - rough_log2(coefficient)) * inverse);
             }
         }
         let log_step = log_radius + self.log_tolerance * INVERSE[self.order];

@@ -143,7 +143,7 @@ pub struct Trajectory {
 pub fn trajectory(problem: &Problem, detail: Detail, limits: &Limits) -> Trajectory {
     let parameters = &problem.parameters;
     match problem.method {
-        Method::Exact if parameters.is_piecewise_linear() => {
+        Method::Auto | Method::Exact if parameters.is_piecewise_linear() => {
             Run::new(problem, Method::Exact, detail).go(&mut Exact::new(), limits)
         }
         Method::Exact => Run::new(problem, Method::Exact, detail)
@@ -388,6 +388,23 @@ mod tests {
                 assert!((place - expected).abs() < 1e-11, "{method}: {place} for {expected}");
             }
             assert!(matches!(motion.outcome, Outcome::Captured { .. }));
+        }
+    }
+
+    #[test]
+    fn methods_agree_with_the_closed_form() {
+        for d in [-0.999, -0.1, -1e-12, -0.0, 0.05, 0.7, 1.0, 2.0] {
+            for start in [(2.0, 0.0), (-0.4, 1.5), (0.1, -1e-3)] {
+                let exact = run(&problem([d, 0.0, 0.0, 0.1], start, Method::Exact));
+                for method in METHODS_UNDER_TEST {
+                    let motion = run(&problem([d, 0.0, 0.0, 0.1], start, method));
+                    assert_eq!(motion.crossings.len(), exact.crossings.len(), "{method} D = {d}");
+                    for (one, other) in motion.crossings.iter().zip(&exact.crossings) {
+                        let scale = other.q.abs().max(1.0) / (1.0 - d.abs()).abs().clamp(1e-3, 1.0);
+                        assert!((one.q - other.q).abs() < 1e-9 * scale, "{method} D = {d}");
+                    }
+                }
+            }
         }
     }
 

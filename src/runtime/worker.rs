@@ -151,7 +151,7 @@ mod tests {
     /// A request told apart from others by its number.
     fn request(number: f64) -> Request {
         let parameters = Parameters { d: number, d2: 0.0, d3: 0.0, r: 0.1 };
-        Request::Cycles { parameters, tolerance: 1e-9 }
+        Request::Cycles { parameters }
     }
 
     fn number(request: &Request) -> f64 {

@@ -63,9 +63,7 @@ pub fn answer(request: &Request, limits: &Limits) -> Result<Answer, Reason> {
             let detail = Detail { samples_per_step: SAMPLES_PER_STEP, energy: true };
             Ok(Answer::Trajectory(trajectory(problem, detail, limits)))
         }
-        Request::Cycles { parameters, tolerance } => {
-            cycles(parameters, *tolerance, true, limits).map(Answer::Cycles)
-        }
+        Request::Cycles { parameters } => cycles(parameters, true, limits).map(Answer::Cycles),
         Request::Branch { parameters, parameter, range, tolerance } => {
             branch(parameters, *parameter, *range, BRANCH_POINTS, *tolerance, limits)
                 .map(Answer::Branch)

@@ -12,8 +12,6 @@ pub enum Request {
     Cycles {
         /// The parameters.
         parameters: Parameters,
-        /// Relative error wanted.
-        tolerance: f64,
     },
     /// The cycles along a parameter.
     Branch {

@@ -327,7 +327,7 @@ impl Session {
         let Problem { parameters, tolerance, .. } = self.problem;
         Some(match slot {
             Slot::Trajectory => Request::Trajectory(self.problem),
-            Slot::Cycles => Request::Cycles { parameters, tolerance },
+            Slot::Cycles => Request::Cycles { parameters },
             Slot::Branch => {
                 let mut others = parameters;
                 self.abscissa.set(&mut others, &mut { self.problem.initial }, 0.0);

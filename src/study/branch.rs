@@ -11,6 +11,7 @@ use super::closing::{Equation, first_side};
 use super::continuation::{Curve, CurvePoint, route_of};
 use super::cycle::{Cycle, closings};
 use super::escape::escape_point;
+use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::{Cost, Limits, Reason};
 use crate::oscillator::{Parameters, Side, Symbol};
 
@@ -90,6 +91,11 @@ pub fn branch(
         count: count.max(2),
         found: Branch { parameter, pieces: Vec::new(), special: Vec::new(), cost: Cost::default() },
     };
+    if parameter == Symbol::D && parameters.is_piecewise_linear() {
+        tracer.found.pieces.extend(linear_branch(parameters.r, from, to, tracer.count));
+        tracer.hopf(parameters.r, from, to);
+        return Ok(tracer.found);
+    }
     // The side of the first swing follows the sign of D2, so a curve in D2 is followed on each side of 0.
     if parameter == Symbol::D2 && from < 0.0 && to > 0.0 {
         tracer.trace(from, 0.0)?;
@@ -232,19 +238,23 @@ impl Tracer<'_> {
         point.closing.describe(&self.curve.parameters_at(point.p), self.curve.side)
     }
 
+    /// Notes the Hopf point: without friction the steady state changes its stability at `D = 0`.
+    fn hopf(&mut self, r: f64, from: f64, to: f64) {
+        if self.parameter == Symbol::D && r == 0.0 && (from..=to).contains(&0.0) {
+            let hopf = Special { kind: SpecialKind::Hopf, value: 0.0, q_max: Some(0.0) };
+            self.found.special.push(hopf);
+        }
+    }
+
     /// The special points that are not folds.
     fn special_points(&mut self, from: f64, to: f64) -> Result<(), Reason> {
         let parameters = self.curve.parameters_at(0.0);
-        if self.parameter == Symbol::D && (from..=to).contains(&0.0) {
-            if parameters.r == 0.0 {
-                let hopf = Special { kind: SpecialKind::Hopf, value: 0.0, q_max: Some(0.0) };
-                self.found.special.push(hopf);
-            } else {
-                for seed in self.seeds(0.0)? {
-                    let q_max = Some(self.describe(&seed).q_max);
-                    let kind = SpecialKind::ZeroCrossing;
-                    self.found.special.push(Special { kind, value: 0.0, q_max });
-                }
+        self.hopf(parameters.r, from, to);
+        if self.parameter == Symbol::D && parameters.r > 0.0 && (from..=to).contains(&0.0) {
+            for seed in self.seeds(0.0)? {
+                let q_max = Some(self.describe(&seed).q_max);
+                let kind = SpecialKind::ZeroCrossing;
+                self.found.special.push(Special { kind, value: 0.0, q_max });
             }
         }
         if self.parameter == Symbol::D
@@ -255,6 +265,27 @@ impl Tracer<'_> {
         }
         Ok(())
     }
+}
+
+/// The branch of the piecewise linear oscillator over D, from its closed form.
+///
+/// Its amplitude grows as `2 r/(pi abs(D))` towards `D = 0`; it is followed to a ten-thousandth of the
+/// range from there, with points evenly spaced in the logarithm of D.
+fn linear_branch(r: f64, from: f64, to: f64, count: usize) -> Option<Vec<BranchPoint>> {
+    const NEAREST: f64 = 1e-4;
+    let from = from.max((-1.0_f64).next_up());
+    let to = to.min(NEAREST * from);
+    if !(r > 0.0 && from < to) {
+        return None;
+    }
+    let point = |index: usize| {
+        #[expect(clippy::cast_precision_loss, reason = "counts of points are small")]
+        let fraction = index as f64 / (count - 1) as f64;
+        let d = if index == 0 { from } else { from * (to / from).powf(fraction) };
+        let cycle = LinearCycle::new(d, r).ok()?;
+        Some(BranchPoint { value: d, cycle: Cycle::from(&cycle) })
+    };
+    Some((0..count).filter_map(point).collect())
 }
 
 /// Whether a curve passes a point: between neighbours in p, and close in u.

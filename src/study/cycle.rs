@@ -11,7 +11,8 @@ use super::balance::weighed_residual;
 use super::closing::{Closing, Equation, Route};
 use super::half_map::{HalfMap, NoEnd};
 use super::search::{Bracket, Node, search};
-use crate::closed_form::harmonic::Harmonic;
+use crate::closed_form::harmonic::{Harmonic, amplitudes};
+use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::scaling::times_power;
 use crate::flow::step::Stepper;
 use crate::flow::{Cost, Limits, Reason};
@@ -78,6 +79,9 @@ pub struct Cycles {
 /// Tolerance of the integration steps of the search and the polish: rounding.
 const STEP: f64 = 1e-16;
 
+/// Points on each half of a cycle drawn from its closed form.
+const CURVE_POINTS: usize = 128;
+
 /// Slope of the residual below which it is weighed as energy.
 const FLAT: f64 = 0.3;
 
@@ -89,40 +93,70 @@ const ITERATIONS: usize = 200;
 
 /// Finds all limit cycles at these parameters; `curves` asks for the drawn curves too.
 ///
-/// `tolerance` is the relative error wanted of the clearance; `error` of each cycle is the one reached.
+/// The piecewise linear cycle comes from its closed form, all others from the search. Clearances are
+/// computed to rounding; `error` of each cycle says what that is worth near a fold.
 ///
 /// # Errors
 /// The [`Reason`] why the search could not be completed.
-pub fn cycles(
-    parameters: &Parameters,
-    tolerance: f64,
-    curves: bool,
-    limits: &Limits,
-) -> Result<Cycles, Reason> {
+pub fn cycles(parameters: &Parameters, curves: bool, limits: &Limits) -> Result<Cycles, Reason> {
     let mut equation = Equation::new(parameters, STEP);
-    let closings = closings(&mut equation, limits)?;
     let mut found = Cycles {
         parameters: *parameters,
         cycles: Vec::new(),
         curves: Vec::new(),
-        harmonic: Vec::new(),
+        harmonic: amplitudes(parameters),
         edge: Edge::None,
         edge_curve: Vec::new(),
         cost: Cost::default(),
     };
-    let _ = tolerance;
-    for closing in &closings {
+    if parameters.is_piecewise_linear() {
+        if let Ok(cycle) = LinearCycle::new(parameters.d, parameters.r) {
+            found.cycles.push(Cycle::from(&cycle));
+            if curves {
+                found.curves.push(cycle.curve(CURVE_POINTS));
+            }
+        }
+        found.close();
+        return Ok(found);
+    }
+    for closing in &closings(&mut equation, limits)? {
         found.cycles.push(closing.describe(parameters, equation.side));
         if curves {
             found.curves.push(curve(parameters, equation.side, closing, limits)?);
         }
     }
-    found.edge = edge(parameters, &found.cycles);
-    if found.edge == Edge::Cycle {
-        found.edge_curve = found.curves.first().cloned().unwrap_or_default();
-    }
     found.cost = equation.cost();
+    found.close();
     Ok(found)
+}
+
+impl Cycles {
+    /// Says what borders the basin, once all cycles are known.
+    fn close(&mut self) {
+        self.edge = edge(&self.parameters, &self.cycles);
+        if self.edge == Edge::Cycle {
+            self.edge_curve = self.curves.first().cloned().unwrap_or_default();
+        }
+    }
+}
+
+impl From<&LinearCycle> for Cycle {
+    /// The cycle of the piecewise linear oscillator, in closed form.
+    fn from(cycle: &LinearCycle) -> Self {
+        Cycle {
+            stable: false,
+            q_min: -cycle.q_max,
+            q_max: cycle.q_max,
+            v_min: -cycle.v_max,
+            v_max: cycle.v_max,
+            period: cycle.period,
+            multiplier: cycle.multiplier,
+            log_multiplier: cycle.log_multiplier,
+            clearance: cycle.clearance,
+            log_clearance: cycle.log_clearance,
+            error: 4.0 * f64::EPSILON,
+        }
+    }
 }
 
 /// What borders the basin: the innermost cycle, else a separatrix where motions can escape.

@@ -100,14 +100,22 @@ fn cubic(low: &Node, high: &Node, fraction: f64) -> f64 {
     ends + width * s * t * (t * low.slope - s * high.slope)
 }
 
-/// Fractions at which cubics are looked at between their ends.
-const FRACTIONS: [f64; 7] = [0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875];
-
+/// Whether the cubic through two nodes of one sign stays further than `error` from zero between them.
 fn stays_away(low: &Node, high: &Node, error: f64) -> bool {
     let sign = low.value().signum();
-    let nearest = FRACTIONS
-        .iter()
-        .map(|&fraction| sign * cubic(low, high, fraction))
+    let width = high.at - low.at;
+    let rise = high.value() - low.value();
+    // Slope of the cubic at fraction t, over the width: linear + 2 square t + 3 cube t^2.
+    let linear = width * low.slope;
+    let square = 3.0 * rise - width * (2.0 * low.slope + high.slope);
+    let cube = width * (low.slope + high.slope) - 2.0 * rise;
+    let root = (square * square - 3.0 * cube * linear).sqrt();
+    // Both roots without cancellation; those outside (0, 1), or not real, are no extrema here.
+    let larger = -(square + root.copysign(square));
+    let extrema = [larger / (3.0 * cube), linear / larger];
+    let inside = extrema.iter().filter(|&&t| t > 0.0 && t < 1.0);
+    let nearest = inside
+        .map(|&t| sign * cubic(low, high, t))
         .fold((sign * low.value()).min(sign * high.value()), f64::min);
     nearest > error
 }

@@ -22,7 +22,7 @@ fn a_key_recomputes_exactly_what_depends_on_it() {
         ("<down*4><right>", MOTION),                // v0
         ("<down*5><right>", MOTION),                // until
         ("m", MOTION),                              // the method integrates the motion
-        ("}", ALL),                                 // the tolerance is everyone's
+        ("}", &[Slot::Trajectory, Slot::Branch]),   // cycles are computed to rounding in any case
         ("[ ] x x <tab> <S-tab> ? <esc> g T", &[]), // looks and lists
         ("<tab>+-", &[]),                           // the phase plane is drawn from its answers
         ("<tab><tab>+", BRANCH),                    // the diagram computes what it shows
