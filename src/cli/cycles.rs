@@ -24,7 +24,7 @@ impl Cycles {
     pub fn run(&self) -> Result<(), Failure> {
         self.start.note_own_method();
         let problem = self.start.problem()?;
-        let find = || cycles(&problem.parameters, problem.tolerance, false, &Limits::PATIENT);
+        let find = || cycles(&problem.parameters, false, &Limits::PATIENT);
         let (found, seconds) = timed(self.output.repeat, find);
         let found =
             found.map_err(|reason| Failure::Unanswered(format!("the search gave up: {reason}")))?;
