@@ -74,7 +74,7 @@ pub fn explore(session: Session, environment: Environment, options: Options) -> 
 }
 
 /// Plays a keystroke file on a session without a terminal. [`headless::play`] says what comes back;
-/// [`super::picture::text`] turns its pictures into text.
+/// [`crate::export::screen::text`] turns its pictures into text.
 ///
 /// # Errors
 /// If the system gives no thread for the worker.

@@ -13,6 +13,7 @@ use super::panics::Notes;
 use super::picture;
 use super::pump::Machine;
 use super::worker::Worker;
+use crate::export;
 use crate::flow::{Limits, Reason};
 use crate::scene::{Answer, Request};
 use crate::session::replay::{Action, Player, Script, Unmet};
@@ -23,7 +24,7 @@ use crate::session::{Effect, Msg};
 pub struct Played<M> {
     /// The machine at the end.
     pub machine: M,
-    /// The last picture; [`picture::text`] has its characters.
+    /// The last picture; [`crate::export::screen::text`] has its characters.
     pub screen: Buffer,
     /// The pictures that the file names, in its order.
     pub kept: Vec<(String, Buffer)>,
@@ -65,7 +66,7 @@ pub fn play<M: Machine>(
             worker.submit(wanted.clone());
             asked.clone_from(&wanted);
         }
-        let screen = || picture::text(&picture::of(&machine, size));
+        let screen = || export::screen::text(&picture::of(&machine, size));
         match player.next(wanted.is_empty(), screen) {
             Ok(Action::Give(msg)) => given = Some(msg),
             Ok(Action::Keep(name)) => kept.push((name, picture::of(&machine, size))),

@@ -18,6 +18,7 @@ use super::effects::Files;
 use super::event::Event;
 use super::picture;
 use super::worker::Worker;
+use crate::export;
 use crate::scene::Request;
 use crate::session::replay::{Action, Player, Recorder};
 use crate::session::{Code, Effect, Key, Msg, Notice};
@@ -280,7 +281,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
         let Some(player) = &mut self.player else { return Ok(None) };
         let (machine, size) = (&self.machine, self.screen.size());
         let idle = machine.wants().is_empty();
-        let screen = || picture::text(&picture::of(machine, size));
+        let screen = || export::screen::text(&picture::of(machine, size));
         loop {
             return match player.next(idle, screen) {
                 Ok(Action::Give(Msg::Resize { .. }) | Action::Keep(_)) => continue,
@@ -447,7 +448,7 @@ mod tests {
         events.send(key("q")).unwrap();
         let (stop, pump) = running.join().unwrap();
         assert_eq!(stop, Stop::Quit);
-        picture::text(&picture::of(&pump.machine, size()))
+        export::screen::text(&picture::of(&pump.machine, size()))
     }
 
     #[test]
