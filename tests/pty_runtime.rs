@@ -29,7 +29,7 @@ struct Machinery {
 /// The request that stands for a number.
 fn request(number: u32) -> Request {
     let parameters = Parameters { d: f64::from(number), d2: 0.0, d3: 0.0, r: 0.0 };
-    Request::Cycles { parameters, tolerance: 1e-9 }
+    Request::Cycles { parameters }
 }
 
 /// The worker: panics at 3.
