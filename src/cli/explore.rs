@@ -1,10 +1,14 @@
 //! `hopfscope [SCENE]`: the explorer in this terminal.
 
+use std::process::ExitCode;
+
 use clap::Args;
 
 use super::failure::Failure;
 use super::start::Start;
-use crate::terminal::capabilities::Environment;
+use crate::runtime::{Options, explore};
+use crate::session::{Session, Size};
+use crate::terminal::Environment;
 
 /// Opens the explorer.
 #[derive(Debug, Args)]
@@ -17,12 +21,16 @@ pub struct Explore {
 }
 
 impl Explore {
-    /// Runs the explorer until it is left.
-    pub fn run(&self) -> Result<(), Failure> {
+    /// Runs the explorer until it is left, or a signal ends it.
+    pub fn run(&self) -> Result<ExitCode, Failure> {
         let name = self.named.as_deref().unwrap_or(&self.start.scene);
-        let _scene = self.start.scene_named(name).map_err(|missing| or_command(name, missing))?;
-        Environment::of_process().admit().map_err(|refusal| Failure::Usage(refusal.to_string()))?;
-        Err(Failure::Unanswered("the explorer is not in this build".to_owned()))
+        let scene = self.start.scene_named(name).map_err(|missing| or_command(name, missing))?;
+        let environment = Environment::of_process();
+        environment.admit().map_err(|refusal| Failure::Usage(refusal.to_string()))?;
+        let session = Session::new(scene, Size { width: 80, height: 24 });
+        let ended = explore(session, environment, Options::default())
+            .map_err(|error| Failure::Unanswered(format!("terminal: {error}")))?;
+        Ok(ended.code)
     }
 }
 

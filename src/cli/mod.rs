@@ -67,14 +67,11 @@ impl Command {
 #[must_use]
 pub fn main() -> ExitCode {
     let result = match Cli::try_parse() {
-        Ok(Cli { command: Some(command), .. }) => command.run(),
+        Ok(Cli { command: Some(command), .. }) => command.run().map(|()| ExitCode::SUCCESS),
         Ok(Cli { command: None, explore }) => explore.run(),
-        Err(error) => Failure::from_parser(&error).map_or(Ok(()), Err),
+        Err(error) => Failure::from_parser(&error).map_or(Ok(ExitCode::SUCCESS), Err),
     };
-    match result {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => failure.report(),
-    }
+    result.unwrap_or_else(|failure| failure.report())
 }
 
 /// The names of the commands.
