@@ -3,7 +3,7 @@
 //! A [`Keymap`] is built from the default keys of [`COMMANDS`]. Several contexts hold at once (a plot,
 //! the phase plane, everywhere); no key may have two meanings in contexts that can hold together.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::command::{COMMANDS, Command};
 use super::key::Key;
@@ -111,9 +111,13 @@ impl Session {
     #[must_use]
     pub fn hints(&self) -> Vec<Hint> {
         let mut hints: Vec<Hint> = Vec::new();
+        let mut shown = BTreeSet::new();
         for context in self.contexts() {
             for command in COMMANDS.iter().filter(|command| !command.hint.is_empty()) {
                 let Some(key) = self.keymap.keys_in(*context, command).next() else { continue };
+                if !shown.insert(command.name) {
+                    continue;
+                }
                 match hints.iter_mut().find(|hint| hint.text == command.hint) {
                     Some(hint) => hint.keys.push(key),
                     None => hints.push(Hint { keys: vec![key], text: command.hint }),

@@ -10,9 +10,9 @@ use ratatui::layout::Rect;
 use super::dots::Dash;
 use super::look::{Look, Role};
 use super::number::significant;
-use super::pane::Heading;
+use super::pane::{self, Heading};
 use super::phase_plane::stability;
-use super::plot::{Names, Plot};
+use super::plot::{Names, Plot, reading};
 use crate::closed_form::harmonic::{
     amplitudes, damping_at, large_asymptote, mean, small_asymptote,
 };
@@ -27,12 +27,13 @@ const WIDE: u16 = 44;
 /// Draws the pane.
 pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let abscissa = session.abscissa.spec().name;
-    let names = Names { title: "cycles", x: abscissa, y: "q_max" };
+    let names = Names { title: pane::name(Pane::Diagram), x: abscissa, y: "q_max" };
     let mut heading = Heading::of(session, Pane::Diagram);
-    heading.reading = session.diagram.cursor.map(|Point { x, y }| {
-        format!("{abscissa} {} q_max {}", significant(x, 4), significant(y, 4))
-    });
     let window = session.diagram.window;
+    heading.reading = session.diagram.cursor.map(|cursor| {
+        let (value, amplitude) = reading(cursor, window);
+        format!("{abscissa} {value} q_max {amplitude}")
+    });
     let mut plot = Plot::new(area, window, names, &heading, look, buffer);
     let shows = |layer| session.layers.contains(&layer);
     let current = session.value(session.abscissa);

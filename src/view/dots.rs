@@ -1,8 +1,8 @@
 //! A raster finer than the cells of the terminal: strokes with dashes, sparse textures and symbols.
 //!
 //! Each cell shows one thing in one colour, which keeps the stream of bytes short: a symbol hides
-//! strokes, strokes hide texture, and where strokes share a cell the dots of both are shown in the
-//! colour of the later one. Coordinates count dots from the top left corner; lines are clipped in
+//! curves, curves (solid or dashed, also in the gaps of their dashes) hide guides (dotted), and guides
+//! hide texture. Where curves share a cell the dots of both are shown in the colour of the later one. Coordinates count dots from the top left corner; lines are clipped in
 //! floating point before they become dots, and what is not finite is not drawn.
 
 #![expect(
@@ -50,6 +50,7 @@ enum Content {
     #[default]
     Empty,
     Texture(char, Role),
+    Guide(u8, Role),
     Ink(u8, Role),
     Symbol(char, Role),
 }
@@ -140,9 +141,7 @@ impl Dots {
 
     fn commit(&mut self, stroke: &mut Stroke, pen: Pen, dot: (i32, i32)) {
         let (on, period) = self.glyphs.dash(pen.dash);
-        if stroke.length % period < on {
-            self.ink(dot, pen.role);
-        }
+        self.ink(dot, pen, stroke.length % period < on);
         stroke.length += 1;
         stroke.last = Some(dot);
     }
@@ -154,19 +153,25 @@ impl Dots {
         stroke.last = None;
     }
 
-    fn ink(&mut self, (x, y): (i32, i32), role: Role) {
+    /// Draws a dot, or the gap of a dash.
+    fn ink(&mut self, (x, y): (i32, i32), Pen { role, dash }: Pen, on: bool) {
         let (across, down) = self.glyphs.dots();
         let (across, down) = (i32::from(across), i32::from(down));
         let bit = 1_u8 << (y.rem_euclid(down) * across + x.rem_euclid(across));
+        let bit = if on { bit } else { 0 };
         let cell = (x.div_euclid(across), y.div_euclid(down));
         let (Ok(column), Ok(row)) = (u16::try_from(cell.0), u16::try_from(cell.1)) else { return };
-        if let Some(content) = self.at(column, row) {
-            *content = match *content {
-                Content::Ink(bits, _) => Content::Ink(bits | bit, role),
-                Content::Symbol(..) => return,
-                Content::Empty | Content::Texture(..) => Content::Ink(bit, role),
-            };
-        }
+        let Some(content) = self.at(column, row) else { return };
+        let guide = matches!(dash, Dash::Dotted | Dash::Sparse);
+        *content = match *content {
+            Content::Symbol(..) => return,
+            Content::Ink(..) if guide => return,
+            Content::Ink(bits, _) => Content::Ink(bits | bit, role),
+            Content::Guide(bits, _) if guide && on => Content::Guide(bits | bit, role),
+            Content::Empty | Content::Texture(..) if guide && on => Content::Guide(bit, role),
+            _ if guide => return,
+            _ => Content::Ink(bit, role),
+        };
     }
 
     /// Puts texture into a cell, if nothing else is there.
@@ -183,7 +188,7 @@ impl Dots {
         }
     }
 
-    /// Whether a cell shows neither stroke nor symbol.
+    /// Whether a cell shows nothing but texture.
     #[must_use]
     pub fn is_free(&self, column: u16, row: u16) -> bool {
         let index = usize::from(row) * usize::from(self.area.width) + usize::from(column);
@@ -202,7 +207,10 @@ impl Dots {
             let (symbol, role) = match *content {
                 Content::Empty => continue,
                 Content::Texture(symbol, role) | Content::Symbol(symbol, role) => (symbol, role),
-                Content::Ink(bits, role) => (self.glyphs.draw(bits, look.letter(role)), role),
+                Content::Ink(0, _) => continue,
+                Content::Guide(bits, role) | Content::Ink(bits, role) => {
+                    (self.glyphs.draw(bits, look.letter(role)), role)
+                }
             };
             if let Some(cell) = buffer.cell_mut(position) {
                 cell.set_char(symbol).set_style(look.style(role));
@@ -236,7 +244,7 @@ impl Glyphs {
         match dash {
             Dash::Solid => (1, 1),
             Dash::Dashed if coarse => (2, 3),
-            Dash::Dashed => (5, 8),
+            Dash::Dashed => (4, 6),
             Dash::Dotted if coarse => (1, 2),
             Dash::Dotted => (1, 2),
             Dash::Sparse if coarse => (1, 3),
@@ -326,7 +334,7 @@ mod tests {
             painted(&dots).remove(0)
         };
         assert_eq!(drawn(Dash::Solid), "⠉⠉⠉⠉⠉⠉⠉⠉");
-        assert_eq!(drawn(Dash::Dashed), "⠉⠉⠁ ⠉⠉⠁ ");
+        assert_eq!(drawn(Dash::Dashed), "⠉⠉ ⠉⠉ ⠉⠉");
         assert_eq!(drawn(Dash::Dotted), "⠁⠁⠁⠁⠁⠁⠁⠁");
         assert_eq!(drawn(Dash::Sparse), "⠁ ⠁ ⠁ ⠁ ");
     }
@@ -354,6 +362,17 @@ mod tests {
         dots.texture(1, 0, '.', Role::Basin);
         assert_eq!(painted(&dots), [".*F"]);
         assert!(dots.is_free(0, 0) && !dots.is_free(1, 0) && !dots.is_free(3, 0));
+    }
+
+    #[test]
+    fn curves_hide_guides_even_in_the_gaps_of_their_dashes() {
+        let mut dots = Dots::new(Rect::new(0, 0, 6, 1), Glyphs::Ascii);
+        let line = [(0.0, 0.0), (4.9, 0.0)];
+        dots.stroke([(0.0, 0.0), (5.9, 0.0)], Pen { role: Role::Harmonic, dash: Dash::Dotted });
+        assert_eq!(painted(&dots), ["~ ~ ~ "]);
+        dots.stroke(line, Pen { role: Role::Unstable, dash: Dash::Dashed });
+        dots.stroke(line, Pen { role: Role::Axis, dash: Dash::Sparse });
+        assert_eq!(painted(&dots), ["oo oo "]);
     }
 
     #[test]

@@ -6,7 +6,7 @@ use ratatui::layout::Rect;
 
 use super::layout::{Layout, SMALLEST, layout};
 use super::look::{Look, Role};
-use super::{diagram, parameters, phase_plane, status};
+use super::{diagram, footer, lists, parameters, phase_plane, status};
 use crate::session::Session;
 use crate::session::settings::Glyphs;
 
@@ -20,7 +20,10 @@ pub fn draw(frame: &mut Frame, session: &Session, look: &Look) {
 pub fn render(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     match layout(screen, session) {
         None => card(screen, look, buffer),
-        Some(parts) => panes(&parts, session, look, buffer),
+        Some(parts) => {
+            panes(&parts, session, look, buffer);
+            lists::draw(screen, session, look, buffer);
+        }
     }
     if look.glyphs == Glyphs::Ascii {
         only_letters(buffer);
@@ -37,6 +40,7 @@ fn panes(parts: &Layout, session: &Session, look: &Look, buffer: &mut Buffer) {
         diagram::draw(parts.diagram, session, look, buffer);
     }
     status::draw(parts.status, session, look, buffer);
+    footer::draw(parts.footer, session, look, buffer);
 }
 
 /// What a screen too small for everything else shows.

@@ -17,7 +17,7 @@ const DESIGNED: (u16, u16) = (80, 20);
 
 /// Columns of the parameter pane, by the columns of the screen: with names and values, with all
 /// steps, with meanings.
-const COLUMNS: [(u16, u16); 3] = [(150, 52), (110, 30), (0, 22)];
+const COLUMNS: [(u16, u16); 3] = [(150, 52), (110, 32), (0, 23)];
 
 /// The parts of the screen; an empty area is not shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -47,7 +47,7 @@ pub fn layout(screen: Rect, session: &Session) -> Option<Layout> {
     let status = if height < DESIGNED.1 { 1 } else { 2 };
     let body = band(1, height - 2 - status);
     let column =
-        COLUMNS.iter().find(|(least, _)| width >= *least).map_or(22, |(_, columns)| *columns);
+        COLUMNS.iter().find(|(least, _)| width >= *least).map_or(23, |(_, columns)| *columns);
     let rest = Rect { x: body.x + column + 1, width: width - column - 1, ..body };
     let both = width >= DESIGNED.0 && session.panes().len() == 3;
     let (phase, diagram) = match (both, session.plot) {
@@ -65,18 +65,29 @@ pub fn layout(screen: Rect, session: &Session) -> Option<Layout> {
     })
 }
 
-/// Two plots side by side or one above the other, whichever leaves them nearer to squares.
+/// The phase plane beside the diagram or above it, whichever leaves both nearer to squares.
 fn halves(area: Rect) -> (Rect, Rect) {
-    let (half_width, half_height) = (area.width / 2, area.height / 2);
     // A cell is about twice as high as wide.
-    let beside = half_width.min(2 * area.height);
-    let above = area.width.min(2 * half_height);
+    let beside = (area.width / 2).min(2 * area.height);
+    let above = area.width.min(2 * (area.height / 2));
     if beside >= above {
-        let first = Rect { width: half_width, ..area };
-        let rest = area.width - half_width - 1;
-        (first, Rect { x: area.x + half_width + 1, width: rest, ..area })
+        let width = phase_columns(area);
+        let first = Rect { width, ..area };
+        (first, Rect { x: area.x + width + 1, width: area.width - width - 1, ..area })
     } else {
-        let first = Rect { height: half_height, ..area };
-        (first, Rect { y: area.y + half_height, height: area.height - half_height, ..area })
+        let height = area.height / 2;
+        let first = Rect { height, ..area };
+        (first, Rect { y: area.y + height, height: area.height - height, ..area })
     }
+}
+
+/// Columns of the phase plane beside the diagram: a square, so that circles look round, if that leaves
+/// the diagram its share; never less than half.
+fn phase_columns(area: Rect) -> u16 {
+    /// Columns that the diagram needs to be legible.
+    const LEGIBLE: u16 = 36;
+    let half = area.width / 2;
+    let square = 2 * area.height;
+    let most = (area.width / 5 * 3).min(area.width.saturating_sub(LEGIBLE + 1));
+    square.min(most).max(half)
 }

@@ -5,8 +5,12 @@
 
 pub mod diagram;
 pub mod dots;
+pub mod footer;
 pub mod frame;
+pub mod keys;
 pub mod layout;
+pub mod legend;
+pub mod lists;
 pub mod look;
 pub mod number;
 pub mod pane;

@@ -26,6 +26,19 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
+/// Writes `value` with the digits that matter where numbers `resolution` apart are told apart.
+#[must_use]
+pub fn resolved(value: f64, resolution: f64) -> String {
+    let ratio = (value.abs() / resolution).log10();
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "the number of digits of a double"
+    )]
+    let digits = (ratio.ceil() + 1.0).clamp(1.0, 17.0) as usize;
+    if ratio < 0.0 { "0".into() } else { significant(value, digits) }
+}
+
 /// Writes `value` so that it can be typed in again and means the same number, if `width` columns
 /// suffice; else rounds it to what fits.
 #[must_use]
@@ -98,6 +111,19 @@ mod tests {
         ];
         for (value, digits, text) in cases {
             assert_eq!(significant(value, digits), text, "{value} to {digits}");
+        }
+    }
+
+    #[test]
+    fn digits_follow_the_resolution() {
+        let cases = [
+            (1.234_56, 0.016, "1.23"),
+            (0.051_23, 0.016, "0.05"),
+            (0.001, 0.016, "0"),
+            (0.109_643_712, 1e-8, "0.10964371"),
+        ];
+        for (value, resolution, text) in cases {
+            assert_eq!(resolved(value, resolution), text);
         }
     }
 

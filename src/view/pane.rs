@@ -9,6 +9,16 @@ use super::look::{Look, Role};
 use crate::scene::{Pane, Slot};
 use crate::session::Session;
 
+/// What a pane is called.
+#[must_use]
+pub fn name(pane: Pane) -> &'static str {
+    match pane {
+        Pane::Parameters => "parameters",
+        Pane::Phase => "phase plane",
+        Pane::Diagram => "bifurcation",
+    }
+}
+
 /// What stands in a title line besides the title.
 #[derive(Clone, Debug, Default)]
 pub struct Heading {
@@ -78,7 +88,12 @@ pub fn title(
     if room > names.len() + 2 {
         left.push(Span::styled(format!("  {names}"), look.style(Role::Quiet)));
     }
-    line(area, 0, left, right, buffer);
+    // What the cursor reads matters more than the end of the title.
+    let taken = width(&right).min(usize::from(area.width));
+    let taken = u16::try_from(taken).unwrap_or(area.width);
+    let left_part = Rect { width: area.width - taken, ..area };
+    line(left_part, 0, left, "", buffer);
+    line(Rect { x: area.right() - taken, width: taken, ..area }, 0, "", right, buffer);
 }
 
 /// Writes a row of `area`: `left` from its left end and, where it fits, `right` at its right end.

@@ -2,11 +2,14 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::text::Span;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Paragraph, Widget, Wrap};
 
+use super::legend;
 use super::look::{Look, Role};
 use super::number::{exact, significant};
 use super::pane::{self, Heading};
+use crate::flow::Problem;
 use crate::oscillator::Symbol;
 use crate::scene::Pane;
 use crate::session::{Row, Session};
@@ -16,12 +19,12 @@ use crate::study::{Cycle, Edge};
 const VALUES: usize = 16;
 
 /// Columns of a step.
-const STEP: usize = 6;
+const STEP: usize = 7;
 
 /// Draws the pane.
 pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let heading = Heading::of(session, Pane::Parameters);
-    pane::title(area, "parameters", "", &heading, look, buffer);
+    pane::title(area, pane::name(Pane::Parameters), "", &heading, look, buffer);
     let wide = usize::from(area.width) > VALUES + STEP;
     let mut y = 1;
     for row in session.rows() {
@@ -46,7 +49,36 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         height: area.height.saturating_sub(y + 1),
         ..area
     };
-    cycles(below, session, look, buffer);
+    let rows = cycles(below, session, look, buffer);
+    if wide {
+        let text = Rect { y: below.y + rows, height: below.height.saturating_sub(rows), ..below };
+        guide(text, session, look, buffer);
+    }
+}
+
+/// What to look at in this scene and what to press, and below it what the lines mean.
+fn guide(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
+    let inner = Rect { x: area.x + 1, width: area.width.saturating_sub(2), ..area };
+    let style = look.style(Role::Quiet);
+    let lines = vec![
+        Line::styled("look", look.style(Role::Title)),
+        Line::styled(session.scene.look.clone(), style),
+        Line::default(),
+        Line::styled("press", look.style(Role::Title)),
+        Line::styled(session.scene.press.clone(), style),
+    ];
+    Paragraph::new(lines).wrap(Wrap { trim: true }).render(inner, buffer);
+    // Broken lines are a few letters shorter than the pane is wide; two headings, a blank, a gap.
+    let rows = |text: &str| text.len().div_ceil(usize::from(inner.width).saturating_sub(6).max(1));
+    let taken = rows(&session.scene.look) + rows(&session.scene.press) + 5;
+    let below = area.height.saturating_sub(u16::try_from(taken).unwrap_or(u16::MAX));
+    let above_status = below.saturating_sub(1);
+    legend::draw(
+        Rect { y: area.bottom() - below, height: above_status, ..area },
+        session,
+        look,
+        buffer,
+    );
 }
 
 fn row_line(
@@ -60,10 +92,16 @@ fn row_line(
     let pointer = if selected { look.symbols().pointer } else { " " };
     let role = if selected { Role::Selected } else { Role::Text };
     let name = row.name();
-    let value = value(session, row, VALUES - name.len() - 2);
+    let room = VALUES - name.len() - 2;
+    let value = value(&session.problem, row, room);
+    let changed = value != self::value(&session.scene.problem, row, room);
     let gap = VALUES.saturating_sub(name.len() + value.len() + 1);
-    let mut line =
-        vec![Span::styled(format!("{pointer}{name}{:gap$}{value}", ""), look.style(role))];
+    let style = look.style(role);
+    let value_style = if changed { style.patch(look.style(Role::Changed)) } else { style };
+    let mut line = vec![
+        Span::styled(format!("{pointer}{name}{:gap$}", ""), style),
+        Span::styled(value, value_style),
+    ];
     let step = step.unwrap_or_default();
     let meaning = meaning(row);
     if usize::from(width) >= VALUES + STEP + 3 + meaning.len() {
@@ -74,12 +112,12 @@ fn row_line(
     line
 }
 
-fn value(session: &Session, row: Row, width: usize) -> String {
+fn value(problem: &Problem, row: Row, width: usize) -> String {
     match row {
-        Row::Parameter(symbol) => exact(session.value(symbol), width),
-        Row::Until => exact(session.problem.until, width),
-        Row::Method => session.problem.method.to_string(),
-        Row::Tolerance => exact(session.problem.tolerance, width),
+        Row::Parameter(symbol) => exact(symbol.get(&problem.parameters, &problem.initial), width),
+        Row::Until => exact(problem.until, width),
+        Row::Method => problem.method.to_string(),
+        Row::Tolerance => exact(problem.tolerance, width),
     }
 }
 
@@ -93,7 +131,7 @@ fn meaning(row: Row) -> &'static str {
     match row {
         Row::Parameter(symbol) => symbol.spec().meaning,
         Row::Until => "end time",
-        Row::Method => "how half swings are integrated",
+        Row::Method => "integrator of half swings",
         Row::Tolerance => "relative error of a step",
     }
 }
@@ -109,17 +147,48 @@ fn folded(session: &Session) -> Option<String> {
     (!hidden.is_empty()).then(|| format!("{} = 0", hidden.join(" = ")))
 }
 
-/// What the cycles are, in numbers, and what borders the basin.
-fn cycles(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
-    let Some(found) = session.cycles() else { return };
-    let heading = Heading { mark: None, ..Heading::default() };
-    pane::title(area, "cycles", "q_max  period", &heading, look, buffer);
+/// A column of the table of cycles: heading, width, and what stands in it.
+type Column = (&'static str, usize, fn(&Cycle) -> String);
+
+/// The columns, of which as many are shown as fit.
+const CYCLE_COLUMNS: [Column; 4] = [
+    ("q_max", 10, |cycle| significant(cycle.q_max, 5)),
+    ("period", 8, |cycle| significant(cycle.period, 4)),
+    ("v_max", 9, |cycle| significant(cycle.v_max, 5)),
+    ("multiplier", 12, |cycle| match cycle.multiplier {
+        Some(multiplier) => significant(multiplier, 4),
+        None => format!("e^{}", significant(cycle.log_multiplier, 4)),
+    }),
+];
+
+/// What the cycles are, in numbers, and what borders the basin; returns the rows that it took.
+fn cycles(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) -> u16 {
+    /// Columns of the symbol before the numbers.
+    const SYMBOL: usize = 3;
+    let Some(found) = session.cycles() else { return 0 };
+    let mut used = SYMBOL;
+    let fits = |(_, width, _): &&Column| {
+        used += width;
+        used <= usize::from(area.width)
+    };
+    let columns: Vec<&Column> = CYCLE_COLUMNS.iter().take_while(fits).collect();
+    let cells = |text: &dyn Fn(&Column) -> String| -> String {
+        columns.iter().map(|column| format!("{:>1$}", text(column), column.1)).collect()
+    };
+    let title = " cycles";
+    let headings = cells(&|(heading, ..)| (*heading).to_owned());
+    let headings = headings.split_at(title.len() - SYMBOL).1.to_owned();
+    let heading = vec![
+        Span::styled(title, look.style(Role::Title)),
+        Span::styled(headings, look.style(Role::Quiet)),
+    ];
+    pane::line(area, 0, heading, "", buffer);
     let mut y = 1;
     let [stable, unstable] = look.symbols().points;
-    for Cycle { stable: is_stable, q_max, period, .. } in &found.cycles {
+    for cycle in &found.cycles {
         let (symbol, role) =
-            if *is_stable { (stable, Role::Stable) } else { (unstable, Role::Unstable) };
-        let numbers = format!("{:>9}{:>8}", significant(*q_max, 5), significant(*period, 4));
+            if cycle.stable { (stable, Role::Stable) } else { (unstable, Role::Unstable) };
+        let numbers = cells(&|(.., number)| number(cycle));
         let line = vec![Span::styled(format!(" {symbol} "), look.style(role)), Span::raw(numbers)];
         pane::line(area, y, line, "", buffer);
         y += 1;
@@ -134,4 +203,5 @@ fn cycles(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         Edge::Separatrix => "edge: separatrix",
     };
     pane::line(area, y, Span::styled(format!(" {edge}"), look.style(Role::Quiet)), "", buffer);
+    y + 2
 }

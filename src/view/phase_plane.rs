@@ -9,9 +9,8 @@ use ratatui::layout::Rect;
 
 use super::dots::Dash;
 use super::look::{Look, Role};
-use super::number::significant;
-use super::pane::Heading;
-use super::plot::{Names, Plot};
+use super::pane::{self, Heading};
+use super::plot::{Names, Plot, reading};
 use crate::closed_form::lyapunov;
 use crate::flow::Outcome;
 use crate::oscillator::{HalfPlane, Side, State};
@@ -20,12 +19,12 @@ use crate::session::Session;
 
 /// Draws the pane.
 pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
-    let names = Names { title: "phase plane", x: "q", y: "v" };
+    let names = Names { title: pane::name(Pane::Phase), x: "q", y: "v" };
     let mut heading = Heading::of(session, Pane::Phase);
-    heading.reading = session
-        .phase
-        .cursor
-        .map(|Point { x, y }| format!("q {} v {}", significant(x, 4), significant(y, 4)));
+    heading.reading = session.phase.cursor.map(|cursor| {
+        let (q, v) = reading(cursor, session.phase.window);
+        format!("q {q} v {v}")
+    });
     let mut plot = Plot::new(area, session.phase.window, names, &heading, look, buffer);
     let shows = |layer| session.layers.contains(&layer);
 

@@ -15,6 +15,7 @@ use ratatui::layout::Rect;
 
 use super::dots::{Dash, Dots, Pen};
 use super::look::{Look, Role};
+use super::number::resolved;
 use super::pane;
 use super::ticks::{Tick, Ticks};
 use crate::scene::{Point, Window};
@@ -35,6 +36,15 @@ pub struct Names<'a> {
     /// Its vertical axis.
     pub y: &'a str,
 }
+
+/// The coordinates of a point, to the digits that can be told apart in a window.
+#[must_use]
+pub fn reading(point: Point, window: Window) -> (String, String) {
+    (resolved(point.x, window.x.width() / CELLS), resolved(point.y, window.y.width() / CELLS))
+}
+
+/// Cells of a large plot: what a cursor can tell apart.
+const CELLS: f64 = 200.0;
 
 /// A plot being drawn.
 #[derive(Debug)]

@@ -4,6 +4,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::Span;
 
+use super::keys;
 use super::look::{Look, Role};
 use super::number::{count, duration, significant};
 use super::pane;
@@ -22,16 +23,31 @@ pub fn title(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
 pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let (text, role) = outcome(session);
     let busy = if session.is_busy() { "computing " } else { "" };
-    let left = Span::styled(format!(" {text}"), look.style(role));
+    let left = Span::styled(format!(" {}{text}", symbol(session, look)), look.style(role));
     pane::line(area, 0, left, Span::styled(busy, look.style(Role::Warning)), buffer);
 
-    let quiet = look.style(Role::Quiet);
-    let dot = look.symbols().dot;
-    let spent = session.answers.get(&Slot::Trajectory).map_or(0.0, |answered| answered.seconds);
-    let work = session.trajectory().map(|found| work(found, spent).join(&format!(" {dot} ")));
-    let left = Span::styled(format!(" {}", work.unwrap_or_default()), quiet);
-    pane::line(area, 1, left, Span::styled(format!("{} ", price(session)), quiet), buffer);
+    // The words that fit: in full, or shortened.
+    let quiet = |text| Span::styled(text, look.style(Role::Quiet));
+    let line = |words| {
+        (format!(" {}", work(session, look, words)), format!("{} ", price(session, look, words)))
+    };
+    let fits = |(left, right): &(String, String)| {
+        left.chars().count() + right.chars().count() <= usize::from(area.width)
+    };
+    let (left, right) = Some(line(&LONG)).filter(fits).unwrap_or_else(|| line(&SHORT));
+    pane::line(area, 1, quiet(left), quiet(right), buffer);
 }
+
+/// The words of the second line.
+struct Words {
+    evaluations: &'static str,
+    error: &'static str,
+    recomputed: &'static str,
+}
+
+const LONG: Words =
+    Words { evaluations: " evaluations", error: "energy error", recomputed: " recomputed" };
+const SHORT: Words = Words { evaluations: " ev", error: "error", recomputed: "" };
 
 /// What became of the motion, in a sentence.
 fn outcome(session: &Session) -> (String, Role) {
@@ -44,6 +60,16 @@ fn outcome(session: &Session) -> (String, Role) {
     match session.trajectory() {
         None => ("computing the motion".into(), Role::Quiet),
         Some(found) => (sentence(found), Role::Text),
+    }
+}
+
+/// The mark at the end of the motion in the phase plane, so that the eye connects the two.
+fn symbol(session: &Session, look: &Look) -> String {
+    let symbols = look.symbols();
+    match session.trajectory().map(|found| found.outcome) {
+        Some(Outcome::Captured { .. }) => format!("{} ", symbols.rest),
+        Some(Outcome::Moving { .. }) => format!("{} ", symbols.head),
+        _ => String::new(),
     }
 }
 
@@ -63,10 +89,10 @@ pub fn sentence(motion: &Trajectory) -> String {
             format!("captured at q = {} after {swings}, tau = {}", three(q), three(tau))
         }
         Outcome::Moving { tau, q, v } => format!(
-            "still moving after {swings}: q = {}, v = {} at tau = {}",
+            "moving at tau = {} after {swings}: q = {}, v = {}",
+            three(tau),
             three(q),
-            three(v),
-            three(tau)
+            three(v)
         ),
         Outcome::Escaped { tau } => {
             format!("escapes at tau = {} after {swings}", significant(tau, 4))
@@ -77,23 +103,25 @@ pub fn sentence(motion: &Trajectory) -> String {
     }
 }
 
-/// How a motion was computed, what it cost, and its measured error.
-fn work(motion: &Trajectory, seconds: f64) -> Vec<String> {
+/// How the motion was computed, what it cost, and its measured error.
+fn work(session: &Session, look: &Look, words: &Words) -> String {
+    let Some(motion) = session.trajectory() else { return String::new() };
+    let seconds = session.answers.get(&Slot::Trajectory).map_or(0.0, |answered| answered.seconds);
     let mut parts = vec![
-        format!("{} {}", motion.method, significant(motion.problem.tolerance, 2)),
-        format!("{} evaluations", count(motion.cost.evaluations)),
+        motion.method.to_string(),
+        format!("{}{}", count(motion.cost.evaluations), words.evaluations),
         duration(seconds),
     ];
     if let Some(ledger) = motion.ledger {
         let largest = ledger.start.max(ledger.end);
         let error = if largest > 0.0 { (ledger.residual / largest).abs() } else { 0.0 };
-        parts.push(format!("energy error {}", significant(error, 1)));
+        parts.push(format!("{} {}", words.error, significant(error, 1)));
     }
-    parts
+    parts.join(&format!(" {} ", look.symbols().dot))
 }
 
 /// What the last key recomputed, and what that cost.
-fn price(session: &Session) -> String {
+fn price(session: &Session, look: &Look, words: &Words) -> String {
     let price = &session.price;
     if price.recomputed.is_empty() {
         return String::new();
@@ -104,5 +132,8 @@ fn price(session: &Session) -> String {
         Slot::Branch => "branch",
     };
     let names: Vec<&str> = price.recomputed.iter().map(|part| name(part.slot)).collect();
-    format!("{}: {}, {}", names.join("+"), count(price.evaluations()), duration(price.seconds()))
+    let key = price.key.map_or_else(|| "opened".into(), |key| keys::name(key, look));
+    let (recomputed, evaluations) = (words.recomputed, count(price.evaluations()));
+    let names = names.join("+");
+    format!("{key}:{recomputed} {names} {evaluations} ev {}", duration(price.seconds()))
 }

@@ -1,0 +1,62 @@
+//! How keys are named on the screen: arrows as arrows, other keys by name, without brackets.
+
+use super::look::Look;
+use crate::session::key::{Code, Key};
+use crate::session::settings::Glyphs;
+
+/// The name of a key on the screen.
+#[must_use]
+pub fn name(key: Key, look: &Look) -> String {
+    let arrow = match key.code {
+        Code::Left => Some('←'),
+        Code::Right => Some('→'),
+        Code::Up => Some('↑'),
+        Code::Down => Some('↓'),
+        _ => None,
+    };
+    if let (Some(arrow), false) = (arrow, look.glyphs == Glyphs::Ascii) {
+        let modifier = [(key.control, "C-"), (key.alt, "A-"), (key.shift, "S-")];
+        let held: String =
+            modifier.into_iter().filter_map(|(on, text)| on.then_some(text)).collect();
+        return format!("{held}{arrow}");
+    }
+    if let Some(typed) = key.typed().filter(|typed| *typed != ' ') {
+        return typed.to_string();
+    }
+    let written = key.to_string();
+    written.trim_start_matches('<').trim_end_matches('>').to_owned()
+}
+
+/// Several keys, side by side; single characters need no space between them.
+#[must_use]
+pub fn names(keys: impl IntoIterator<Item = Key>, look: &Look) -> String {
+    let names: Vec<String> = keys.into_iter().map(|key| name(key, look)).collect();
+    let short = names.iter().all(|name| name.chars().count() == 1);
+    names.join(if short { "" } else { " " })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::session::settings;
+
+    #[test]
+    fn keys_have_short_names() {
+        let rich = Look::new(settings::Look::default());
+        let letters =
+            Look::new(settings::Look { glyphs: Glyphs::Ascii, ..settings::Look::default() });
+        let cases = [
+            ("<left>", "←", "left"),
+            ("<S-up>", "S-↑", "S-up"),
+            ("<enter>", "enter", "enter"),
+            ("<space>", "space", "space"),
+            ("<lt>", "<", "<"),
+            ("<C-r>", "C-r", "C-r"),
+            ("?", "?", "?"),
+        ];
+        for (written, drawn, plain) in cases {
+            let key: Key = written.parse().unwrap();
+            assert_eq!((name(key, &rich).as_str(), name(key, &letters).as_str()), (drawn, plain));
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! What the lines of the pictures mean: a sample of each, drawn by the same pens.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+
+use super::dots::{Dash, Dots, Pen};
+use super::look::{Look, Role};
+use crate::scene::Layer;
+use crate::session::Session;
+
+/// Columns of a sample.
+const SAMPLE: u16 = 4;
+
+/// What a sample shows.
+#[derive(Clone, Copy)]
+enum Sample {
+    Line(Dash),
+    Bar,
+    Shade,
+    Arrow,
+}
+
+/// What there is to explain: the layer that shows it, its role, how it is drawn, and what it is.
+const ENTRIES: [(Layer, Role, Sample, &str); 10] = [
+    (Layer::Trajectory, Role::Trajectory, Sample::Line(Dash::Solid), "motion"),
+    (Layer::Sticking, Role::Sticking, Sample::Bar, "sticking set, at rest"),
+    (Layer::Cycles, Role::Stable, Sample::Line(Dash::Solid), "stable cycle"),
+    (Layer::Cycles, Role::Unstable, Sample::Line(Dash::Dashed), "unstable cycle"),
+    (Layer::Basin, Role::Basin, Sample::Shade, "comes to rest"),
+    (Layer::Lyapunov, Role::Lyapunov, Sample::Line(Dash::Dotted), "Lyapunov circle"),
+    (Layer::Field, Role::Field, Sample::Arrow, "direction of flow"),
+    (Layer::Harmonic, Role::Harmonic, Sample::Line(Dash::Dotted), "first harmonic"),
+    (Layer::Asymptotes, Role::Asymptote, Sample::Line(Dash::Sparse), "its asymptotes"),
+    (Layer::Branch, Role::Current, Sample::Line(Dash::Sparse), "present value"),
+];
+
+/// Draws the legend of the layers that are on at the bottom of `area`, if it fits there.
+pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
+    let entries = ENTRIES.iter().filter(|(layer, ..)| session.shows(*layer));
+    let rows = u16::try_from(entries.clone().count()).unwrap_or(u16::MAX);
+    if area.height < rows || area.width < SAMPLE + 2 {
+        return;
+    }
+    for (y, (_, role, sample, text)) in (area.bottom() - rows..).zip(entries) {
+        let place = Rect { x: area.x + 1, y, width: SAMPLE, height: 1 };
+        draw_sample(place, *role, *sample, look, buffer);
+        let room = usize::from(area.width - SAMPLE - 3);
+        buffer.set_stringn(place.right() + 1, y, text, room, look.style(Role::Quiet));
+    }
+}
+
+fn draw_sample(place: Rect, role: Role, sample: Sample, look: &Look, buffer: &mut Buffer) {
+    let mut dots = Dots::new(place, look.glyphs);
+    let (width, height) = dots.size();
+    let mut line = |y: f64, dash| dots.stroke([(0.0, y), (width - 0.5, y)], Pen { role, dash });
+    match sample {
+        Sample::Line(dash) => line(height / 2.0, dash),
+        Sample::Bar => {
+            line(height / 2.0 - 0.5, Dash::Solid);
+            line(height / 2.0, Dash::Solid);
+        }
+        Sample::Shade => {
+            (0..SAMPLE).step_by(2).for_each(|x| dots.texture(x, 0, look.symbols().shade, role));
+        }
+        Sample::Arrow => dots.texture(1, 0, look.symbols().arrows[0], role),
+    }
+    dots.paint(buffer, look);
+}

@@ -1,0 +1,206 @@
+//! Lists over the panes: all keys, the scenes, the layers. They scroll so that the selected row is
+//! seen, and show what is searched for.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::Style;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Clear, Paragraph, Widget, Wrap};
+
+use super::keys;
+use super::look::{Look, Role};
+use super::pane;
+use crate::session::{Key, List, Overlay, Session};
+
+/// Widest list.
+const WIDTH: u16 = 90;
+
+/// Columns of keys in the help.
+const KEYS: usize = 14;
+
+/// Rows of text below the scene picker.
+const TEXT: u16 = 8;
+
+/// What is listed.
+struct Content {
+    title: &'static str,
+    rows: Vec<Entry>,
+    /// About the selected row, below the list.
+    about: Vec<Line<'static>>,
+}
+
+/// A line of a list.
+enum Entry {
+    /// Groups the rows below it.
+    Heading(&'static str),
+    /// Can be selected.
+    Row(Vec<Span<'static>>),
+    /// Belongs to the row above it.
+    More(Vec<Span<'static>>),
+}
+
+/// Draws the open list, if there is one, into the middle of the screen.
+pub fn draw(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
+    let (list, content) = match &session.overlay {
+        Some(Overlay::Help(list)) => (list, help(session, list, look)),
+        Some(Overlay::Scenes(list)) => (list, scenes(session, list, look)),
+        Some(Overlay::Layers(list)) => (list, layers(session, list, look)),
+        Some(Overlay::Entry(_) | Overlay::Offer(_)) | None => return,
+    };
+    let below = if content.about.is_empty() { 0 } else { TEXT + 1 };
+    let wanted = u16::try_from(content.rows.len()).unwrap_or(u16::MAX).saturating_add(2 + below);
+    // No slivers of panes beside the list; the footer stays in sight.
+    let width = if screen.width < WIDTH + 10 { screen.width } else { WIDTH };
+    let height = screen.height.saturating_sub(1).min(wanted.max(4));
+    let area = Rect {
+        x: screen.x + (screen.width - width) / 2,
+        y: screen.y + (screen.height.saturating_sub(1) - height) / 2,
+        width,
+        height,
+    };
+    if area.width < 4 || area.height < 4 {
+        return;
+    }
+    Clear.render(area, buffer);
+    let inner = Rect { x: area.x + 2, y: area.y + 1, width: width - 4, height: height - 2 };
+    let about = below.min(inner.height.saturating_sub(4));
+    let rows = Rect { height: inner.height - about, ..inner };
+    let place = self::rows(rows, &content.rows, list.selected, look, buffer);
+    if about > 0 {
+        let text = Rect { y: rows.bottom() + 1, height: about - 1, ..inner };
+        Paragraph::new(content.about).wrap(Wrap { trim: true }).render(text, buffer);
+    }
+    frame(area, &heading(content.title, list), &place, look, buffer);
+}
+
+fn heading(title: &str, list: &List) -> String {
+    if list.searching || !list.search.is_empty() {
+        let caret = if list.searching { "_" } else { "" };
+        format!(" {title}: /{}{caret} ", list.search)
+    } else {
+        format!(" {title} ")
+    }
+}
+
+/// Draws the rows around the selected one; returns which part of them is seen.
+fn rows(area: Rect, rows: &[Entry], selected: usize, look: &Look, buffer: &mut Buffer) -> String {
+    let height = usize::from(area.height);
+    let selectable = rows.iter().enumerate().filter(|(_, row)| matches!(row, Entry::Row(_)));
+    let index = selectable.clone().nth(selected).map_or(0, |(index, _)| index);
+    let first = index.saturating_sub(height / 2).min(rows.len().saturating_sub(height));
+    for (y, (place, row)) in (area.y..area.bottom()).zip(rows.iter().enumerate().skip(first)) {
+        let line = match row {
+            Entry::Heading(text) => Line::styled(*text, look.style(Role::Title)),
+            Entry::More(spans) => {
+                let mut line = vec![Span::raw("  ")];
+                line.extend(spans.iter().cloned());
+                Line::from(line)
+            }
+            Entry::Row(spans) => {
+                let pointer = if place == index { look.symbols().pointer } else { " " };
+                let mut line = vec![Span::styled(format!("{pointer} "), look.style(Role::Focus))];
+                line.extend(spans.iter().cloned().map(|span| {
+                    if place == index { span.patch_style(look.style(Role::Selected)) } else { span }
+                }));
+                Line::from(line)
+            }
+        };
+        buffer.set_line(area.x, y, &line, area.width);
+    }
+    let count = selectable.count();
+    if count == 0 {
+        buffer.set_stringn(
+            area.x,
+            area.y,
+            "nothing found",
+            area.width.into(),
+            look.style(Role::Quiet),
+        );
+        return String::new();
+    }
+    format!(" {} of {count} ", (selected + 1).min(count))
+}
+
+/// Draws a frame with a heading above and a remark below at the right.
+fn frame(area: Rect, heading: &str, remark: &str, look: &Look, buffer: &mut Buffer) {
+    let symbols = look.symbols();
+    let style = look.style(Role::Axis);
+    let [top_left, top_right, bottom_left, bottom_right] = symbols.corners;
+    let (right, bottom) = (area.right() - 1, area.bottom() - 1);
+    let rule = symbols.rule.repeat(usize::from(area.width - 2));
+    for (y, left, end) in [(area.y, top_left, top_right), (bottom, bottom_left, bottom_right)] {
+        buffer.set_string(area.x, y, left, style);
+        buffer.set_string(area.x + 1, y, &rule, style);
+        buffer.set_string(right, y, end, style);
+    }
+    for y in area.y + 1..bottom {
+        buffer.set_string(area.x, y, symbols.upright, style);
+        buffer.set_string(right, y, symbols.upright, style);
+    }
+    let room = usize::from(area.width.saturating_sub(4));
+    let style = Style::reset().patch(look.style(Role::Focus));
+    buffer.set_stringn(area.x + 2, area.y, heading, room, style);
+    let length = u16::try_from(remark.len()).unwrap_or(0).min(area.width - 3);
+    buffer.set_stringn(right - 1 - length, bottom, remark, room, look.style(Role::Quiet));
+}
+
+/// All commands with their keys, under the place where they apply first.
+fn help(session: &Session, list: &List, look: &Look) -> Content {
+    let mut rows = Vec::new();
+    let mut group = None;
+    for command in session.help_rows(list) {
+        let mut places = session.keymap.places(command).into_iter();
+        let Some((context, first)) = places.next() else { continue };
+        if group != Some(context) {
+            group = Some(context);
+            rows.push(Entry::Heading(context.title()));
+        }
+        let keys = |keys: Vec<Key>| {
+            let names: Vec<String> = keys.into_iter().map(|key| keys::name(key, look)).collect();
+            Span::styled(format!("{:<KEYS$} ", names.join(" ")), look.style(Role::Key))
+        };
+        let doc = Span::styled(command.doc, look.style(Role::Text));
+        rows.push(Entry::Row(vec![keys(first), doc]));
+        rows.extend(places.map(|(context, others)| {
+            let place = format!("the same: {}", context.title().to_lowercase());
+            Entry::More(vec![keys(others), Span::styled(place, look.style(Role::Quiet))])
+        }));
+    }
+    Content { title: "keys", rows, about: Vec::new() }
+}
+
+/// The scenes, and what there is to see and to do in the selected one.
+fn scenes(session: &Session, list: &List, look: &Look) -> Content {
+    let found = session.scene_rows(list);
+    let row = |name: &str, title: &str| {
+        Entry::Row(vec![
+            Span::styled(format!("{name:<14}"), look.style(Role::Key)),
+            Span::styled(title.to_owned(), look.style(Role::Text)),
+        ])
+    };
+    let about = found.get(list.selected).map(|scene| {
+        let quiet = look.style(Role::Quiet);
+        let text = |text: &str| Line::styled(text.to_owned(), quiet);
+        vec![text(&scene.look), Line::default(), text(&scene.press)]
+    });
+    let rows = found.iter().map(|scene| row(&scene.name, &scene.title)).collect();
+    Content { title: "scenes", rows, about: about.unwrap_or_default() }
+}
+
+/// The layers, and which of them are on.
+fn layers(session: &Session, list: &List, look: &Look) -> Content {
+    let mut rows = Vec::new();
+    let mut group = None;
+    for spec in session.layer_rows(list) {
+        if group != Some(spec.pane) {
+            group = Some(spec.pane);
+            rows.push(Entry::Heading(pane::name(spec.pane)));
+        }
+        let on = if session.layers.contains(&spec.layer) { "[x]" } else { "[ ]" };
+        rows.push(Entry::Row(vec![
+            Span::styled(format!("{on} {:<12}", spec.name), look.style(Role::Key)),
+            Span::styled(spec.meaning, look.style(Role::Text)),
+        ]));
+    }
+    Content { title: "layers", rows, about: Vec::new() }
+}
