@@ -205,9 +205,8 @@ impl Dots {
     pub fn paint(&self, buffer: &mut Buffer, look: &Look) {
         for (position, content) in self.area.positions().zip(&self.cells) {
             let (symbol, role) = match *content {
-                Content::Empty => continue,
+                Content::Empty | Content::Ink(0, _) => continue,
                 Content::Texture(symbol, role) | Content::Symbol(symbol, role) => (symbol, role),
-                Content::Ink(0, _) => continue,
                 Content::Guide(bits, role) | Content::Ink(bits, role) => {
                     (self.glyphs.draw(bits, look.letter(role)), role)
                 }

@@ -173,7 +173,9 @@ fn cycles(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) -> u1
     };
     let columns: Vec<&Column> = CYCLE_COLUMNS.iter().take_while(fits).collect();
     let cells = |text: &dyn Fn(&Column) -> String| -> String {
-        columns.iter().map(|column| format!("{:>1$}", text(column), column.1)).collect()
+        columns
+            .iter()
+            .fold(String::new(), |line, column| format!("{line}{:>1$}", text(column), column.1))
     };
     let title = " cycles";
     let headings = cells(&|(heading, ..)| (*heading).to_owned());
