@@ -120,7 +120,7 @@ mod tests {
             (1.234_56, 0.016, "1.23"),
             (0.051_23, 0.016, "0.051"),
             (0.001, 0.016, "0"),
-            (0.109_643_712, 1e-8, "0.10964371"),
+            (0.109_643_712_3, 1e-8, "0.109643712"),
         ];
         for (value, resolution, text) in cases {
             assert_eq!(resolved(value, resolution), text);
