@@ -168,13 +168,17 @@ pub const COMMANDS: &[Command] = &[
     row("toggle-special", &[(Everywhere, &["p"])], "",
         "Show or hide the labels of special points", |s, _| general::toggle(s, Layer::Special)),
 
+    row("retry", &[(Everywhere, &["<f5>"])], "",
+        "Compute again what has failed", |s, _| general::retry(s)),
     row("glyphs", &[(Everywhere, &["g"])], "",
         "Draw with other characters: braille, octants, blocks, ASCII", |s, _| general::glyphs(s)),
     row("theme", &[(Everywhere, &["T"])], "",
         "Use the next theme", |s, _| general::theme(s)),
-    row("back", &[(Everywhere, &["<esc>"]), (Lists, &["<esc>", "q"]), (Help, &["?", "<f1>"]),
+    row("drop-cursor", &[(Everywhere, &["<esc>"])], "",
+        "Drop the cursor; never leaves, never discards", |s, _| plots::drop_cursor(s)),
+    row("back", &[(Lists, &["<esc>", "q"]), (Help, &["?", "<f1>"]),
         (Scenes, &["s"]), (Layers, &["v"]), (Entry, &["<esc>"]), (Offer, &["<esc>"])], "close",
-        "Close what is open, or drop the cursor; never quits", |s, _| general::back(s)),
+        "Close what is open", |s, _| general::back(s)),
     row("quit", &[(Everywhere, &["q"]), (Always, &["<C-c>"])], "quit",
         "Leave", |s, _| general::quit(s)),
 
@@ -311,7 +315,7 @@ mod tests {
                 assert_eq!(name, "step-size-smaller");
             }
             if key.to_string() == "<esc>" {
-                assert!(["back", "search-drop"].contains(&name), "{name}");
+                assert!(["back", "drop-cursor", "search-drop"].contains(&name), "{name}");
             }
         }
     }

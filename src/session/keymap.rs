@@ -5,7 +5,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::command::{COMMANDS, Command};
+use super::command::{COMMANDS, Command, command};
 use super::key::Key;
 use super::overlay::{List, Overlay};
 use super::state::Session;
@@ -179,6 +179,13 @@ impl Keymap {
         };
         keys.sort_by_key(place);
         keys.into_iter()
+    }
+
+    /// The first key of the command with this name, for sentences that say what to press.
+    #[must_use]
+    pub fn key_of(&self, name: &str) -> Option<Key> {
+        let (_, keys) = self.places(command(name)?).into_iter().next()?;
+        keys.first().copied()
     }
 
     /// The contexts in which a command has keys, with them.

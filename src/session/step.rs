@@ -65,7 +65,7 @@ impl StepSize {
     /// `value` moved by `count` steps, rounded to its own decimals and those of the step.
     #[must_use]
     pub fn from(self, value: f64, count: i32) -> f64 {
-        add(value, f64::from(count) * self.value())
+        decimal_sum(value, f64::from(count) * self.value())
     }
 
     /// The multiple of the step next to `value`, `count` multiples on; from between two multiples the
@@ -81,7 +81,7 @@ impl StepSize {
             (false, true) => steps.floor(),
             (false, false) => steps.ceil(),
         };
-        add(0.0, (base + f64::from(count)) * self.value())
+        decimal_sum(0.0, (base + f64::from(count)) * self.value())
     }
 }
 
@@ -105,7 +105,8 @@ fn decimal(text: &str) -> f64 {
 }
 
 /// The sum of two decimal numbers, rounded to the decimals that the larger can carry; never `-0.0`.
-fn add(value: f64, by: f64) -> f64 {
+#[must_use]
+pub fn decimal_sum(value: f64, by: f64) -> f64 {
     let largest = value.abs().max(by.abs());
     let sum = value + by;
     if !(largest > 0.0 && sum.is_finite()) {

@@ -108,25 +108,30 @@ fn fit_waits_for_what_is_being_computed() {
 fn the_motion_starts_on_either_side_of_the_unstable_cycle() {
     // By hand the unstable cycle has clearance 1.
     let mut desk = Desk::open("supercritical");
-    let r = desk.session.problem.parameters.r;
+    assert_eq!(desk.session.problem.parameters.r, 0.1);
     desk.press("<tab><up><enter> i");
-    assert_eq!(desk.session.problem.initial, State { q: r + 0.95, v: 0.0 });
+    assert_eq!(desk.session.problem.initial, State { q: 1.05, v: 0.0 });
     desk.press("o");
-    assert_eq!(desk.session.problem.initial, State { q: r + 1.05, v: 0.0 });
+    assert_eq!(desk.session.problem.initial, State { q: 1.15, v: 0.0 });
     desk.press("u");
-    assert_eq!(desk.session.problem.initial, State { q: r + 0.95, v: 0.0 });
+    assert_eq!(desk.session.problem.initial, State { q: 1.05, v: 0.0 });
     desk.press("c b <S-tab><right> i");
     assert_eq!(desk.notice(), "the cycles are not computed: c shows them");
 }
 
 #[test]
-fn a_cycle_closer_to_the_sticking_set_than_numbers_are_still_has_an_outside() {
+fn a_cycle_close_to_the_sticking_set_still_has_two_sides() {
     let mut desk = Desk::open("basin");
-    let held = desk.session.answers.get_mut(&crate::scene::Slot::Cycles).unwrap();
-    let Ok(crate::scene::Answer::Cycles(found)) = &mut held.result else { panic!("cycles") };
-    found.cycles[0].clearance = 6.5e-31;
-    desk.press("o");
-    assert_eq!(desk.session.problem.initial.q, 1.0_f64.next_up());
-    desk.press("i");
-    assert_eq!(desk.session.problem.initial.q, 1.0);
+    for clearance in [0.5, 1e-9, 1e-14, 3e-16, 1e-16, 6.5e-31, 5e-324] {
+        let held = desk.session.answers.get_mut(&crate::scene::Slot::Cycles).unwrap();
+        let Ok(crate::scene::Answer::Cycles(found)) = &mut held.result else { panic!("cycles") };
+        found.cycles[0].clearance = clearance;
+        desk.press("i");
+        let inside = desk.session.problem.initial.q;
+        desk.press("o");
+        let outside = desk.session.problem.initial.q;
+        // r is 1 here, and differences next to it are exact.
+        assert!((0.0..clearance).contains(&(inside - 1.0)), "{inside:?} inside of {clearance:e}");
+        assert!(outside - 1.0 > clearance, "{outside:?} outside of {clearance:e}");
+    }
 }

@@ -173,9 +173,11 @@ fn a_failure_is_told_once_and_not_tried_again() {
     update(&mut desk.session, failed(Failure::Reason(Reason::OutOfRange)));
     assert!(!desk.session.is_open(&request));
     assert!(desk.session.failure(Slot::Cycles).is_some());
-    assert_eq!(desk.notice(), "cycles: left the range of floating-point numbers");
+    assert_eq!(desk.notice(), "cycles: left the range of floating-point numbers; <f5> tries again");
     assert!(desk.session.is_stale(Slot::Cycles) && desk.session.cycles().is_some());
     desk.settle();
+    assert_eq!(desk.press("<f5>"), [Slot::Cycles]);
+    assert!(!desk.session.is_stale(Slot::Cycles));
     assert_eq!(desk.press("<right>"), POINT, "another value is another question");
     assert_eq!(desk.session.failure(Slot::Cycles), None);
 }

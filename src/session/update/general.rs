@@ -166,13 +166,18 @@ pub fn theme(session: &mut Session) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Closes what is open, or drops the cursor of the plot in focus.
+/// Closes what is open.
 pub fn back(session: &mut Session) -> Vec<Effect> {
-    if session.overlay.take().is_none()
-        && let Some(plot) = session.plot_mut(session.focus)
-    {
-        plot.cursor = None;
+    session.overlay = None;
+    Vec::new()
+}
+
+/// Asks again what has no answer.
+pub fn retry(session: &mut Session) -> Vec<Effect> {
+    if session.failures.is_empty() {
+        inform(session, "nothing has failed");
     }
+    session.failures.clear();
     Vec::new()
 }
 

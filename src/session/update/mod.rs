@@ -64,7 +64,12 @@ fn press(session: &mut Session, key: Key) -> Vec<Effect> {
     }
     match key.typed().filter(|_| contexts[0].takes_text()) {
         Some(char) => type_text(session, &char.to_string()),
-        None => inform(session, format!("{key} has no meaning here; ? lists the keys")),
+        None => match session.keymap.key_of("help") {
+            Some(help) => {
+                inform(session, format!("{key} has no meaning here; {help} lists the keys"))
+            }
+            None => inform(session, format!("{key} has no meaning here")),
+        },
     }
     Vec::new()
 }
@@ -114,7 +119,11 @@ fn take(session: &mut Session, answered: Answered) {
         Err(Failure::Reason(Reason::Interrupted)) => {}
         Err(failure) => {
             if asked {
-                refuse(session, format!("{}: {failure}", slot.name()));
+                let again = match session.keymap.key_of("retry") {
+                    Some(key) => format!("; {key} tries again"),
+                    None => String::new(),
+                };
+                refuse(session, format!("{}: {failure}{again}", slot.name()));
             }
             session.failures.insert(slot, (answered.request, failure.clone()));
         }

@@ -76,6 +76,14 @@ fn moved(span: Span, value: f64, count: i32) -> f64 {
     if span.contains(inside) { inside } else { value }
 }
 
+/// Drops the cursor of the plot in focus.
+pub fn drop_cursor(session: &mut Session) -> Vec<Effect> {
+    if let Some(plot) = session.plot_mut(session.focus) {
+        plot.cursor = None;
+    }
+    Vec::new()
+}
+
 /// Zooms the plot in focus about its cursor, or about its middle.
 pub fn zoom(session: &mut Session, closer: bool) -> Vec<Effect> {
     let factor = if closer { 1.0 / ZOOM } else { ZOOM };

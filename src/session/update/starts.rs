@@ -7,6 +7,7 @@ use crate::oscillator::State;
 use crate::scene::Slot;
 use crate::session::message::Effect;
 use crate::session::state::Session;
+use crate::session::step::decimal_sum;
 
 /// Clearance from the sticking set, in that of the cycle: near enough to stay close for a while, far
 /// enough to be seen apart.
@@ -38,11 +39,13 @@ fn beside(session: &Session, factor: f64) -> Result<f64, &'static str> {
     let unstable =
         session.cycles().and_then(|found| found.cycles.iter().find(|cycle| !cycle.stable));
     let cycle = unstable.ok_or("there is no unstable cycle at these parameters")?;
-    let r = session.problem.parameters.r;
-    let mut q = r + factor * cycle.clearance;
-    // A cycle can pass closer to r than floating point resolves: the next number is outside of it.
-    if factor > 1.0 && q - r <= cycle.clearance {
-        q = q.next_up();
-    }
-    Ok(q)
+    let (r, clearance) = (session.problem.parameters.r, cycle.clearance);
+    let outside = factor > 1.0;
+    let keeps_side = |q: &f64| if outside { q - r > clearance } else { q - r < clearance };
+    // Three digits are enough and good to read, unless the cycle is very close to the sticking set.
+    let short = format!("{:.2e}", factor * clearance).parse().unwrap_or(clearance);
+    let candidates = [decimal_sum(r, short), r + factor * clearance];
+    // A cycle can pass closer to r than floating point resolves: then only rest is inside of it.
+    let last = if outside { (r + clearance).next_up() } else { r };
+    Ok(candidates.into_iter().find(keeps_side).unwrap_or(last))
 }
