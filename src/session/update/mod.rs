@@ -64,12 +64,11 @@ fn press(session: &mut Session, key: Key) -> Vec<Effect> {
     }
     match key.typed().filter(|_| contexts[0].takes_text()) {
         Some(char) => type_text(session, &char.to_string()),
-        None => match session.keymap.key_of("help") {
-            Some(help) => {
-                inform(session, format!("{key} has no meaning here; {help} lists the keys"))
-            }
-            None => inform(session, format!("{key} has no meaning here")),
-        },
+        None => {
+            let help = session.keymap.key_of("help");
+            let more = help.map(|help| format!("; {help} lists the keys")).unwrap_or_default();
+            inform(session, format!("{key} has no meaning here{more}"));
+        }
     }
     Vec::new()
 }
@@ -119,10 +118,8 @@ fn take(session: &mut Session, answered: Answered) {
         Err(Failure::Reason(Reason::Interrupted)) => {}
         Err(failure) => {
             if asked {
-                let again = match session.keymap.key_of("retry") {
-                    Some(key) => format!("; {key} tries again"),
-                    None => String::new(),
-                };
+                let retry = session.keymap.key_of("retry");
+                let again = retry.map(|key| format!("; {key} tries again")).unwrap_or_default();
                 refuse(session, format!("{}: {failure}{again}", slot.name()));
             }
             session.failures.insert(slot, (answered.request, failure.clone()));
