@@ -62,13 +62,12 @@ fn press(session: &mut Session, key: Key) -> Vec<Effect> {
     if let Some(command) = session.keymap.command(contexts, key) {
         return (command.run)(session, key);
     }
-    match key.typed().filter(|_| contexts[0].takes_text()) {
-        Some(char) => type_text(session, &char.to_string()),
-        None => {
-            let help = session.keymap.key_of("help");
-            let more = help.map(|help| format!("; {help} lists the keys")).unwrap_or_default();
-            inform(session, format!("{key} has no meaning here{more}"));
-        }
+    if let Some(char) = key.typed().filter(|_| contexts[0].takes_text()) {
+        type_text(session, &char.to_string());
+    } else {
+        let help = session.keymap.key_of("help");
+        let more = help.map(|help| format!("; {help} lists the keys")).unwrap_or_default();
+        inform(session, format!("{key} has no meaning here{more}"));
     }
     Vec::new()
 }
