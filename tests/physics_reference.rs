@@ -1,0 +1,171 @@
+//! Motions and cycles against reference values with at least twelve digits, computed independently.
+
+use hopfscope::flow::trajectory::trajectory;
+use hopfscope::flow::{Detail, Limits, Method, Outcome, Problem, Trajectory};
+use hopfscope::oscillator::{Parameters, State};
+use hopfscope::study::Cycle;
+use hopfscope::study::cycle::cycles;
+use serde::Deserialize;
+
+/// A motion of `data/trajectories.json`, followed until tau = 200 or its capture.
+#[derive(Deserialize)]
+struct Motion {
+    #[serde(flatten)]
+    parameters: Parameters,
+    q0: f64,
+    v0: f64,
+    outcome: String,
+    turning_points: Vec<(f64, f64)>,
+}
+
+/// A cycle of `data/cycles.json`.
+#[derive(Deserialize)]
+struct Reference {
+    #[serde(flatten)]
+    parameters: Parameters,
+    q_max: f64,
+    q_min: f64,
+    v_max: f64,
+    v_min: f64,
+    period: f64,
+    multiplier: f64,
+}
+
+fn motions() -> Vec<Motion> {
+    serde_json::from_str(include_str!("data/trajectories.json")).unwrap()
+}
+
+fn references() -> Vec<Reference> {
+    serde_json::from_str(include_str!("data/cycles.json")).unwrap()
+}
+
+impl Motion {
+    /// The motion as computed, with its energy ledger.
+    fn compute(&self, method: Method, tolerance: f64) -> Trajectory {
+        let problem = Problem {
+            parameters: self.parameters,
+            initial: State { q: self.q0, v: self.v0 },
+            until: 200.0,
+            method,
+            tolerance,
+        };
+        trajectory(&problem, Detail { samples_per_step: 0, energy: true }, &Limits::PATIENT)
+    }
+
+    /// The methods that can follow it.
+    fn methods(&self) -> Vec<Method> {
+        let mut methods = vec![Method::Auto, Method::Taylor, Method::Dop853];
+        if self.parameters.is_piecewise_linear() {
+            methods.push(Method::Exact);
+        }
+        methods
+    }
+}
+
+/// Largest error in q over the turning points, relative to `max(1, abs(q))`.
+fn largest_error(motion: &Motion, found: &Trajectory) -> f64 {
+    let pairs = motion.turning_points.iter().zip(&found.crossings);
+    pairs.map(|(&(_, q), found)| (found.q - q).abs() / q.abs().max(1.0)).fold(0.0, f64::max)
+}
+
+#[test]
+fn turning_points_agree_to_ten_digits_at_tolerance_one_in_ten_to_the_twelve() {
+    for motion in motions() {
+        for method in motion.methods() {
+            let found = motion.compute(method, 1e-12);
+            let case = format!("{method}, {:?} from {}", motion.parameters, motion.q0);
+            assert_eq!(found.crossings.len(), motion.turning_points.len(), "{case}");
+            let error = largest_error(&motion, &found);
+            assert!(error <= 1e-10, "{case}: error {error:e}");
+            for (&(tau, _), found) in motion.turning_points.iter().zip(&found.crossings) {
+                assert!((found.tau / tau - 1.0).abs() <= 1e-10, "{case}: {} for {tau}", found.tau);
+            }
+        }
+    }
+}
+
+#[test]
+fn outcomes_agree_and_a_capture_is_the_last_arrival() {
+    for motion in motions() {
+        for method in motion.methods() {
+            let found = motion.compute(method, 1e-12);
+            match (motion.outcome.as_str(), found.outcome) {
+                ("captured", Outcome::Captured { tau, q }) => {
+                    let last = found.crossings.last().unwrap();
+                    assert_eq!((tau, q), (last.tau, last.q));
+                    assert!(
+                        q.abs() <= motion.parameters.r,
+                        "at rest outside the sticking set: {q}"
+                    );
+                }
+                ("moving", Outcome::Moving { tau, .. }) => assert_eq!(tau, 200.0),
+                (expected, found) => panic!("{method}: {found:?} for {expected}"),
+            }
+        }
+    }
+}
+
+#[test]
+fn a_tighter_tolerance_is_a_smaller_error() {
+    // The motion of the benchmark: 63 half swings.
+    let motions = motions();
+    let motion = motions.iter().find(|motion| motion.parameters.d3 == 0.05).unwrap();
+    for method in [Method::Taylor, Method::Dop853] {
+        let [coarse, middle, fine] = [1e-4, 1e-8, 1e-12]
+            .map(|tolerance| largest_error(motion, &motion.compute(method, tolerance)));
+        assert!(coarse > middle && middle > fine, "{method}: {coarse:e} {middle:e} {fine:e}");
+        assert!(coarse < 1e-1 && middle < 1e-6 && fine < 1e-10, "{coarse:e} {middle:e} {fine:e}");
+    }
+}
+
+#[test]
+fn the_energy_ledger_closes_to_eleven_digits_of_the_start() {
+    for motion in motions() {
+        for method in motion.methods() {
+            let ledger = motion.compute(method, 1e-12).ledger.expect("no motion escapes");
+            let missing = ledger.residual.abs() / ledger.start;
+            assert!(missing <= 1e-11, "{method}, {:?}: {missing:e}", motion.parameters);
+        }
+    }
+}
+
+fn relative(found: f64, expected: f64) -> f64 {
+    (found / expected - 1.0).abs()
+}
+
+#[test]
+fn cycles_agree_to_ten_digits_and_their_multipliers_to_seven() {
+    for reference in references() {
+        let found = cycles(&reference.parameters, 1e-12, false, &Limits::PATIENT).unwrap().cycles;
+        let apart = |cycle: &Cycle| relative(cycle.q_max, reference.q_max);
+        let cycle = found
+            .iter()
+            .min_by(|a, b| apart(a).total_cmp(&apart(b)))
+            .unwrap_or_else(|| panic!("no cycle at {:?}", reference.parameters));
+        for (what, found, expected) in [
+            ("q_max", cycle.q_max, reference.q_max),
+            ("q_min", cycle.q_min, reference.q_min),
+            ("v_max", cycle.v_max, reference.v_max),
+            ("v_min", cycle.v_min, reference.v_min),
+            ("period", cycle.period, reference.period),
+        ] {
+            let error = relative(found, expected);
+            assert!(error <= 1e-10, "{what} at {:?}: {error:e}", reference.parameters);
+        }
+        let multiplier = cycle.multiplier.unwrap();
+        assert!(relative(multiplier, reference.multiplier) <= 1e-7, "{multiplier}");
+        assert_eq!(cycle.stable, reference.multiplier < 1.0);
+    }
+}
+
+#[test]
+fn there_are_no_other_cycles_than_the_reference_ones() {
+    let references = references();
+    for reference in &references {
+        let known =
+            references.iter().filter(|other| other.parameters == reference.parameters).count();
+        let found = cycles(&reference.parameters, 1e-10, false, &Limits::PATIENT).unwrap().cycles;
+        assert_eq!(found.len(), known, "{:?}", reference.parameters);
+        assert!(found.windows(2).all(|pair| pair[0].q_max < pair[1].q_max));
+    }
+}
