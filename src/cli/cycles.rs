@@ -29,7 +29,7 @@ impl Cycles {
         let found =
             found.map_err(|reason| Failure::Unanswered(format!("the search gave up: {reason}")))?;
         print(&match self.output.format {
-            Format::Table => table::cycles(&found, problem.tolerance, seconds),
+            Format::Table => table::cycles(&found, seconds),
             Format::Json => json::cycles(&found, seconds),
             Format::Csv => csv::cycles(&found),
         })

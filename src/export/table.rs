@@ -154,15 +154,16 @@ fn cycle(cycle: &Cycle, places: usize) -> Vec<String> {
 
 /// Every cycle, the harmonic answer beside it, and what borders the basin.
 #[must_use]
-pub fn cycles(found: &Cycles, tolerance: f64, seconds: f64) -> String {
-    let places = digits(tolerance);
+pub fn cycles(found: &Cycles, seconds: f64) -> String {
+    /// Cycles are computed to rounding; this many digits are for reading.
+    const PLACES: usize = 10;
     let mut out = format!("{}\n\n", parameters(&found.parameters, None));
     if found.cycles.is_empty() {
         out += "no limit cycle\n";
     } else {
         let mut table = Table::new(&CYCLE);
         for found in &found.cycles {
-            table.row(cycle(found, places));
+            table.row(cycle(found, PLACES));
         }
         out += &table.to_string();
     }
