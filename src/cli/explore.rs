@@ -1,12 +1,16 @@
 //! `hopfscope [SCENE]`: the explorer in this terminal.
 
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
 
 use super::failure::Failure;
+use super::look::Looks;
+use super::replay::script;
 use super::start::Start;
-use crate::runtime::{Options, explore};
+use crate::runtime::effects::Files;
+use crate::runtime::{Ended, Options, explore};
 use crate::session::{Session, Size};
 use crate::terminal::Environment;
 
@@ -18,20 +22,63 @@ pub struct Explore {
     named: Option<String>,
     #[command(flatten)]
     start: Start,
+    #[command(flatten)]
+    looks: Looks,
+    /// Plays a keystroke file at the start, then goes on
+    #[arg(long, value_name = "FILE")]
+    play: Option<PathBuf>,
+    /// Writes what is pressed to a keystroke file
+    #[arg(long, value_name = "FILE")]
+    record: Option<PathBuf>,
 }
 
 impl Explore {
-    /// Runs the explorer until it is left, or a signal ends it.
+    /// Runs the explorer until it is left.
     pub fn run(&self) -> Result<ExitCode, Failure> {
         let name = self.named.as_deref().unwrap_or(&self.start.scene);
         let scene = self.start.scene_named(name).map_err(|missing| or_command(name, missing))?;
+        let replay = self.play.as_deref().map(script).transpose()?;
         let environment = Environment::of_process();
         environment.admit().map_err(|refusal| Failure::Usage(refusal.to_string()))?;
-        let session = Session::new(scene, Size { width: 80, height: 24 });
-        let ended = explore(session, environment, Options::default())
-            .map_err(|error| Failure::Unanswered(format!("terminal: {error}")))?;
-        Ok(ended.code)
+        // A file that cannot be written should be known before the session, not after.
+        if let Some(path) = &self.record {
+            write(path, "")?;
+        }
+        // The terminal says its size before the first picture.
+        let mut session = Session::new(scene, Size { width: 80, height: 24 });
+        session.look = self.looks.wishes();
+        let files = Files { copies: copies() };
+        let options = Options { replay, record: self.record.is_some(), files };
+        let Ended { code, recorder } = explore(session, environment, options)
+            .map_err(|error| Failure::Unanswered(format!("the terminal: {error}")))?;
+        if let (Some(path), Some(recorder)) = (&self.record, recorder) {
+            write(path, &recorder.text(&started()))?;
+        }
+        Ok(code)
     }
+}
+
+fn write(path: &Path, text: &str) -> Result<(), Failure> {
+    std::fs::write(path, text).map_err(|error| Failure::file(path, &error))
+}
+
+/// The command line of this process, as a comment for a recorded file.
+fn started() -> String {
+    let words = std::env::args_os().skip(1);
+    let words = words.map(|word| word.to_string_lossy().into_owned());
+    std::iter::once("hopfscope".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
+}
+
+/// The file that holds the last copy, in the user's directory for such things; `None` where there is
+/// none.
+fn copies() -> Option<PathBuf> {
+    let variable =
+        |name| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
+    let state = variable("XDG_STATE_HOME").filter(|path| path.is_absolute());
+    let state = state.or_else(|| variable("HOME").map(|home| home.join(".local/state")))?;
+    let folder = state.join("hopfscope");
+    std::fs::create_dir_all(&folder).ok()?;
+    Some(folder.join("copy.txt"))
 }
 
 /// Adds to the complaint about a scene the command that was meant, if one looks like it.

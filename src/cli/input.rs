@@ -86,6 +86,14 @@ pub fn method(name: &str) -> Result<Method, String> {
     })
 }
 
+/// `WIDTHxHEIGHT` in cells.
+pub fn size(text: &str) -> Result<(u16, u16), String> {
+    let side = |text: &str| u16::from_str(text).ok().filter(|side| (1..=1000).contains(side));
+    text.split_once('x').and_then(|(width, height)| Some((side(width)?, side(height)?))).ok_or_else(
+        || format!("{text:?} is not a size; expected WxH, such as 120x40, 1 .. 1000 each"),
+    )
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -116,6 +124,14 @@ mod tests {
         for text in ["D", "D=1", "D=0:1", "D=0:1:1", "D=0:1:x", "D=0:0:5", "D=0:inf:5", "D=0:1:2:3"]
         {
             assert!(over(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn sizes_have_two_sides() {
+        assert_eq!(size("120x40"), Ok((120, 40)));
+        for text in ["120", "0x1", "120x", "1x1001", "-1x5", "ax4"] {
+            assert!(size(text).is_err(), "{text}");
         }
     }
 }

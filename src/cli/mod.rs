@@ -9,6 +9,7 @@ mod cycles;
 mod explore;
 mod failure;
 mod input;
+mod look;
 mod output;
 mod replay;
 mod scenes;

@@ -1,11 +1,20 @@
 //! `hopfscope replay`: a keystroke file, run without a terminal.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::{Args, ValueEnum};
+use ratatui::buffer::Buffer;
 
 use super::failure::Failure;
-use crate::session::replay::parse;
+use super::input;
+use super::look::Looks;
+use super::output::print;
+use super::start::Start;
+use crate::export::screen;
+use crate::runtime::replay;
+use crate::session::replay::{Script, parse};
+use crate::session::{Session, Size};
+use crate::terminal::Environment;
 
 /// Runs a keystroke file without a terminal and prints the last screen
 #[derive(Debug, Args)]
@@ -13,15 +22,95 @@ pub struct Replay {
     /// Keystroke file
     #[arg(value_name = "FILE")]
     file: PathBuf,
+    /// Size of the screen in cells
+    #[arg(long, value_name = "WxH", value_parser = input::size, default_value = "120x40")]
+    size: (u16, u16),
+    /// Writes the screens that the file names to this directory
+    #[arg(long, value_name = "DIR")]
+    screens: Option<PathBuf>,
+    /// Form of these screens
+    #[arg(long, value_enum, default_value_t = ScreenFormat::Text, value_name = "FORM")]
+    screen_format: ScreenFormat,
+    #[command(flatten)]
+    start: Start,
+    #[command(flatten)]
+    looks: Looks,
+}
+
+/// The form of a screen in a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum ScreenFormat {
+    /// Its characters, in UTF-8.
+    Text,
+    /// A picture.
+    Svg,
+}
+
+impl ScreenFormat {
+    fn extension(self) -> &'static str {
+        match self {
+            ScreenFormat::Text => "txt",
+            ScreenFormat::Svg => "svg",
+        }
+    }
+
+    fn write(self, screen: &Buffer) -> String {
+        match self {
+            ScreenFormat::Text => screen::text(screen),
+            ScreenFormat::Svg => screen::svg(screen),
+        }
+    }
 }
 
 impl Replay {
     /// Runs the file.
     pub fn run(&self) -> Result<(), Failure> {
-        let text = std::fs::read_to_string(&self.file)
-            .map_err(|error| Failure::file(&self.file, &error))?;
-        parse(&text)
-            .map_err(|error| Failure::Usage(format!("{}: {error}", self.file.display())))?;
-        Err(Failure::Unanswered("replay is not in this build".to_owned()))
+        let script = script(&self.file)?;
+        let (width, height) = self.size;
+        let mut session = Session::new(self.start.scene()?, Size { width, height });
+        session.look = self.looks.wishes();
+        let size = ratatui::layout::Size { width, height };
+        let played = replay(session, anywhere(), script, size)
+            .map_err(|error| Failure::Unanswered(format!("no thread to compute in: {error}")))?;
+        if let Some(directory) = &self.screens {
+            write(directory, self.screen_format, &played.kept)?;
+        }
+        print(&screen::text(&played.screen))?;
+        match played.unmet {
+            Some(unmet) => Err(Failure::Unanswered(format!("{}: {unmet}", self.file.display()))),
+            None => Ok(()),
+        }
     }
+}
+
+/// A terminal that shows everything, so that a replay looks the same wherever it runs.
+fn anywhere() -> Environment {
+    Environment {
+        term: Some("xterm-256color".to_owned()),
+        lang: Some("C.UTF-8".to_owned()),
+        input_is_terminal: true,
+        output_is_terminal: true,
+        ..Environment::default()
+    }
+}
+
+/// A keystroke file, read and understood before anything runs.
+pub fn script(file: &Path) -> Result<Script, Failure> {
+    let text = std::fs::read_to_string(file).map_err(|error| Failure::file(file, &error))?;
+    parse(&text).map_err(|error| Failure::Usage(format!("{}: {error}", file.display())))
+}
+
+/// Writes the screens that a replay kept, each under its name.
+fn write(
+    directory: &Path,
+    format: ScreenFormat,
+    screens: &[(String, Buffer)],
+) -> Result<(), Failure> {
+    std::fs::create_dir_all(directory).map_err(|error| Failure::file(directory, &error))?;
+    for (name, screen) in screens {
+        let path = directory.join(format!("{name}.{}", format.extension()));
+        std::fs::write(&path, format.write(screen))
+            .map_err(|error| Failure::file(&path, &error))?;
+    }
+    Ok(())
 }

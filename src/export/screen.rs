@@ -1,7 +1,7 @@
 //! A screen as text, and as a picture in SVG.
 //!
-//! The picture needs no special font: braille dots and blocks are drawn as shapes, other characters as
-//! text in any monospaced font, stretched to its cells.
+//! The picture needs no special font: braille dots, blocks and lines are drawn as shapes, other
+//! characters as text in any monospaced font, stretched to its cells.
 
 use std::fmt::Write;
 
@@ -23,7 +23,8 @@ pub fn text(screen: &Buffer) -> String {
 
 /// Width and height of a cell, and of the font in it, in the picture's units.
 const CELL: (f64, f64) = (8.0, 16.0);
-const FONT_SIZE: f64 = 13.0;
+// At this size the letters of the first font asked for are as wide as a cell.
+const FONT_SIZE: f64 = 13.29;
 
 /// Where letters stand in a cell, from its top.
 const BASELINE: f64 = 12.0;
@@ -40,7 +41,7 @@ pub fn svg(screen: &Buffer) -> String {
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
          viewBox=\"0 0 {width} {height}\" font-family=\"DejaVu Sans Mono, Menlo, Consolas, monospace\" \
-         font-size=\"{FONT_SIZE}\">\n<rect width=\"{width}\" height=\"{height}\" fill=\"{GROUND}\"/>\n"
+         font-size=\"{FONT_SIZE}\" xml:space=\"preserve\">\n<rect width=\"{width}\" height=\"{height}\" fill=\"{GROUND}\"/>\n"
     );
     for (number, row) in rows(screen).enumerate() {
         let top = CELL.1 * units(number);
@@ -168,6 +169,8 @@ fn shapes(out: &mut String, row: &[Place], top: f64) {
 fn shape(path: &mut String, symbol: &str, x: f64, top: f64) {
     /// Radius of a braille dot.
     const DOT: f64 = 1.3;
+    /// Width of a line.
+    const LINE: f64 = 1.0;
     let mut chars = symbol.chars();
     let (Some(char), None) = (chars.next(), chars.next()) else { return };
     if let Some(dots) = braille(char) {
@@ -182,9 +185,26 @@ fn shape(path: &mut String, symbol: &str, x: f64, top: f64) {
             );
         }
     } else if let Some((from, to)) = block(char) {
-        let (y, height) = (top + CELL.1 * from, CELL.1 * (to - from));
-        let _ = write!(path, "M{x} {y}h{}v{height}h{}z", CELL.0, -CELL.0);
+        rectangle(path, (x, top + CELL.1 * from), (CELL.0, CELL.1 * (to - from)));
+    } else if let Some([left, right, up, down]) = strokes(char) {
+        let (middle, center) = (x + 0.5 * CELL.0, top + 0.5 * CELL.1);
+        let half = 0.5 * LINE;
+        if left || right {
+            let from = if left { x } else { middle - half };
+            let to = if right { x + CELL.0 } else { middle + half };
+            rectangle(path, (from, center - half), (to - from, LINE));
+        }
+        if up || down {
+            let from = if up { top } else { center - half };
+            let to = if down { top + CELL.1 } else { center + half };
+            rectangle(path, (middle - half, from), (LINE, to - from));
+        }
     }
+}
+
+/// Appends a rectangle to a path.
+fn rectangle(path: &mut String, (x, y): (f64, f64), (width, height): (f64, f64)) {
+    let _ = write!(path, "M{x} {y}h{width}v{height}h{}z", -width);
 }
 
 /// The dots of a braille pattern as column 0 or 1 and row 0 to 3; none for other characters.
@@ -215,37 +235,55 @@ fn block(char: char) -> Option<(f64, f64)> {
     }
 }
 
-/// Draws what is left of a row as text, one element for each word of one paint.
+/// Whether a line goes from the middle of the cell to the left, right, up and down.
+fn strokes(char: char) -> Option<[bool; 4]> {
+    const LINES: [(char, [bool; 4]); 11] = [
+        ('─', [true, true, false, false]),
+        ('│', [false, false, true, true]),
+        ('┌', [false, true, false, true]),
+        ('┐', [true, false, false, true]),
+        ('└', [false, true, true, false]),
+        ('┘', [true, false, true, false]),
+        ('├', [false, true, true, true]),
+        ('┤', [true, false, true, true]),
+        ('┬', [true, true, false, true]),
+        ('┴', [true, true, true, false]),
+        ('┼', [true, true, true, true]),
+    ];
+    LINES.iter().find(|line| line.0 == char).map(|line| line.1)
+}
+
+/// Draws what is left of a row as text, one element for each run of one paint.
 fn letters(out: &mut String, row: &[Place], top: f64) {
     for (column, length, paint) in runs(row, Paint::clone) {
         if paint.modifier.contains(Modifier::HIDDEN) {
             continue;
         }
         let places = &row[column..column + length];
-        let mut next = 0;
-        for word in places.split_inclusive(|place| !is_letter(place.symbol)) {
-            let first = column + next;
-            next += word.len();
-            let text: String =
-                word.iter().map(|place| place.symbol).filter(|symbol| is_letter(symbol)).collect();
-            if !text.is_empty() {
-                let (x, y) = (CELL.0 * units(first), top + BASELINE);
-                let length = CELL.0 * units(text.width());
-                let (attributes, text) = (paint.attributes(), escaped(&text));
-                let _ = writeln!(
-                    out,
-                    "<text x=\"{x}\" y=\"{y}\" textLength=\"{length}\" \
-                     lengthAdjust=\"spacingAndGlyphs\" {attributes}>{text}</text>"
-                );
-            }
+        // What was drawn as a shape leaves a blank.
+        let line: String = places
+            .iter()
+            .map(|place| if is_shape(place.symbol) { " " } else { place.symbol })
+            .collect();
+        let text = line.trim();
+        if !text.is_empty() {
+            let indent = line.chars().take_while(|char| char.is_whitespace()).count();
+            let (x, y) = (CELL.0 * units(column + indent), top + BASELINE);
+            let length = CELL.0 * units(text.width());
+            let (attributes, text) = (paint.attributes(), escaped(text));
+            let _ = writeln!(
+                out,
+                "<text x=\"{x}\" y=\"{y}\" textLength=\"{length}\" {attributes}>{text}</text>"
+            );
         }
     }
 }
 
-/// Whether a symbol is drawn as text, or belongs to a wide character that is.
-fn is_letter(symbol: &str) -> bool {
-    let shaped = |char| braille(char).is_some() || block(char).is_some();
-    symbol.is_empty() || !(symbol.trim().is_empty() || symbol.chars().all(shaped))
+/// Whether a symbol is drawn as a shape.
+fn is_shape(symbol: &str) -> bool {
+    let mut chars = symbol.chars();
+    let shaped = |char| braille(char).is_some() || block(char).is_some() || strokes(char).is_some();
+    matches!((chars.next(), chars.next()), (Some(char), None) if shaped(char))
 }
 
 /// Text with the characters that mean something in XML replaced.
@@ -316,7 +354,7 @@ mod tests {
     #[test]
     fn the_picture_draws_letters_as_text_and_dots_as_shapes() {
         let picture = svg(&screen());
-        assert!(picture.contains("font-weight=\"bold\">&lt;</text>"), "{picture}");
+        assert!(picture.contains("font-weight=\"bold\">a &lt; b</text>"), "{picture}");
         // Eight dots and one, two arcs each, in one path of one colour.
         assert_eq!(picture.matches("a1.3 1.3").count(), 18);
         assert!(picture.contains("<path fill=\"#ff0000\""), "{picture}");

@@ -1,0 +1,40 @@
+//! The options that say how the screen looks.
+
+use clap::Args;
+
+use crate::session::settings::{COLORS, Colors, GLYPHS, Glyphs, Look, THEMES, Theme, named};
+
+/// How the screen looks.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct Looks {
+    #[arg(long, value_name = "KIND", default_value = "auto", hide_default_value = true,
+          value_parser = |name: &str| one_of(&GLYPHS, name), help = help("What dots are made of", &GLYPHS))]
+    glyphs: Glyphs,
+
+    #[arg(long, value_name = "DEPTH", default_value = "auto", hide_default_value = true,
+          value_parser = |name: &str| one_of(&COLORS, name), help = help("How many colours", &COLORS))]
+    color: Colors,
+
+    #[arg(long, value_name = "NAME", default_value = "dark", hide_default_value = true,
+          value_parser = |name: &str| one_of(&THEMES, name), help = help("Which colours", &THEMES))]
+    theme: Theme,
+}
+
+impl Looks {
+    /// What the user wishes.
+    pub fn wishes(self) -> Look {
+        Look { glyphs: self.glyphs, colors: self.color, theme: self.theme }
+    }
+}
+
+fn names<T>(table: &[(T, &'static str)]) -> String {
+    table.iter().map(|row| row.1).collect::<Vec<_>>().join(", ")
+}
+
+fn help<T>(what: &str, table: &[(T, &'static str)]) -> String {
+    format!("{what}: {}", names(table))
+}
+
+fn one_of<T: Copy>(table: &[(T, &'static str)], name: &str) -> Result<T, String> {
+    named(table, name).ok_or_else(|| format!("there are {}", names(table)))
+}
