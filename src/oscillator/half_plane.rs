@@ -103,6 +103,13 @@ impl HalfPlane {
         HalfPlane { d: self.d, d2: self.d2 * unit, d3: self.d3 * unit * unit }
     }
 
+    /// The field of motions run backward: with time reversed, `y = -x` obeys the same equation with all
+    /// damping of the opposite sign.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        HalfPlane { d: -self.d, d2: -self.d2, d3: -self.d3 }
+    }
+
     /// Whether the field is linear.
     #[must_use]
     pub fn is_linear(&self) -> bool {

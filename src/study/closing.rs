@@ -62,11 +62,6 @@ pub fn first_side(parameters: &Parameters) -> Side {
     if parameters.d2 < 0.0 { Side::Lower } else { Side::Upper }
 }
 
-/// Multiplies a field by -1: the field of the motion run backward (see [`super::half_map`]).
-fn reversed(field: &HalfPlane) -> HalfPlane {
-    HalfPlane { d: -field.d, d2: -field.d2, d3: -field.d3 }
-}
-
 impl Equation {
     /// The equation at these parameters, each integration step within the relative `tolerance`.
     #[must_use]
@@ -88,7 +83,7 @@ impl Equation {
             parameters: *parameters,
             side,
             forward: fields.map(&map),
-            backward: fields.map(|field| map(reversed(&field))),
+            backward: fields.map(|field| map(field.reversed())),
         }
     }
 
@@ -258,6 +253,14 @@ impl Closing {
             square: swings[0].square + swings[1].square,
             fastest: [swings[0].fastest, swings[1].fastest],
         }
+    }
+
+    /// The cycle of two mirror-image swings, known in closed form.
+    #[must_use]
+    pub fn symmetric(clearance: Length, duration: f64, fastest: f64) -> Self {
+        let node = Node { at: clearance.log, rise: 0.0, fall: 0.0, slope: f64::NAN };
+        let fastest = [fastest; 2];
+        Closing { node, first: clearance, second: clearance, duration, square: 0.0, fastest }
     }
 
     /// Outside the domain of one of the two functions: it is infinite, the other a bound that says

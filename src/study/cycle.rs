@@ -9,14 +9,14 @@ use serde::Serialize;
 
 use super::balance::weighed_residual;
 use super::closing::{Closing, Equation, Route};
-use super::half_map::{HalfMap, NoEnd};
+use super::basin::Basin;
+use super::half_map::Length;
+use super::margin::Margin;
 use super::search::{Bracket, Node, search};
 use crate::closed_form::harmonic::{Harmonic, amplitudes};
 use crate::closed_form::piecewise_linear::LinearCycle;
-use crate::flow::scaling::times_power;
-use crate::flow::step::Stepper;
 use crate::flow::{Cost, Limits, Reason};
-use crate::oscillator::{HalfPlane, Parameters, Side, State};
+use crate::oscillator::{Parameters, Side, State};
 
 /// A limit cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -57,6 +57,22 @@ pub enum Edge {
     Separatrix,
 }
 
+/// What a picture of the basin shows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// The closed curve of each cycle.
+    pub curves: Vec<Vec<State>>,
+    /// The edge of the basin: a closed curve, or the separatrix as far as it was followed; else empty.
+    pub edge: Vec<State>,
+    /// The kicks that are survived.
+    pub margin: Margin,
+    /// Area of the basin, where it is finite.
+    pub area: Option<f64>,
+    /// Radius of Lyapunov's disk (24) as a part of the margin; above 1 it promises too much, because it
+    /// leaves out D2 and D3.
+    pub lyapunov_share: Option<f64>,
+}
+
 /// All limit cycles, by amplitude, and what they imply for the basin.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cycles {
@@ -64,14 +80,12 @@ pub struct Cycles {
     pub parameters: Parameters,
     /// The cycles, smallest first.
     pub cycles: Vec<Cycle>,
-    /// The closed curve of each cycle, for drawing, if asked for.
-    pub curves: Vec<Vec<State>>,
     /// The first-order harmonic answer, for comparison.
     pub harmonic: Vec<Harmonic>,
     /// What borders the basin of the sticking set.
     pub edge: Edge,
-    /// Polyline of the edge, for drawing, if asked for and if there is one.
-    pub edge_curve: Vec<State>,
+    /// Curves and margins, if asked for.
+    pub picture: Option<Picture>,
     /// What it cost.
     pub cost: Cost,
 }
@@ -79,8 +93,11 @@ pub struct Cycles {
 /// Tolerance of the integration steps of the search and the polish: rounding.
 const STEP: f64 = 1e-16;
 
-/// Points on each half of a cycle drawn from its closed form.
-const CURVE_POINTS: usize = 128;
+/// Points drawn on each integration step of a curve.
+const CURVE_POINTS: u8 = 12;
+
+/// How far a separatrix is followed for a picture, in units of `1/abs(D2)`.
+const PICTURE_REACH: f64 = 20.0;
 
 /// Slope of the residual below which it is weighed as energy.
 const FLAT: f64 = 0.3;
@@ -91,7 +108,7 @@ const STEEP: f64 = 1.0;
 /// Newton steps before giving up; bisection alone needs 60.
 const ITERATIONS: usize = 200;
 
-/// Finds all limit cycles at these parameters; `curves` asks for the drawn curves too.
+/// Finds all limit cycles at these parameters; `curves` asks for a picture too.
 ///
 /// The piecewise linear cycle comes from its closed form, all others from the search. Clearances are
 /// computed to rounding; `error` of each cycle says what that is worth near a fold.
@@ -100,42 +117,62 @@ const ITERATIONS: usize = 200;
 /// The [`Reason`] why the search could not be completed.
 pub fn cycles(parameters: &Parameters, curves: bool, limits: &Limits) -> Result<Cycles, Reason> {
     let mut equation = Equation::new(parameters, STEP);
-    let mut found = Cycles {
+    let found = all_closings(&mut equation, limits)?;
+    let describe = |closing: &Closing| closing.describe(parameters, equation.side);
+    let stable: Vec<bool> =
+        found.iter().map(|closing| closing.log_multiplier(parameters) < 0.0).collect();
+    let mut answer = Cycles {
         parameters: *parameters,
-        cycles: Vec::new(),
-        curves: Vec::new(),
+        cycles: found.iter().map(describe).collect(),
         harmonic: amplitudes(parameters),
-        edge: Edge::None,
-        edge_curve: Vec::new(),
-        cost: Cost::default(),
+        edge: Edge::around(parameters, &stable),
+        picture: None,
+        cost: equation.cost(),
     };
-    if parameters.is_piecewise_linear() {
-        if let Ok(cycle) = LinearCycle::new(parameters.d, parameters.r) {
-            found.cycles.push(Cycle::from(&cycle));
-            if curves {
-                found.curves.push(cycle.curve(CURVE_POINTS));
-            }
-        }
-        found.close();
-        return Ok(found);
+    if curves {
+        let reach = PICTURE_REACH / parameters.d2.abs().max(f64::MIN_POSITIVE);
+        let basin = Basin::around(parameters, &found, reach, limits)?;
+        answer.cost += basin.cost;
+        answer.picture = Some(Picture::of(&basin));
     }
-    for closing in &closings(&mut equation, limits)? {
-        found.cycles.push(closing.describe(parameters, equation.side));
-        if curves {
-            found.curves.push(curve(parameters, equation.side, closing, limits)?);
-        }
-    }
-    found.cost = equation.cost();
-    found.close();
-    Ok(found)
+    Ok(answer)
 }
 
-impl Cycles {
-    /// Says what borders the basin, once all cycles are known.
-    fn close(&mut self) {
-        self.edge = edge(&self.parameters, &self.cycles);
-        if self.edge == Edge::Cycle {
-            self.edge_curve = self.curves.first().cloned().unwrap_or_default();
+/// All closings, from the closed form where there is one.
+///
+/// # Errors
+/// The [`Reason`] why a swing failed.
+pub fn all_closings(equation: &mut Equation, limits: &Limits) -> Result<Vec<Closing>, Reason> {
+    let parameters = equation.parameters;
+    if parameters.is_piecewise_linear() {
+        let cycle = LinearCycle::new(parameters.d, parameters.r).ok();
+        return Ok(cycle.iter().map(Closing::from).collect());
+    }
+    closings(equation, limits)
+}
+
+impl From<&LinearCycle> for Closing {
+    fn from(cycle: &LinearCycle) -> Self {
+        let clearance = Length { value: cycle.clearance, log: cycle.log_clearance };
+        Closing::symmetric(clearance, cycle.period, cycle.v_max)
+    }
+}
+
+impl Picture {
+    fn of(basin: &Basin) -> Self {
+        let mut curves: Vec<Vec<State>> =
+            basin.borders.iter().map(|border| border.curve(CURVE_POINTS)).collect();
+        let edge = match basin.edge {
+            Edge::None => Vec::new(),
+            Edge::Cycle => curves.first().cloned().unwrap_or_default(),
+            Edge::Separatrix => curves.remove(0),
+        };
+        Picture {
+            curves,
+            edge,
+            margin: basin.margin(),
+            area: basin.area(),
+            lyapunov_share: basin.lyapunov_share(),
         }
     }
 }
@@ -159,15 +196,18 @@ impl From<&LinearCycle> for Cycle {
     }
 }
 
-/// What borders the basin: the innermost cycle, else a separatrix where motions can escape.
-fn edge(parameters: &Parameters, cycles: &[Cycle]) -> Edge {
-    let self_excited_node = parameters.d <= -1.0 && parameters.r > 0.0;
-    let escapes = parameters.d3 == 0.0 && parameters.d2 != 0.0;
-    match cycles.first() {
-        Some(innermost) if !innermost.stable => Edge::Cycle,
-        Some(_) if !self_excited_node => Edge::None,
-        None if !(escapes || self_excited_node) => Edge::None,
-        _ => Edge::Separatrix,
+impl Edge {
+    /// What borders the basin: the innermost cycle, else a separatrix where motions can escape.
+    #[must_use]
+    pub fn around(parameters: &Parameters, stable: &[bool]) -> Self {
+        let self_excited_node = parameters.d <= -1.0 && parameters.r > 0.0;
+        let escapes = parameters.d3 == 0.0 && parameters.d2 != 0.0;
+        match stable.first() {
+            Some(false) => Edge::Cycle,
+            Some(true) if !self_excited_node => Edge::None,
+            None if !(escapes || self_excited_node) => Edge::None,
+            _ => Edge::Separatrix,
+        }
     }
 }
 
@@ -325,37 +365,4 @@ impl Closing {
             error: 8.0 * f64::EPSILON / slope.min(1.0),
         }
     }
-}
-
-/// The closed curve of a cycle.
-fn curve(
-    parameters: &Parameters,
-    side: Side,
-    closing: &Closing,
-    limits: &Limits,
-) -> Result<Vec<State>, Reason> {
-    /// Points drawn on each integration step.
-    const POINTS: u8 = 16;
-    /// Error and smallest detail of a drawn curve.
-    const FINE: f64 = 1e-9;
-    let mut points = Vec::new();
-    for (start, side) in [(closing.first, side), (closing.second, side.opposite())] {
-        let field = HalfPlane::new(parameters, side);
-        let detail = FINE * (start.value + parameters.r);
-        let mut map = HalfMap::integrating_above(detail, field, FINE);
-        let swing = map.swing_watched(start, limits, |taylor, unit, duration| {
-            for index in 0..=POINTS {
-                let point = taylor.at(duration * f64::from(index) / f64::from(POINTS));
-                points.push(State {
-                    q: side.displacement(times_power(point.x, unit), parameters.r),
-                    v: side.sign() * times_power(point.v, unit),
-                });
-            }
-        });
-        if let Err(NoEnd::Failed(reason)) = swing {
-            return Err(reason);
-        }
-    }
-    points.extend(points.first().copied());
-    Ok(points)
 }

@@ -11,6 +11,7 @@
 
 use std::ops::ControlFlow;
 
+use crate::closed_form::linear::first_standstill;
 use crate::flow::scaling::times_power;
 use crate::flow::step::{Point, Step, Stepper};
 use crate::flow::swing::{End, Failed, swing};
@@ -108,8 +109,8 @@ impl HalfMap {
     #[must_use]
     pub fn integrating_above(linear_below: f64, field: HalfPlane, tolerance: f64) -> Self {
         let taylor = Taylor::new(tolerance);
-        // Beyond critical damping the linear motion does not turn: nothing to skip.
-        let linear_below = if field.d.abs() < 1.0 { linear_below } else { 0.0 };
+        // A node that repels has no part worth skipping.
+        let linear_below = if field.d > -1.0 { linear_below } else { 0.0 };
         HalfMap { field, taylor, linear_below, fastest: false, steps: 0 }
     }
 
@@ -145,10 +146,10 @@ impl HalfMap {
         mut watch: impl FnMut(&Taylor, i32, f64),
     ) -> Result<HalfSwing, NoEnd> {
         let mut leg = Leg { point: Point { x: -start.value, v: 0.0 }, duration: 0.0 };
-        if self.linear_below > 0.0 {
-            match Linear::of(self.field.d).grow(start, self.linear_below) {
+        if self.linear_below > 0.0 && self.field.d < 1.0 {
+            match Spiral::of(self.field.d).grow(start, self.linear_below) {
                 Growth::Whole(end, duration) => {
-                    let fastest = Linear::of(self.field.d).fastest(start);
+                    let fastest = Spiral::of(self.field.d).fastest(start);
                     return Ok(self.finish(start, end, duration, 0.0, fastest));
                 }
                 Growth::Until(grown) => leg = grown,
@@ -156,7 +157,9 @@ impl HalfMap {
         }
         let (mut square, mut fastest) = (0.0, 0.0_f64);
         let nonlinear = !self.field.is_linear();
-        let (wants_fastest, linear_below) = (self.fastest, self.linear_below);
+        // Once small, a decaying motion stays small and is linear to its end.
+        let tail = if self.field.d >= 0.0 { self.linear_below } else { 0.0 };
+        let wants_fastest = self.fastest;
         let mut see = |taylor: &mut Taylor, _: f64, unit: i32, step: &Step| {
             if nonlinear {
                 square += times_power(times_power(taylor.square_integral(), unit), unit);
@@ -165,7 +168,7 @@ impl HalfMap {
                 fastest = fastest.max(times_power(v, unit));
             }
             watch(taylor, unit, step.duration);
-            if !step.crossed && times_power(step.end.size(), unit) < linear_below {
+            if !step.crossed && times_power(step.end.size(), unit) < tail {
                 return ControlFlow::Break(());
             }
             ControlFlow::Continue(())
@@ -183,8 +186,13 @@ impl HalfMap {
         let (end, rest) = match done.end {
             End::Crossing { x } => (Length::new(x), 0.0),
             End::Escape => return Err(NoEnd::Escapes),
-            End::Stopped { point } if point.size() < linear_below => {
-                Linear::of(self.field.d).arrive(point)
+            End::Stopped { point } if point.size() < tail => {
+                if self.field.d < 1.0 {
+                    Spiral::of(self.field.d).arrive(point)
+                } else {
+                    let end = first_standstill(self.field.d, point.x, point.v);
+                    end.map(|end| (Length::new(end.x), end.time)).ok_or(NoEnd::Never)?
+                }
             }
             End::Stopped { .. } => return Err(NoEnd::Never),
         };
@@ -230,14 +238,14 @@ enum Growth {
 }
 
 /// The linear spiral about the centre of a half plane, `abs(D) < 1`.
-struct Linear {
+struct Spiral {
     d: f64,
     omega: f64,
 }
 
-impl Linear {
+impl Spiral {
     fn of(d: f64) -> Self {
-        Linear { d, omega: ((1.0 - d) * (1.0 + d)).sqrt() }
+        Spiral { d, omega: ((1.0 - d) * (1.0 + d)).sqrt() }
     }
 
     /// Largest v of the spiral from `(-start, 0)` (equation 33, corrected).

@@ -1,13 +1,17 @@
 //! Questions asked of the flow: limit cycles, branches, folds, the basin of the sticking set.
 
+pub mod arc;
 pub mod balance;
+pub mod basin;
 pub mod branch;
 pub mod closing;
 pub mod continuation;
 pub mod cycle;
 pub mod escape;
 pub mod half_map;
+pub mod margin;
 pub mod search;
 
 pub use branch::{Branch, BranchPoint, Special, SpecialKind};
-pub use cycle::{Cycle, Cycles, Edge};
+pub use cycle::{Cycle, Cycles, Edge, Picture};
+pub use margin::Margin;

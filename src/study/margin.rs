@@ -1,0 +1,69 @@
+//! How large a kick the sticking set survives.
+//!
+//! The smallest displacement at rest, and the smallest impulse from a point of rest, that does not come
+//! back to the sticking set: where the edge of its basin meets `v = 0`, and its height above the point.
+
+use serde::Serialize;
+
+use super::basin::Basin;
+use super::cycle::Edge;
+use super::half_map::NoEnd;
+use crate::closed_form::lyapunov;
+
+/// The margins; `None` where every kick is survived.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Margin {
+    /// Smallest `abs(q)` at `v = 0` that is not captured.
+    pub displacement: Option<f64>,
+    /// Smallest `abs(v)` at the point of rest that is not captured.
+    pub impulse: Option<f64>,
+}
+
+impl Basin {
+    /// The margins, with impulses given at the point of rest `q`.
+    #[must_use]
+    pub fn margin_from(&self, q: f64) -> Margin {
+        let edge = match self.edge {
+            Edge::None => None,
+            Edge::Cycle | Edge::Separatrix => self.borders.first(),
+        };
+        let Some(edge) = edge else { return Margin { displacement: None, impulse: None } };
+        let r = self.parameters.r;
+        // A forward arc starts, and a backward arc ends, at the turning point of its own side.
+        let turning = [&edge.upper, &edge.lower].into_iter().filter_map(|arc| match &arc.swing {
+            Ok(swing) if arc.is_backward() => Some(r + swing.end.value),
+            Ok(swing) => Some(r + swing.start.value),
+            // The node at D <= -1: the arc leaves from the end point of the sticking set itself.
+            Err(NoEnd::Never) => Some(r),
+            Err(NoEnd::Escapes | NoEnd::Failed(_)) => None,
+        });
+        let impulses = edge.span_at(q).map(|(low, high)| high.min(-low));
+        Margin {
+            displacement: turning.reduce(f64::min),
+            impulse: impulses.filter(|impulse| impulse.is_finite()),
+        }
+    }
+
+    /// The margins from the origin.
+    #[must_use]
+    pub fn margin(&self) -> Margin {
+        self.margin_from(0.0)
+    }
+
+    /// Radius of the disk that Lyapunov's method proves to be captured (equation 24), as a part of the
+    /// true margin: how conservative it is.
+    #[must_use]
+    pub fn lyapunov_share(&self) -> Option<f64> {
+        let Margin { displacement, impulse } = self.margin();
+        let margin = displacement?.min(impulse?);
+        lyapunov::radius(&self.parameters).map(|radius| radius / margin)
+    }
+
+    /// Area of the basin in the phase plane: the integral of `v^2` over one turn of its edge; `None`
+    /// where it is infinite.
+    #[must_use]
+    pub fn area(&self) -> Option<f64> {
+        let edge = (self.edge == Edge::Cycle).then(|| self.borders.first())??;
+        Some(edge.upper.area() + edge.lower.area())
+    }
+}
