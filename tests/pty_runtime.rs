@@ -39,10 +39,9 @@ fn confirm(request: &Request, _: &Limits) -> Result<Answer, Reason> {
     Ok(Answer::Cycles(Cycles {
         parameters,
         cycles: Vec::new(),
-        curves: Vec::new(),
         harmonic: Vec::new(),
         edge: Edge::None,
-        edge_curve: Vec::new(),
+        picture: None,
         cost: Cost::default(),
     }))
 }

@@ -165,10 +165,9 @@ mod tests {
         Answer::Cycles(Cycles {
             parameters: Parameters { d: number(request), d2: 0.0, d3: 0.0, r: 0.1 },
             cycles: Vec::new(),
-            curves: Vec::new(),
             harmonic: Vec::new(),
             edge: Edge::None,
-            edge_curve: Vec::new(),
+            picture: None,
             cost: Cost::default(),
         })
     }

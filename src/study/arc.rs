@@ -80,7 +80,15 @@ impl Arc {
         if let Err(NoEnd::Failed(reason)) = swing {
             return Err(reason);
         }
-        Ok(Arc { side, r: parameters.r, sense, start: -length.value, pieces, swing, cost: map.cost() })
+        Ok(Arc {
+            side,
+            r: parameters.r,
+            sense,
+            start: -length.value,
+            pieces,
+            swing,
+            cost: map.cost(),
+        })
     }
 
     /// Speed `abs(v)` where the arc passes the displacement `q`: `None` beyond its turning points,
@@ -122,8 +130,7 @@ impl Arc {
         for piece in &self.pieces {
             let first = if points.is_empty() { 0 } else { 1 };
             for index in first..=count {
-                let point =
-                    piece.series.at(piece.duration * f64::from(index) / f64::from(count));
+                let point = piece.series.at(piece.duration * f64::from(index) / f64::from(count));
                 let x = self.sense * times_power(point.x, piece.unit);
                 let v = self.side.sign() * times_power(point.v, piece.unit);
                 points.push(State { q: self.side.displacement(x, self.r), v });

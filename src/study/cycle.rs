@@ -8,8 +8,8 @@
 use serde::Serialize;
 
 use super::balance::weighed_residual;
-use super::closing::{Closing, Equation, Route};
 use super::basin::Basin;
+use super::closing::{Closing, Equation, Route};
 use super::half_map::Length;
 use super::margin::Margin;
 use super::search::{Bracket, Node, search};

@@ -72,8 +72,8 @@ fn flow(session: &Session, Point { x: q, y: v }: Point) -> Point {
 
 /// The shaded basin of the sticking set, if it has an edge.
 fn basin(plot: &mut Plot, session: &Session) {
-    let Some(cycles) = session.cycles() else { return };
-    let edge: Vec<Point> = cycles.edge_curve.iter().map(point).collect();
+    let Some(picture) = session.cycles().and_then(|found| found.picture.as_ref()) else { return };
+    let edge: Vec<Point> = picture.edge.iter().map(point).collect();
     if !edge.is_empty() {
         plot.shade(&edge, Role::Basin);
         plot.curve(edge, Role::Unstable, Dash::Dashed);
@@ -102,7 +102,8 @@ fn trajectory(plot: &mut Plot, session: &Session) {
 
 fn cycles(plot: &mut Plot, session: &Session) {
     let Some(found) = session.cycles() else { return };
-    for (cycle, curve) in found.cycles.iter().zip(&found.curves) {
+    let curves = found.picture.iter().flat_map(|picture| &picture.curves);
+    for (cycle, curve) in found.cycles.iter().zip(curves) {
         let (role, dash) = stability(cycle.stable);
         plot.curve(curve.iter().map(point), role, dash);
     }

@@ -116,10 +116,9 @@ fn answered(request: Request) -> Answered {
         Request::Cycles { parameters, .. } => Answer::Cycles(Cycles {
             parameters: *parameters,
             cycles: vec![cycle(false, parameters.r), cycle(true, parameters.r)],
-            curves: Vec::new(),
             harmonic: Vec::new(),
             edge: Edge::Cycle,
-            edge_curve: Vec::new(),
+            picture: None,
             cost,
         }),
         Request::Branch { parameter, range: (from, to), parameters, .. } => {
