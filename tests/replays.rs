@@ -1,0 +1,35 @@
+//! Every keystroke file of the project plays to its end, at a small and at a large screen.
+
+use hopfscope::runtime::explorer::replay;
+use hopfscope::scene::plain;
+use hopfscope::session::replay::parse;
+use hopfscope::session::{Session, Size};
+use hopfscope::terminal::Environment;
+use ratatui::layout;
+
+/// Name and text of every file in `assets/replays`.
+fn files() -> Vec<(String, String)> {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/replays");
+    let read = |entry: std::io::Result<std::fs::DirEntry>| {
+        let path = entry.unwrap().path();
+        (path.display().to_string(), std::fs::read_to_string(path).unwrap())
+    };
+    std::fs::read_dir(folder).unwrap().map(read).collect()
+}
+
+#[test]
+fn every_file_meets_its_expectations() {
+    assert!(!files().is_empty());
+    for (name, text) in files() {
+        let script = parse(&text).unwrap_or_else(|error| panic!("{name}: {error}"));
+        for (width, height) in [(80, 24), (200, 60)] {
+            let session = Session::new(plain(), Size { width, height });
+            let size = layout::Size { width, height };
+            let played = replay(session, Environment::default(), script.clone(), size).unwrap();
+            if let Some(unmet) = played.unmet {
+                panic!("{name} at {width}x{height}: {unmet}");
+            }
+            assert!(played.machine.session().quit, "{name} leaves by its last key");
+        }
+    }
+}
