@@ -65,25 +65,3 @@ fn only_letters(buffer: &mut Buffer) {
         cell.set_char('?');
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::library::library;
-    use crate::session::Size;
-    use crate::session::settings::{self, GLYPHS};
-
-    #[test]
-    fn every_scene_is_drawn_at_every_size() {
-        for scene in library() {
-            for (width, height) in (1..=20).map(|n| (n * 10, n * 3)).chain([(1, 1), (500, 200)]) {
-                let session = Session::new(scene.clone(), Size { width, height });
-                for (glyphs, _) in GLYPHS {
-                    let look = Look::new(settings::Look { glyphs, ..settings::Look::default() });
-                    let screen = Rect::new(0, 0, width, height);
-                    render(screen, &session, &look, &mut Buffer::empty(screen));
-                }
-            }
-        }
-    }
-}

@@ -20,5 +20,8 @@ pub mod plot;
 pub mod status;
 pub mod ticks;
 
+#[cfg(test)]
+mod tests;
+
 pub use frame::draw;
 pub use look::Look;

@@ -19,6 +19,7 @@ use super::number::resolved;
 use super::pane;
 use super::ticks::{Tick, Ticks};
 use crate::scene::{Point, Window};
+use crate::session::settings::Glyphs;
 
 /// Smallest area in which axes stand outside the picture; below it labels lie inside.
 const ROOMY: (u16, u16) = (22, 9);
@@ -79,7 +80,9 @@ impl<'a> Plot<'a> {
             height: rows,
             ..body
         };
-        let rightward = Ticks::fitting(window.x, |ticks| apart(ticks, inner.width));
+        let spaced = |gap| Ticks::fitting(window.x, |ticks| apart(ticks, inner.width, gap));
+        // Two ticks make a scale: rather closer together than only one.
+        let rightward = Some(spaced(3)).filter(|ticks| ticks.ticks.len() > 1).unwrap_or(spaced(1));
         let (x, y) = (named(names.x, &rightward), named(names.y, &upward));
         pane::title(area, names.title, &format!("{y} over {x}"), heading, look, buffer);
         let dots = Dots::new(inner, look.glyphs);
@@ -181,9 +184,10 @@ impl<'a> Plot<'a> {
         self.curve([y.from(), y.to()].map(|y| Point { x, y }), role, dash);
     }
 
-    /// Draws a straight line two dots thick.
+    /// Draws a straight line two dots thick, or one letter.
     pub fn bar(&mut self, from: Point, to: Point, role: Role) {
-        for offset in [-0.5, 0.5] {
+        let offsets: &[f64] = if self.look.glyphs == Glyphs::Ascii { &[0.0] } else { &[-0.5, 0.5] };
+        for offset in offsets {
             let ends = [from, to].map(|end| {
                 let (x, y) = self.place(end);
                 (x, y + offset)
@@ -319,14 +323,13 @@ fn centred(tick: &Tick, cells: u16) -> u16 {
     column(tick.fraction, cells).saturating_sub(length / 2).min(cells.saturating_sub(length))
 }
 
-/// Whether the labels of a horizontal axis keep their distance, and are not too many.
-fn apart(ticks: &[Tick], cells: u16) -> bool {
-    const GAP: u16 = 3;
+/// Whether the labels of a horizontal axis fit on it with a gap between them.
+fn apart(ticks: &[Tick], cells: u16, gap: u16) -> bool {
     let places = || ticks.iter().map(|tick| (centred(tick, cells), tick.label.len() as u16));
     let fits = places().all(|(start, length)| start + length <= cells);
     let clear = places()
         .zip(places().skip(1))
-        .all(|((start, length), (next, _))| start + length + GAP <= next);
+        .all(|((start, length), (next, _))| start + length + gap <= next);
     fits && clear
 }
 

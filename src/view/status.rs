@@ -26,16 +26,13 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let left = Span::styled(format!(" {}{text}", symbol(session, look)), look.style(role));
     pane::line(area, 0, left, Span::styled(busy, look.style(Role::Warning)), buffer);
 
-    // The words that fit: in full, or shortened.
     let quiet = |text| Span::styled(text, look.style(Role::Quiet));
-    let line = |words| {
-        (format!(" {}", work(session, look, words)), format!("{} ", price(session, look, words)))
-    };
+    let line = |words| (work(session, look, words), price(session, look, words));
     let fits = |(left, right): &(String, String)| {
-        left.chars().count() + right.chars().count() <= usize::from(area.width)
+        left.chars().count() + right.chars().count() + 4 <= usize::from(area.width)
     };
-    let (left, right) = Some(line(&LONG)).filter(fits).unwrap_or_else(|| line(&SHORT));
-    pane::line(area, 1, quiet(left), quiet(right), buffer);
+    let (left, right) = WORDS.iter().map(line).find(fits).unwrap_or_else(|| line(&WORDS[2]));
+    pane::line(area, 1, quiet(format!(" {left}")), quiet(format!("{right} ")), buffer);
 }
 
 /// The words of the second line.
@@ -43,11 +40,20 @@ struct Words {
     evaluations: &'static str,
     error: &'static str,
     recomputed: &'static str,
+    duration: bool,
 }
 
-const LONG: Words =
-    Words { evaluations: " evaluations", error: "energy error", recomputed: " recomputed" };
-const SHORT: Words = Words { evaluations: " ev", error: "error", recomputed: "" };
+/// The words in full, and shorter for narrow screens.
+const WORDS: [Words; 3] = [
+    Words {
+        evaluations: "evaluations",
+        error: "energy error",
+        recomputed: "recomputed ",
+        duration: true,
+    },
+    Words { evaluations: "ev", error: "error", recomputed: "", duration: true },
+    Words { evaluations: "ev", error: "error", recomputed: "", duration: false },
+];
 
 /// What became of the motion, in a sentence.
 fn outcome(session: &Session) -> (String, Role) {
@@ -77,8 +83,9 @@ fn symbol(session: &Session, look: &Look) -> String {
 #[must_use]
 pub fn sentence(motion: &Trajectory) -> String {
     let swings = match motion.crossings.len() {
-        1 => "1 half swing".to_owned(),
-        number => format!("{number} half swings"),
+        0 => String::new(),
+        1 => " after 1 half swing".to_owned(),
+        number => format!(" after {number} half swings"),
     };
     let three = |value| significant(value, 3);
     match motion.outcome {
@@ -86,19 +93,16 @@ pub fn sentence(motion: &Trajectory) -> String {
             format!("at rest at q = {} from the start", three(q))
         }
         Outcome::Captured { tau, q } => {
-            format!("captured at q = {} after {swings}, tau = {}", three(q), three(tau))
+            format!("captured at q = {}{swings}, tau = {}", three(q), three(tau))
         }
-        Outcome::Moving { tau, q, v } => format!(
-            "moving at tau = {} after {swings}: q = {}, v = {}",
-            three(tau),
-            three(q),
-            three(v)
-        ),
+        Outcome::Moving { tau, q, v } => {
+            format!("moving at tau = {}{swings}: q = {}, v = {}", three(tau), three(q), three(v))
+        }
         Outcome::Escaped { tau } => {
-            format!("escapes at tau = {} after {swings}", significant(tau, 4))
+            format!("escapes at tau = {}{swings}", significant(tau, 4))
         }
         Outcome::GaveUp { tau, reason } => {
-            format!("gave up at tau = {} after {swings}: {reason}", three(tau))
+            format!("gave up at tau = {}{swings}: {reason}", three(tau))
         }
     }
 }
@@ -109,9 +113,11 @@ fn work(session: &Session, look: &Look, words: &Words) -> String {
     let seconds = session.answers.get(&Slot::Trajectory).map_or(0.0, |answered| answered.seconds);
     let mut parts = vec![
         motion.method.to_string(),
-        format!("{}{}", count(motion.cost.evaluations), words.evaluations),
-        duration(seconds),
+        format!("{} {}", count(motion.cost.evaluations), words.evaluations),
     ];
+    if words.duration {
+        parts.push(duration(seconds));
+    }
     if let Some(ledger) = motion.ledger {
         let largest = ledger.start.max(ledger.end);
         let error = if largest > 0.0 { (ledger.residual / largest).abs() } else { 0.0 };
@@ -132,8 +138,8 @@ fn price(session: &Session, look: &Look, words: &Words) -> String {
         Slot::Branch => "branch",
     };
     let names: Vec<&str> = price.recomputed.iter().map(|part| name(part.slot)).collect();
-    let key = price.key.map_or_else(|| "opened".into(), |key| keys::name(key, look));
+    let key = price.key.map_or_else(|| "open".into(), |key| keys::name(key, look));
     let (recomputed, evaluations) = (words.recomputed, count(price.evaluations()));
     let names = names.join("+");
-    format!("{key}:{recomputed} {names} {evaluations} ev {}", duration(price.seconds()))
+    format!("{key}: {recomputed}{names} {evaluations} ev {}", duration(price.seconds()))
 }

@@ -1,0 +1,333 @@
+//! Screens of hand-made answers: pictures kept as text, and facts that hold for every picture.
+
+use std::f64::consts::TAU;
+
+use proptest::prelude::*;
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::Modifier;
+
+use super::frame::render;
+use super::look::Look;
+use crate::export::screen::text;
+use crate::flow::{Cost, Crossing, Outcome, Problem, Reason, Sample, Trajectory};
+use crate::oscillator::{Ledger, State, Symbol};
+use crate::scene::answer::Failure;
+use crate::scene::library::{find, library};
+use crate::scene::{Answer, Answered, Layer, Point, Request, Span, Window};
+use crate::session::settings::{self, Colors, GLYPHS, Glyphs, THEMES, Theme};
+use crate::session::{Key, Msg, Session, Size, update};
+use crate::study::{Branch, BranchPoint, Cycle, Cycles, Edge, Special, SpecialKind};
+
+/// A scene whose questions are not answered yet.
+fn open(scene: &str, width: u16, height: u16) -> Session {
+    Session::new(find(scene).unwrap(), Size { width, height })
+}
+
+/// Answers every open question by hand, at a price that is always the same.
+fn settle(session: &mut Session) {
+    for request in session.wants() {
+        if session.is_open(&request) {
+            let result = Ok(by_hand(&request));
+            update(
+                session,
+                Msg::Answered(Box::new(Answered { request, result, seconds: 0.000_25 })),
+            );
+        }
+    }
+    update(session, Msg::Idle);
+}
+
+fn press(session: &mut Session, keys: &str) {
+    for key in keys.split_whitespace() {
+        update(session, Msg::Key(key.parse::<Key>().unwrap()));
+        settle(session);
+    }
+}
+
+fn by_hand(request: &Request) -> Answer {
+    match request {
+        Request::Trajectory(problem) => Answer::Trajectory(spiral(*problem)),
+        Request::Cycles { parameters, .. } => {
+            let cycles = vec![cycle(0.5, false), cycle(1.2, true)];
+            let curves: Vec<Vec<State>> = vec![circle(0.5), circle(1.2)];
+            Answer::Cycles(Cycles {
+                parameters: *parameters,
+                edge_curve: curves[0].clone(),
+                edge: Edge::Cycle,
+                harmonic: Vec::new(),
+                cost: Cost { evaluations: 1_200, steps: 60, rejected: 0 },
+                cycles,
+                curves,
+            })
+        }
+        Request::Branch { parameter, .. } => Answer::Branch(folded(*parameter)),
+    }
+}
+
+/// A motion that winds inwards and comes to rest after three half swings.
+fn spiral(problem: Problem) -> Trajectory {
+    let State { q, .. } = problem.initial;
+    let sample = |index: u16| {
+        let tau = 9.47 * f64::from(index) / 300.0;
+        let radius = q * (1.0 - tau / 10.0);
+        Sample { tau, q: radius * tau.cos(), v: -radius * tau.sin() }
+    };
+    let ledger = Ledger { start: 0.5, residual: 2e-14, ..Ledger::default() };
+    Trajectory {
+        problem,
+        method: problem.method,
+        outcome: Outcome::Captured { tau: 9.47, q: -0.053 },
+        crossings: [3.1, 6.3, 9.47].map(|tau| Crossing { tau, q: 0.1 }).to_vec(),
+        ledger: Some(ledger),
+        samples: (0..=300).map(sample).collect(),
+        cost: Cost { evaluations: 432, steps: 18, rejected: 0 },
+    }
+}
+
+fn circle(radius: f64) -> Vec<State> {
+    let corner = |index: u8| (TAU * f64::from(index) / 120.0).sin_cos();
+    (0..=120).map(corner).map(|(sin, cos)| State { q: radius * cos, v: -radius * sin }).collect()
+}
+
+fn cycle(radius: f64, stable: bool) -> Cycle {
+    Cycle {
+        stable,
+        q_min: -radius,
+        q_max: radius,
+        v_min: -radius,
+        v_max: radius,
+        period: 6.3,
+        multiplier: (!stable).then_some(3.8),
+        log_multiplier: if stable { -710.0 } else { 3.8_f64.ln() },
+        clearance: radius - 0.1,
+        log_clearance: (radius - 0.1).ln(),
+        error: 1e-14,
+    }
+}
+
+/// A branch that turns back at a fold.
+fn folded(parameter: Symbol) -> Branch {
+    let point = |index: u16| {
+        let q_max = 0.05 + f64::from(index) * 0.02;
+        BranchPoint {
+            value: -0.05 / q_max - 0.15 * q_max * q_max,
+            cycle: cycle(q_max, q_max > 0.55),
+        }
+    };
+    let fold = Special { kind: SpecialKind::Fold, value: -0.136_2, q_max: Some(0.55) };
+    let escape = Special { kind: SpecialKind::Escape, value: 0.05, q_max: None };
+    Branch {
+        parameter,
+        pieces: vec![(0..120).map(point).collect()],
+        special: vec![fold, escape],
+        cost: Cost { evaluations: 56_000, steps: 900, rejected: 3 },
+    }
+}
+
+fn draw(session: &Session, look: settings::Look) -> Buffer {
+    let Size { width, height } = session.size;
+    let screen = Rect::new(0, 0, width, height);
+    let mut buffer = Buffer::empty(screen);
+    render(screen, session, &Look::new(look), &mut buffer);
+    buffer
+}
+
+fn braille() -> settings::Look {
+    settings::Look { glyphs: Glyphs::Braille, colors: Colors::Sixteen, theme: Theme::Dark }
+}
+
+fn letters() -> settings::Look {
+    settings::Look { glyphs: Glyphs::Ascii, colors: Colors::Never, theme: Theme::Dark }
+}
+
+fn settled(scene: &str, width: u16, height: u16, keys: &str) -> Session {
+    let mut session = open(scene, width, height);
+    settle(&mut session);
+    press(&mut session, keys);
+    session
+}
+
+#[test]
+fn screens_look_as_they_were_approved() {
+    let cases = [
+        ("opened", "supercritical", (80, 24), "", braille()),
+        ("letters", "supercritical", (80, 24), "", letters()),
+        ("wide", "marginal", (160, 48), "<right>", braille()),
+        ("narrow", "basin", (60, 16), "<tab>", letters()),
+        ("cursor", "plain", (100, 30), "<tab> <up> <up> <right>", braille()),
+        ("diagram", "plain", (80, 24), "<tab> <tab> z <right>", braille()),
+        ("unfolded", "hopf", (80, 24), "x <down>", braille()),
+        ("help", "plain", (80, 24), "? <down> <down>", braille()),
+        ("search", "plain", (80, 24), "? / z o o m", letters()),
+        ("scenes", "basin", (100, 30), "s <down>", braille()),
+        ("layers", "plain", (80, 24), "v", letters()),
+        ("typing", "plain", (80, 24), "<enter> x <enter>", braille()),
+    ];
+    for (name, scene, (width, height), keys, look) in cases {
+        let session = settled(scene, width, height, keys);
+        insta::assert_snapshot!(name, text(&draw(&session, look)));
+    }
+    insta::assert_snapshot!("card", text(&draw(&open("plain", 40, 9), braille())));
+    insta::assert_snapshot!("waiting", text(&draw(&open("plain", 80, 24), braille())));
+}
+
+#[test]
+fn a_stale_picture_stays_and_says_so() {
+    let mut session = settled("supercritical", 80, 24, "");
+    let before = text(&draw(&session, braille()));
+    update(&mut session, Msg::Key("<right>".parse().unwrap()));
+    let after = text(&draw(&session, braille()));
+    let cycles_of = |screen: &str| screen.lines().nth(13).map(str::to_owned);
+    assert_eq!(cycles_of(&before), cycles_of(&after));
+    let titles = |screen: &str| screen.lines().nth(1).unwrap_or_default().to_owned();
+    assert!(!titles(&before).contains("stale") && titles(&after).contains("stale"), "{after}");
+    assert!(after.contains("computing"));
+}
+
+#[test]
+fn a_question_without_an_answer_says_why() {
+    let mut session = open("plain", 80, 24);
+    for request in session.wants() {
+        let result = Err(Failure::Reason(Reason::Budget { evaluations: 5 }));
+        let answered = Answered { request, result, seconds: 0.1 };
+        update(&mut session, Msg::Answered(Box::new(answered)));
+    }
+    let screen = text(&draw(&session, braille()));
+    assert!(screen.contains("no motion: budget of 5 evaluations spent"), "{screen}");
+    assert!(screen.contains("no answer"));
+}
+
+#[test]
+fn letters_are_letters_in_every_corner_of_the_program() {
+    for keys in ["", "?", "s", "v", "<enter>", "<tab> <up>", "<tab> <tab> <up>"] {
+        let session = settled("supercritical", 120, 40, keys);
+        let screen = text(&draw(&session, letters()));
+        assert!(screen.is_ascii(), "{keys}: {screen}");
+        assert!(!screen.contains('?') || keys != "s", "{screen}");
+    }
+}
+
+#[test]
+fn without_colour_no_cell_has_any_and_stable_still_differs_from_unstable() {
+    for (glyphs, _) in GLYPHS {
+        for (theme, _) in THEMES {
+            let look = settings::Look { glyphs, colors: Colors::Never, theme };
+            let session = settled("supercritical", 80, 24, "");
+            let colourless = draw(&session, look);
+            let coloured = draw(&session, settings::Look { colors: Colors::Sixteen, ..look });
+            assert_eq!(text(&colourless), text(&coloured), "colour changes no character");
+            for cell in &colourless.content {
+                assert_eq!((cell.fg, cell.bg), Default::default());
+            }
+        }
+    }
+    let only = |stable: bool| {
+        let mut session = settled("supercritical", 80, 24, "");
+        session.layers = [Layer::Cycles].into();
+        if let Some(Ok(Answer::Cycles(found))) =
+            session.answers.get_mut(&crate::scene::Slot::Cycles).map(|held| held.result.as_mut())
+        {
+            found.cycles = vec![cycle(1.0, stable)];
+            found.curves = vec![circle(1.0)];
+        }
+        text(&draw(&session, settings::Look { colors: Colors::Never, ..braille() }))
+    };
+    assert_ne!(only(true), only(false));
+}
+
+#[test]
+fn the_pane_that_gets_the_keys_is_marked_without_colour() {
+    for keys in ["", "<tab>", "<tab> <tab>"] {
+        let session = settled("plain", 80, 24, keys);
+        let screen = text(&draw(&session, letters()));
+        let titles = screen.lines().nth(1).unwrap();
+        assert_eq!(titles.matches('>').count(), 1, "{titles}");
+    }
+}
+
+#[test]
+fn the_footer_and_the_help_name_the_keys_that_do_it() {
+    let footer = |keys: &str| {
+        let screen = text(&draw(&settled("plain", 100, 24, keys), letters()));
+        screen.lines().last().unwrap_or_default().to_owned()
+    };
+    assert!(footer("").contains("left right step") && footer("").contains("q quit"));
+    assert!(footer("<tab>").contains("enter start here"));
+    assert!(footer("<enter>").contains("enter accept"));
+    let help = settled("plain", 100, 200, "?");
+    let screen = text(&draw(&help, letters()));
+    for command in crate::session::COMMANDS {
+        assert!(screen.contains(command.doc), "{}", command.name);
+    }
+}
+
+#[test]
+fn a_value_that_differs_from_the_scene_is_underlined() {
+    let underlined = |keys: &str| {
+        let buffer = draw(&settled("plain", 80, 24, keys), braille());
+        buffer.content.iter().filter(|cell| cell.modifier.contains(Modifier::UNDERLINED)).count()
+    };
+    assert_eq!((underlined(""), underlined("<right>")), (0, "-0.09".len()));
+}
+
+#[test]
+fn every_scene_fits_every_size() {
+    for scene in library() {
+        let sizes =
+            (1..=25).map(|n| (n * 8, n * 3)).chain([(1, 1), (500, 200), (200, 16), (60, 200)]);
+        for (width, height) in sizes {
+            for keys in ["", "?", "s", "<enter>"] {
+                let session = settled(&scene.name, width, height, keys);
+                for (glyphs, _) in GLYPHS {
+                    draw(&session, settings::Look { glyphs, ..braille() });
+                }
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn whatever_the_numbers_are_a_picture_is_drawn(
+        curve in proptest::collection::vec((any::<f64>(), any::<f64>()), 0..40),
+        (low, high) in (any::<f64>(), any::<f64>()),
+        value in any::<f64>(),
+        (width, height) in (60_u16..130, 16_u16..40),
+    ) {
+        let mut session = settled("supercritical", width, height, "<tab>");
+        session.layers = crate::scene::LAYERS.iter().map(|row| row.layer).collect();
+        settle(&mut session);
+        let states: Vec<State> = curve.iter().map(|(q, v)| State { q: *q, v: *v }).collect();
+        for held in session.answers.values_mut() {
+            match &mut held.result {
+                Ok(Answer::Trajectory(found)) => {
+                    found.samples = curve.iter().map(|(q, v)| Sample { tau: 0.0, q: *q, v: *v }).collect();
+                    found.outcome = Outcome::Moving { tau: value, q: low, v: high };
+                }
+                Ok(Answer::Cycles(found)) => {
+                    found.curves = vec![states.clone(), states.clone()];
+                    found.edge_curve.clone_from(&states);
+                    found.cycles = vec![cycle(value, true), cycle(low, false)];
+                }
+                Ok(Answer::Branch(found)) => {
+                    found.pieces = vec![curve.iter().map(|(value, q_max)| {
+                        BranchPoint { value: *value, cycle: cycle(*q_max, *q_max > 0.0) }
+                    }).collect()];
+                    found.special[0].q_max = Some(value);
+                }
+                Err(_) => {}
+            }
+        }
+        session.phase.cursor = Some(Point { x: value, y: low });
+        if let Ok(span) = Span::new(low.min(high), low.max(high)) {
+            session.phase.window = Window { x: span, y: span };
+            session.diagram.window = Window { x: span, y: span };
+        }
+        for (glyphs, _) in GLYPHS {
+            draw(&session, settings::Look { glyphs, ..braille() });
+        }
+    }
+}
