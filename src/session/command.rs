@@ -176,9 +176,10 @@ pub const COMMANDS: &[Command] = &[
         "Use the next theme", |s, _| general::theme(s)),
     row("drop-cursor", &[(Everywhere, &["<esc>"])], "",
         "Drop the cursor; never leaves, never discards", |s, _| plots::drop_cursor(s)),
-    row("back", &[(Lists, &["<esc>", "q"]), (Help, &["?", "<f1>"]),
-        (Scenes, &["s"]), (Layers, &["v"]), (Entry, &["<esc>"]), (Offer, &["<esc>"])], "close",
+    row("back", &[(Lists, &["<esc>", "q"]), (Entry, &["<esc>"]), (Offer, &["<esc>"])], "close",
         "Close what is open", |s, _| general::back(s)),
+    row("close-again", &[(Help, &["?", "<f1>"]), (Scenes, &["s"]), (Layers, &["v"])], "",
+        "Close with the key that opened", |s, _| general::back(s)),
     row("quit", &[(Everywhere, &["q"]), (Always, &["<C-c>"])], "quit",
         "Leave", |s, _| general::quit(s)),
 
