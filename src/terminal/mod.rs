@@ -10,7 +10,9 @@ pub mod capabilities;
 pub mod guard;
 pub mod pacing;
 pub mod painter;
+pub mod pen;
 pub mod screen;
+mod strokes;
 
 pub use capabilities::{Environment, Refusal};
 pub use guard::Guard;

@@ -13,8 +13,9 @@ use std::io::{self, Write};
 use ratatui::backend::{Backend, ClearType, WindowSize};
 use ratatui::buffer::Cell;
 use ratatui::layout::{Position, Size};
-use ratatui::style::{Color, Modifier};
-use unicode_width::UnicodeWidthStr;
+
+use super::pen::Pen;
+use super::strokes::{self, Cursor, Hand, Shown};
 
 /// Holds back the picture until [`END`]: synchronized update, private mode 2026.
 pub const BEGIN: &str = "\x1b[?2026h";
@@ -34,114 +35,6 @@ const ERASE: &str = "\x1b[2J";
 /// Bytes that hold any ordinary frame without growing: a full 200x60 screen has about 40 KB.
 const FRAME_CAPACITY: usize = 64 * 1024;
 
-/// Attributes of a cell that the painter draws: which, how to switch it on, and how off.
-///
-/// Bold and dim have one code to switch both off; [`Pen::change`] switches the other on again.
-const ATTRIBUTES: [(Modifier, u8, u8); 6] = [
-    (Modifier::BOLD, 1, 22),
-    (Modifier::DIM, 2, 22),
-    (Modifier::ITALIC, 3, 23),
-    (Modifier::UNDERLINED, 4, 24),
-    (Modifier::REVERSED, 7, 27),
-    (Modifier::CROSSED_OUT, 9, 29),
-];
-
-/// Attributes that show on a blank cell too.
-const SEEN_ON_BLANKS: Modifier =
-    Modifier::UNDERLINED.union(Modifier::REVERSED).union(Modifier::CROSSED_OUT);
-
-/// What the terminal draws the next character with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Pen {
-    foreground: Color,
-    background: Color,
-    attributes: Modifier,
-}
-
-impl Pen {
-    /// The terminal's own colours, no attributes.
-    const PLAIN: Pen =
-        Pen { foreground: Color::Reset, background: Color::Reset, attributes: Modifier::empty() };
-
-    /// The pen that a cell asks for, given the present one: on a blank cell most of it is not seen.
-    fn of(cell: &Cell, present: Pen) -> Pen {
-        let wanted = Pen { foreground: cell.fg, background: cell.bg, attributes: cell.modifier };
-        let seen = wanted.attributes.union(present.attributes).intersects(SEEN_ON_BLANKS);
-        if cell.symbol() == " " && !seen {
-            Pen { background: wanted.background, ..present }
-        } else {
-            wanted
-        }
-    }
-
-    /// Parameters that turn this pen into another: switching off what it has too much, and on what
-    /// it lacks.
-    fn change(self, to: Pen) -> Vec<u16> {
-        let mut parameters = Vec::new();
-        let mut present = self.attributes;
-        for (attribute, _, off) in ATTRIBUTES {
-            if present.contains(attribute) && !to.attributes.contains(attribute) {
-                parameters.push(u16::from(off));
-                for (other, _, same) in ATTRIBUTES {
-                    if same == off {
-                        present.remove(other);
-                    }
-                }
-            }
-        }
-        for (attribute, on, _) in ATTRIBUTES {
-            if to.attributes.contains(attribute) && !present.contains(attribute) {
-                parameters.push(u16::from(on));
-            }
-        }
-        if self.foreground != to.foreground {
-            push_colour(&mut parameters, to.foreground, 30);
-        }
-        if self.background != to.background {
-            push_colour(&mut parameters, to.background, 40);
-        }
-        parameters
-    }
-}
-
-/// Appends the parameters of a colour; `base` is 30 for the foreground and 40 for the background.
-fn push_colour(parameters: &mut Vec<u16>, colour: Color, base: u16) {
-    let indexed = match colour {
-        Color::Reset => return parameters.push(base + 9),
-        Color::Rgb(red, green, blue) => {
-            return parameters.extend([base + 8, 2, red.into(), green.into(), blue.into()]);
-        }
-        Color::Indexed(index) => index,
-        Color::Black => 0,
-        Color::Red => 1,
-        Color::Green => 2,
-        Color::Yellow => 3,
-        Color::Blue => 4,
-        Color::Magenta => 5,
-        Color::Cyan => 6,
-        Color::Gray => 7,
-        Color::DarkGray => 8,
-        Color::LightRed => 9,
-        Color::LightGreen => 10,
-        Color::LightYellow => 11,
-        Color::LightBlue => 12,
-        Color::LightMagenta => 13,
-        Color::LightCyan => 14,
-        Color::White => 15,
-    };
-    match u16::from(indexed) {
-        dark @ 0..8 => parameters.push(base + dark),
-        bright @ 8..16 => parameters.push(base + 60 + bright - 8),
-        other => parameters.extend([base + 8, 5, other]),
-    }
-}
-
-/// Number of characters of a select-graphic-rendition sequence with these parameters.
-fn length(parameters: &[u16]) -> usize {
-    let digits = |number: &u16| if *number < 10 { 1 } else { 2 + usize::from(*number > 99) };
-    parameters.iter().map(|number| digits(number) + 1).sum()
-}
-
 /// A ratatui backend for a terminal that understands ECMA-48.
 #[derive(Debug)]
 pub struct Painter<W: Write> {
@@ -151,8 +44,8 @@ pub struct Painter<W: Write> {
     frame: Vec<u8>,
     /// Whether the next frame ends with [`REQUEST`].
     asking: bool,
-    pen: Option<Pen>,
-    cursor: Option<Position>,
+    hand: Hand,
+    shown: Shown,
     cursor_shown: bool,
     written: u64,
 }
@@ -165,8 +58,8 @@ impl<W: Write> Painter<W> {
             size,
             frame: Vec::with_capacity(FRAME_CAPACITY),
             asking: false,
-            pen: None,
-            cursor: None,
+            hand: Hand::default(),
+            shown: Shown::blank(size),
             cursor_shown: false,
             written: 0,
         }
@@ -191,8 +84,8 @@ impl<W: Write> Painter<W> {
 
     /// Forgets what is known of the terminal: something else has written to it.
     pub fn forget(&mut self) {
-        self.pen = None;
-        self.cursor = None;
+        self.hand = Hand::default();
+        self.shown = Shown::default();
         self.cursor_shown = false;
     }
 
@@ -223,46 +116,6 @@ impl<W: Write> Painter<W> {
     fn put(&mut self, text: &str) {
         self.frame().extend_from_slice(text.as_bytes());
     }
-
-    fn put_formatted(&mut self, text: std::fmt::Arguments) {
-        self.frame().write_fmt(text).expect("a vector takes any number of bytes");
-    }
-
-    /// Moves the cursor, by the shortest way that works from where it is known to be.
-    fn go_to(&mut self, target: Position) {
-        let Position { x, y } = target;
-        match self.cursor {
-            Some(cursor) if cursor == target => {}
-            Some(cursor) if cursor.y == y && cursor.x < x => match x - cursor.x {
-                1 => self.put("\x1b[C"),
-                gap => self.put_formatted(format_args!("\x1b[{gap}C")),
-            },
-            Some(cursor) if cursor.y + 1 == y && x == 0 => self.put("\r\n"),
-            _ if x == 0 => self.put_formatted(format_args!("\x1b[{}H", y + 1)),
-            _ => self.put_formatted(format_args!("\x1b[{};{}H", y + 1, x + 1)),
-        }
-        self.cursor = Some(target);
-    }
-
-    /// Takes up the pen, by switching what differs or by starting anew, whichever is shorter.
-    fn take(&mut self, pen: Pen) {
-        if self.pen == Some(pen) {
-            return;
-        }
-        let anew = Pen::PLAIN.change(pen);
-        let parameters = match self.pen.map(|present| present.change(pen)) {
-            Some(change) if length(&change) <= length(&anew) + 2 => change,
-            _ if pen == Pen::PLAIN => anew,
-            _ => std::iter::once(0).chain(anew).collect(),
-        };
-        self.put("\x1b[");
-        for (place, parameter) in parameters.iter().enumerate() {
-            let separator = if place == 0 { "" } else { ";" };
-            self.put_formatted(format_args!("{separator}{parameter}"));
-        }
-        self.put("m");
-        self.pen = Some(pen);
-    }
 }
 
 impl<W: Write> Backend for Painter<W> {
@@ -272,13 +125,11 @@ impl<W: Write> Backend for Painter<W> {
     where
         I: Iterator<Item = (u16, u16, &'a Cell)>,
     {
-        for (x, y, cell) in content {
-            self.go_to(Position { x, y });
-            self.take(Pen::of(cell, self.pen.unwrap_or(Pen::PLAIN)));
-            self.put(cell.symbol());
-            let width = u16::try_from(cell.symbol().width()).unwrap_or(1);
-            self.cursor = Some(Position { x: x.saturating_add(width), y });
+        let (text, hand) = strokes::draw(content, &mut self.shown, self.hand);
+        if !text.is_empty() {
+            self.put(&text);
         }
+        self.hand = hand;
         Ok(())
     }
 
@@ -300,18 +151,26 @@ impl<W: Write> Backend for Painter<W> {
 
     /// Never asks: the reply would arrive among the keys (ratatui#2691).
     fn get_cursor_position(&mut self) -> io::Result<Position> {
-        self.cursor.ok_or_else(|| io::Error::other("where the cursor is, is not known"))
+        let known = self.hand.cursor.map(|cursor| cursor.at);
+        known.ok_or_else(|| io::Error::other("where the cursor is, is not known"))
     }
 
     fn set_cursor_position<P: Into<Position>>(&mut self, position: P) -> io::Result<()> {
-        self.go_to(position.into());
+        let at = position.into();
+        let cursor = Some(Cursor { at, certain: true });
+        if self.hand.cursor != cursor {
+            let Position { x, y } = at;
+            self.put(&format!("\x1b[{};{}H", y + 1, x + 1));
+            self.hand.cursor = cursor;
+        }
         Ok(())
     }
 
     fn clear(&mut self) -> io::Result<()> {
         self.put(PLAIN);
         self.put(ERASE);
-        self.pen = Some(Pen::PLAIN);
+        self.hand.pen = Some(Pen::PLAIN);
+        self.shown = Shown::blank(self.size);
         Ok(())
     }
 
@@ -349,9 +208,10 @@ mod tests {
     use proptest::prelude::*;
     use ratatui::Terminal;
     use ratatui::buffer::Buffer;
-    use ratatui::style::{Style, Stylize};
+    use ratatui::style::{Color, Modifier, Style, Stylize};
     use ratatui::text::Line;
 
+    use super::super::pen::push_colour;
     use super::*;
 
     fn terminal(width: u16, height: u16) -> Terminal<Painter<Vec<u8>>> {
@@ -371,34 +231,16 @@ mod tests {
     #[test]
     fn a_frame_that_changes_nothing_sends_nothing() {
         let mut terminal = terminal(10, 2);
-        assert_eq!(frame(&mut terminal, &Line::from("abc")), "\x1b[1H\x1b[mabc");
+        assert_eq!(frame(&mut terminal, &Line::from("abc")), "\x1b[H\x1b[mabc");
         assert_eq!(frame(&mut terminal, &Line::from("abc")), "");
-        assert_eq!(terminal.backend().written(), 26);
+        assert_eq!(terminal.backend().written(), 25);
     }
 
     #[test]
     fn only_what_differs_is_sent() {
         let mut terminal = terminal(10, 1);
         frame(&mut terminal, &Line::from("abcdef"));
-        assert_eq!(frame(&mut terminal, &Line::from("aXcdeY")), "\x1b[1;2HX\x1b[3CY");
-    }
-
-    #[test]
-    fn the_sixteen_colours_are_short_and_attributes_survive_without_colour() {
-        let mut terminal = terminal(10, 1);
-        let sent = frame(
-            &mut terminal,
-            &Line::from_iter(["a".red(), "b".light_red().bold(), "c".bold(), "d".reversed()]),
-        );
-        assert_eq!(sent, "\x1b[1H\x1b[0;31ma\x1b[1;91mb\x1b[39mc\x1b[0;7md");
-    }
-
-    #[test]
-    fn switching_bold_off_keeps_dim() {
-        let mut terminal = terminal(10, 1);
-        let sent =
-            frame(&mut terminal, &Line::from_iter(["a".red().bold().dim(), "b".red().dim()]));
-        assert_eq!(sent, "\x1b[1H\x1b[0;1;2;31ma\x1b[22;2mb");
+        assert_eq!(frame(&mut terminal, &Line::from("aXcdef")), "\x1b[5DX");
     }
 
     #[test]
@@ -409,7 +251,7 @@ mod tests {
             terminal.draw(|frame| frame.render_widget("x", frame.area())).unwrap();
         }
         let sent = String::from_utf8(terminal.backend().out.clone()).unwrap();
-        assert_eq!(sent, format!("{BEGIN}\x1b[1H\x1b[mx{END}{REQUEST}"));
+        assert_eq!(sent, format!("{BEGIN}\x1b[H\x1b[mx{END}{REQUEST}"));
     }
 
     #[test]
@@ -418,7 +260,7 @@ mod tests {
         frame(&mut terminal, &Line::from("x"));
         terminal.backend_mut().forget();
         terminal.resize(ratatui::layout::Rect::new(0, 0, 4, 1)).unwrap();
-        assert_eq!(frame(&mut terminal, &Line::from("x")), "\x1b[m\x1b[2J\x1b[1Hx");
+        assert_eq!(frame(&mut terminal, &Line::from("x")), "\x1b[m\x1b[2J\x1b[Hx");
     }
 
     /// Any style a view could use.

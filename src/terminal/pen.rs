@@ -1,0 +1,195 @@
+//! The pen: colours and attributes that the terminal draws with, and the shortest way to change them.
+
+use std::fmt::Write;
+
+use ratatui::buffer::Cell;
+use ratatui::style::{Color, Modifier};
+
+/// Attributes of a cell that the painter draws: which, how to switch it on, and how off.
+///
+/// Bold and dim have one code to switch both off; `difference` switches the other on again.
+const ATTRIBUTES: [(Modifier, u8, u8); 6] = [
+    (Modifier::BOLD, 1, 22),
+    (Modifier::DIM, 2, 22),
+    (Modifier::ITALIC, 3, 23),
+    (Modifier::UNDERLINED, 4, 24),
+    (Modifier::REVERSED, 7, 27),
+    (Modifier::CROSSED_OUT, 9, 29),
+];
+
+/// Attributes that show on a blank cell too.
+const SEEN_ON_BLANKS: Modifier =
+    Modifier::UNDERLINED.union(Modifier::REVERSED).union(Modifier::CROSSED_OUT);
+
+/// What the terminal draws the next character with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pen {
+    /// Colour of the character.
+    pub foreground: Color,
+    /// Colour behind it.
+    pub background: Color,
+    /// Bold and the like.
+    pub attributes: Modifier,
+}
+
+impl Pen {
+    /// The terminal's own colours, no attributes.
+    pub const PLAIN: Pen =
+        Pen { foreground: Color::Reset, background: Color::Reset, attributes: Modifier::empty() };
+
+    /// The pen that a cell asks for.
+    #[must_use]
+    pub fn of(cell: &Cell) -> Pen {
+        Pen { foreground: cell.fg, background: cell.bg, attributes: cell.modifier }
+    }
+
+    /// Whether a blank looks the same with both pens.
+    #[must_use]
+    pub fn is_alike_on_blanks(self, other: Pen) -> bool {
+        let seen = self.attributes.union(other.attributes).intersects(SEEN_ON_BLANKS);
+        self == other || (self.background == other.background && !seen)
+    }
+
+    /// Writes the shortest sequence that takes up this pen instead of another, of which `None` is
+    /// known: by switching what differs, or by starting anew.
+    pub fn take_up(self, present: Option<Pen>, out: &mut String) {
+        if present == Some(self) {
+            return;
+        }
+        let anew = Pen::PLAIN.difference(self);
+        let parameters = match present.map(|present| present.difference(self)) {
+            Some(difference) if length(&difference) <= length(&anew) + 2 => difference,
+            _ if self == Pen::PLAIN => anew,
+            _ => std::iter::once(0).chain(anew).collect(),
+        };
+        out.push_str("\x1b[");
+        for (place, parameter) in parameters.iter().enumerate() {
+            let separator = if place == 0 { "" } else { ";" };
+            // A string takes any text: this cannot fail.
+            let _ = write!(out, "{separator}{parameter}");
+        }
+        out.push('m');
+    }
+
+    /// Parameters that turn this pen into another: switching off what it has too much, and on what
+    /// it lacks.
+    fn difference(self, to: Pen) -> Vec<u16> {
+        let mut parameters = Vec::new();
+        let mut present = self.attributes;
+        for (attribute, _, off) in ATTRIBUTES {
+            if present.contains(attribute) && !to.attributes.contains(attribute) {
+                parameters.push(u16::from(off));
+                for (other, _, same) in ATTRIBUTES {
+                    if same == off {
+                        present.remove(other);
+                    }
+                }
+            }
+        }
+        for (attribute, on, _) in ATTRIBUTES {
+            if to.attributes.contains(attribute) && !present.contains(attribute) {
+                parameters.push(u16::from(on));
+            }
+        }
+        if self.foreground != to.foreground {
+            push_colour(&mut parameters, to.foreground, 30);
+        }
+        if self.background != to.background {
+            push_colour(&mut parameters, to.background, 40);
+        }
+        parameters
+    }
+}
+
+/// Appends the parameters of a colour; `base` is 30 for the foreground and 40 for the background.
+pub(super) fn push_colour(parameters: &mut Vec<u16>, colour: Color, base: u16) {
+    let indexed = match colour {
+        Color::Reset => return parameters.push(base + 9),
+        Color::Rgb(red, green, blue) => {
+            return parameters.extend([base + 8, 2, red.into(), green.into(), blue.into()]);
+        }
+        Color::Indexed(index) => index,
+        Color::Black => 0,
+        Color::Red => 1,
+        Color::Green => 2,
+        Color::Yellow => 3,
+        Color::Blue => 4,
+        Color::Magenta => 5,
+        Color::Cyan => 6,
+        Color::Gray => 7,
+        Color::DarkGray => 8,
+        Color::LightRed => 9,
+        Color::LightGreen => 10,
+        Color::LightYellow => 11,
+        Color::LightBlue => 12,
+        Color::LightMagenta => 13,
+        Color::LightCyan => 14,
+        Color::White => 15,
+    };
+    match u16::from(indexed) {
+        dark @ 0..8 => parameters.push(base + dark),
+        bright @ 8..16 => parameters.push(base + 60 + bright - 8),
+        other => parameters.extend([base + 8, 5, other]),
+    }
+}
+
+/// Number of characters of a select-graphic-rendition sequence with these parameters.
+fn length(parameters: &[u16]) -> usize {
+    let digits = |number: &u16| if *number < 10 { 1 } else { 2 + usize::from(*number > 99) };
+    parameters.iter().map(|number| digits(number) + 1).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The sequence from one pen to another.
+    fn change(from: Option<Pen>, to: Pen) -> String {
+        let mut out = String::new();
+        to.take_up(from, &mut out);
+        out
+    }
+
+    fn pen(foreground: Color, attributes: Modifier) -> Pen {
+        Pen { foreground, attributes, ..Pen::PLAIN }
+    }
+
+    #[test]
+    fn the_sixteen_colours_are_short() {
+        let red = pen(Color::Red, Modifier::empty());
+        let cases = [
+            (None, red, "\x1b[0;31m"),
+            (Some(Pen::PLAIN), red, "\x1b[31m"),
+            (Some(red), pen(Color::LightRed, Modifier::BOLD), "\x1b[1;91m"),
+            (Some(red), Pen { background: Color::White, ..red }, "\x1b[107m"),
+            (Some(red), pen(Color::Indexed(208), Modifier::empty()), "\x1b[38;5;208m"),
+            (Some(red), pen(Color::Rgb(1, 20, 255), Modifier::empty()), "\x1b[38;2;1;20;255m"),
+            (Some(red), red, ""),
+        ];
+        for (from, to, sequence) in cases {
+            assert_eq!(change(from, to), sequence, "{from:?} to {to:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_too_much_is_switched_off_or_everything_begun_anew_whichever_is_shorter() {
+        let bold_red = pen(Color::Red, Modifier::BOLD);
+        assert_eq!(change(Some(bold_red), Pen::PLAIN), "\x1b[m");
+        assert_eq!(change(Some(bold_red), pen(Color::Red, Modifier::empty())), "\x1b[22m");
+        assert_eq!(change(Some(bold_red), pen(Color::Reset, Modifier::BOLD)), "\x1b[39m");
+    }
+
+    #[test]
+    fn switching_bold_off_keeps_dim() {
+        let both = pen(Color::Red, Modifier::BOLD.union(Modifier::DIM));
+        assert_eq!(change(Some(both), pen(Color::Red, Modifier::DIM)), "\x1b[22;2m");
+    }
+
+    #[test]
+    fn blanks_care_for_what_is_seen_on_them() {
+        let red = pen(Color::Red, Modifier::BOLD);
+        assert!(red.is_alike_on_blanks(Pen::PLAIN));
+        assert!(!red.is_alike_on_blanks(Pen { background: Color::Blue, ..red }));
+        assert!(!red.is_alike_on_blanks(pen(Color::Red, Modifier::UNDERLINED)));
+    }
+}

@@ -1,0 +1,272 @@
+//! Strokes: the changed cells of a frame in the order and with the cursor moves that cost least.
+//!
+//! A stroke is text in one pen on one row. Blanks look alike in most pens, so they join whatever stroke
+//! they touch, and a stroke also goes over a few cells that have not changed where that is shorter than
+//! a cursor move. The strokes are then drawn either row by row or pen by pen, whichever takes fewer
+//! bytes: a curve along a row wants the first, a line down the screen the second.
+
+use std::fmt::Write;
+use std::ops::Range;
+
+use ratatui::buffer::Cell;
+use ratatui::layout::{Position, Size};
+use unicode_width::UnicodeWidthStr;
+
+use super::pen::Pen;
+
+/// Where the terminal's cursor is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cursor {
+    /// Column and row, from 0.
+    pub at: Position,
+    /// Whether the column can be relied on: some terminals draw some characters wider than others.
+    pub certain: bool,
+}
+
+/// What is known of the terminal between two strokes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Hand {
+    /// The pen; `None` if it is not known.
+    pub pen: Option<Pen>,
+    /// The cursor; `None` if it is not known.
+    pub cursor: Option<Cursor>,
+}
+
+/// Text in one pen on one row.
+#[derive(Clone, Debug)]
+struct Stroke {
+    start: Position,
+    width: u16,
+    /// `None`: only blanks, which look alike in most pens; then `background` is one that does.
+    pen: Option<Pen>,
+    background: Pen,
+    text: Range<usize>,
+    /// Whether all terminals agree about its width.
+    certain: bool,
+}
+
+/// What the terminal shows, cell by cell, as far as the painter has drawn it.
+#[derive(Clone, Debug, Default)]
+pub struct Shown {
+    size: Size,
+    cells: Vec<Cell>,
+}
+
+impl Shown {
+    /// A screen of blanks.
+    #[must_use]
+    pub fn blank(size: Size) -> Shown {
+        Shown { size, cells: vec![Cell::EMPTY; usize::from(size.width) * usize::from(size.height)] }
+    }
+
+    fn index(&self, x: u16, y: u16) -> Option<usize> {
+        let inside = x < self.size.width && y < self.size.height;
+        inside.then(|| usize::from(y) * usize::from(self.size.width) + usize::from(x))
+    }
+
+    /// The cell at a place, if it is known and one column wide.
+    fn narrow(&self, x: u16, y: u16) -> Option<&Cell> {
+        let cell = self.index(x, y).and_then(|index| self.cells.get(index))?;
+        (cell.symbol().width() == 1).then_some(cell)
+    }
+
+    fn set(&mut self, x: u16, y: u16, cell: &Cell) {
+        let Some(index) = self.index(x, y) else { return };
+        self.cells[index].clone_from(cell);
+        // What a wide character covers is not to be drawn over.
+        let covered = cell.symbol().width().saturating_sub(1);
+        for hidden in self.cells.iter_mut().skip(index + 1).take(covered) {
+            hidden.set_symbol("");
+        }
+    }
+}
+
+/// The strokes of a frame.
+#[derive(Debug, Default)]
+struct Sheet {
+    strokes: Vec<Stroke>,
+    text: String,
+}
+
+/// Bytes of the shortest cursor move over a few cells; a stroke may go over cells that cost no more.
+const SHORT_MOVE: usize = 3;
+
+impl Sheet {
+    /// Puts a cell down: at the end of the last stroke if it can be, else as a stroke of its own.
+    fn put(&mut self, x: u16, y: u16, cell: &Cell, shown: &Shown) {
+        if !self.bridge(x, y, cell, shown) {
+            let end = self.text.len();
+            self.strokes.push(Stroke {
+                start: Position { x, y },
+                width: 0,
+                pen: None,
+                background: Pen::of(cell),
+                text: end..end,
+                certain: true,
+            });
+        }
+        self.extend(cell);
+    }
+
+    /// Leads the last stroke up to a cell, over what stands between; `false` if it cannot be.
+    fn bridge(&mut self, x: u16, y: u16, cell: &Cell, shown: &Shown) -> bool {
+        let Some(last) = self.strokes.last() else { return false };
+        let end = last.start.x + last.width;
+        if last.start.y != y || end > x || x - end > 3 || !last.takes(cell) {
+            return false;
+        }
+        let between: Option<Vec<&Cell>> = (end..x).map(|x| shown.narrow(x, y)).collect();
+        let Some(between) = between else { return false };
+        let cost: usize = between.iter().map(|cell| cell.symbol().len()).sum();
+        let mut trial = last.clone();
+        let fits = between.iter().all(|cell| {
+            trial.takes(cell) && {
+                trial.adopt(cell);
+                true
+            }
+        });
+        if cost > SHORT_MOVE || !fits || !trial.takes(cell) {
+            return false;
+        }
+        for cell in between {
+            self.extend(cell);
+        }
+        true
+    }
+
+    fn extend(&mut self, cell: &Cell) {
+        let Some(last) = self.strokes.last_mut() else { return };
+        let width = cell.symbol().width();
+        last.adopt(cell);
+        last.width += u16::try_from(width).unwrap_or(1);
+        last.certain &= cell.symbol().width_cjk() == width;
+        self.text.push_str(cell.symbol());
+        last.text.end = self.text.len();
+    }
+
+    /// Draws the strokes in this order.
+    fn draw<'a>(
+        &self,
+        strokes: impl Iterator<Item = &'a Stroke>,
+        mut hand: Hand,
+        size: Size,
+    ) -> (String, Hand) {
+        let mut out = String::with_capacity(2 * self.text.len());
+        for stroke in strokes {
+            go_to(stroke.start, hand.cursor, size, &mut out);
+            let present = hand.pen;
+            let pen = match (stroke.pen, present) {
+                (Some(pen), _) => pen,
+                (None, Some(present)) if present.is_alike_on_blanks(stroke.background) => present,
+                (None, _) => stroke.background,
+            };
+            pen.take_up(present, &mut out);
+            out.push_str(&self.text[stroke.text.clone()]);
+            let at = Position { x: stroke.start.x + stroke.width, ..stroke.start };
+            hand = Hand { pen: Some(pen), cursor: Some(Cursor { at, certain: stroke.certain }) };
+        }
+        (out, hand)
+    }
+}
+
+impl Stroke {
+    /// Whether a cell can stand in this stroke.
+    fn takes(&self, cell: &Cell) -> bool {
+        let pen = Pen::of(cell);
+        match self.pen {
+            Some(own) if cell.symbol() == " " => own.is_alike_on_blanks(pen),
+            Some(own) => own == pen,
+            None => self.background.is_alike_on_blanks(pen),
+        }
+    }
+
+    /// Takes over the pen of a cell that is not blank.
+    fn adopt(&mut self, cell: &Cell) {
+        if cell.symbol() != " " {
+            self.pen = Some(Pen::of(cell));
+        }
+    }
+}
+
+/// The shortest text that draws these cells, given in the order of rows and columns, and where it
+/// leaves pen and cursor.
+pub fn draw<'a>(
+    cells: impl Iterator<Item = (u16, u16, &'a Cell)>,
+    shown: &mut Shown,
+    hand: Hand,
+) -> (String, Hand) {
+    let mut sheet = Sheet::default();
+    let cells: Vec<_> = cells.collect();
+    for (x, y, cell) in &cells {
+        sheet.put(*x, *y, cell, shown);
+    }
+    for (x, y, cell) in cells {
+        shown.set(x, y, cell);
+    }
+    let size = shown.size;
+    let by_rows = sheet.draw(sheet.strokes.iter(), hand, size);
+    let by_pens = sheet.draw(pen_by_pen(&sheet.strokes).into_iter(), hand, size);
+    if by_pens.0.len() < by_rows.0.len() { by_pens } else { by_rows }
+}
+
+/// The strokes of the first pen, then those of the second, and so on; blanks where they stand.
+fn pen_by_pen(strokes: &[Stroke]) -> Vec<&Stroke> {
+    let mut pens: Vec<Option<Pen>> = Vec::new();
+    for stroke in strokes {
+        if !pens.contains(&stroke.pen) {
+            pens.push(stroke.pen);
+        }
+    }
+    let mut sorted: Vec<&Stroke> = strokes.iter().collect();
+    sorted.sort_by_key(|stroke| pens.iter().position(|pen| *pen == stroke.pen));
+    sorted
+}
+
+/// Writes the shortest cursor move.
+fn go_to(target: Position, cursor: Option<Cursor>, size: Size, out: &mut String) {
+    let Position { x, y } = target;
+    let absolute = match (x, y) {
+        (0, 0) => "\x1b[H".to_owned(),
+        (0, _) => format!("\x1b[{}H", y + 1),
+        _ => format!("\x1b[{};{}H", y + 1, x + 1),
+    };
+    let relative = cursor.and_then(|cursor| relative_move(target, cursor, size));
+    match relative {
+        Some(relative) if relative.len() < absolute.len() => out.push_str(&relative),
+        _ => out.push_str(&absolute),
+    }
+}
+
+/// The shortest move from a known place, if there is one: down by line feeds, left by backspaces or
+/// from the margin, up and right by sequences.
+fn relative_move(target: Position, cursor: Cursor, size: Size) -> Option<String> {
+    let Position { x, y } = cursor.at;
+    // At the right margin terminals disagree about where the cursor is.
+    let certain = cursor.certain && x < size.width;
+    if target.y < y || !(certain || (target.y == y && target.x >= x) || target.x == 0) {
+        return None;
+    }
+    let down = steps(target.y - y, "\n", 'B');
+    let from_margin = format!("\r{down}{}", steps(target.x, "", 'C'));
+    if !certain && target.y != y {
+        return Some(from_margin);
+    }
+    let along =
+        if target.x >= x { steps(target.x - x, "", 'C') } else { steps(x - target.x, "\x08", 'D') };
+    let directly = down + &along;
+    Some(if directly.len() <= from_margin.len() { directly } else { from_margin })
+}
+
+/// So many steps: as single characters if there is one and it is shorter, else as a sequence.
+fn steps(count: u16, single: &str, letter: char) -> String {
+    let mut sequence = String::new();
+    match count {
+        0 => {}
+        1 => sequence.extend(['\x1b', '[', letter]),
+        _ => drop(write!(sequence, "\x1b[{count}{letter}")),
+    }
+    if !single.is_empty() && usize::from(count) < sequence.len() {
+        return single.repeat(count.into());
+    }
+    sequence
+}
