@@ -208,7 +208,7 @@ mod tests {
     use proptest::prelude::*;
     use ratatui::Terminal;
     use ratatui::buffer::Buffer;
-    use ratatui::style::{Color, Modifier, Style, Stylize};
+    use ratatui::style::{Color, Modifier, Style};
     use ratatui::text::Line;
 
     use super::super::pen::push_colour;
