@@ -104,6 +104,19 @@ fn basin_has_a_border_even_where_no_number_lies_between_it_and_the_sticking_set(
 }
 
 #[test]
+fn marginal_the_harmonic_amplitude_lies_below_the_cycle() {
+    assert!(Stage::open("marginal").is_captured());
+    assert!(!Stage::open("marginal").press("<left>").is_captured());
+    let share = |keys| {
+        let stage = Stage::open("marginal").press(keys);
+        let found = stage.0.cycles().unwrap();
+        found.harmonic[0].amplitude / found.cycles[0].q_max
+    };
+    assert!((0.99..1.0).contains(&share("")));
+    assert!((share("-0.7<enter>") - 5.0 / 6.0).abs() < 0.01);
+}
+
+#[test]
 fn hopf_without_friction_every_motion_tends_to_the_cycle() {
     let stage = Stage::open("hopf");
     assert_eq!(stage.0.problem.parameters.r, 0.0);
