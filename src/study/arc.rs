@@ -128,7 +128,7 @@ impl Arc {
     pub fn points(&self, count: u8) -> Vec<State> {
         let mut points = Vec::new();
         for piece in &self.pieces {
-            let first = if points.is_empty() { 0 } else { 1 };
+            let first = u8::from(!points.is_empty());
             for index in first..=count {
                 let point = piece.series.at(piece.duration * f64::from(index) / f64::from(count));
                 let x = self.sense * times_power(point.x, piece.unit);

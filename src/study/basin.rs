@@ -127,9 +127,8 @@ pub fn basin(parameters: &Parameters, reach: f64, limits: &Limits) -> Result<Bas
 fn fates_between(parameters: &Parameters, stable: &[bool], with_centre: bool) -> Vec<Fate> {
     let outside = match stable.last() {
         Some(true) => Fate::Cycle,
-        Some(false) => Fate::Escaped,
         None if with_centre => centre_fate(parameters),
-        None => Fate::Escaped,
+        Some(false) | None => Fate::Escaped,
     };
     let inside = match stable.first() {
         Some(true) if parameters.r > 0.0 && with_centre => Fate::Captured,

@@ -115,6 +115,12 @@ impl Equation {
         cost
     }
 
+    /// How many half swings were computed so far.
+    #[must_use]
+    pub fn swings(&self) -> u64 {
+        self.forward.iter().chain(&self.backward).map(|map| map.swings).sum()
+    }
+
     /// The smallest clearance whose first swing passes the sticking set: the preimage of its far end.
     ///
     /// No cycle starts with less. `None` where no swing of any clearance passes it: every motion is

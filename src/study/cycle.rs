@@ -231,11 +231,14 @@ pub fn closings(equation: &mut Equation, limits: &Limits) -> Result<Vec<Closing>
 fn lower_end(equation: &mut Equation, limits: &Limits) -> Result<Option<f64>, Reason> {
     /// Without friction the linear terms alone decide about amplitudes this much below balance.
     const SMALL: f64 = 1e-4;
+    /// A step down in the logarithm that no rounding bridges.
+    const CLEARLY: f64 = 0.125;
     let Parameters { d, d2, d3, r } = equation.parameters;
     let smallest = equation.smallest_clearance(limits)?;
     Ok(smallest.map(|smallest| {
         if smallest.log.is_finite() {
-            smallest.log
+            // A cycle of large multiplier lies within rounding of it: begin clearly below.
+            smallest.log - CLEARLY
         } else if r > 0.0 {
             // Beyond critical damping a swing passes from any clearance, however small.
             (SMALL * f64::EPSILON * r).ln()
@@ -322,7 +325,9 @@ pub fn polish(
         }
         let newton = u - node.value() / node.slope;
         change = (newton - u).abs();
-        if change <= 4.0 * f64::EPSILON * u.abs().max(1.0) || high - low <= f64::EPSILON * u.abs() {
+        // Rounding of the residual moves its root by so much; near a fold that is more than an ulp.
+        let blur = 4.0 * f64::EPSILON * u.abs().max(1.0) / node.slope.abs().min(1.0);
+        if change <= blur || high - low <= f64::EPSILON * u.abs() {
             return Ok(closing);
         }
         u = if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
@@ -362,7 +367,9 @@ impl Closing {
             log_multiplier,
             clearance: right.value,
             log_clearance: right.log,
-            error: 8.0 * f64::EPSILON / slope.min(1.0),
+            // Near critical damping the time next to the centre depends on the last digits of the state.
+            error: 8.0 * f64::EPSILON
+                / (slope.min(1.0) * (1.0 - parameters.d.abs()).abs().min(1.0)),
         }
     }
 }

@@ -95,6 +95,8 @@ pub struct HalfMap {
     /// Whether to find the largest velocity of each swing.
     pub fastest: bool,
     steps: u64,
+    /// Swings computed so far.
+    pub swings: u64,
 }
 
 impl HalfMap {
@@ -111,7 +113,7 @@ impl HalfMap {
         let taylor = Taylor::new(tolerance);
         // A node that repels has no part worth skipping.
         let linear_below = if field.d > -1.0 { linear_below } else { 0.0 };
-        HalfMap { field, taylor, linear_below, fastest: false, steps: 0 }
+        HalfMap { field, taylor, linear_below, fastest: false, steps: 0, swings: 0 }
     }
 
     /// Changes the size below which the motion is taken to be linear; returns the former one.
@@ -145,6 +147,7 @@ impl HalfMap {
         limits: &Limits,
         mut watch: impl FnMut(&Taylor, i32, f64),
     ) -> Result<HalfSwing, NoEnd> {
+        self.swings += 1;
         let mut leg = Leg { point: Point { x: -start.value, v: 0.0 }, duration: 0.0 };
         if self.linear_below > 0.0 && self.field.d < 1.0 {
             match Spiral::of(self.field.d).grow(start, self.linear_below) {

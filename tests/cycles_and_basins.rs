@@ -1,0 +1,240 @@
+//! Every limit cycle and every basin, against brute force and against numbers computed elsewhere.
+
+use hopfscope::flow::trajectory::trajectory;
+use hopfscope::flow::{Detail, Limits, Method, Outcome, Problem};
+use hopfscope::oscillator::{HalfPlane, Parameters, Side, State, Symbol};
+use hopfscope::study::basin::{Basin, Counts, Fate, Window, basin};
+use hopfscope::study::branch::{SpecialKind, branch};
+use hopfscope::study::closing::{Equation, Route};
+use hopfscope::study::cycle::{closings, cycles};
+use hopfscope::study::half_map::{HalfMap, Length, NoEnd};
+use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::{RngAlgorithm, TestRng, TestRunner};
+use rayon::prelude::*;
+
+const LIMITS: Limits = Limits::PATIENT;
+
+/// Random parameter sets from the ranges of interest, the same in every run.
+fn parameter_sets(count: usize) -> Vec<Parameters> {
+    let strategy = (-0.95..0.5, -1.0..1.0, -1.0..2.0, 1e-3..0.5)
+        .prop_map(|(d, d2, d3, r)| Parameters { d, d2, d3, r });
+    let rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
+    let mut runner = TestRunner::new_with_rng(proptest::test_runner::Config::default(), rng);
+    let mut set = || strategy.new_tree(&mut runner).expect("the ranges are not empty").current();
+    (0..count).map(|_| set()).collect()
+}
+
+/// Sign changes of "the next turn is larger" over a dense scan of start clearances, each turn computed
+/// forward by two half maps: what a search without any cleverness finds.
+fn scanned_cycles(parameters: &Parameters, scan: usize) -> usize {
+    let mut maps =
+        [Side::Upper, Side::Lower].map(|side| HalfMap::new(HalfPlane::new(parameters, side), 1e-9));
+    let mut grows = |clearance: f64| {
+        let mut length = Length::new(clearance);
+        for map in &mut maps {
+            match map.swing(length, &Limits { evaluations: u64::MAX, ..LIMITS }) {
+                Err(NoEnd::Escapes) => return true,
+                Err(NoEnd::Never) => return false,
+                Err(NoEnd::Failed(reason)) => panic!("{parameters:?}: {reason}"),
+                Ok(swing) if swing.end.value <= 2.0 * parameters.r => return false,
+                Ok(swing) => length = Length::new(swing.end.value - 2.0 * parameters.r),
+            }
+        }
+        length.value > clearance
+    };
+    let (low, high) = (1e-9_f64.ln(), 60_f64.ln());
+    let at = |index: usize| (low + (high - low) * index as f64 / scan as f64).exp();
+    let signs: Vec<bool> = (0..=scan).map(|index| grows(at(index))).collect();
+    signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
+}
+
+#[test]
+fn no_cycle_is_missed_against_a_dense_scan() {
+    let wrong: Vec<_> = parameter_sets(2000)
+        .into_par_iter()
+        .filter_map(|parameters| {
+            let found = cycles(&parameters, false, &LIMITS).expect("a search within the budget");
+            let inside = |cycle: &&hopfscope::study::Cycle| {
+                -cycle.q_min - parameters.r < 59.0 && -cycle.q_min - parameters.r > 1e-8
+            };
+            let expected = scanned_cycles(&parameters, 600);
+            let count = found.cycles.iter().filter(inside).count();
+            (count != expected).then_some((parameters, count, expected))
+        })
+        .collect();
+    // A pair closer than the scan is seen by the search alone.
+    let missed: Vec<_> = wrong.iter().filter(|(_, count, expected)| count < expected).collect();
+    assert!(missed.is_empty(), "{missed:?}");
+    let finer = |&(parameters, count, _): &(Parameters, usize, usize)| {
+        scanned_cycles(&parameters, 60_000) != count
+    };
+    let doubtful: Vec<_> = wrong.iter().filter(|case| finer(case)).collect();
+    assert!(doubtful.is_empty(), "{doubtful:?}");
+}
+
+/// Where a start ends according to its own motion.
+fn brute_fate(parameters: &Parameters, initial: State) -> Fate {
+    let problem = Problem {
+        parameters: *parameters,
+        initial,
+        until: 2000.0,
+        method: Method::Taylor,
+        tolerance: 1e-8,
+    };
+    match trajectory(&problem, Detail::default(), &LIMITS).outcome {
+        Outcome::Captured { .. } => Fate::Captured,
+        Outcome::Escaped { .. } => Fate::Escaped,
+        Outcome::Moving { .. } => Fate::Cycle,
+        Outcome::GaveUp { .. } => Fate::Undecided,
+    }
+}
+
+#[test]
+fn ordered_basins_agree_with_brute_force() {
+    let window = Window { q: (-3.0, 3.0), v: (-3.0, 3.0) };
+    const GRID: usize = 13;
+    parameter_sets(60).into_par_iter().for_each(|parameters| {
+        let ordered = basin(&parameters, 3.0, &LIMITS).expect("a basin");
+        for index in 0..GRID * GRID {
+            let place = |index: usize| -3.0 + 6.0 * index as f64 / (GRID - 1) as f64;
+            let start = State { q: place(index % GRID), v: place(index / GRID) };
+            if near_a_border(&ordered, start) {
+                continue;
+            }
+            assert_eq!(
+                ordered.fate(start),
+                brute_fate(&parameters, start),
+                "{parameters:?} {start:?}"
+            );
+        }
+        let counts = ordered.count(&window, GRID, GRID);
+        let mut one_by_one = Counts::default();
+        for index in 0..GRID * GRID {
+            let place = |index: usize| -3.0 + 6.0 * index as f64 / (GRID - 1) as f64;
+            one_by_one
+                .add(ordered.fate(State { q: place(index % GRID), v: place(index / GRID) }), 1);
+        }
+        assert_eq!(counts, one_by_one, "{parameters:?}");
+    });
+}
+
+/// Whether the edge cuts so close by that the end time of brute force cannot decide.
+fn near_a_border(basin: &Basin, start: State) -> bool {
+    let fate = basin.fate(start);
+    [(1e-3, 0.0), (-1e-3, 0.0), (0.0, 1e-3), (0.0, -1e-3)]
+        .iter()
+        .any(|(dq, dv)| basin.fate(State { q: start.q + dq, v: start.v + dv }) != fate)
+}
+
+#[test]
+fn the_basin_of_the_issue_has_358_captured_starts() {
+    let parameters = Parameters { d: -0.2, d2: 0.2, d3: 0.5, r: 0.1 };
+    let window = Window { q: (-6.0, 6.0), v: (-6.0, 6.0) };
+    let counts = basin(&parameters, 6.0, &LIMITS).unwrap().count(&window, 320, 384);
+    assert_eq!(counts, Counts { captured: 358, cycle: 122_522, escaped: 0, undecided: 0 });
+}
+
+/// The general search, with half maps that integrate by series down to sizes of 1e-9, against the closed
+/// form of the piecewise linear cycle.
+#[test]
+fn the_general_path_gives_the_piecewise_linear_cycle_to_twelve_digits() {
+    let r = 0.5;
+    for d in [-0.999_999, -0.999, -0.99, -0.7, -0.1, -1e-3, -1e-6, -1e-12] {
+        let parameters = Parameters { d, d2: 0.0, d3: 0.0, r };
+        let series = |field| HalfMap::integrating_above(1e-9, field, f64::EPSILON);
+        let mut equation = Equation::with(&parameters, Side::Upper, series);
+        let found = closings(&mut equation, &LIMITS).unwrap();
+        assert_eq!(found.len(), 1, "D = {d}");
+        equation.want_fastest(true);
+        let route = if d < -0.2 { Route::Backward } else { Route::Mixed };
+        let closing = equation.at(route, found[0].node.at, &LIMITS).unwrap();
+        let cycle = closing.describe(&parameters, Side::Upper);
+        let exact = &cycles(&parameters, false, &LIMITS).unwrap().cycles[0];
+        let compare = |name: &str, one: f64, other: f64| {
+            assert!((one / other - 1.0).abs() < 1e-12, "D = {d}: {name} {one:e} for {other:e}");
+        };
+        if exact.clearance > 0.0 {
+            compare("clearance", cycle.clearance, exact.clearance);
+        }
+        compare("log clearance", cycle.log_clearance, exact.log_clearance);
+        compare("v_max", cycle.v_max, exact.v_max);
+        compare("period", cycle.period, exact.period);
+        compare("log multiplier", cycle.log_multiplier, exact.log_multiplier);
+    }
+}
+
+#[test]
+fn folds_lie_where_they_were_computed_elsewhere() {
+    let table: serde_json::Value =
+        serde_json::from_str(include_str!("data/folds.json")).expect("a table of folds");
+    let number = |value: &serde_json::Value| value.as_f64().expect("a number");
+    let fold = |d2: f64, d3: f64, r: f64| {
+        let parameters = Parameters { d: 0.0, d2, d3, r };
+        let found = branch(&parameters, Symbol::D, (-0.95, 0.1), 40, 1e-10, &LIMITS).unwrap();
+        *found.special.iter().find(|special| special.kind == SpecialKind::Fold).expect("a fold")
+    };
+    for row in table["folds"].as_array().expect("rows") {
+        let (kappa, expected) = (number(&row["kappa"]), number(&row["D_F"]));
+        let digits = if [0.01, 0.25].contains(&kappa) { 1e-11 } else { 1e-8 };
+        for r in [0.1, 1.0] {
+            let value = fold(0.0, kappa / (r * r), r).value;
+            assert!((value - expected).abs() < digits, "kappa {kappa}, r {r}: {value}");
+        }
+    }
+    let with_d2 = fold(0.2, 0.5, 0.1);
+    assert!((with_d2.value - number(&table["with_D2"]["D"])).abs() < 1e-12, "{}", with_d2.value);
+    assert!((with_d2.q_max.unwrap() - number(&table["with_D2"]["q_max"])).abs() < 1e-9);
+    // Asymmetric damping moves the fold, which (48) does not know.
+    let shifted = [0.0, 0.2, 0.5].map(|d2| fold(d2, 0.01, 0.1).value);
+    assert!(shifted[0] > shifted[1] && shifted[1] > shifted[2], "{shifted:?}");
+    // On either side of it, motion for motion: below, some turn grows; above, every turn shrinks.
+    for (d2, value) in [(0.2, shifted[1]), (0.5, shifted[2])] {
+        let grows = |d: f64| {
+            let parameters = Parameters { d, d2, d3: 0.01, r: 0.1 };
+            (0..400).any(|index| turn_grows(&parameters, 1.0 + 0.01 * f64::from(index)))
+        };
+        assert!(grows(value - 1e-5) && !grows(value + 1e-5), "D2 = {d2}");
+    }
+}
+
+/// Whether a motion from rest at `q0` comes back to its side further out.
+fn turn_grows(parameters: &Parameters, q0: f64) -> bool {
+    let problem = Problem {
+        parameters: *parameters,
+        initial: State { q: q0, v: 0.0 },
+        until: 8.0,
+        method: Method::Dop853,
+        tolerance: 1e-12,
+    };
+    let motion = trajectory(&problem, Detail::default(), &LIMITS);
+    motion.crossings.get(1).is_some_and(|crossing| crossing.q > q0)
+}
+
+#[test]
+fn a_fold_and_the_escape_point_end_the_branches_that_lead_to_them() {
+    let parameters = Parameters { d: 0.0, d2: 0.3, d3: 0.0, r: 0.5 };
+    let found = branch(&parameters, Symbol::D, (-0.95, 0.2), 60, 1e-10, &LIMITS).unwrap();
+    let escape = found.special.iter().find(|special| special.kind == SpecialKind::Escape).unwrap();
+    let largest = found.pieces[0].iter().map(|point| point.value).fold(f64::MIN, f64::max);
+    assert!(largest < escape.value && escape.value - largest < 1e-3);
+    // Points of a branch are cycles: found again, by the search, at their own parameter.
+    for point in found.pieces[0].iter().step_by(7) {
+        let there = Parameters { d: point.value, ..parameters };
+        let cycle = &cycles(&there, false, &LIMITS).unwrap().cycles[0];
+        assert!((cycle.q_max / point.cycle.q_max - 1.0).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn one_cycle_costs_at_most_forty_half_swings() {
+    let parameters = Parameters { d: -0.3, d2: 0.2, d3: 0.5, r: 0.1 };
+    let found = closings(&mut Equation::new(&parameters, f64::EPSILON), &LIMITS).unwrap();
+    let mut equation = Equation::new(&parameters, f64::EPSILON);
+    let mut at = |u: f64| equation.at(Route::Mixed, u, &LIMITS).unwrap().node;
+    let near = found[0].node.at;
+    let bracket = (at(near - 0.3), at(near + 0.3));
+    let closing = hopfscope::study::cycle::polish(&mut equation, bracket, &LIMITS).unwrap();
+    assert!((closing.node.at - near).abs() < 1e-14);
+    assert!(equation.swings() <= 40, "{} half swings", equation.swings());
+}
