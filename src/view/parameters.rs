@@ -13,7 +13,7 @@ use crate::flow::Problem;
 use crate::oscillator::Symbol;
 use crate::scene::Pane;
 use crate::session::{Row, Session};
-use crate::study::{Cycle, Edge};
+use crate::study::{Cycle, Cycles, Edge};
 
 /// Columns up to the end of the values.
 const VALUES: usize = 16;
@@ -199,11 +199,24 @@ fn cycles(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) -> u1
         pane::line(area, y, " none", "", buffer);
         y += 1;
     }
+    for text in basin(found) {
+        pane::line(area, y, Span::styled(format!(" {text}"), look.style(Role::Quiet)), "", buffer);
+        y += 1;
+    }
+    y + 1
+}
+
+/// What borders the basin of the sticking set, and which kicks it survives.
+fn basin(found: &Cycles) -> Vec<String> {
     let edge = match found.edge {
-        Edge::None => "every motion is captured",
+        Edge::None if found.parameters.r == 0.0 => "no sticking set",
+        Edge::None => "all motions captured",
         Edge::Cycle => "edge: unstable cycle",
         Edge::Separatrix => "edge: separatrix",
     };
-    pane::line(area, y, Span::styled(format!(" {edge}"), look.style(Role::Quiet)), "", buffer);
-    y + 2
+    let kicks = found.picture.as_ref().map(|picture| picture.margin).and_then(|margin| {
+        let (q, v) = (margin.displacement?, margin.impulse?);
+        Some(format!("kicks q {} v {}", significant(q, 3), significant(v, 3)))
+    });
+    std::iter::once(edge.to_owned()).chain(kicks).collect()
 }

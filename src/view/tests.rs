@@ -1,6 +1,7 @@
 //! Screens of hand-made answers: pictures kept as text, and facts that hold for every picture.
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use proptest::prelude::*;
 use ratatui::buffer::Buffer;
@@ -10,14 +11,16 @@ use ratatui::style::Modifier;
 use super::frame::render;
 use super::look::Look;
 use crate::export::screen::text;
-use crate::flow::{Cost, Crossing, Outcome, Problem, Reason, Sample, Trajectory};
-use crate::oscillator::{Ledger, State, Symbol};
+use crate::flow::{Cost, Crossing, Method, Outcome, Problem, Reason, Sample, Trajectory};
+use crate::oscillator::{Ledger, Parameters, State, Symbol};
 use crate::scene::answer::Failure;
 use crate::scene::library::{find, library};
-use crate::scene::{Answer, Answered, Layer, Point, Request, Span, Window};
+use crate::scene::{Answer, Answered, LAYERS, Layer, Point, Request, Scene, Span, Window};
 use crate::session::settings::{self, Colors, GLYPHS, Glyphs, THEMES, Theme};
 use crate::session::{Key, Msg, Session, Size, update};
-use crate::study::{Branch, BranchPoint, Cycle, Cycles, Edge, Special, SpecialKind};
+use crate::study::{
+    Branch, BranchPoint, Cycle, Cycles, Edge, Margin, Picture, Special, SpecialKind,
+};
 
 /// A scene whose questions are not answered yet.
 fn open(scene: &str, width: u16, height: u16) -> Session {
@@ -53,16 +56,20 @@ fn by_hand(request: &Request) -> Answer {
             let curves: Vec<Vec<State>> = vec![circle(0.5), circle(1.2)];
             Answer::Cycles(Cycles {
                 parameters: *parameters,
-                edge_curve: curves[0].clone(),
                 edge: Edge::Cycle,
                 harmonic: Vec::new(),
                 cost: Cost { evaluations: 1_200, steps: 60, rejected: 0 },
                 cycles,
-                curves,
+                picture: Some(picture(curves[0].clone(), curves)),
             })
         }
         Request::Branch { parameter, .. } => Answer::Branch(folded(*parameter)),
     }
+}
+
+fn picture(edge: Vec<State>, curves: Vec<Vec<State>>) -> Picture {
+    let margin = Margin { displacement: Some(0.5), impulse: Some(0.5) };
+    Picture { curves, edge, margin, area: Some(0.8), lyapunov_share: Some(0.3) }
 }
 
 /// A motion that winds inwards and comes to rest after three half swings.
@@ -148,28 +155,77 @@ fn settled(scene: &str, width: u16, height: u16, keys: &str) -> Session {
     session
 }
 
+/// A scene of its own, so that the pictures do not change with the library.
+fn approved() -> Scene {
+    let library = find("supercritical").unwrap();
+    let parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.5, r: 0.1 };
+    let problem = Problem {
+        parameters,
+        initial: State { q: 1.0, v: 0.0 },
+        until: 60.0,
+        method: Method::Taylor,
+        tolerance: 1e-10,
+    };
+    let span = |from, to| Span::new(from, to).unwrap();
+    Scene {
+        name: "approved".into(),
+        title: "A scene with a fold".into(),
+        look: "Two cycles meet in the fold. ".repeat(4),
+        press: "Right on D, past the fold. ".repeat(3),
+        terms: [Symbol::D, Symbol::D3, Symbol::R].into(),
+        problem,
+        layers: LAYERS.iter().map(|row| row.layer).collect(),
+        phase: Window { x: span(-1.6, 1.6), y: span(-1.6, 1.6) },
+        diagram: Window { x: span(-0.8, 0.1), y: span(0.0, 2.0) },
+        ..Scene::clone(&library)
+    }
+}
+
 #[test]
 fn screens_look_as_they_were_approved() {
     let cases = [
-        ("opened", "supercritical", (80, 24), "", braille()),
-        ("letters", "supercritical", (80, 24), "", letters()),
-        ("wide", "marginal", (160, 48), "<right>", braille()),
-        ("narrow", "basin", (60, 16), "<tab>", letters()),
-        ("cursor", "plain", (100, 30), "<tab> <up> <up> <right>", braille()),
-        ("diagram", "plain", (80, 24), "<tab> <tab> z <right>", braille()),
-        ("unfolded", "hopf", (80, 24), "x <down>", braille()),
-        ("help", "plain", (80, 24), "? <down> <down>", braille()),
-        ("search", "plain", (80, 24), "? / z o o m", letters()),
-        ("scenes", "basin", (100, 30), "s <down>", braille()),
-        ("layers", "plain", (80, 24), "v", letters()),
-        ("typing", "plain", (80, 24), "<enter> x <enter>", braille()),
+        ("opened", (80, 24), "", braille()),
+        ("letters", (80, 24), "", letters()),
+        ("wide", (160, 48), "<right>", braille()),
+        ("tall", (100, 60), "", braille()),
+        ("narrow", (60, 16), "<tab>", letters()),
+        ("cursor", (100, 30), "<tab> <up> <up> <right>", braille()),
+        ("diagram", (80, 24), "<tab> <tab> z <right>", braille()),
+        ("unfolded", (80, 24), "x <down>", braille()),
+        ("layers", (80, 24), "v", letters()),
+        ("typing", (80, 24), "<enter> x <enter>", braille()),
+        ("card", (40, 9), "", braille()),
     ];
-    for (name, scene, (width, height), keys, look) in cases {
-        let session = settled(scene, width, height, keys);
+    for (name, (width, height), keys, look) in cases {
+        let mut session = Session::new(Arc::new(approved()), Size { width, height });
+        settle(&mut session);
+        press(&mut session, keys);
         insta::assert_snapshot!(name, text(&draw(&session, look)));
     }
-    insta::assert_snapshot!("card", text(&draw(&open("plain", 40, 9), braille())));
-    insta::assert_snapshot!("waiting", text(&draw(&open("plain", 80, 24), braille())));
+}
+
+#[test]
+fn before_the_first_answer_the_formulas_are_there() {
+    let session = Session::new(Arc::new(approved()), Size { width: 80, height: 24 });
+    insta::assert_snapshot!("waiting", text(&draw(&session, braille())));
+}
+
+#[test]
+fn a_search_leaves_what_contains_it() {
+    let screen = text(&draw(&settled("plain", 80, 24, "? / z o o m"), letters()));
+    assert!(screen.contains("keys: /zoom_") && screen.contains("Zoom in"), "{screen}");
+    assert!(!screen.contains("Undo"));
+    let screen = text(&draw(&settled("plain", 80, 24, "? / x q z"), letters()));
+    assert!(screen.contains("nothing found"), "{screen}");
+}
+
+#[test]
+fn the_scene_picker_shows_every_scene_and_what_the_selected_one_is_about() {
+    let session = settled("basin", 100, 60, "s");
+    let screen = text(&draw(&session, letters()));
+    assert!(library().iter().all(|scene| screen.contains(&scene.title)), "{screen}");
+    let first: Vec<&str> = session.scene.look.split_whitespace().take(4).collect();
+    assert!(screen.contains(&first.join(" ")), "{screen}");
 }
 
 #[test]
@@ -229,7 +285,7 @@ fn without_colour_no_cell_has_any_and_stable_still_differs_from_unstable() {
             session.answers.get_mut(&crate::scene::Slot::Cycles).map(|held| held.result.as_mut())
         {
             found.cycles = vec![cycle(1.0, stable)];
-            found.curves = vec![circle(1.0)];
+            found.picture = Some(picture(Vec::new(), vec![circle(1.0)]));
         }
         text(&draw(&session, settings::Look { colors: Colors::Never, ..braille() }))
     };
@@ -298,7 +354,7 @@ proptest! {
         (width, height) in (60_u16..130, 16_u16..40),
     ) {
         let mut session = settled("supercritical", width, height, "<tab>");
-        session.layers = crate::scene::LAYERS.iter().map(|row| row.layer).collect();
+        session.layers = LAYERS.iter().map(|row| row.layer).collect();
         settle(&mut session);
         let states: Vec<State> = curve.iter().map(|(q, v)| State { q: *q, v: *v }).collect();
         for held in session.answers.values_mut() {
@@ -308,8 +364,7 @@ proptest! {
                     found.outcome = Outcome::Moving { tau: value, q: low, v: high };
                 }
                 Ok(Answer::Cycles(found)) => {
-                    found.curves = vec![states.clone(), states.clone()];
-                    found.edge_curve.clone_from(&states);
+                    found.picture = Some(picture(states.clone(), vec![states.clone(), states.clone()]));
                     found.cycles = vec![cycle(value, true), cycle(low, false)];
                 }
                 Ok(Answer::Branch(found)) => {
