@@ -110,11 +110,11 @@ fn a_tighter_tolerance_is_a_smaller_error() {
     // The motion of the benchmark: 63 half swings.
     let motions = motions();
     let motion = motions.iter().find(|motion| motion.parameters.d3 == 0.05).unwrap();
-    for method in [Method::Taylor, Method::Dop853] {
+    for (method, limit) in [(Method::Taylor, 1e-12), (Method::Dop853, 1e-11)] {
         let [coarse, middle, fine] = [1e-4, 1e-8, 1e-12]
             .map(|tolerance| largest_error(motion, &motion.compute(method, tolerance)));
         assert!(coarse > middle && middle > fine, "{method}: {coarse:e} {middle:e} {fine:e}");
-        assert!(coarse < 1e-1 && middle < 1e-6 && fine < 1e-10, "{coarse:e} {middle:e} {fine:e}");
+        assert!(coarse < 1e-1 && middle < 1e-6 && fine < limit, "{coarse:e} {middle:e} {fine:e}");
     }
 }
 

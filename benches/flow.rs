@@ -1,0 +1,83 @@
+//! What an answer costs: `cargo bench`.
+//!
+//! W1 is the motion D = -0.1, D3 = 0.05, r = 0.1 from (3, 0) until tau = 200: 63 half swings.
+
+use divan::{Bencher, black_box};
+use hopfscope::flow::trajectory::trajectory;
+use hopfscope::flow::{Detail, Limits, Method, Problem};
+use hopfscope::oscillator::{Parameters, State, Symbol};
+use hopfscope::study::branch::branch;
+use hopfscope::study::cycle::cycles;
+
+fn main() {
+    divan::main();
+}
+
+const TOLERANCES: [f64; 4] = [1e-4, 1e-8, 1e-12, 1e-15];
+
+fn w1(method: Method, tolerance: f64) -> Problem {
+    Problem {
+        parameters: Parameters { d: -0.1, d2: 0.0, d3: 0.05, r: 0.1 },
+        initial: State { q: 3.0, v: 0.0 },
+        until: 200.0,
+        method,
+        tolerance,
+    }
+}
+
+fn follow(bencher: Bencher, problem: Problem, detail: Detail) {
+    bencher.bench(|| trajectory(black_box(&problem), detail, &Limits::PATIENT));
+}
+
+#[divan::bench(args = TOLERANCES)]
+fn w1_taylor(bencher: Bencher, tolerance: f64) {
+    follow(bencher, w1(Method::Taylor, tolerance), Detail::default());
+}
+
+#[divan::bench(args = TOLERANCES)]
+fn w1_dop853(bencher: Bencher, tolerance: f64) {
+    follow(bencher, w1(Method::Dop853, tolerance), Detail::default());
+}
+
+#[divan::bench]
+fn w1_with_energy_ledger(bencher: Bencher) {
+    follow(bencher, w1(Method::Taylor, 1e-12), Detail { samples_per_step: 0, energy: true });
+}
+
+#[divan::bench]
+fn w1_with_points_for_drawing(bencher: Bencher) {
+    follow(bencher, w1(Method::Taylor, 1e-10), Detail { samples_per_step: 16, energy: true });
+}
+
+/// The same number of half swings without cubic damping, in closed form.
+#[divan::bench]
+fn piecewise_linear_exact(bencher: Bencher) {
+    let mut problem = w1(Method::Exact, 1e-12);
+    problem.parameters.d = 0.0;
+    problem.parameters.d3 = 0.0;
+    problem.parameters.r = 0.01;
+    follow(bencher, problem, Detail::default());
+}
+
+/// Both cycles at the parameters of the reference values, with their multipliers.
+#[divan::bench]
+fn two_cycles(bencher: Bencher) {
+    let parameters = Parameters { d: -0.2, d2: 0.2, d3: 0.5, r: 0.1 };
+    bencher.bench(|| cycles(black_box(&parameters), false, &Limits::PATIENT));
+}
+
+/// The one cycle of a piecewise linear oscillator with a little asymmetry.
+#[divan::bench]
+fn one_cycle(bencher: Bencher) {
+    let parameters = Parameters { d: -0.2, d2: 0.3, d3: 0.0, r: 0.5 };
+    bencher.bench(|| cycles(black_box(&parameters), false, &Limits::PATIENT));
+}
+
+/// From D = -0.95 through the fold and back, 400 points to 1e-10.
+#[divan::bench(sample_count = 20)]
+fn branch_through_the_fold(bencher: Bencher) {
+    let parameters = Parameters { d: 0.0, d2: 0.2, d3: 0.5, r: 0.1 };
+    bencher.bench(|| {
+        branch(black_box(&parameters), Symbol::D, (-0.95, 0.0), 400, 1e-10, &Limits::PATIENT)
+    });
+}
