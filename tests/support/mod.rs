@@ -3,6 +3,9 @@
 //! Everything waits for a condition with a deadline, never for time to pass. The emulator answers
 //! requests for the cursor position as terminals do, unless a test wants it slow or silent.
 
+// Each test program compiles this file and uses what it needs of it.
+#![allow(dead_code)]
+
 use std::io::{Read, Write};
 use std::num::NonZero;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};

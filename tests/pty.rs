@@ -1,0 +1,233 @@
+//! The explorer in a real terminal: what a user sees, what it costs in bytes, how it ends.
+
+mod support;
+
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+use rustix::process::Signal;
+use support::{Answers, Terminal};
+
+/// The program under test.
+const PROGRAM: &str = env!("CARGO_BIN_EXE_hopfscope");
+
+/// What the title of the plain scene says.
+const TITLE: &str = "The plain oscillator";
+
+/// As long as this without a byte, a picture is complete: the program sends a frame within 16 ms.
+const QUIET: Duration = Duration::from_millis(200);
+
+/// The explorer with its first picture complete.
+fn explorer(arguments: &[&str], environment: &[(&str, &str)], size: (u16, u16)) -> Terminal {
+    let program: Vec<&str> = [PROGRAM].iter().chain(arguments).copied().collect();
+    let mut terminal = Terminal::start(&program, environment, size, Answers::AtOnce);
+    terminal.wait("the first picture", |terminal| terminal.screen().alternate_screen());
+    terminal.quiet(QUIET);
+    terminal
+}
+
+/// The screen without the line that says what the last key cost, since no two runs take equal times.
+fn picture(terminal: &Terminal) -> String {
+    let text = terminal.text();
+    let rows = text.lines().filter(|row| !row.contains(" ms"));
+    rows.map(str::trim_end).collect::<Vec<_>>().join("\n")
+}
+
+/// Leaves with `q` and checks what is left behind.
+fn leave(mut terminal: Terminal) {
+    terminal.types("q");
+    assert_eq!(terminal.end(), 0);
+    terminal.assert_restored();
+}
+
+#[test]
+fn it_shows_the_paper_s_oscillator_and_leaves_the_terminal_as_it_was() {
+    let mut terminal = explorer(&[], &[], (80, 24));
+    terminal.wait_for(TITLE);
+    for pane in ["parameters", "phase plane", "cycles"] {
+        assert!(terminal.text().contains(pane), "no {pane}\n{}", terminal.text());
+    }
+    let braille = |char| ('\u{2801}'..='\u{28ff}').contains(&char);
+    assert!(terminal.text().contains(braille), "no curve\n{}", terminal.text());
+    leave(terminal);
+}
+
+#[test]
+fn a_step_moves_the_value_and_the_picture() {
+    let mut terminal = explorer(&["--set", "D=-0.08"], &[], (80, 24));
+    terminal.wait_for("-0.08");
+    let before = picture(&terminal);
+    terminal.types("\x1b[C");
+    terminal.wait_for("-0.07");
+    terminal.quiet(QUIET);
+    let after = picture(&terminal);
+    let moved = before.lines().zip(after.lines()).filter(|(before, after)| before != after).count();
+    assert!(moved > 10, "only {moved} rows changed");
+    leave(terminal);
+}
+
+#[test]
+fn no_size_breaks_it_and_the_picture_comes_back() {
+    let mut terminal = explorer(&[], &[], (80, 24));
+    let before = picture(&terminal);
+    for (columns, rows) in
+        [(1, 1), (2, 200), (500, 1), (59, 15), (60, 16), (200, 60), (500, 200), (10, 3)]
+    {
+        terminal.resize(columns, rows);
+        terminal.quiet(Duration::from_millis(50));
+    }
+    terminal.resize(80, 24);
+    terminal.wait("the picture again", |terminal| picture(terminal) == before);
+    leave(terminal);
+}
+
+#[test]
+fn a_full_picture_and_a_step_are_a_few_bytes() {
+    let mut terminal = explorer(&[], &[], (80, 24));
+    let full = terminal.written.len();
+    assert!(full <= 3_200, "{full} bytes until the first picture was complete");
+    for _ in 0..5 {
+        let frames = terminal.frames();
+        terminal.types("\x1b[C");
+        terminal.wait("a frame", |terminal| terminal.frames() > frames);
+        terminal.quiet(QUIET);
+    }
+    let stepped = (terminal.written.len() - full) / 5;
+    assert!(stepped <= 1_300, "{stepped} bytes a step");
+    leave(terminal);
+}
+
+/// Processor time used so far, in ticks, and how often any of its threads was woken.
+#[cfg(target_os = "linux")]
+fn activity(terminal: &Terminal) -> (u64, u64) {
+    let process = format!("/proc/{}", terminal.process().as_raw_nonzero());
+    let stat = std::fs::read_to_string(format!("{process}/stat")).unwrap();
+    // The name, in brackets, may hold blanks; user and system time are fields 14 and 15.
+    let fields: Vec<&str> = stat.rsplit(')').next().unwrap().split_whitespace().collect();
+    let ticks = fields[11].parse::<u64>().unwrap() + fields[12].parse::<u64>().unwrap();
+    let mut wakes = 0;
+    for task in std::fs::read_dir(format!("{process}/task")).unwrap() {
+        let status = std::fs::read_to_string(task.unwrap().path().join("status")).unwrap();
+        let switches = status.lines().filter(|line| line.contains("voluntary_ctxt_switches"));
+        let counts = switches.map(|line| line.split_whitespace().last().unwrap().parse::<u64>());
+        wakes += counts.map(Result::unwrap).sum::<u64>();
+    }
+    (ticks, wakes)
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn idle_it_writes_nothing_and_does_not_wake_up() {
+    let mut terminal = explorer(&[], &[], (80, 24));
+    let before = activity(&terminal);
+    assert_eq!(terminal.watch(Duration::from_secs(3)), 0, "bytes while idle");
+    assert_eq!(activity(&terminal), before, "processor time or wake-ups while idle");
+    leave(terminal);
+}
+
+#[test]
+fn five_hundred_arrows_at_once_end_where_five_hundred_slow_ones_do() {
+    let options = ["--set", "D=-0.9", "--set", "D3=0.3"];
+    let mut slow = explorer(&options, &[], (80, 24));
+    slow.types("[[");
+    slow.quiet(QUIET);
+    for _ in 0..100 {
+        let frames = slow.frames();
+        slow.types(&"\x1b[C".repeat(5));
+        slow.wait("a frame", |terminal| terminal.frames() > frames);
+    }
+    slow.quiet(QUIET);
+    let expected = picture(&slow);
+
+    let mut fast = explorer(&options, &[], (80, 24));
+    fast.types("[[");
+    fast.quiet(QUIET);
+    let before = fast.written.len();
+    fast.types(&"\x1b[C".repeat(500));
+    fast.wait("the same screen", |terminal| picture(terminal) == expected);
+    fast.quiet(QUIET);
+    let bytes = fast.written.len() - before;
+    assert!(bytes < 50_000, "{bytes} bytes for 500 keys at once");
+    leave(slow);
+    leave(fast);
+}
+
+#[test]
+fn signals_end_it_with_their_exit_code() {
+    for (signal, code) in
+        [(Signal::TERM, 143), (Signal::HUP, 129), (Signal::INT, 130), (Signal::QUIT, 131)]
+    {
+        let mut terminal = explorer(&[], &[], (80, 24));
+        terminal.signal(signal);
+        assert_eq!(terminal.end(), code, "{signal:?}");
+        terminal.assert_restored();
+    }
+}
+
+#[test]
+fn ctrl_z_and_fg_bring_back_the_same_picture() {
+    let shell = ["bash", "--norc", "--noprofile", "-i"];
+    let mut terminal = Terminal::start(&shell, &[("PS1", "ready> ")], (80, 24), Answers::AtOnce);
+    terminal.wait_for("ready> ");
+    terminal.types(&format!("{PROGRAM}\r"));
+    terminal.wait_for(TITLE);
+    terminal.quiet(QUIET);
+    let before = picture(&terminal);
+    terminal.types("\x1a");
+    terminal.wait_for("Stopped");
+    assert!(!terminal.screen().alternate_screen() && !terminal.screen().hide_cursor());
+    terminal.types("fg\r");
+    terminal.wait("the picture again", |terminal| picture(terminal) == before);
+    terminal.types("q");
+    terminal.wait("the shell", |terminal| !terminal.screen().alternate_screen());
+}
+
+#[test]
+fn without_colours_it_is_still_told_apart_and_in_latin_letters_it_is_ascii() {
+    let plain = [("NO_COLOR", "1"), ("LANG", "C")];
+    let mut terminal = explorer(&[], &plain, (80, 24));
+    terminal.wait_for(TITLE);
+    assert!(terminal.written.is_ascii(), "{}", terminal.text());
+    let written = String::from_utf8_lossy(&terminal.written);
+    let mut attributes = false;
+    for sequence in written.split("\x1b[").skip(1) {
+        let Some((parameters, _)) = sequence.split_once('m') else { continue };
+        if parameters.chars().all(|char| char.is_ascii_digit() || char == ';') {
+            for parameter in parameters.split(';').filter_map(|number| number.parse::<u8>().ok()) {
+                assert!(!(30..=107).contains(&parameter) || parameter == 39, "colour {parameter}");
+                attributes |= (1..=9).contains(&parameter);
+            }
+        }
+    }
+    assert!(attributes, "neither bold nor reverse");
+    leave(terminal);
+}
+
+/// Runs the program without a terminal; its exit code and what it said.
+fn without_terminal(arguments: &[&str], term: &str) -> (Option<i32>, String) {
+    let output = Command::new(PROGRAM)
+        .args(arguments)
+        .env("TERM", term)
+        .stdin(Stdio::null())
+        .output()
+        .unwrap();
+    assert!(output.stdout.is_empty());
+    (output.status.code(), String::from_utf8(output.stderr).unwrap())
+}
+
+#[test]
+fn where_there_is_no_terminal_one_line_says_what_to_do_instead() {
+    let (code, said) = without_terminal(&[], "xterm");
+    assert_eq!(code, Some(2));
+    assert!(said.contains("not a terminal") && said.contains("trajectory"), "{said}");
+    assert_eq!(said.lines().count(), 1, "{said}");
+}
+
+#[test]
+fn a_dumb_terminal_is_refused_in_one_line() {
+    let mut terminal = Terminal::start(&[PROGRAM], &[("TERM", "dumb")], (80, 24), Answers::Never);
+    assert_eq!(terminal.end(), 2);
+    let said = String::from_utf8_lossy(&terminal.written).into_owned();
+    assert!(said.contains("TERM=dumb") && said.contains("trajectory"), "{said}");
+    assert!(!said.contains('\x1b'), "{said:?}");
+}
