@@ -192,7 +192,7 @@ fn folds_lie_where_they_were_computed_elsewhere() {
     for (d2, value) in [(0.2, shifted[1]), (0.5, shifted[2])] {
         let grows = |d: f64| {
             let parameters = Parameters { d, d2, d3: 0.01, r: 0.1 };
-            (0..400).any(|index| turn_grows(&parameters, 1.0 + 0.01 * f64::from(index)))
+            (0..800).any(|index| turn_grows(&parameters, 0.5 + 0.005 * f64::from(index)))
         };
         assert!(grows(value - 1e-5) && !grows(value + 1e-5), "D2 = {d2}");
     }

@@ -7,8 +7,8 @@
 
 use serde::Serialize;
 
-use super::closing::{Equation, first_side};
-use super::continuation::{Curve, CurvePoint, route_of};
+use super::closing::{Equation, Route, first_side};
+use super::continuation::{Curve, CurvePoint};
 use super::cycle::{Cycle, closings};
 use super::escape::escape_point;
 use crate::closed_form::piecewise_linear::LinearCycle;
@@ -195,7 +195,7 @@ impl Tracer<'_> {
             let border = if outside.p > to { to } else { from };
             let fraction = (border - inside.p) / (outside.p - inside.p);
             let u = inside.u + fraction * (outside.u - inside.u);
-            let route = route_of(inside.log_multiplier);
+            let route = Route::contracting(inside.log_multiplier);
             points.extend(self.curve.at_parameter(border, u, route)?);
         }
         Ok(points)

@@ -28,6 +28,22 @@ pub enum Route {
     Backward,
 }
 
+impl Route {
+    /// The route that contracts at a cycle of this multiplier.
+    #[must_use]
+    pub fn contracting(log_multiplier: f64) -> Self {
+        /// Within this of 0 all routes converge alike.
+        const STEEP: f64 = 1.5;
+        if log_multiplier > STEEP {
+            Route::Backward
+        } else if log_multiplier < -STEEP {
+            Route::Forward
+        } else {
+            Route::Mixed
+        }
+    }
+}
+
 /// The two swings at one value of the unknown, and how far they are from closing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Closing {

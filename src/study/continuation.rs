@@ -16,9 +16,6 @@ const STEP: f64 = 1e-2;
 /// Length of u that counts as much as the whole range of the parameter.
 const UNIT_OF_U: f64 = 4.0;
 
-/// Logarithm of the multiplier beyond which a contracting route is taken.
-const STEEP: f64 = 2.0;
-
 /// Most evaluations of one swing, a hundred times the usual: beyond, a curve is not followed.
 const SWING_BUDGET: u64 = 60_000;
 
@@ -228,7 +225,7 @@ impl<'a> Curve<'a> {
         while points.len() < MOST {
             let here = points[points.len() - 1];
             let near = self.ahead(&here, tangent, stride);
-            let route = route_of(here.log_multiplier);
+            let route = Route::contracting(here.log_multiplier);
             let corrected = self.correct(near, tangent, route)?;
             // A bend of more than about 15 degrees a step is taken in smaller steps.
             let next = corrected.map(|next| (next, Tangent::between(&here, &next, self.scale)));
@@ -293,7 +290,7 @@ impl<'a> Curve<'a> {
             let near = interpolate(&points[base..base + window], &arc[base..base + window], s);
             let (one, other) = (&points[after - 1], &points[after]);
             let tangent = Tangent::between(one, other, self.scale);
-            let route = route_of(0.5 * (one.log_multiplier + other.log_multiplier));
+            let route = Route::contracting(0.5 * (one.log_multiplier + other.log_multiplier));
             spread.extend(self.correct(near, tangent, route)?);
         }
         spread.push(*last);
@@ -316,7 +313,7 @@ impl<'a> Curve<'a> {
         start: &CurvePoint,
         direction: f64,
     ) -> Result<Option<Tangent>, Reason> {
-        let route = route_of(start.log_multiplier);
+        let route = Route::contracting(start.log_multiplier);
         let Some(closing) = self.closing(route, start.u, start.p)? else { return Ok(None) };
         let slope_p = self.renew_slope(route, start.u, start.p, closing.node.value())? * self.scale;
         let slope_u = closing.node.slope * UNIT_OF_U;
@@ -375,18 +372,6 @@ impl<'a> Curve<'a> {
             }
         }
         Ok(best)
-    }
-}
-
-/// The route that contracts at a cycle of this multiplier.
-#[must_use]
-pub fn route_of(log_multiplier: f64) -> Route {
-    if log_multiplier > STEEP {
-        Route::Backward
-    } else if log_multiplier < -STEEP {
-        Route::Forward
-    } else {
-        Route::Mixed
     }
 }
 

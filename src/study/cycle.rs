@@ -102,9 +102,6 @@ const PICTURE_REACH: f64 = 20.0;
 /// Slope of the residual below which it is weighed as energy.
 const FLAT: f64 = 0.3;
 
-/// Logarithm of the multiplier beyond which a contracting route is taken.
-const STEEP: f64 = 1.0;
-
 /// Newton steps before giving up; bisection alone needs 60.
 const ITERATIONS: usize = 200;
 
@@ -300,22 +297,13 @@ pub fn polish(
     for _ in 0..ITERATIONS {
         let closing = equation.at(route, u, limits)?;
         let mut node = closing.node;
-        let log_multiplier = closing.log_multiplier(&equation.parameters);
-        let contracting = if log_multiplier > STEEP {
-            Route::Backward
-        } else if log_multiplier < -STEEP {
-            Route::Forward
-        } else {
-            Route::Mixed
-        };
+        let contracting = Route::contracting(closing.log_multiplier(&equation.parameters));
         if node.value().is_finite() && contracting != route {
             route = contracting;
             continue;
         }
-        if route == Route::Mixed
-            && node.slope.abs() < FLAT
-            && let Some(weighed) = weighed_residual(equation, u, limits)?
-        {
+        let flat = route == Route::Mixed && node.slope.abs() < FLAT;
+        if flat && let Some(weighed) = weighed_residual(equation, u, limits)? {
             node = Node { rise: weighed, fall: 0.0, ..node };
         }
         if (node.value() > 0.0) == rising {
@@ -324,10 +312,13 @@ pub fn polish(
             low = u;
         }
         let newton = u - node.value() / node.slope;
-        change = (newton - u).abs();
-        // Rounding of the residual moves its root by so much; near a fold that is more than an ulp.
-        let blur = 4.0 * f64::EPSILON * u.abs().max(1.0) / node.slope.abs().min(1.0);
-        if change <= blur || high - low <= f64::EPSILON * u.abs() {
+        let last = std::mem::replace(&mut change, (newton - u).abs());
+        // Rounding moves the root by an ulp, divided by the slope where the residual is a plain
+        // difference. A weighed one does better: it goes on while it does.
+        let rounding = 4.0 * f64::EPSILON * u.abs().max(1.0);
+        let blurred = change <= rounding / node.slope.abs().min(1.0);
+        let settled = change <= rounding || (blurred && (!flat || change >= 0.5 * last));
+        if settled || high - low <= f64::EPSILON * u.abs() {
             return Ok(closing);
         }
         u = if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
