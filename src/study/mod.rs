@@ -4,6 +4,7 @@ pub mod arc;
 pub mod balance;
 pub mod basin;
 pub mod branch;
+pub mod capture;
 pub mod closing;
 pub mod continuation;
 pub mod cycle;
