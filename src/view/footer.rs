@@ -34,7 +34,8 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         }
         (_, Some(Notice { error, text })) => {
             let role = if *error { Role::Failure } else { Role::Text };
-            vec![Span::styled(format!(" {text}"), look.style(role))]
+            let text = pane::cut(&format!(" {text}"), usize::from(area.width), look);
+            vec![Span::styled(text, look.style(role))]
         }
         _ => {
             let taken: usize = right.iter().map(Span::width).sum();

@@ -96,6 +96,17 @@ pub fn title(
     line(Rect { x: area.right() - taken, width: taken, ..area }, 0, "", right, buffer);
 }
 
+/// A text that fits into `width` columns; where it is cut, it ends with a mark.
+#[must_use]
+pub fn cut(text: &str, width: usize, look: &Look) -> String {
+    let mark = look.symbols().more;
+    if text.chars().count() <= width {
+        return text.to_owned();
+    }
+    let kept = width.saturating_sub(mark.chars().count());
+    text.chars().take(kept).chain(mark.chars()).collect()
+}
+
 /// Writes a row of `area`: `left` from its left end and, where it fits, `right` at its right end.
 pub fn line(
     area: Rect,

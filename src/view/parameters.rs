@@ -151,7 +151,7 @@ fn folded(session: &Session) -> Option<String> {
 type Column = (&'static str, usize, fn(&Cycle) -> String);
 
 /// The columns, of which as many are shown as fit.
-const CYCLE_COLUMNS: [Column; 4] = [
+const CYCLE_COLUMNS: [Column; 5] = [
     ("q_max", 10, |cycle| significant(cycle.q_max, 5)),
     ("period", 8, |cycle| significant(cycle.period, 4)),
     ("v_max", 9, |cycle| significant(cycle.v_max, 5)),
@@ -159,6 +159,7 @@ const CYCLE_COLUMNS: [Column; 4] = [
         Some(multiplier) => significant(multiplier, 4),
         None => format!("e^{}", significant(cycle.log_multiplier, 4)),
     }),
+    ("error", 8, |cycle| significant(cycle.error, 1)),
 ];
 
 /// What the cycles are, in numbers, and what borders the basin; returns the rows that it took.
@@ -199,7 +200,7 @@ fn cycles(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) -> u1
         pane::line(area, y, " none", "", buffer);
         y += 1;
     }
-    for text in basin(found) {
+    for text in basin(found, usize::from(area.width)) {
         pane::line(area, y, Span::styled(format!(" {text}"), look.style(Role::Quiet)), "", buffer);
         y += 1;
     }
@@ -207,7 +208,7 @@ fn cycles(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) -> u1
 }
 
 /// What borders the basin of the sticking set, and which kicks it survives.
-fn basin(found: &Cycles) -> Vec<String> {
+fn basin(found: &Cycles, width: usize) -> Vec<String> {
     let edge = match found.edge {
         Edge::None if found.parameters.r == 0.0 => "no sticking set",
         Edge::None => "all motions captured",
@@ -216,7 +217,10 @@ fn basin(found: &Cycles) -> Vec<String> {
     };
     let kicks = found.picture.as_ref().map(|picture| picture.margin).and_then(|margin| {
         let (q, v) = (margin.displacement?, margin.impulse?);
-        Some(format!("kicks q {} v {}", significant(q, 3), significant(v, 3)))
+        let text =
+            |digits| format!("kick q {} v {}", significant(q, digits), significant(v, digits));
+        // Rather fewer digits than a number cut short.
+        (1..=5).rev().map(text).find(|text| text.len() < width)
     });
     std::iter::once(edge.to_owned()).chain(kicks).collect()
 }

@@ -23,7 +23,9 @@ pub fn title(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
 pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let (text, role) = outcome(session);
     let busy = if session.is_busy() { "computing " } else { "" };
-    let left = Span::styled(format!(" {}{text}", symbol(session, look)), look.style(role));
+    let text = format!(" {}{text}", symbol(session, look));
+    let text = pane::cut(&text, usize::from(area.width), look);
+    let left = Span::styled(text, look.style(role));
     pane::line(area, 0, left, Span::styled(busy, look.style(Role::Warning)), buffer);
 
     let quiet = |text| Span::styled(text, look.style(Role::Quiet));

@@ -17,7 +17,7 @@ use crate::scene::answer::Failure;
 use crate::scene::library::{find, library};
 use crate::scene::{Answer, Answered, LAYERS, Layer, Point, Request, Scene, Span, Window};
 use crate::session::settings::{self, Colors, GLYPHS, Glyphs, THEMES, Theme};
-use crate::session::{Key, Msg, Session, Size, update};
+use crate::session::{Key, Msg, Notice, Session, Size, update};
 use crate::study::{
     Branch, BranchPoint, Cycle, Cycles, Edge, Margin, Picture, Special, SpecialKind,
 };
@@ -273,6 +273,15 @@ fn a_question_without_an_answer_says_why() {
     let screen = text(&draw(&session, braille()));
     assert!(screen.contains("no motion: budget of 5 evaluations spent"), "{screen}");
     assert!(screen.contains("no answer"));
+}
+
+#[test]
+fn what_does_not_fit_is_cut_with_a_mark() {
+    let mut session = settled("plain", 60, 16, "");
+    let text_of = |session: &Session| text(&draw(session, braille()));
+    session.notice = Some(Notice { error: true, text: "word ".repeat(20) });
+    let screen = text_of(&session);
+    assert!(screen.lines().last().unwrap().ends_with('…'), "{screen}");
 }
 
 #[test]
