@@ -16,7 +16,7 @@ use crate::session::{Key, List, Overlay, Session};
 const WIDTH: u16 = 90;
 
 /// Columns of keys in the help.
-const KEYS: usize = 14;
+const KEYS: usize = 16;
 
 /// Rows of text below the scene picker.
 const TEXT: u16 = 8;
@@ -157,7 +157,9 @@ fn help(session: &Session, list: &List, look: &Look) -> Content {
         }
         let keys = |keys: Vec<Key>| {
             let names: Vec<String> = keys.into_iter().map(|key| keys::name(key, look)).collect();
-            Span::styled(format!("{:<KEYS$} ", names.join(" ")), look.style(Role::Key))
+            let spaced = names.join(" ");
+            let text = if spaced.chars().count() > KEYS { names.concat() } else { spaced };
+            Span::styled(format!("{text:<KEYS$} "), look.style(Role::Key))
         };
         let doc = Span::styled(command.doc, look.style(Role::Text));
         rows.push(Entry::Row(vec![keys(first), doc]));
