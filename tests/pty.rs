@@ -67,6 +67,17 @@ fn a_step_moves_the_value_and_the_picture() {
 }
 
 #[test]
+fn a_pasted_script_is_offered_and_played() {
+    let mut terminal = explorer(&["--set", "D=-0.08"], &[], (80, 24));
+    terminal.types("\x1b[200~<right*3> # three steps\r\x1b[201~");
+    terminal.wait_for("keys");
+    terminal.types("\r");
+    terminal.wait_for("-0.05");
+    terminal.wait_for("replay done");
+    leave(terminal);
+}
+
+#[test]
 fn no_size_breaks_it_and_the_picture_comes_back() {
     let mut terminal = explorer(&[], &[], (80, 24));
     let before = picture(&terminal);
@@ -180,6 +191,29 @@ fn ctrl_z_and_fg_bring_back_the_same_picture() {
     terminal.wait("the picture again", |terminal| picture(terminal) == before);
     terminal.types("q");
     terminal.wait("the shell", |terminal| !terminal.screen().alternate_screen());
+}
+
+/// The first child of a process, once it has one.
+#[cfg(target_os = "linux")]
+fn child(terminal: &Terminal) -> Option<String> {
+    let parent = terminal.process().as_raw_nonzero();
+    let children = std::fs::read_to_string(format!("/proc/{parent}/task/{parent}/children"));
+    children.ok()?.split_whitespace().next().map(|id| format!("/proc/{id}"))
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn it_ends_when_its_terminal_goes_away() {
+    let shell = ["bash", "--norc", "--noprofile", "-i"];
+    let mut terminal = Terminal::start(&shell, &[("PS1", "ready> ")], (80, 24), Answers::AtOnce);
+    terminal.wait_for("ready> ");
+    terminal.types(&format!("{PROGRAM}\r"));
+    terminal.wait_for(TITLE);
+    let program = child(&terminal).expect("the shell has started it");
+    assert!(std::fs::exists(&program).unwrap());
+    // The end of the shell, which leads the session, takes the terminal away from the program.
+    terminal.signal(Signal::KILL);
+    support::poll("the end of the program", || !std::fs::exists(&program).unwrap_or(false));
 }
 
 #[test]

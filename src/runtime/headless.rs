@@ -91,3 +91,65 @@ fn does(machine: &mut impl Machine, player: &mut Player, msg: Msg) -> bool {
     }
     false
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::runtime::Explorer;
+    use crate::scene::answer::answer;
+    use crate::scene::library::{PLAIN, find};
+    use crate::session::Session;
+    use crate::session::replay::parse;
+    use crate::terminal::Environment;
+
+    const SIZE: Size = Size { width: 80, height: 24 };
+
+    /// Plays a file on the plain scene.
+    fn played(file: &str) -> Played<Explorer> {
+        let size = crate::session::Size { width: SIZE.width, height: SIZE.height };
+        let session = Session::new(find(PLAIN).unwrap(), size);
+        let explorer = Explorer::new(session, Environment::default());
+        play(explorer, answer, parse(file).unwrap(), SIZE).unwrap()
+    }
+
+    fn text(picture: &Buffer) -> String {
+        export::screen::text(picture)
+    }
+
+    #[test]
+    fn a_file_ends_on_a_picture_that_is_computed() {
+        let end = played("");
+        assert_eq!(end.unmet, None);
+        assert!(end.machine.wants().is_empty());
+        assert!(text(&end.screen).contains("phase plane"), "{}", text(&end.screen));
+    }
+
+    #[test]
+    fn keys_size_and_named_pictures_are_what_the_file_says() {
+        let end = played("<screen before> <right*2> <screen after> <resize 100x30>");
+        let names: Vec<&str> = end.kept.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(names, ["before", "after"]);
+        assert_ne!(text(&end.kept[0].1), text(&end.kept[1].1));
+        assert_eq!(end.screen.area.as_size(), Size { width: 100, height: 30 });
+    }
+
+    #[test]
+    fn the_first_expectation_that_is_not_met_ends_it() {
+        let end = played("<expect \"phase plane\">\n<expect \"no such text\">\n<screen never>");
+        assert_eq!(end.unmet.unwrap().line, 2);
+        assert!(end.kept.is_empty());
+    }
+
+    #[test]
+    fn quitting_ends_it_and_later_keys_are_not_pressed() {
+        let end = played("q <expect \"no such text\">");
+        assert_eq!(end.unmet, None);
+    }
+
+    #[test]
+    fn waiting_for_every_answer_and_for_none_end_on_the_same_numbers() {
+        let slow = played("<right*30>").machine.session().problem;
+        let fast = played("<async> <right*30>").machine.session().problem;
+        assert_eq!(slow, fast);
+    }
+}

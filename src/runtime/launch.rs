@@ -6,6 +6,7 @@ use std::process::ExitCode;
 
 use crossbeam_channel::unbounded;
 use ratatui::layout::Size;
+use rustix::io::Errno;
 
 use super::effects::Files;
 use super::event::Event;
@@ -66,7 +67,11 @@ pub fn launch(
         .playing(options.replay.map(Player::new))
         .recording(options.record.then(Recorder::default));
     pump.repaint()?;
-    let ended = conduct(&mut pump, &guard);
+    let ended = match conduct(&mut pump, &guard) {
+        // A terminal that is gone refuses what is written to it, before its signal arrives.
+        Err(error) if error.raw_os_error() == Some(Errno::IO.raw_os_error()) => Ok(Stop::Closed),
+        ended => ended,
+    };
     if !matches!(ended, Ok(Stop::Closed) | Err(_)) {
         pump.take_leave();
     }

@@ -270,3 +270,111 @@ fn steps(count: u16, single: &str, letter: char) -> String {
     }
     sequence
 }
+
+#[cfg(test)]
+mod tests {
+    use ratatui::buffer::Buffer;
+    use ratatui::layout::Rect;
+    use ratatui::style::{Color, Style};
+
+    use super::*;
+
+    const SIZE: Size = Size { width: 40, height: 10 };
+
+    /// A drawing board: what is on the terminal, and what should be.
+    struct Board {
+        shown: Shown,
+        hand: Hand,
+        before: Buffer,
+        after: Buffer,
+    }
+
+    impl Board {
+        fn new() -> Board {
+            let blank = Buffer::empty(Rect::from((Position::ORIGIN, SIZE)));
+            let cursor = Some(Cursor { at: Position::ORIGIN, certain: true });
+            Board {
+                shown: Shown::blank(SIZE),
+                hand: Hand { pen: Some(Pen::PLAIN), cursor },
+                before: blank.clone(),
+                after: blank,
+            }
+        }
+
+        fn put(&mut self, x: u16, y: u16, text: &str, color: Color) {
+            self.after.set_string(x, y, text, Style::new().fg(color));
+        }
+
+        /// Draws the difference.
+        fn draw(&mut self) -> String {
+            let changed = self.before.diff(&self.after);
+            let (text, hand) = draw(changed.into_iter(), &mut self.shown, self.hand);
+            self.hand = hand;
+            self.before = self.after.clone();
+            text
+        }
+    }
+
+    #[test]
+    fn a_short_gap_is_drawn_over_and_a_long_one_jumped() {
+        let mut board = Board::new();
+        board.put(0, 0, "abcdefghijkl", Color::Reset);
+        assert_eq!(board.draw(), "abcdefghijkl");
+        board.put(0, 0, "Abcdefghijkl", Color::Reset);
+        board.draw();
+        board.put(0, 0, "aBcdEfghijkL", Color::Reset);
+        // From behind the A: two that changed with two between, then six that stayed.
+        assert_eq!(board.draw(), "\x08aBcdE\x1b[6CL");
+    }
+
+    #[test]
+    fn nothing_is_drawn_over_in_another_colour() {
+        let mut board = Board::new();
+        board.put(0, 0, "a", Color::Reset);
+        board.put(1, 0, "b", Color::Red);
+        board.put(2, 0, "c", Color::Reset);
+        board.draw();
+        board.put(0, 0, "A", Color::Reset);
+        board.put(2, 0, "C", Color::Reset);
+        let text = board.draw();
+        assert!(text.contains("A\x1b[CC"), "{text:?}");
+    }
+
+    #[test]
+    fn a_line_down_the_screen_is_one_pen_and_short_moves() {
+        let mut board = Board::new();
+        for y in 0..5 {
+            board.put(10, y, "|", Color::Cyan);
+            board.put(0, y, "x", Color::Reset);
+        }
+        let text = board.draw();
+        assert_eq!(text.matches('m').count(), 1, "{text:?}");
+        assert!(text.contains("|\n\x08|\n\x08|"), "{text:?}");
+    }
+
+    #[test]
+    fn behind_a_character_of_doubtful_width_no_step_starts_from_its_column() {
+        let mut board = Board::new();
+        // The width of the circle depends on the terminal.
+        board.put(3, 0, "\u{25cb}", Color::Reset);
+        board.put(4, 1, "a", Color::Reset);
+        board.put(4, 2, "b", Color::Reset);
+        assert_eq!(board.draw(), "\x1b[3C\u{25cb}\x1b[2;5Ha\n\x08b");
+    }
+
+    #[test]
+    fn at_the_right_margin_the_cursor_is_not_trusted() {
+        let mut board = Board::new();
+        board.put(39, 0, "a", Color::Reset);
+        board.put(39, 1, "b", Color::Reset);
+        assert_eq!(board.draw(), "\x1b[39Ca\x1b[2;40Hb");
+    }
+
+    #[test]
+    fn an_unknown_cursor_is_placed_absolutely() {
+        let mut board = Board::new();
+        board.hand = Hand::default();
+        board.put(4, 2, "a", Color::Reset);
+        assert_eq!(board.draw(), "\x1b[3;5H\x1b[ma");
+    }
+}

@@ -49,6 +49,15 @@ pub struct Terminal {
     searched: usize,
 }
 
+/// Waits until a condition holds of which nobody tells.
+pub fn poll(what: &str, condition: impl Fn() -> bool) {
+    let deadline = Instant::now() + DEADLINE;
+    while !condition() {
+        assert!(Instant::now() < deadline, "no {what} in time");
+        std::thread::yield_now();
+    }
+}
+
 fn size(columns: u16, rows: u16) -> PtySize {
     PtySize { cols: columns, rows, pixel_width: 0, pixel_height: 0 }
 }
