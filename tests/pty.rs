@@ -2,6 +2,7 @@
 
 mod support;
 
+use std::collections::BTreeSet;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
@@ -235,6 +236,67 @@ fn without_colours_it_is_still_told_apart_and_in_latin_letters_it_is_ascii() {
     }
     assert!(attributes, "neither bold nor reverse");
     leave(terminal);
+}
+
+/// The control sequences in what a program wrote, as the handbook writes them.
+fn sequences(written: &[u8]) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    let text = String::from_utf8_lossy(written);
+    let mut rest = text.chars();
+    while let Some(char) = rest.next() {
+        let name = match char {
+            '\x1b' => {
+                let mut body: String = rest.next().into_iter().collect();
+                if body == "[" {
+                    while !body[1..].ends_with(|last: char| ('@'..='~').contains(&last)) {
+                        body.push(rest.next().expect("a sequence has an end"));
+                    }
+                }
+                written_as(&body)
+            }
+            '\r' => "CR".to_owned(),
+            '\n' => "LF".to_owned(),
+            '\x08' => "BS".to_owned(),
+            control if control.is_control() => format!("{control:?}"),
+            _ => continue,
+        };
+        found.insert(name);
+    }
+    found
+}
+
+/// How the handbook writes a sequence, of which this follows the escape character.
+fn written_as(body: &str) -> String {
+    let (parameters, last) = body.split_at(body.len() - 1);
+    let count = parameters.split(';').count();
+    match (parameters.strip_prefix('[').unwrap_or(parameters), last, count) {
+        (_, "m", _) => "ESC[...m".to_owned(),
+        ("", "H", _) => "ESC[H".to_owned(),
+        (_, "H", 1) => "ESC[rowH".to_owned(),
+        (_, "H", 2) => "ESC[row;columnH".to_owned(),
+        (_, "B" | "C" | "D", 1) => format!("ESC[n{last}"),
+        _ => format!("ESC{body}"),
+    }
+}
+
+#[test]
+fn every_control_sequence_is_in_the_handbook() {
+    let mut terminal = explorer(&[], &[], (80, 24));
+    for keys in ["\x1b[C", "?", "\x1b[B", "\x1b", "\t\x1b[C", "\x0c", "G\x1b[D", "0.5\r"] {
+        terminal.types(keys);
+        terminal.quiet(QUIET);
+    }
+    terminal.resize(100, 30);
+    terminal.quiet(QUIET);
+    terminal.types("\x03");
+    assert_eq!(terminal.end(), 0);
+    let handbook = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md"));
+    let handbook = handbook.unwrap();
+    let found = sequences(&terminal.written);
+    assert!(found.len() > 12, "{found:?}");
+    for sequence in found {
+        assert!(handbook.contains(&format!("`{sequence}`")), "README.md lacks {sequence}");
+    }
 }
 
 /// Runs the program without a terminal; its exit code and what it said.
