@@ -50,12 +50,16 @@ pub fn play<M: Machine>(
     let mut player = Player::new(script);
     let mut size = size;
     let mut kept = Vec::new();
-    let mut asked = Vec::new();
+    let mut asked: Vec<Request> = Vec::new();
     let mut given = Some(Msg::Resize { width: size.width, height: size.height });
     let unmet = loop {
         if let Some(msg) = given.take() {
             if let Msg::Resize { width, height } = msg {
                 size = Size { width, height };
+            }
+            if let Msg::Answered(answered) = &msg {
+                worker.taken(&answered.request);
+                asked.retain(|request| *request != answered.request);
             }
             if does(&mut machine, &mut player, msg) {
                 break None;

@@ -69,7 +69,7 @@ pub struct Pump<M, W: Write> {
     /// What arrived while something else was waited for.
     missed: VecDeque<Event>,
     files: Files,
-    /// What the worker was asked last.
+    /// What the worker was asked last and has not answered.
     asked: Vec<Request>,
     /// Since when the state differs from the screen.
     changed: Option<Instant>,
@@ -200,6 +200,10 @@ impl<M: Machine, W: Write> Pump<M, W> {
             Event::Session(msg) => {
                 if let Some(recorder) = &mut self.recorder {
                     recorder.note(&msg);
+                }
+                if let Msg::Answered(answered) = &msg {
+                    self.worker.taken(&answered.request);
+                    self.asked.retain(|request| *request != answered.request);
                 }
                 self.update(msg)
             }

@@ -2,7 +2,8 @@
 //!
 //! [`Worker::submit`] replaces the set of wanted requests. The running job goes on if it is among them;
 //! else one atomic counter moves on, the job sees that at its next step, and what it found is thrown
-//! away. A request that panics becomes a [`Failure::Panic`]; the thread lives on.
+//! away. An answer that is on its way is not computed again: the worker remembers what it has reported
+//! until [`Worker::taken`] says that the session knows. A request that panics becomes a [`Failure::Panic`]; the thread lives on.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -37,6 +38,8 @@ struct Desk {
     waiting: Vec<Request>,
     /// The request in work, unless nobody wants it any more.
     running: Option<Request>,
+    /// Requests whose answers have been reported and not been taken yet.
+    reported: Vec<Request>,
     /// Whether the thread works on something, wanted or not.
     busy: bool,
     closed: bool,
@@ -92,6 +95,7 @@ impl Worker {
                 let mut desk = theirs.desk();
                 desk.busy = false;
                 if desk.running.take().is_some() {
+                    desk.reported.push(request.clone());
                     report(Msg::Answered(Box::new(Answered { request, result, seconds })));
                 }
                 if desk.waiting.is_empty() && !desk.closed {
@@ -106,6 +110,8 @@ impl Worker {
     pub fn submit(&self, wanted: Vec<Request>) {
         let mut desk = self.shared.desk();
         desk.waiting = wanted;
+        let Desk { waiting, reported, .. } = &mut *desk;
+        waiting.retain(|request| !reported.contains(request));
         match desk.running.clone() {
             Some(running) if desk.waiting.contains(&running) => {
                 desk.waiting.retain(|request| *request != running);
@@ -118,6 +124,15 @@ impl Worker {
         }
         drop(desk);
         self.shared.changed.notify_one();
+    }
+
+    /// Says that the answer to a request has arrived where it was wanted. From now on to want it is to
+    /// want it computed again.
+    pub fn taken(&self, request: &Request) {
+        let mut desk = self.shared.desk();
+        if let Some(index) = desk.reported.iter().position(|reported| reported == request) {
+            desk.reported.remove(index);
+        }
     }
 
     /// Whether nothing is in work and nothing waits.
@@ -268,6 +283,27 @@ mod tests {
         let answered = bench.messages.iter().find(|message| !matches!(message, Msg::Idle));
         assert!(matches!(answered, Some(Msg::Answered(answered)) if answered.result.is_ok()));
         bench.idle();
+    }
+
+    #[test]
+    fn an_answer_on_its_way_is_not_computed_again() {
+        let bench = bench();
+        bench.worker.submit(vec![request(1.0)]);
+        bench.finish.send(()).unwrap();
+        assert_eq!(bench.answered(), (1.0, Ok(())));
+        bench.idle();
+        // Not taken yet: a session that wants something else beside it still wants it.
+        bench.worker.submit(vec![request(1.0), request(2.0)]);
+        bench.finish.send(()).unwrap();
+        assert_eq!(bench.answered(), (2.0, Ok(())));
+        bench.idle();
+        // Taken and wanted nevertheless, as after a failure that is tried again.
+        bench.worker.taken(&request(1.0));
+        bench.worker.submit(vec![request(1.0), request(2.0)]);
+        bench.finish.send(()).unwrap();
+        assert_eq!(bench.answered(), (1.0, Ok(())));
+        bench.idle();
+        assert_eq!(bench.started.try_iter().collect::<Vec<_>>(), [1.0, 2.0, 1.0]);
     }
 
     #[test]
