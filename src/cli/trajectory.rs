@@ -37,9 +37,12 @@ impl Trajectory {
             let detail = Detail { samples_per_step: 0, energy };
             trajectory(&problem, detail, &Limits::PATIENT)
         };
-        // The ledger is a check on the motion and not part of what it costs: it is made apart.
-        let (_, seconds) = timed(self.output.repeat, || follow(false));
-        let motion = follow(true);
+        // The ledger is a check on the motion and not part of what it costs: where time is measured
+        // with care, it is made apart.
+        let (mut motion, seconds) = timed(self.output.repeat, || follow(self.output.repeat == 1));
+        if self.output.repeat > 1 {
+            motion = follow(true);
+        }
         print(&match self.output.format {
             Format::Table => table::trajectory(&motion, seconds),
             Format::Json => json::trajectory(&motion, seconds),
