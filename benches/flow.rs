@@ -3,6 +3,7 @@
 //! W1 is the motion D = -0.1, D3 = 0.05, r = 0.1 from (3, 0) until tau = 200: 63 half swings.
 
 use divan::{Bencher, black_box};
+use hopfscope::flow::method::{Dial, EPSILON, STEP};
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, Method, Problem};
 use hopfscope::oscillator::{Parameters, State, Symbol};
@@ -13,15 +14,52 @@ fn main() {
     divan::main();
 }
 
-const TOLERANCES: [f64; 4] = [1e-4, 1e-8, 1e-12, 1e-15];
+/// Every method with what sets its accuracy: tolerance, step or epsilon.
+const METHODS_AND_DIALS: [(Method, f64); 26] = [
+    (Method::Auto, 1e-4),
+    (Method::Auto, 1e-8),
+    (Method::Auto, 1e-12),
+    (Method::Taylor, 1e-4),
+    (Method::Taylor, 1e-8),
+    (Method::Taylor, 1e-12),
+    (Method::Taylor, 1e-15),
+    (Method::Dop853, 1e-4),
+    (Method::Dop853, 1e-8),
+    (Method::Dop853, 1e-12),
+    (Method::Dop853, 1e-15),
+    (Method::Dopri5, 1e-4),
+    (Method::Dopri5, 1e-8),
+    (Method::Dopri5, 1e-12),
+    (Method::Stiff, 1e-4),
+    (Method::Stiff, 1e-8),
+    (Method::Stiff, 1e-12),
+    (Method::Rk4, 0.1),
+    (Method::Rk4, 0.01),
+    (Method::Rk4, 0.001),
+    (Method::Smoothed, 1e-2),
+    (Method::Smoothed, 1e-4),
+    (Method::SignRk4, 0.01),
+    (Method::SignRk4, 0.001),
+    (Method::TimeStepping, 0.01),
+    (Method::TimeStepping, 0.001),
+];
 
-fn w1(method: Method, tolerance: f64) -> Problem {
+fn w1(method: Method, dial: f64) -> Problem {
+    let (mut tolerance, mut step, mut epsilon) = (1e-8, STEP, EPSILON);
+    match method.spec().dial {
+        Dial::Nothing => {}
+        Dial::Tolerance => tolerance = dial,
+        Dial::Step => step = dial,
+        Dial::Epsilon => epsilon = dial,
+    }
     Problem {
         parameters: Parameters { d: -0.1, d2: 0.0, d3: 0.05, r: 0.1 },
         initial: State { q: 3.0, v: 0.0 },
         until: 200.0,
         method,
         tolerance,
+        step,
+        epsilon,
     }
 }
 
@@ -29,24 +67,35 @@ fn follow(bencher: Bencher, problem: Problem, detail: Detail) {
     bencher.bench(|| trajectory(black_box(&problem), detail, &Limits::PATIENT));
 }
 
-#[divan::bench(args = TOLERANCES)]
-fn w1_taylor(bencher: Bencher, tolerance: f64) {
-    follow(bencher, w1(Method::Taylor, tolerance), Detail::default());
+#[divan::bench(args = METHODS_AND_DIALS)]
+fn w1_by(bencher: Bencher, (method, dial): (Method, f64)) {
+    follow(bencher, w1(method, dial), Detail::default());
 }
 
-#[divan::bench(args = TOLERANCES)]
-fn w1_dop853(bencher: Bencher, tolerance: f64) {
-    follow(bencher, w1(Method::Dop853, tolerance), Detail::default());
+/// Far out cubic damping is stiff: 15,000 units of time until the first arrival at v = 0.
+#[divan::bench(args = [Method::Auto, Method::Stiff])]
+fn far_out(bencher: Bencher, method: Method) {
+    let problem = Problem {
+        parameters: Parameters { d: -0.1, d2: 0.0, d3: 1.0, r: 0.1 },
+        initial: State { q: 1e6, v: 0.0 },
+        until: 20_000.0,
+        ..w1(method, 1e-8)
+    };
+    follow(bencher, problem, Detail::default());
 }
 
 #[divan::bench]
 fn w1_with_energy_ledger(bencher: Bencher) {
-    follow(bencher, w1(Method::Taylor, 1e-12), Detail { samples_per_step: 0, energy: true });
+    follow(bencher, w1(Method::Taylor, 1e-12), Detail { energy: true, ..Detail::default() });
 }
 
 #[divan::bench]
 fn w1_with_points_for_drawing(bencher: Bencher) {
-    follow(bencher, w1(Method::Taylor, 1e-10), Detail { samples_per_step: 16, energy: true });
+    follow(
+        bencher,
+        w1(Method::Taylor, 1e-10),
+        Detail { samples_per_step: 16, energy: true, crossings: true },
+    );
 }
 
 /// The same number of half swings without cubic damping, in closed form.

@@ -81,6 +81,7 @@ fn brute_fate(parameters: &Parameters, initial: State) -> Fate {
         until: 2000.0,
         method: Method::Taylor,
         tolerance: 1e-8,
+        ..Problem::default()
     };
     match trajectory(&problem, Detail::default(), &LIMITS).outcome {
         Outcome::Captured { .. } => Fate::Captured,
@@ -206,6 +207,7 @@ fn turn_grows(parameters: &Parameters, q0: f64) -> bool {
         until: 8.0,
         method: Method::Dop853,
         tolerance: 1e-12,
+        ..Problem::default()
     };
     let motion = trajectory(&problem, Detail::default(), &LIMITS);
     motion.crossings.get(1).is_some_and(|crossing| crossing.q > q0)

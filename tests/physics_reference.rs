@@ -48,8 +48,9 @@ impl Motion {
             until: 200.0,
             method,
             tolerance,
+            ..Problem::default()
         };
-        trajectory(&problem, Detail { samples_per_step: 0, energy: true }, &Limits::PATIENT)
+        trajectory(&problem, Detail { energy: true, ..Detail::default() }, &Limits::PATIENT)
     }
 
     /// The methods that can follow it.

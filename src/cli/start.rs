@@ -1,4 +1,4 @@
-//! The options that say which motion is meant: scene, parameters, method, tolerance.
+//! The options that say which motion is meant: scene, parameters, method, and what sets its accuracy.
 
 use std::sync::Arc;
 
@@ -6,6 +6,7 @@ use clap::Args;
 
 use super::failure::Failure;
 use super::input;
+use crate::flow::method::{EPSILON_RANGE, STEP_RANGE};
 use crate::flow::{METHODS, Method, Problem};
 use crate::oscillator::{PARAMETERS, Symbol};
 use crate::scene::Scene;
@@ -29,10 +30,26 @@ pub struct Start {
     /// Relative error of a step, 1e-15 .. 0.01
     #[arg(long, value_name = "X", value_parser = tolerance, allow_hyphen_values = true)]
     tol: Option<f64>,
+
+    /// Length of the step of the methods that keep it fixed, 1e-7 .. 1
+    #[arg(long, value_name = "H", value_parser = step, allow_hyphen_values = true)]
+    step: Option<f64>,
+
+    /// Velocity over which the method smoothed smoothes friction, 1e-12 .. 1e6
+    #[arg(long, value_name = "E", value_parser = epsilon, allow_hyphen_values = true)]
+    epsilon: Option<f64>,
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {
     input::within("tolerance", TOLERANCE_RANGE, text)
+}
+
+fn step(text: &str) -> Result<f64, String> {
+    input::within("step", STEP_RANGE, text)
+}
+
+fn epsilon(text: &str) -> Result<f64, String> {
+    input::within("epsilon", EPSILON_RANGE, text)
 }
 
 fn parameters_help() -> String {
@@ -54,7 +71,8 @@ impl Start {
     /// The same with another scene.
     pub fn scene_named(&self, name: &str) -> Result<Arc<Scene>, Failure> {
         let mut scene = find(name).map_err(|missing| Failure::Usage(missing.to_string()))?;
-        if self.set.is_empty() && self.method.is_none() && self.tol.is_none() {
+        let dials = [self.tol, self.step, self.epsilon];
+        if self.set.is_empty() && self.method.is_none() && dials.iter().all(Option::is_none) {
             return Ok(scene);
         }
         let changed = Arc::make_mut(&mut scene);
@@ -67,6 +85,8 @@ impl Start {
         }
         changed.problem.method = self.method.unwrap_or(changed.problem.method);
         changed.problem.tolerance = self.tol.unwrap_or(changed.problem.tolerance);
+        changed.problem.step = self.step.unwrap_or(changed.problem.step);
+        changed.problem.epsilon = self.epsilon.unwrap_or(changed.problem.epsilon);
         Ok(scene)
     }
 

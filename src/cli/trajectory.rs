@@ -34,7 +34,7 @@ impl Trajectory {
         let mut problem = self.start.problem()?;
         problem.until = self.until.unwrap_or(problem.until);
         let follow = |energy| {
-            let detail = Detail { samples_per_step: 0, energy };
+            let detail = Detail { energy, ..Detail::default() };
             trajectory(&problem, detail, &Limits::PATIENT)
         };
         // The ledger is a check on the motion and not part of what it costs: where time is measured

@@ -59,6 +59,14 @@ impl Stepper for Exact {
         if step.end.size().is_finite() { Ok(step) } else { Err(Reason::OutOfRange) }
     }
 
+    fn pass(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {
+        self.start = from;
+        self.evaluations += 1;
+        self.duration = longest;
+        let step = Step { duration: longest, end: self.at(longest), crossed: false };
+        if step.end.size().is_finite() { Ok(step) } else { Err(Reason::OutOfRange) }
+    }
+
     fn at(&self, time: f64) -> Point {
         let (x, v) = self.linear.state(self.start.x, self.start.v, time);
         Point { x, v }

@@ -1,103 +1,202 @@
-//! Explicit Runge-Kutta: the pair DOP853 of Dormand and Prince.
+//! Explicit Runge-Kutta: the adaptive pairs DOP853 and DOPRI5, and the classical method of fixed step.
 //!
-//! Order 8 with the combined error estimate of orders 5 and 3 and the step size rule of Hairer, Norsett
-//! and Wanner (section II.10 of their book). A step that passes `v = 0` is taken again, shorter, until
-//! it ends there: Newton's method on the step length, so a crossing is as good as a step.
+//! One stepper serves all [`Scheme`]s. The adaptive ones follow the step size rule of Hairer, Norsett
+//! and Wanner (sections II.4 and II.10 of their book). A step that passes `v = 0` is taken again,
+//! shorter, until it ends there: Newton's method on the step length, so a crossing is as good as a step.
 
 use super::limits::Reason;
 use super::scaling::{rough_exp2, rough_log2};
-use super::step::{Point, Powers, Step, Stepper};
-use super::tableau::{A, DENSE, ERROR3, ERROR5, STAGES, STAGES_DENSE, WEIGHTS};
+use super::step::{Field, LONGEST, Point, Powers, Step, Stepper};
+use super::tableau::{Estimate, Scheme, dop853, dopri5, rk4};
 use crate::oscillator::HalfPlane;
-
-/// Longest step, well below the shortest half swing of a linear oscillator (pi).
-const LONGEST: f64 = 2.0;
 
 /// Newton steps on the length of the last step of a swing; it settles in about four.
 const POLISHING: usize = 30;
 
+/// Most slopes that a dense output combines.
+const MOST_SLOPES: usize = 16;
+
+/// Most coefficients of a dense output.
+const MOST_DENSE: usize = 7;
+
+/// A step of the classical method is stable while it is below this part of the damping time (it is
+/// 2.785 for real eigenvalues; the eigenvalue may grow within the step).
+const STABLE: f64 = 2.0;
+
 /// The stepper.
 #[derive(Clone, Debug)]
-pub struct Dop853 {
-    field: HalfPlane,
+pub struct Explicit<const S: usize, const R: usize, F: Field = HalfPlane> {
+    scheme: &'static Scheme<S, R>,
+    field: F,
+    /// Largest estimated relative error of a step; of no meaning where steps have a fixed length.
     tolerance: f64,
-    /// Length to try next; 0 before the first step.
+    /// Length to try next; 0 before the first step of an adaptive scheme.
     next: f64,
     start: Point,
     end: Point,
     duration: f64,
     /// Slopes of x (the velocities of the stages) and of v.
-    velocity: [f64; STAGES_DENSE],
-    acceleration: [f64; STAGES_DENSE],
+    velocity: [f64; S],
+    acceleration: [f64; S],
+    /// Error estimates of the last attempt.
+    errors: [(f64, f64); 2],
     /// Coefficients of the dense output of x and v.
-    dense: [[f64; 7]; 2],
+    dense: [[f64; MOST_DENSE]; 2],
     evaluations: u64,
     rejected: u64,
 }
 
-impl Dop853 {
-    /// A stepper whose estimated relative error a step is below `tolerance`.
+/// DOP853.
+pub type Dop853<F = HalfPlane> = Explicit<12, 16, F>;
+
+/// DOPRI5.
+pub type Dopri5<F = HalfPlane> = Explicit<7, 8, F>;
+
+/// The classical method of order 4.
+pub type Rk4<F = HalfPlane> = Explicit<4, 4, F>;
+
+impl<F: Field> Dop853<F> {
+    /// The pair of order 8; its estimated relative error a step stays below `tolerance`.
     #[must_use]
-    pub fn new(tolerance: f64) -> Self {
-        Dop853 {
-            field: HalfPlane { d: 0.0, d2: 0.0, d3: 0.0 },
+    pub fn dop853(field: F, tolerance: f64) -> Self {
+        Self::new(&dop853::SCHEME, field, tolerance, 0.0)
+    }
+}
+
+impl<F: Field> Dopri5<F> {
+    /// The pair of order 5; its estimated relative error a step stays below `tolerance`.
+    #[must_use]
+    pub fn dopri5(field: F, tolerance: f64) -> Self {
+        Self::new(&dopri5::SCHEME, field, tolerance, 0.0)
+    }
+}
+
+impl<F: Field> Rk4<F> {
+    /// The classical method with steps of length `step`, its error unknown.
+    #[must_use]
+    pub fn rk4(field: F, step: f64) -> Self {
+        Self::new(&rk4::SCHEME, field, 0.0, step)
+    }
+}
+
+impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
+    fn new(scheme: &'static Scheme<S, R>, field: F, tolerance: f64, next: f64) -> Self {
+        Explicit {
+            scheme,
+            field,
             tolerance,
-            next: 0.0,
+            next,
             start: Point { x: 0.0, v: 0.0 },
-            end: Point { x: 0.0, v: 0.0 },
+            end: Point { x: f64::NAN, v: f64::NAN },
             duration: 0.0,
-            velocity: [0.0; STAGES_DENSE],
-            acceleration: [0.0; STAGES_DENSE],
-            dense: [[0.0; 7]; 2],
+            velocity: [0.0; S],
+            acceleration: [0.0; S],
+            errors: [(0.0, 0.0); 2],
+            dense: [[0.0; MOST_DENSE]; 2],
             evaluations: 0,
             rejected: 0,
         }
     }
 
-    /// Stage `index` from those before it, over a step of length `h`.
-    fn stage(&mut self, index: usize, h: f64) {
-        let row = &A[index - 1];
-        let (mut x, mut v) = (0.0, 0.0);
-        for (j, &a) in row.iter().enumerate().take(index) {
-            x += a * self.velocity[j];
-            v += a * self.acceleration[j];
-        }
-        let point = Point { x: self.start.x + h * x, v: self.start.v + h * v };
-        self.velocity[index] = point.v;
-        self.acceleration[index] = self.field.acceleration(point.x, point.v);
-        self.evaluations += 1;
+    fn is_fixed(&self) -> bool {
+        self.scheme.estimate == Estimate::None
     }
 
-    /// One step of order 8 and length `h` from `self.start`, whose first stage stands.
-    fn attempt(&mut self, h: f64) -> Point {
-        for index in 1..STAGES {
-            self.stage(index, h);
-        }
-        let sum = |slopes: &[f64; STAGES_DENSE]| {
-            WEIGHTS.iter().zip(slopes).map(|(weight, slope)| weight * slope).sum::<f64>()
+    /// Makes `from` the start of the next attempts, and evaluates the slope there unless it is known.
+    fn start_at(&mut self, from: Point) {
+        let slope = if self.scheme.last_is_end && from == self.end {
+            self.acceleration[S - 1]
+        } else {
+            self.evaluations += 1;
+            self.field.acceleration(from.x, from.v)
         };
-        Point {
-            x: self.start.x + h * sum(&self.velocity),
-            v: self.start.v + h * sum(&self.acceleration),
-        }
+        (self.start, self.velocity[0], self.acceleration[0]) = (from, from.v, slope);
     }
 
-    /// Error of the attempt in units of the tolerance: below 1 is accepted.
-    fn error(&self, h: f64, end: Point) -> f64 {
+    /// One step of length `h` from `self.start`, whose first slope stands.
+    fn attempt(&mut self, h: f64) -> Point {
+        let columns = &self.scheme.columns;
+        let (mut sum_x, mut sum_v) = ([0.0; R], [0.0; R]);
+        for (j, column) in columns.iter().enumerate() {
+            if j > 0 {
+                let x = self.start.x + h * sum_x[j - 1];
+                let v = self.start.v + h * sum_v[j - 1];
+                self.velocity[j] = v;
+                self.acceleration[j] = self.field.acceleration(x, v);
+            }
+            let (velocity, acceleration) = (self.velocity[j], self.acceleration[j]);
+            for i in 0..R {
+                sum_x[i] += column[i] * velocity;
+                sum_v[i] += column[i] * acceleration;
+            }
+        }
+        self.evaluations += S as u64 - 1;
+        for (error, i) in self.errors.iter_mut().zip(S..R) {
+            *error = (sum_x[i], sum_v[i]);
+        }
+        Point { x: self.start.x + h * sum_x[S - 1], v: self.start.v + h * sum_v[S - 1] }
+    }
+
+    /// Error of the attempt in units of the tolerance, below 1 is accepted, and the power of the step
+    /// with which it grows.
+    fn error(&self, h: f64, end: Point) -> (f64, f64) {
         let scale = self.tolerance * self.start.size().max(end.size());
-        let norm = |weights: &[f64; STAGES]| {
-            let sum = |slopes: &[f64; STAGES_DENSE]| {
-                weights.iter().zip(slopes).map(|(weight, slope)| weight * slope).sum::<f64>()
-            };
-            let (x, v) = (sum(&self.velocity) / scale, sum(&self.acceleration) / scale);
+        let norm = |(x, v): (f64, f64)| {
+            let (x, v) = (x / scale, v / scale);
             x * x + v * v
         };
-        let (fifth, third) = (norm(&ERROR5), norm(&ERROR3));
-        if fifth == 0.0 && third == 0.0 {
-            return 0.0;
+        match self.scheme.estimate {
+            Estimate::None => (if end.size().is_finite() { 0.0 } else { f64::INFINITY }, 1.0),
+            Estimate::Embedded(power) => (h * (0.5 * norm(self.errors[0])).sqrt(), power),
+            Estimate::Combined(power) => {
+                let (fifth, third) = (norm(self.errors[0]), norm(self.errors[1]));
+                if fifth == 0.0 && third == 0.0 {
+                    return (0.0, power);
+                }
+                // Two components; 0.01 is the published weight of the third-order estimate.
+                (h * fifth / (2.0 * (fifth + 0.01 * third)).sqrt(), power)
+            }
         }
-        // Two components; 0.01 is the published weight of the third-order estimate.
-        h * fifth / (2.0 * (fifth + 0.01 * third)).sqrt()
+    }
+
+    /// Steps until the error is below the tolerance and `accept` says that the end makes sense.
+    fn accepted(
+        &mut self,
+        longest: f64,
+        accept: impl Fn(Point) -> bool,
+    ) -> Result<(f64, Point), Reason> {
+        if self.next == 0.0 {
+            self.next = self.first_step();
+        }
+        let mut grow = 10.0;
+        let mut length = self.next.min(longest);
+        loop {
+            if length < f64::MIN_POSITIVE {
+                return Err(Reason::StepTooSmall { step: length });
+            }
+            let end = self.attempt(length);
+            let (error, power) = self.error(length, end);
+            let factor = |error: f64| 0.9 * rough_exp2(-rough_log2(error) / power);
+            if error <= 1.0 && accept(end) {
+                (self.end, self.duration) = (end, length);
+                if !self.is_fixed() {
+                    let factor = if error == 0.0 { grow } else { factor(error).clamp(0.2, grow) };
+                    let next = (length * factor).min(LONGEST);
+                    // A step cut short by the end time says nothing about the next one.
+                    self.next = if length < self.next { self.next.max(next) } else { next };
+                }
+                return Ok((length, end));
+            }
+            self.rejected += 1;
+            if self.is_fixed() && !error.is_finite() {
+                return Err(Reason::OutOfRange);
+            }
+            grow = 1.0;
+            length *= if error.is_finite() { factor(error.max(1.0)).clamp(0.2, 0.9) } else { 1e-3 };
+            if !self.is_fixed() {
+                self.next = length;
+            }
+        }
     }
 
     /// Shortens the step until it ends at `v = 0`.
@@ -132,80 +231,95 @@ impl Dop853 {
     }
 }
 
-impl Stepper for Dop853 {
-    fn begin(&mut self, field: &HalfPlane) {
+impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
+    /// Refuses a step of fixed length whose stages are damped faster than it can follow.
+    fn check_stability(&self, length: f64) -> Result<(), Reason> {
+        if !self.is_fixed() {
+            return Ok(());
+        }
+        let rate = |v: &f64| self.field.divergence(*v).abs();
+        let fastest = self.velocity.iter().map(rate).fold(0.0, f64::max);
+        if length * fastest > STABLE {
+            return Err(Reason::StepTooLong { step: length, stable: STABLE / fastest });
+        }
+        Ok(())
+    }
+}
+
+impl<const S: usize, const R: usize, F: Field> Stepper<F> for Explicit<S, R, F> {
+    fn begin(&mut self, field: &F) {
         self.field = *field;
+        // The slope at the end of the last step belonged to another field.
+        self.end = Point { x: f64::NAN, v: f64::NAN };
     }
 
-    fn advance(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {
-        self.start = from;
-        self.velocity[0] = from.v;
-        self.acceleration[0] = self.field.acceleration(from.x, from.v);
-        self.evaluations += 1;
-        if self.next == 0.0 {
-            self.next = self.first_step();
-        }
-        let mut grow = 10.0;
-        let mut length = self.next.min(longest);
+    fn advance(&mut self, from: Point, mut longest: f64) -> Result<Step, Reason> {
+        self.start_at(from);
         loop {
-            if length < f64::MIN_POSITIVE {
-                return Err(Reason::StepTooSmall { step: length });
-            }
-            let end = self.attempt(length);
-            let error = self.error(length, end);
             // A step that turned around passed two crossings and is taken again, shorter.
-            if error <= 1.0 && (end.v <= 0.0 || end.x >= from.x) {
-                let factor = if error == 0.0 {
-                    grow
-                } else {
-                    (0.9 * rough_exp2(-0.125 * rough_log2(error))).clamp(0.2, grow)
-                };
-                let next = (length * factor).min(LONGEST);
-                // A step cut short by the end time says nothing about the next one.
-                self.next = if length < self.next { self.next.max(next) } else { next };
-                (self.end, self.duration) = (end, length);
-                if end.v <= 0.0 {
-                    return Ok(self.arrive(length));
-                }
-                return Ok(Step { duration: length, end, crossed: false });
+            let makes_sense = |end: Point| end.v <= 0.0 || end.x >= from.x;
+            let (duration, end) = self.accepted(longest, makes_sense)?;
+            self.check_stability(duration)?;
+            if end.v > 0.0 {
+                return Ok(Step { duration, end, crossed: false });
+            }
+            let arrival = self.arrive(duration);
+            if arrival.is_possible() {
+                return Ok(arrival);
             }
             self.rejected += 1;
-            grow = 1.0;
-            let factor = if error.is_finite() {
-                (0.9 * rough_exp2(-0.125 * rough_log2(error.max(1.0)))).clamp(0.2, 0.9)
-            } else {
-                1e-3
-            };
-            length *= factor;
-            self.next = length;
+            longest = 0.5 * duration;
         }
+    }
+
+    fn pass(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {
+        self.start_at(from);
+        let (duration, end) = self.accepted(longest, |_| true)?;
+        self.check_stability(duration)?;
+        Ok(Step { duration, end, crossed: false })
     }
 
     fn prepare_dense(&mut self) {
         let h = self.duration;
-        self.velocity[STAGES] = self.end.v;
-        self.acceleration[STAGES] = self.field.acceleration(self.end.x, self.end.v);
+        let (mut velocity, mut acceleration) = ([0.0; MOST_SLOPES], [0.0; MOST_SLOPES]);
+        velocity[..S].copy_from_slice(&self.velocity);
+        acceleration[..S].copy_from_slice(&self.acceleration);
+        let last_slope = self.field.acceleration(self.end.x, self.end.v);
         self.evaluations += 1;
-        for index in STAGES + 1..STAGES_DENSE {
-            self.stage(index, h);
+        if !self.scheme.extra.is_empty() {
+            (velocity[S], acceleration[S]) = (self.end.v, last_slope);
         }
-        let ends = [(self.start.x, self.end.x), (self.start.v, self.end.v)];
-        for (component, (from, to)) in ends.into_iter().enumerate() {
-            let slopes = if component == 0 { &self.velocity } else { &self.acceleration };
+        let sum = |row: &[f64], slopes: &[f64; MOST_SLOPES]| {
+            row.iter().zip(slopes).map(|(weight, slope)| weight * slope).sum::<f64>()
+        };
+        for (row, index) in self.scheme.extra.iter().zip(S + 1..) {
+            let x = self.start.x + h * sum(row, &velocity);
+            let v = self.start.v + h * sum(row, &acceleration);
+            velocity[index] = v;
+            acceleration[index] = self.field.acceleration(x, v);
+            self.evaluations += 1;
+        }
+        let components = [
+            (self.start.x, self.end.x, self.start.v, self.end.v, velocity),
+            (self.start.v, self.end.v, self.acceleration[0], last_slope, acceleration),
+        ];
+        for (dense, (from, to, first, last, slopes)) in self.dense.iter_mut().zip(components) {
             let change = to - from;
-            let dense = &mut self.dense[component];
-            dense[0] = change;
-            dense[1] = h * slopes[0] - change;
-            dense[2] = 2.0 * change - h * (slopes[STAGES] + slopes[0]);
-            for (coefficient, row) in dense[3..].iter_mut().zip(&DENSE) {
-                *coefficient = h * row.iter().zip(slopes).map(|(d, slope)| d * slope).sum::<f64>();
+            *dense = [0.0; MOST_DENSE];
+            dense[..3].copy_from_slice(&[
+                change,
+                h * first - change,
+                2.0 * change - h * (first + last),
+            ]);
+            for (coefficient, row) in dense[3..].iter_mut().zip(self.scheme.dense) {
+                *coefficient = h * sum(row, &slopes);
             }
         }
     }
 
     fn at(&self, time: f64) -> Point {
         let s = time / self.duration;
-        let value = |from: f64, dense: &[f64; 7]| {
+        let value = |from: f64, dense: &[f64; MOST_DENSE]| {
             // Nested alternately in s and 1 - s, as published.
             let nested = dense.iter().enumerate().rev().fold(0.0, |sum, (index, coefficient)| {
                 (sum + coefficient) * if index % 2 == 0 { s } else { 1.0 - s }
@@ -215,10 +329,10 @@ impl Stepper for Dop853 {
         Point { x: value(self.start.x, &self.dense[0]), v: value(self.start.v, &self.dense[1]) }
     }
 
-    /// The quadrature of the method itself: its stages are its nodes, of order 8.
+    /// The quadrature of the method itself: its stages are its nodes.
     fn powers(&self) -> Powers {
         let mut powers = Powers::default();
-        for (weight, &v) in WEIGHTS.iter().zip(&self.velocity) {
+        for (weight, &v) in self.scheme.weights.iter().zip(&self.velocity) {
             powers.add_node(weight * self.duration, v);
         }
         powers

@@ -41,6 +41,13 @@ pub enum Reason {
         /// Size of that step.
         step: f64,
     },
+    /// The fixed step is too long for the damping that the motion meets.
+    StepTooLong {
+        /// The step.
+        step: f64,
+        /// The longest step that is stable there.
+        stable: f64,
+    },
     /// A number left the range of floating point.
     OutOfRange,
     /// The method cannot serve these parameters.
@@ -66,6 +73,9 @@ impl fmt::Display for Reason {
             }
             Reason::StepTooSmall { step } => {
                 write!(out, "step {step:.1e} is too small to move the time")
+            }
+            Reason::StepTooLong { step, stable } => {
+                write!(out, "step {step:.1e} is unstable here; at most {stable:.1e} would do")
             }
             Reason::OutOfRange => write!(out, "left the range of floating-point numbers"),
             Reason::NotApplicable { needs } => write!(out, "the method needs {needs}"),

@@ -16,6 +16,31 @@ pub enum Method {
     Taylor,
     /// Explicit Runge-Kutta pair of order 8.
     Dop853,
+    /// Explicit Runge-Kutta pair of order 5.
+    Dopri5,
+    /// The classical Runge-Kutta method of order 4, with a fixed step.
+    Rk4,
+    /// Implicit collocation for stiff motions.
+    Stiff,
+    /// Friction smoothed to `r tanh(v/epsilon)`, without events.
+    Smoothed,
+    /// The classical Runge-Kutta method with `sign(v)` in the field, without events.
+    SignRk4,
+    /// Moreau and Jean's time stepping, without events.
+    TimeStepping,
+}
+
+/// The number that sets the accuracy of a method.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dial {
+    /// None: it is exact.
+    Nothing,
+    /// The relative error of a step.
+    Tolerance,
+    /// The length of the fixed step.
+    Step,
+    /// The velocity over which friction is smoothed.
+    Epsilon,
 }
 
 /// One row of [`METHODS`].
@@ -25,6 +50,10 @@ pub struct MethodSpec {
     pub method: Method,
     /// Its name on the command line and on the screen.
     pub name: &'static str,
+    /// What sets its accuracy.
+    pub dial: Dial,
+    /// Whether it finds the arrivals at `v = 0`, and so where a motion rests.
+    pub events: bool,
     /// Order of accuracy, in words.
     pub order: &'static str,
     /// What it promises, and under which assumption.
@@ -38,13 +67,17 @@ pub const METHODS: &[MethodSpec] = &[
     MethodSpec {
         method: Method::Auto,
         name: "auto",
+        dial: Dial::Tolerance,
+        events: true,
         order: "that of the method chosen",
-        guarantee: "exact where D2 = D3 = 0, else taylor",
+        guarantee: "exact where D2 = D3 = 0, else taylor, stiff while stability limits its steps",
         source: "measured, see the trade table",
     },
     MethodSpec {
         method: Method::Exact,
         name: "exact",
+        dial: Dial::Nothing,
+        events: true,
         order: "closed form",
         guarantee: "rounding error only; D2 = D3 = 0",
         source: "equations 25 to 33, corrected",
@@ -52,18 +85,89 @@ pub const METHODS: &[MethodSpec] = &[
     MethodSpec {
         method: Method::Taylor,
         name: "taylor",
-        order: "8 to 24 with the tolerance",
+        dial: Dial::Tolerance,
+        events: true,
+        order: "8 to 26 with the tolerance",
         guarantee: "relative error of a step below the tolerance; crossings are roots of its polynomial",
         source: "Jorba and Zou, Experimental Mathematics 14 (2005)",
     },
     MethodSpec {
         method: Method::Dop853,
         name: "dop853",
+        dial: Dial::Tolerance,
+        events: true,
         order: "8, error estimates 5 and 3",
         guarantee: "relative error of a step below the tolerance",
         source: "Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I",
     },
+    MethodSpec {
+        method: Method::Dopri5,
+        name: "dopri5",
+        dial: Dial::Tolerance,
+        events: true,
+        order: "5, error estimate 4",
+        guarantee: "relative error of a step below the tolerance",
+        source: "Dormand and Prince, J. Comp. Appl. Math. 6 (1980)",
+    },
+    MethodSpec {
+        method: Method::Rk4,
+        name: "rk4",
+        dial: Dial::Step,
+        events: true,
+        order: "4, no error estimate",
+        guarantee: "crossings as good as its steps; refuses steps that are unstable",
+        source: "Kutta, Z. Math. Phys. 46 (1901)",
+    },
+    MethodSpec {
+        method: Method::Stiff,
+        name: "stiff",
+        dial: Dial::Tolerance,
+        events: true,
+        order: "5, 9 or 13 with the tolerance",
+        guarantee: "relative error of a step near the tolerance; L-stable, analytic Jacobian",
+        source: "Radau IIA; Hairer and Wanner, J. Comp. Appl. Math. 111 (1999)",
+    },
+    MethodSpec {
+        method: Method::Smoothed,
+        name: "smoothed",
+        dial: Dial::Epsilon,
+        events: false,
+        order: "1 in epsilon",
+        guarantee: "never sticks: it creeps at a speed of order epsilon; cost grows as 1/epsilon (dop853)",
+        source: "common practice: sign(v) becomes tanh(v/epsilon)",
+    },
+    MethodSpec {
+        method: Method::SignRk4,
+        name: "sign-rk4",
+        dial: Dial::Step,
+        events: false,
+        order: "1: each passage of v = 0 costs the rest",
+        guarantee: "none: it chatters across v = 0 and rests nowhere",
+        source: "common practice: rk4 with sign(v) in the field",
+    },
+    MethodSpec {
+        method: Method::TimeStepping,
+        name: "time-stepping",
+        dial: Dial::Step,
+        events: false,
+        order: "2 within a half swing, 1 across v = 0",
+        guarantee: "sticks where the balance of one step says so; no crossing is located",
+        source: "Moreau (1988); Jean, Comput. Methods Appl. Mech. Eng. 177 (1999)",
+    },
 ];
+
+/// Length of the fixed step where none is given.
+pub const STEP: f64 = 0.01;
+
+/// Lengths of a fixed step that make sense: half swings last at least pi where damping is below
+/// critical.
+pub const STEP_RANGE: (f64, f64) = (1e-7, 1.0);
+
+/// Velocity over which friction is smoothed where none is given.
+pub const EPSILON: f64 = 1e-3;
+
+/// Velocities over which friction may be smoothed.
+pub const EPSILON_RANGE: (f64, f64) = (1e-12, 1e6);
 
 impl Method {
     /// The row of [`METHODS`] that describes this method.

@@ -4,16 +4,22 @@
 //! [`crate::oscillator::HalfPlane`] by one of the [`Method`]s, and ends at the first root of `v` after
 //! its start. No step ever crosses the switching line, so no method sees the discontinuity.
 
+pub mod auto;
 pub mod exact;
 pub mod explicit;
 pub mod limits;
 pub mod method;
+pub mod regularized;
+pub mod run;
 pub mod scaling;
 pub mod step;
+pub mod stiff;
 pub mod swing;
 pub mod tableau;
 pub mod taylor;
+pub mod time_stepping;
 pub mod trajectory;
+pub mod without_events;
 
 pub use limits::{Limits, Reason};
 pub use method::{METHODS, Method, MethodSpec};

@@ -20,6 +20,32 @@ impl Point {
     }
 }
 
+/// Longest step of a method that looks for `v = 0` where damping is below critical. Half of the shortest
+/// half swing of a linear oscillator (pi), rounded up: no step of this length or less passes two
+/// crossings.
+pub const LONGEST: f64 = 2.0;
+
+/// A smooth field `x' = v, v' = acceleration(x, v)` with `acceleration = -x - (a function of v)`.
+pub trait Field: Copy {
+    /// The acceleration `v'`.
+    fn acceleration(&self, x: f64, v: f64) -> f64;
+
+    /// Divergence of the field, the derivative of the acceleration by v; that by x is -1.
+    fn divergence(&self, v: f64) -> f64;
+}
+
+impl Field for HalfPlane {
+    #[inline]
+    fn acceleration(&self, x: f64, v: f64) -> f64 {
+        HalfPlane::acceleration(self, x, v)
+    }
+
+    #[inline]
+    fn divergence(&self, v: f64) -> f64 {
+        HalfPlane::divergence(self, v)
+    }
+}
+
 /// An accepted step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step {
@@ -29,6 +55,14 @@ pub struct Step {
     pub end: Point,
     /// Whether it ended by arriving at `v = 0`; then `end.v` is exactly 0.
     pub crossed: bool,
+}
+
+impl Step {
+    /// Whether a motion above `v = 0` can arrive there: at `x < 0` the field would lift it off again.
+    #[must_use]
+    pub fn is_possible(&self) -> bool {
+        self.end.x >= 0.0
+    }
 }
 
 /// Integrals of powers of `v` over a piece of a motion; the works of the damping terms follow from them.
@@ -52,13 +86,13 @@ impl Powers {
     }
 }
 
-/// A way of integrating the smooth field of one side.
+/// A way of integrating a smooth field, that of one side by default.
 ///
 /// Between [`Stepper::begin`] calls the field stays the same. After an accepted step, [`Stepper::at`]
 /// and [`Stepper::powers`] speak of that step.
-pub trait Stepper {
+pub trait Stepper<F: Field = HalfPlane> {
     /// Prepares for steps in this field.
-    fn begin(&mut self, field: &HalfPlane);
+    fn begin(&mut self, field: &F);
 
     /// Takes one step from a point with `v >= 0` (on `v = 0`: with `x < 0`), at most `longest` long,
     /// and not beyond the first arrival at `v = 0`.
@@ -66,6 +100,12 @@ pub trait Stepper {
     /// # Errors
     /// [`Reason::StepTooSmall`] or [`Reason::OutOfRange`] where no step meets the tolerance.
     fn advance(&mut self, from: Point, longest: f64) -> Result<Step, Reason>;
+
+    /// Takes one step, at most `longest` long, wherever it leads: `v = 0` is not looked for.
+    ///
+    /// # Errors
+    /// As [`Stepper::advance`].
+    fn pass(&mut self, from: Point, longest: f64) -> Result<Step, Reason>;
 
     /// Makes [`Stepper::at`] usable for the last step, if that costs something.
     fn prepare_dense(&mut self) {}

@@ -68,6 +68,36 @@ pub fn swing<S: Stepper>(
     start: Point,
     longest: f64,
     limits: &Limits,
+    watch: impl FnMut(&mut S, f64, i32, &Step) -> ControlFlow<()>,
+) -> Result<Swing, Failed> {
+    drive(stepper, S::advance, field, start, longest, limits, watch)
+}
+
+/// Follows a motion for `longest` without looking for `v = 0`, through as many half swings as it takes.
+///
+/// Assumption: there is no friction. Then the field of the upper side holds on both sides.
+///
+/// # Errors
+/// As [`swing`].
+pub fn glide<S: Stepper>(
+    stepper: &mut S,
+    field: &HalfPlane,
+    start: Point,
+    longest: f64,
+    limits: &Limits,
+    watch: impl FnMut(&mut S, f64, i32, &Step) -> ControlFlow<()>,
+) -> Result<Swing, Failed> {
+    drive(stepper, S::pass, field, start, longest, limits, watch)
+}
+
+/// Takes steps by `advance` until it crosses, the time is over, or escape is certain.
+fn drive<S: Stepper>(
+    stepper: &mut S,
+    advance: impl Fn(&mut S, Point, f64) -> Result<Step, Reason>,
+    field: &HalfPlane,
+    start: Point,
+    longest: f64,
+    limits: &Limits,
     mut watch: impl FnMut(&mut S, f64, i32, &Step) -> ControlFlow<()>,
 ) -> Result<Swing, Failed> {
     let mut unit = exponent(start.size());
@@ -88,7 +118,7 @@ pub fn swing<S: Stepper>(
             return Err(failed(Reason::OutOfRange));
         }
         let remaining = longest - time;
-        let step = stepper.advance(point, remaining).map_err(failed)?;
+        let step = advance(stepper, point, remaining).map_err(failed)?;
         steps += 1;
         let goes_on = watch(stepper, time, unit, &step).is_continue();
         time += step.duration;
@@ -127,18 +157,18 @@ pub fn swing<S: Stepper>(
 
 /// Time until v becomes infinite, where escape is certain and this time is known to rounding.
 ///
-/// With `D3 < 0` the term `-D3 v^3` drives v, with `D3 = 0` and `D2 < 0` (in the frame of the side) the
+/// For `v < 0` (met where there is no friction) the mirror image is asked. With `D3 < 0` the term `-D3 v^3` drives v, with `D3 = 0` and `D2 < 0` (in the frame of the side) the
 /// term `-D2 v^2`. Escape is certain once the driving term exceeds eight times all others together and
 /// x cannot catch up any more: from then on v grows and the ratio with it. The time is the leading
 /// asymptotic term; it is used when the next one is below [`BLOW_UP_ERROR`] of the time so far.
-fn time_to_blow_up(field: &HalfPlane, point: Point, elapsed: f64) -> Option<f64> {
-    let v = point.v;
+pub(super) fn time_to_blow_up(field: &HalfPlane, point: Point, elapsed: f64) -> Option<f64> {
+    let (v, d2) = if point.v < 0.0 { (-point.v, -field.d2) } else { (point.v, field.d2) };
     let others = point.x.abs() + 2.0 * field.d.abs() * v;
     let (drive, others, rest) = if field.d3 < 0.0 {
         let drive = -field.d3 * v * v * v;
-        (drive, others + field.d2.abs() * v * v, 0.5 * v / drive)
-    } else if field.d3 == 0.0 && field.d2 < 0.0 {
-        let drive = -field.d2 * v * v;
+        (drive, others + d2.abs() * v * v, 0.5 * v / drive)
+    } else if field.d3 == 0.0 && d2 < 0.0 {
+        let drive = -d2 * v * v;
         (drive, others, v / drive)
     } else {
         return None;

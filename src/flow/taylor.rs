@@ -10,7 +10,7 @@
 
 use super::limits::Reason;
 use super::scaling::{exponent, rough_exp2, rough_log2, times_power};
-use super::step::{Point, Powers, Step, Stepper};
+use super::step::{LONGEST, Point, Powers, Step, Stepper};
 use super::tableau::GAUSS;
 use crate::oscillator::HalfPlane;
 
@@ -29,10 +29,6 @@ const AIM: f64 = 0.125;
 
 /// How many of the last coefficients decide on the length of a step.
 const TAIL: usize = 4;
-
-/// Longest step. Half of the shortest half swing of a linear oscillator (pi), rounded up: no step of
-/// this length or less passes two crossings.
-const LONGEST: f64 = 2.0;
 
 /// Order for each tolerance: the smallest bound not below the tolerance decides. The orders minimise
 /// the measured time of the benchmark `flow` at these tolerances.
@@ -96,6 +92,15 @@ impl Taylor {
             duration: 0.0,
             evaluations: 0,
             rejected: 0,
+        }
+    }
+
+    /// The order.
+    #[must_use]
+    pub fn order(&self) -> f64 {
+        #[expect(clippy::cast_precision_loss, reason = "at most 28")]
+        {
+            self.order as f64
         }
     }
 
@@ -277,26 +282,44 @@ fn value_and_slope(coefficients: &[f64], t: f64) -> (f64, f64) {
     (value, slope)
 }
 
+impl Taylor {
+    /// Expands at a point; returns the step length that the tolerance allows, in units of the
+    /// coefficients.
+    fn settle(&mut self, from: Point) -> Result<f64, Reason> {
+        self.time_exponent = self.next_time_exponent;
+        loop {
+            self.expand(from);
+            if let Some(allowed) = self.allowed(from) {
+                return Ok(allowed);
+            }
+            // Coefficients that overflow belong to a time scale far below 1: take a smaller unit.
+            if self.time_exponent < -1000 {
+                return Err(Reason::OutOfRange);
+            }
+            self.time_exponent -= 40;
+        }
+    }
+
+    fn accept(&mut self, duration: f64, end: Point) -> Step {
+        self.duration = duration;
+        // Keep the unit of time near the step, so that coefficients neither over- nor underflow.
+        let drift = exponent(duration);
+        if (drift - self.time_exponent).abs() > 20 {
+            self.next_time_exponent = drift;
+        }
+        Step { duration, end, crossed: false }
+    }
+}
+
 impl Stepper for Taylor {
     fn begin(&mut self, field: &HalfPlane) {
         self.field = *field;
     }
 
     fn advance(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {
-        self.time_exponent = self.next_time_exponent;
-        self.expand(from);
-        let mut allowed = self.allowed(from);
-        // Coefficients that overflow belong to a time scale far below 1: expand in a smaller unit.
-        while allowed.is_none() {
-            if self.time_exponent < -1000 {
-                return Err(Reason::OutOfRange);
-            }
-            self.time_exponent -= 40;
-            self.expand(from);
-            allowed = self.allowed(from);
-        }
+        let allowed = self.settle(from)?;
         let unit = times_power(1.0, self.time_exponent);
-        let mut scaled = allowed.unwrap_or(0.0).min(LONGEST / unit).min(longest / unit);
+        let mut scaled = allowed.min(LONGEST / unit).min(longest / unit);
         let order = self.order;
         loop {
             let duration = scaled * unit;
@@ -306,25 +329,36 @@ impl Stepper for Taylor {
             let v = value(&self.v[..=order], scaled);
             if v <= 0.0 {
                 let root = self.root(scaled);
-                self.duration = root * unit;
-                let x = value(&self.x[..=order], root);
-                let end = Point { x, v: 0.0 };
-                return Ok(Step { duration: self.duration, end, crossed: true });
-            }
-            let x = value(&self.x[..=order], scaled);
-            // Above v = 0 the position grows; if it did not, the step passed two crossings.
-            if x >= from.x {
-                self.duration = duration;
-                // Keep the unit of time near the step, so that coefficients neither over- nor underflow.
-                let drift = exponent(duration);
-                if (drift - self.time_exponent).abs() > 20 {
-                    self.next_time_exponent = drift;
+                let end = Point { x: value(&self.x[..=order], root), v: 0.0 };
+                let step = Step { duration: root * unit, end, crossed: true };
+                if step.is_possible() {
+                    self.duration = step.duration;
+                    return Ok(step);
                 }
-                return Ok(Step { duration, end: Point { x, v }, crossed: false });
+                scaled = root;
+            } else {
+                let x = value(&self.x[..=order], scaled);
+                // Above v = 0 the position grows; if it did not, the step passed two crossings.
+                if x >= from.x {
+                    return Ok(self.accept(duration, Point { x, v }));
+                }
             }
             self.rejected += 1;
             scaled *= 0.5;
         }
+    }
+
+    fn pass(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {
+        let allowed = self.settle(from)?;
+        let unit = times_power(1.0, self.time_exponent);
+        let scaled = allowed.min(longest / unit);
+        if scaled * unit == 0.0 {
+            return Err(Reason::StepTooSmall { step: 0.0 });
+        }
+        let order = self.order;
+        let end =
+            Point { x: value(&self.x[..=order], scaled), v: value(&self.v[..=order], scaled) };
+        Ok(self.accept(scaled * unit, end))
     }
 
     fn at(&self, time: f64) -> Point {

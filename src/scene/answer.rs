@@ -60,7 +60,9 @@ const BRANCH_POINTS: usize = 160;
 pub fn answer(request: &Request, limits: &Limits) -> Result<Answer, Reason> {
     match request {
         Request::Trajectory(problem) => {
-            let detail = Detail { samples_per_step: SAMPLES_PER_STEP, energy: true };
+            // Without friction nothing happens at v = 0, and nobody looks for it.
+            let crossings = problem.parameters.r > 0.0;
+            let detail = Detail { crossings, samples_per_step: SAMPLES_PER_STEP, energy: true };
             Ok(Answer::Trajectory(trajectory(problem, detail, limits)))
         }
         Request::Cycles { parameters } => cycles(parameters, true, limits).map(Answer::Cycles),

@@ -10,6 +10,7 @@ use toml::Spanned;
 use super::layer::Layer;
 use super::scene::{Scene, TOLERANCE, UNTIL};
 use super::window::{Span, Window};
+use crate::flow::method::{EPSILON, EPSILON_RANGE, STEP, STEP_RANGE};
 use crate::flow::{Method, Problem};
 use crate::oscillator::{PARAMETERS, Parameters, State, Symbol};
 
@@ -57,6 +58,8 @@ struct File {
     #[serde(default = "auto")]
     method: Method,
     tolerance: Option<Spanned<f64>>,
+    step: Option<Spanned<f64>>,
+    epsilon: Option<Spanned<f64>>,
     layers: BTreeSet<Layer>,
     phase: Phase,
     diagram: Diagram,
@@ -168,6 +171,8 @@ fn problem(read: &File) -> Result<Problem, Complaint> {
         until: within("until", read.until.as_ref(), UNTIL_RANGE, UNTIL)?,
         method: read.method,
         tolerance: within("tolerance", read.tolerance.as_ref(), TOLERANCE_RANGE, TOLERANCE)?,
+        step: within("step", read.step.as_ref(), STEP_RANGE, STEP)?,
+        epsilon: within("epsilon", read.epsilon.as_ref(), EPSILON_RANGE, EPSILON)?,
     })
 }
 

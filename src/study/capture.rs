@@ -114,6 +114,7 @@ mod tests {
             until: 500.0,
             method: Method::Taylor,
             tolerance: 1e-12,
+            ..Problem::default()
         };
         let motion = trajectory(&problem, Detail::default(), &Limits::PATIENT);
         matches!(motion.outcome, Outcome::Captured { .. }).then_some(motion.crossings.len())

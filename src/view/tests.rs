@@ -84,6 +84,7 @@ fn spiral(problem: Problem) -> Trajectory {
     Trajectory {
         problem,
         method: problem.method,
+        implicit_steps: 0,
         outcome: Outcome::Captured { tau: 9.47, q: -0.053 },
         crossings: [3.1, 6.3, 9.47].map(|tau| Crossing { tau, q: 0.1 }).to_vec(),
         ledger: Some(ledger),
@@ -165,6 +166,7 @@ fn approved() -> Scene {
         until: 60.0,
         method: Method::Taylor,
         tolerance: 1e-10,
+        ..Problem::default()
     };
     let span = |from, to| Span::new(from, to).unwrap();
     Scene {

@@ -106,6 +106,7 @@ fn answered(request: Request) -> Answered {
             Answer::Trajectory(Trajectory {
                 problem: *problem,
                 method: Method::Taylor,
+                implicit_steps: 0,
                 outcome: Outcome::Moving { tau: until, q, v },
                 crossings: Vec::new(),
                 ledger: None,

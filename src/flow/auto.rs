@@ -1,0 +1,222 @@
+//! Taylor series, and implicit steps while stability, not accuracy, limits the series.
+//!
+//! On a slow manifold an explicit step is a fixed multiple of the damping time however smooth the motion
+//! is. So the product of step and damping rate tells: below 1 where accuracy limits the step, while under
+//! stability the noise of the fast motion in coefficient N keeps it near `(N!)^(1/N)`, about 0.4 N. Both
+//! factors come from the state in its own units, so the choice scales and mirrors as the motion does, and
+//! the same question always gets the same answer. At loose tolerances that noise may be larger than the
+//! velocity itself and hide the sign; so a half swing of very many steps is suspect too.
+
+use super::limits::Reason;
+use super::step::{Field, Point, Powers, Step, Stepper};
+use super::stiff::Stiff;
+use super::taylor::Taylor;
+use crate::oscillator::HalfPlane;
+
+/// Damping times, as a part of its order, in a step of the series beyond which stability limits it.
+const LIMITED: f64 = 1.0 / 3.0;
+
+/// Damping times in an implicit step below which the series is cheaper.
+const WORTHWHILE: f64 = 25.0;
+
+/// Growth of an implicit step over the one before it while it is still on its way to that length.
+const GROWING: f64 = 1.5;
+
+/// Short implicit steps in a row that may fail to grow, as one does after a step was refused.
+const STALLED: u32 = 3;
+
+/// Length of the first implicit step, as a multiple of the limited step before it.
+const FIRST: f64 = 4.0;
+
+/// Steps of the series in one half swing after which implicit ones are tried, whatever limits it (an
+/// oscillation needs a dozen), and the factor by which this grows if they were not worthwhile.
+const MANY: (u64, u64) = (100, 4);
+
+/// Limited steps in a row before implicit ones are tried, at first and, if they were not worthwhile, at
+/// most.
+const PATIENCE: (u32, u32) = (5, 320);
+
+/// The stepper.
+#[derive(Clone, Debug)]
+pub struct Auto {
+    field: HalfPlane,
+    taylor: Taylor,
+    stiff: Stiff,
+    /// Whether the last step was implicit, and whether the next one is to be.
+    was_implicit: bool,
+    implicit: bool,
+    /// Length of the last implicit step in a row, and whether one of them was worthwhile.
+    reached: f64,
+    worthwhile: bool,
+    /// Short implicit steps in a row that did not grow.
+    stalled: u32,
+    /// Limited steps in a row, and how many are waited for.
+    limited: u32,
+    patience: u32,
+    /// Steps of the series in this half swing, and how many are waited for.
+    series_steps: u64,
+    many: u64,
+    implicit_steps: u64,
+}
+
+impl Auto {
+    /// A stepper whose relative error a step is about `tolerance`.
+    #[must_use]
+    pub fn new(tolerance: f64) -> Self {
+        let field = HalfPlane { d: 0.0, d2: 0.0, d3: 0.0 };
+        Auto {
+            field,
+            taylor: Taylor::new(tolerance),
+            stiff: Stiff::new(field, tolerance),
+            was_implicit: false,
+            implicit: false,
+            reached: 0.0,
+            worthwhile: false,
+            stalled: 0,
+            limited: 0,
+            patience: PATIENCE.0,
+            series_steps: 0,
+            many: MANY.0,
+            implicit_steps: 0,
+        }
+    }
+
+    /// How many steps were implicit.
+    #[must_use]
+    pub fn implicit_steps(&self) -> u64 {
+        self.implicit_steps
+    }
+
+    /// Takes a step by the method of the hour, then decides on the next one.
+    fn step(
+        &mut self,
+        series: impl FnOnce(&mut Taylor) -> Result<Step, Reason>,
+        implicit: impl FnOnce(&mut Stiff) -> Result<Step, Reason>,
+    ) -> Result<Step, Reason> {
+        if self.implicit
+            && let Ok(step) = implicit(&mut self.stiff)
+        {
+            self.was_implicit = true;
+            self.implicit_steps += 1;
+            if self.damping_times(&step) >= WORTHWHILE {
+                (self.worthwhile, self.stalled) = (true, 0);
+            } else if step.duration < GROWING * self.reached {
+                self.stalled += 1;
+            }
+            if self.stalled == STALLED {
+                self.implicit = false;
+                (self.patience, self.many) = if self.worthwhile {
+                    (PATIENCE.0, MANY.0)
+                } else {
+                    ((2 * self.patience).min(PATIENCE.1), self.many.saturating_mul(MANY.1))
+                };
+            }
+            self.reached = step.duration;
+            return Ok(step);
+        }
+        (self.was_implicit, self.implicit) = (false, false);
+        let step = series(&mut self.taylor)?;
+        let limited = self.damping_times(&step) > LIMITED * self.taylor.order();
+        self.limited = if limited { self.limited + 1 } else { 0 };
+        self.series_steps += 1;
+        if self.limited >= self.patience || self.series_steps >= self.many {
+            (self.limited, self.series_steps, self.reached) = (0, 0, 0.0);
+            (self.implicit, self.worthwhile, self.stalled) = (true, false, 0);
+            self.stiff.expect_length(FIRST * step.duration);
+        }
+        Ok(step)
+    }
+
+    /// The length of a step in units of the damping time at its end.
+    fn damping_times(&self, step: &Step) -> f64 {
+        -Field::divergence(&self.field, step.end.v) * step.duration
+    }
+}
+
+impl Stepper for Auto {
+    fn begin(&mut self, field: &HalfPlane) {
+        (self.field, self.series_steps) = (*field, 0);
+        self.taylor.begin(field);
+        self.stiff.begin(field);
+    }
+
+    fn advance(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {
+        self.step(|taylor| taylor.advance(from, longest), |stiff| stiff.advance(from, longest))
+    }
+
+    fn pass(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {
+        self.step(|taylor| taylor.pass(from, longest), |stiff| stiff.pass(from, longest))
+    }
+
+    fn prepare_dense(&mut self) {
+        if self.was_implicit {
+            self.stiff.prepare_dense();
+        }
+    }
+
+    fn at(&self, time: f64) -> Point {
+        if self.was_implicit { self.stiff.at(time) } else { self.taylor.at(time) }
+    }
+
+    fn powers(&self) -> Powers {
+        if self.was_implicit { self.stiff.powers() } else { self.taylor.powers() }
+    }
+
+    fn evaluations(&self) -> u64 {
+        self.taylor.evaluations() + self.stiff.evaluations()
+    }
+
+    fn rejected(&self) -> u64 {
+        self.taylor.rejected() + self.stiff.rejected()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::trajectory::{choice, trajectory};
+    use super::super::{Detail, Limits, Method, Outcome, Problem, Trajectory};
+    use crate::oscillator::{Parameters, State};
+
+    fn run(parameters: [f64; 4], q: f64, until: f64, method: Method, tolerance: f64) -> Trajectory {
+        let [d, d2, d3, r] = parameters;
+        let problem = Problem {
+            parameters: Parameters { d, d2, d3, r },
+            initial: State { q, v: 0.0 },
+            until,
+            method,
+            tolerance,
+            ..Problem::default()
+        };
+        trajectory(&problem, Detail::default(), &Limits::PATIENT)
+    }
+
+    #[test]
+    fn closed_form_series_and_implicit_steps_each_where_they_belong() {
+        let linear = run([-0.1, 0.0, 0.0, 0.1], 3.0, 60.0, Method::Auto, 1e-10);
+        assert_eq!((linear.method, linear.implicit_steps), (Method::Exact, 0));
+        assert!(choice(&linear).unwrap().starts_with("exact"));
+        let smooth = run([-0.1, 0.0, 0.05, 0.1], 3.0, 200.0, Method::Auto, 1e-10);
+        assert_eq!((smooth.method, smooth.implicit_steps), (Method::Taylor, 0));
+        assert!(choice(&smooth).unwrap().starts_with("taylor"));
+        let stiff = run([-0.1, 0.0, 1.0, 0.1], 1e6, 2e4, Method::Auto, 1e-10);
+        assert!(stiff.implicit_steps > 10);
+        assert!(choice(&stiff).unwrap().starts_with("stiff"));
+        assert_eq!(choice(&run([0.0; 4], 1.0, 1.0, Method::Exact, 1e-10)), None);
+    }
+
+    /// Counted in steps: the series needs at most its own, the implicit method a few dozen.
+    #[test]
+    fn it_is_as_good_as_the_better_of_both() {
+        for parameters in [[-0.1, 0.0, 1.0, 0.1], [0.1, 0.0, 1e6, 0.1], [20.0, 0.1, 0.0, 0.0]] {
+            for q in [1.0, 10.0, 1e3, 1e5] {
+                for tolerance in [1e-4, 1e-8, 1e-12] {
+                    let [auto, stiff] = [Method::Auto, Method::Stiff]
+                        .map(|method| run(parameters, q, 1e4, method, tolerance));
+                    assert!(!matches!(auto.outcome, Outcome::GaveUp { .. }), "{auto:?}");
+                    let bound = 2 * stiff.cost.evaluations + 400;
+                    assert!(auto.cost.evaluations < bound, "{parameters:?} from {q}: {auto:?}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,280 @@
+//! A motion in the making: half swings glued where they end, and what is kept of them.
+
+use std::ops::ControlFlow;
+
+use super::scaling::{field_in_units, times_power};
+use super::step::{Field, Point, Powers, Step, Stepper};
+use super::swing::{End, Failed, Swing, glide, swing};
+use super::trajectory::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory};
+use super::{Limits, Method, Reason};
+use crate::oscillator::energy::energy;
+use crate::oscillator::{HalfPlane, Ledger, Side, State};
+
+/// A motion in the making.
+pub struct Run {
+    pub(super) detail: Detail,
+    /// What is known so far.
+    pub(super) found: Trajectory,
+    pub(super) time: Time,
+    pub(super) works: Works,
+}
+
+/// Works of the damping terms and the path length, in the units of the problem.
+#[derive(Default)]
+pub(super) struct Works {
+    linear: f64,
+    quadratic: f64,
+    cubic: f64,
+    pub(super) path: f64,
+}
+
+/// A sum that remembers what rounding took: a million swings later the time is still right.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Time {
+    sum: f64,
+    lost: f64,
+}
+
+impl Time {
+    pub(super) fn plus(self, duration: f64) -> f64 {
+        self.sum + (self.lost + duration)
+    }
+
+    pub(super) fn advance(&mut self, duration: f64) {
+        // Neumaier's compensated summation.
+        let sum = self.sum + duration;
+        self.lost += if self.sum >= duration {
+            (self.sum - sum) + duration
+        } else {
+            (duration - sum) + self.sum
+        };
+        self.sum = sum;
+    }
+}
+
+impl Run {
+    /// At the start.
+    #[must_use]
+    pub fn new(problem: &Problem, method: Method, detail: Detail) -> Self {
+        let moving = Outcome::Moving { tau: 0.0, q: problem.initial.q, v: problem.initial.v };
+        let mut samples = Vec::new();
+        if detail.samples_per_step > 0 {
+            samples.push(Sample { tau: 0.0, q: problem.initial.q, v: problem.initial.v });
+        }
+        Run {
+            detail,
+            found: Trajectory {
+                problem: *problem,
+                method,
+                implicit_steps: 0,
+                outcome: moving,
+                crossings: Vec::new(),
+                ledger: None,
+                samples,
+                cost: Cost::default(),
+            },
+            time: Time::default(),
+            works: Works::default(),
+        }
+    }
+
+    /// No answer.
+    #[must_use]
+    pub fn give_up(mut self, reason: Reason) -> Trajectory {
+        self.found.outcome = Outcome::GaveUp { tau: self.time.plus(0.0), reason };
+        self.found
+    }
+
+    /// Follows the motion until it ends.
+    #[must_use]
+    pub fn go<S: Stepper>(mut self, stepper: &mut S, limits: &Limits) -> Trajectory {
+        let Problem { parameters, initial, .. } = self.found.problem;
+        let outcome = match Side::entered_from(initial, parameters.r) {
+            None => Outcome::Captured { tau: 0.0, q: initial.q },
+            Some(_) if parameters.r == 0.0 && !self.detail.crossings => self.glide(stepper, limits),
+            Some(side) => self.half_swings(side, stepper, limits),
+        };
+        self.close(outcome, stepper.evaluations(), stepper.rejected())
+    }
+
+    /// The motion with its outcome, its cost and its ledger.
+    pub(super) fn close(mut self, outcome: Outcome, evaluations: u64, rejected: u64) -> Trajectory {
+        let Problem { parameters, initial, .. } = self.found.problem;
+        self.found.outcome = outcome;
+        self.found.cost.evaluations = evaluations;
+        self.found.cost.rejected = rejected;
+        let end = match outcome {
+            Outcome::Captured { q, .. } => Some(State { q, v: 0.0 }),
+            Outcome::Moving { q, v, .. } => Some(State { q, v }),
+            Outcome::Escaped { .. } | Outcome::GaveUp { .. } => None,
+        };
+        if self.detail.energy
+            && let Some(end) = end
+        {
+            let ledger = self.works.balance(initial, end, parameters.r);
+            // Energies may leave the range of numbers where states do not.
+            self.found.ledger = ledger.residual.is_finite().then_some(ledger);
+        }
+        self.found
+    }
+
+    /// Without friction: one smooth motion on both sides of `v = 0`.
+    fn glide<S: Stepper>(&mut self, stepper: &mut S, limits: &Limits) -> Outcome {
+        let Problem { parameters, initial, until, .. } = self.found.problem;
+        if until <= 0.0 {
+            return Outcome::Moving { tau: until, q: initial.q, v: initial.v };
+        }
+        let field = HalfPlane::new(&parameters, Side::Upper);
+        let point = Point { x: initial.q, v: initial.v };
+        let watch = self.watcher(Side::Upper, field);
+        let result = glide(stepper, &field, point, until, limits, watch);
+        match self.book(result) {
+            Err(failed) => failed,
+            Ok(End::Stopped { point }) => self.stopped(State { q: point.x, v: point.v }),
+            Ok(_) => Outcome::Escaped { tau: self.time.plus(0.0) },
+        }
+    }
+
+    /// Glues half swings, the first of them on `side`, until the motion ends.
+    fn half_swings<S: Stepper>(
+        &mut self,
+        mut side: Side,
+        stepper: &mut S,
+        limits: &Limits,
+    ) -> Outcome {
+        let Problem { parameters, initial, until, .. } = self.found.problem;
+        let r = parameters.r;
+        let mut point = Point { x: side.position(initial.q, r), v: initial.v.abs() };
+        let mut last = initial;
+        loop {
+            let remaining = until - self.time.plus(0.0);
+            if remaining <= 0.0 {
+                return Outcome::Moving { tau: until, q: last.q, v: last.v };
+            }
+            let field = HalfPlane::new(&parameters, side);
+            let watch = self.watcher(side, field);
+            let result = swing(stepper, &field, point, remaining, limits, watch);
+            let end = match self.book(result) {
+                Err(failed) => return failed,
+                Ok(end) => end,
+            };
+            let tau = self.time.plus(0.0);
+            match end {
+                End::Escape => return Outcome::Escaped { tau },
+                End::Stopped { point: end } => {
+                    self.works.path += end.x - point.x;
+                    let (q, v) = (side.displacement(end.x, r), side.sign() * end.v);
+                    return self.stopped(State { q, v });
+                }
+                End::Crossing { x } => {
+                    let q = side.displacement(x, r);
+                    if !q.is_finite() {
+                        return Outcome::GaveUp { tau, reason: Reason::OutOfRange };
+                    }
+                    self.found.crossings.push(Crossing { tau, q });
+                    self.works.path += x - point.x;
+                    last = State { q, v: 0.0 };
+                    // The next half swing starts from its clearance, known better than from q - r.
+                    let clearance = x - 2.0 * r;
+                    if clearance <= 0.0 {
+                        return Outcome::Captured { tau, q };
+                    }
+                    side = side.opposite();
+                    point = Point { x: -clearance, v: 0.0 };
+                }
+            }
+        }
+    }
+
+    /// What to do at each step on this side: keep points for drawing and book the works.
+    fn watcher<S: Stepper>(
+        &mut self,
+        side: Side,
+        field: HalfPlane,
+    ) -> impl FnMut(&mut S, f64, i32, &Step) -> ControlFlow<()> {
+        let (detail, time, r) = (self.detail, self.time, self.found.problem.parameters.r);
+        let (samples, works) = (&mut self.found.samples, &mut self.works);
+        move |stepper, at, unit, step| {
+            if detail.samples_per_step > 0 {
+                sample(stepper, step, detail.samples_per_step, |offset, point| {
+                    samples.push(Sample {
+                        tau: time.plus(at + offset),
+                        q: side.displacement(times_power(point.x, unit), r),
+                        v: side.sign() * times_power(point.v, unit),
+                    });
+                });
+            }
+            if detail.energy {
+                works.add(&stepper.powers(), &field, unit);
+            }
+            ControlFlow::Continue(())
+        }
+    }
+
+    /// Books steps and time; hands on how the piece ended, or the outcome where it failed.
+    fn book(&mut self, result: Result<Swing, Failed>) -> Result<End, Outcome> {
+        let (duration, steps) = match &result {
+            Ok(swing) => (swing.duration, swing.steps),
+            Err(failed) => (failed.duration, failed.steps),
+        };
+        self.found.cost.steps += steps;
+        self.time.advance(duration);
+        let tau = self.time.plus(0.0);
+        match result {
+            Ok(swing) => Ok(swing.end),
+            Err(failed) => Err(Outcome::GaveUp { tau, reason: failed.reason }),
+        }
+    }
+
+    /// The motion at its end time.
+    fn stopped(&self, State { q, v }: State) -> Outcome {
+        if q.is_finite() && v.is_finite() {
+            Outcome::Moving { tau: self.found.problem.until, q, v }
+        } else {
+            Outcome::GaveUp { tau: self.time.plus(0.0), reason: Reason::OutOfRange }
+        }
+    }
+}
+
+impl Works {
+    /// Books the work of the damping terms over one step measured in units of `2^unit`.
+    pub(super) fn add(&mut self, powers: &Powers, field: &HalfPlane, unit: i32) {
+        let field = field_in_units(field, unit);
+        let energy = |work: f64| times_power(times_power(work, unit), unit);
+        self.linear += energy(-2.0 * field.d * powers.second);
+        self.quadratic += energy(-field.d2 * powers.third);
+        self.cubic += energy(-field.d3 * powers.fourth);
+    }
+
+    fn balance(&self, start: State, end: State, r: f64) -> Ledger {
+        let (start, end) = (energy(start), energy(end));
+        let friction = -r * self.path;
+        let works = self.linear + self.quadratic + self.cubic + friction;
+        Ledger {
+            start,
+            end,
+            linear: self.linear,
+            quadratic: self.quadratic,
+            cubic: self.cubic,
+            friction,
+            residual: (end - start) - works,
+        }
+    }
+}
+
+/// Hands evenly spaced points of a step to `keep`, its end included, its start not.
+pub(super) fn sample<F: Field, S: Stepper<F>>(
+    stepper: &mut S,
+    step: &Step,
+    count: usize,
+    mut keep: impl FnMut(f64, Point),
+) {
+    let count = count * stepper.pieces();
+    stepper.prepare_dense();
+    for index in 1..count {
+        #[expect(clippy::cast_precision_loss, reason = "a few hundred points")]
+        let offset = step.duration * (index as f64 / count as f64);
+        keep(offset, stepper.at(offset));
+    }
+    keep(step.duration, step.end);
+}

@@ -1,0 +1,539 @@
+//! Implicit collocation for stiff motions: Radau IIA of order 5, 9 or 13, L-stable.
+//!
+//! Far out cubic damping forces the velocity onto a slow manifold at a rate that may be millions of times
+//! that of the motion along it; an explicit step must follow that rate, an implicit one need not. The
+//! stages are the unknowns. Positions depend on velocities linearly, `X = x + h A V`, so that only the
+//! velocities remain: S equations with the analytic Jacobian `1 - h A div(V) + h^2 A^2`, solved by
+//! Newton's method. The error is the difference to an embedded solution of order S, filtered as Hairer
+//! and Wanner describe in section IV.8 of *Solving Ordinary Differential Equations II*.
+
+use super::limits::Reason;
+use super::scaling::{rough_exp2, rough_log2};
+use super::step::{Field, LONGEST, Point, Powers, Step, Stepper};
+use super::tableau::radau::{Collocation, FIVE, SEVEN, THREE};
+use crate::oscillator::HalfPlane;
+
+/// Most stages.
+const MOST: usize = 7;
+
+/// The scheme for each tolerance: the first whose bound is not above it.
+static SCHEMES: [(f64, &Collocation); 3] = [(5e-4, &THREE), (1e-8, &FIVE), (0.0, &SEVEN)];
+
+/// Newton iterations before a step is taken again, shorter. They converge quadratically.
+const ITERATIONS: usize = 12;
+
+/// Part of the tolerance that Newton's method may leave.
+const LEFT: f64 = 0.01;
+
+/// Longest step, as a multiple of the one before, over which the last polynomial is a good first guess.
+const FORESEEN: f64 = 3.0;
+
+/// Attempts to find the length of the last step of a swing; it settles in about four.
+const POLISHING: usize = 60;
+
+/// The stepper.
+#[derive(Clone, Debug)]
+pub struct Stiff<F: Field = HalfPlane> {
+    scheme: &'static Collocation,
+    /// The square of the matrix of the scheme.
+    square: [[f64; MOST]; MOST],
+    field: F,
+    /// Tolerance of a step for the embedded solution.
+    tolerance: f64,
+    /// Tolerance of the solution.
+    asked: f64,
+    /// Length to try next; 0 before the first step.
+    next: f64,
+    start: Point,
+    /// Slope of v at the start.
+    slope: f64,
+    end: Point,
+    duration: f64,
+    /// Velocities and accelerations of the stages.
+    velocity: [f64; MOST],
+    acceleration: [f64; MOST],
+    /// Divided differences of x and v over the start and the nodes, once asked for.
+    dense: [[f64; MOST + 1]; 2],
+    evaluations: u64,
+    rejected: u64,
+}
+
+impl<F: Field> Stiff<F> {
+    /// A stepper whose relative error a step is about `tolerance`.
+    #[must_use]
+    pub fn new(field: F, tolerance: f64) -> Self {
+        let scheme = SCHEMES.iter().find(|row| tolerance >= row.0).map_or(&SEVEN, |row| row.1);
+        let stages = scheme.nodes.len();
+        let mut square = [[0.0; MOST]; MOST];
+        for (i, row) in scheme.integrals.iter().enumerate() {
+            for (k, element) in square[i].iter_mut().enumerate().take(stages) {
+                *element = row.iter().zip(scheme.integrals).map(|(a, next)| a * next[k]).sum();
+            }
+        }
+        Stiff {
+            scheme,
+            square,
+            field,
+            tolerance: embedded_tolerance(tolerance, stages),
+            asked: tolerance,
+            next: 0.0,
+            start: Point { x: 0.0, v: 0.0 },
+            slope: 0.0,
+            end: Point { x: f64::NAN, v: f64::NAN },
+            duration: 0.0,
+            velocity: [0.0; MOST],
+            acceleration: [0.0; MOST],
+            dense: [[0.0; MOST + 1]; 2],
+            evaluations: 0,
+            rejected: 0,
+        }
+    }
+
+    /// Says how long the next step may be expected to be.
+    pub fn expect_length(&mut self, length: f64) {
+        self.next = length;
+    }
+
+    fn start_at(&mut self, from: Point) {
+        self.slope = self.field.acceleration(from.x, from.v);
+        self.evaluations += 1;
+        // A first guess comes from the last polynomial only where this step continues it.
+        if from != self.end {
+            self.duration = 0.0;
+        }
+        self.start = from;
+        if self.next == 0.0 {
+            let slope = from.v.abs().max(self.slope.abs());
+            self.next =
+                if slope > 0.0 { (0.01 * from.size() / slope).min(LONGEST) } else { LONGEST };
+        }
+    }
+
+    /// First guess of the velocities of the stages over a step of length `h`.
+    fn guess(&self, h: f64) -> [f64; MOST] {
+        let mut guess = [0.0; MOST];
+        let rate = self.field.divergence(self.start.v).min(0.0);
+        for (guess, node) in guess.iter_mut().zip(self.scheme.nodes) {
+            *guess = if self.duration > 0.0 && h <= FORESEEN * self.duration {
+                let after = 1.0 + node * h / self.duration;
+                interpolated(self.scheme.nodes, &self.dense[1], after)
+            } else {
+                // One linearly implicit Euler step.
+                let t = node * h;
+                self.start.v + t * self.slope / (1.0 - t * rate + t * t)
+            };
+        }
+        guess
+    }
+
+    /// Solves for the stages of a step of length `h`; `None` where Newton's method does not settle.
+    fn attempt(&mut self, h: f64, mut velocity: [f64; MOST]) -> Option<Point> {
+        let Collocation { nodes, integrals, .. } = *self.scheme;
+        let stages = nodes.len();
+        let mut acceleration = [0.0; MOST];
+        let mut before = f64::NAN;
+        for _ in 0..ITERATIONS {
+            let mut rate = [0.0; MOST];
+            for j in 0..stages {
+                let x = self.start.x + h * weighted(integrals[j], &velocity);
+                acceleration[j] = self.field.acceleration(x, velocity[j]);
+                rate[j] = self.field.divergence(velocity[j]);
+            }
+            self.evaluations += stages as u64;
+            let mut matrix = [[0.0; MOST]; MOST];
+            let mut change = [0.0; MOST];
+            for i in 0..stages {
+                let row = integrals[i];
+                change[i] = self.start.v - velocity[i] + h * weighted(row, &acceleration);
+                for k in 0..stages {
+                    matrix[i][k] = h * (h * self.square[i][k] - row[k] * rate[k]);
+                }
+                matrix[i][i] += 1.0;
+            }
+            solve(&mut matrix, &mut change, stages)?;
+            let mut size = self.start.v.abs();
+            let mut moved = 0.0_f64;
+            for (velocity, change) in velocity.iter_mut().zip(&change).take(stages) {
+                *velocity += change;
+                size = size.max(velocity.abs());
+                moved = moved.max(change.abs());
+            }
+            if !(moved.is_finite() && size.is_finite()) {
+                return None;
+            }
+            let shrunk = moved / before;
+            // Convergence is quadratic: the next change would be about this one times `shrunk^2`.
+            let settled = moved * shrunk * shrunk <= LEFT * self.asked * size;
+            if settled || moved <= f64::EPSILON * size {
+                // What the last change does to the accelerations needs no evaluation.
+                for j in 0..stages {
+                    acceleration[j] += rate[j] * change[j] - h * weighted(integrals[j], &change);
+                }
+                (self.velocity, self.acceleration) = (velocity, acceleration);
+                let x = self.start.x + h * weighted(integrals[stages - 1], &velocity);
+                return Some(Point { x, v: velocity[stages - 1] });
+            }
+            if shrunk > 2.0 {
+                return None;
+            }
+            before = moved;
+        }
+        None
+    }
+
+    /// Error of the last attempt in units of the tolerance: below 1 is accepted.
+    fn error(&mut self, h: f64, end: Point, first: bool) -> f64 {
+        let Collocation { error: weights, start: own, .. } = *self.scheme;
+        let part = h * own;
+        let rate = self.field.divergence(self.start.v);
+        let sums = Point {
+            x: h * weighted(weights, &self.velocity),
+            v: h * weighted(weights, &self.acceleration),
+        };
+        // The difference to the embedded solution times `(1 - part J)^-1`, which keeps it bounded
+        // where damping is stiff.
+        let filtered = |x: f64, v: f64| {
+            let determinant = 1.0 - part * rate + part * part;
+            Point {
+                x: ((1.0 - part * rate) * x + part * v) / determinant,
+                v: (v - part * x) / determinant,
+            }
+        };
+        let scale = (
+            self.tolerance * self.start.size().max(end.size()),
+            self.tolerance * self.start.v.abs().max(end.v.abs()),
+        );
+        let norm = |error: Point| (error.x / scale.0).abs().max((error.v / scale.1).abs());
+        let error = filtered(part * self.start.v + sums.x, part * self.slope + sums.v);
+        if norm(error) < 1.0 || !first {
+            return norm(error);
+        }
+        // On a first or repeated step a start off the slow manifold is filtered once more.
+        let v = self.start.v + error.v;
+        let slope = self.field.acceleration(self.start.x + error.x, v);
+        self.evaluations += 1;
+        norm(filtered(part * v + sums.x, part * slope + sums.v))
+    }
+}
+
+impl<F: Field> Stiff<F> {
+    /// Steps until the error is below the tolerance; the step is not longer than `longest`.
+    ///
+    /// With `above`, also until no stage but the last ones lies below `v = 0` and the position grows.
+    fn accepted(&mut self, longest: f64, above: bool) -> Result<(f64, Point), Reason> {
+        let stages = self.scheme.nodes.len();
+        #[expect(clippy::cast_precision_loss, reason = "at most 7")]
+        let power = -1.0 / (stages as f64 + 1.0);
+        let mut grow = 8.0;
+        let mut first = self.duration == 0.0;
+        let mut length = self.next.min(longest);
+        loop {
+            if length < f64::MIN_POSITIVE {
+                return Err(Reason::StepTooSmall { step: length });
+            }
+            let guess = self.guess(length);
+            let attempt = self.attempt(length, guess);
+            let shrink = match attempt {
+                None => 0.25,
+                Some(end) => {
+                    let error = self.error(length, end, first);
+                    let factor = if error == 0.0 {
+                        grow
+                    } else {
+                        0.9 * rough_exp2(power * rough_log2(error))
+                    };
+                    let turned = above && end.v > 0.0 && end.x < self.start.x;
+                    if error <= 1.0 && !turned {
+                        let next = length * factor.clamp(0.2, grow);
+                        // A step cut short by the end time says nothing about the next one.
+                        self.next = if length < self.next { self.next.max(next) } else { next };
+                        return Ok((length, end));
+                    }
+                    if error.is_finite() { factor.clamp(0.1, 0.9) } else { 0.1 }
+                }
+            };
+            self.rejected += 1;
+            (grow, first) = (1.0, true);
+            length *= shrink;
+            self.next = length;
+        }
+    }
+
+    /// Keeps an attempt as the last step.
+    fn keep(&mut self, duration: f64, end: Point) {
+        (self.duration, self.end) = (duration, end);
+        self.dense[1] = differences(self.scheme.nodes, self.start.v, &self.velocity);
+    }
+
+    /// Shortens the step just kept until it ends at the first `v = 0`; `None` where that fails.
+    fn arrive(&mut self) -> Option<Step> {
+        let nodes = self.scheme.nodes;
+        let (whole, polynomial) = (self.duration, self.dense[1]);
+        let at = |length: f64| interpolated(nodes, &polynomial, length / whole);
+        let (mut low, mut high) = self.bracket(whole);
+        // The polynomial of the whole step says about where; steps that end there say exactly where.
+        let mut length = 0.5 * (low + high);
+        for _ in 0..10 {
+            if at(length) > 0.0 {
+                low = length;
+            } else {
+                high = length;
+            }
+            length = 0.5 * (low + high);
+        }
+        (low, high) = (0.0, whole);
+        for _ in 0..POLISHING {
+            let mut guess = [0.0; MOST];
+            for (guess, node) in guess.iter_mut().zip(nodes) {
+                *guess = at(node * length);
+            }
+            let end = self.attempt(length, guess)?;
+            let slope = self.field.acceleration(end.x, end.v);
+            let rest = -end.v / slope;
+            if rest.abs() <= 1e-9 * length {
+                self.keep(length + rest, Point { x: end.x + 0.5 * rest * end.v, v: 0.0 });
+                return Some(Step { duration: self.duration, end: self.end, crossed: true });
+            }
+            if end.v > 0.0 {
+                low = length;
+            } else {
+                high = length;
+            }
+            let newton = length + rest;
+            length = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        }
+        None
+    }
+
+    /// Where in the step the velocity first becomes zero, as far as the stages tell.
+    fn bracket(&self, whole: f64) -> (f64, f64) {
+        let mut low = 0.0;
+        for (node, &v) in self.scheme.nodes.iter().zip(&self.velocity) {
+            if v <= 0.0 {
+                return (low, node * whole);
+            }
+            low = node * whole;
+        }
+        (0.0, whole)
+    }
+
+    /// Whether the last attempt reaches `v = 0`.
+    fn reaches_standstill(&self) -> bool {
+        self.velocity[..self.scheme.nodes.len()].iter().any(|&v| v <= 0.0)
+    }
+
+    /// The longest step that cannot pass two crossings: where damping is above critical, any.
+    fn longest(&self) -> f64 {
+        const CRITICAL: f64 = 2.0;
+        if self.field.divergence(self.start.v) < -CRITICAL { f64::INFINITY } else { LONGEST }
+    }
+}
+
+impl<F: Field> Stepper<F> for Stiff<F> {
+    fn begin(&mut self, field: &F) {
+        self.field = *field;
+        // What is known of the last step belonged to another field.
+        self.end = Point { x: f64::NAN, v: f64::NAN };
+    }
+
+    fn advance(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {
+        self.start_at(from);
+        let mut longest = longest.min(self.longest());
+        loop {
+            let (duration, end) = self.accepted(longest, true)?;
+            let last = self.end;
+            self.keep(duration, end);
+            if !self.reaches_standstill() {
+                return Ok(Step { duration, end, crossed: false });
+            }
+            if let Some(arrival) = self.arrive().filter(Step::is_possible) {
+                return Ok(arrival);
+            }
+            self.rejected += 1;
+            (self.end, self.duration) = (last, 0.0);
+            longest = 0.5 * duration;
+        }
+    }
+
+    fn pass(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {
+        self.start_at(from);
+        let (duration, end) = self.accepted(longest, false)?;
+        self.keep(duration, end);
+        Ok(Step { duration, end, crossed: false })
+    }
+
+    fn prepare_dense(&mut self) {
+        let mut position = [0.0; MOST];
+        for (x, row) in position.iter_mut().zip(self.scheme.integrals) {
+            *x = self.start.x + self.duration * weighted(row, &self.velocity);
+        }
+        self.dense[0] = differences(self.scheme.nodes, self.start.x, &position);
+    }
+
+    fn at(&self, time: f64) -> Point {
+        let part = time / self.duration;
+        let value = |dense| interpolated(self.scheme.nodes, dense, part);
+        Point { x: value(&self.dense[0]), v: value(&self.dense[1]) }
+    }
+
+    /// The quadrature of the collocation, exact for polynomials of its order.
+    fn powers(&self) -> Powers {
+        let mut powers = Powers::default();
+        let weights = self.scheme.integrals[self.scheme.nodes.len() - 1];
+        for (weight, &v) in weights.iter().zip(&self.velocity) {
+            powers.add_node(weight * self.duration, v);
+        }
+        powers
+    }
+
+    fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+
+    fn rejected(&self) -> u64 {
+        self.rejected
+    }
+}
+
+/// The tolerance for the embedded solution of order S with which the solution of order `2 S - 1` has
+/// about the tolerance that was asked for (as in the authors' program).
+fn embedded_tolerance(tolerance: f64, stages: usize) -> f64 {
+    #[expect(clippy::cast_precision_loss, reason = "at most 7")]
+    let stages = stages as f64;
+    0.1 * tolerance.powf((stages + 1.0) / (2.0 * stages))
+}
+
+fn weighted(weights: &[f64], values: &[f64; MOST]) -> f64 {
+    weights.iter().zip(values).map(|(weight, value)| weight * value).sum()
+}
+
+/// Solves `matrix * x = right` in place by elimination with partial pivoting; `None` if singular.
+fn solve(matrix: &mut [[f64; MOST]; MOST], right: &mut [f64; MOST], size: usize) -> Option<()> {
+    for column in 0..size {
+        let magnitude = |row: &usize| matrix[*row][column].abs();
+        let pivot = (column..size).max_by(|a, b| magnitude(a).total_cmp(&magnitude(b)))?;
+        matrix.swap(column, pivot);
+        right.swap(column, pivot);
+        let own = matrix[column];
+        if own[column] == 0.0 {
+            return None;
+        }
+        for row in column + 1..size {
+            let factor = matrix[row][column] / own[column];
+            for k in column + 1..size {
+                matrix[row][k] -= factor * own[k];
+            }
+            right[row] -= factor * right[column];
+        }
+    }
+    for row in (0..size).rev() {
+        let known: f64 = (row + 1..size).map(|k| matrix[row][k] * right[k]).sum();
+        right[row] = (right[row] - known) / matrix[row][row];
+    }
+    Some(())
+}
+
+/// Newton's divided differences over 0 and the nodes.
+fn differences(nodes: &[f64], first: f64, values: &[f64; MOST]) -> [f64; MOST + 1] {
+    let place = |index: usize| if index == 0 { 0.0 } else { nodes[index - 1] };
+    let mut table = [0.0; MOST + 1];
+    table[0] = first;
+    table[1..].copy_from_slice(values);
+    for level in 1..=nodes.len() {
+        for index in (level..=nodes.len()).rev() {
+            table[index] =
+                (table[index] - table[index - 1]) / (place(index) - place(index - level));
+        }
+    }
+    table
+}
+
+/// The polynomial with these divided differences.
+fn interpolated(nodes: &[f64], differences: &[f64; MOST + 1], at: f64) -> f64 {
+    let stages = nodes.len();
+    let inner = (1..=stages).rev().fold(0.0, |sum, index| {
+        let before = if index == 1 { 0.0 } else { nodes[index - 2] };
+        (sum + differences[index]) * (at - before)
+    });
+    differences[0] + inner
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::trajectory::trajectory;
+    use super::super::{Detail, Limits, Method, Outcome, Problem};
+    use super::*;
+    use crate::oscillator::{Parameters, State};
+
+    fn far_out(tolerance: f64) -> Problem {
+        Problem {
+            parameters: Parameters { d: -0.1, d2: 0.0, d3: 1.0, r: 0.1 },
+            initial: State { q: 1e6, v: 0.0 },
+            until: 20_000.0,
+            method: Method::Stiff,
+            tolerance,
+            ..Problem::default()
+        }
+    }
+
+    /// On the slow manifold `v^3 = -x` the way in takes `1.5 q^(2/3)` = 15,000.
+    #[test]
+    fn far_out_a_hundred_steps_do_what_an_explicit_method_needs_a_hundred_million_for() {
+        for tolerance in [1e-4, 1e-8, 1e-12] {
+            let motion = trajectory(&far_out(tolerance), Detail::default(), &Limits::PATIENT);
+            assert!(motion.cost.steps < 100, "{} steps", motion.cost.steps);
+            assert!(matches!(motion.outcome, Outcome::Captured { .. }));
+            // The same with 1e-14.
+            let expected = [15_000.005_326_401_7, 15_012.606_267_750_5];
+            let found = [motion.crossings[0].tau, motion.crossings[4].tau];
+            for (found, expected) in found.iter().zip(expected) {
+                let error = (found / expected - 1.0).abs();
+                assert!(error < tolerance, "{tolerance}: {found} for {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_error_follows_the_tolerance() {
+        let problem = |method, tolerance| Problem {
+            parameters: Parameters { d: -0.1, d2: 0.3, d3: 0.4, r: 0.05 },
+            initial: State { q: 2.0, v: -1.0 },
+            until: 30.0,
+            method,
+            tolerance,
+            ..Problem::default()
+        };
+        let run = |method, tolerance| {
+            trajectory(&problem(method, tolerance), Detail::default(), &Limits::PATIENT).crossings
+        };
+        let reference = run(Method::Taylor, 1e-16);
+        for tolerance in [1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13] {
+            let found = run(Method::Stiff, tolerance);
+            assert_eq!(found.len(), reference.len());
+            let pairs = found.iter().zip(&reference);
+            let error = pairs.map(|(one, other)| (one.q - other.q).abs()).fold(0.0, f64::max);
+            assert!(error < 10.0 * tolerance, "{tolerance:e}: {error:e}");
+        }
+    }
+
+    #[test]
+    fn dense_output_satisfies_the_equation_inside_a_step() {
+        let field = HalfPlane { d: 0.3, d2: 0.2, d3: 5.0 };
+        let mut stepper = Stiff::new(field, 1e-10);
+        stepper.begin(&field);
+        let mut point = Point { x: -1.0, v: 0.2 };
+        for _ in 0..6 {
+            let step = stepper.advance(point, 10.0).unwrap();
+            stepper.prepare_dense();
+            let time = 0.37 * step.duration;
+            let (here, h) = (stepper.at(time), 1e-4 * step.duration);
+            let (before, after) = (stepper.at(time - h), stepper.at(time + h));
+            let slope =
+                Point { x: (after.x - before.x) / (2.0 * h), v: (after.v - before.v) / (2.0 * h) };
+            assert!((slope.x - here.v).abs() < 1e-6);
+            assert!((slope.v - field.acceleration(here.x, here.v)).abs() < 1e-5);
+            assert_eq!(stepper.at(step.duration), step.end);
+            point = step.end;
+        }
+    }
+}

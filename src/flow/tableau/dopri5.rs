@@ -1,0 +1,51 @@
+//! The pair of order 5 with an error estimate of order 4 and a dense output of order 4.
+//!
+//! Dormand and Prince, *A family of embedded Runge-Kutta formulae*, Journal of Computational and Applied
+//! Mathematics 6 (1980); dense output by Shampine as in Hairer, Norsett and Wanner I, section II.6.
+
+use super::{Estimate, Scheme};
+
+/// The scheme.
+pub static SCHEME: Scheme<STAGES, 8> = Scheme {
+    columns: Scheme::<STAGES, 8>::columns(&A, &WEIGHTS, &[&ERROR]),
+    weights: WEIGHTS,
+    estimate: Estimate::Embedded(5.0),
+    last_is_end: true,
+    extra: &[],
+    dense: &DENSE,
+};
+
+/// Stages; the last one stands at the end of the step.
+const STAGES: usize = 7;
+
+/// Row `i` gives stage `i + 1` from the slopes of the stages before it.
+#[rustfmt::skip]
+const A: [&[f64]; STAGES - 1] = [
+    &[1.0 / 5.0],
+    &[3.0 / 40.0, 9.0 / 40.0],
+    &[44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0],
+    &[19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0],
+    &[9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0],
+    &WEIGHTS,
+];
+
+/// Weights of the solution of order 5.
+#[rustfmt::skip]
+const WEIGHTS: [f64; STAGES] = [
+    35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0, 0.0,
+];
+
+/// Difference to the embedded solution of order 4.
+#[rustfmt::skip]
+const ERROR: [f64; STAGES] = [
+    71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339_200.0, 22.0 / 525.0,
+    -1.0 / 40.0,
+];
+
+/// Coefficient of the dense output beyond the cubic Hermite part.
+#[rustfmt::skip]
+const DENSE: [&[f64]; 1] = [&[
+    -12_715_105_075.0 / 11_282_082_432.0, 0.0, 87_487_479_700.0 / 32_700_410_799.0,
+    -10_690_763_975.0 / 1_880_347_072.0, 701_980_252_875.0 / 199_316_789_632.0,
+    -1_453_857_185.0 / 822_651_844.0, 69_997_945.0 / 29_380_423.0,
+]];

@@ -1,0 +1,114 @@
+//! Coefficients, and nothing else: what the methods look up, one file for each.
+//!
+//! [`Scheme`] is the form in which the explicit steppers read theirs; the Gauss-Legendre rule serves
+//! all quadratures.
+
+pub mod dop853;
+pub mod dopri5;
+pub mod radau;
+pub mod rk4;
+
+/// An explicit Runge-Kutta scheme of S stages as a stepper reads it: by slopes, not by stages.
+///
+/// As soon as a slope is known it is added, with its weights, to all sums that will need it: these
+/// additions do not wait for each other, unlike those within one stage.
+#[derive(Debug)]
+pub struct Scheme<const S: usize, const R: usize> {
+    /// `columns[j][i]` is the weight of slope `j` in sum `i`. Sums `0 .. S - 1` are those of stages
+    /// `1 .. S`, sum `S - 1` is that of the solution, the error estimates follow, zeros fill up.
+    pub columns: [[f64; R]; S],
+    /// Weights of the solution.
+    pub weights: [f64; S],
+    /// How the error of a step is estimated.
+    pub estimate: Estimate,
+    /// Whether the last stage is evaluated at the end of the step, where the next one begins.
+    pub last_is_end: bool,
+    /// Stages that only the dense output needs, after the slope at the end of the step.
+    pub extra: &'static [&'static [f64]],
+    /// Coefficients of the dense output beyond the cubic Hermite part.
+    pub dense: &'static [&'static [f64]],
+}
+
+/// How the error of a step is estimated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Estimate {
+    /// Not at all: the step has a fixed length.
+    None,
+    /// By an embedded solution; the error grows with this power of the step.
+    Embedded(f64),
+    /// By two embedded solutions of order 5 and 3; together their error grows with this power.
+    Combined(f64),
+}
+
+impl<const S: usize, const R: usize> Scheme<S, R> {
+    /// Turns rows, as they are published, into columns.
+    const fn columns(stages: &[&[f64]], weights: &[f64; S], errors: &[&[f64; S]]) -> [[f64; R]; S] {
+        let mut columns = [[0.0; R]; S];
+        let mut j = 0;
+        while j < S {
+            let mut i = 0;
+            while i < stages.len() {
+                if j < stages[i].len() {
+                    columns[j][i] = stages[i][j];
+                }
+                i += 1;
+            }
+            columns[j][S - 1] = weights[j];
+            let mut e = 0;
+            while e < errors.len() {
+                columns[j][S + e] = errors[e][j];
+                e += 1;
+            }
+            j += 1;
+        }
+        columns
+    }
+}
+
+/// Nodes and weights of the Gauss-Legendre rule with 10 points on `[0, 1]`, exact to degree 19.
+pub const GAUSS: [(f64, f64); 10] = [
+    (0.013_046_735_741_414_14, 0.033_335_672_154_344_07),
+    (0.067_468_316_655_507_75, 0.074_725_674_575_290_3),
+    (0.160_295_215_850_487_8, 0.109_543_181_257_991_02),
+    (0.283_302_302_935_376_4, 0.134_633_359_654_998_17),
+    (0.425_562_830_509_184_4, 0.147_762_112_357_376_44),
+    (0.574_437_169_490_815_6, 0.147_762_112_357_376_44),
+    (0.716_697_697_064_623_6, 0.134_633_359_654_998_17),
+    (0.839_704_784_149_512_2, 0.109_543_181_257_991_02),
+    (0.932_531_683_344_492_2, 0.074_725_674_575_290_3),
+    (0.986_953_264_258_585_9, 0.033_335_672_154_344_07),
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn is_consistent<const S: usize, const R: usize>(scheme: &Scheme<S, R>) {
+        assert!((scheme.weights.iter().sum::<f64>() - 1.0).abs() < 1e-15);
+        for error in S..R {
+            let sum: f64 = scheme.columns.iter().map(|column| column[error]).sum();
+            assert!(sum.abs() < 1e-15, "error estimate {error} of a constant: {sum:e}");
+        }
+        // The quadrature condition of order 3: the stages lie where their weights assume them.
+        let nodes = |i: usize| scheme.columns.iter().map(|column| column[i]).sum::<f64>();
+        for (power, integral) in [(1, 1.0 / 2.0), (2, 1.0 / 3.0), (3, 1.0 / 4.0)] {
+            let sum: f64 = (1..S).map(|i| scheme.weights[i] * nodes(i - 1).powi(power)).sum();
+            assert!((sum - integral).abs() < 1e-14, "{S} stages, degree {power}: {sum}");
+        }
+    }
+
+    #[test]
+    fn schemes_are_consistent() {
+        is_consistent(&dop853::SCHEME);
+        is_consistent(&dopri5::SCHEME);
+        is_consistent(&rk4::SCHEME);
+    }
+
+    #[test]
+    fn gauss_rule_is_exact_to_degree_19() {
+        for degree in 0..=19 {
+            let sum: f64 = GAUSS.iter().map(|&(node, weight)| weight * node.powi(degree)).sum();
+            assert!((sum - 1.0 / f64::from(degree + 1)).abs() < 1e-15, "degree {degree}");
+        }
+    }
+}

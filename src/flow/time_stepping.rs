@@ -1,0 +1,124 @@
+//! Moreau and Jean's time stepping: steps of fixed length that ask for a balance of impulses, friction
+//! being whatever within `[-r, r]` the balance needs. For comparison.
+//!
+//! Over a step of length h the midpoint rule takes restoring force and damping, and friction acts with
+//! one value of the set-valued sign of the velocity at its end. If friction can bring the velocity to
+//! rest it does; so the method sticks where it should, but it knows the instant of no crossing, and
+//! each passage of `v = 0` costs an error of order `h^2` in v (J. J. Moreau, *Unilateral contact and dry
+//! friction in finite freedom dynamics*, 1988; M. Jean, *The non-smooth contact dynamics method*,
+//! Computer Methods in Applied Mechanics and Engineering 177, 1999).
+
+use super::limits::Reason;
+use super::step::{Point, Powers, Step, Stepper};
+use crate::oscillator::HalfPlane;
+
+/// Newton iterations for the velocity at the end of a step; the residual is nearly linear.
+const ITERATIONS: usize = 50;
+
+/// A step is solvable by a contraction while it is below this part of the damping time.
+const STABLE: f64 = 2.0;
+
+/// The stepper, in coordinates `(q, v)` of the whole phase plane.
+#[derive(Clone, Debug)]
+pub struct TimeStepping {
+    field: HalfPlane,
+    r: f64,
+    length: f64,
+    start: Point,
+    end: Point,
+    duration: f64,
+    evaluations: u64,
+}
+
+impl TimeStepping {
+    /// A stepper with friction `r` and steps of this length.
+    #[must_use]
+    pub fn new(field: HalfPlane, r: f64, length: f64) -> Self {
+        let start = Point { x: 0.0, v: 0.0 };
+        TimeStepping { field, r, length, start, end: start, duration: length, evaluations: 0 }
+    }
+
+    /// The impulse that is missing without friction if the step ends with velocity `v`.
+    fn missing(&mut self, h: f64, v: f64) -> f64 {
+        self.evaluations += 1;
+        let Point { x, v: before } = self.start;
+        let middle = 0.5 * (before + v);
+        let position = x + 0.5 * h * middle;
+        (v - before) - h * self.field.acceleration(position, middle)
+    }
+
+    /// Velocity at the end of a step, friction being `friction` throughout: Newton's method.
+    fn solve(&mut self, h: f64, friction: f64) -> Result<f64, Reason> {
+        let mut v = self.start.v;
+        let mut change = f64::INFINITY;
+        for _ in 0..ITERATIONS {
+            let residual = self.missing(h, v) - h * friction;
+            let middle = 0.5 * (self.start.v + v);
+            let slope = 1.0 + 0.25 * h * h - 0.5 * h * self.field.divergence(middle);
+            let step = residual / slope;
+            v -= step;
+            change = step.abs();
+            if change <= 4.0 * f64::EPSILON * v.abs().max(self.start.v.abs()) {
+                return Ok(v);
+            }
+            if !v.is_finite() {
+                return Err(Reason::OutOfRange);
+            }
+        }
+        Err(Reason::NoConvergence { sought: "the velocity after a step", change })
+    }
+}
+
+impl Stepper for TimeStepping {
+    fn begin(&mut self, field: &HalfPlane) {
+        self.field = *field;
+    }
+
+    fn advance(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {
+        self.pass(from, longest)
+    }
+
+    fn pass(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {
+        let h = self.length.min(longest);
+        self.start = from;
+        let rate = self.field.divergence(from.v).abs();
+        if h * rate > STABLE {
+            return Err(Reason::StepTooLong { step: h, stable: STABLE / rate });
+        }
+        let to_rest = self.missing(h, 0.0);
+        let strongest = h * self.r;
+        let v = if to_rest.abs() <= strongest {
+            0.0
+        } else {
+            // What is missing grows with v: more than friction can supply means that v ends below 0.
+            self.solve(h, if to_rest > 0.0 { self.r } else { -self.r })?
+        };
+        self.duration = h;
+        self.end = Point { x: from.x + 0.5 * h * (from.v + v), v };
+        if !self.end.size().is_finite() {
+            return Err(Reason::OutOfRange);
+        }
+        Ok(Step { duration: h, end: self.end, crossed: false })
+    }
+
+    /// Between the ends of a step the velocity is taken to be linear, as the method does.
+    fn at(&self, time: f64) -> Point {
+        let part = time / self.duration;
+        let v = self.start.v + part * (self.end.v - self.start.v);
+        Point { x: self.start.x + 0.5 * time * (self.start.v + v), v }
+    }
+
+    fn powers(&self) -> Powers {
+        let mut powers = Powers::default();
+        powers.add_node(self.duration, 0.5 * (self.start.v + self.end.v));
+        powers
+    }
+
+    fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+
+    fn rejected(&self) -> u64 {
+        0
+    }
+}

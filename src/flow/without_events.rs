@@ -1,0 +1,175 @@
+//! Motions by steps that know no `v = 0`: the driver of the methods that stand here for comparison.
+
+use super::limits::{Limits, Reason};
+use super::run::{Run, sample};
+use super::step::{Field, Point, Step, Stepper};
+use super::swing::time_to_blow_up;
+use super::trajectory::{Crossing, Outcome, Problem, Sample, Trajectory};
+use crate::oscillator::sticking::rests;
+use crate::oscillator::{HalfPlane, Side, State};
+
+impl Run {
+    /// Takes steps until the end time, and counts the changes of sign of the velocity as crossings.
+    ///
+    /// `sticks` says whether a motion that this method brings to `v = 0` inside the sticking set stays
+    /// there. Positions at crossings are those of a velocity that is linear within the step.
+    #[must_use]
+    pub fn walk<F: Field, S: Stepper<F>>(
+        mut self,
+        stepper: &mut S,
+        sticks: bool,
+        limits: &Limits,
+    ) -> Trajectory {
+        let Problem { parameters, initial, until, .. } = self.found.problem;
+        let field = HalfPlane::new(&parameters, Side::Upper);
+        let mut point = Point { x: initial.q, v: initial.v };
+        let outcome = loop {
+            let tau = self.time.plus(0.0);
+            let here = State { q: point.x, v: point.v };
+            if sticks && rests(here, parameters.r) {
+                break Outcome::Captured { tau, q: here.q };
+            }
+            let remaining = until - tau;
+            if remaining <= 0.0 {
+                break Outcome::Moving { tau: until, q: here.q, v: here.v };
+            }
+            if let Some(rest) = time_to_blow_up(&field, point, tau)
+                && rest <= remaining
+            {
+                break Outcome::Escaped { tau: tau + rest };
+            }
+            let evaluations = stepper.evaluations();
+            if (limits.interrupted)() {
+                break Outcome::GaveUp { tau, reason: Reason::Interrupted };
+            }
+            if evaluations > limits.evaluations {
+                break Outcome::GaveUp { tau, reason: Reason::Budget { evaluations } };
+            }
+            match stepper.pass(point, remaining) {
+                Err(reason) => break Outcome::GaveUp { tau, reason },
+                Ok(step) if tau + step.duration == tau => {
+                    let reason = Reason::StepTooSmall { step: step.duration };
+                    break Outcome::GaveUp { tau, reason };
+                }
+                Ok(step) => {
+                    self.book_step(stepper, &field, point, &step);
+                    point = step.end;
+                }
+            }
+        };
+        self.close(outcome, stepper.evaluations(), stepper.rejected())
+    }
+
+    /// Keeps what is asked for of a step from `start`.
+    fn book_step<F: Field, S: Stepper<F>>(
+        &mut self,
+        stepper: &mut S,
+        field: &HalfPlane,
+        start: Point,
+        step: &Step,
+    ) {
+        let (time, count) = (self.time, self.detail.samples_per_step);
+        if count > 0 {
+            sample(stepper, step, count, |offset, Point { x: q, v }| {
+                self.found.samples.push(Sample { tau: time.plus(offset), q, v });
+            });
+        }
+        if self.detail.energy {
+            self.works.add(&stepper.powers(), field, 0);
+        }
+        // The path inside the step, there and back where the velocity changes its sign.
+        let end = step.end;
+        if start.v != 0.0 && start.v.signum() * end.v <= 0.0 {
+            let part = start.v / (start.v - end.v);
+            let q = start.x + 0.5 * part * step.duration * start.v;
+            self.works.path += (q - start.x).abs() + (end.x - q).abs();
+            let tau = time.plus(part * step.duration);
+            self.found.crossings.push(Crossing { tau, q });
+        } else {
+            self.works.path += (end.x - start.x).abs();
+        }
+        self.found.cost.steps += 1;
+        self.time.advance(step.duration);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::explicit::Dop853;
+    use super::super::regularized::{Law, Regularized};
+    use super::super::stiff::Stiff;
+    use super::super::trajectory::{Detail, trajectory};
+    use super::super::{Limits, Method, Outcome, Problem, Trajectory};
+    use super::*;
+    use crate::oscillator::Parameters;
+
+    /// D = -0.1, r = 0.5: from (2, 0) the motion rests at -0.116144 after three half swings.
+    fn from(q: f64) -> Problem {
+        Problem {
+            parameters: Parameters { d: -0.1, d2: 0.0, d3: 0.0, r: 0.5 },
+            initial: State { q, v: 0.0 },
+            until: 50.0,
+            tolerance: 1e-8,
+            ..Problem::default()
+        }
+    }
+
+    fn run(problem: &Problem) -> Trajectory {
+        trajectory(problem, Detail::default(), &Limits::PATIENT)
+    }
+
+    fn end(motion: &Trajectory) -> f64 {
+        match motion.outcome {
+            Outcome::Moving { q, .. } | Outcome::Captured { q, .. } => q,
+            ref other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn the_sign_in_the_field_chatters_and_rests_in_the_wrong_place() {
+        let [coarse, fine] =
+            [0.1, 0.001].map(|step| run(&Problem { method: Method::SignRk4, step, ..from(2.0) }));
+        assert!((end(&coarse) - 0.0015).abs() < 1e-5, "{:?}", coarse.outcome);
+        assert!(matches!(fine.outcome, Outcome::Moving { .. }));
+        // Three half swings; all others are false.
+        assert_eq!(fine.crossings.len(), 6235);
+    }
+
+    #[test]
+    fn smoothed_friction_creeps_and_costs_as_the_inverse_of_its_width() {
+        let creep = [(1e-2, 0.131), (1e-3, 0.351), (1e-4, 0.395)].map(|(epsilon, place)| {
+            let motion = run(&Problem { method: Method::Smoothed, epsilon, ..from(0.4) });
+            assert!((end(&motion) - place).abs() < 5e-4, "{epsilon}: {:?}", motion.outcome);
+            assert!(matches!(motion.outcome, Outcome::Moving { .. }));
+            motion.cost.evaluations
+        });
+        assert!(creep[2] > 7 * creep[1], "{creep:?}");
+    }
+
+    /// Creeping belongs to the smoothed law; only its price belongs to the integrator.
+    #[test]
+    fn an_implicit_method_creeps_to_the_same_place() {
+        let problem = Problem { epsilon: 1e-4, ..from(0.4) };
+        let field = Regularized::new(&problem.parameters, Law::Tanh(problem.epsilon));
+        let start = || Run::new(&problem, Method::Smoothed, Detail::default());
+        let explicit = start().walk(&mut Dop853::dop853(field, 1e-8), false, &Limits::PATIENT);
+        let implicit = start().walk(&mut Stiff::new(field, 1e-8), false, &Limits::PATIENT);
+        assert!((end(&explicit) - end(&implicit)).abs() < 1e-8);
+        assert!(100 * implicit.cost.evaluations < explicit.cost.evaluations);
+    }
+
+    #[test]
+    fn time_stepping_sticks_and_nears_the_right_place_with_its_step() {
+        let mut before = f64::INFINITY;
+        for step in [0.1, 0.01, 0.001] {
+            let motion = run(&Problem { method: Method::TimeStepping, step, ..from(2.0) });
+            assert!(matches!(motion.outcome, Outcome::Captured { .. }));
+            assert_eq!(motion.crossings.len(), 3);
+            let error = (end(&motion) + 0.116_144_440_390_138).abs();
+            assert!(error < 0.02 * before && error < 0.5 * step * step, "{step}: {error:e}");
+            before = if before.is_finite() { error } else { f64::INFINITY };
+        }
+        let rests = run(&Problem { method: Method::TimeStepping, ..from(0.5) });
+        assert_eq!(rests.outcome, Outcome::Captured { tau: 0.0, q: 0.5 });
+    }
+}
