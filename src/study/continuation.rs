@@ -48,6 +48,12 @@ pub struct Tangent {
 }
 
 impl Tangent {
+    /// Along u: a correction across it changes only the parameter.
+    pub const ACROSS_P: Tangent = Tangent { u: 1.0, p: 0.0 };
+
+    /// Along p: a correction across it changes only u.
+    pub const ACROSS_U: Tangent = Tangent { u: 0.0, p: 1.0 };
+
     /// From one point to another.
     fn between(from: &CurvePoint, to: &CurvePoint, scale: f64) -> Self {
         let (u, p) = ((to.u - from.u) / UNIT_OF_U, (to.p - from.p) / scale);
@@ -181,6 +187,41 @@ impl<'a> Curve<'a> {
         Ok(None)
     }
 
+    /// The cycle at exactly `u`, where the residual falls from positive to negative within `range` of p.
+    ///
+    /// Bisection until Newton's method takes over. In D, D3 and r the residual falls everywhere, because
+    /// each of them takes energy from every swing: then it is the only cycle of this clearance.
+    ///
+    /// # Errors
+    /// The [`Reason`] why a swing failed.
+    pub fn bracketed(&mut self, u: f64, range: (f64, f64)) -> Result<Option<CurvePoint>, Reason> {
+        /// Halvings after which the bracket is as fine as the parameter.
+        const HALVINGS: usize = 60;
+        let (mut low, mut high) = range;
+        for halving in 0..HALVINGS {
+            let p = 0.5 * (low + high);
+            if halving % 4 == 3
+                && let Some(found) = self.correct((u, p), Tangent::ACROSS_P, Route::Mixed)?
+            {
+                return Ok(Some(found));
+            }
+            if self.value(u, p)? > 0.0 {
+                low = p;
+            } else {
+                high = p;
+            }
+        }
+        Ok(None)
+    }
+
+    /// The residual of the mixed route, infinite with its sign where a swing does not end.
+    fn value(&mut self, u: f64, p: f64) -> Result<f64, Reason> {
+        let mut equation = Equation::on_side(&self.parameters_at(p), self.side, self.tolerance);
+        let closing = equation.at(Route::Mixed, u, self.limits);
+        self.cost += equation.cost();
+        Ok(closing?.node.value())
+    }
+
     /// The cycle at exactly `p`, near `u`.
     ///
     /// # Errors
@@ -191,7 +232,7 @@ impl<'a> Curve<'a> {
         u: f64,
         route: Route,
     ) -> Result<Option<CurvePoint>, Reason> {
-        self.correct((u, p), Tangent { u: 0.0, p: 1.0 }, route)
+        self.correct((u, p), Tangent::ACROSS_U, route)
     }
 
     /// Where the line between or beyond two points leads after `length` from the second one.

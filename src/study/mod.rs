@@ -9,6 +9,7 @@ pub mod closing;
 pub mod continuation;
 pub mod cycle;
 pub mod escape;
+pub mod fold;
 pub mod half_map;
 pub mod margin;
 pub mod search;
