@@ -4,6 +4,7 @@ use std::str::FromStr;
 
 use crate::flow::{METHODS, Method};
 use crate::oscillator::{PARAMETERS, Symbol};
+use crate::study::basin::Window;
 
 /// A finite number; `1e400` is none, since no double is that large.
 fn number(text: &str) -> Result<f64, String> {
@@ -76,6 +77,32 @@ pub fn over(text: &str) -> Result<Over, String> {
         return Err(format!("FROM and TO are both {from:?}"));
     }
     Ok(Over { symbol, range: (from.min(to), from.max(to)), count })
+}
+
+/// `QMIN:QMAX,VMIN:VMAX`.
+pub fn window(text: &str) -> Result<Window, String> {
+    let form = || "expected QMIN:QMAX,VMIN:VMAX, such as -6:6,-6:6";
+    let (q, v) = text.split_once(',').ok_or_else(form)?;
+    let span = |text: &str, symbol| {
+        let (low, high) = text.split_once(':').ok_or_else(form)?;
+        let (low, high) = (value_of(symbol, low)?, value_of(symbol, high)?);
+        if low < high {
+            Ok((low, high))
+        } else {
+            Err(format!("{text}: {low:?} is not below {high:?}"))
+        }
+    };
+    Ok(Window { q: span(q, Symbol::Q0)?, v: span(v, Symbol::V0)? })
+}
+
+/// `WxH` starts.
+pub fn grid(text: &str) -> Result<(usize, usize), String> {
+    /// Most starts on a side.
+    const MOST: usize = 100_000;
+    let side = |text: &str| usize::from_str(text).ok().filter(|side| (1..=MOST).contains(side));
+    text.split_once('x').and_then(|(width, height)| Some((side(width)?, side(height)?))).ok_or_else(
+        || format!("{text:?} is not a grid; expected WxH, such as 320x384, 1 .. {MOST} each"),
+    )
 }
 
 /// A method by its name.

@@ -4,6 +4,8 @@
 //! and ends. What a command prints to standard output is its answer and nothing else; notes and errors
 //! go to standard error, one line each. Exit codes: 0 answered, 1 could not be computed, 2 bad input.
 
+mod basin;
+mod border;
 mod branch;
 mod cycles;
 mod explore;
@@ -48,6 +50,8 @@ enum Command {
     Trajectory(trajectory::Trajectory),
     Cycles(cycles::Cycles),
     Branch(branch::Branch),
+    Basin(basin::Basin),
+    Border(border::Border),
     Scenes(scenes::Scenes),
     Replay(replay::Replay),
 }
@@ -58,6 +62,8 @@ impl Command {
             Command::Trajectory(command) => command.run(),
             Command::Cycles(command) => command.run(),
             Command::Branch(command) => command.run(),
+            Command::Basin(command) => command.run(),
+            Command::Border(command) => command.run(),
             Command::Scenes(command) => command.run(),
             Command::Replay(command) => command.run(),
         }

@@ -2,6 +2,8 @@
 //! value does not exist.
 
 use crate::flow::{Outcome, Trajectory};
+use crate::study::basin::Survey;
+use crate::study::fold::Border;
 use crate::study::{Branch, Cycle, Cycles};
 
 /// All digits that tell this double from its neighbours: `0.1`, `-3.0`, `1e-300`.
@@ -73,6 +75,45 @@ pub fn branch(branch: &Branch) -> String {
             cells.extend(cycle(&point.cycle));
             out.push_str(&line(&cells));
         }
+    }
+    out
+}
+
+/// A basin over a window: one row.
+#[must_use]
+pub fn basin(found: &Survey) -> String {
+    let Survey { counts, margin, .. } = found;
+    let mut out = String::from(
+        "captured,cycle,escaped,undecided,displacement,impulse,area,captured_part,lyapunov_share\n",
+    );
+    out.push_str(&line(&[
+        counts.captured.to_string(),
+        counts.cycle.to_string(),
+        counts.escaped.to_string(),
+        counts.undecided.to_string(),
+        exact_or_empty(margin.displacement),
+        exact_or_empty(margin.impulse),
+        exact_or_empty(found.area),
+        exact(found.captured),
+        exact_or_empty(found.lyapunov_share),
+    ]));
+    out
+}
+
+/// One row for each value of the second parameter.
+#[must_use]
+pub fn border(found: &Border) -> String {
+    let mut out = format!("{},D_F,q_max,period,D_F_harmonic,D_c\n", found.second);
+    for point in &found.points {
+        let fold = point.fold;
+        out.push_str(&line(&[
+            exact(point.value),
+            exact_or_empty(fold.map(|fold| fold.d)),
+            exact_or_empty(fold.map(|fold| fold.q_max)),
+            exact_or_empty(fold.map(|fold| fold.period)),
+            exact_or_empty(point.harmonic_fold),
+            exact_or_empty(point.escape),
+        ]));
     }
     out
 }

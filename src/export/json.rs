@@ -6,6 +6,8 @@ use crate::closed_form::harmonic::Harmonic;
 use crate::flow::{Cost, Crossing, Method, Outcome, Trajectory};
 use crate::oscillator::{Ledger, Parameters, State, Symbol};
 use crate::scene::Scene;
+use crate::study::basin::Survey;
+use crate::study::fold::{Border, BorderPoint};
 use crate::study::{Branch, BranchPoint, Cycle, Cycles, Edge, Special};
 
 /// What an answer cost, counted and timed.
@@ -60,6 +62,21 @@ struct BranchDocument<'a> {
 }
 
 #[derive(Serialize)]
+struct SurveyDocument<'a> {
+    #[serde(flatten)]
+    found: &'a Survey,
+    cost: Price,
+}
+
+#[derive(Serialize)]
+struct BorderDocument<'a> {
+    parameters: &'a Parameters,
+    parameter: Symbol,
+    points: &'a [BorderPoint],
+    cost: Price,
+}
+
+#[derive(Serialize)]
 struct SceneDocument<'a> {
     name: &'a str,
     title: &'a str,
@@ -108,6 +125,23 @@ pub fn branch(branch: &Branch, seconds: f64) -> String {
             .collect(),
         special: &branch.special,
         cost: Price { counted: branch.cost, seconds },
+    })
+}
+
+/// A basin over a window.
+#[must_use]
+pub fn basin(found: &Survey, seconds: f64) -> String {
+    text(&SurveyDocument { found, cost: Price { counted: found.cost, seconds } })
+}
+
+/// The fold and the escape point along a second parameter.
+#[must_use]
+pub fn border(found: &Border, seconds: f64) -> String {
+    text(&BorderDocument {
+        parameters: &found.parameters,
+        parameter: found.second,
+        points: &found.points,
+        cost: Price { counted: found.cost, seconds },
     })
 }
 

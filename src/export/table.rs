@@ -4,6 +4,8 @@ use std::fmt;
 
 use crate::flow::Trajectory;
 use crate::oscillator::{PARAMETERS, Parameters, State, Symbol};
+use crate::study::basin::{Counts, Survey};
+use crate::study::fold::Border;
 use crate::study::{Branch, Cycle, Cycles, Edge, SpecialKind};
 use crate::view::number::{duration, exact, significant};
 use crate::view::status::sentence;
@@ -183,13 +185,65 @@ pub fn cycles(found: &Cycles, seconds: f64) -> String {
     if !found.harmonic.is_empty() {
         out.push('\n');
     }
-    out += match found.edge {
+    out += edge_of_basin(found.edge);
+    out += &format!("{} evaluations, {}\n", found.cost.evaluations, duration(seconds));
+    out
+}
+
+fn edge_of_basin(edge: Edge) -> &'static str {
+    match edge {
         Edge::None => "edge of the basin of the sticking set: none\n",
         Edge::Cycle => "edge of the basin of the sticking set: the smallest cycle\n",
         Edge::Separatrix => "edge of the basin of the sticking set: a separatrix of escape\n",
-    };
-    out += &format!("{} evaluations, {}\n", found.cost.evaluations, duration(seconds));
-    out
+    }
+}
+
+/// A basin over a window.
+#[must_use]
+pub fn basin(found: &Survey, seconds: f64) -> String {
+    const PLACES: usize = 10;
+    let mut out =
+        format!("{}\n{}\n", parameters(&found.parameters, None), edge_of_basin(found.edge));
+    let Counts { captured, cycle, escaped, undecided } = found.counts;
+    let mut counts = Table::new(&["starts that", "count"]);
+    for (fate, count) in [
+        ("are captured", captured),
+        ("end on a stable cycle", cycle),
+        ("run away", escaped),
+        ("stay undecided", undecided),
+    ] {
+        counts.row(vec![fate.to_owned(), count.to_string()]);
+    }
+    let mut kicks = Table::new(&["smallest kick that is not captured", "size"]);
+    kicks.row(vec!["displacement".to_owned(), rounded(found.margin.displacement, PLACES)]);
+    kicks.row(vec!["impulse".to_owned(), rounded(found.margin.impulse, PLACES)]);
+    out += &format!("{counts}\n{kicks}\n");
+    out += &format!("area of the basin: {}\n", rounded(found.area, PLACES));
+    if let Some(share) = found.lyapunov_share {
+        let verdict =
+            if share > 1.0 { ": too much is promised, D2 and D3 are left out" } else { "" };
+        out += &format!("Lyapunov's disk (24): {} of the margin{verdict}\n", significant(share, 4));
+    }
+    out + &format!("{} evaluations, {}\n", found.cost.evaluations, duration(seconds))
+}
+
+/// The fold and the escape point along a second parameter.
+#[must_use]
+pub fn border(found: &Border, seconds: f64) -> String {
+    const PLACES: usize = 12;
+    let mut table =
+        Table::new(&[found.second.spec().name, "D_F", "q_max there", "D_F of (48)", "D_c"]);
+    for point in &found.points {
+        table.row(vec![
+            significant(point.value, 10),
+            rounded(point.fold.map(|fold| fold.d), PLACES),
+            rounded(point.fold.map(|fold| fold.q_max), 8),
+            rounded(point.harmonic_fold, 8),
+            rounded(point.escape, PLACES),
+        ]);
+    }
+    let fixed = parameters(&found.parameters, Some(found.second));
+    format!("{fixed}\n\n{table}\n{} evaluations, {}\n", found.cost.evaluations, duration(seconds))
 }
 
 /// The cycles along a parameter, piece by piece, and the special points.

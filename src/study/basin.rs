@@ -10,6 +10,7 @@ use super::arc::{Arc, Direction};
 use super::closing::{Closing, Equation, first_side};
 use super::cycle::{Edge, all_closings};
 use super::half_map::{Length, NoEnd};
+use super::margin::Margin;
 use crate::flow::{Cost, Limits, Reason};
 use crate::oscillator::{Parameters, Side, State};
 
@@ -267,8 +268,59 @@ impl Basin {
     }
 }
 
+/// A basin, surveyed over a window of starts.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Survey {
+    /// The parameters.
+    pub parameters: Parameters,
+    /// What borders the basin of the sticking set.
+    pub edge: Edge,
+    /// How many of the starts end where.
+    pub counts: Counts,
+    /// The kicks that are survived.
+    pub margin: Margin,
+    /// Area of the basin, where it is finite.
+    pub area: Option<f64>,
+    /// Basin stability: the part of the starts that is captured.
+    pub captured: f64,
+    /// Radius of Lyapunov's disk (24) as a part of the margin.
+    pub lyapunov_share: Option<f64>,
+    /// What it cost.
+    #[serde(skip)]
+    pub cost: Cost,
+}
+
+impl Survey {
+    /// Surveys a grid of `columns` by `rows` starts.
+    ///
+    /// # Errors
+    /// The [`Reason`] why a border could not be computed.
+    pub fn of(
+        parameters: &Parameters,
+        window: &Window,
+        (columns, rows): (usize, usize),
+        limits: &Limits,
+    ) -> Result<Self, Reason> {
+        let reach = window.q.0.abs().max(window.q.1.abs());
+        let basin = basin(parameters, reach, limits)?;
+        let counts = basin.count(window, columns, rows);
+        #[expect(clippy::cast_precision_loss, reason = "at most 1e10 starts")]
+        let captured = counts.captured as f64 / (columns * rows) as f64;
+        Ok(Survey {
+            parameters: *parameters,
+            edge: basin.edge,
+            counts,
+            margin: basin.margin(),
+            area: basin.area(),
+            captured,
+            lyapunov_share: basin.lyapunov_share(),
+            cost: basin.cost,
+        })
+    }
+}
+
 /// Value number `index` of `count` evenly spaced over a range, both ends included.
-fn between(range: (f64, f64), index: usize, count: usize) -> f64 {
+pub(super) fn between(range: (f64, f64), index: usize, count: usize) -> f64 {
     if index + 1 == count && count > 1 {
         return range.1;
     }

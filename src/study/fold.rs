@@ -6,6 +6,7 @@
 
 use serde::Serialize;
 
+use super::basin::between;
 use super::closing::{Route, first_side};
 use super::continuation::{Curve, CurvePoint, Tangent};
 use super::escape::escape_point;
@@ -90,34 +91,49 @@ pub struct BorderPoint {
     pub escape: Option<f64>,
 }
 
-/// The fold and the escape point while `second` (D2, D3 or r) takes these values.
+/// The fold and the escape point along a second parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Border {
+    /// The parameters that stay.
+    pub parameters: Parameters,
+    /// The second parameter.
+    pub second: Symbol,
+    /// Its values and what was found there.
+    pub points: Vec<BorderPoint>,
+    /// What it cost.
+    pub cost: Cost,
+}
+
+/// Finds the fold and the escape point at `count` values of `second` (D2, D3 or r) over `range`.
 ///
 /// # Errors
 /// The [`Reason`] why a point could not be computed; [`Reason::NotApplicable`] for other parameters.
 pub fn border(
     parameters: &Parameters,
     second: Symbol,
-    values: impl IntoIterator<Item = f64>,
+    range: (f64, f64),
+    count: usize,
     limits: &Limits,
-) -> Result<(Vec<BorderPoint>, Cost), Reason> {
+) -> Result<Border, Reason> {
     if !matches!(second, Symbol::D2 | Symbol::D3 | Symbol::R) {
         return Err(Reason::NotApplicable { needs: "one of D2, D3, r to vary" });
     }
-    let mut total = Cost::default();
-    let mut points = Vec::new();
-    for value in values {
+    let mut border =
+        Border { parameters: *parameters, second, points: Vec::new(), cost: Cost::default() };
+    for index in 0..count {
+        let value = between(range, index, count);
         let mut here = *parameters;
         second.set(&mut here, &mut State { q: 0.0, v: 0.0 }, value);
         let (fold, cost) = fold(&here, limits)?;
-        total += cost;
-        points.push(BorderPoint {
+        border.cost += cost;
+        border.points.push(BorderPoint {
             value,
             fold,
             harmonic_fold: harmonic::fold(here.d3, here.r).map(|fold| fold.d),
             escape: escape_point(&here, limits)?,
         });
     }
-    Ok((points, total))
+    Ok(border)
 }
 
 #[cfg(test)]

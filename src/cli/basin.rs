@@ -1,0 +1,46 @@
+//! `hopfscope basin`: where starts end, and how large a kick is survived.
+
+use clap::Args;
+
+use super::failure::Failure;
+use super::input;
+use super::output::{Format, Output, print};
+use super::start::Start;
+use super::timing::timed;
+use crate::export::{csv, json, table};
+use crate::flow::Limits;
+use crate::study::basin::{Survey, Window};
+
+/// Says where the starts of a window end, and the margins of the sticking set
+#[derive(Debug, Args)]
+pub struct Basin {
+    #[command(flatten)]
+    start: Start,
+    #[command(flatten)]
+    output: Output,
+    /// Displacements and velocities of the starts
+    #[arg(long, value_name = "QMIN:QMAX,VMIN:VMAX", default_value = "-3:3,-3:3",
+          value_parser = input::window, allow_hyphen_values = true)]
+    window: Window,
+    /// How many starts, evenly spaced, both ends of the window included
+    #[arg(long, value_name = "WxH", default_value = "320x384", value_parser = input::grid)]
+    grid: (usize, usize),
+}
+
+impl Basin {
+    /// Computes and prints.
+    pub fn run(&self) -> Result<(), Failure> {
+        self.start.note_own_method();
+        let parameters = self.start.problem()?.parameters;
+        let survey = || Survey::of(&parameters, &self.window, self.grid, &Limits::PATIENT);
+        let (found, seconds) = timed(self.output.repeat, survey);
+        let found = found.map_err(|reason| {
+            Failure::Unanswered(format!("the basin could not be completed: {reason}"))
+        })?;
+        print(&match self.output.format {
+            Format::Table => table::basin(&found, seconds),
+            Format::Json => json::basin(&found, seconds),
+            Format::Csv => csv::basin(&found),
+        })
+    }
+}
