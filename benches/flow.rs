@@ -5,10 +5,11 @@
 use divan::{Bencher, black_box};
 use hopfscope::flow::method::{Dial, EPSILON, STEP};
 use hopfscope::flow::trajectory::trajectory;
-use hopfscope::flow::{Detail, Limits, Method, Problem};
+use hopfscope::flow::{Detail, Limits, Method, Outcome, Problem};
 use hopfscope::oscillator::{Parameters, State, Symbol};
+use hopfscope::study::basin::{Survey, Window};
 use hopfscope::study::branch::branch;
-use hopfscope::study::cycle::cycles;
+use hopfscope::study::cycle::{cycle_near, cycles};
 
 fn main() {
     divan::main();
@@ -120,6 +121,43 @@ fn two_cycles(bencher: Bencher) {
 fn one_cycle(bencher: Bencher) {
     let parameters = Parameters { d: -0.2, d2: 0.3, d3: 0.0, r: 0.5 };
     bencher.bench(|| cycles(black_box(&parameters), false, &Limits::PATIENT));
+}
+
+/// One cycle with its multiplier, to rounding, from a guess of its amplitude that is 1 % off.
+#[divan::bench]
+fn one_cycle_from_a_guess(bencher: Bencher) {
+    let parameters = Parameters { d: -0.2, d2: 0.2, d3: 0.5, r: 0.1 };
+    bencher.bench(|| cycle_near(black_box(&parameters), black_box(0.3535), &Limits::PATIENT));
+}
+
+/// The basin of 320 by 384 starts, by ordering.
+#[divan::bench]
+fn basin_by_ordering(bencher: Bencher) {
+    let parameters = Parameters { d: -0.2, d2: 0.2, d3: 0.5, r: 0.1 };
+    let window = Window { q: (-6.0, 6.0), v: (-6.0, 6.0) };
+    bencher.bench(|| Survey::of(black_box(&parameters), &window, (320, 384), &Limits::PATIENT));
+}
+
+/// The same by brute force, for 32 by 38 starts only: a hundredth of them.
+#[divan::bench(sample_count = 3)]
+fn basin_by_brute_force_one_start_in_a_hundred(bencher: Bencher) {
+    let parameters = Parameters { d: -0.2, d2: 0.2, d3: 0.5, r: 0.1 };
+    bencher.bench(|| {
+        let place = |index: u32, count: u32| -6.0 + 12.0 * f64::from(index) / f64::from(count - 1);
+        let starts = (0..32 * 38).map(|index| (place(index % 32, 32), place(index / 32, 38)));
+        let captured = |&(q, v): &(f64, f64)| {
+            let problem = Problem {
+                parameters,
+                initial: State { q, v },
+                until: 200.0,
+                method: Method::Taylor,
+                tolerance: 1e-8,
+            };
+            let motion = trajectory(&problem, Detail::default(), &Limits::PATIENT);
+            matches!(motion.outcome, Outcome::Captured { .. })
+        };
+        starts.filter(captured).count()
+    });
 }
 
 /// From D = -0.95 through the fold and back, 400 points to 1e-10.

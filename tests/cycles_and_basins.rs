@@ -1,12 +1,14 @@
 //! Every limit cycle and every basin, against brute force and against numbers computed elsewhere.
 
+#![expect(clippy::cast_precision_loss, reason = "indices of grids are small")]
+
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, Method, Outcome, Problem};
 use hopfscope::oscillator::{HalfPlane, Parameters, Side, State, Symbol};
 use hopfscope::study::basin::{Basin, Counts, Fate, Window, basin};
 use hopfscope::study::branch::{SpecialKind, branch};
 use hopfscope::study::closing::{Equation, Route};
-use hopfscope::study::cycle::{closings, cycles};
+use hopfscope::study::cycle::{closings, cycle_near, cycles};
 use hopfscope::study::half_map::{HalfMap, Length, NoEnd};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
@@ -93,8 +95,8 @@ fn brute_fate(parameters: &Parameters, initial: State) -> Fate {
 
 #[test]
 fn ordered_basins_agree_with_brute_force() {
-    let window = Window { q: (-3.0, 3.0), v: (-3.0, 3.0) };
     const GRID: usize = 13;
+    let window = Window { q: (-3.0, 3.0), v: (-3.0, 3.0) };
     parameter_sets(60).into_par_iter().for_each(|parameters| {
         let ordered = basin(&parameters, 3.0, &LIMITS).expect("a basin");
         for index in 0..GRID * GRID {
@@ -225,6 +227,22 @@ fn a_fold_and_the_escape_point_end_the_branches_that_lead_to_them() {
         let there = Parameters { d: point.value, ..parameters };
         let cycle = &cycles(&there, false, &LIMITS).unwrap().cycles[0];
         assert!((cycle.q_max / point.cycle.q_max - 1.0).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn a_cycle_is_found_from_a_guess_of_its_amplitude() {
+    for parameters in parameter_sets(100) {
+        for cycle in cycles(&parameters, false, &LIMITS).unwrap().cycles {
+            let guess = cycle.q_max + 0.01 * cycle.clearance;
+            if let Some(near) = cycle_near(&parameters, guess, &LIMITS).unwrap() {
+                let error = (near.clearance / cycle.clearance - 1.0).abs();
+                assert!(error < 1e-12 + 10.0 * cycle.error, "{parameters:?}: {error:e}");
+            } else {
+                // Strongly expanding half swings put the guess further away than it looks.
+                assert!(cycle.log_multiplier.abs() > 2.0 || cycle.log_multiplier.abs() < 0.1);
+            }
+        }
     }
 }
 

@@ -68,7 +68,7 @@ fn plain_five_steps_of_damping_bring_the_start_into_the_basin() {
 
 #[test]
 fn every_border_that_is_a_cycle_has_two_sides() {
-    for scene in ["plain", "basin", "marginal", "supercritical", "subcritical", "asymmetry"] {
+    for scene in ["plain", "linear", "marginal", "supercritical", "subcritical", "asymmetry"] {
         assert_eq!(Stage::open(scene).edge(), Edge::Cycle);
         assert!(Stage::open(scene).press("i").is_captured(), "inside of {scene}");
         assert!(!Stage::open(scene).press("o").is_captured(), "outside of {scene}");
@@ -89,17 +89,17 @@ fn capture_each_half_swing_loses_twice_the_friction() {
 
 #[test]
 fn basin_closes_around_the_sticking_set() {
-    let near = Stage::open("basin").press("<left*6>");
+    let near = Stage::open("linear").press("<left*6>");
     assert_eq!(near.0.problem.parameters.d, -0.7);
     assert!((near.cycles()[0].q_max - 1.1).abs() < 0.005);
-    let nearer = Stage::open("basin").press("-0.99<enter>");
+    let nearer = Stage::open("linear").press("-0.99<enter>");
     assert!(nearer.cycles()[0].clearance < 1e-9);
     assert!(!nearer.press("o").is_captured());
 }
 
 #[test]
 fn basin_has_a_border_even_where_no_number_lies_between_it_and_the_sticking_set() {
-    let nearest = Stage::open("basin").press("-0.999<enter>");
+    let nearest = Stage::open("linear").press("-0.999<enter>");
     assert!(nearest.cycles()[0].clearance < 1e-30);
     assert!(!nearest.press("o").is_captured());
 }

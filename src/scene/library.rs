@@ -20,7 +20,7 @@ macro_rules! scene_file {
 const FILES: [(&str, &str); 9] = [
     scene_file!("plain"),
     scene_file!("capture"),
-    scene_file!("basin"),
+    scene_file!("linear"),
     scene_file!("marginal"),
     scene_file!("hopf"),
     scene_file!("supercritical"),
@@ -144,7 +144,7 @@ mod tests {
     #[test]
     fn a_wrong_name_gets_the_nearest_ones() {
         assert_eq!(find("super-critical").unwrap_err().nearest[0], "supercritical");
-        assert_eq!(find("Basin").unwrap_err().nearest[0], "basin");
+        assert_eq!(find("Linear").unwrap_err().nearest[0], "linear");
         let line = find("xyz").unwrap_err().to_string();
         assert!(line.starts_with("no scene \"xyz\"; there are plain, capture"), "{line}");
     }

@@ -1,6 +1,6 @@
 //! The commands: one table that feeds the keys, the help, the footer and what a key does.
 //!
-//! A new command is one row here and one small function in [`super::update`].
+//! A new command is one row here and one small function in `session::update`.
 
 use super::key::Key;
 use super::keymap::Context::{

@@ -70,6 +70,7 @@ pub struct Equation {
     pub side: Side,
     forward: [HalfMap; 2],
     backward: [HalfMap; 2],
+    charged: Cost,
 }
 
 /// The side in whose frame `D2 >= 0`.
@@ -100,6 +101,7 @@ impl Equation {
             side,
             forward: fields.map(&map),
             backward: fields.map(|field| map(field.reversed())),
+            charged: Cost::default(),
         }
     }
 
@@ -124,11 +126,16 @@ impl Equation {
     /// What all swings so far cost.
     #[must_use]
     pub fn cost(&self) -> Cost {
-        let mut cost = Cost::default();
+        let mut cost = self.charged;
         for map in self.forward.iter().chain(&self.backward) {
             cost += map.cost();
         }
         cost
+    }
+
+    /// Adds what was computed elsewhere for the same question.
+    pub fn charge(&mut self, cost: Cost) {
+        self.charged += cost;
     }
 
     /// How many half swings were computed so far.
@@ -150,6 +157,28 @@ impl Equation {
             Ok(swing) => Ok(Some(swing.end)),
             Err(NoEnd::Never) => Ok(Some(Length { value: 0.0, log: f64::NEG_INFINITY })),
             Err(NoEnd::Escapes) => Ok(None),
+            Err(NoEnd::Failed(reason)) => Err(reason),
+        }
+    }
+
+    /// Clearance at which the first swing of a cycle starts whose right turning point is `q_max`.
+    ///
+    /// On the upper side the first swing ends there and is followed back; on the lower it starts there.
+    ///
+    /// # Errors
+    /// The [`Reason`] why a swing failed.
+    pub fn first_clearance(
+        &mut self,
+        q_max: f64,
+        limits: &Limits,
+    ) -> Result<Option<Length>, Reason> {
+        let r = self.parameters.r;
+        if self.side == Side::Lower {
+            return Ok((q_max > r).then(|| Length::new(q_max - r)));
+        }
+        match self.backward[0].swing(Length::new(q_max + r), limits) {
+            Ok(swing) => Ok(Some(swing.end)),
+            Err(NoEnd::Escapes | NoEnd::Never) => Ok(None),
             Err(NoEnd::Failed(reason)) => Err(reason),
         }
     }

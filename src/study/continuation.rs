@@ -4,7 +4,7 @@
 //! Newton's method on the closing equation together with the demand to stay on the line through the
 //! prediction across the tangent. The slope in u is exact (the multiplier), the slope in p a difference
 //! quotient that is renewed only when the correction converges slowly. Lengths are measured with p in
-//! units of the range and u in units of [`UNIT_OF_U`].
+//! units of the range and u in units of 4.
 
 use super::closing::{Closing, Equation, Route};
 use crate::flow::{Cost, Limits, Reason};

@@ -213,8 +213,13 @@ impl Edge {
 /// # Errors
 /// The [`Reason`] why a swing failed.
 pub fn closings(equation: &mut Equation, limits: &Limits) -> Result<Vec<Closing>, Reason> {
+    /// A search takes some tens of thousands of evaluations; where it takes this many on one half map,
+    /// the flow is too stiff for it.
+    const BUDGET: u64 = 40_000_000;
+    let budget = limits.evaluations.min(BUDGET);
+    let limits = &Limits { evaluations: budget, interrupted: limits.interrupted };
     let Parameters { d, d3, .. } = equation.parameters;
-    // The first integral of D2 decreases along every motion (paper's system, PHYSICS notes 5).
+    // The first integral of D2 decreases along every motion (`K` of [`super::balance`]).
     if d >= 0.0 && d3 >= 0.0 {
         return Ok(Vec::new());
     }
@@ -262,21 +267,32 @@ fn upper_end(parameters: &Parameters) -> f64 {
 
 /// Marches outwards in `ln c0` until the end of the domain, collecting brackets of roots.
 fn brackets(equation: &mut Equation, low: f64, limits: &Limits) -> Result<Vec<Bracket>, Reason> {
+    /// Tolerance of the steps of the search, and the blur of a residual that comes of it; weak damping
+    /// makes residuals that small and needs steps to rounding from the beginning.
+    const ROUGH: (f64, f64) = (1e-10, 1e-7);
+    const WEAK: f64 = 0.01;
     /// First stride and longest stride, in `ln c0`.
     const STRIDES: (f64, f64) = (0.5, 2.0);
     let high = upper_end(&equation.parameters);
-    let mut function = |u: f64| Ok(equation.at(Route::Mixed, u, limits)?.node);
+    let (parameters, side) = (equation.parameters, equation.side);
+    let (step, blur) = if parameters.d.abs() < WEAK { (STEP, 0.0) } else { ROUGH };
+    let mut rough = Equation::on_side(&parameters, side, step);
+    let mut function = |u: f64, fine: bool| {
+        let equation = if fine { &mut *equation } else { &mut rough };
+        Ok(equation.at(Route::Mixed, u, limits)?.node)
+    };
     let mut found = Vec::new();
-    let (mut here, mut stride) = (function(low)?, STRIDES.0);
+    let (mut here, mut stride) = (function(low, false)?, STRIDES.0);
     while here.at < high {
-        let next: Node = function((here.at + stride).min(high))?;
-        search(here, next, &mut function, &mut found)?;
+        let next: Node = function((here.at + stride).min(high), false)?;
+        search(here, next, blur, &mut function, &mut found)?;
         if !next.value().is_finite() {
             break;
         }
         here = next;
         stride = (1.5 * stride).min(STRIDES.1);
     }
+    equation.charge(rough.cost());
     Ok(found)
 }
 
@@ -324,6 +340,30 @@ pub fn polish(
         u = if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
     }
     Err(Reason::NoConvergence { sought: "a limit cycle", change })
+}
+
+/// The cycle with its right turning point near `q_max`, without a search for others; `None` where no
+/// cycle is that near.
+///
+/// # Errors
+/// The [`Reason`] why a swing failed, or [`Reason::NoConvergence`].
+pub fn cycle_near(
+    parameters: &Parameters,
+    q_max: f64,
+    limits: &Limits,
+) -> Result<Option<Cycle>, Reason> {
+    /// How near, in the logarithm of the clearance.
+    const NEAR: f64 = 0.05;
+    let mut equation = Equation::new(parameters, STEP);
+    let Some(first) = equation.first_clearance(q_max, limits)? else { return Ok(None) };
+    let mut node = |u: f64| equation.at(Route::Mixed, u, limits).map(|closing| closing.node);
+    let bracket = (node(first.log - NEAR)?, node(first.log + NEAR)?);
+    if (bracket.0.value() > 0.0) == (bracket.1.value() > 0.0) {
+        return Ok(None);
+    }
+    equation.want_fastest(true);
+    let closing = polish(&mut equation, bracket, limits)?;
+    Ok(Some(closing.describe(parameters, equation.side)))
 }
 
 /// Where the line through both ends of a bracket vanishes; its middle where an end is infinite.

@@ -9,7 +9,7 @@
 //! the limit of halving whose slopes point at an extremum towards zero is decided at that extremum.
 //!
 //! Guarantee: every interval between the roots found is excluded by monotonicity, or by a cubic whose
-//! error was measured. Assumption: the function varies on scales not below [`FINEST`].
+//! error was measured. Assumption: the function varies on scales not below 1e-4.
 
 /// Intervals of this length are not halved any more.
 const FINEST: f64 = 1e-4;
@@ -47,16 +47,19 @@ pub type Bracket = (Node, Node);
 
 /// Collects brackets of all roots between two nodes.
 ///
+/// `function(at, fine)` may be off by `blur` where it is not asked to be fine; nothing is decided by less.
+///
 /// # Errors
 /// Whatever the function fails with.
 pub fn search<E>(
     low: Node,
     high: Node,
-    function: &mut impl FnMut(f64) -> Result<Node, E>,
+    blur: f64,
+    function: &mut impl FnMut(f64, bool) -> Result<Node, E>,
     found: &mut Vec<Bracket>,
 ) -> Result<(), E> {
-    let surely_negative = high.rise < low.fall;
-    let surely_positive = low.rise > high.fall;
+    let surely_negative = high.rise < low.fall - blur;
+    let surely_positive = low.rise > high.fall + blur;
     if surely_negative || surely_positive {
         return Ok(());
     }
@@ -72,9 +75,9 @@ pub fn search<E>(
         }
         return Ok(());
     }
-    let middle = function(low.at + 0.5 * width)?;
+    let middle = function(low.at + 0.5 * width, false)?;
     if low.is_finite() && high.is_finite() && middle.is_finite() {
-        let error = SAFETY * (middle.value() - cubic(&low, &high, 0.5)).abs();
+        let error = SAFETY * (middle.value() - cubic(&low, &high, 0.5)).abs() + blur;
         let halves = [(low, middle), (middle, high)];
         if !changes && halves.iter().all(|(a, b)| stays_away(a, b, error)) {
             return Ok(());
@@ -88,8 +91,8 @@ pub fn search<E>(
             return Ok(());
         }
     }
-    search(low, middle, function, found)?;
-    search(middle, high, function, found)
+    search(low, middle, blur, function, found)?;
+    search(middle, high, blur, function, found)
 }
 
 /// The cubic with the values and slopes of two nodes, at a fraction of the way.
@@ -132,7 +135,7 @@ fn is_monotone(low: &Node, high: &Node, error: f64) -> bool {
 fn extremum_towards_zero<E>(
     mut low: Node,
     mut high: Node,
-    function: &mut impl FnMut(f64) -> Result<Node, E>,
+    function: &mut impl FnMut(f64, bool) -> Result<Node, E>,
 ) -> Result<Option<Node>, E> {
     let sign = low.value().signum();
     let towards_zero = sign * low.slope < 0.0 && sign * high.slope > 0.0;
@@ -143,7 +146,7 @@ fn extremum_towards_zero<E>(
     for _ in 0..60 {
         let secant = low.at + (high.at - low.at) * low.slope / (low.slope - high.slope);
         let inside = secant > low.at && secant < high.at;
-        let node = function(if inside { secant } else { 0.5 * (low.at + high.at) })?;
+        let node = function(if inside { secant } else { 0.5 * (low.at + high.at) }, true)?;
         if sign * node.value() < sign * best.value() {
             best = node;
         }
@@ -168,17 +171,17 @@ mod tests {
     use super::*;
 
     /// `(u - a)(u - b)` as a difference of two increasing functions on [0, 4].
-    fn parabola(a: f64, b: f64) -> impl FnMut(f64) -> Result<Node, ()> {
-        move |u| {
+    fn parabola(a: f64, b: f64) -> impl FnMut(f64, bool) -> Result<Node, ()> {
+        move |u, _| {
             let rise = u * u + 10.0 * u + a * b;
             Ok(Node { at: u, rise, fall: (a + b + 10.0) * u, slope: 2.0 * u - a - b })
         }
     }
 
-    fn roots_of(mut function: impl FnMut(f64) -> Result<Node, ()>) -> Vec<Bracket> {
+    fn roots_of(mut function: impl FnMut(f64, bool) -> Result<Node, ()>) -> Vec<Bracket> {
         let mut found = Vec::new();
-        let (low, high) = (function(0.0).unwrap(), function(4.0).unwrap());
-        search(low, high, &mut function, &mut found).unwrap();
+        let (low, high) = (function(0.0, true).unwrap(), function(4.0, true).unwrap());
+        search(low, high, 0.0, &mut function, &mut found).unwrap();
         found
     }
 
@@ -196,7 +199,9 @@ mod tests {
     fn a_near_miss_is_no_root() {
         for lift in [1e-1, 1e-4, 1e-9] {
             let mut touching = parabola(2.2, 2.2);
-            let lifted = |u: f64| touching(u).map(|node| Node { rise: node.rise + lift, ..node });
+            let lifted = |u: f64, fine: bool| {
+                touching(u, fine).map(|node| Node { rise: node.rise + lift, ..node })
+            };
             assert!(roots_of(lifted).is_empty(), "lift {lift}");
         }
     }

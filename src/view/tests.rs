@@ -244,7 +244,7 @@ fn a_search_leaves_what_contains_it() {
 
 #[test]
 fn the_scene_picker_shows_every_scene_and_what_the_selected_one_is_about() {
-    let session = settled("basin", 100, 60, "s");
+    let session = settled("linear", 100, 60, "s");
     let screen = text(&draw(&session, letters()));
     assert!(library().iter().all(|scene| screen.contains(&scene.title)), "{screen}");
     let first: Vec<&str> = session.scene.look.split_whitespace().take(4).collect();

@@ -121,7 +121,7 @@ fn the_motion_starts_on_either_side_of_the_unstable_cycle() {
 
 #[test]
 fn a_cycle_close_to_the_sticking_set_still_has_two_sides() {
-    let mut desk = Desk::open("basin");
+    let mut desk = Desk::open("linear");
     for clearance in [0.5, 1e-9, 1e-14, 3e-16, 1e-16, 6.5e-31, 5e-324] {
         let held = desk.session.answers.get_mut(&crate::scene::Slot::Cycles).unwrap();
         let Ok(crate::scene::Answer::Cycles(found)) = &mut held.result else { panic!("cycles") };

@@ -66,7 +66,7 @@ fn a_repeated_reset_is_one_change() {
 
 #[test]
 fn reset_gives_a_row_its_value_and_its_step() {
-    let mut desk = Desk::open("basin");
+    let mut desk = Desk::open("linear");
     desk.press("[[ <right*2>");
     assert_ne!(desk.session.steps, crate::session::Steps::of_scene(&desk.session.scene));
     desk.press("r");
