@@ -152,6 +152,7 @@ fn basin_by_brute_force_one_start_in_a_hundred(bencher: Bencher) {
                 until: 200.0,
                 method: Method::Taylor,
                 tolerance: 1e-8,
+                ..Problem::default()
             };
             let motion = trajectory(&problem, Detail::default(), &Limits::PATIENT);
             matches!(motion.outcome, Outcome::Captured { .. })

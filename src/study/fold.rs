@@ -161,7 +161,8 @@ mod tests {
     fn turn_grows(parameters: Parameters, q0: f64) -> bool {
         let initial = State { q: q0, v: 0.0 };
         let (method, tolerance) = (Method::Dop853, 1e-11);
-        let problem = Problem { parameters, initial, until: 100.0, method, tolerance };
+        let problem =
+            Problem { parameters, initial, until: 100.0, method, tolerance, ..Problem::default() };
         let motion = trajectory(&problem, Detail::default(), &Limits::PATIENT);
         motion.crossings.get(1).is_some_and(|crossing| crossing.q > q0)
     }
