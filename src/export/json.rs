@@ -177,7 +177,7 @@ mod tests {
 
     #[test]
     fn numbers_that_do_not_exist_are_null_and_the_others_come_back() {
-        let special = Special { kind: crate::study::SpecialKind::Escape, value: 0.1, q_max: None };
+        let special = Special::new(crate::study::SpecialKind::Escape, 0.1, None);
         let branch = Branch {
             parameter: Symbol::D,
             pieces: Vec::new(),

@@ -3,7 +3,9 @@
 use super::request::Request;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Detail, Limits, Reason, Trajectory};
+use crate::oscillator::State;
 use crate::study::branch::branch;
+use crate::study::capture::bands;
 use crate::study::cycle::cycles;
 use crate::study::{Branch, Cycles};
 
@@ -14,8 +16,19 @@ pub enum Answer {
     Trajectory(Trajectory),
     /// To [`Request::Cycles`].
     Cycles(Cycles),
+    /// To [`Request::Capture`].
+    Capture(Borders),
     /// To [`Request::Branch`].
     Branch(Branch),
+}
+
+/// The borders between bands of capture, to be drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Borders {
+    /// In each half plane, innermost first.
+    pub curves: Vec<Vec<State>>,
+    /// What they cost.
+    pub cost: Cost,
 }
 
 /// An answer with its question and its price, as it comes back from the worker.
@@ -50,6 +63,9 @@ impl std::fmt::Display for Failure {
 /// Points drawn on each integration step of a trajectory.
 const SAMPLES_PER_STEP: usize = 16;
 
+/// Points drawn on each integration step of a border.
+const POINTS_PER_STEP: u8 = 12;
+
 /// Points of a branch, a piece.
 const BRANCH_POINTS: usize = 160;
 
@@ -66,6 +82,11 @@ pub fn answer(request: &Request, limits: &Limits) -> Result<Answer, Reason> {
             Ok(Answer::Trajectory(trajectory(problem, detail, limits)))
         }
         Request::Cycles { parameters } => cycles(parameters, true, limits).map(Answer::Cycles),
+        Request::Capture { parameters, reach, most } => {
+            let found = bands(parameters, *reach, *most, limits)?;
+            let curves = found.curves(POINTS_PER_STEP);
+            Ok(Answer::Capture(Borders { curves, cost: found.cost }))
+        }
         Request::Branch { parameters, parameter, range, tolerance } => {
             branch(parameters, *parameter, *range, BRANCH_POINTS, *tolerance, limits)
                 .map(Answer::Branch)
@@ -80,6 +101,7 @@ impl Answer {
         match self {
             Answer::Trajectory(answer) => answer.cost,
             Answer::Cycles(answer) => answer.cost,
+            Answer::Capture(answer) => answer.cost,
             Answer::Branch(answer) => answer.cost,
         }
     }

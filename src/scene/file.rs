@@ -8,6 +8,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::layer::Layer;
+use super::ordinate::{ABSCISSAE, Ordinate};
 use super::scene::{Scene, TOLERANCE, UNTIL};
 use super::window::{Span, Window};
 use crate::flow::method::{EPSILON, EPSILON_RANGE, STEP, STEP_RANGE};
@@ -79,7 +80,13 @@ struct Phase {
 struct Diagram {
     over: Spanned<Symbol>,
     range: Span,
-    q_max: Span,
+    #[serde(default = "q_max")]
+    ordinate: Ordinate,
+    heights: Span,
+}
+
+fn q_max() -> Ordinate {
+    Ordinate::QMax
 }
 
 fn auto() -> Method {
@@ -122,7 +129,7 @@ fn one_line(message: &str) -> String {
 fn scene(name: &str, read: File) -> Result<Scene, Complaint> {
     let problem = problem(&read)?;
     let over = *read.diagram.over.get_ref();
-    if !matches!(over, Symbol::D | Symbol::D2 | Symbol::D3 | Symbol::R) {
+    if ABSCISSAE.iter().all(|(symbol, _)| *symbol != over) {
         return Err(Complaint {
             at: read.diagram.over.span(),
             message: format!("a diagram over {over} does not exist; D, D2, D3 and r are allowed"),
@@ -138,8 +145,9 @@ fn scene(name: &str, read: File) -> Result<Scene, Complaint> {
         terms: read.terms,
         layers: read.layers,
         phase: Window { x: read.phase.q, y: read.phase.v },
-        diagram: Window { x: read.diagram.range, y: read.diagram.q_max },
+        diagram: Window { x: read.diagram.range, y: read.diagram.heights },
         abscissa: over,
+        ordinate: read.diagram.ordinate,
     })
 }
 
@@ -219,7 +227,7 @@ terms = ["D", "r"]
 values = { D = -0.4, q0 = 2 }
 layers = ["trajectory"]
 phase = { q = [-3, 3], v = [-2.5, 2.5] }
-diagram = { over = "D", range = [-1, 0.1], q_max = [0, 2] }
+diagram = { over = "D", range = [-1, 0.1], heights = [0, 2] }
 "#;
 
     #[test]
@@ -236,6 +244,15 @@ diagram = { over = "D", range = [-1, 0.1], q_max = [0, 2] }
     }
 
     #[test]
+    fn a_diagram_shows_q_max_unless_it_says_otherwise() {
+        let scene = parse("test", "test.toml", GOOD).unwrap();
+        assert_eq!(scene.ordinate, Ordinate::QMax);
+        let period = GOOD.replace("over = \"D\"", "over = \"r\", ordinate = \"period\"");
+        let scene = parse("test", "test.toml", &period).unwrap();
+        assert_eq!((scene.abscissa, scene.ordinate), (Symbol::R, Ordinate::Period));
+    }
+
+    #[test]
     fn what_is_wrong_is_said_with_its_place_and_what_is_allowed() {
         for (from, to, place, words) in [
             ("title", "titel", "1:1", "expected one of `title`"),
@@ -246,6 +263,7 @@ diagram = { over = "D", range = [-1, 0.1], q_max = [0, 2] }
             ("D = -0.4", "D = \"a\"", "5:16", "expected f64"),
             ("[-3, 3]", "[3, -3]", "7:15", "the second larger"),
             ("over = \"D\"", "over = \"q0\"", "8:20", "D, D2, D3 and r are allowed"),
+            ("heights", "ordinate = \"size\", heights", "8:55", "expected one of `q_max`, `q_min`"),
             ("\"trajectory\"", "\"tail\"", "6:11", "expected one of `trajectory`"),
             ("layers", "until = -1\nlayers", "6:9", "until = -1.0 is outside its range 0.0 .."),
             ("layers", "steps = { r = 0 }\nlayers", "6:15", "must be positive"),

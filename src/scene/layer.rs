@@ -14,7 +14,7 @@ pub enum Pane {
     Parameters,
     /// The phase plane, q to the right and v upwards.
     Phase,
-    /// The bifurcation diagram: `q_max` of the cycles over a parameter.
+    /// The bifurcation diagram: a property of the cycles over a parameter.
     Diagram,
 }
 
@@ -37,6 +37,8 @@ pub enum Layer {
     Field,
     /// The circle of equation (24).
     Lyapunov,
+    /// The borders between the bands of capture.
+    Bands,
     /// Computed cycles along the diagram's parameter.
     Branch,
     /// First-order harmonic amplitudes.
@@ -63,7 +65,7 @@ pub struct LayerSpec {
 }
 
 /// Every layer, in the order in which they are listed.
-pub const LAYERS: [LayerSpec; 10] = [
+pub const LAYERS: [LayerSpec; 11] = [
     LayerSpec {
         layer: Layer::Trajectory,
         name: "trajectory",
@@ -105,6 +107,13 @@ pub const LAYERS: [LayerSpec; 10] = [
         pane: Pane::Phase,
         meaning: "the circle in which a Lyapunov function proves capture",
         needs: None,
+    },
+    LayerSpec {
+        layer: Layer::Bands,
+        name: "bands",
+        pane: Pane::Phase,
+        meaning: "bands of capture: across a border, one half swing more",
+        needs: Some(Slot::Capture),
     },
     LayerSpec {
         layer: Layer::Branch,

@@ -5,6 +5,7 @@ pub mod answer;
 pub mod file;
 pub mod layer;
 pub mod library;
+pub mod ordinate;
 pub mod request;
 #[expect(clippy::module_inception, reason = "the scene itself, beside what belongs to it")]
 pub mod scene;
@@ -14,6 +15,7 @@ pub use answer::{Answer, Answered};
 pub use file::SceneError;
 pub use layer::{LAYERS, Layer, LayerSpec, PANES, Pane};
 pub use library::{NoScene, find, library, plain};
+pub use ordinate::{ABSCISSAE, ORDINATES, Ordinate};
 pub use request::{Request, Slot};
 pub use scene::Scene;
 pub use window::{Point, Span, Window};

@@ -13,6 +13,15 @@ pub enum Request {
         /// The parameters.
         parameters: Parameters,
     },
+    /// The borders of the bands of capture.
+    Capture {
+        /// The parameters.
+        parameters: Parameters,
+        /// Clearance up to which borders are followed.
+        reach: f64,
+        /// Bands at most.
+        most: usize,
+    },
     /// The cycles along a parameter.
     Branch {
         /// The parameters; the one that varies is set to 0 so that stepping it changes nothing here.
@@ -33,6 +42,8 @@ pub enum Slot {
     Trajectory,
     /// Cycles and basin edge.
     Cycles,
+    /// The bands of capture.
+    Capture,
     /// The diagram.
     Branch,
 }
@@ -44,6 +55,7 @@ impl Slot {
         match self {
             Slot::Trajectory => "trajectory",
             Slot::Cycles => "cycles",
+            Slot::Capture => "bands",
             Slot::Branch => "branch",
         }
     }
@@ -56,6 +68,7 @@ impl Request {
         match self {
             Request::Trajectory(_) => Slot::Trajectory,
             Request::Cycles { .. } => Slot::Cycles,
+            Request::Capture { .. } => Slot::Capture,
             Request::Branch { .. } => Slot::Branch,
         }
     }

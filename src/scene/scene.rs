@@ -7,6 +7,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::layer::Layer;
+use super::ordinate::Ordinate;
 use super::window::Window;
 use crate::flow::Problem;
 use crate::oscillator::Symbol;
@@ -39,10 +40,12 @@ pub struct Scene {
     pub layers: BTreeSet<Layer>,
     /// Window of the phase plane: q and v.
     pub phase: Window,
-    /// Window of the diagram: the abscissa and `q_max`.
+    /// Window of the diagram: the abscissa and the ordinate.
     pub diagram: Window,
     /// The parameter along the diagram's horizontal axis.
     pub abscissa: Symbol,
+    /// The property of the cycles along its vertical axis.
+    pub ordinate: Ordinate,
 }
 
 impl Scene {

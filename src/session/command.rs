@@ -5,12 +5,12 @@
 use super::key::Key;
 use super::keymap::Context::{
     self, Always, Diagram, Entry, Everywhere, Help, Layers, Lists, Offer, Parameters, Phase, Plots,
-    Scenes, Search,
+    Scenes, Search, Walk,
 };
 use super::message::Effect;
 use super::overlay::Entry as Line;
 use super::state::Session;
-use super::update::{entry, general, lists, parameters, plots, starts};
+use super::update::{axes, entry, general, lists, parameters, plots, starts, walk};
 use crate::scene::Layer;
 
 /// What a command does to a session; the key is the one that was pressed for it.
@@ -83,6 +83,33 @@ pub const COMMANDS: &[Command] = &[
     row("jump-here", &[(Diagram, &["<enter>"])], "jump here",
         "Give the diagram's parameter the value under the cursor", |s, _| plots::jump_here(s)),
 
+    row("next-abscissa", &[(Diagram, &["X"])], "axes",
+        "Draw the diagram over the next parameter: D, D2, D3, r", |s, _| axes::next_abscissa(s)),
+    row("next-ordinate", &[(Diagram, &["Y"]), (Walk, &["Y"])], "axes",
+        "Show the next property of the cycles: q_max, q_min, v_max and so on", |s, _| axes::next_ordinate(s)),
+    row("walk", &[(Diagram, &["w"])], "walk",
+        "Take hold of the branch, at today's value or the cursor", |s, _| walk::take_hold(s)),
+    row("walk-back", &[(Walk, &["<left>", "h", "<down>", "j"])], "walk",
+        "Go back to the last computed point of the branch", |s, _| walk::go(s, -1)),
+    row("walk-on", &[(Walk, &["<right>", "l", "<up>", "k"])], "walk",
+        "Go on to the next computed point of the branch", |s, _| walk::go(s, 1)),
+    row("walk-far-back", &[(Walk, &["<S-left>", "H", "<C-left>", "<A-left>", "<pgdn>"])], "",
+        "Go back ten points of the branch", |s, _| walk::go(s, -walk::FAR)),
+    row("walk-far-on", &[(Walk, &["<S-right>", "L", "<C-right>", "<A-right>", "<pgup>"])], "",
+        "Go on ten points of the branch", |s, _| walk::go(s, walk::FAR)),
+    row("walk-to-next", &[(Walk, &["<tab>"])], "special",
+        "Go to the next special point or end of a branch", |s, _| walk::go_to_landmark(s, true)),
+    row("walk-to-previous", &[(Walk, &["<S-tab>"])], "",
+        "Go to the previous special point or end of a branch", |s, _| walk::go_to_landmark(s, false)),
+    row("walk-to-first", &[(Walk, &["<home>"])], "",
+        "Go to the first point of this branch", |s, _| walk::go(s, isize::MIN)),
+    row("walk-to-last", &[(Walk, &["<end>"])], "",
+        "Go to the last point of this branch", |s, _| walk::go(s, isize::MAX)),
+    row("walk-take", &[(Walk, &["<enter>"])], "take",
+        "Take parameter and cycle of the point into the phase plane", |s, _| walk::take(s)),
+    row("walk-let-go", &[(Walk, &["<esc>", "w"])], "let go",
+        "Let go of the branch", |s, _| walk::let_go(s)),
+
     row("cursor-left", &[(Plots, &["<left>", "h"])], "cursor",
         "Move the cursor left", |s, _| plots::move_cursor(s, -1, 0)),
     row("cursor-right", &[(Plots, &["<right>", "l"])], "cursor",
@@ -99,11 +126,11 @@ pub const COMMANDS: &[Command] = &[
         "Move the cursor far up", |s, _| plots::move_cursor(s, 0, plots::FAR)),
     row("cursor-far-down", &[(Plots, &["<C-down>", "<A-down>"])], "",
         "Move the cursor far down", |s, _| plots::move_cursor(s, 0, -plots::FAR)),
-    row("zoom-in", &[(Plots, &["+", "="])], "zoom",
+    row("zoom-in", &[(Plots, &["+", "="]), (Walk, &["+", "="])], "zoom",
         "Zoom in, about the cursor if there is one", |s, _| plots::zoom(s, true)),
-    row("zoom-out", &[(Plots, &["-"])], "zoom",
+    row("zoom-out", &[(Plots, &["-"]), (Walk, &["-"])], "zoom",
         "Zoom out, about the cursor if there is one", |s, _| plots::zoom(s, false)),
-    row("fit", &[(Plots, &["0"])], "fit",
+    row("fit", &[(Plots, &["0"]), (Walk, &["0"])], "fit",
         "Fit the window to what is on show", |s, _| plots::fit(s)),
     row("home", &[(Plots, &["<home>"])], "",
         "Go back to the scene's window", |s, _| plots::home(s)),
@@ -122,13 +149,13 @@ pub const COMMANDS: &[Command] = &[
         "Give the focus to the previous pane", |s, _| general::focus(s, -1)),
     row("enlarge", &[(Everywhere, &["z"])], "",
         "Give one plot the place of both, or share it again", |s, _| general::enlarge(s)),
-    row("help", &[(Everywhere, &["?", "<f1>"])], "help",
+    row("help", &[(Everywhere, &["?", "<f1>"]), (Walk, &["?", "<f1>"])], "help",
         "List all keys", |s, _| lists::open_help(s)),
     row("scenes", &[(Everywhere, &["s"])], "scenes",
         "Pick a scene", |s, _| lists::open_scenes(s)),
     row("layers", &[(Everywhere, &["v"])], "layers",
         "List the layers, to switch them on and off", |s, _| lists::open_layers(s)),
-    row("undo", &[(Everywhere, &["u"])], "undo",
+    row("undo", &[(Everywhere, &["u"]), (Walk, &["u"])], "undo",
         "Undo the last change of a parameter or scene", |s, _| general::undo(s)),
     row("redo", &[(Everywhere, &["<C-r>", "U"])], "",
         "Redo what was undone", |s, _| general::redo(s)),
@@ -159,11 +186,13 @@ pub const COMMANDS: &[Command] = &[
         "Show or hide the directions of the flow", |s, _| general::toggle(s, Layer::Field)),
     row("toggle-lyapunov", &[(Everywhere, &["y"])], "",
         "Show or hide the Lyapunov circle", |s, _| general::toggle(s, Layer::Lyapunov)),
+    row("toggle-bands", &[(Everywhere, &["f"])], "",
+        "Show or hide the bands of capture: half swings until rest", |s, _| general::toggle(s, Layer::Bands)),
     row("toggle-branch", &[(Everywhere, &["n"])], "",
         "Show or hide the computed cycles in the diagram", |s, _| general::toggle(s, Layer::Branch)),
     row("toggle-harmonic", &[(Everywhere, &["a"])], "",
         "Show or hide the first-order harmonic amplitudes", |s, _| general::toggle(s, Layer::Harmonic)),
-    row("toggle-asymptotes", &[(Everywhere, &["w"])], "",
+    row("toggle-asymptotes", &[(Everywhere, &["S"])], "",
         "Show or hide the asymptotes A1 and A2", |s, _| general::toggle(s, Layer::Asymptotes)),
     row("toggle-special", &[(Everywhere, &["p"])], "",
         "Show or hide the labels of special points", |s, _| general::toggle(s, Layer::Special)),
@@ -180,7 +209,7 @@ pub const COMMANDS: &[Command] = &[
         "Close what is open", |s, _| general::back(s)),
     row("close-again", &[(Help, &["?", "<f1>"]), (Scenes, &["s"]), (Layers, &["v"])], "",
         "Close with the key that opened", |s, _| general::back(s)),
-    row("quit", &[(Everywhere, &["q"]), (Always, &["<C-c>"])], "quit",
+    row("quit", &[(Everywhere, &["q"]), (Walk, &["q"]), (Always, &["<C-c>"])], "quit",
         "Leave", |s, _| general::quit(s)),
 
     row("list-up", &[(Lists, &["<up>", "k"]), (Search, &["<up>"])], "move",
@@ -316,7 +345,10 @@ mod tests {
                 assert_eq!(name, "step-size-smaller");
             }
             if key.to_string() == "<esc>" {
-                assert!(["back", "drop-cursor", "search-drop"].contains(&name), "{name}");
+                assert!(
+                    ["back", "drop-cursor", "search-drop", "walk-let-go"].contains(&name),
+                    "{name}"
+                );
             }
         }
     }

@@ -10,7 +10,8 @@ const ROOM: f64 = 1.1;
 /// How far a motion that escapes is followed, in extents of all else.
 const ESCAPE: f64 = 2.0;
 
-/// The part of a branch that must fit: where it goes to infinity, its end need not.
+/// The part of a branch that must fit, from above and from below: where it goes to infinity, its end
+/// need not.
 const QUANTILE: f64 = 0.9;
 
 /// Fits the plots that wait for it, once their answers are there.
@@ -80,26 +81,32 @@ fn phase(session: &Session) -> Option<Window> {
     Some(Window { x: x.scaled(x.center(), ROOM), y: y.scaled(y.center(), ROOM) })
 }
 
-/// The same values of the parameter, and the amplitudes that its branch has there.
+/// The same values of the parameter, and the heights that its branch has there.
 fn diagram(session: &Session) -> Option<Window> {
     let x = session.diagram.window.x;
-    let found = session.branch()?;
+    let (found, ordinate) = (session.branch()?, session.ordinate);
     let points = found.pieces.iter().flatten().filter(|point| x.contains(point.value));
-    let mut amplitudes: Vec<f64> =
-        points.map(|point| point.cycle.q_max).filter(|value| value.is_finite()).collect();
-    amplitudes.sort_by(f64::total_cmp);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        clippy::cast_precision_loss,
-        reason = "an index into a few hundred points"
-    )]
-    let last = (amplitudes.len() as f64 * QUANTILE) as usize;
+    let mut heights: Vec<f64> = points.map(|point| ordinate.of(&point.cycle)).collect();
+    heights.retain(|height| height.is_finite());
+    heights.sort_by(f64::total_cmp);
     let special = found.special.iter().filter(|point| x.contains(point.value));
-    let largest = special
-        .filter_map(|point| point.q_max)
-        .chain(amplitudes.get(last).copied())
-        .filter(|value| value.is_finite())
-        .fold(0.0, f64::max);
-    Span::new(0.0, ROOM * largest).ok().map(|y| Window { x, y })
+    let special = special.filter_map(|point| point.cycle.map(|cycle| ordinate.of(&cycle)));
+    let zero = ordinate.spec().from_zero.then_some(0.0);
+    let ends = [1.0 - QUANTILE, QUANTILE].map(|part| quantile(&heights, part));
+    let fitting = special.chain(zero).chain(ends.into_iter().flatten());
+    let span = Span::covering(fitting)?;
+    // A window that begins or ends at zero has room on the other side only.
+    let about = if span.contains(0.0) && zero.is_some() { 0.0 } else { span.center() };
+    Some(Window { x, y: span.scaled(about, ROOM) })
+}
+
+/// The value that this part of some sorted values does not exceed.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_precision_loss,
+    reason = "an index into a few hundred values"
+)]
+fn quantile(sorted: &[f64], part: f64) -> Option<f64> {
+    sorted.get((sorted.len() as f64 * part) as usize).copied()
 }

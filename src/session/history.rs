@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::state::Steps;
 use crate::flow::Problem;
 use crate::oscillator::Symbol;
-use crate::scene::{Layer, Scene, Window};
+use crate::scene::{Layer, Ordinate, Scene, Window};
 
 /// The state before a change, as far as the change reached.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,6 +34,8 @@ pub struct Snapshot {
     pub diagram: Window,
     /// Parameter along the diagram's horizontal axis.
     pub abscissa: Symbol,
+    /// Property of the cycles along its vertical axis.
+    pub ordinate: Ordinate,
 }
 
 /// The past and, after an undo, the future.

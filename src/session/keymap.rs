@@ -20,6 +20,8 @@ pub enum Context {
     Phase,
     /// The focus is on the diagram.
     Diagram,
+    /// A point of the branch is held.
+    Walk,
     /// The focus is on a plot.
     Plots,
     /// No overlay is open.
@@ -50,6 +52,7 @@ impl Context {
             Context::Parameters => "Parameters",
             Context::Phase => "Phase plane",
             Context::Diagram => "Bifurcation diagram",
+            Context::Walk => "Walking along the branch",
             Context::Plots => "Both plots",
             Context::Everywhere => "Everywhere",
             Context::Help => "In this help",
@@ -71,10 +74,11 @@ impl Context {
 }
 
 /// Every set of contexts that can hold together, the most specific first.
-pub const CHAINS: [&[Context]; 9] = [
+pub const CHAINS: [&[Context]; 10] = [
     &[Context::Parameters, Context::Everywhere, Context::Always],
     &[Context::Phase, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Diagram, Context::Plots, Context::Everywhere, Context::Always],
+    &[Context::Walk, Context::Always],
     &[Context::Help, Context::Lists, Context::Always],
     &[Context::Scenes, Context::Lists, Context::Always],
     &[Context::Layers, Context::Lists, Context::Always],
@@ -88,6 +92,7 @@ impl Session {
     #[must_use]
     pub fn contexts(&self) -> &'static [Context] {
         let first = match &self.overlay {
+            None if self.held.is_some() => Context::Walk,
             None => match self.focus {
                 Pane::Parameters => Context::Parameters,
                 Pane::Phase => Context::Phase,

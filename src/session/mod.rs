@@ -14,6 +14,7 @@ pub mod step;
 #[cfg(test)]
 mod tests;
 pub mod update;
+pub mod walk;
 
 pub use command::{COMMANDS, Command};
 pub use key::{Code, Key};
@@ -22,3 +23,4 @@ pub use message::{Effect, Msg};
 pub use overlay::{Entry, List, Overlay};
 pub use state::{Framing, Notice, Plot, Price, ROWS, Row, Session, Size, Steps};
 pub use update::update;
+pub use walk::Stop;

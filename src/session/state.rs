@@ -12,11 +12,12 @@ use super::keymap::Keymap;
 use super::overlay::Overlay;
 use super::settings::Look;
 use super::step::StepSize;
+use super::walk::Stop;
 use crate::flow::{Cost, Problem, Trajectory};
 use crate::oscillator::Symbol;
-use crate::scene::answer::Failure;
+use crate::scene::answer::{Borders, Failure};
 use crate::scene::{
-    Answer, Answered, Layer, PANES, Pane, Point, Request, Scene, Slot, Span, Window,
+    Answer, Answered, Layer, Ordinate, PANES, Pane, Point, Request, Scene, Slot, Span, Window,
 };
 use crate::study::{Branch, Cycles};
 
@@ -107,6 +108,9 @@ impl Steps {
         }
     }
 }
+
+/// Bands of capture that are drawn at most: more would fill the plane.
+const MOST_BANDS: usize = 24;
 
 /// First step of the end time: somewhat more than one and a half periods.
 const UNTIL_STEP: f64 = 10.0;
@@ -217,10 +221,14 @@ pub struct Session {
     pub enlarged: bool,
     /// The phase plane: x is q, y is v.
     pub phase: Plot,
-    /// The diagram: x is the value of [`Session::abscissa`], y is `q_max`.
+    /// The diagram: x is the value of [`Session::abscissa`], y is the [`Session::ordinate`].
     pub diagram: Plot,
     /// The parameter along the diagram's horizontal axis: D, D2, D3 or r.
     pub abscissa: Symbol,
+    /// The property of the cycles along its vertical axis.
+    pub ordinate: Ordinate,
+    /// The point of the branch that is held, while the user walks along it.
+    pub held: Option<Stop>,
     /// The layers that are on.
     pub layers: BTreeSet<Layer>,
     /// What lies over the panes and gets the keys.
@@ -260,6 +268,8 @@ impl Session {
             phase: Plot::new(scene.phase, scene.phase),
             diagram: Plot::new(scene.diagram, scene.diagram),
             abscissa: scene.abscissa,
+            ordinate: scene.ordinate,
+            held: None,
             layers: scene.layers.clone(),
             overlay: None,
             history: History::default(),
@@ -306,6 +316,14 @@ impl Session {
         self.layers.contains(&layer) && self.panes().contains(&layer.spec().pane)
     }
 
+    /// Why a layer that is on shows nothing, where that lies in the axes of the diagram.
+    #[must_use]
+    pub fn not_drawn(&self, layer: Layer) -> Option<&'static str> {
+        let harmonic = matches!(layer, Layer::Harmonic | Layer::Asymptotes);
+        (harmonic && self.ordinate.spec().harmonic.is_none())
+            .then_some("not drawn: the harmonic answer has no multiplier")
+    }
+
     /// The questions that what is on show needs answered, the most urgent first; nothing for a layer
     /// that is off.
     #[must_use]
@@ -321,13 +339,18 @@ impl Session {
 
     /// The question of a kind, with exactly the inputs that its answer depends on.
     ///
-    /// `None` where the window of the diagram lies outside the range of its parameter.
+    /// `None` where there is nothing to ask: no bands without friction, no branch where the window of the
+    /// diagram lies outside the range of its parameter.
     #[must_use]
     pub fn request(&self, slot: Slot) -> Option<Request> {
         let Problem { parameters, tolerance, .. } = self.problem;
         Some(match slot {
             Slot::Trajectory => Request::Trajectory(self.problem),
             Slot::Cycles => Request::Cycles { parameters },
+            Slot::Capture if parameters.r == 0.0 => return None,
+            Slot::Capture => {
+                Request::Capture { parameters, reach: self.capture_reach(), most: MOST_BANDS }
+            }
             Slot::Branch => {
                 let mut others = parameters;
                 self.abscissa.set(&mut others, &mut { self.problem.initial }, 0.0);
@@ -340,6 +363,14 @@ impl Session {
                 }
             }
         })
+    }
+
+    /// How far out bands of capture can be seen, rounded up to a power of two: small changes of the
+    /// window ask nothing new.
+    fn capture_reach(&self) -> f64 {
+        let Window { x, y } = self.phase.window;
+        let farthest = |span: Span| span.from().abs().max(span.to().abs());
+        farthest(x).hypot(farthest(y)).log2().ceil().exp2()
     }
 
     /// The part of the diagram's horizontal axis that its parameter can reach.
@@ -394,11 +425,20 @@ impl Session {
         }
     }
 
-    /// The last branch computed, stale or not.
+    /// The last borders of capture bands computed, stale or not.
+    #[must_use]
+    pub fn borders(&self) -> Option<&Borders> {
+        match self.answers.get(&Slot::Capture).map(|held| &held.result) {
+            Some(Ok(Answer::Capture(found))) => Some(found),
+            _ => None,
+        }
+    }
+
+    /// The last branch computed over the parameter of the diagram, stale or not.
     #[must_use]
     pub fn branch(&self) -> Option<&Branch> {
         match self.answers.get(&Slot::Branch).map(|held| &held.result) {
-            Some(Ok(Answer::Branch(found))) => Some(found),
+            Some(Ok(Answer::Branch(found))) if found.parameter == self.abscissa => Some(found),
             _ => None,
         }
     }

@@ -48,6 +48,17 @@ pub struct Special {
     pub value: f64,
     /// Right turning point of the cycle there; `None` where it is infinite.
     pub q_max: Option<f64>,
+    /// The cycle there, shrunk to a point at the Hopf point; `None` where it is infinite.
+    #[serde(skip)]
+    pub cycle: Option<Cycle>,
+}
+
+impl Special {
+    /// A special point at which this cycle lives; `None` where it is infinite.
+    #[must_use]
+    pub fn new(kind: SpecialKind, value: f64, cycle: Option<Cycle>) -> Self {
+        Special { kind, value, q_max: cycle.map(|cycle| cycle.q_max), cycle }
+    }
 }
 
 /// The cycles along a parameter.
@@ -112,6 +123,21 @@ pub fn branch(
 
 /// A branch over r begins at this part of the largest r.
 const LEAST_FRICTION: f64 = 1e-6;
+
+/// The cycle at the Hopf point: the steady state, about to swing at the undamped frequency.
+const VANISHING: Cycle = Cycle {
+    stable: false,
+    q_min: 0.0,
+    q_max: 0.0,
+    v_min: 0.0,
+    v_max: 0.0,
+    period: std::f64::consts::TAU,
+    multiplier: Some(1.0),
+    log_multiplier: 0.0,
+    clearance: 0.0,
+    log_clearance: f64::NEG_INFINITY,
+    error: 0.0,
+};
 
 /// A branch in the making.
 struct Tracer<'a> {
@@ -222,9 +248,8 @@ impl Tracer<'_> {
             if (one.log_multiplier > 0.0) != (other.log_multiplier > 0.0)
                 && let Some(fold) = self.curve.fold_between(one, other)?
             {
-                let q_max = Some(self.describe(&fold).q_max);
-                let special = Special { kind: SpecialKind::Fold, value: fold.p, q_max };
-                self.found.special.push(special);
+                let cycle = Some(self.describe(&fold));
+                self.found.special.push(Special::new(SpecialKind::Fold, fold.p, cycle));
             }
         }
         let spread = self.curve.spread(points, self.count)?;
@@ -241,8 +266,7 @@ impl Tracer<'_> {
     /// Notes the Hopf point: without friction the steady state changes its stability at `D = 0`.
     fn hopf(&mut self, r: f64, from: f64, to: f64) {
         if self.parameter == Symbol::D && r == 0.0 && (from..=to).contains(&0.0) {
-            let hopf = Special { kind: SpecialKind::Hopf, value: 0.0, q_max: Some(0.0) };
-            self.found.special.push(hopf);
+            self.found.special.push(Special::new(SpecialKind::Hopf, 0.0, Some(VANISHING)));
         }
     }
 
@@ -252,16 +276,15 @@ impl Tracer<'_> {
         self.hopf(parameters.r, from, to);
         if self.parameter == Symbol::D && parameters.r > 0.0 && (from..=to).contains(&0.0) {
             for seed in self.seeds(0.0)? {
-                let q_max = Some(self.describe(&seed).q_max);
-                let kind = SpecialKind::ZeroCrossing;
-                self.found.special.push(Special { kind, value: 0.0, q_max });
+                let cycle = Some(self.describe(&seed));
+                self.found.special.push(Special::new(SpecialKind::ZeroCrossing, 0.0, cycle));
             }
         }
         if self.parameter == Symbol::D
             && let Some(value) = escape_point(&parameters, self.curve.limits())?
             && (from..=to).contains(&value)
         {
-            self.found.special.push(Special { kind: SpecialKind::Escape, value, q_max: None });
+            self.found.special.push(Special::new(SpecialKind::Escape, value, None));
         }
         Ok(())
     }

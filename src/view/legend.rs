@@ -21,13 +21,14 @@ enum Sample {
 }
 
 /// What there is to explain: the layer that shows it, its role, how it is drawn, and what it is.
-const ENTRIES: [(Layer, Role, Sample, &str); 10] = [
+const ENTRIES: [(Layer, Role, Sample, &str); 11] = [
     (Layer::Trajectory, Role::Trajectory, Sample::Line(Dash::Solid), "motion"),
     (Layer::Sticking, Role::Sticking, Sample::Bar, "sticking set, at rest"),
     (Layer::Cycles, Role::Stable, Sample::Line(Dash::Solid), "stable cycle"),
     (Layer::Cycles, Role::Unstable, Sample::Line(Dash::Dashed), "unstable cycle"),
     (Layer::Basin, Role::Basin, Sample::Shade, "comes to rest"),
     (Layer::Lyapunov, Role::Lyapunov, Sample::Line(Dash::Dotted), "Lyapunov circle"),
+    (Layer::Bands, Role::Bands, Sample::Line(Dash::Dotted), "one half swing more"),
     (Layer::Field, Role::Field, Sample::Arrow, "direction of flow"),
     (Layer::Harmonic, Role::Harmonic, Sample::Line(Dash::Dotted), "first harmonic"),
     (Layer::Asymptotes, Role::Asymptote, Sample::Line(Dash::Sparse), "its asymptotes"),
@@ -36,7 +37,8 @@ const ENTRIES: [(Layer, Role, Sample, &str); 10] = [
 
 /// Draws the legend of the layers that are on at the bottom of `area`, if it fits there.
 pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
-    let entries = ENTRIES.iter().filter(|(layer, ..)| session.shows(*layer));
+    let drawn = |layer: Layer| session.shows(layer) && session.not_drawn(layer).is_none();
+    let entries = ENTRIES.iter().filter(|(layer, ..)| drawn(*layer));
     let rows = u16::try_from(entries.clone().count()).unwrap_or(u16::MAX);
     if area.height < rows || area.width < SAMPLE + 2 {
         return;

@@ -201,7 +201,10 @@ fn layers(session: &Session, list: &List, look: &Look) -> Content {
         let on = if session.layers.contains(&spec.layer) { "[x]" } else { "[ ]" };
         rows.push(Entry::Row(vec![
             Span::styled(format!("{on} {:<12}", spec.name), look.style(Role::Key)),
-            Span::styled(spec.meaning, look.style(Role::Text)),
+            Span::styled(
+                session.not_drawn(spec.layer).unwrap_or(spec.meaning),
+                look.style(Role::Text),
+            ),
         ]));
     }
     Content { title: "layers", rows, about: Vec::new() }

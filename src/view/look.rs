@@ -38,6 +38,8 @@ pub enum Role {
     Field,
     /// Shading of the basin of attraction.
     Basin,
+    /// Borders of the bands of capture.
+    Bands,
     /// Circle of the Lyapunov estimate.
     Lyapunov,
     /// The segment of equilibria.
@@ -61,7 +63,7 @@ pub enum Role {
 }
 
 /// Name in theme files, and glyph in a plot without dots, of every role in order.
-const ROLES: [(Role, &str, char); 22] = [
+const ROLES: [(Role, &str, char); 23] = [
     (Role::Text, "text", '*'),
     (Role::Quiet, "quiet", '.'),
     (Role::Title, "title", '*'),
@@ -74,6 +76,7 @@ const ROLES: [(Role, &str, char); 22] = [
     (Role::Axis, "axis", '.'),
     (Role::Field, "field", '.'),
     (Role::Basin, "basin", '.'),
+    (Role::Bands, "bands", '-'),
     (Role::Lyapunov, "lyapunov", ':'),
     (Role::Sticking, "sticking", '='),
     (Role::Trajectory, "trajectory", '*'),

@@ -19,6 +19,7 @@ pub mod phase_plane;
 pub mod plot;
 pub mod status;
 pub mod ticks;
+mod walk;
 
 #[cfg(test)]
 mod tests;

@@ -1,7 +1,7 @@
 //! The phase plane: where motions go, where they rest, and what separates those that do.
 //!
-//! Layers from back to front: directions of the flow, shading of the basin, the line `v = 0`, the
-//! Lyapunov circle, the motion, cycles, the sticking set, markers, cursor. Formulas show the present
+//! Layers from back to front: directions of the flow, shading of the basin, borders of the capture bands,
+//! the line `v = 0`, the Lyapunov circle, the motion, cycles, the sticking set, markers, cursor. Formulas show the present
 //! parameters; what had to be computed shows the last answer, and the title says if it is old.
 
 use ratatui::buffer::Buffer;
@@ -33,6 +33,11 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     }
     if shows(Layer::Basin) {
         basin(&mut plot, session);
+    }
+    if shows(Layer::Bands) {
+        for border in session.borders().iter().flat_map(|found| &found.curves) {
+            plot.curve(border.iter().map(point), Role::Bands, Dash::Dotted);
+        }
     }
     plot.function(Role::Axis, Dash::Sparse, |_| Some(0.0));
     if shows(Layer::Lyapunov) {

@@ -8,6 +8,7 @@ use super::keys;
 use super::look::{Look, Role};
 use super::number::{count, duration, significant};
 use super::pane;
+use super::walk;
 use crate::flow::{Outcome, Trajectory};
 use crate::scene::{Layer, Slot};
 use crate::session::Session;
@@ -21,9 +22,14 @@ pub fn title(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
 
 /// Draws the status lines: the outcome first, then method, cost and error.
 pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
-    let (text, role) = outcome(session);
+    let (text, role) = if let Some(held) = walk::reading(session, look, area.width) {
+        (held, Role::Cursor)
+    } else {
+        let (sentence, role) = outcome(session);
+        (format!("{}{sentence}", symbol(session, look)), role)
+    };
     let busy = if session.is_busy() { "computing " } else { "" };
-    let text = format!(" {}{text}", symbol(session, look));
+    let text = format!(" {text}");
     let text = pane::cut(&text, usize::from(area.width), look);
     let left = Span::styled(text, look.style(role));
     pane::line(area, 0, left, Span::styled(busy, look.style(Role::Warning)), buffer);
@@ -137,6 +143,7 @@ fn price(session: &Session, look: &Look, words: &Words) -> String {
     let name = |slot| match slot {
         Slot::Trajectory => "motion",
         Slot::Cycles => "cycles",
+        Slot::Capture => "bands",
         Slot::Branch => "branch",
     };
     let names: Vec<&str> = price.recomputed.iter().map(|part| name(part.slot)).collect();

@@ -13,7 +13,7 @@ use super::look::Look;
 use crate::export::screen::text;
 use crate::flow::{Cost, Crossing, Method, Outcome, Problem, Reason, Sample, Trajectory};
 use crate::oscillator::{Ledger, Parameters, State, Symbol};
-use crate::scene::answer::Failure;
+use crate::scene::answer::{Borders, Failure};
 use crate::scene::library::{find, library};
 use crate::scene::{Answer, Answered, LAYERS, Layer, Point, Request, Scene, Span, Window};
 use crate::session::settings::{self, Colors, GLYPHS, Glyphs, THEMES, Theme};
@@ -63,6 +63,10 @@ fn by_hand(request: &Request) -> Answer {
                 picture: Some(picture(curves[0].clone(), curves)),
             })
         }
+        Request::Capture { .. } => Answer::Capture(Borders {
+            curves: vec![circle(0.2), circle(0.35)],
+            cost: Cost { evaluations: 800, steps: 40, rejected: 0 },
+        }),
         Request::Branch { parameter, .. } => Answer::Branch(folded(*parameter)),
     }
 }
@@ -123,8 +127,8 @@ fn folded(parameter: Symbol) -> Branch {
             cycle: cycle(q_max, q_max > 0.55),
         }
     };
-    let fold = Special { kind: SpecialKind::Fold, value: -0.136_2, q_max: Some(0.55) };
-    let escape = Special { kind: SpecialKind::Escape, value: 0.05, q_max: None };
+    let fold = Special::new(SpecialKind::Fold, -0.136_2, Some(cycle(0.55, false)));
+    let escape = Special::new(SpecialKind::Escape, 0.05, None);
     Branch {
         parameter,
         pieces: vec![(0..120).map(point).collect()],
@@ -193,6 +197,8 @@ fn screens_look_as_they_were_approved() {
         ("narrow", (60, 16), "<tab>", letters()),
         ("cursor", (100, 30), "<tab> <up> <up> <right>", braille()),
         ("diagram", (80, 24), "<tab> <tab> z <right>", braille()),
+        ("walking", (80, 24), "<tab> <tab> w <tab>", braille()),
+        ("multiplier", (100, 30), "<tab> <tab> Y Y Y Y Y Y", braille()),
         ("unfolded", (80, 24), "x <down>", braille()),
         ("card", (40, 9), "", braille()),
     ];
@@ -403,8 +409,10 @@ proptest! {
                     found.pieces = vec![curve.iter().map(|(value, q_max)| {
                         BranchPoint { value: *value, cycle: cycle(*q_max, *q_max > 0.0) }
                     }).collect()];
-                    found.special[0].q_max = Some(value);
+                    found.special[0].cycle = Some(cycle(value, true));
+                    session.held = Some((&found.special[0]).into());
                 }
+                Ok(Answer::Capture(found)) => found.curves = vec![states.clone()],
                 Err(_) => {}
             }
         }

@@ -1,11 +1,13 @@
 //! What keys do to a session: (state, keys, state), the keys read by the product's own parser and the
 //! questions answered by hand.
 
+mod axes;
 mod entries;
 mod plots;
 mod requests;
 mod strange;
 mod undo;
+mod walk;
 
 use std::sync::Arc;
 
@@ -13,6 +15,7 @@ use super::replay::{Action, Player, parse};
 use super::{Effect, Msg, Session, Size, update};
 use crate::flow::{Cost, Method, Outcome, Problem, Sample, Trajectory};
 use crate::oscillator::State;
+use crate::scene::answer::Borders;
 use crate::scene::{Answer, Answered, Request, Slot, find};
 use crate::study::{Branch, BranchPoint, Cycle, Cycles, Edge, Special, SpecialKind};
 
@@ -122,12 +125,14 @@ fn answered(request: Request) -> Answered {
             picture: None,
             cost,
         }),
+        Request::Capture { .. } => Answer::Capture(Borders { curves: Vec::new(), cost }),
         Request::Branch { parameter, range: (from, to), parameters, .. } => {
+            let fold = Cycle { q_max: 1.5, log_multiplier: 0.0, ..cycle(false, parameters.r) };
             let point = |stable| BranchPoint { value: *from, cycle: cycle(stable, parameters.r) };
             Answer::Branch(Branch {
                 parameter: *parameter,
                 pieces: vec![vec![point(false), point(true)]],
-                special: vec![Special { kind: SpecialKind::Fold, value: *to, q_max: Some(1.5) }],
+                special: vec![Special::new(SpecialKind::Fold, *to, Some(fold))],
                 cost,
             })
         }

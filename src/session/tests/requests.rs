@@ -32,6 +32,12 @@ fn a_key_recomputes_exactly_what_depends_on_it() {
         ("<tab><right><enter>", MOTION),
         ("<tab><tab><right><enter>", POINT),
         ("i", MOTION),
+        ("<tab><tab>X", BRANCH),          // another parameter, another branch
+        ("<tab><tab>Y Y Y Y Y Y Y", &[]), // another look at the same cycles
+        ("<tab><tab>w <left> <tab> <S-right> Y <esc>", &[]),
+        ("<tab><tab>w <right> <enter>", POINT),
+        ("f", &[Slot::Capture]),
+        ("f <tab>L K f f", &[Slot::Capture]), // as far as the next power of two
     ] {
         let mut desk = Desk::open("supercritical");
         let selecting = keys.trim_end_matches("<right>");
@@ -83,7 +89,9 @@ fn terms_that_a_scene_does_not_declare_are_zero_until_the_user_unfolds_them() {
     for request in desk.session.wants() {
         let parameters = match request {
             Request::Trajectory(problem) => problem.parameters,
-            Request::Cycles { parameters, .. } | Request::Branch { parameters, .. } => parameters,
+            Request::Cycles { parameters }
+            | Request::Capture { parameters, .. }
+            | Request::Branch { parameters, .. } => parameters,
         };
         assert!(parameters.is_piecewise_linear());
     }

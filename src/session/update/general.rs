@@ -74,6 +74,7 @@ fn snapshot(session: &Session) -> Snapshot {
         phase: session.phase.window,
         diagram: session.diagram.window,
         abscissa: session.abscissa,
+        ordinate: session.ordinate,
     }
 }
 
@@ -86,6 +87,7 @@ fn opening(scene: Arc<Scene>) -> Snapshot {
         phase: scene.phase,
         diagram: scene.diagram,
         abscissa: scene.abscissa,
+        ordinate: scene.ordinate,
         scene,
     }
 }
@@ -126,6 +128,8 @@ fn restore(session: &mut Session, snapshot: Snapshot) {
     session.phase = Plot::new(snapshot.phase, session.scene.phase);
     session.diagram = Plot::new(snapshot.diagram, session.scene.diagram);
     session.abscissa = snapshot.abscissa;
+    session.ordinate = snapshot.ordinate;
+    session.held = None;
 }
 
 /// Opens a scene, as one change that can be undone.

@@ -4,12 +4,14 @@
 //! every defect can be told as a keystroke file. The files beside this one hold what commands do, one
 //! concern each.
 
+pub mod axes;
 pub mod entry;
 pub mod general;
 pub mod lists;
 pub mod parameters;
 pub mod plots;
 pub mod starts;
+pub mod walk;
 
 use super::fit;
 use super::key::Key;
@@ -42,6 +44,7 @@ pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
     };
     keep_selection(session);
     fit::resolve(session);
+    walk::keep_hold(session);
     effects
 }
 

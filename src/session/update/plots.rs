@@ -123,7 +123,7 @@ pub fn fit(session: &mut Session) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Gives the plot in focus the scene's window.
+/// Gives the plot in focus the scene's window, and the diagram the scene's axes.
 pub fn home(session: &mut Session) -> Vec<Effect> {
     let (phase, diagram) = (session.scene.phase, session.scene.diagram);
     match session.focus {
@@ -132,6 +132,7 @@ pub fn home(session: &mut Session) -> Vec<Effect> {
             session.phase = Plot { cursor: session.phase.cursor, ..Plot::new(phase, phase) }
         }
         Pane::Diagram => {
+            (session.abscissa, session.ordinate) = (session.scene.abscissa, session.scene.ordinate);
             session.diagram =
                 Plot { cursor: session.diagram.cursor, ..Plot::new(diagram, diagram) };
         }

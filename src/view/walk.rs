@@ -1,0 +1,63 @@
+//! The point of the branch that is held, in numbers.
+
+use super::look::Look;
+use super::number::significant;
+use crate::session::{Session, Stop};
+use crate::study::{Cycle, SpecialKind};
+
+/// Significant digits: as many as fit, at most as many as distinguish special points from others.
+const DIGITS: [usize; 5] = [10, 8, 6, 5, 4];
+
+/// What is held, in a line of at most `width` columns if that is possible; `None` where nothing is.
+#[must_use]
+pub fn reading(session: &Session, look: &Look, width: u16) -> Option<String> {
+    let held = session.held?;
+    let name = session.abscissa.spec().name;
+    let line = |digits: &usize| sentence(name, &held, *digits, look.symbols().dot);
+    // The status line begins with a blank and a symbol.
+    let fits = |text: &String| text.chars().count() + 4 <= usize::from(width);
+    DIGITS.iter().map(line).find(fits).or_else(|| DIGITS.last().map(line))
+}
+
+fn sentence(name: &str, held: &Stop, digits: usize, dot: &str) -> String {
+    let mut parts = vec![format!("{name} {}", significant(held.value, digits))];
+    if let Some(kind) = held.special {
+        parts.insert(0, word(kind).to_owned());
+    }
+    match &held.cycle {
+        None => parts.push("the cycle is infinite".to_owned()),
+        Some(cycle) => {
+            // Neither at a fold nor where the cycle vanishes.
+            if !matches!(held.special, Some(SpecialKind::Fold | SpecialKind::Hopf)) {
+                parts.insert(0, if cycle.stable { "stable" } else { "unstable" }.to_owned());
+            }
+            let short = digits.min(5);
+            parts.push(format!(
+                "q {} .. {}",
+                significant(cycle.q_min, short),
+                significant(cycle.q_max, short)
+            ));
+            parts.push(format!("period {}", significant(cycle.period, short)));
+            parts.push(format!("multiplier {}", multiplier(cycle)));
+        }
+    }
+    parts.join(&format!(" {dot} "))
+}
+
+/// What a special point is called in a sentence.
+fn word(kind: SpecialKind) -> &'static str {
+    match kind {
+        SpecialKind::Fold => "fold",
+        SpecialKind::Escape => "escape",
+        SpecialKind::Hopf => "Hopf point",
+        SpecialKind::ZeroCrossing => "crossing",
+    }
+}
+
+/// The multiplier, as a power of e where it is too large or too small to be read.
+fn multiplier(cycle: &Cycle) -> String {
+    match cycle.multiplier {
+        Some(multiplier) if multiplier > 0.0 => significant(multiplier, 4),
+        _ => format!("e^{}", significant(cycle.log_multiplier, 4)),
+    }
+}
