@@ -231,6 +231,26 @@ fn a_fold_and_the_escape_point_end_the_branches_that_lead_to_them() {
 }
 
 #[test]
+fn over_cubic_damping_the_branch_ends_before_its_cycles_are_known_no_more() {
+    let parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.0, r: 0.1 };
+    let found = branch(&parameters, Symbol::D3, (-1.0, 1.0), 60, 1e-10, &LIMITS).unwrap();
+    let points = || found.pieces.iter().flatten();
+    for point in points() {
+        let there = Parameters { d3: point.value, ..parameters };
+        let cycles = cycles(&there, false, &LIMITS).unwrap().cycles;
+        let cycle = cycles.iter().find(|cycle| cycle.stable == point.cycle.stable).unwrap();
+        assert!((cycle.q_max / point.cycle.q_max - 1.0).abs() < 1e-6, "D3 = {}", point.value);
+    }
+    // The unstable cycle passes zero, the stable one comes from infinity there.
+    let smallest = |stable: bool| {
+        let values = points().filter(|point| point.cycle.stable == stable).map(|point| point.value);
+        values.fold(f64::INFINITY, f64::min)
+    };
+    assert_eq!(smallest(false), -1.0);
+    assert!(smallest(true) > 0.0 && smallest(true) < 1e-3);
+}
+
+#[test]
 fn a_cycle_is_found_from_a_guess_of_its_amplitude() {
     for parameters in parameter_sets(100) {
         for cycle in cycles(&parameters, false, &LIMITS).unwrap().cycles {

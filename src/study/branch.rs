@@ -121,6 +121,9 @@ pub fn branch(
     Ok(found)
 }
 
+/// A branch over D or D3 ends at this part of the range from where its cycle is infinite.
+const NEAREST: f64 = 1e-4;
+
 /// A branch over r begins at this part of the largest r.
 const LEAST_FRICTION: f64 = 1e-6;
 
@@ -228,8 +231,12 @@ impl Tracer<'_> {
     }
 
     /// Smallest and largest `ln c0` followed: beyond, a curve counts as gone to nothing or to infinity.
+    ///
+    /// Over D3 a cycle goes to infinity at `D3 = 0`, as `sqrt(8 D/(3 D3))`: it is followed to a
+    /// [`NEAREST`] part of the range from there, because values of the parameter are known to a part of
+    /// the range.
     fn bounds_of_u(&self) -> (f64, f64) {
-        let Parameters { d2, d3, r, .. } = self.curve.parameters_at(self.curve.scale);
+        let Parameters { d, d2, d3, r } = self.curve.parameters_at(self.curve.scale);
         let natural = (1.0 / d2.abs()).min(1.0 / d3.abs().sqrt());
         let natural = if natural.is_finite() { natural } else { r };
         if d3 == 0.0 && d2 != 0.0 {
@@ -237,6 +244,11 @@ impl Tracer<'_> {
             (-600.0, (60.0 / d2.abs() + 2.0 * r).ln())
         } else {
             let smallest = if r > 0.0 { -600.0 } else { natural.ln() - LOG_FAR };
+            if self.parameter == Symbol::D3 && d2 == 0.0 && d < 0.0 {
+                let farthest = (8.0 * d.abs() / (3.0 * NEAREST * self.curve.scale)).sqrt();
+                // The cycle that friction alone borders goes through D3 = 0.
+                return (smallest, farthest.max(4.0 * r / d.abs()).ln());
+            }
             (smallest, natural.max(r).ln() + LOG_FAR)
         }
     }
@@ -295,7 +307,6 @@ impl Tracer<'_> {
 /// Its amplitude grows as `2 r/(pi abs(D))` towards `D = 0`; it is followed to a ten-thousandth of the
 /// range from there, with points evenly spaced in the logarithm of D.
 fn linear_branch(r: f64, from: f64, to: f64, count: usize) -> Option<Vec<BranchPoint>> {
-    const NEAREST: f64 = 1e-4;
     let from = from.max((-1.0_f64).next_up());
     let to = to.min(NEAREST * from);
     if !(r > 0.0 && from < to) {
