@@ -222,5 +222,21 @@ fn basin(found: &Cycles, width: usize) -> Vec<String> {
         // Rather fewer digits than a number cut short.
         (1..=5).rev().map(text).find(|text| text.len() < width)
     });
-    std::iter::once(edge.to_owned()).chain(kicks).collect()
+    std::iter::once(edge.to_owned()).chain(kicks).chain(sizes(found)).collect()
+}
+
+/// How large the basin is, and how much of its margin the Lyapunov circle (24) proves: that knows the
+/// linear damping only, and where D2 or D3 feed the motion it can promise more than holds.
+fn sizes(found: &Cycles) -> impl Iterator<Item = String> {
+    let picture = found.picture.as_ref();
+    let area = picture.and_then(|picture| picture.area);
+    let share = picture.and_then(|picture| picture.lyapunov_share).map(|share| {
+        if share > 1.0 {
+            "Lyapunov: not valid".to_owned()
+        } else {
+            format!("Lyapunov: {} % of it", significant(100.0 * share, 2))
+        }
+    });
+    // The share is one of the kick: it stands below it.
+    share.into_iter().chain(area.map(|area| format!("area {}", significant(area, 5))))
 }

@@ -4,6 +4,7 @@ use super::Desk;
 use crate::oscillator::State;
 use crate::scene::{Pane, Point, Span, Window};
 use crate::session::Framing;
+use crate::study::{Edge, Margin, Picture};
 
 #[test]
 fn the_cursor_moves_on_round_numbers_and_sets_the_start() {
@@ -117,6 +118,26 @@ fn the_motion_starts_on_either_side_of_the_unstable_cycle() {
     assert_eq!(desk.session.problem.initial, State { q: 1.05, v: 0.0 });
     desk.press("c b <S-tab><right> i");
     assert_eq!(desk.notice(), "the cycles are not computed: c shows them");
+}
+
+#[test]
+fn a_separatrix_has_two_sides_too() {
+    for (d2, sign) in [(0.5, 1.0), (-0.5, -1.0)] {
+        let mut desk = Desk::open("escape");
+        let held = desk.session.answers.get_mut(&crate::scene::Slot::Cycles).unwrap();
+        let Ok(crate::scene::Answer::Cycles(found)) = &mut held.result else { panic!("cycles") };
+        found.parameters.d2 = d2;
+        found.edge = Edge::Separatrix;
+        found.cycles.clear();
+        let margin = Margin { displacement: Some(1.1), impulse: Some(1.4) };
+        let (curves, edge) = (Vec::new(), Vec::new());
+        found.picture = Some(Picture { curves, edge, margin, area: None, lyapunov_share: None });
+        // r is 0.1: the clearance is 1.
+        desk.press("i");
+        assert_eq!(desk.session.problem.initial, State { q: sign * 1.05, v: 0.0 });
+        desk.press("o");
+        assert_eq!(desk.session.problem.initial, State { q: sign * 1.15, v: 0.0 });
+    }
 }
 
 #[test]

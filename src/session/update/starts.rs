@@ -1,4 +1,4 @@
-//! Starts on either side of the unstable cycle: what is captured, and what is not.
+//! Starts on either side of the edge of the basin: what is captured, and what is not.
 
 use super::parameters::change;
 use super::refuse;
@@ -8,16 +8,18 @@ use crate::scene::Slot;
 use crate::session::message::Effect;
 use crate::session::state::Session;
 use crate::session::step::decimal_sum;
+use crate::study::{Cycles, Edge};
 
-/// Clearance from the sticking set, in that of the cycle: near enough to stay close for a while, far
+/// Clearance from the sticking set, in that of the edge: near enough to stay close for a while, far
 /// enough to be seen apart.
 pub const INSIDE: f64 = 0.95;
 
 /// As [`INSIDE`], on the other side.
 pub const OUTSIDE: f64 = 1.05;
 
-/// Starts the motion at rest beside the right turning point of the smallest unstable cycle.
-pub fn beside_cycle(session: &mut Session, factor: f64) -> Vec<Effect> {
+/// Starts the motion at rest beside the turning point of the edge: the smallest unstable cycle's on the
+/// right, or the separatrix's.
+pub fn beside_edge(session: &mut Session, factor: f64) -> Vec<Effect> {
     match beside(session, factor) {
         Ok(q) => {
             let initial = State { q, v: 0.0 };
@@ -28,6 +30,16 @@ pub fn beside_cycle(session: &mut Session, factor: f64) -> Vec<Effect> {
     Vec::new()
 }
 
+/// The clearance of the edge from the sticking set, and the side (1 or -1) on which it turns.
+fn edge(found: &Cycles) -> Option<(f64, f64)> {
+    if found.edge != Edge::Separatrix {
+        return found.cycles.iter().find(|cycle| !cycle.stable).map(|cycle| (cycle.clearance, 1.0));
+    }
+    // Escape is to the side where D2 feeds the motion: to the left, from the right, for D2 > 0.
+    let displacement = found.picture.as_ref()?.margin.displacement?;
+    Some(((displacement - found.parameters.r).max(0.0), 1.0_f64.copysign(found.parameters.d2)))
+}
+
 fn beside(session: &Session, factor: f64) -> Result<f64, &'static str> {
     if session.is_stale(Slot::Cycles) {
         return Err(if session.is_busy() {
@@ -36,16 +48,16 @@ fn beside(session: &Session, factor: f64) -> Result<f64, &'static str> {
             "the cycles are not computed: c shows them"
         });
     }
-    let unstable =
-        session.cycles().and_then(|found| found.cycles.iter().find(|cycle| !cycle.stable));
-    let cycle = unstable.ok_or("there is no unstable cycle at these parameters")?;
-    let (r, clearance) = (session.problem.parameters.r, cycle.clearance);
+    let edge = session.cycles().and_then(edge);
+    let (clearance, side) =
+        edge.ok_or("there is no edge to start beside: neither cycle nor separatrix")?;
+    let r = session.problem.parameters.r;
     let outside = factor > 1.0;
     let keeps_side = |q: &f64| if outside { q - r > clearance } else { q - r < clearance };
-    // Three digits are enough and good to read, unless the cycle is very close to the sticking set.
+    // Three digits are enough and good to read, unless the edge is very close to the sticking set.
     let short = format!("{:.2e}", factor * clearance).parse().unwrap_or(clearance);
     let candidates = [decimal_sum(r, short), r + factor * clearance];
-    // A cycle can pass closer to r than floating point resolves: then only rest is inside of it.
+    // An edge can pass closer to r than floating point resolves: then only rest is inside of it.
     let last = if outside { (r + clearance).next_up() } else { r };
-    Ok(candidates.into_iter().find(keeps_side).unwrap_or(last))
+    Ok(side * candidates.into_iter().find(keeps_side).unwrap_or(last))
 }
