@@ -11,9 +11,11 @@ pub mod cycle;
 pub mod escape;
 pub mod fold;
 pub mod half_map;
+pub mod harmonic_error;
 pub mod margin;
 pub mod search;
 
 pub use branch::{Branch, BranchPoint, Special, SpecialKind};
 pub use cycle::{Cycle, Cycles, Edge, Picture};
+pub use harmonic_error::HarmonicBalance;
 pub use margin::Margin;
