@@ -194,7 +194,7 @@ fn edge_of_basin(edge: Edge) -> &'static str {
     match edge {
         Edge::None => "edge of the basin of the sticking set: none\n",
         Edge::Cycle => "edge of the basin of the sticking set: the smallest cycle\n",
-        Edge::Separatrix => "edge of the basin of the sticking set: a separatrix of escape\n",
+        Edge::Separatrix => "edge of the basin of the sticking set: a separatrix\n",
     }
 }
 

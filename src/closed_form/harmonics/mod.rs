@@ -12,7 +12,7 @@
 //! its series converges slowly: the error of the amplitude falls as `1/N^2`, that of the frequency, which
 //! feels the shift of the sign changes themselves, as `1/N`. Without friction both fall exponentially.
 //!
-//! - [`fourier`]: finite series and their products; [`sign_changes`]: their roots, none missed.
+//! - [`fourier`]: finite series and their products; [`mod@sign_changes`]: their roots, none missed.
 //! - [`galerkin`]: the equations and their Jacobian; [`newton`]: their solution.
 
 pub mod fourier;
