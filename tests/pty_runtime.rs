@@ -149,14 +149,14 @@ fn while_a_frame_is_under_way_no_other_is_sent() {
     let before = terminal.frames();
     terminal.types("\x1b[C");
     terminal.wait("a frame", |terminal| terminal.frames() > before);
-    for _ in 0..30 {
+    for _ in 0..15 {
         terminal.types("\x1b[C");
         // Longer than the least time between frames.
         terminal.watch(Duration::from_millis(20));
     }
     assert_eq!(terminal.frames(), before + 1, "frames queue behind a slow terminal");
     terminal.answer();
-    terminal.wait_for("count 31 confirmed 31");
+    terminal.wait_for("count 16 confirmed 16");
     assert_eq!(terminal.frames(), before + 2, "more than the newest state was drawn");
     terminal.answers = Answers::AtOnce;
     terminal.answer();
