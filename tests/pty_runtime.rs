@@ -24,6 +24,7 @@ struct Machinery {
     confirmed: Option<Result<u32, String>>,
     size: (u16, u16),
     pasted: usize,
+    told: String,
 }
 
 /// The request that stands for a number.
@@ -58,6 +59,7 @@ impl Machine for Machinery {
                 return vec![Effect::Suspend];
             }
             Msg::Key(Key { code: Code::Char('p'), .. }) => panic!("told to panic"),
+            Msg::Told(notice) => self.told = notice.text,
             Msg::Paste(text) => self.pasted = text.lines().count(),
             Msg::Resize { width, height } => self.size = (width, height),
             Msg::Answered(answered) => {
@@ -82,8 +84,8 @@ impl Machine for Machinery {
             Some(Err(why)) => why.clone(),
         };
         let text = format!(
-            "count {} {confirmed}\nsize {width}x{height}\npasted {}",
-            self.count, self.pasted
+            "count {} {confirmed}\nsize {width}x{height}\npasted {}\n{}",
+            self.count, self.pasted, self.told
         );
         frame.render_widget(text, frame.area());
     }
@@ -264,6 +266,7 @@ fn without_job_control_nothing_stops_it() {
     let mut terminal = start(Answers::AtOnce);
     terminal.types("\x1a\x1b[C");
     terminal.wait_for("count 1 confirmed 1");
+    terminal.wait_for("there is no shell");
     terminal.signal(Signal::TSTP);
     terminal.types("\x1b[C");
     terminal.wait_for("count 2 confirmed 2");

@@ -33,10 +33,20 @@ const BUFFER: usize = 4096;
 /// If the system gives no thread.
 pub fn start(events: Sender<Event>) -> io::Result<()> {
     thread::Builder::new().name("input".to_owned()).spawn(move || {
-        read(&io::stdin(), |event| drop(events.send(event)));
-        drop(events.send(Event::Closed));
+        let last = LastWord(events);
+        read(&io::stdin(), |event| drop(last.0.send(event)));
     })?;
     Ok(())
+}
+
+/// Says that there will be no more input, however its reader ends: a program that cannot be quit by a
+/// key must not go on.
+struct LastWord(Sender<Event>);
+
+impl Drop for LastWord {
+    fn drop(&mut self) {
+        drop(self.0.send(Event::Closed));
+    }
 }
 
 /// Reads until the end of input.
@@ -138,8 +148,8 @@ mod tests {
         let (terminal, end) = UnixStream::pair().unwrap();
         let (send, events) = unbounded();
         thread::spawn(move || {
-            read(&end, |event| drop(send.send(event)));
-            drop(send.send(Event::Closed));
+            let last = LastWord(send);
+            read(&end, |event| drop(last.0.send(event)));
         });
         Keyboard { terminal, events }
     }

@@ -16,6 +16,7 @@ use super::worker::Worker;
 use super::{input, panics};
 use crate::flow::{Limits, Reason};
 use crate::scene::{Answer, Request};
+use crate::session::Notice;
 use crate::session::replay::{Player, Recorder, Script};
 use crate::terminal::{Guard, Screen};
 
@@ -61,7 +62,7 @@ pub fn launch(
     guard.enter()?;
     input::start(send.clone())?;
     let report = move |msg| drop(send.send(Event::Session(msg)));
-    let worker = Worker::start(answer, notes, report)?;
+    let worker = Worker::start(answer, notes.clone(), report)?;
     let screen = Screen::new(guard.out(), terminal_size())?;
     let mut pump = Pump::new(machine, screen, worker, events, options.files, terminal_size)
         .playing(options.replay.map(Player::new))
@@ -77,6 +78,8 @@ pub fn launch(
     }
     guard.leave();
     let code = match ended? {
+        // A thread that listens has panicked; without it there was nothing to go on for.
+        Stop::Closed if let Some(note) = notes.take() => return Err(io::Error::other(note)),
         Stop::Ended { signal } => exit_code(signal).into(),
         Stop::Closed => exit_code(HANG_UP).into(),
         _ => ExitCode::SUCCESS,
@@ -93,7 +96,10 @@ fn conduct<M: Machine>(
     let mut expected = false;
     loop {
         match pump.run()? {
-            Stop::Suspend | Stop::Suspended if !signals::can_be_continued() => {}
+            Stop::Suspend | Stop::Suspended if !signals::can_be_continued() => {
+                let text = "not stopped: there is no shell that could make it go on".to_owned();
+                pump.tell(Notice { error: true, text })?;
+            }
             Stop::Suspend => {
                 pump.hold();
                 pump.take_leave();

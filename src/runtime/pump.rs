@@ -162,6 +162,14 @@ impl<M: Machine, W: Write> Pump<M, W> {
         }
     }
 
+    /// Tells the session something.
+    ///
+    /// # Errors
+    /// The error of writing to the terminal.
+    pub fn tell(&mut self, notice: Notice) -> io::Result<()> {
+        self.update(Msg::Told(notice)).map(drop)
+    }
+
     /// The terminal is not ours until [`Pump::repaint`].
     pub fn hold(&mut self) {
         self.held = true;

@@ -2,9 +2,10 @@
 //!
 //! - [`capabilities`]: what the environment says the terminal can show;
 //! - [`guard`]: the modes that the explorer turns on, turned off again whatever happens;
-//! - [`painter`]: changed cells to bytes;
+//! - [`painter`]: changed cells to bytes, each frame one write; with `strokes`, the order and the
+//!   cursor moves that cost least, and [`pen`], the shortest change of colours;
 //! - [`pacing`]: when the next frame may be sent;
-//! - [`screen`]: the three above in one place, for the loop to draw on.
+//! - [`screen`]: painter and pacing in one place, for the loop to draw on.
 
 pub mod capabilities;
 pub mod guard;
