@@ -1,4 +1,4 @@
-//! What can happen to the running program.
+//! What can happen to the running program, and what of it stops the loop.
 
 use crate::session::Msg;
 
@@ -21,5 +21,25 @@ pub enum Event {
         signal: i32,
     },
     /// There will be no more input: the terminal is gone.
+    Closed,
+}
+
+/// Why the loop stopped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// The user has left.
+    Quit,
+    /// The user wants the job to be stopped, as Ctrl-Z does.
+    Suspend,
+    /// A signal asks this process to stop until it is continued.
+    Suspended,
+    /// The process goes on after a stop.
+    Continued,
+    /// A signal ends the program.
+    Ended {
+        /// Its number.
+        signal: i32,
+    },
+    /// The terminal is gone.
     Closed,
 }

@@ -8,7 +8,7 @@ use ratatui::layout::Size;
 
 use super::headless::{self, Played};
 use super::launch::{Ended, Options, launch};
-use super::pump::Machine;
+use super::machine::Machine;
 use crate::scene::Request;
 use crate::scene::answer::answer;
 use crate::session::replay::Script;

@@ -9,9 +9,9 @@ use crossbeam_channel::unbounded;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
 
+use super::machine::Machine;
 use super::panics::Notes;
 use super::picture;
-use super::pump::Machine;
 use super::worker::Worker;
 use crate::export;
 use crate::flow::{Limits, Reason};

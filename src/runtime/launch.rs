@@ -9,8 +9,9 @@ use ratatui::layout::Size;
 use rustix::io::Errno;
 
 use super::effects::Files;
-use super::event::Event;
-use super::pump::{Machine, Pump, Stop};
+use super::event::{Event, Stop};
+use super::machine::Machine;
+use super::pump::Pump;
 use super::signals::{self, exit_code};
 use super::worker::Worker;
 use super::{input, panics};

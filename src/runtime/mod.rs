@@ -11,14 +11,16 @@ pub mod explorer;
 pub mod headless;
 pub mod input;
 pub mod launch;
+pub mod machine;
 pub mod panics;
 pub mod picture;
 pub mod pump;
 pub mod signals;
 pub mod worker;
 
-pub use event::Event;
+pub use event::{Event, Stop};
 pub use explorer::{Explorer, explore, replay};
 pub use launch::{Ended, Options, launch};
-pub use pump::{Machine, Pump, Stop};
+pub use machine::Machine;
+pub use pump::Pump;
 pub use worker::Worker;

@@ -5,7 +5,7 @@ use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
 
-use super::pump::Machine;
+use super::machine::Machine;
 
 /// The picture at this size, as ratatui's cells.
 #[must_use]

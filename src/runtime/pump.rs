@@ -11,11 +11,11 @@ use std::io::{self, Write};
 use std::time::{Duration, Instant};
 
 use crossbeam_channel::{Receiver, RecvTimeoutError};
-use ratatui::Frame;
 use ratatui::layout::Size;
 
 use super::effects::Files;
-use super::event::Event;
+use super::event::{Event, Stop};
+use super::machine::Machine;
 use super::picture;
 use super::worker::Worker;
 use crate::export;
@@ -26,38 +26,6 @@ use crate::terminal::Screen;
 
 /// How long a frame waits for the worker before it shows what is there, marked as old.
 const ANSWER_TIME: Duration = Duration::from_millis(8);
-
-/// What the loop runs: a session and the way it is drawn.
-pub trait Machine {
-    /// Something happened.
-    fn update(&mut self, msg: Msg) -> Vec<Effect>;
-
-    /// The requests to be computed now: wanted, and neither answered nor failed.
-    fn wants(&self) -> Vec<Request>;
-
-    /// Draws the state.
-    fn draw(&self, frame: &mut Frame);
-}
-
-/// Why the loop stopped.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stop {
-    /// The user has left.
-    Quit,
-    /// The user wants the job to be stopped, as Ctrl-Z does.
-    Suspend,
-    /// A signal asks this process to stop until it is continued.
-    Suspended,
-    /// The process goes on after a stop.
-    Continued,
-    /// A signal ends the program.
-    Ended {
-        /// Its number.
-        signal: i32,
-    },
-    /// The terminal is gone.
-    Closed,
-}
 
 /// The loop's state.
 #[derive(Debug)]
@@ -240,17 +208,13 @@ impl<M: Machine, W: Write> Pump<M, W> {
         }
         // A size asks for nothing.
         drop(self.machine.update(msg));
-        self.mark();
-    }
-
-    fn mark(&mut self) {
         self.changed.get_or_insert_with(Instant::now);
     }
 
     /// Changes the session and does what it asks for.
     fn update(&mut self, msg: Msg) -> io::Result<Option<Stop>> {
         let effects = self.machine.update(msg);
-        self.mark();
+        self.changed.get_or_insert_with(Instant::now);
         for effect in effects {
             let stop = match effect {
                 Effect::Quit => Some(Stop::Quit),
@@ -338,7 +302,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
 #[cfg(test)]
 mod tests {
     use crossbeam_channel::{Sender, unbounded};
-    use ratatui::layout::Size;
+    use ratatui::Frame;
 
     use super::*;
     use crate::flow::Reason;
