@@ -7,6 +7,7 @@ use crate::oscillator::State;
 use crate::study::branch::branch;
 use crate::study::capture::bands;
 use crate::study::cycle::cycles;
+use crate::study::harmonic_error::{HarmonicBalance, harmonic_balance};
 use crate::study::{Branch, Cycles};
 
 /// What the worker found.
@@ -18,6 +19,8 @@ pub enum Answer {
     Cycles(Cycles),
     /// To [`Request::Capture`].
     Capture(Borders),
+    /// To [`Request::Balance`].
+    Balance(HarmonicBalance),
     /// To [`Request::Branch`].
     Branch(Branch),
 }
@@ -66,6 +69,9 @@ const SAMPLES_PER_STEP: usize = 16;
 /// Points drawn on each integration step of a border.
 const POINTS_PER_STEP: u8 = 12;
 
+/// Points of the curve of a harmonic answer.
+const CURVE_POINTS: usize = 240;
+
 /// Points of a branch, a piece.
 const BRANCH_POINTS: usize = 160;
 
@@ -87,6 +93,9 @@ pub fn answer(request: &Request, limits: &Limits) -> Result<Answer, Reason> {
             let curves = found.curves(POINTS_PER_STEP);
             Ok(Answer::Capture(Borders { curves, cost: found.cost }))
         }
+        Request::Balance { parameters, harmonics } => {
+            harmonic_balance(parameters, *harmonics, CURVE_POINTS, limits).map(Answer::Balance)
+        }
         Request::Branch { parameters, parameter, range, tolerance } => {
             branch(parameters, *parameter, *range, BRANCH_POINTS, *tolerance, limits)
                 .map(Answer::Branch)
@@ -102,6 +111,7 @@ impl Answer {
             Answer::Trajectory(answer) => answer.cost,
             Answer::Cycles(answer) => answer.cost,
             Answer::Capture(answer) => answer.cost,
+            Answer::Balance(answer) => answer.cost,
             Answer::Branch(answer) => answer.cost,
         }
     }

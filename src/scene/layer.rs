@@ -39,6 +39,8 @@ pub enum Layer {
     Lyapunov,
     /// The borders between the bands of capture.
     Bands,
+    /// The cycles of N harmonics.
+    Balance,
     /// Computed cycles along the diagram's parameter.
     Branch,
     /// First-order harmonic amplitudes.
@@ -65,7 +67,7 @@ pub struct LayerSpec {
 }
 
 /// Every layer, in the order in which they are listed.
-pub const LAYERS: [LayerSpec; 11] = [
+pub const LAYERS: [LayerSpec; 12] = [
     LayerSpec {
         layer: Layer::Trajectory,
         name: "trajectory",
@@ -114,6 +116,13 @@ pub const LAYERS: [LayerSpec; 11] = [
         pane: Pane::Phase,
         meaning: "bands of capture: across a border, one half swing more",
         needs: Some(Slot::Capture),
+    },
+    LayerSpec {
+        layer: Layer::Balance,
+        name: "balance",
+        pane: Pane::Phase,
+        meaning: "cycles of N harmonics, and their error",
+        needs: Some(Slot::Balance),
     },
     LayerSpec {
         layer: Layer::Branch,

@@ -22,6 +22,13 @@ pub enum Request {
         /// Bands at most.
         most: usize,
     },
+    /// The cycles of N harmonics, beside the true ones.
+    Balance {
+        /// The parameters.
+        parameters: Parameters,
+        /// Number N of harmonics.
+        harmonics: usize,
+    },
     /// The cycles along a parameter.
     Branch {
         /// The parameters; the one that varies is set to 0 so that stepping it changes nothing here.
@@ -46,6 +53,8 @@ pub enum Slot {
     Capture,
     /// The diagram.
     Branch,
+    /// Harmonic balance.
+    Balance,
 }
 
 impl Slot {
@@ -57,6 +66,7 @@ impl Slot {
             Slot::Cycles => "cycles",
             Slot::Capture => "bands",
             Slot::Branch => "branch",
+            Slot::Balance => "harmonics",
         }
     }
 }
@@ -69,6 +79,7 @@ impl Request {
             Request::Trajectory(_) => Slot::Trajectory,
             Request::Cycles { .. } => Slot::Cycles,
             Request::Capture { .. } => Slot::Capture,
+            Request::Balance { .. } => Slot::Balance,
             Request::Branch { .. } => Slot::Branch,
         }
     }

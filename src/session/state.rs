@@ -19,6 +19,7 @@ use crate::scene::answer::{Borders, Failure};
 use crate::scene::{
     Answer, Answered, Layer, Ordinate, PANES, Pane, Point, Request, Scene, Slot, Span, Window,
 };
+use crate::study::harmonic_error::HarmonicBalance;
 use crate::study::{Branch, Cycles};
 
 /// A row of the parameter pane.
@@ -108,6 +109,9 @@ impl Steps {
         }
     }
 }
+
+/// Harmonics at first: what more than the paper's one buys can be seen.
+const HARMONICS: usize = 3;
 
 /// Bands of capture that are drawn at most: more would fill the plane.
 const MOST_BANDS: usize = 24;
@@ -229,6 +233,8 @@ pub struct Session {
     pub ordinate: Ordinate,
     /// The point of the branch that is held, while the user walks along it.
     pub held: Option<Stop>,
+    /// Number N of harmonics of the layer `balance`.
+    pub harmonics: usize,
     /// The layers that are on.
     pub layers: BTreeSet<Layer>,
     /// What lies over the panes and gets the keys.
@@ -270,6 +276,7 @@ impl Session {
             abscissa: scene.abscissa,
             ordinate: scene.ordinate,
             held: None,
+            harmonics: HARMONICS,
             layers: scene.layers.clone(),
             overlay: None,
             history: History::default(),
@@ -347,6 +354,7 @@ impl Session {
         Some(match slot {
             Slot::Trajectory => Request::Trajectory(self.problem),
             Slot::Cycles => Request::Cycles { parameters },
+            Slot::Balance => Request::Balance { parameters, harmonics: self.harmonics },
             Slot::Capture if parameters.r == 0.0 => return None,
             Slot::Capture => {
                 Request::Capture { parameters, reach: self.capture_reach(), most: MOST_BANDS }
@@ -430,6 +438,15 @@ impl Session {
     pub fn borders(&self) -> Option<&Borders> {
         match self.answers.get(&Slot::Capture).map(|held| &held.result) {
             Some(Ok(Answer::Capture(found))) => Some(found),
+            _ => None,
+        }
+    }
+
+    /// The last harmonic balance computed, stale or not.
+    #[must_use]
+    pub fn balance(&self) -> Option<&HarmonicBalance> {
+        match self.answers.get(&Slot::Balance).map(|held| &held.result) {
+            Some(Ok(Answer::Balance(found))) => Some(found),
             _ => None,
         }
     }

@@ -11,8 +11,9 @@ use super::number::{exact, significant};
 use super::pane::{self, Heading};
 use crate::flow::Problem;
 use crate::oscillator::Symbol;
-use crate::scene::Pane;
+use crate::scene::{Layer, Pane};
 use crate::session::{Row, Session};
+use crate::study::harmonic_error::Balanced;
 use crate::study::{Cycle, Cycles, Edge};
 
 /// Columns up to the end of the values.
@@ -200,7 +201,8 @@ fn cycles(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) -> u1
         pane::line(area, y, " none", "", buffer);
         y += 1;
     }
-    for text in basin(found, usize::from(area.width)) {
+    let words = basin(found, usize::from(area.width)).into_iter().chain(balance(session));
+    for text in words {
         pane::line(area, y, Span::styled(format!(" {text}"), look.style(Role::Quiet)), "", buffer);
         y += 1;
     }
@@ -223,6 +225,25 @@ fn basin(found: &Cycles, width: usize) -> Vec<String> {
         (1..=5).rev().map(text).find(|text| text.len() < width)
     });
     std::iter::once(edge.to_owned()).chain(kicks).chain(sizes(found)).collect()
+}
+
+/// What the cycles of N harmonics are worth: the error of the amplitude of each.
+fn balance(session: &Session) -> Vec<String> {
+    let Some(found) = session.balance().filter(|_| session.shows(Layer::Balance)) else {
+        return Vec::new();
+    };
+    let percent = |error: f64| significant(100.0 * error, 2);
+    let line = |balanced: &Balanced| match (&balanced.cycle, &balanced.error) {
+        (Err(_), _) => "no such cycle".to_owned(),
+        (Ok(_), None) => "no true cycle".to_owned(),
+        (Ok(_), Some(error)) => format!("q {} %", percent(error.amplitude)),
+    };
+    let errors: Vec<String> = found.balanced.iter().map(line).collect();
+    let lead = format!("N = {}: ", found.harmonics);
+    match &errors[..] {
+        [] => vec![format!("{lead}no cycle")],
+        errors => errors.iter().map(|error| format!("{lead}{error}")).collect(),
+    }
 }
 
 /// How large the basin is, and how much of its margin the Lyapunov circle (24) proves: that knows the

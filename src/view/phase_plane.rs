@@ -49,6 +49,11 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     if shows(Layer::Cycles) {
         cycles(&mut plot, session);
     }
+    if shows(Layer::Balance) {
+        for found in session.balance().iter().flat_map(|balance| &balance.balanced) {
+            plot.curve(found.curve.iter().map(point), Role::Harmonic, Dash::Dotted);
+        }
+    }
     if shows(Layer::Sticking) {
         let r = session.problem.parameters.r;
         plot.bar(Point { x: -r, y: 0.0 }, Point { x: r, y: 0.0 }, Role::Sticking);

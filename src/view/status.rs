@@ -145,6 +145,7 @@ fn price(session: &Session, look: &Look, words: &Words) -> String {
         Slot::Cycles => "cycles",
         Slot::Capture => "bands",
         Slot::Branch => "branch",
+        Slot::Balance => "harmonics",
     };
     let names: Vec<&str> = price.recomputed.iter().map(|part| name(part.slot)).collect();
     let key = price.key.map_or_else(|| "open".into(), |key| keys::name(key, look));

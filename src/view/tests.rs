@@ -18,6 +18,7 @@ use crate::scene::library::{find, library};
 use crate::scene::{Answer, Answered, LAYERS, Layer, Point, Request, Scene, Span, Window};
 use crate::session::settings::{self, Colors, GLYPHS, Glyphs, THEMES, Theme};
 use crate::session::{Key, Msg, Notice, Session, Size, update};
+use crate::study::harmonic_error::HarmonicBalance;
 use crate::study::{
     Branch, BranchPoint, Cycle, Cycles, Edge, Margin, Picture, Special, SpecialKind,
 };
@@ -66,6 +67,12 @@ fn by_hand(request: &Request) -> Answer {
         Request::Capture { .. } => Answer::Capture(Borders {
             curves: vec![circle(0.2), circle(0.35)],
             cost: Cost { evaluations: 800, steps: 40, rejected: 0 },
+        }),
+        Request::Balance { parameters, harmonics } => Answer::Balance(HarmonicBalance {
+            parameters: *parameters,
+            harmonics: *harmonics,
+            balanced: Vec::new(),
+            cost: Cost { evaluations: 200, steps: 10, rejected: 0 },
         }),
         Request::Branch { parameter, .. } => Answer::Branch(folded(*parameter)),
     }
@@ -412,6 +419,7 @@ proptest! {
                     found.special[0].cycle = Some(cycle(value, true));
                     session.held = Some((&found.special[0]).into());
                 }
+                Ok(Answer::Balance(found)) => found.balanced.clear(),
                 Ok(Answer::Capture(found)) => found.curves = vec![states.clone()],
                 Err(_) => {}
             }

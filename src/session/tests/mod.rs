@@ -17,6 +17,7 @@ use crate::flow::{Cost, Method, Outcome, Problem, Sample, Trajectory};
 use crate::oscillator::State;
 use crate::scene::answer::Borders;
 use crate::scene::{Answer, Answered, Request, Slot, find};
+use crate::study::harmonic_error::HarmonicBalance;
 use crate::study::{Branch, BranchPoint, Cycle, Cycles, Edge, Special, SpecialKind};
 
 /// A session whose questions are answered as soon as they are asked.
@@ -126,6 +127,12 @@ fn answered(request: Request) -> Answered {
             cost,
         }),
         Request::Capture { .. } => Answer::Capture(Borders { curves: Vec::new(), cost }),
+        Request::Balance { parameters, harmonics } => Answer::Balance(HarmonicBalance {
+            parameters: *parameters,
+            harmonics: *harmonics,
+            balanced: Vec::new(),
+            cost,
+        }),
         Request::Branch { parameter, range: (from, to), parameters, .. } => {
             let fold = Cycle { q_max: 1.5, log_multiplier: 0.0, ..cycle(false, parameters.r) };
             let point = |stable| BranchPoint { value: *from, cycle: cycle(stable, parameters.r) };

@@ -37,6 +37,7 @@ fn a_key_recomputes_exactly_what_depends_on_it() {
         ("<tab><tab>w <left> <tab> <S-right> Y <esc>", &[]),
         ("<tab><tab>w <right> <enter>", POINT),
         ("f", &[Slot::Capture]),
+        ("N ) (", &[Slot::Balance, Slot::Balance, Slot::Balance]), // another N, another answer
         ("f <tab>L K f f", &[Slot::Capture]), // as far as the next power of two
     ] {
         let mut desk = Desk::open("supercritical");
@@ -91,6 +92,7 @@ fn terms_that_a_scene_does_not_declare_are_zero_until_the_user_unfolds_them() {
             Request::Trajectory(problem) => problem.parameters,
             Request::Cycles { parameters }
             | Request::Capture { parameters, .. }
+            | Request::Balance { parameters, .. }
             | Request::Branch { parameters, .. } => parameters,
         };
         assert!(parameters.is_piecewise_linear());

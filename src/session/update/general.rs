@@ -11,6 +11,10 @@ use crate::session::overlay::Overlay;
 use crate::session::settings::{GLYPHS, THEMES, next_of};
 use crate::session::state::{Plot, ROWS, Row, Session, Steps};
 use crate::session::step::shortest;
+use crate::study::harmonic_error::ladder;
+
+/// Harmonics at most: more cost more than the picture shows.
+const MOST_HARMONICS: usize = 63;
 
 /// Gives the focus to another pane.
 pub fn focus(session: &mut Session, by: isize) -> Vec<Effect> {
@@ -37,6 +41,26 @@ pub fn toggle(session: &mut Session, layer: Layer) -> Vec<Effect> {
     }
     let spec = layer.spec();
     inform(session, format!("{} {}: {}", spec.name, if on { "on" } else { "off" }, spec.meaning));
+    Vec::new()
+}
+
+/// Takes the next number of harmonics of a ladder, and shows their cycles.
+pub fn harmonics(session: &mut Session, more: bool) -> Vec<Effect> {
+    let ladder = ladder(MOST_HARMONICS);
+    let now = session.harmonics;
+    let next = if more {
+        ladder.iter().find(|count| **count > now)
+    } else {
+        ladder.iter().rev().find(|count| **count < now)
+    };
+    session.layers.insert(Layer::Balance);
+    match next {
+        Some(next) => {
+            session.harmonics = *next;
+            inform(session, format!("harmonic balance with N = {next}"));
+        }
+        None => refuse(session, format!("the number of harmonics ends at {now}")),
+    }
     Vec::new()
 }
 
