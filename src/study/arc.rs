@@ -18,6 +18,9 @@ const TOLERANCE: f64 = 1e-14;
 /// Part of its start below which an arc is not resolved: it is drawn and compared, not continued.
 const DETAIL: f64 = 1e-12;
 
+/// Most evaluations of an arc. All its steps are kept, and this many take some ten megabytes.
+const BUDGET: u64 = 400_000;
+
 /// The direction in which an arc is computed; as a curve it is the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
@@ -73,7 +76,9 @@ impl Arc {
         let detail = DETAIL * (length.value + parameters.r);
         let mut map = HalfMap::integrating_above(detail, field, TOLERANCE);
         let mut pieces: Vec<Piece> = Vec::new();
-        let swing = map.swing_watched(length, limits, |series, unit, duration| {
+        let limits =
+            Limits { evaluations: limits.evaluations.min(BUDGET), interrupted: limits.interrupted };
+        let swing = map.swing_watched(length, &limits, |series, unit, duration| {
             let end = times_power(series.at(duration).x, unit);
             pieces.push(Piece { series: series.clone(), unit, duration, end });
         });
