@@ -169,6 +169,47 @@ fn a_cycles_document_has_its_fields() {
 }
 
 #[test]
+fn a_harmonic_balance_stands_beside_the_cycles_if_asked_for() {
+    let answer = json("cycles --set D=-0.7 --set r=0.1 --harmonics 9");
+    assert_eq!(keys(&answer), ["balance", "basin", "cost", "cycles", "harmonic", "parameters"]);
+    let rows = answer["balance"].as_array().unwrap();
+    let harmonics: Vec<f64> = rows.iter().map(|row| number(&row["harmonics"])).collect();
+    assert_eq!(harmonics, [1.0, 3.0, 5.0, 9.0]);
+    for (row, q_max) in [(0, 0.0909), (1, 0.1018), (3, 0.1075)] {
+        assert!((number(&rows[row]["q_max"]) - q_max).abs() < 0.51e-4, "{}", rows[row]);
+    }
+    assert_eq!(rows[0]["amplitude"], answer["harmonic"][0]["amplitude"]);
+    let exact = number(&answer["cycles"][0]["q_max"]);
+    for row in rows {
+        assert!(close(&row["amplitude"], exact * (1.0 + number(&row["amplitude_error"])), 1e-14));
+        assert_eq!((&row["stable"], &row["crossings"]), (&false.into(), &2.into()), "{row}");
+        assert!(number(&row["residual"]) < 1e-14 && row["lost"].is_null(), "{row}");
+    }
+    let frequency = number(&answer["cycles"][0]["period"]) / std::f64::consts::TAU;
+    assert!(close(&rows[0]["frequency_error"], frequency - 1.0, 1e-12), "{}", rows[0]);
+}
+
+#[test]
+fn a_harmonic_balance_says_what_it_has_lost_and_what_is_not_there() {
+    // Between the fold of one harmonic and the true one.
+    let answer = json("cycles --set D=-0.1727 --set D2=0.2 --set D3=0.5 --set r=0.1 --harmonics 3");
+    let rows = answer["balance"].as_array().unwrap();
+    assert_eq!(rows.len(), 4);
+    for row in rows {
+        assert!(row["amplitude_error"].is_null() && row["frequency_error"].is_null(), "{row}");
+        assert_eq!(row["harmonics"] == 1, row["lost"].is_null(), "{row}");
+    }
+    let lost = rows[1]["lost"].as_str().unwrap();
+    assert!(lost.starts_with("no cycle of 3 harmonics") && rows[1]["q_max"].is_null(), "{lost}");
+    assert_eq!(json("cycles --set D=0.1 --harmonics 3")["balance"], serde_json::json!([]));
+
+    let ran = run(&["cycles", "--set", "D=-1.5", "--harmonics", "9"]);
+    assert!(ran.out.contains("there is no such cycle to compare with"), "{}", ran.out);
+    let ran = run(&["cycles", "--set", "D=-0.01", "--set", "D2=0.2", "--harmonics", "31"]);
+    assert!(ran.out.contains("instants of a turn, a cycle at 2"), "{}", ran.out);
+}
+
+#[test]
 fn near_critical_damping_the_clearance_keeps_its_digits_and_then_its_logarithm() {
     let cycle = &json("cycles --set D=-0.999 --set r=1")["cycles"][0];
     assert!(close(&cycle["clearance"], 6.539_330_848_996_454e-31, 1e-12));
@@ -227,6 +268,10 @@ fn csv_has_one_row_each_and_all_digits() {
     let columns = csv.lines().next().unwrap().split(',').count();
     assert!(csv.lines().all(|row| row.split(',').count() == columns), "{csv}");
 
+    let csv = text(words("cycles", "--set D=-0.2 --set D3=0.5 --harmonics 5", "csv"));
+    assert_eq!(csv.lines().count(), 1 + 2 * 3);
+    assert!(csv.starts_with("harmonics,stable,"), "{csv}");
+
     let csv = text(words("branch", "--over D=-0.5:-0.1:10", "csv"));
     assert!(csv.lines().next().unwrap().starts_with("piece,D,stable,"), "{csv}");
     assert!(csv.lines().count() > 10);
@@ -264,7 +309,7 @@ fn every_scene_that_is_listed_can_be_started_from() {
 }
 
 /// A wrong command line, and what the complaint about it must name.
-const WRONG: [(&str, &[&str]); 31] = [
+const WRONG: [(&str, &[&str]); 34] = [
     ("--sett D=1", &["--sett", "--set"]),
     ("nowhere", &["nowhere", "plain", "supercritical"]),
     ("supercritcal", &["supercritcal", "did you mean supercritical"]),
@@ -287,6 +332,9 @@ const WRONG: [(&str, &[&str]); 31] = [
     ("trajectory --repeat 0", &["'0'", "1..=1000000"]),
     ("trajectory --repeat -1", &["-1"]),
     ("cycles --until 5", &["--until"]),
+    ("cycles --harmonics 0", &["0", "1 .. 255"]),
+    ("cycles --harmonics 256", &["256", "1 .. 255"]),
+    ("cycles --harmonics x", &["x", "1 .. 255"]),
     ("branch", &["--over"]),
     ("branch --over D", &["'D'", "NAME=FROM:TO:COUNT"]),
     ("branch --over D=0:1:0", &["COUNT = 0", "2 .. 1000000"]),

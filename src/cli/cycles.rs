@@ -6,9 +6,13 @@ use super::failure::Failure;
 use super::output::{Format, Output, print};
 use super::start::Start;
 use super::timing::timed;
-use crate::export::{csv, json, table};
-use crate::flow::Limits;
+use crate::closed_form::harmonics::MOST;
+use crate::export::{balance, csv, json, table};
+use crate::flow::{Limits, Reason};
+use crate::oscillator::Parameters;
+use crate::study;
 use crate::study::cycle::cycles;
+use crate::study::harmonic_error::{HarmonicBalance, convergence};
 
 /// Finds every limit cycle, and what borders the basin of the sticking set
 #[derive(Debug, Args)]
@@ -17,6 +21,15 @@ pub struct Cycles {
     start: Start,
     #[command(flatten)]
     output: Output,
+    /// Shows the harmonic balance beside the cycles: 1, 3, 5, .. up to N harmonics, and their errors
+    #[arg(long, value_name = "N", value_parser = harmonics)]
+    harmonics: Option<usize>,
+}
+
+/// A number of harmonics.
+fn harmonics(text: &str) -> Result<usize, String> {
+    let number = text.parse().ok().filter(|number| (1..=MOST).contains(number));
+    number.ok_or_else(|| format!("{text:?} is not a whole number in 1 .. {MOST}"))
 }
 
 impl Cycles {
@@ -24,14 +37,28 @@ impl Cycles {
     pub fn run(&self) -> Result<(), Failure> {
         self.start.note_own_method();
         let problem = self.start.problem()?;
-        let find = || cycles(&problem.parameters, false, &Limits::PATIENT);
-        let (found, seconds) = timed(self.output.repeat, find);
-        let found =
+        let (found, seconds) = timed(self.output.repeat, || self.find(&problem.parameters));
+        let (found, rungs) =
             found.map_err(|reason| Failure::Unanswered(format!("the search gave up: {reason}")))?;
+        let rungs = rungs.as_deref();
         print(&match self.output.format {
-            Format::Table => table::cycles(&found, seconds),
-            Format::Json => json::cycles(&found, seconds),
-            Format::Csv => csv::cycles(&found),
+            Format::Table => {
+                table::cycles(&found, seconds) + &rungs.map(balance::table).unwrap_or_default()
+            }
+            Format::Json => json::cycles(&found, rungs, seconds),
+            Format::Csv => rungs.map_or_else(|| csv::cycles(&found), balance::csv),
         })
+    }
+
+    /// The cycles, and the harmonic balance if asked for.
+    fn find(
+        &self,
+        parameters: &Parameters,
+    ) -> Result<(study::Cycles, Option<Vec<HarmonicBalance>>), Reason> {
+        let limits = &Limits::PATIENT;
+        let found = cycles(parameters, false, limits)?;
+        let compare = |most| convergence(parameters, &found.cycles, most, limits);
+        let rungs = self.harmonics.map(compare).transpose()?;
+        Ok((found, rungs))
     }
 }

@@ -12,7 +12,7 @@ fn exact(value: f64) -> String {
 }
 
 /// The same, or nothing where there is no number.
-fn exact_or_empty(value: Option<f64>) -> String {
+pub(super) fn exact_or_empty(value: Option<f64>) -> String {
     value.filter(|value| value.is_finite()).map_or_else(String::new, exact)
 }
 

@@ -2,12 +2,14 @@
 
 use serde::Serialize;
 
+use super::balance;
 use crate::closed_form::harmonic::Harmonic;
 use crate::flow::{Cost, Crossing, Method, Outcome, Trajectory};
 use crate::oscillator::{Ledger, Parameters, State, Symbol};
 use crate::scene::Scene;
 use crate::study::basin::Survey;
 use crate::study::fold::{Border, BorderPoint};
+use crate::study::harmonic_error::HarmonicBalance;
 use crate::study::{Branch, BranchPoint, Cycle, Cycles, Edge, Special};
 
 /// What an answer cost, counted and timed.
@@ -42,6 +44,8 @@ struct CyclesDocument<'a> {
     parameters: &'a Parameters,
     cycles: &'a [Cycle],
     harmonic: &'a [Harmonic],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    balance: Option<Vec<balance::Row>>,
     basin: Basin,
     cost: Price,
 }
@@ -102,13 +106,14 @@ pub fn trajectory(motion: &Trajectory, seconds: f64) -> String {
     })
 }
 
-/// Every cycle.
+/// Every cycle, and beside them the harmonic balance if asked for.
 #[must_use]
-pub fn cycles(found: &Cycles, seconds: f64) -> String {
+pub fn cycles(found: &Cycles, rungs: Option<&[HarmonicBalance]>, seconds: f64) -> String {
     text(&CyclesDocument {
         parameters: &found.parameters,
         cycles: &found.cycles,
         harmonic: &found.harmonic,
+        balance: rungs.map(balance::rows),
         basin: Basin { edge: found.edge },
         cost: Price { counted: found.cost, seconds },
     })

@@ -1,5 +1,6 @@
 //! Answers and screens as text: JSON, CSV, aligned tables, SVG. Draws what it is given, decides nothing.
 
+pub mod balance;
 pub mod csv;
 pub mod json;
 pub mod screen;

@@ -57,21 +57,31 @@ pub fn harmonic_balance(
     limits: &Limits,
 ) -> Result<HarmonicBalance, Reason> {
     let exact = cycles(parameters, false, limits)?;
-    let balanced = compare(parameters, &exact.cycles, harmonics, points, limits)?;
-    Ok(HarmonicBalance { parameters: *parameters, harmonics, balanced, cost: exact.cost })
+    let balance = compare(parameters, &exact.cycles, harmonics, points, limits)?;
+    Ok(HarmonicBalance { cost: exact.cost, ..balance })
 }
 
-/// What becomes of every first-order answer with N harmonics, with its error against the true cycles.
+/// The same for some numbers of harmonics from 1 to `most`, without curves, against cycles that are known.
 ///
 /// # Errors
 /// [`Reason::Interrupted`] and no other.
-pub fn compare(
+pub fn convergence(
+    parameters: &Parameters,
+    exact: &[Cycle],
+    most: usize,
+    limits: &Limits,
+) -> Result<Vec<HarmonicBalance>, Reason> {
+    ladder(most).into_iter().map(|rung| compare(parameters, exact, rung, 0, limits)).collect()
+}
+
+/// What becomes of every first-order answer with N harmonics, with its error against the true cycles.
+fn compare(
     parameters: &Parameters,
     exact: &[Cycle],
     harmonics: usize,
     points: usize,
     limits: &Limits,
-) -> Result<Vec<Balanced>, Reason> {
+) -> Result<HarmonicBalance, Reason> {
     let balance = |first: Harmonic| {
         let cycle = harmonic_cycle(parameters, &first, harmonics, limits.interrupted);
         if cycle == Err(Lost::Interrupted) {
@@ -84,13 +94,16 @@ pub fn compare(
         };
         Ok(Balanced { first, cycle, error, curve })
     };
-    amplitudes(parameters).into_iter().map(balance).collect()
+    let balanced = amplitudes(parameters).into_iter().map(balance).collect::<Result<_, _>>()?;
+    Ok(HarmonicBalance { parameters: *parameters, harmonics, balanced, cost: Cost::default() })
 }
 
-/// Numbers of harmonics at which the convergence is shown: some up to `most`, and `most` itself.
+/// Numbers of harmonics at which the convergence is shown.
+pub const RUNGS: [usize; 9] = [1, 3, 5, 9, 15, 31, 63, 127, 255];
+
+/// The rungs below `most`, and `most` itself.
 #[must_use]
 pub fn ladder(most: usize) -> Vec<usize> {
-    const RUNGS: [usize; 9] = [1, 3, 5, 9, 15, 31, 63, 127, 255];
     RUNGS.into_iter().filter(|rung| *rung < most).chain([most]).collect()
 }
 
@@ -181,7 +194,7 @@ mod tests {
             let parameters = Parameters { d, d2, d3, r };
             let exact = cycles(&parameters, false, &Limits::PATIENT).unwrap().cycles;
             prop_assume!(exact.len() == 2);
-            for balanced in compare(&parameters, &exact, 31, 0, &Limits::PATIENT).unwrap() {
+            for balanced in compare(&parameters, &exact, 31, 0, &Limits::PATIENT).unwrap().balanced {
                 let Some(error) = balanced.error else { panic!("{parameters:?}: {balanced:?}") };
                 // Close to a fold and to critical damping convergence is slow, but of the right cycle.
                 prop_assert!(error.amplitude.abs() < 0.05, "{parameters:?} {error:?}");
