@@ -201,7 +201,9 @@ fn cycles(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) -> u1
         pane::line(area, y, " none", "", buffer);
         y += 1;
     }
-    let words = basin(found, usize::from(area.width)).into_iter().chain(balance(session));
+    let words = basin(found, usize::from(area.width))
+        .into_iter()
+        .chain(balance(session, usize::from(area.width)));
     for text in words {
         pane::line(area, y, Span::styled(format!(" {text}"), look.style(Role::Quiet)), "", buffer);
         y += 1;
@@ -227,22 +229,25 @@ fn basin(found: &Cycles, width: usize) -> Vec<String> {
     std::iter::once(edge.to_owned()).chain(kicks).chain(sizes(found)).collect()
 }
 
-/// What the cycles of N harmonics are worth: the error of the amplitude of each.
-fn balance(session: &Session) -> Vec<String> {
+/// What the cycles of N harmonics are worth: the errors of amplitude and frequency of each.
+fn balance(session: &Session, width: usize) -> Vec<String> {
     let Some(found) = session.balance().filter(|_| session.shows(Layer::Balance)) else {
         return Vec::new();
     };
+    let lead = format!("N = {}: ", found.harmonics);
     let percent = |error: f64| significant(100.0 * error, 2);
     let line = |balanced: &Balanced| match (&balanced.cycle, &balanced.error) {
-        (Err(_), _) => "no such cycle".to_owned(),
-        (Ok(_), None) => "no true cycle".to_owned(),
-        (Ok(_), Some(error)) => format!("q {} %", percent(error.amplitude)),
+        (Err(_), _) => format!("{lead}no such cycle"),
+        (Ok(_), None) => format!("{lead}no true cycle"),
+        (Ok(_), Some(error)) => {
+            let amplitude = format!("{lead}q {} %", percent(error.amplitude));
+            let both = format!("{amplitude}, rate {} %", percent(error.frequency));
+            if both.len() < width { both } else { amplitude }
+        }
     };
-    let errors: Vec<String> = found.balanced.iter().map(line).collect();
-    let lead = format!("N = {}: ", found.harmonics);
-    match &errors[..] {
+    match &found.balanced[..] {
         [] => vec![format!("{lead}no cycle")],
-        errors => errors.iter().map(|error| format!("{lead}{error}")).collect(),
+        balanced => balanced.iter().map(line).collect(),
     }
 }
 

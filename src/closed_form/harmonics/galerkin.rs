@@ -54,12 +54,20 @@ enum Entry {
 }
 
 impl Entry {
-    /// Reads this equation out of the coefficients of a residual.
-    fn of(self, coefficient: impl Fn(usize) -> Complex<f64>) -> f64 {
+    /// The harmonic that it belongs to.
+    fn harmonic(self) -> usize {
         match self {
-            Entry::Mean => coefficient(0).re,
-            Entry::Cosine(k) => 2.0 * coefficient(k).re,
-            Entry::Sine(k) => -2.0 * coefficient(k).im,
+            Entry::Mean => 0,
+            Entry::Cosine(k) | Entry::Sine(k) => k,
+        }
+    }
+
+    /// Reads this equation out of the residual's coefficient of its harmonic.
+    fn of(self, coefficient: Complex<f64>) -> f64 {
+        match self {
+            Entry::Mean => coefficient.re,
+            Entry::Cosine(_) => 2.0 * coefficient.re,
+            Entry::Sine(_) => -2.0 * coefficient.im,
         }
     }
 }
@@ -171,7 +179,7 @@ impl Residual {
     /// What every equation leaves.
     #[must_use]
     pub fn values(&self) -> DVector<f64> {
-        let values = self.basis.entries().map(|entry| entry.of(|k| self.coefficient(k)));
+        let values = self.basis.entries().map(|entry| entry.of(self.coefficient(entry.harmonic())));
         DVector::from_iterator(self.basis.unknowns(), values)
     }
 
@@ -207,8 +215,13 @@ impl Residual {
                 Entry::Sine(1) => self.by_frequency(m),
                 Entry::Sine(k) => self.by_coefficient(&damping, k, Complex::new(0.0, -0.5), m),
             };
+            // The equations weighted by cosine and sine stand together and read one coefficient.
+            let mut last = (usize::MAX, Complex::default());
             for (cell, equation) in column.iter_mut().zip(self.basis.entries()) {
-                *cell = equation.of(change);
+                if last.0 != equation.harmonic() {
+                    last = (equation.harmonic(), change(equation.harmonic()));
+                }
+                *cell = equation.of(last.1);
             }
         }
         jacobian
