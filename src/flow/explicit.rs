@@ -6,7 +6,7 @@
 
 use super::limits::Reason;
 use super::scaling::{rough_exp2, rough_log2};
-use super::step::{Field, LONGEST, Point, Powers, Step, Stepper};
+use super::step::{ErrorScale, Field, LONGEST, Point, Powers, Step, Stepper, stopping_time};
 use super::tableau::{Estimate, Scheme, dop853, dopri5, rk4};
 use crate::oscillator::HalfPlane;
 
@@ -140,9 +140,9 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
     /// Error of the attempt in units of the tolerance, below 1 is accepted, and the power of the step
     /// with which it grows.
     fn error(&self, h: f64, end: Point) -> (f64, f64) {
-        let scale = self.tolerance * self.start.size().max(end.size());
+        let scale = ErrorScale::new(self.tolerance, self.start, end);
         let norm = |(x, v): (f64, f64)| {
-            let (x, v) = (x / scale, v / scale);
+            let (x, v) = (x / scale.x, v / scale.v);
             x * x + v * v
         };
         match self.scheme.estimate {
@@ -219,7 +219,7 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
         }
         let slope = self.field.acceleration(end.x, end.v);
         let rest = if slope == 0.0 { 0.0 } else { -end.v / slope };
-        self.duration = length + rest;
+        self.duration = (length + rest).max(0.0);
         self.end = Point { x: end.x + rest * end.v + 0.5 * rest * rest * slope, v: 0.0 };
         Step { duration: self.duration, end: self.end, crossed: true }
     }
@@ -254,7 +254,11 @@ impl<const S: usize, const R: usize, F: Field> Stepper<F> for Explicit<S, R, F> 
     }
 
     fn advance(&mut self, from: Point, mut longest: f64) -> Result<Step, Reason> {
+        let continues = from == self.end;
         self.start_at(from);
+        if !continues {
+            longest = longest.min(stopping_time(from.v, self.acceleration[0]));
+        }
         loop {
             // A step that turned around passed two crossings and is taken again, shorter.
             let makes_sense = |end: Point| end.v <= 0.0 || end.x >= from.x;

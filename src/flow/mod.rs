@@ -17,6 +17,7 @@ pub mod stiff;
 pub mod swing;
 pub mod tableau;
 pub mod taylor;
+pub mod time;
 pub mod time_stepping;
 pub mod trajectory;
 pub mod without_events;

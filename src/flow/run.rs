@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use super::scaling::{field_in_units, times_power};
 use super::step::{Field, Point, Powers, Step, Stepper};
 use super::swing::{End, Failed, Swing, glide, swing};
+use super::time::Time;
 use super::trajectory::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory};
 use super::{Limits, Method, Reason};
 use crate::oscillator::energy::energy;
@@ -26,30 +27,6 @@ pub(super) struct Works {
     quadratic: f64,
     cubic: f64,
     pub(super) path: f64,
-}
-
-/// A sum that remembers what rounding took: a million swings later the time is still right.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Time {
-    sum: f64,
-    lost: f64,
-}
-
-impl Time {
-    pub(super) fn plus(self, duration: f64) -> f64 {
-        self.sum + (self.lost + duration)
-    }
-
-    pub(super) fn advance(&mut self, duration: f64) {
-        // Neumaier's compensated summation.
-        let sum = self.sum + duration;
-        self.lost += if self.sum >= duration {
-            (self.sum - sum) + duration
-        } else {
-            (duration - sum) + self.sum
-        };
-        self.sum = sum;
-    }
 }
 
 impl Run {

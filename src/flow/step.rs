@@ -13,10 +13,33 @@ pub struct Point {
 }
 
 impl Point {
-    /// Size of the state, `max(abs(x), abs(v))`, the measure of all relative errors.
+    /// Size of the state, `max(abs(x), abs(v))`.
     #[must_use]
     pub fn size(self) -> f64 {
         self.x.abs().max(self.v.abs())
+    }
+}
+
+/// The error that a step may have in each component.
+///
+/// That of the position is relative to the state, that of the velocity to the velocities of the step: far
+/// out they are much smaller than the position, and it is they that escape, or creep, or turn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ErrorScale {
+    /// For the position.
+    pub x: f64,
+    /// For the velocity.
+    pub v: f64,
+}
+
+impl ErrorScale {
+    /// For a step between these points with this relative tolerance.
+    #[must_use]
+    pub fn new(tolerance: f64, start: Point, end: Point) -> Self {
+        ErrorScale {
+            x: tolerance * start.size().max(end.size()),
+            v: tolerance * start.v.abs().max(end.v.abs()),
+        }
     }
 }
 
@@ -24,6 +47,14 @@ impl Point {
 /// half swing of a linear oscillator (pi), rounded up: no step of this length or less passes two
 /// crossings.
 pub const LONGEST: f64 = 2.0;
+
+/// The longest first step worth trying from a velocity that falls at once: a few times the time in which
+/// it would stop if it fell on like this. Without it an arrival after 1e-300 would be sought in steps of 1.
+#[must_use]
+pub fn stopping_time(v: f64, acceleration: f64) -> f64 {
+    const FEW: f64 = 4.0;
+    if v > 0.0 && acceleration < 0.0 { FEW * v / -acceleration } else { f64::INFINITY }
+}
 
 /// A smooth field `x' = v, v' = acceleration(x, v)` with `acceleration = -x - (a function of v)`.
 pub trait Field: Copy {

@@ -9,7 +9,7 @@
 
 use super::limits::Reason;
 use super::scaling::{rough_exp2, rough_log2};
-use super::step::{Field, LONGEST, Point, Powers, Step, Stepper};
+use super::step::{ErrorScale, Field, LONGEST, Point, Powers, Step, Stepper, stopping_time};
 use super::tableau::radau::{Collocation, FIVE, SEVEN, THREE};
 use crate::oscillator::HalfPlane;
 
@@ -199,11 +199,8 @@ impl<F: Field> Stiff<F> {
                 v: (v - part * x) / determinant,
             }
         };
-        let scale = (
-            self.tolerance * self.start.size().max(end.size()),
-            self.tolerance * self.start.v.abs().max(end.v.abs()),
-        );
-        let norm = |error: Point| (error.x / scale.0).abs().max((error.v / scale.1).abs());
+        let scale = ErrorScale::new(self.tolerance, self.start, end);
+        let norm = |error: Point| (error.x / scale.x).abs().max((error.v / scale.v).abs());
         let error = filtered(part * self.start.v + sums.x, part * self.slope + sums.v);
         if norm(error) < 1.0 || !first {
             return norm(error);
@@ -323,9 +320,13 @@ impl<F: Field> Stiff<F> {
     }
 
     /// The longest step that cannot pass two crossings: where damping is above critical, any.
+    ///
+    /// Where neighbours part, a step follows them: a long one would damp what grows and stay on a manifold
+    /// that every motion leaves.
     fn longest(&self) -> f64 {
         const CRITICAL: f64 = 2.0;
-        if self.field.divergence(self.start.v) < -CRITICAL { f64::INFINITY } else { LONGEST }
+        let rate = self.field.divergence(self.start.v);
+        if rate < -CRITICAL { f64::INFINITY } else { LONGEST.min(1.0 / rate.max(0.0)) }
     }
 }
 
@@ -337,8 +338,12 @@ impl<F: Field> Stepper<F> for Stiff<F> {
     }
 
     fn advance(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {
+        let continues = from == self.end;
         self.start_at(from);
         let mut longest = longest.min(self.longest());
+        if !continues {
+            longest = longest.min(stopping_time(from.v, self.slope));
+        }
         loop {
             let (duration, end) = self.accepted(longest, true)?;
             let last = self.end;
@@ -357,7 +362,7 @@ impl<F: Field> Stepper<F> for Stiff<F> {
 
     fn pass(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {
         self.start_at(from);
-        let (duration, end) = self.accepted(longest, false)?;
+        let (duration, end) = self.accepted(longest.min(self.longest()), false)?;
         self.keep(duration, end);
         Ok(Step { duration, end, crossed: false })
     }

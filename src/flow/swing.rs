@@ -8,6 +8,7 @@ use std::ops::ControlFlow;
 use super::limits::{Limits, Reason};
 use super::scaling::{exponent, field_in_units, times_power};
 use super::step::{Point, Step, Stepper};
+use super::time::Time;
 use crate::oscillator::HalfPlane;
 
 /// Size, as a power of two, at which the unit is chosen anew.
@@ -70,6 +71,10 @@ pub fn swing<S: Stepper>(
     limits: &Limits,
     watch: impl FnMut(&mut S, f64, i32, &Step) -> ControlFlow<()>,
 ) -> Result<Swing, Failed> {
+    // A velocity that underflows beside the position stops before it moves anything.
+    if start.x >= 0.0 && times_power(start.v, -exponent(start.size())) < f64::MIN_POSITIVE {
+        return Ok(Swing { end: End::Crossing { x: start.x }, duration: 0.0, steps: 0 });
+    }
     drive(stepper, S::advance, field, start, longest, limits, watch)
 }
 
@@ -103,10 +108,11 @@ fn drive<S: Stepper>(
     let mut unit = exponent(start.size());
     let mut scaled = field_in_units(field, unit);
     let mut point = Point { x: times_power(start.x, -unit), v: times_power(start.v, -unit) };
-    let mut time = 0.0;
+    let mut clock = Time::default();
     let mut steps = 0;
     stepper.begin(&scaled);
     loop {
+        let time = clock.plus(0.0);
         let failed = |reason| Failed { reason, duration: time, steps };
         if (limits.interrupted)() {
             return Err(failed(Reason::Interrupted));
@@ -121,7 +127,8 @@ fn drive<S: Stepper>(
         let step = advance(stepper, point, remaining).map_err(failed)?;
         steps += 1;
         let goes_on = watch(stepper, time, unit, &step).is_continue();
-        time += step.duration;
+        clock.advance(step.duration);
+        let time = clock.plus(0.0);
         point = step.end;
         let done = |end| Ok(Swing { end, duration: time, steps });
         if step.crossed {
@@ -132,13 +139,6 @@ fn drive<S: Stepper>(
             let (x, v) = (times_power(point.x, unit), times_power(point.v, unit));
             let duration = if in_time { time } else { longest };
             return Ok(Swing { end: End::Stopped { point: Point { x, v } }, duration, steps });
-        }
-        if time + step.duration == time {
-            return Err(Failed {
-                reason: Reason::StepTooSmall { step: step.duration },
-                duration: time,
-                steps,
-            });
         }
         if let Some(rest) = time_to_blow_up(&scaled, point, time)
             && time + rest <= longest
@@ -157,23 +157,39 @@ fn drive<S: Stepper>(
 
 /// Time until v becomes infinite, where escape is certain and this time is known to rounding.
 ///
-/// For `v < 0` (met where there is no friction) the mirror image is asked. With `D3 < 0` the term `-D3 v^3` drives v, with `D3 = 0` and `D2 < 0` (in the frame of the side) the
-/// term `-D2 v^2`. Escape is certain once the driving term exceeds eight times all others together and
-/// x cannot catch up any more: from then on v grows and the ratio with it. The time is the leading
-/// asymptotic term; it is used when the next one is below [`BLOW_UP_ERROR`] of the time so far.
+/// For `v < 0` (met where there is no friction) the mirror image is asked. With `a = -D2` and `b = -D3`
+/// the terms `a v^2 + b v^3` drive v. Escape is certain once they exceed eight times all others together
+/// and x cannot catch up any more, and if `a` brakes, it does so with less than half of what `b` gives:
+/// from then on v grows, and these ratios with it. The time is that of the two terms alone; it is used when
+/// what the others change is below [`BLOW_UP_ERROR`] of the time so far.
 pub(super) fn time_to_blow_up(field: &HalfPlane, point: Point, elapsed: f64) -> Option<f64> {
-    let (v, d2) = if point.v < 0.0 { (-point.v, -field.d2) } else { (point.v, field.d2) };
-    let others = point.x.abs() + 2.0 * field.d.abs() * v;
-    let (drive, others, rest) = if field.d3 < 0.0 {
-        let drive = -field.d3 * v * v * v;
-        (drive, others + d2.abs() * v * v, 0.5 * v / drive)
-    } else if field.d3 == 0.0 && d2 < 0.0 {
-        let drive = -d2 * v * v;
-        (drive, others, v / drive)
-    } else {
+    let v = point.v.abs();
+    let (a, b) = (if point.v < 0.0 { field.d2 } else { -field.d2 }, -field.d3);
+    let drives = if a < 0.0 { b * v >= -2.0 * a } else { b >= 0.0 && (a > 0.0 || b > 0.0) };
+    if !drives {
         return None;
-    };
+    }
+    let drive = v * v * (a + b * v);
+    let rest = time_to_infinity(a, b, v);
+    let others = point.x.abs() + 2.0 * field.d.abs() * v;
     let catching_up = rest * v;
     let certain = drive > 8.0 * (others + catching_up);
     (certain && rest * (others / drive) <= BLOW_UP_ERROR * elapsed).then_some(rest)
+}
+
+/// The integral of `1/(a v^2 + b v^3)` from v to infinity.
+///
+/// It is `(1 - s ln(1 + 1/s))/(a v)` with `s = b v/a`; where `a` adds little, a series in `1/s`.
+fn time_to_infinity(a: f64, b: f64, v: f64) -> f64 {
+    /// Magnitude of s beyond which nine terms of the series are exact to rounding.
+    const LARGE: f64 = 100.0;
+    let s = b * v / a;
+    if s.abs() <= LARGE {
+        let bend = if s == 0.0 { 0.0 } else { s * (1.0 / s).ln_1p() };
+        return (1.0 - bend) / (a * v);
+    }
+    // 1/(b v^2) times the sum of (-1/s)^k/(k + 2).
+    let part = -a / (b * v);
+    let series = (2..=10).rev().fold(0.0, |sum, k| sum * part + 1.0 / f64::from(k));
+    series / (b * v * v)
 }

@@ -146,24 +146,29 @@ impl Taylor {
 
     /// The step length for this tolerance, or `None` where coefficients overflowed.
     ///
-    /// The radius of convergence is the least of the estimates `(size / abs(v_k))^(1/k)` from the last
-    /// [`TAIL`] coefficients: near a turning point every other one almost vanishes, and those of a pair
-    /// of complex poles pass through zero now and then, so that fewer would sometimes see nothing.
-    fn allowed(&self, from: Point) -> Option<f64> {
-        let size = rough_log2(from.size());
-        let mut log_radius = f64::INFINITY;
-        let tail = self.order + 1 - TAIL..=self.order;
-        for (coefficient, inverse) in self.v[tail.clone()].iter().zip(&INVERSE[tail]) {
-            let coefficient = coefficient.abs();
+    /// The error of v is measured by the velocities of the step, the larger of `abs(v_0)` and
+    /// `abs(v_1) h`: far out they are much smaller than the position. The radius of convergence is the
+    /// least of the estimates `(size / abs(v_k))^(1/k)` from the last [`TAIL`] coefficients: near a turning
+    /// point every other one almost vanishes, and those of a pair of complex poles pass through zero now
+    /// and then, so that fewer would sometimes see nothing.
+    fn allowed(&self) -> Option<f64> {
+        let log2 = |value: f64| if value == 0.0 { f64::NEG_INFINITY } else { rough_log2(value) };
+        let (size, slope) = (log2(self.v[0].abs()), log2(self.v[1].abs()));
+        let (mut by_size, mut by_slope) = (f64::INFINITY, f64::INFINITY);
+        for k in self.order + 1 - TAIL..=self.order {
+            let coefficient = self.v[k].abs();
             if !coefficient.is_finite() {
                 return None;
             }
             if coefficient > 0.0 {
-                log_radius = log_radius.min((size - rough_log2(coefficient)) * inverse);
+                let coefficient = rough_log2(coefficient);
+                by_size = by_size.min((size - coefficient) * INVERSE[k]);
+                by_slope = by_slope.min((slope - coefficient) * INVERSE[k - 1]);
             }
         }
-        let log_step = log_radius + self.log_tolerance * INVERSE[self.order];
-        Some(rough_exp2(log_step.min(60.0)))
+        by_size += self.log_tolerance * INVERSE[self.order];
+        by_slope += self.log_tolerance * INVERSE[self.order - 1];
+        Some(rough_exp2(by_size.max(by_slope).min(60.0)))
     }
 
     /// First root of v in `(0, end]`, in units of the coefficients, given `v(end) <= 0`.
@@ -289,7 +294,7 @@ impl Taylor {
         self.time_exponent = self.next_time_exponent;
         loop {
             self.expand(from);
-            if let Some(allowed) = self.allowed(from) {
+            if let Some(allowed) = self.allowed() {
                 return Ok(allowed);
             }
             // Coefficients that overflow belong to a time scale far below 1: take a smaller unit.

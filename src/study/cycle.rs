@@ -333,7 +333,9 @@ pub fn polish(
         // difference. A weighed one does better: it goes on while it does.
         let rounding = 4.0 * f64::EPSILON * u.abs().max(1.0);
         let blurred = change <= rounding / node.slope.abs().min(1.0);
-        let settled = change <= rounding || (blurred && (!flat || change >= 0.5 * last));
+        // Where rounding of the swings is larger than that, Newton's method stops making progress.
+        let stalled = change >= 0.5 * last && change <= 16.0 * rounding;
+        let settled = change <= rounding || stalled || (blurred && (!flat || change >= 0.5 * last));
         if settled || high - low <= f64::EPSILON * u.abs() {
             return Ok(closing);
         }
