@@ -42,23 +42,31 @@ pub struct HarmonicBalance {
     pub harmonics: usize,
     /// One for each first-order answer, in their order.
     pub balanced: Vec<Balanced>,
+    /// Why the true cycles are not known, if they are not; then no error is.
+    pub unknown: Option<Reason>,
     /// What the true cycles cost.
     pub cost: Cost,
 }
 
 /// The cycles of N harmonics beside the true ones, with `points` points on each curve.
 ///
+/// Where the true cycles cannot be found, the answer stands alone and says why.
+///
 /// # Errors
-/// The [`Reason`] why the true cycles could not be found, or [`Reason::Interrupted`].
+/// [`Reason::Interrupted`] and no other.
 pub fn harmonic_balance(
     parameters: &Parameters,
     harmonics: usize,
     points: usize,
     limits: &Limits,
 ) -> Result<HarmonicBalance, Reason> {
-    let exact = cycles(parameters, false, limits)?;
-    let balance = compare(parameters, &exact.cycles, harmonics, points, limits)?;
-    Ok(HarmonicBalance { cost: exact.cost, ..balance })
+    let (exact, cost, unknown) = match cycles(parameters, false, limits) {
+        Ok(found) => (found.cycles, found.cost, None),
+        Err(Reason::Interrupted) => return Err(Reason::Interrupted),
+        Err(reason) => (Vec::new(), Cost::default(), Some(reason)),
+    };
+    let balance = compare(parameters, &exact, harmonics, points, limits)?;
+    Ok(HarmonicBalance { unknown, cost, ..balance })
 }
 
 /// The same for some numbers of harmonics from 1 to `most`, without curves, against cycles that are known.
@@ -95,7 +103,8 @@ fn compare(
         Ok(Balanced { first, cycle, error, curve })
     };
     let balanced = amplitudes(parameters).into_iter().map(balance).collect::<Result<_, _>>()?;
-    Ok(HarmonicBalance { parameters: *parameters, harmonics, balanced, cost: Cost::default() })
+    let (parameters, cost) = (*parameters, Cost::default());
+    Ok(HarmonicBalance { parameters, harmonics, balanced, unknown: None, cost })
 }
 
 /// Numbers of harmonics at which the convergence is shown.
@@ -182,6 +191,19 @@ mod tests {
         let parameters = Parameters { d: -0.2, d2: 0.2, d3: 0.5, r: 0.1 };
         let limits = Limits { interrupted: &|| true, ..Limits::PATIENT };
         assert_eq!(compare(&parameters, &[], 9, 0, &limits), Err(Reason::Interrupted));
+    }
+
+    #[test]
+    fn without_the_true_cycles_the_answer_stands_alone_and_says_why() {
+        let parameters = Parameters { d: -0.2, d2: 0.2, d3: 0.5, r: 0.1 };
+        let limits = Limits { evaluations: 100, ..Limits::PATIENT };
+        let found = harmonic_balance(&parameters, 3, 8, &limits).unwrap();
+        assert!(matches!(found.unknown, Some(Reason::Budget { .. })), "{found:?}");
+        let [inner, outer] = &found.balanced[..] else { panic!("two cycles") };
+        for balanced in [inner, outer] {
+            assert!(balanced.cycle.is_ok() && balanced.error.is_none());
+            assert_eq!((balanced.curve.len(), balanced.curve.first()), (9, balanced.curve.last()));
+        }
     }
 
     proptest! {

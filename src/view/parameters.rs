@@ -238,6 +238,7 @@ fn balance(session: &Session, width: usize) -> Vec<String> {
     let percent = |error: f64| significant(100.0 * error, 2);
     let line = |balanced: &Balanced| match (&balanced.cycle, &balanced.error) {
         (Err(_), _) => format!("{lead}no such cycle"),
+        (Ok(_), None) if found.unknown.is_some() => format!("{lead}error unknown"),
         (Ok(_), None) => format!("{lead}no true cycle"),
         (Ok(_), Some(error)) => {
             let amplitude = format!("{lead}q {} %", percent(error.amplitude));

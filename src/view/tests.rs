@@ -72,6 +72,7 @@ fn by_hand(request: &Request) -> Answer {
             parameters: *parameters,
             harmonics: *harmonics,
             balanced: Vec::new(),
+            unknown: None,
             cost: Cost { evaluations: 200, steps: 10, rejected: 0 },
         }),
         Request::Branch { parameter, .. } => Answer::Branch(folded(*parameter)),

@@ -131,6 +131,7 @@ fn answered(request: Request) -> Answered {
             parameters: *parameters,
             harmonics: *harmonics,
             balanced: Vec::new(),
+            unknown: None,
             cost,
         }),
         Request::Branch { parameter, range: (from, to), parameters, .. } => {
