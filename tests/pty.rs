@@ -3,7 +3,6 @@
 mod support;
 
 use std::collections::BTreeSet;
-use std::process::{Command, Stdio};
 use std::time::Duration;
 
 use rustix::process::Signal;
@@ -107,6 +106,34 @@ fn a_full_picture_and_a_step_are_a_few_bytes() {
     let stepped = (terminal.written.len() - full) / 5;
     assert!(stepped <= 1_300, "{stepped} bytes a step");
     leave(terminal);
+}
+
+/// What stands in every cell, and how it looks.
+fn cells(terminal: &Terminal) -> Vec<String> {
+    let screen = terminal.screen();
+    let (rows, columns) = screen.size();
+    let all = (0..rows.get()).flat_map(|row| (0..columns.get()).map(move |column| (row, column)));
+    all.map(|(row, column)| format!("{:?}", screen.cell(row, column))).collect()
+}
+
+#[test]
+fn a_changed_cell_costs_at_most_five_bytes_at_every_size() {
+    for size in [(80, 24), (120, 40), (200, 60)] {
+        let mut terminal = explorer(&[], &[], size);
+        let (mut bytes, mut changed) = (0, 0);
+        for _ in 0..5 {
+            let (before, written) = (cells(&terminal), terminal.written.len());
+            let frames = terminal.frames();
+            terminal.types("\x1b[C");
+            terminal.wait("a frame", |terminal| terminal.frames() > frames);
+            terminal.quiet(QUIET);
+            bytes += terminal.written.len() - written;
+            changed += before.iter().zip(cells(&terminal)).filter(|(old, new)| *old != new).count();
+        }
+        assert!(changed > 500, "{changed} cells at {size:?}");
+        assert!(bytes <= 5 * changed, "{bytes} bytes for {changed} cells at {size:?}");
+        leave(terminal);
+    }
 }
 
 /// Processor time used so far, in ticks, and how often any of its threads was woken.
@@ -217,27 +244,6 @@ fn it_ends_when_its_terminal_goes_away() {
     support::poll("the end of the program", || !std::fs::exists(&program).unwrap_or(false));
 }
 
-#[test]
-fn without_colours_it_is_still_told_apart_and_in_latin_letters_it_is_ascii() {
-    let plain = [("NO_COLOR", "1"), ("LANG", "C")];
-    let mut terminal = explorer(&[], &plain, (80, 24));
-    terminal.wait_for(TITLE);
-    assert!(terminal.written.is_ascii(), "{}", terminal.text());
-    let written = String::from_utf8_lossy(&terminal.written);
-    let mut attributes = false;
-    for sequence in written.split("\x1b[").skip(1) {
-        let Some((parameters, _)) = sequence.split_once('m') else { continue };
-        if parameters.chars().all(|char| char.is_ascii_digit() || char == ';') {
-            for parameter in parameters.split(';').filter_map(|number| number.parse::<u8>().ok()) {
-                assert!(!(30..=107).contains(&parameter) || parameter == 39, "colour {parameter}");
-                attributes |= (1..=9).contains(&parameter);
-            }
-        }
-    }
-    assert!(attributes, "neither bold nor reverse");
-    leave(terminal);
-}
-
 /// The control sequences in what a program wrote, as the handbook writes them.
 fn sequences(written: &[u8]) -> BTreeSet<String> {
     let mut found = BTreeSet::new();
@@ -297,33 +303,4 @@ fn every_control_sequence_is_in_the_handbook() {
     for sequence in found {
         assert!(handbook.contains(&format!("`{sequence}`")), "README.md lacks {sequence}");
     }
-}
-
-/// Runs the program without a terminal; its exit code and what it said.
-fn without_terminal(arguments: &[&str], term: &str) -> (Option<i32>, String) {
-    let output = Command::new(PROGRAM)
-        .args(arguments)
-        .env("TERM", term)
-        .stdin(Stdio::null())
-        .output()
-        .unwrap();
-    assert!(output.stdout.is_empty());
-    (output.status.code(), String::from_utf8(output.stderr).unwrap())
-}
-
-#[test]
-fn where_there_is_no_terminal_one_line_says_what_to_do_instead() {
-    let (code, said) = without_terminal(&[], "xterm");
-    assert_eq!(code, Some(2));
-    assert!(said.contains("not a terminal") && said.contains("trajectory"), "{said}");
-    assert_eq!(said.lines().count(), 1, "{said}");
-}
-
-#[test]
-fn a_dumb_terminal_is_refused_in_one_line() {
-    let mut terminal = Terminal::start(&[PROGRAM], &[("TERM", "dumb")], (80, 24), Answers::Never);
-    assert_eq!(terminal.end(), 2);
-    let said = String::from_utf8_lossy(&terminal.written).into_owned();
-    assert!(said.contains("TERM=dumb") && said.contains("trajectory"), "{said}");
-    assert!(!said.contains('\x1b'), "{said:?}");
 }

@@ -220,6 +220,13 @@ impl Terminal {
         self.written.len() - before
     }
 
+    /// Bytes of the next piece of output; 0 if none comes within this time.
+    pub fn next(&mut self, time: Duration) -> usize {
+        let before = self.written.len();
+        self.listen(Instant::now() + time);
+        self.written.len() - before
+    }
+
     /// Bytes that arrive within this time.
     pub fn watch(&mut self, time: Duration) -> usize {
         let before = self.written.len();

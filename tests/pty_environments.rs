@@ -1,0 +1,122 @@
+//! The explorer in every environment: locales, `NO_COLOR`, kinds of terminals, and none at all.
+
+mod support;
+
+use std::collections::BTreeSet;
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+use support::{Answers, Terminal};
+
+/// The program under test.
+const PROGRAM: &str = env!("CARGO_BIN_EXE_hopfscope");
+
+/// What the title of the plain scene says.
+const TITLE: &str = "The plain oscillator";
+
+/// As long as this without a byte, a picture is complete: the program sends a frame within 16 ms.
+const QUIET: Duration = Duration::from_millis(200);
+
+/// The numbers of all sequences that set colours and attributes.
+fn attributes(written: &[u8]) -> BTreeSet<u8> {
+    let written = String::from_utf8_lossy(written).into_owned();
+    let parameters = written.split("\x1b[").skip(1).filter_map(|text| text.split_once('m'));
+    let parameters = parameters.map(|(parameters, _)| parameters);
+    let settings =
+        parameters.filter(|text| text.chars().all(|char| char.is_ascii_digit() || char == ';'));
+    settings.flat_map(|text| text.split(';')).filter_map(|number| number.parse().ok()).collect()
+}
+
+/// Whether a number sets a colour other than the terminal's own.
+fn is_colour(number: u8) -> bool {
+    matches!(number, 30..=38 | 40..=48 | 90..=97 | 100..=107)
+}
+
+/// What an environment must lead to.
+struct Expected {
+    colours: bool,
+    /// Everything written is ASCII.
+    ascii: bool,
+    /// Some of these characters are on the screen.
+    dots: std::ops::RangeInclusive<char>,
+}
+
+#[test]
+fn every_kind_of_terminal_gets_what_it_can_show() {
+    let braille = '\u{2801}'..='\u{28ff}';
+    let blocks = '\u{2580}'..='\u{259f}';
+    let stars = '*'..='*';
+    let cases: [(&[(&str, &str)], Expected); 8] = [
+        (&[], Expected { colours: true, ascii: false, dots: braille.clone() }),
+        (&[("TERM", "")], Expected { colours: true, ascii: false, dots: braille.clone() }),
+        (&[("TERM", "vt100")], Expected { colours: false, ascii: false, dots: braille.clone() }),
+        (&[("TERM", "linux")], Expected { colours: true, ascii: false, dots: blocks }),
+        (&[("TERM", "screen")], Expected { colours: true, ascii: false, dots: braille.clone() }),
+        (&[("LANG", "C")], Expected { colours: true, ascii: true, dots: stars.clone() }),
+        (&[("NO_COLOR", "1")], Expected { colours: false, ascii: false, dots: braille }),
+        (
+            &[("NO_COLOR", "1"), ("LANG", "C"), ("TERM", "vt100")],
+            Expected { colours: false, ascii: true, dots: stars },
+        ),
+    ];
+    for (environment, expected) in cases {
+        let mut terminal = Terminal::start(&[PROGRAM], environment, (80, 24), Answers::AtOnce);
+        terminal.wait_for(TITLE);
+        terminal.quiet(QUIET);
+        let attributes = attributes(&terminal.written);
+        let colours = attributes.iter().any(|number| is_colour(*number));
+        assert_eq!(colours, expected.colours, "{environment:?}: {attributes:?}");
+        // Without colours too things are told apart: bold, dim, reverse.
+        assert!(attributes.iter().any(|number| (1..=9).contains(number)), "{environment:?}");
+        assert_eq!(terminal.written.is_ascii(), expected.ascii, "{environment:?}");
+        let shown = terminal.text().chars().any(|char| expected.dots.contains(&char));
+        assert!(shown, "{environment:?}\n{}", terminal.text());
+        terminal.types("q");
+        assert_eq!(terminal.end(), 0);
+        terminal.assert_restored();
+    }
+}
+
+#[test]
+fn a_terminal_on_one_side_only_is_refused_in_one_line() {
+    for (redirection, named) in
+        [("< /dev/null", "standard input"), ("> /dev/null", "standard output")]
+    {
+        let command = format!("{PROGRAM} {redirection}; echo code $?");
+        let mut terminal = Terminal::start(&["sh", "-c", &command], &[], (200, 24), Answers::Never);
+        terminal.wait_for("code");
+        let said = terminal.text();
+        assert!(said.contains(named) && said.contains("code 2"), "{said}");
+        assert_eq!(said.trim().lines().count(), 2, "{said}");
+        assert!(!terminal.screen().alternate_screen());
+    }
+}
+
+/// Runs the program without a terminal; its exit code and what it said.
+fn without_terminal(arguments: &[&str], term: &str) -> (Option<i32>, String) {
+    let output = Command::new(PROGRAM)
+        .args(arguments)
+        .env("TERM", term)
+        .stdin(Stdio::null())
+        .output()
+        .unwrap();
+    assert!(output.stdout.is_empty());
+    (output.status.code(), String::from_utf8(output.stderr).unwrap())
+}
+
+#[test]
+fn where_there_is_no_terminal_one_line_says_what_to_do_instead() {
+    let (code, said) = without_terminal(&[], "xterm");
+    assert_eq!(code, Some(2));
+    assert!(said.contains("not a terminal") && said.contains("trajectory"), "{said}");
+    assert_eq!(said.lines().count(), 1, "{said}");
+}
+
+#[test]
+fn a_dumb_terminal_is_refused_in_one_line() {
+    let mut terminal = Terminal::start(&[PROGRAM], &[("TERM", "dumb")], (80, 24), Answers::Never);
+    assert_eq!(terminal.end(), 2);
+    let said = String::from_utf8_lossy(&terminal.written).into_owned();
+    assert!(said.contains("TERM=dumb") && said.contains("trajectory"), "{said}");
+    assert!(!said.contains('\x1b'), "{said:?}");
+}
