@@ -18,7 +18,8 @@
 //!   lose their digits ([`study::balance`]), continuation follows them ([`study::continuation`],
 //!   [`study::branch`], [`study::fold`], [`study::escape`]). Within a half plane every motion is a graph
 //!   over q ([`study::arc`]), so basins, margins and bands of capture are comparisons
-//!   ([`study::basin`], [`study::margin`], [`study::capture`]).
+//!   ([`study::basin`], [`study::margin`], [`study::capture`]). [`study::claims`] puts the paper's own
+//!   equations and sentences to the test.
 //! - [`scene`] says what is on show, as [`scene::Request`] values that name exactly their inputs, and
 //!   [`session`] is a pure machine: `update(&mut Session, Msg) -> Vec<Effect>` and
 //!   `Session::wants() -> Vec<Request>`. What has not changed is not asked again; a hidden layer asks

@@ -412,3 +412,48 @@ fn the_answer_shown_in_the_readme_is_the_one_that_is_given() {
     let strip = |text: &str| text.lines().map(str::trim).collect::<Vec<_>>().join("\n");
     assert!(strip(&given).starts_with(strip(&shown).trim()), "{given}");
 }
+
+#[test]
+fn the_paper_against_computation_is_a_document_a_table_and_rows() {
+    let document = json("paper");
+    let claims = document["claims"].as_array().unwrap();
+    assert!(claims.len() > 100);
+    for claim in claims {
+        assert_eq!(
+            keys(claim),
+            [
+                "at",
+                "bound",
+                "cases",
+                "claim",
+                "computed",
+                "corrected",
+                "difference",
+                "equation",
+                "error",
+                "paper",
+                "reason",
+                "scene",
+                "section",
+                "sense",
+                "verdict",
+                "within"
+            ]
+        );
+        let verdicts = ["agrees", "approximates", "corrected", "in-part", "false"];
+        assert!(verdicts.contains(&claim["verdict"].as_str().unwrap()), "{claim}");
+        assert!(number(&claim["bound"]) >= 0.0);
+    }
+    let of = |equation: &str| claims.iter().find(|claim| claim["equation"] == equation).unwrap();
+    assert_eq!(of("(33)")["verdict"], "corrected");
+    assert!(number(&of("(33)")["paper"]) < 0.0);
+    assert_eq!(of("D_c")["paper"], Value::Null);
+    assert!(close(&of("D_c")["computed"], -0.776_232, 1e-6));
+
+    let table = run(&["paper"]).out;
+    assert!(table.contains("corrected: holds") && table.contains("claims: "), "{table}");
+    let rows = run(&["paper", "--format", "csv"]).out;
+    assert!(rows.starts_with("equation,section,claim,at,"));
+    // No statement or place contains a line break: one line each.
+    assert_eq!(rows.lines().count(), claims.len() + 1);
+}

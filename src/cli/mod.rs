@@ -13,6 +13,7 @@ mod failure;
 mod input;
 mod look;
 mod output;
+mod paper;
 mod replay;
 mod scenes;
 mod start;
@@ -52,6 +53,7 @@ enum Command {
     Branch(branch::Branch),
     Basin(basin::Basin),
     Border(border::Border),
+    Paper(paper::Paper),
     Scenes(scenes::Scenes),
     Replay(replay::Replay),
 }
@@ -64,6 +66,7 @@ impl Command {
             Command::Branch(command) => command.run(),
             Command::Basin(command) => command.run(),
             Command::Border(command) => command.run(),
+            Command::Paper(command) => command.run(),
             Command::Scenes(command) => command.run(),
             Command::Replay(command) => command.run(),
         }

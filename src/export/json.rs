@@ -169,7 +169,7 @@ pub fn scenes<'a>(scenes: impl IntoIterator<Item = &'a Scene>) -> String {
 ///
 /// # Panics
 /// Never: strings, numbers and structs of them have no way to fail, and keys are strings.
-fn text(document: &impl Serialize) -> String {
+pub(super) fn text(document: &impl Serialize) -> String {
     match serde_json::to_string(document) {
         Ok(text) => text + "\n",
         Err(error) => unreachable!("a document cannot be written: {error}"),

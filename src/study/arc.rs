@@ -8,6 +8,7 @@
 use super::half_map::{HalfMap, HalfSwing, Length, NoEnd};
 use crate::flow::scaling::times_power;
 use crate::flow::step::Stepper;
+use crate::flow::tableau::GAUSS;
 use crate::flow::taylor::Taylor;
 use crate::flow::{Cost, Limits, Reason};
 use crate::oscillator::{HalfPlane, Parameters, Side, State};
@@ -126,6 +127,20 @@ impl Arc {
             times_power(times_power(second, piece.unit), piece.unit)
         };
         self.pieces.iter().map(piece_area).sum()
+    }
+
+    /// The integral of the displacement over time.
+    #[must_use]
+    pub fn time_integral(&self) -> f64 {
+        let piece_integral = |piece: &Piece| {
+            let displacement = |time: f64| {
+                let x = self.sense * times_power(piece.series.at(time).x, piece.unit);
+                self.side.displacement(x, self.r)
+            };
+            let node = |(node, weight): &(f64, f64)| weight * displacement(node * piece.duration);
+            piece.duration * GAUSS.iter().map(node).sum::<f64>()
+        };
+        self.pieces.iter().map(piece_integral).sum()
     }
 
     /// Points along the arc in the order of time, `count` on each integration step.

@@ -5,6 +5,7 @@ pub mod balance;
 pub mod basin;
 pub mod branch;
 pub mod capture;
+pub mod claims;
 pub mod closing;
 pub mod continuation;
 pub mod cycle;

@@ -1,0 +1,34 @@
+//! `hopfscope paper`: what the paper says against what is computed.
+
+use clap::Args;
+
+use super::failure::Failure;
+use super::output::{Format, Output, print};
+use super::timing::timed;
+use crate::export::claims;
+use crate::flow::{Limits, Reason};
+use crate::study::claims::{Examined, claims as all, examine};
+
+/// Puts every equation and claim of the paper that can be tested to the test
+#[derive(Debug, Args)]
+pub struct Paper {
+    #[command(flatten)]
+    output: Output,
+}
+
+impl Paper {
+    /// Computes and prints.
+    pub fn run(&self) -> Result<(), Failure> {
+        let examine_all = || {
+            all().map(|claim| examine(claim, &Limits::PATIENT)).collect::<Result<Vec<_>, Reason>>()
+        };
+        let (examined, seconds): (_, f64) = timed(self.output.repeat, examine_all);
+        let examined: Vec<Examined> = examined
+            .map_err(|reason| Failure::Unanswered(format!("the examination gave up: {reason}")))?;
+        print(&match self.output.format {
+            Format::Table => claims::table(&examined, seconds),
+            Format::Json => claims::json(&examined, seconds),
+            Format::Csv => claims::csv(&examined),
+        })
+    }
+}

@@ -1,0 +1,398 @@
+//! Section 6.2: stationary amplitudes, the fold, characteristic points and asymptotes.
+
+use std::f64::consts::PI;
+
+use super::harmonic::largest_amplitude;
+use super::measure::{
+    Known, amplitude, count, cycles, largest, of_cycle, oscillator, place, smallest,
+};
+use super::{Claim, Finding};
+use crate::closed_form::harmonic::{self, amplitudes};
+use crate::flow::{Limits, Reason};
+use crate::oscillator::Parameters;
+use crate::study::fold::{FoldPoint, fold};
+
+/// The claims.
+pub const CLAIMS: &[Claim] = &[
+    Claim {
+        equation: "(42)",
+        section: "6.2",
+        statement: "the stationary amplitudes are those of the cycles: the unstable one",
+        scene: Some("supercritical"),
+        check: |limits| {
+            let cycle = smallest(&TWO_CYCLES, limits)?;
+            let formula = amplitudes(&TWO_CYCLES)[0].amplitude;
+            Ok(Finding::near(formula, amplitude(&cycle)).at(place(&TWO_CYCLES)))
+        },
+    },
+    Claim {
+        equation: "(42)",
+        section: "6.2",
+        statement: "the stationary amplitudes are those of the cycles: the stable one",
+        scene: Some("supercritical"),
+        check: |limits| {
+            let cycle = largest(&TWO_CYCLES, limits)?;
+            let formula = largest_amplitude(&TWO_CYCLES)?;
+            Ok(Finding::near(formula, amplitude(&cycle)).at(place(&TWO_CYCLES)))
+        },
+    },
+    Claim {
+        equation: "(43, 47)",
+        section: "6.2.1",
+        statement: "discriminant of (42): (47) is (43) written out",
+        scene: None,
+        check: |_| {
+            Finding::worst(dampings().map(|(d, d3)| {
+                let r = 0.1;
+                let (a, b) = (8.0 * d / (3.0 * d3), 16.0 * r / (3.0 * PI * d3));
+                let (cube, square) = (-4.0 * a * a * a, 27.0 * b * b);
+                // What is left of the difference of two terms is uncertain by their rounding.
+                let error = 32.0 * f64::EPSILON * (cube.abs() + square);
+                let computed = Known { value: cube - square, error };
+                let scale = (16.0 / (3.0 * d3)).powi(2) / 3.0;
+                let formula = scale * (-8.0 * d * d * (d / d3) - (9.0 / PI).powi(2) * r * r);
+                Ok(Finding::equal(formula, computed).at(place(&oscillator(d, 0.0, d3, r))))
+            }))
+        },
+    },
+    Claim {
+        equation: "(44-46)",
+        section: "6.2.1",
+        statement: "its sign tells the number of real roots of (42): three or one",
+        scene: None,
+        check: |_| {
+            let cases = dampings().map(|(d, d3)| {
+                let parameters = oscillator(d, 0.0, d3, 0.1);
+                let positive = harmonic::discriminant(&parameters).is_some_and(|value| value > 0.0);
+                let expected = if positive { 3 } else { 1 };
+                (place(&parameters), real_roots(&parameters) == expected)
+            });
+            Ok(Finding::always(cases))
+        },
+    },
+    Claim {
+        equation: "Fig. 10",
+        section: "6.2.1",
+        statement: "for D3 > 0 there are two cycles for D < D_F and none for D > D_F, by (48)",
+        scene: Some("supercritical"),
+        check: |limits| {
+            let parts = [0.2, 0.8, 0.95, 1.05, 1.3, 2.0, 3.0];
+            counted(limits, &[0.1, 0.5, 2.0], &parts, |part| if part > 1.0 { 2 } else { 0 })
+        },
+    },
+    Claim {
+        equation: "Fig. 10",
+        section: "6.2.1",
+        statement: "for D3 < 0 there is one cycle for all D",
+        scene: Some("subcritical"),
+        check: |limits| {
+            let parts = [-3.0, -0.8, -0.1, 0.0, 0.1, 0.8, 3.0];
+            counted(limits, &[-0.1, -0.5, -2.0], &parts, |_| 1)
+        },
+    },
+    Claim {
+        equation: "Fig. 10",
+        section: "6.2.1",
+        statement: "for D3 = 0 there is one cycle for D <= 0, and none for D > 0",
+        scene: Some("marginal"),
+        check: |limits| {
+            let mut cases = Vec::new();
+            for d in [-0.9, -0.5, -0.1, -1e-3, 0.0, 0.1, 0.5] {
+                let parameters = oscillator(d, 0.0, 0.0, 0.1);
+                let expected = usize::from(d <= 0.0);
+                cases.push((place(&parameters), count(&parameters, limits)? == expected));
+            }
+            Ok(Finding::always(cases))
+        },
+    },
+    Claim {
+        equation: "(48)",
+        section: "6.2.1",
+        statement: "fold at D_F = -(1/2) cbrt((9/pi)^2 r^2 D3), for D2 = 0: the worst of r^2 D3 = 1e-4 .. \
+                    0.25",
+        scene: Some("supercritical"),
+        check: |limits| {
+            Finding::worst(
+                [1e-4, 1e-3, 0.01, 0.05, 0.1, 0.25].map(|d3| fold_against(limits, 0.0, d3, 1.0)),
+            )
+        },
+    },
+    Claim {
+        equation: "(48)",
+        section: "6.2.1",
+        statement: "the fold does not depend on D2: with D2 = 0.2",
+        scene: Some("asymmetry"),
+        check: |limits| fold_against(limits, 0.2, 0.01, 0.1),
+    },
+    Claim {
+        equation: "(48)",
+        section: "6.2.1",
+        statement: "the fold does not depend on D2: with D2 = 0.5",
+        scene: Some("asymmetry"),
+        check: |limits| fold_against(limits, 0.5, 0.01, 0.1),
+    },
+    Claim {
+        equation: "Fig. 11",
+        section: "6.2.1",
+        statement: "beyond (48) the rest attracts from everywhere, below it the basin is finite, whatever D2",
+        scene: Some("asymmetry"),
+        check: |limits| {
+            let mut cases = Vec::new();
+            for d2 in [0.0, 0.2, 0.5, 1.0] {
+                for part in [0.9, 1.1] {
+                    let d = part * printed_fold(0.01, 0.1);
+                    let parameters = oscillator(d, d2, 0.01, 0.1);
+                    let finite = count(&parameters, limits)? > 0;
+                    let case = format!("D = {part} D_F, D2 = {d2}, D3 = 0.01, r = 0.1");
+                    cases.push((case, finite == (part > 1.0)));
+                }
+            }
+            Ok(Finding::always(cases))
+        },
+    },
+    Claim {
+        equation: "(49)",
+        section: "6.2.1",
+        statement: "amplitude at the fold, A_F = cbrt(8 r/(3 pi D3)): its half extent",
+        scene: Some("supercritical"),
+        check: |limits| {
+            let parameters = oscillator(0.0, 0.0, 0.5, 0.1);
+            let found = found_fold(&parameters, limits)?;
+            let formula = (8.0 * parameters.r / (3.0 * PI * parameters.d3)).cbrt();
+            // Next to a fold an amplitude is known to the root of what D is.
+            let computed = Known::relative(found.q_max, 1e-7);
+            Ok(Finding::near(formula, computed).at("D3 = 0.5, r = 0.1"))
+        },
+    },
+    Claim {
+        equation: "(50)",
+        section: "6.2.1",
+        statement: "for D3 < 0 the cycle at D = 0 has the amplitude A_Z = cbrt(-16 r/(3 pi D3))",
+        scene: Some("subcritical"),
+        check: |limits| {
+            Finding::worst([-0.01, -0.1, -0.5].map(|d3| {
+                let parameters = oscillator(0.0, 0.0, d3, 0.1);
+                let cycle = smallest(&parameters, limits)?;
+                let formula = (-16.0 * parameters.r / (3.0 * PI * d3)).cbrt();
+                Ok(Finding::near(formula, amplitude(&cycle)).at(place(&parameters)))
+            }))
+        },
+    },
+    Claim {
+        equation: "(51)",
+        section: "6.2.1",
+        statement: "A_1 = -2 r/(pi D) is the exact solution of (42) for D3 = 0",
+        scene: Some("marginal"),
+        check: |_| {
+            Finding::worst([-0.9, -0.4, -0.01].map(|d| {
+                let parameters = oscillator(d, 0.0, 0.0, 0.1);
+                let root = largest_amplitude(&parameters)?;
+                let left = 4.0 * parameters.r / PI + 2.0 * d * root;
+                let computed = Known { value: root - left / (2.0 * d), error: f64::EPSILON * root };
+                Ok(Finding::equal(small(&parameters), computed).at(place(&parameters)))
+            }))
+        },
+    },
+    Claim {
+        equation: "(51)",
+        section: "6.2.1",
+        statement: "for D3 = 0 that is the exact amplitude for any D: of the cycle at D = -0.4",
+        scene: Some("marginal"),
+        check: |limits| exact_amplitude(limits, -0.4),
+    },
+    Claim {
+        equation: "(51)",
+        section: "6.2.1",
+        statement: "for D3 = 0 that is the exact amplitude for any D: of the cycle at D = -0.7",
+        scene: Some("marginal"),
+        check: |limits| exact_amplitude(limits, -0.7),
+    },
+    Claim {
+        equation: "(51)",
+        section: "6.2.1",
+        statement: "A_1 approximates the small amplitude where D3 acts",
+        scene: Some("supercritical"),
+        check: |limits| {
+            let cycle = smallest(&TWO_CYCLES, limits)?;
+            Ok(Finding::near(small(&TWO_CYCLES), amplitude(&cycle)).at(place(&TWO_CYCLES)))
+        },
+    },
+    Claim {
+        equation: "after (51)",
+        section: "6.2.1",
+        statement: "A_1 is about -0.6 r/D",
+        scene: None,
+        check: |_| {
+            let parameters = oscillator(-1.0, 0.0, 0.0, 1.0);
+            Ok(Finding::near(0.6, Known::relative(largest_amplitude(&parameters)?, 1e-15)))
+        },
+    },
+    Claim {
+        equation: "before (52)",
+        section: "6.2.1",
+        statement: "(42) divided by 2 D reads 2 r/(pi D) + A + 8 D3/(3 D) A^3 = 0: the last two terms",
+        scene: None,
+        check: |_| {
+            let Parameters { d, d3, r, .. } = TWO_CYCLES;
+            let root = largest_amplitude(&TWO_CYCLES)?;
+            let computed = Known::relative(-2.0 * r / (PI * d), 1e-14);
+            let terms = |factor: f64| root + factor * d3 / d * root.powi(3);
+            let finding = Finding::equal(terms(8.0 / 3.0), computed).corrected(terms(3.0 / 8.0));
+            Ok(finding.at(place(&TWO_CYCLES)))
+        },
+    },
+    Claim {
+        equation: "(52)",
+        section: "6.2.1",
+        statement: "A_2 = sqrt(-8 D/(3 D3)) approximates the large amplitude",
+        scene: Some("supercritical"),
+        check: |limits| {
+            let cycle = largest(&TWO_CYCLES, limits)?;
+            let Parameters { d, d3, .. } = TWO_CYCLES;
+            let formula = (-8.0 * d / (3.0 * d3)).sqrt();
+            Ok(Finding::near(formula, amplitude(&cycle)).at(place(&TWO_CYCLES)))
+        },
+    },
+    Claim {
+        equation: "Fig. 12a",
+        section: "6.2.2",
+        statement: "as D goes to -1 the lower branch approaches A_1: the cycle",
+        scene: Some("supercritical"),
+        check: |limits| {
+            let at = |d: f64| {
+                let parameters = Parameters { d, ..TWO_CYCLES };
+                let cycle = smallest(&parameters, limits)?;
+                Ok((small(&parameters), amplitude(&cycle)))
+            };
+            let end = Parameters { d: -0.95, ..TWO_CYCLES };
+            Ok(Finding::tends(at(-0.5)?, at(-0.95)?).at(place(&end)))
+        },
+    },
+    Claim {
+        equation: "Fig. 12a",
+        section: "6.2.2",
+        statement: "for D3 > 0 the lower branch is unstable and the upper one stable",
+        scene: Some("supercritical"),
+        check: |limits| {
+            let mut cases = Vec::new();
+            for d in [-0.9, -0.5, -0.3, -0.2] {
+                let parameters = Parameters { d, ..TWO_CYCLES };
+                let stable: Vec<bool> =
+                    cycles(&parameters, limits)?.iter().map(|cycle| cycle.stable).collect();
+                cases.push((place(&parameters), stable == [false, true]));
+            }
+            Ok(Finding::always(cases))
+        },
+    },
+    Claim {
+        equation: "Fig. 12b",
+        section: "6.2.2",
+        statement: "for D3 < 0 all cycles are unstable",
+        scene: Some("subcritical"),
+        check: |limits| {
+            let mut cases = Vec::new();
+            for d in [-0.8, -0.3, 0.0, 0.3, 0.8] {
+                let parameters = oscillator(d, 0.0, -0.5, 0.1);
+                let found = cycles(&parameters, limits)?;
+                cases.push((place(&parameters), found.iter().all(|cycle| !cycle.stable)));
+            }
+            Ok(Finding::always(cases))
+        },
+    },
+    Claim {
+        equation: "Fig. 12b",
+        section: "6.2.2",
+        statement: "for D3 < 0, D < 0 the amplitude is approximately A_1",
+        scene: Some("subcritical"),
+        check: |limits| {
+            let parameters = oscillator(-0.4, 0.0, -0.5, 0.1);
+            let cycle = smallest(&parameters, limits)?;
+            Ok(Finding::near(small(&parameters), amplitude(&cycle)).at(place(&parameters)))
+        },
+    },
+    Claim {
+        equation: "Fig. 12b",
+        section: "6.2.2",
+        statement: "for D3 < 0, D > 0 the amplitude is approximately A_2",
+        scene: Some("subcritical"),
+        check: |limits| {
+            let parameters = oscillator(0.4, 0.0, -0.5, 0.1);
+            let cycle = smallest(&parameters, limits)?;
+            let formula = (-8.0 * parameters.d / (3.0 * parameters.d3)).sqrt();
+            Ok(Finding::near(formula, amplitude(&cycle)).at(place(&parameters)))
+        },
+    },
+];
+
+/// An oscillator with two cycles.
+const TWO_CYCLES: Parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.5, r: 0.1 };
+
+/// Linear and cubic dampings on both sides of the fold.
+fn dampings() -> impl Iterator<Item = (f64, f64)> {
+    let cubic = [-2.0, -0.5, -0.1, 0.1, 0.5, 2.0];
+    [-0.9, -0.3, -0.1, -0.01, 0.1, 0.5].into_iter().flat_map(move |d| cubic.map(|d3| (d, d3)))
+}
+
+/// How many real roots (42) has: changes of its sign between the places where it turns.
+fn real_roots(parameters: &Parameters) -> usize {
+    let Parameters { d, d3, r, .. } = *parameters;
+    let cubic = |a: f64| 4.0 * r / PI + a * (2.0 * d + 0.75 * d3 * a * a);
+    let square = -8.0 * d / (9.0 * d3);
+    let turns = if square > 0.0 { vec![-square.sqrt(), square.sqrt()] } else { Vec::new() };
+    let far = 1e6;
+    let places = [vec![-far], turns, vec![far]].concat();
+    places.windows(2).filter(|pair| (cubic(pair[0]) > 0.0) != (cubic(pair[1]) > 0.0)).count()
+}
+
+/// The number of cycles at parts of (48) (of 0.25 where D3 is negative) against what it should be.
+fn counted(
+    limits: &Limits,
+    cubic: &[f64],
+    parts: &[f64],
+    expected: fn(f64) -> usize,
+) -> Result<Finding, Reason> {
+    let mut cases = Vec::new();
+    for &d3 in cubic {
+        for &part in parts {
+            let unit = if d3 > 0.0 { printed_fold(d3, 0.1) } else { 0.25 };
+            let parameters = oscillator(part * unit, 0.0, d3, 0.1);
+            if parameters.omega().is_none() {
+                continue; // The paper assumes abs(D) < 1.
+            }
+            cases.push((place(&parameters), count(&parameters, limits)? == expected(part)));
+        }
+    }
+    Ok(Finding::always(cases))
+}
+
+/// (48).
+fn printed_fold(d3: f64, r: f64) -> f64 {
+    -0.5 * ((9.0 / PI).powi(2) * r * r * d3).cbrt()
+}
+
+/// The fold of the cycles.
+fn found_fold(parameters: &Parameters, limits: &Limits) -> Result<FoldPoint, Reason> {
+    let lost = Reason::NoConvergence { sought: "the fold", change: f64::NAN };
+    fold(parameters, limits)?.0.ok_or(lost)
+}
+
+/// (48) against the fold of the cycles.
+fn fold_against(limits: &Limits, d2: f64, d3: f64, r: f64) -> Result<Finding, Reason> {
+    let found = found_fold(&oscillator(0.0, d2, d3, r), limits)?;
+    let asymmetry = if d2 == 0.0 { String::new() } else { format!("D2 = {d2}, ") };
+    let at = format!("{asymmetry}D3 = {d3}, r = {r}");
+    Ok(Finding::near(printed_fold(d3, r), Known::relative(found.d, 1e-12)).at(at))
+}
+
+/// (51).
+fn small(parameters: &Parameters) -> f64 {
+    -2.0 * parameters.r / (PI * parameters.d)
+}
+
+/// (51) against the extent of the piecewise linear cycle.
+fn exact_amplitude(limits: &Limits, d: f64) -> Result<Finding, Reason> {
+    let parameters = oscillator(d, 0.0, 0.0, 0.1);
+    let cycle = smallest(&parameters, limits)?;
+    let computed = of_cycle(&cycle, cycle.q_max);
+    Ok(Finding::equal(small(&parameters), computed).at(place(&parameters)))
+}

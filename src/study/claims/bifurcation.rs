@@ -1,0 +1,212 @@
+//! Sections 6.3 and 6.4: the mean shift, and how friction changes the bifurcation.
+
+use std::f64::consts::PI;
+
+use super::measure::{
+    Known, amplitude, at_rest, captured, count, cycles, largest, mean, of_cycle, oscillator, place,
+    smallest,
+};
+use super::{Claim, Finding};
+use crate::flow::{Limits, Reason};
+use crate::oscillator::Parameters;
+use crate::study::Edge;
+use crate::study::basin::basin;
+use crate::study::cycle::cycles as all;
+use crate::study::fold::fold;
+
+/// The claims.
+pub const CLAIMS: &[Claim] = &[
+    Claim {
+        equation: "6.3",
+        section: "6.3",
+        statement: "the mean displacement goes as the square of the amplitude: exponent",
+        scene: Some("asymmetry"),
+        check: |limits| {
+            let at = |d: f64| {
+                let parameters = oscillator(d, 0.2, 0.0, 0.01);
+                let cycle = smallest(&parameters, limits)?;
+                Ok((mean(&parameters, &cycle, limits)?, amplitude(&cycle)))
+            };
+            let ((small, size), (large, double)) = (at(-0.1)?, at(-0.05)?);
+            let exponent = (large.value / small.value).ln() / (double.value / size.value).ln();
+            let error = large.error / large.value.abs() + small.error / small.value.abs();
+            let computed = Known { value: exponent, error: 2.0 * error };
+            Ok(Finding::near(2.0, computed).at("D = -0.1 .. -0.05, D2 = 0.2, r = 0.01"))
+        },
+    },
+    Claim {
+        equation: "(53)",
+        section: "6.3",
+        statement: "mean displacement of small cycles, A_01 = (2 r^2/pi) D2/D",
+        scene: Some("asymmetry"),
+        check: |limits| {
+            let parameters = oscillator(-0.1, 0.2, 0.0, 0.01);
+            let Parameters { d, d2, r, .. } = parameters;
+            let cycle = smallest(&parameters, limits)?;
+            let computed = mean(&parameters, &cycle, limits)?;
+            let corrected = -2.0 * r * r * d2 / (PI * PI * d * d);
+            let finding = Finding::near(2.0 * r * r / PI * d2 / d, computed).corrected(corrected);
+            Ok(finding.at(place(&parameters)))
+        },
+    },
+    Claim {
+        equation: "(54)",
+        section: "6.3",
+        statement: "mean displacement of large cycles, A_02 = 4 D2 D/(3 D3), in the example of Fig. 14",
+        scene: Some("asymmetry"),
+        check: |limits| {
+            let parameters = oscillator(-0.1, 0.2, 0.5, 0.01);
+            let Parameters { d, d2, d3, .. } = parameters;
+            let cycle = largest(&parameters, limits)?;
+            let computed = mean(&parameters, &cycle, limits)?;
+            Ok(Finding::near(4.0 * d2 * d / (3.0 * d3), computed).at(place(&parameters)))
+        },
+    },
+    Claim {
+        equation: "Fig. 13",
+        section: "6.4",
+        statement: "D2 merely distorts the phase portrait: number of cycles, as for D2 = 0, at small amplitude",
+        scene: Some("asymmetry"),
+        check: |limits| distortion(limits, &oscillator(-0.7, 0.2, 0.0, 0.5)),
+    },
+    Claim {
+        equation: "Fig. 13",
+        section: "6.4",
+        statement: "D2 merely distorts the phase portrait: number of cycles, as for D2 = 0, at large amplitude",
+        scene: Some("asymmetry"),
+        check: |limits| distortion(limits, &oscillator(-0.07, 0.2, 0.0, 0.5)),
+    },
+    Claim {
+        equation: "6.4",
+        section: "6.4",
+        statement: "without friction D3 > 0 makes the bifurcation supercritical, D3 < 0 subcritical",
+        scene: Some("hopf"),
+        check: |limits| {
+            let mut cases = Vec::new();
+            for (d, d3, expected) in [
+                (-0.1, 0.5, vec![true]),
+                (0.1, 0.5, vec![]),
+                (-0.1, -0.5, vec![]),
+                (0.1, -0.5, vec![false]),
+            ] {
+                let parameters = oscillator(d, 0.0, d3, 0.0);
+                let stable: Vec<bool> =
+                    cycles(&parameters, limits)?.iter().map(|cycle| cycle.stable).collect();
+                cases.push((place(&parameters), stable == expected));
+            }
+            Ok(Finding::always(cases))
+        },
+    },
+    Claim {
+        equation: "6.4",
+        section: "6.4",
+        statement: "without friction and D3 there are no cycles, whatever D2",
+        scene: Some("hopf"),
+        check: |limits| {
+            let mut cases = Vec::new();
+            for (d, d2) in [(-0.5, 0.0), (-0.1, 0.0), (-0.5, 0.3), (-0.1, 0.3), (-0.01, 1.0)] {
+                let parameters = oscillator(d, d2, 0.0, 0.0);
+                cases
+                    .push((place(&parameters), all(&parameters, false, limits)?.cycles.is_empty()));
+            }
+            Ok(Finding::always(cases))
+        },
+    },
+    Claim {
+        equation: "6.4",
+        section: "6.4",
+        statement: "with friction the set attracts for all values of D",
+        scene: Some("linear"),
+        check: |limits| {
+            let mut cases = Vec::new();
+            for d in [0.5, 0.1, 0.0, -0.5, -0.9, -0.99, -1.001, -2.0] {
+                let parameters = oscillator(d, 0.0, 0.0, 1.0);
+                let rests = captured(&parameters, at_rest(1.0 + 1e-10), 100.0, limits)?;
+                cases.push((format!("D = {d}"), rests));
+            }
+            Ok(Finding::always(cases))
+        },
+    },
+    Claim {
+        equation: "Fig. 16",
+        section: "6.4",
+        statement: "the new unstable cycle at D < 0 borders the basin: for D2 = 0",
+        scene: Some("supercritical"),
+        check: |limits| bordered(limits, 0.0),
+    },
+    Claim {
+        equation: "Fig. 16",
+        section: "6.4",
+        statement: "the new unstable cycle at D < 0 borders the basin: with D2 = 1",
+        scene: Some("escape"),
+        check: |limits| bordered(limits, 1.0),
+    },
+    Claim {
+        equation: "Fig. 15",
+        section: "6.4",
+        statement: "as r goes to 0 the basin shrinks to nothing: its extent",
+        scene: Some("supercritical"),
+        check: |limits| {
+            let extent = |r: f64| {
+                let cycle = smallest(&oscillator(-0.3, 0.0, 0.5, r), limits)?;
+                Ok((0.0, of_cycle(&cycle, cycle.q_max)))
+            };
+            Ok(Finding::tends(extent(1e-2)?, extent(1e-6)?)
+                .at("q_max at D = -0.3, D3 = 0.5, r = 1e-6"))
+        },
+    },
+    Claim {
+        equation: "Fig. 17",
+        section: "6.4",
+        statement: "as r goes to 0 the fold goes to (0, 0) as r^(2/3): exponent of D_F",
+        scene: Some("supercritical"),
+        check: |limits| {
+            let lost = Reason::NoConvergence { sought: "the fold", change: f64::NAN };
+            let place = |r: f64| fold(&oscillator(0.0, 0.0, 0.5, r), limits)?.0.ok_or(lost);
+            let (far, near) = (place(1e-3)?.d, place(1e-6)?.d);
+            let exponent = (far / near).ln() / 1e3_f64.ln();
+            Ok(Finding::near(2.0 / 3.0, Known { value: exponent, error: 1e-11 })
+                .at("D3 = 0.5, r = 1e-6 .. 1e-3"))
+        },
+    },
+    Claim {
+        equation: "Fig. 17",
+        section: "6.4",
+        statement: "as r goes to 0 the crossing Z goes to (0, 0) as r^(1/3): exponent of A_Z",
+        scene: Some("subcritical"),
+        check: |limits| {
+            let size = |r: f64| {
+                let cycle = smallest(&oscillator(0.0, 0.0, -0.5, r), limits)?;
+                Ok(cycle.q_max)
+            };
+            let (far, near) = (size(1e-3)?, size(1e-6)?);
+            let exponent = (far / near).ln() / 1e3_f64.ln();
+            Ok(Finding::near(1.0 / 3.0, Known { value: exponent, error: 1e-12 })
+                .at("D3 = -0.5, r = 1e-6 .. 1e-3"))
+        },
+    },
+];
+
+/// The number of cycles with D2 against that without.
+fn distortion(limits: &Limits, parameters: &Parameters) -> Result<Finding, Reason> {
+    let number = |parameters: &Parameters| {
+        let found = count(parameters, limits)?;
+        Ok(if found == 0 { 0.0 } else { f64::from(u32::try_from(found).unwrap_or(u32::MAX)) })
+    };
+    let without = number(&Parameters { d2: 0.0, ..*parameters })?;
+    let with = number(parameters)?;
+    Ok(Finding::equal(without, Known::exact(with)).at(place(parameters)))
+}
+
+/// Whether an unstable cycle borders the basin wherever the border is finite, at some dampings.
+fn bordered(limits: &Limits, d2: f64) -> Result<Finding, Reason> {
+    let mut cases = Vec::new();
+    for d3 in [-0.5, 0.0, 0.5] {
+        for d in [-0.8, -0.4, -0.05, -0.01] {
+            let parameters = oscillator(d, d2, d3, 0.1);
+            let edge = basin(&parameters, 10.0, limits)?.edge;
+            cases.push((place(&parameters), edge != Edge::Separatrix));
+        }
+    }
+    Ok(Finding::always(cases))
+}

@@ -1,0 +1,280 @@
+//! Section 5.1: the cycle of the piecewise linear oscillator, and the basin that it borders.
+
+use std::f64::consts::PI;
+
+use super::equilibria::{least_kick, shifted};
+use super::measure::{Known, at_rest, half_swing, of_cycle, oscillator, place, smallest, state_at};
+use super::{Claim, Finding};
+use crate::flow::{Limits, Reason};
+use crate::oscillator::{Parameters, State};
+use crate::study::Edge;
+use crate::study::basin::basin;
+use crate::study::cycle::Cycle;
+
+/// The claims.
+pub const CLAIMS: &[Claim] = &[
+    Claim {
+        equation: "5",
+        section: "5",
+        statement: "in the plane the border of a basin must be a periodic solution: cycles on the border",
+        scene: Some("escape"),
+        check: |limits| {
+            let parameters = oscillator(-0.02, 0.5, 0.0, 0.1);
+            let found = basin(&parameters, 10.0, limits)?;
+            let cycles = u8::from(found.edge == Edge::Cycle);
+            let at = format!("{}, where starts beyond a finite border escape", place(&parameters));
+            // A basin without a border would need none.
+            let needed = f64::from(u8::from(found.edge != Edge::None));
+            Ok(Finding::equal(needed, Known::exact(f64::from(cycles))).at(at))
+        },
+    },
+    Claim {
+        equation: "5.1",
+        section: "5.1",
+        statement: "for D < 0 there is one cycle, and it reaches further than r",
+        scene: Some("linear"),
+        check: |limits| {
+            let mut cases = Vec::new();
+            for d in DAMPINGS {
+                let found = super::measure::cycles(&units_of_friction(d), limits)?;
+                let further = found.len() == 1 && found[0].clearance > 0.0;
+                cases.push((format!("D = {d}"), further));
+            }
+            Ok(Finding::always(cases))
+        },
+    },
+    Claim {
+        equation: "5.1",
+        section: "5.1",
+        statement: "motions that start within a circle of radius r are trapped: the smallest kick out of \
+                    the basin",
+        scene: Some("linear"),
+        check: |limits| {
+            Finding::worst(DAMPINGS.map(|d| {
+                let parameters = units_of_friction(d);
+                let least = least_kick(&parameters, limits)?;
+                Ok(Finding::at_most(parameters.r, least).at(place(&parameters)))
+            }))
+        },
+    },
+    Claim {
+        equation: "after (27)",
+        section: "5.1",
+        statement: "a half swing takes pi/omega_d",
+        scene: None,
+        check: |limits| over_swings(limits, |swing| PI / swing.omega, |[_, tau]| tau),
+    },
+    Claim {
+        equation: "(25)",
+        section: "5.1",
+        statement: "above v = 0 the motion is linear in q - r: where a half swing ends",
+        scene: Some("linear"),
+        check: |limits| shifted(limits, 1.0),
+    },
+    Claim {
+        equation: "(25-28)",
+        section: "5.1",
+        statement: "with A = -c, B = -c D/omega_d the velocity on the way is (26, 27)",
+        scene: None,
+        check: |limits| {
+            Finding::worst(DAMPINGS.map(|d| {
+                let (parameters, swing) = (units_of_friction(d), Swing::new(d));
+                let tau = 0.4 * PI / swing.omega;
+                let start = at_rest(-parameters.r - 1.0);
+                let [_, velocity] = state_at(&parameters, start, tau, limits)?;
+                let (a, b) = (-1.0, -d / swing.omega);
+                let (sine, cosine) = (swing.omega * tau).sin_cos();
+                let formula =
+                    -(a * d - b * swing.omega) * cosine - (b * d + a * swing.omega) * sine;
+                let at = format!("{}, from q = -2, at tau = {tau:.4}", place(&parameters));
+                Ok(Finding::equal(formula * (-d * tau).exp(), velocity).at(at))
+            }))
+        },
+    },
+    Claim {
+        equation: "(29)",
+        section: "5.1",
+        statement: "a half swing that starts with clearance c ends at c e^(-pi D/omega_d), counted from -r",
+        scene: None,
+        check: |limits| {
+            over_swings(
+                limits,
+                |swing| swing.growth,
+                |[end, _]| Known { value: end.value + 1.0, ..end },
+            )
+        },
+    },
+    Claim {
+        equation: "(30)",
+        section: "5.1",
+        statement: "clearance c of the cycle: how far it passes the sticking set",
+        scene: Some("linear"),
+        check: |limits| {
+            over_cycles(limits, |swing| (swing.clearance(), None), |cycle| cycle.clearance)
+        },
+    },
+    Claim {
+        equation: "(30)",
+        section: "5.1",
+        statement: "the same at D = -0.999, the smallest basin of Fig. 7",
+        scene: Some("linear"),
+        check: |limits| {
+            let parameters = units_of_friction(-0.999);
+            let cycle = smallest(&parameters, limits)?;
+            // An exponential of 70 has as many times the relative error of its exponent.
+            let computed = Known::relative(cycle.clearance, 70.0 * 1e-14);
+            Ok(Finding::equal(Swing::new(-0.999).clearance(), computed).at(place(&parameters)))
+        },
+    },
+    Claim {
+        equation: "(31)",
+        section: "5.1",
+        statement: "the border as a curve over the angle phi: its velocity at phi = 2",
+        scene: Some("linear"),
+        check: |limits| on_the_curve(limits, |point| point.v, |[_, v]| v),
+    },
+    Claim {
+        equation: "(31)",
+        section: "5.1",
+        statement: "the border as a curve over the angle phi: its displacement at phi = 2",
+        scene: Some("linear"),
+        check: |limits| on_the_curve(limits, |point| point.q, |[q, _]| q),
+    },
+    Claim {
+        equation: "(32)",
+        section: "5.1",
+        statement: "largest displacement A_q of the cycle",
+        scene: Some("linear"),
+        check: |limits| {
+            over_cycles(
+                limits,
+                |swing| ((swing.growth + 1.0) / (swing.growth - 1.0), None),
+                |cycle| cycle.q_max,
+            )
+        },
+    },
+    Claim {
+        equation: "(33)",
+        section: "5.1",
+        statement: "largest velocity A_v of the cycle",
+        scene: Some("linear"),
+        check: |limits| {
+            over_cycles(
+                limits,
+                |swing| (swing.printed_velocity(), Some(swing.largest_velocity())),
+                |cycle| cycle.v_max,
+            )
+        },
+    },
+    Claim {
+        equation: "Fig. 7",
+        section: "6.1",
+        statement: "the cycle scales with r: its extent for r = 3 in terms of that for r = 1",
+        scene: Some("linear"),
+        check: |limits| {
+            let cycle = |r: f64| smallest(&oscillator(-0.4, 0.0, 0.0, r), limits);
+            let (one, three) = (cycle(1.0)?, cycle(3.0)?);
+            let ratio = of_cycle(&three, three.q_max / one.q_max);
+            Ok(Finding::equal(3.0, ratio).at("D = -0.4, D2 = D3 = 0"))
+        },
+    },
+];
+
+/// Dampings at which formulas of the piecewise linear oscillator are tested.
+const DAMPINGS: [f64; 5] = [-0.9, -0.7, -0.4, -0.1, -0.01];
+
+/// The oscillator in units of its friction.
+fn units_of_friction(d: f64) -> Parameters {
+    oscillator(d, 0.0, 0.0, 1.0)
+}
+
+/// What the formulas of a half swing are made of, in units of friction.
+struct Swing {
+    d: f64,
+    /// Frequency `omega_d`.
+    omega: f64,
+    /// `e^(-pi D/omega_d)`.
+    growth: f64,
+}
+
+impl Swing {
+    fn new(d: f64) -> Self {
+        let omega = (1.0 - d * d).sqrt();
+        Swing { d, omega, growth: (-PI * d / omega).exp() }
+    }
+
+    /// (30).
+    fn clearance(&self) -> f64 {
+        2.0 / (self.growth - 1.0)
+    }
+
+    /// (33) as it stands in the paper.
+    fn printed_velocity(&self) -> f64 {
+        let Swing { d, omega, growth } = *self;
+        let angle = (omega / d).atan();
+        2.0 * (-d * PI).exp() / (omega * (growth - 1.0))
+            * (-d / omega * angle).exp()
+            * (omega + angle).sin()
+    }
+
+    /// (33) as it should read: the maximum of (31).
+    fn largest_velocity(&self) -> f64 {
+        let angle = self.omega.atan2(self.d);
+        self.clearance() * (-self.d / self.omega * angle).exp()
+    }
+
+    /// (31), on the upper half.
+    fn curve(&self, angle: f64) -> State {
+        let Swing { d, omega, growth } = *self;
+        let grown = 2.0 / (growth - 1.0) * (-d / omega * angle).exp();
+        let (sine, cosine) = angle.sin_cos();
+        State { q: -1.0 - grown * (cosine + d / omega * sine), v: grown / omega * sine }
+    }
+}
+
+/// A formula of the half swing from `(-2, 0)` against the integrated one, at the worst of some dampings.
+fn over_swings(
+    limits: &Limits,
+    formula: fn(&Swing) -> f64,
+    read: fn([Known; 2]) -> Known,
+) -> Result<Finding, Reason> {
+    Finding::worst(DAMPINGS.map(|d| {
+        let parameters = units_of_friction(d);
+        let paper = formula(&Swing::new(d));
+        let computed = read(half_swing(&parameters, at_rest(-2.0), limits)?);
+        Ok(Finding::equal(paper, computed).at(format!("{}, from q = -2", place(&parameters))))
+    }))
+}
+
+/// A formula of the cycle against the one found by the search, at the worst of some dampings.
+fn over_cycles(
+    limits: &Limits,
+    formula: fn(&Swing) -> (f64, Option<f64>),
+    read: fn(&Cycle) -> f64,
+) -> Result<Finding, Reason> {
+    Finding::worst(DAMPINGS.map(|d| {
+        let parameters = units_of_friction(d);
+        let cycle = smallest(&parameters, limits)?;
+        let (paper, corrected) = formula(&Swing::new(d));
+        let finding = Finding::equal(paper, of_cycle(&cycle, read(&cycle))).at(place(&parameters));
+        Ok(Finding { corrected, ..finding })
+    }))
+}
+
+/// A coordinate of (31) against the motion that starts at the turning point of the cycle.
+fn on_the_curve(
+    limits: &Limits,
+    formula: fn(State) -> f64,
+    read: fn([Known; 2]) -> Known,
+) -> Result<Finding, Reason> {
+    const ANGLE: f64 = 2.0;
+    Finding::worst(DAMPINGS.map(|d| {
+        let (parameters, swing) = (units_of_friction(d), Swing::new(d));
+        let start = at_rest(swing.curve(0.0).q);
+        let state = read(state_at(&parameters, start, ANGLE / swing.omega, limits)?);
+        // The start is rounded, and near D = -1 its clearance is a small part of it.
+        let rounded = 4.0 * f64::EPSILON * swing.growth * swing.clearance().max(1.0);
+        let state = Known { error: state.error + rounded, ..state };
+        Ok(Finding::equal(formula(swing.curve(ANGLE)), state).at(place(&parameters)))
+    }))
+}

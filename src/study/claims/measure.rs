@@ -1,0 +1,249 @@
+//! Numbers with known errors, computed without the formulas that they are compared with.
+//!
+//! A motion is integrated by two methods that share nothing but the field, and the error is what they
+//! differ by. Cycles come from the general search, also where a closed form exists.
+
+use crate::flow::trajectory::trajectory;
+use crate::flow::{Detail, Limits, Method, Outcome, Problem, Reason};
+use crate::oscillator::{Parameters, Side, State};
+use crate::study::arc::{Arc, Direction};
+use crate::study::closing::Equation;
+use crate::study::cycle::{Cycle, closings};
+use crate::study::half_map::Length;
+
+/// A number and how far it may be off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Known {
+    /// The number.
+    pub value: f64,
+    /// Bound on its error.
+    pub error: f64,
+}
+
+impl Known {
+    /// A number that is what it is, such as a count.
+    #[must_use]
+    pub fn exact(value: f64) -> Self {
+        Known { value, error: 0.0 }
+    }
+
+    /// A number known to a part of itself.
+    #[must_use]
+    pub fn relative(value: f64, part: f64) -> Self {
+        Known { value, error: part * value.abs() }
+    }
+
+    /// Two answers to one question: the first, with their difference as its error.
+    #[must_use]
+    pub fn twice(value: f64, again: f64) -> Self {
+        Known { value, error: (value - again).abs() + 4.0 * f64::EPSILON * value.abs() }
+    }
+}
+
+/// Rounding of a number that several operations made from a computed one.
+const ROUNDED: f64 = 1e-14;
+
+/// A number read out of a cycle.
+pub fn of_cycle(cycle: &Cycle, value: f64) -> Known {
+    Known::relative(value, cycle.error + ROUNDED)
+}
+
+/// An oscillator, in the order of the equation.
+pub fn oscillator(d: f64, d2: f64, d3: f64, r: f64) -> Parameters {
+    Parameters { d, d2, d3, r }
+}
+
+/// The parameters that are not zero, D always: `D = -0.4, r = 0.1`.
+pub fn place(parameters: &Parameters) -> String {
+    let Parameters { d, d2, d3, r } = *parameters;
+    let mut text = format!("D = {}", short(d));
+    for (name, value) in [("D2", d2), ("D3", d3), ("r", r)] {
+        if value != 0.0 {
+            text += &format!(", {name} = {}", short(value));
+        }
+    }
+    text
+}
+
+/// A number in full, or rounded where it has more digits than anyone typed.
+fn short(value: f64) -> String {
+    /// Room for what people type.
+    const TYPED: usize = 10;
+    let full = format!("{value}");
+    if full.len() <= TYPED { full } else { format!("{value:.6}") }
+}
+
+/// A state at rest.
+pub fn at_rest(q: f64) -> State {
+    State { q, v: 0.0 }
+}
+
+/// The two methods that answer every question about a motion, with the relative error of a step.
+const METHODS: [(Method, f64); 2] = [(Method::Taylor, 1e-15), (Method::Dop853, 1e-14)];
+
+/// A motion from `initial` until `until` by both methods, each reduced to numbers by `read`.
+fn motions<const N: usize>(
+    (parameters, initial, until): (Parameters, State, f64),
+    limits: &Limits,
+    read: impl Fn(&crate::flow::Trajectory) -> Option<[f64; N]>,
+) -> Result<Option<[Known; N]>, Reason> {
+    let mut answers = [None; 2];
+    for (answer, (method, tolerance)) in answers.iter_mut().zip(METHODS) {
+        let problem =
+            Problem { parameters, initial, until, method, tolerance, ..Problem::default() };
+        let detail = Detail { energy: true, ..Detail::default() };
+        let motion = trajectory(&problem, detail, limits);
+        if let Outcome::GaveUp { reason, .. } = motion.outcome {
+            return Err(reason);
+        }
+        *answer = read(&motion);
+    }
+    let [Some(first), Some(second)] = answers else { return Ok(None) };
+    Ok(Some(std::array::from_fn(|index| Known::twice(first[index], second[index]))))
+}
+
+/// Longer than any half swing asked for here.
+const LONG: f64 = 1000.0;
+
+/// A question whose answer should exist did not have one.
+fn missing(sought: &'static str) -> Reason {
+    Reason::NoConvergence { sought, change: f64::NAN }
+}
+
+/// Place and time of the first arrival at `v = 0`.
+///
+/// # Errors
+/// The [`Reason`] why the motion has none.
+pub fn half_swing(
+    parameters: &Parameters,
+    initial: State,
+    limits: &Limits,
+) -> Result<[Known; 2], Reason> {
+    // Stopping at the arrival needs its time; a first run over one half swing finds it.
+    let until = parameters.omega().map_or(LONG, |omega| 2.0 * std::f64::consts::PI / omega);
+    motions((*parameters, initial, until), limits, |motion| {
+        motion.crossings.first().map(|crossing| [crossing.q, crossing.tau])
+    })?
+    .ok_or(missing("an arrival at v = 0"))
+}
+
+/// State at a time before the motion comes to rest.
+///
+/// # Errors
+/// The [`Reason`] why there is none.
+pub fn state_at(
+    parameters: &Parameters,
+    initial: State,
+    tau: f64,
+    limits: &Limits,
+) -> Result<[Known; 2], Reason> {
+    motions((*parameters, initial, tau), limits, |motion| match motion.outcome {
+        Outcome::Moving { q, v, .. } => Some([q, v]),
+        _ => None,
+    })?
+    .ok_or(missing("a state in motion"))
+}
+
+/// Change of the energy over a motion, and the works of linear damping and of friction.
+///
+/// # Errors
+/// The [`Reason`] why there are none.
+pub fn energy_change(
+    parameters: &Parameters,
+    initial: State,
+    until: f64,
+    limits: &Limits,
+) -> Result<[Known; 3], Reason> {
+    motions((*parameters, initial, until), limits, |motion| {
+        motion.ledger.map(|ledger| [ledger.end - ledger.start, ledger.linear, ledger.friction])
+    })?
+    .ok_or(missing("an energy ledger"))
+}
+
+/// How a motion ends before `until`.
+///
+/// # Errors
+/// The [`Reason`] why it was given up.
+pub fn outcome(
+    parameters: &Parameters,
+    initial: State,
+    until: f64,
+    limits: &Limits,
+) -> Result<Outcome, Reason> {
+    let (parameters, tolerance) = (*parameters, 1e-12);
+    let problem = Problem { parameters, initial, until, tolerance, ..Problem::default() };
+    match trajectory(&problem, Detail::default(), limits).outcome {
+        Outcome::GaveUp { reason, .. } => Err(reason),
+        outcome => Ok(outcome),
+    }
+}
+
+/// Whether a motion comes to rest before `until`.
+///
+/// # Errors
+/// The [`Reason`] why it was given up.
+pub fn captured(
+    parameters: &Parameters,
+    initial: State,
+    until: f64,
+    limits: &Limits,
+) -> Result<bool, Reason> {
+    let end = outcome(parameters, initial, until, limits)?;
+    Ok(matches!(end, Outcome::Captured { .. }))
+}
+
+/// All cycles by the general search, smallest first, whether or not a closed form exists.
+///
+/// # Errors
+/// The [`Reason`] why the search failed.
+pub fn cycles(parameters: &Parameters, limits: &Limits) -> Result<Vec<Cycle>, Reason> {
+    let mut equation = Equation::new(parameters, 0.5 * f64::EPSILON);
+    let found = closings(&mut equation, limits)?;
+    Ok(found.iter().map(|closing| closing.describe(parameters, equation.side)).collect())
+}
+
+/// The smallest cycle.
+///
+/// # Errors
+/// The [`Reason`] why there is none.
+pub fn smallest(parameters: &Parameters, limits: &Limits) -> Result<Cycle, Reason> {
+    cycles(parameters, limits)?.first().copied().ok_or(missing("a limit cycle"))
+}
+
+/// The largest cycle.
+///
+/// # Errors
+/// The [`Reason`] why there is none.
+pub fn largest(parameters: &Parameters, limits: &Limits) -> Result<Cycle, Reason> {
+    cycles(parameters, limits)?.last().copied().ok_or(missing("a limit cycle"))
+}
+
+/// How many cycles there are.
+///
+/// # Errors
+/// The [`Reason`] why the search failed.
+pub fn count(parameters: &Parameters, limits: &Limits) -> Result<usize, Reason> {
+    cycles(parameters, limits).map(|found| found.len())
+}
+
+/// Half of what lies between the turning points.
+pub fn amplitude(cycle: &Cycle) -> Known {
+    of_cycle(cycle, 0.5 * (cycle.q_max - cycle.q_min))
+}
+
+/// Mean displacement of a cycle over its period.
+///
+/// # Errors
+/// The [`Reason`] why its arcs could not be computed.
+pub fn mean(parameters: &Parameters, cycle: &Cycle, limits: &Limits) -> Result<Known, Reason> {
+    /// Relative error of the integral of q by arcs to 1e-14.
+    const INTEGRAL: f64 = 1e-11;
+    let r = parameters.r;
+    let arc = |side, clearance| {
+        Arc::new(parameters, side, Direction::Forward, Length::new(clearance), limits)
+    };
+    let rise = arc(Side::Upper, -cycle.q_min - r)?;
+    let fall = arc(Side::Lower, cycle.q_max - r)?;
+    let mean = (rise.time_integral() + fall.time_integral()) / cycle.period;
+    Ok(Known { value: mean, error: INTEGRAL * cycle.q_max })
+}

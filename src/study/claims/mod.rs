@@ -1,0 +1,88 @@
+//! The paper against computation: every claim that can be tested, tested.
+//!
+//! [`SECTIONS`] is the table. A [`Claim`] says where it stands, what it says, and holds a function that
+//! evaluates the paper's formula and computes the same thing without it: by integrating motions, by
+//! searching cycles, by differentiating the physical law. That function returns a [`Finding`], numbers
+//! and nothing else; the [`Verdict`] follows from the numbers by one rule for all claims
+//! ([`Finding::verdict`]).
+
+mod amplitudes;
+mod beyond;
+mod bifurcation;
+mod equilibria;
+mod harmonic;
+mod linear;
+mod measure;
+mod model;
+mod summary;
+mod verdict;
+
+pub use verdict::{Finding, Sense, Verdict};
+
+use crate::flow::{Limits, Reason};
+
+/// A sentence or an equation of the paper that numbers can decide.
+#[derive(Debug)]
+pub struct Claim {
+    /// Number of the equation or of the figure, or a word for what has no number.
+    pub equation: &'static str,
+    /// Section of the paper; [`UNSAID`] for what the paper does not say.
+    pub section: &'static str,
+    /// What it says.
+    pub statement: &'static str,
+    /// A scene that shows it.
+    pub scene: Option<&'static str>,
+    /// Evaluates the formula and computes the same thing otherwise.
+    pub check: fn(&Limits) -> Result<Finding, Reason>,
+}
+
+/// Stands for the section of what the paper does not say.
+pub const UNSAID: &str = "-";
+
+/// A claim and what became of it.
+#[derive(Debug)]
+pub struct Examined {
+    /// The claim.
+    pub claim: &'static Claim,
+    /// The numbers, or why there are none.
+    pub finding: Result<Finding, Reason>,
+}
+
+impl Examined {
+    /// What the numbers say; `None` where they could not be computed.
+    #[must_use]
+    pub fn verdict(&self) -> Option<Verdict> {
+        self.finding.as_ref().ok().map(Finding::verdict)
+    }
+}
+
+/// All claims, section by section, and at last what the paper does not say.
+pub const SECTIONS: [&[Claim]; 8] = [
+    model::CLAIMS,
+    equilibria::CLAIMS,
+    linear::CLAIMS,
+    harmonic::CLAIMS,
+    amplitudes::CLAIMS,
+    bifurcation::CLAIMS,
+    summary::CLAIMS,
+    beyond::CLAIMS,
+];
+
+/// Every claim, in the order of the paper.
+pub fn claims() -> impl Iterator<Item = &'static Claim> {
+    SECTIONS.iter().copied().flatten()
+}
+
+/// Puts one claim to the test.
+///
+/// # Errors
+/// [`Reason::Interrupted`] and no other: any other reason belongs to the answer.
+pub fn examine(claim: &'static Claim, limits: &Limits) -> Result<Examined, Reason> {
+    match (claim.check)(limits) {
+        Err(Reason::Interrupted) => Err(Reason::Interrupted),
+        Ok(finding) if claim.section == UNSAID => {
+            Ok(Examined { claim, finding: Ok(finding.unsaid()) })
+        }
+        finding => Ok(Examined { claim, finding }),
+    }
+}

@@ -1,0 +1,123 @@
+//! Section 7 and the end of 6.4: what friction does at small and at large amplitude.
+
+use super::measure::{
+    Known, amplitude, at_rest, energy_change, largest, of_cycle, oscillator, place, smallest,
+};
+use super::{Claim, Finding};
+use crate::flow::{Limits, Reason};
+use crate::oscillator::Parameters;
+use crate::study::Edge;
+use crate::study::basin::basin;
+
+/// The claims.
+pub const CLAIMS: &[Claim] = &[
+    Claim {
+        equation: "after Fig. 17",
+        section: "6.4",
+        statement: "what viscous damping dissipates goes as the square of the amplitude: exponent",
+        scene: None,
+        check: |limits| {
+            let [_, linear, _] = exponents(limits)?;
+            Ok(Finding::near(2.0, linear).at("D = 1e-3, r = 1e-3, from q = 1 and 2"))
+        },
+    },
+    Claim {
+        equation: "after Fig. 17",
+        section: "6.4",
+        statement: "what Coulomb friction dissipates is proportional to the amplitude: exponent",
+        scene: None,
+        check: |limits| {
+            let [_, _, friction] = exponents(limits)?;
+            Ok(Finding::near(1.0, friction).at("D = 1e-3, r = 1e-3, from q = 1 and 2"))
+        },
+    },
+    Claim {
+        equation: "7",
+        section: "7",
+        statement: "the behaviour at large amplitude is mostly preserved: amplitude of the stable cycle as \
+                    for r = 0",
+        scene: Some("supercritical"),
+        check: |limits| {
+            let parameters = oscillator(-0.3, 0.0, 0.5, 0.1);
+            let smooth = largest(&Parameters { r: 0.0, ..parameters }, limits)?;
+            let found = amplitude(&largest(&parameters, limits)?);
+            Ok(Finding::near(smooth.q_max, found).at(place(&parameters)))
+        },
+    },
+    Claim {
+        equation: "7",
+        section: "7",
+        statement: "as r goes to 0 the scenario of the smooth system returns: amplitude of the stable cycle",
+        scene: Some("supercritical"),
+        check: |limits| {
+            let parameters = oscillator(-0.3, 0.0, 0.5, 1e-3);
+            let smooth = largest(&Parameters { r: 0.0, ..parameters }, limits)?.q_max;
+            let with = |r: f64| {
+                let cycle = largest(&Parameters { r, ..parameters }, limits)?;
+                Ok((smooth, of_cycle(&cycle, cycle.q_max)))
+            };
+            Ok(Finding::tends(with(0.1)?, with(1e-3)?).at(place(&parameters)))
+        },
+    },
+    Claim {
+        equation: "7",
+        section: "7",
+        statement: "for D > 0 the basin is finite or infinite, as nonlinear damping has it: D3 decides",
+        scene: Some("subcritical"),
+        check: |limits| {
+            let mut cases = Vec::new();
+            for d3 in [-0.5, 0.0, 0.5] {
+                for d in [0.01, 0.1, 0.5] {
+                    let parameters = oscillator(d, 0.0, d3, 0.1);
+                    let finite = basin(&parameters, 10.0, limits)?.edge != Edge::None;
+                    cases.push((place(&parameters), finite == (d3 < 0.0)));
+                }
+            }
+            Ok(Finding::always(cases))
+        },
+    },
+    Claim {
+        equation: "7",
+        section: "7",
+        statement: "for D > 0, D3 = 0 the basin is infinite: also with D2",
+        scene: Some("escape"),
+        check: |limits| {
+            let mut cases = Vec::new();
+            for d2 in [0.0, 0.2, 1.0] {
+                for d in [0.01, 0.1, 0.5] {
+                    let parameters = oscillator(d, d2, 0.0, 0.1);
+                    let edge = basin(&parameters, 10.0, limits)?.edge;
+                    cases.push((place(&parameters), edge == Edge::None));
+                }
+            }
+            Ok(Finding::always(cases))
+        },
+    },
+    Claim {
+        equation: "6.2.2",
+        section: "6.2.2",
+        statement: "for small D < 0 very little friction stabilises the rest: size of the basin over r",
+        scene: Some("marginal"),
+        check: |limits| {
+            let size = |d: f64| {
+                let parameters = oscillator(d, 0.0, 0.0, 1e-6);
+                let cycle = smallest(&parameters, limits)?;
+                Ok((2.0 / std::f64::consts::PI, of_cycle(&cycle, -d * cycle.q_max / parameters.r)))
+            };
+            let finding = Finding::tends(size(-1e-2)?, size(-1e-4)?);
+            Ok(finding.at("times abs(D), which makes it 2/pi, at D = -1e-4"))
+        },
+    },
+];
+
+/// Exponents with which the energy change and its parts grow when the amplitude is doubled.
+fn exponents(limits: &Limits) -> Result<[Known; 3], Reason> {
+    let parameters = oscillator(1e-3, 0.0, 0.0, 1e-3);
+    let works = |q: f64| energy_change(&parameters, at_rest(q), 2.0 * std::f64::consts::PI, limits);
+    let (one, two) = (works(1.0)?, works(2.0)?);
+    Ok(std::array::from_fn(|index| {
+        let relative = |known: Known| known.error / known.value.abs();
+        let error = relative(one[index]) + relative(two[index]);
+        Known { value: (two[index].value / one[index].value).log2(), error }
+    }))
+}

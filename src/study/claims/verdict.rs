@@ -1,0 +1,320 @@
+//! From numbers to a verdict, by one rule.
+
+use std::fmt;
+
+use serde::Serialize;
+
+use super::measure::Known;
+
+/// An approximation that misses by more than this part is none.
+const POOR: f64 = 0.25;
+
+/// Rounding of a formula, as a part of its value.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// What is claimed about the two numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Sense {
+    /// They are equal.
+    Equal,
+    /// The paper's approximates the computed one.
+    Near,
+    /// The paper's is a lower bound of the computed one.
+    AtMost,
+    /// They approach each other in a limit; a relative difference further from it is known.
+    Tends {
+        /// That difference.
+        before: f64,
+    },
+    /// Something holds in all cases: the paper's number is how many cases there are, the computed one in
+    /// how many of them it holds.
+    Always,
+}
+
+/// The numbers that decide a claim.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Finding {
+    /// What is claimed about them.
+    pub sense: Sense,
+    /// Where: parameters, start, what is counted.
+    pub place: String,
+    /// The paper's formula evaluated; `None` where the paper is silent.
+    pub paper: Option<f64>,
+    /// The corrected formula evaluated, or the formula for what the paper is silent about.
+    pub corrected: Option<f64>,
+    /// The same thing computed without the formula.
+    pub computed: Known,
+    /// How many cases this one, the worst, was chosen from.
+    pub cases: usize,
+}
+
+/// What the numbers say about a claim.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Verdict {
+    /// It holds as far as the computed numbers are known.
+    Agrees,
+    /// It holds approximately.
+    Approximates {
+        /// Relative difference.
+        within: f64,
+    },
+    /// It fails as printed, and holds in its corrected form.
+    Corrected {
+        /// Relative difference of the corrected form, where that is an approximation.
+        within: Option<f64>,
+    },
+    /// It holds in some cases.
+    InPart,
+    /// It does not hold.
+    False,
+}
+
+impl Finding {
+    /// A formula and what it should be equal to.
+    #[must_use]
+    pub fn equal(paper: f64, computed: Known) -> Self {
+        let place = String::new();
+        let (paper, corrected) = (Some(paper), None);
+        Finding { sense: Sense::Equal, place, paper, corrected, computed, cases: 1 }
+    }
+
+    /// A formula and what it should approximate.
+    #[must_use]
+    pub fn near(paper: f64, computed: Known) -> Self {
+        Finding { sense: Sense::Near, ..Self::equal(paper, computed) }
+    }
+
+    /// A formula and what it should be a lower bound of.
+    #[must_use]
+    pub fn at_most(paper: f64, computed: Known) -> Self {
+        Finding { sense: Sense::AtMost, ..Self::equal(paper, computed) }
+    }
+
+    /// A formula and what it should approach, at two places, the second nearer to the limit.
+    #[must_use]
+    pub fn tends(far: (f64, Known), near: (f64, Known)) -> Self {
+        let before = Self::near(far.0, far.1).miss();
+        Finding { sense: Sense::Tends { before }, ..Self::equal(near.0, near.1) }
+    }
+
+    /// What should hold in each of these cases; the place becomes the first in which it does not.
+    #[must_use]
+    pub fn always(cases: impl IntoIterator<Item = (String, bool)>) -> Self {
+        let (mut holds, mut all, mut place) = (0_u32, 0_u32, String::new());
+        for (case, does) in cases {
+            all += 1;
+            holds += u32::from(does);
+            if !does && place.is_empty() {
+                place = format!("first fails at {case}");
+            }
+        }
+        let computed = Known::exact(f64::from(holds));
+        let cases = all as usize;
+        Finding { sense: Sense::Always, place, cases, ..Self::equal(f64::from(all), computed) }
+    }
+
+    /// The same, but the paper is silent: its formula is one of ours.
+    #[must_use]
+    pub fn unsaid(self) -> Self {
+        Finding { corrected: self.paper.or(self.corrected), paper: None, ..self }
+    }
+
+    /// With the formula as it should read.
+    #[must_use]
+    pub fn corrected(self, value: f64) -> Self {
+        Finding { corrected: Some(value), ..self }
+    }
+
+    /// With a description of the place.
+    #[must_use]
+    pub fn at(self, place: impl fmt::Display) -> Self {
+        Finding { place: place.to_string(), ..self }
+    }
+
+    /// Of several findings about one claim, the one that misses most.
+    ///
+    /// # Errors
+    /// The first error among them.
+    pub fn worst<E>(findings: impl IntoIterator<Item = Result<Self, E>>) -> Result<Self, E> {
+        let mut worst = Self::always([]);
+        let mut cases = 0;
+        for finding in findings {
+            let finding = finding?;
+            cases += 1;
+            if cases == 1 || finding.strain() > worst.strain() {
+                worst = finding;
+            }
+        }
+        Ok(Finding { cases, ..worst })
+    }
+
+    /// The paper's number minus the computed one; the corrected one's where the paper is silent.
+    #[must_use]
+    pub fn difference(&self) -> Option<f64> {
+        Some(self.paper.or(self.corrected)? - self.computed.value)
+    }
+
+    /// That difference as a part of the computed number, or as it is where one of the two is zero.
+    #[must_use]
+    pub fn miss(&self) -> f64 {
+        self.difference().map_or(f64::NAN, |difference| self.part(difference))
+    }
+
+    fn part(&self, difference: f64) -> f64 {
+        (difference / self.scale()).abs()
+    }
+
+    /// What differences are measured against.
+    #[must_use]
+    pub fn scale(&self) -> f64 {
+        let (formula, computed) = (self.paper.or(self.corrected), self.computed.value);
+        if formula == Some(0.0) || computed == 0.0 { 1.0 } else { computed.abs() }
+    }
+
+    /// How near the claim is to failing, above 1 where it fails; for bounds, how little they leave.
+    fn strain(&self) -> f64 {
+        let difference = self.difference().unwrap_or(f64::NAN);
+        match self.sense {
+            Sense::AtMost => difference / self.scale(),
+            _ => difference.abs() / self.bound(),
+        }
+    }
+
+    /// The largest difference with which the claim still holds.
+    #[must_use]
+    pub fn bound(&self) -> f64 {
+        let known = self.computed.error + ROUNDING * self.scale();
+        match self.sense {
+            Sense::Equal | Sense::AtMost => known,
+            Sense::Near => known + POOR * self.scale(),
+            Sense::Tends { before } => before * self.scale(),
+            Sense::Always => 0.0,
+        }
+    }
+
+    /// Whether the claim holds for this value of the formula.
+    fn holds(&self, value: f64) -> bool {
+        let difference = value - self.computed.value;
+        match self.sense {
+            Sense::AtMost => difference <= self.bound(),
+            _ => difference.abs() <= self.bound(),
+        }
+    }
+
+    /// Decides.
+    ///
+    /// The difference between the paper's number and the computed one is compared with
+    /// [`Finding::bound`]: the known error for an equation (with the rounding of the formula), a quarter
+    /// for an approximation, the difference further away for a limit. What fails is corrected if the
+    /// corrected formula passes the same comparison; a statement about cases holds in part if it holds in
+    /// any.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        let approximate = matches!(self.sense, Sense::Near | Sense::Tends { .. });
+        match (self.paper.or(self.corrected), self.corrected) {
+            (Some(value), _) if self.holds(value) => {
+                if approximate && self.miss() > ROUNDING {
+                    Verdict::Approximates { within: self.miss() }
+                } else {
+                    Verdict::Agrees
+                }
+            }
+            (_, Some(corrected)) if self.paper.is_some() && self.holds(corrected) => {
+                let within = self.part(corrected - self.computed.value);
+                Verdict::Corrected { within: approximate.then_some(within) }
+            }
+            _ if self.sense == Sense::Always && self.computed.value > 0.0 => Verdict::InPart,
+            _ => Verdict::False,
+        }
+    }
+}
+
+impl Verdict {
+    /// One word for scripts.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Verdict::Agrees => "agrees",
+            Verdict::Approximates { .. } => "approximates",
+            Verdict::Corrected { .. } => "corrected",
+            Verdict::InPart => "in-part",
+            Verdict::False => "false",
+        }
+    }
+
+    /// Relative difference with which it or its corrected form holds, where it does so approximately.
+    #[must_use]
+    pub fn within(self) -> Option<f64> {
+        match self {
+            Verdict::Approximates { within } => Some(within),
+            Verdict::Corrected { within } => within,
+            Verdict::Agrees | Verdict::InPart | Verdict::False => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn known(value: f64) -> Known {
+        Known { value, error: 1e-9 }
+    }
+
+    #[test]
+    fn an_equation_holds_as_far_as_the_number_is_known() {
+        assert_eq!(Finding::equal(2.0 + 0.9e-9, known(2.0)).verdict(), Verdict::Agrees);
+        let wrong = Finding::equal(2.0 + 2e-9, known(2.0));
+        assert_eq!(wrong.verdict(), Verdict::False);
+        let replaced = wrong.clone().corrected(2.0);
+        assert_eq!(replaced.verdict(), Verdict::Corrected { within: None });
+        assert_eq!(wrong.corrected(3.0).verdict(), Verdict::False);
+    }
+
+    #[test]
+    fn an_approximation_holds_within_a_quarter_and_says_how_well() {
+        let near = Finding::near(1.1, known(1.0)).verdict();
+        assert!(matches!(near, Verdict::Approximates { within } if (within - 0.1).abs() < 1e-12));
+        assert_eq!(Finding::near(1.3, known(1.0)).verdict(), Verdict::False);
+        let replaced = Finding::near(-1.0, known(1.0)).corrected(1.01).verdict();
+        assert!(matches!(replaced, Verdict::Corrected { within: Some(within) } if within < 0.011));
+    }
+
+    #[test]
+    fn a_limit_holds_if_the_difference_falls() {
+        let falls = Finding::tends((1.0, known(1.2)), (1.0, known(1.1))).verdict();
+        assert!(matches!(falls, Verdict::Approximates { within } if within < 0.1));
+        let grows = Finding::tends((1.0, known(1.1)), (1.0, known(1.2))).verdict();
+        assert_eq!(grows, Verdict::False);
+        let to_zero = Finding::tends((0.0, known(0.2)), (0.0, known(1e-6))).verdict();
+        assert_eq!(to_zero, Verdict::Approximates { within: 1e-6 });
+    }
+
+    #[test]
+    fn a_lower_bound_may_lie_far_below_but_not_above() {
+        assert_eq!(Finding::at_most(0.1, known(1.0)).verdict(), Verdict::Agrees);
+        assert_eq!(Finding::at_most(1.1, known(1.0)).verdict(), Verdict::False);
+    }
+
+    #[test]
+    fn of_several_cases_all_or_some_or_none_hold() {
+        let holds = |does: [bool; 3]| {
+            Finding::always(does.iter().enumerate().map(|(case, &does)| (case.to_string(), does)))
+        };
+        assert_eq!(holds([true; 3]).verdict(), Verdict::Agrees);
+        assert_eq!(holds([true, false, true]).verdict(), Verdict::InPart);
+        assert_eq!(holds([true, false, false]).place, "first fails at 1");
+        assert_eq!(holds([false; 3]).verdict(), Verdict::False);
+    }
+
+    #[test]
+    fn the_worst_of_several_findings_is_the_one_nearest_to_failing() {
+        let findings = [1.0, 0.9, 1.05].map(|paper| Ok::<_, ()>(Finding::near(paper, known(1.0))));
+        let worst = Finding::worst(findings).unwrap();
+        assert_eq!((worst.paper, worst.cases), (Some(0.9), 3));
+        // A lower bound that lies far below is not worse than one that all but touches.
+        let bounds = [0.1, 0.95].map(|paper| Ok::<_, ()>(Finding::at_most(paper, known(1.0))));
+        assert_eq!(Finding::worst(bounds).unwrap().paper, Some(0.95));
+    }
+}
