@@ -10,6 +10,7 @@ use toml::Spanned;
 use super::layer::Layer;
 use super::ordinate::{ABSCISSAE, Ordinate};
 use super::scene::{Scene, TOLERANCE, UNTIL};
+use super::views::{Arrangement, Axes, Exhibit, MOST_PLOTS, View};
 use super::window::{Span, Window};
 use crate::flow::method::{EPSILON, EPSILON_RANGE, STEP, STEP_RANGE};
 use crate::flow::{Method, Problem};
@@ -62,31 +63,21 @@ struct File {
     step: Option<Spanned<f64>>,
     epsilon: Option<Spanned<f64>>,
     layers: BTreeSet<Layer>,
-    phase: Phase,
-    diagram: Diagram,
+    #[serde(default)]
+    arrange: Arrangement,
+    #[serde(default)]
+    plot: Vec<Spanned<Plot>>,
 }
 
-/// The window of the phase plane.
+/// A plot: what it shows, over which axes, and which part of that.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Phase {
-    q: Span,
-    v: Span,
-}
-
-/// The window of the diagram.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Diagram {
-    over: Spanned<Symbol>,
-    range: Span,
-    #[serde(default = "q_max")]
-    ordinate: Ordinate,
-    heights: Span,
-}
-
-fn q_max() -> Ordinate {
-    Ordinate::QMax
+struct Plot {
+    view: View,
+    over: Option<Spanned<Symbol>>,
+    ordinate: Option<Spanned<Ordinate>>,
+    x: Option<Span>,
+    y: Option<Span>,
 }
 
 fn auto() -> Method {
@@ -128,12 +119,14 @@ fn one_line(message: &str) -> String {
 
 fn scene(name: &str, read: File) -> Result<Scene, Complaint> {
     let problem = problem(&read)?;
-    let over = *read.diagram.over.get_ref();
-    if ABSCISSAE.iter().all(|(symbol, _)| *symbol != over) {
-        return Err(Complaint {
-            at: read.diagram.over.span(),
-            message: format!("a diagram over {over} does not exist; D, D2, D3 and r are allowed"),
-        });
+    let plots = read.plot.iter().map(exhibit).collect::<Result<Vec<_>, _>>()?;
+    if plots.is_empty() || plots.len() > MOST_PLOTS {
+        let at = read.plot.get(MOST_PLOTS).map_or(0..0, Spanned::span);
+        let message = format!(
+            "a scene has 1 to {MOST_PLOTS} plots, each as [[plot]]; this one has {}",
+            plots.len()
+        );
+        return Err(Complaint { at, message });
     }
     Ok(Scene {
         name: name.to_owned(),
@@ -144,11 +137,44 @@ fn scene(name: &str, read: File) -> Result<Scene, Complaint> {
         steps: steps(&read.steps)?,
         terms: read.terms,
         layers: read.layers,
-        phase: Window { x: read.phase.q, y: read.phase.v },
-        diagram: Window { x: read.diagram.range, y: read.diagram.heights },
-        abscissa: over,
-        ordinate: read.diagram.ordinate,
+        plots,
+        arrangement: read.arrange,
     })
+}
+
+/// A plot of a scene: axes only where there is a choice, a window in both directions or in none.
+fn exhibit(read: &Spanned<Plot>) -> Result<Exhibit, Complaint> {
+    let Plot { view, over, ordinate, x, y } = read.get_ref();
+    let title = view.spec().title;
+    let chosen = over.as_ref().map(Spanned::span).or(ordinate.as_ref().map(Spanned::span));
+    if let Some(at) = chosen.filter(|_| *view != View::Diagram) {
+        let message = format!("a view \"{}\" has fixed axes; leave this out", view.spec().name);
+        return Err(Complaint { at, message });
+    }
+    let usual = Axes::default();
+    let axes = Axes {
+        abscissa: over.as_ref().map_or(usual.abscissa, |over| *over.get_ref()),
+        ordinate: ordinate.as_ref().map_or(usual.ordinate, |ordinate| *ordinate.get_ref()),
+    };
+    if let Some(over) = over
+        && ABSCISSAE.iter().all(|(symbol, _)| *symbol != axes.abscissa)
+    {
+        let message =
+            format!("a diagram over {} does not exist; D, D2, D3 and r are allowed", axes.abscissa);
+        return Err(Complaint { at: over.span(), message });
+    }
+    let window = match (*x, *y) {
+        (Some(x), Some(y)) => Some(Window { x, y }),
+        (None, None) => None,
+        (given, _) => {
+            let missing = if given.is_some() { "y" } else { "x" };
+            let message = format!(
+                "the window of this {title} has no {missing}; give x and y, or neither to have it fitted"
+            );
+            return Err(Complaint { at: read.span(), message });
+        }
+    };
+    Ok(Exhibit { view: *view, axes, window })
 }
 
 /// The motion of a scene: declared terms have the values of the file or of the table, others are zero.
@@ -226,8 +252,10 @@ press = "That."
 terms = ["D", "r"]
 values = { D = -0.4, q0 = 2 }
 layers = ["trajectory"]
-phase = { q = [-3, 3], v = [-2.5, 2.5] }
-diagram = { over = "D", range = [-1, 0.1], heights = [0, 2] }
+plot = [
+  { view = "phase", x = [-3, 3], y = [-2.5, 2.5] },
+  { view = "diagram", over = "D", x = [-1, 0.1], y = [0, 2] },
+]
 "#;
 
     #[test]
@@ -244,12 +272,21 @@ diagram = { over = "D", range = [-1, 0.1], heights = [0, 2] }
     }
 
     #[test]
-    fn a_diagram_shows_q_max_unless_it_says_otherwise() {
+    fn a_diagram_shows_q_max_over_d_unless_it_says_otherwise() {
         let scene = parse("test", "test.toml", GOOD).unwrap();
-        assert_eq!(scene.ordinate, Ordinate::QMax);
+        assert_eq!(scene.plots[1].axes, Axes::default());
         let period = GOOD.replace("over = \"D\"", "over = \"r\", ordinate = \"period\"");
         let scene = parse("test", "test.toml", &period).unwrap();
-        assert_eq!((scene.abscissa, scene.ordinate), (Symbol::R, Ordinate::Period));
+        assert_eq!(scene.plots[1].axes, Axes { abscissa: Symbol::R, ordinate: Ordinate::Period });
+    }
+
+    #[test]
+    fn a_plot_without_a_window_is_fitted() {
+        let fitted = GOOD.replace(", x = [-1, 0.1], y = [0, 2]", "");
+        let scene = parse("test", "test.toml", &fitted).unwrap();
+        assert!(scene.plots[0].window.is_some());
+        assert_eq!(scene.plots[1].window, None);
+        assert!(scene.plots[1].opening().x.contains(-0.4));
     }
 
     #[test]
@@ -261,9 +298,12 @@ diagram = { over = "D", range = [-1, 0.1], heights = [0, 2] }
             ("D = -0.4", "D3 = 1", "5:17", "add \"D3\""),
             ("D = -0.4", "D4 = 1", "5:12", "expected one of `D`, `D2`"),
             ("D = -0.4", "D = \"a\"", "5:16", "expected f64"),
-            ("[-3, 3]", "[3, -3]", "7:15", "the second larger"),
-            ("over = \"D\"", "over = \"q0\"", "8:20", "D, D2, D3 and r are allowed"),
-            ("heights", "ordinate = \"size\", heights", "8:55", "expected one of `q_max`, `q_min`"),
+            ("[-3, 3]", "[3, -3]", "8:25", "the second larger"),
+            ("over = \"D\"", "over = \"q0\"", "9:30", "D, D2, D3 and r are allowed"),
+            ("over", "ordinate = \"size\", over", "9:34", "expected one of `q_max`, `q_min`"),
+            ("\"phase\"", "\"plane\"", "8:12", "expected `phase` or `diagram`"),
+            ("\"diagram\"", "\"phase\"", "9:28", "has fixed axes"),
+            (", y = [0, 2]", "", "9:3", "has no y; give x and y, or neither"),
             ("\"trajectory\"", "\"tail\"", "6:11", "expected one of `trajectory`"),
             ("layers", "until = -1\nlayers", "6:9", "until = -1.0 is outside its range 0.0 .."),
             ("layers", "steps = { r = 0 }\nlayers", "6:15", "must be positive"),

@@ -1,27 +1,14 @@
-//! Panes, and the layers that are drawn in them.
+//! Layers: what is drawn in the views.
 //!
-//! [`LAYERS`] is the one table of layers. It says which pane shows a layer and which question must be
+//! [`LAYERS`] is the one table of layers. It says which view shows a layer and which question must be
 //! answered for it: a layer that is off asks nothing, and several layers may share one answer.
 
 use serde::{Deserialize, Serialize};
 
 use super::request::Slot;
+use super::views::View;
 
-/// A part of the screen that can have the focus.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Pane {
-    /// The list of parameters, method and tolerance.
-    Parameters,
-    /// The phase plane, q to the right and v upwards.
-    Phase,
-    /// The bifurcation diagram: a property of the cycles over a parameter.
-    Diagram,
-}
-
-/// Every pane, in the order in which the focus visits them.
-pub const PANES: [Pane; 3] = [Pane::Parameters, Pane::Phase, Pane::Diagram];
-
-/// Something drawn in a pane that can be switched on and off.
+/// Something drawn in a view that can be switched on and off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Layer {
@@ -58,8 +45,8 @@ pub struct LayerSpec {
     pub layer: Layer,
     /// Its name in scene files and on the screen.
     pub name: &'static str,
-    /// The pane that shows it.
-    pub pane: Pane,
+    /// The view that shows it.
+    pub view: View,
     /// What it shows, in a few words.
     pub meaning: &'static str,
     /// The question whose answer it draws; `None` where formulas do.
@@ -71,84 +58,84 @@ pub const LAYERS: [LayerSpec; 12] = [
     LayerSpec {
         layer: Layer::Trajectory,
         name: "trajectory",
-        pane: Pane::Phase,
+        view: View::Phase,
         meaning: "the motion from (q0, v0)",
         needs: Some(Slot::Trajectory),
     },
     LayerSpec {
         layer: Layer::Sticking,
         name: "sticking",
-        pane: Pane::Phase,
+        view: View::Phase,
         meaning: "the sticking set: every point of it is at rest",
         needs: None,
     },
     LayerSpec {
         layer: Layer::Cycles,
         name: "cycles",
-        pane: Pane::Phase,
+        view: View::Phase,
         meaning: "limit cycles, stable and unstable",
         needs: Some(Slot::Cycles),
     },
     LayerSpec {
         layer: Layer::Basin,
         name: "basin",
-        pane: Pane::Phase,
+        view: View::Phase,
         meaning: "starts that come to rest, shaded",
         needs: Some(Slot::Cycles),
     },
     LayerSpec {
         layer: Layer::Field,
         name: "field",
-        pane: Pane::Phase,
+        view: View::Phase,
         meaning: "directions of the flow",
         needs: None,
     },
     LayerSpec {
         layer: Layer::Lyapunov,
         name: "lyapunov",
-        pane: Pane::Phase,
+        view: View::Phase,
         meaning: "the circle in which a Lyapunov function proves capture",
         needs: None,
     },
     LayerSpec {
         layer: Layer::Bands,
         name: "bands",
-        pane: Pane::Phase,
+        view: View::Phase,
         meaning: "bands of capture: across a border, one half swing more",
         needs: Some(Slot::Capture),
     },
     LayerSpec {
         layer: Layer::Balance,
         name: "balance",
-        pane: Pane::Phase,
+        view: View::Phase,
         meaning: "cycles of N harmonics, and their error",
         needs: Some(Slot::Balance),
     },
     LayerSpec {
         layer: Layer::Branch,
         name: "branch",
-        pane: Pane::Diagram,
+        view: View::Diagram,
         meaning: "computed limit cycles, stable and unstable",
         needs: Some(Slot::Branch),
     },
     LayerSpec {
         layer: Layer::Harmonic,
         name: "harmonic",
-        pane: Pane::Diagram,
+        view: View::Diagram,
         meaning: "amplitudes of the first-order harmonic balance",
         needs: None,
     },
     LayerSpec {
         layer: Layer::Asymptotes,
         name: "asymptotes",
-        pane: Pane::Diagram,
+        view: View::Diagram,
         meaning: "asymptotes A1 and A2 of the harmonic amplitudes",
         needs: None,
     },
     LayerSpec {
         layer: Layer::Special,
         name: "special",
-        pane: Pane::Diagram,
+        view: View::Diagram,
         meaning: "special points: fold, crossing, escape, Hopf",
         needs: Some(Slot::Branch),
     },

@@ -9,13 +9,15 @@ pub mod ordinate;
 pub mod request;
 #[expect(clippy::module_inception, reason = "the scene itself, beside what belongs to it")]
 pub mod scene;
+pub mod views;
 pub mod window;
 
 pub use answer::{Answer, Answered};
 pub use file::SceneError;
-pub use layer::{LAYERS, Layer, LayerSpec, PANES, Pane};
+pub use layer::{LAYERS, Layer, LayerSpec};
 pub use library::{NoScene, find, library, plain};
 pub use ordinate::{ABSCISSAE, ORDINATES, Ordinate};
-pub use request::{Request, Slot};
+pub use request::{Request, SLOTS, Slot};
 pub use scene::Scene;
+pub use views::{ARRANGEMENTS, Arrangement, Axes, Exhibit, MOST_PLOTS, VIEWS, View, ViewSpec};
 pub use window::{Point, Span, Window};

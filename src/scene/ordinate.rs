@@ -8,6 +8,7 @@ use std::f64::consts::{LN_10, TAU};
 
 use serde::{Deserialize, Serialize};
 
+use super::window::Span;
 use crate::oscillator::Symbol;
 use crate::study::Cycle;
 
@@ -134,12 +135,18 @@ impl Ordinate {
 
 /// The parameters that the diagram can be drawn over, each with the values first looked at: what
 /// happens within one of them at frictions and damping of everyday size.
-pub const ABSCISSAE: [(Symbol, [f64; 2]); 4] = [
-    (Symbol::D, [-0.9, 0.1]),
-    (Symbol::D2, [-1.0, 1.0]),
-    (Symbol::D3, [-1.0, 1.0]),
-    (Symbol::R, [0.0, 0.5]),
+pub const ABSCISSAE: [(Symbol, Span); 4] = [
+    (Symbol::D, Span::known(-0.9, 0.1)),
+    (Symbol::D2, Span::known(-1.0, 1.0)),
+    (Symbol::D3, Span::known(-1.0, 1.0)),
+    (Symbol::R, Span::known(0.0, 0.5)),
 ];
+
+/// The values of a parameter that are looked at first; of one that no diagram is drawn over, those of D.
+#[must_use]
+pub fn usual_values(symbol: Symbol) -> Span {
+    ABSCISSAE.iter().find(|(row, _)| *row == symbol).map_or(ABSCISSAE[0].1, |(_, span)| *span)
+}
 
 #[cfg(test)]
 mod tests {

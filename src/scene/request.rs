@@ -42,7 +42,10 @@ pub enum Request {
     },
 }
 
-/// The kind of a request: at most one answer of each kind is on show.
+/// The kind of a request.
+///
+/// Of most kinds one answer is on show, which all plots share. An answer that depends on what a plot
+/// looks at is that plot's own ([`Slot::is_own`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Slot {
     /// The motion.
@@ -57,7 +60,17 @@ pub enum Slot {
     Balance,
 }
 
+/// Every kind, the most urgent first.
+pub const SLOTS: [Slot; 5] =
+    [Slot::Trajectory, Slot::Cycles, Slot::Capture, Slot::Branch, Slot::Balance];
+
 impl Slot {
+    /// Whether the question depends on the axes or the window of the plot that asks it.
+    #[must_use]
+    pub fn is_own(self) -> bool {
+        matches!(self, Slot::Capture | Slot::Branch)
+    }
+
     /// The name on the screen.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -81,6 +94,17 @@ impl Request {
             Request::Capture { .. } => Slot::Capture,
             Request::Balance { .. } => Slot::Balance,
             Request::Branch { .. } => Slot::Branch,
+        }
+    }
+
+    /// Whether the answer to this may stand in for that to `wanted` until that is there.
+    #[must_use]
+    pub fn resembles(&self, wanted: &Request) -> bool {
+        match (self, wanted) {
+            (Request::Branch { parameter: mine, .. }, Request::Branch { parameter, .. }) => {
+                mine == parameter
+            }
+            _ => self.slot() == wanted.slot(),
         }
     }
 }

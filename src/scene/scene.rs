@@ -7,8 +7,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::layer::Layer;
-use super::ordinate::Ordinate;
-use super::window::Window;
+use super::views::{Arrangement, Exhibit};
 use crate::flow::Problem;
 use crate::oscillator::Symbol;
 
@@ -38,14 +37,10 @@ pub struct Scene {
     pub steps: BTreeMap<Symbol, f64>,
     /// The layers that are on.
     pub layers: BTreeSet<Layer>,
-    /// Window of the phase plane: q and v.
-    pub phase: Window,
-    /// Window of the diagram: the abscissa and the ordinate.
-    pub diagram: Window,
-    /// The parameter along the diagram's horizontal axis.
-    pub abscissa: Symbol,
-    /// The property of the cycles along its vertical axis.
-    pub ordinate: Ordinate,
+    /// The plots, one to four, in the order of the focus.
+    pub plots: Vec<Exhibit>,
+    /// How they share the screen.
+    pub arrangement: Arrangement,
 }
 
 impl Scene {

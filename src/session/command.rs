@@ -5,12 +5,12 @@
 use super::key::Key;
 use super::keymap::Context::{
     self, Always, Diagram, Entry, Everywhere, Help, Layers, Lists, Offer, Parameters, Phase, Plots,
-    Scenes, Search, Walk,
+    Scenes, Search, Views, Walk,
 };
 use super::message::Effect;
 use super::overlay::Entry as Line;
 use super::state::Session;
-use super::update::{axes, entry, general, lists, parameters, plots, starts, walk};
+use super::update::{axes, desk, entry, general, lists, parameters, plots, starts, walk};
 use crate::scene::Layer;
 
 /// What a command does to a session; the key is the one that was pressed for it.
@@ -148,7 +148,21 @@ pub const COMMANDS: &[Command] = &[
     row("previous-pane", &[(Everywhere, &["<S-tab>"])], "",
         "Give the focus to the previous pane", |s, _| general::focus(s, -1)),
     row("enlarge", &[(Everywhere, &["z"])], "",
-        "Give one plot the place of both, or share it again", |s, _| general::enlarge(s)),
+        "Give one plot the place of all, or share it again", |s, _| general::enlarge(s)),
+    row("views", &[(Everywhere, &["V"])], "view",
+        "Pick what the plot in use shows", |s, _| lists::open_views(s)),
+    row("next-view", &[(Everywhere, &[";"])], "",
+        "Show the next view in the plot in use", |s, _| desk::next_view(s, 1)),
+    row("previous-view", &[(Everywhere, &[","])], "",
+        "Show the previous view in the plot in use", |s, _| desk::next_view(s, -1)),
+    row("add-plot", &[(Everywhere, &["W"])], "",
+        "Add a plot beside the one in use, up to four", |s, _| desk::add(s)),
+    row("remove-plot", &[(Everywhere, &["Q"])], "",
+        "Remove the plot in use", |s, _| desk::remove(s)),
+    row("move-plot", &[(Everywhere, &["M"])], "",
+        "Swap the plot in use with the next one", |s, _| desk::move_on(s)),
+    row("arrange", &[(Everywhere, &["Z"])], "",
+        "Arrange the plots: as suits them best, in columns, in rows", |s, _| desk::arrange(s)),
     row("help", &[(Everywhere, &["?", "<f1>"]), (Walk, &["?", "<f1>"])], "help",
         "List all keys", |s, _| lists::open_help(s)),
     row("scenes", &[(Everywhere, &["s"])], "scenes",
@@ -213,7 +227,7 @@ pub const COMMANDS: &[Command] = &[
         "Drop the cursor; never leaves, never discards", |s, _| plots::drop_cursor(s)),
     row("back", &[(Lists, &["<esc>", "q"]), (Entry, &["<esc>"]), (Offer, &["<esc>"])], "close",
         "Close what is open", |s, _| general::back(s)),
-    row("close-again", &[(Help, &["?", "<f1>"]), (Scenes, &["s"]), (Layers, &["v"])], "",
+    row("close-again", &[(Help, &["?", "<f1>"]), (Scenes, &["s"]), (Layers, &["v"]), (Views, &["V"])], "",
         "Close with the key that opened", |s, _| general::back(s)),
     row("quit", &[(Everywhere, &["q"]), (Walk, &["q"]), (Always, &["<C-c>"])], "quit",
         "Leave", |s, _| general::quit(s)),
@@ -236,10 +250,12 @@ pub const COMMANDS: &[Command] = &[
         "Open the selected scene", |s, _| lists::choose(s)),
     row("toggle-layer", &[(Layers, &["<enter>", "<space>"])], "on/off",
         "Switch the selected layer on or off", |s, _| lists::choose(s)),
+    row("show-view", &[(Views, &["<enter>", "<space>"])], "show",
+        "Show the selected view", |s, _| lists::choose(s)),
     row("close-help", &[(Help, &["<enter>"])], "",
         "Close the help", |s, _| general::back(s)),
     row("search-done", &[(Search, &["<enter>"])], "done",
-        "Keep the rows found; in the scene picker, open the selected one", |s, _| lists::search_done(s)),
+        "Keep the rows found; in a picker, take the selected one", |s, _| lists::search_done(s)),
     row("search-drop", &[(Search, &["<esc>"])], "all rows",
         "Show all rows again", |s, _| lists::search_drop(s)),
     row("search-delete", &[(Search, &["<backspace>"])], "",

@@ -1,8 +1,9 @@
 //! Windows fitted to what is on show.
 
-use super::state::{Framing, Plot, Session};
+use super::plot::Framing;
+use super::state::Session;
 use crate::flow::Outcome;
-use crate::scene::{Layer, Pane, Point, Slot, Span, Window};
+use crate::scene::{Layer, Point, Span, View, Window};
 
 /// Room around what is fitted, as a factor of its width.
 const ROOM: f64 = 1.1;
@@ -14,43 +15,40 @@ const ESCAPE: f64 = 2.0;
 /// need not.
 const QUANTILE: f64 = 0.9;
 
-/// Fits the plots that wait for it, once their answers are there.
+/// Fits the plots on show that wait for it, once their answers are there.
 pub(super) fn resolve(session: &mut Session) {
-    for pane in [Pane::Phase, Pane::Diagram] {
-        let waits = session.plot_mut(pane).is_some_and(|plot| plot.framing == Framing::Fitting);
-        if !waits || is_pending(session, pane) {
+    for index in session.on_show() {
+        let waits = session.plots[index].framing == Framing::Fitting;
+        if !waits || is_pending(session, index) {
             continue;
         }
-        let window = match pane {
-            Pane::Parameters => None,
-            Pane::Phase => phase(session),
-            Pane::Diagram => diagram(session),
+        let view = session.plots[index].view;
+        let window = match view {
+            View::Phase => phase(session, index),
+            View::Diagram => diagram(session, index),
         };
-        if let Some(plot) = session.plot_mut(pane) {
-            let window = window.unwrap_or(plot.window);
-            *plot = Plot { window, framing: Framing::Fitted, ..*plot };
-        }
+        let of_scene = session.exhibit_of_scene(index, view);
+        let plot = &mut session.plots[index];
+        plot.window = window.unwrap_or(plot.window);
+        // Where the scene leaves the window to the answers, fitting is what the scene wants.
+        let scenes = of_scene.is_some_and(|of| of.window.is_none() && of.axes == plot.axes);
+        plot.framing = if scenes { Framing::Scene } else { Framing::Fitted };
     }
 }
 
-/// Whether something that a pane shows is still to be computed.
-fn is_pending(session: &Session, pane: Pane) -> bool {
-    let needs = |slot: Slot| {
-        session.layers.iter().any(|layer| {
-            let spec = layer.spec();
-            spec.pane == pane && spec.needs == Some(slot) && session.shows(*layer)
-        })
-    };
-    session.wants().iter().any(|request| needs(request.slot()) && session.is_open(request))
+/// Whether something that a plot shows is still to be computed.
+fn is_pending(session: &Session, plot: usize) -> bool {
+    let requests = session.needs(plot).into_iter().filter_map(|slot| session.request(slot, plot));
+    requests.into_iter().any(|request| session.is_open(&request))
 }
 
 /// Around the motion, the cycles and the sticking set.
-fn phase(session: &Session) -> Option<Window> {
+fn phase(session: &Session, plot: usize) -> Option<Window> {
     let r = session.problem.parameters.r;
     let start = session.problem.initial;
     let mut points = vec![Point { x: start.q, y: start.v }];
     points.extend([Point { x: -r, y: 0.0 }, Point { x: r, y: 0.0 }]);
-    if session.shows(Layer::Cycles)
+    if session.shows_in(Layer::Cycles, plot)
         && let Some(found) = session.cycles()
     {
         for cycle in &found.cycles {
@@ -58,7 +56,7 @@ fn phase(session: &Session) -> Option<Window> {
             points.push(Point { x: cycle.q_max, y: cycle.v_max });
         }
     }
-    if session.shows(Layer::Trajectory)
+    if session.shows_in(Layer::Trajectory, plot)
         && let Some(found) = session.trajectory()
     {
         let samples = found.samples.iter().map(|sample| Point { x: sample.q, y: sample.v });
@@ -82,9 +80,9 @@ fn phase(session: &Session) -> Option<Window> {
 }
 
 /// The same values of the parameter, and the heights that its branch has there.
-fn diagram(session: &Session) -> Option<Window> {
-    let x = session.diagram.window.x;
-    let (found, ordinate) = (session.branch()?, session.ordinate);
+fn diagram(session: &Session, plot: usize) -> Option<Window> {
+    let x = session.plots[plot].window.x;
+    let (found, ordinate) = (session.branch(plot)?, session.plots[plot].axes.ordinate);
     let points = found.pieces.iter().flatten().filter(|point| x.contains(point.value));
     let mut heights: Vec<f64> = points.map(|point| ordinate.of(&point.cycle)).collect();
     heights.retain(|height| height.is_finite());

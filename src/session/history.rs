@@ -1,18 +1,20 @@
-//! Undo and redo of every change of a parameter, and of opening or resetting a scene.
+//! Undo and redo of every change of a parameter, and of opening or resetting a scene, and
+//! of what the plots show.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::state::Steps;
 use crate::flow::Problem;
-use crate::oscillator::Symbol;
-use crate::scene::{Layer, Ordinate, Scene, Window};
+use crate::scene::{Arrangement, Exhibit, Layer, Scene};
 
 /// The state before a change, as far as the change reached.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Before {
     /// A parameter was changed. Undoing it leaves zoom and layers alone.
     Problem(Problem),
+    /// A plot was added, removed or moved, or shows another view.
+    Desk(Desk),
     /// A scene was opened or reset, and everything that a scene sets with it.
     Scene(Box<Snapshot>),
 }
@@ -28,14 +30,17 @@ pub struct Snapshot {
     pub steps: Steps,
     /// Layers that are on.
     pub layers: BTreeSet<Layer>,
-    /// Window of the phase plane.
-    pub phase: Window,
-    /// Window of the diagram.
-    pub diagram: Window,
-    /// Parameter along the diagram's horizontal axis.
-    pub abscissa: Symbol,
-    /// Property of the cycles along its vertical axis.
-    pub ordinate: Ordinate,
+    /// Plots and their arrangement.
+    pub desk: Desk,
+}
+
+/// What is on show, and how it shares the screen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Desk {
+    /// The plots.
+    pub plots: Vec<Exhibit>,
+    /// How they share the screen.
+    pub arrangement: Arrangement,
 }
 
 /// The past and, after an undo, the future.

@@ -7,9 +7,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::command::{COMMANDS, Command, command};
 use super::key::Key;
-use super::overlay::{List, Overlay};
+use super::overlay::Overlay;
 use super::state::Session;
-use crate::scene::Pane;
+use crate::scene::View;
 
 /// Where a key has its meaning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -32,6 +32,8 @@ pub enum Context {
     Scenes,
     /// The layer list is open.
     Layers,
+    /// The picker of views is open.
+    Views,
     /// Some list is open.
     Lists,
     /// The search of a list is being typed.
@@ -53,11 +55,12 @@ impl Context {
             Context::Phase => "Phase plane",
             Context::Diagram => "Bifurcation diagram",
             Context::Walk => "Walking along the branch",
-            Context::Plots => "Both plots",
+            Context::Plots => "Every plot",
             Context::Everywhere => "Everywhere",
             Context::Help => "In this help",
             Context::Scenes => "In the scene picker",
             Context::Layers => "In the layer list",
+            Context::Views => "In the picker of views",
             Context::Lists => "In every list",
             Context::Search => "While searching",
             Context::Entry => "While typing a value",
@@ -74,7 +77,7 @@ impl Context {
 }
 
 /// Every set of contexts that can hold together, the most specific first.
-pub const CHAINS: [&[Context]; 10] = [
+pub const CHAINS: [&[Context]; 11] = [
     &[Context::Parameters, Context::Everywhere, Context::Always],
     &[Context::Phase, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Diagram, Context::Plots, Context::Everywhere, Context::Always],
@@ -82,6 +85,7 @@ pub const CHAINS: [&[Context]; 10] = [
     &[Context::Help, Context::Lists, Context::Always],
     &[Context::Scenes, Context::Lists, Context::Always],
     &[Context::Layers, Context::Lists, Context::Always],
+    &[Context::Views, Context::Lists, Context::Always],
     &[Context::Search, Context::Always],
     &[Context::Entry, Context::Always],
     &[Context::Offer, Context::Always],
@@ -93,19 +97,16 @@ impl Session {
     pub fn contexts(&self) -> &'static [Context] {
         let first = match &self.overlay {
             None if self.held.is_some() => Context::Walk,
-            None => match self.focus {
-                Pane::Parameters => Context::Parameters,
-                Pane::Phase => Context::Phase,
-                Pane::Diagram => Context::Diagram,
+            None => match self.focused().map(|plot| plot.view) {
+                None => Context::Parameters,
+                Some(View::Phase) => Context::Phase,
+                Some(View::Diagram) => Context::Diagram,
             },
-            Some(
-                Overlay::Help(List { searching: true, .. })
-                | Overlay::Scenes(List { searching: true, .. })
-                | Overlay::Layers(List { searching: true, .. }),
-            ) => Context::Search,
+            Some(overlay) if overlay.list().is_some_and(|list| list.searching) => Context::Search,
             Some(Overlay::Help(_)) => Context::Help,
             Some(Overlay::Scenes(_)) => Context::Scenes,
             Some(Overlay::Layers(_)) => Context::Layers,
+            Some(Overlay::Views(_)) => Context::Views,
             Some(Overlay::Entry(_)) => Context::Entry,
             Some(Overlay::Offer(_)) => Context::Offer,
         };

@@ -12,10 +12,37 @@ pub enum Overlay {
     Scenes(List),
     /// The layers, to switch them on and off.
     Layers(List),
+    /// The views, to pick what a plot shows.
+    Views(List),
     /// A line in which a value is typed.
     Entry(Entry),
     /// A pasted keystroke file, waiting for a yes.
     Offer(Script),
+}
+
+impl Overlay {
+    /// The list, if it is one.
+    #[must_use]
+    pub fn list(&self) -> Option<&List> {
+        match self {
+            Overlay::Help(list)
+            | Overlay::Scenes(list)
+            | Overlay::Layers(list)
+            | Overlay::Views(list) => Some(list),
+            Overlay::Entry(_) | Overlay::Offer(_) => None,
+        }
+    }
+
+    /// The list, to be changed.
+    pub fn list_mut(&mut self) -> Option<&mut List> {
+        match self {
+            Overlay::Help(list)
+            | Overlay::Scenes(list)
+            | Overlay::Layers(list)
+            | Overlay::Views(list) => Some(list),
+            Overlay::Entry(_) | Overlay::Offer(_) => None,
+        }
+    }
 }
 
 /// A list with a selected row and a search.

@@ -10,67 +10,69 @@ use ratatui::layout::Rect;
 use super::dots::Dash;
 use super::look::{Look, Role};
 use super::number::significant;
-use super::pane::{self, Heading};
+use super::pane::Heading;
 use super::phase_plane::stability;
 use super::plot::{Names, Plot, reading};
 use crate::closed_form::harmonic::{
     amplitudes, damping_at, large_asymptote, mean, small_asymptote,
 };
 use crate::oscillator::{Parameters, Symbol};
-use crate::scene::{Layer, Ordinate, Pane, Point};
-use crate::session::{Session, Stop};
+use crate::scene::{Axes, Layer, Ordinate, Point, View};
+use crate::session::{self, Pane, Session};
 use crate::study::{BranchPoint, Special, SpecialKind};
 
 /// Plots at least this wide write the values of special points beside their letters.
 const WIDE: u16 = 44;
 
-/// Draws the pane.
-pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
-    let abscissa = session.abscissa.spec().name;
-    let ordinate = session.ordinate.spec().label;
-    let names = Names { title: pane::name(Pane::Diagram), x: abscissa, y: ordinate };
-    let mut heading = Heading::of(session, Pane::Diagram);
-    let window = session.diagram.window;
-    let pointed = session.held.map(|stop| held(session, &stop)).or(session.diagram.cursor);
+/// Draws the plot with this index.
+pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &mut Buffer) {
+    let diagram = &session.plots[index];
+    let Axes { abscissa, ordinate } = diagram.axes;
+    let (name, label) = (abscissa.spec().name, ordinate.spec().label);
+    let names = Names { title: View::Diagram.spec().title, x: name, y: label };
+    let mut heading = Heading::of(session, Pane::Plot(index));
+    let window = diagram.window;
+    let pointed = held(session, diagram).or(diagram.cursor);
     heading.reading = pointed.map(|point| {
         let (value, height) = reading(point, window);
-        format!("{abscissa} {value} {ordinate} {height}")
+        format!("{name} {value} {label} {height}")
     });
     let mut plot = Plot::new(area, window, names, &heading, look, buffer);
     let shows = |layer| session.layers.contains(&layer);
-    let current = session.value(session.abscissa);
+    let current = session.value(abscissa);
+    let found = session.branch(index);
 
     plot.upright(0.0, Role::Axis, Dash::Sparse);
     if window.y.from() < 0.0 && window.y.to() > 0.0 {
         plot.function(Role::Axis, Dash::Sparse, |_| Some(0.0));
     }
     plot.upright(current, Role::Current, Dash::Sparse);
-    if let Some(height) = session.ordinate.spec().harmonic {
+    if let Some(height) = ordinate.spec().harmonic {
         if shows(Layer::Asymptotes) {
             for asymptote in [small_asymptote, large_asymptote] {
                 plot.function(Role::Asymptote, Dash::Sparse, |value| {
-                    let parameters = at(session, value);
+                    let parameters = at(session, abscissa, value);
                     let amplitude = asymptote(&parameters)?;
                     Some(height(mean(parameters.d2, amplitude), amplitude))
                 });
             }
         }
         if shows(Layer::Harmonic) {
-            harmonic(&mut plot, session, height);
+            harmonic(&mut plot, session, index, height);
         }
     }
     if shows(Layer::Branch) {
-        for piece in session.branch().iter().flat_map(|branch| &branch.pieces) {
-            branch(&mut plot, piece, session.ordinate);
+        for piece in found.iter().flat_map(|branch| &branch.pieces) {
+            branch(&mut plot, piece, ordinate);
         }
-        for piece in session.branch().iter().flat_map(|branch| &branch.pieces) {
-            here(&mut plot, piece, session.ordinate, current, look);
+        for piece in found.iter().flat_map(|branch| &branch.pieces) {
+            here(&mut plot, piece, ordinate, current, look);
         }
     }
     if shows(Layer::Special) {
         let with_value = plot.inner().width >= WIDE;
-        for special in session.branch().iter().flat_map(|branch| &branch.special) {
-            name(&mut plot, special, session.ordinate, with_value, window.y.to());
+        for special in found.iter().flat_map(|branch| &branch.special) {
+            caption(&mut plot, special, ordinate, with_value, window.y.to());
         }
     }
     if let Some(point) = pointed {
@@ -79,16 +81,20 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     plot.finish(buffer);
 }
 
-/// Where a held point is drawn; a cycle that has gone to infinity at the top.
-fn held(session: &Session, stop: &Stop) -> Point {
-    let top = session.diagram.window.y.to();
-    Point { x: stop.value, y: stop.cycle.map_or(top, |cycle| session.ordinate.of(&cycle)) }
+/// Where the point that is held stands in a diagram: in every one over its parameter. A cycle that has
+/// gone to infinity stands at the top.
+fn held(session: &Session, diagram: &session::Plot) -> Option<Point> {
+    let held = session.held?;
+    let Axes { abscissa, ordinate } = diagram.axes;
+    let same = session.focused().is_some_and(|focused| focused.axes.abscissa == abscissa);
+    let top = diagram.window.y.to();
+    same.then(|| Point { x: held.value, y: held.cycle.map_or(top, |cycle| ordinate.of(&cycle)) })
 }
 
-/// The parameters of the session, with the diagram's own at `value`.
-fn at(session: &Session, value: f64) -> Parameters {
+/// The parameters of the session, with that of a diagram at `value`.
+fn at(session: &Session, abscissa: Symbol, value: f64) -> Parameters {
     let (mut parameters, mut initial) = (session.problem.parameters, session.problem.initial);
-    session.abscissa.set(&mut parameters, &mut initial, value);
+    abscissa.set(&mut parameters, &mut initial, value);
     parameters
 }
 
@@ -96,12 +102,13 @@ fn at(session: &Session, value: f64) -> Parameters {
 ///
 /// Over D it is drawn along the amplitude, which leads through the fold without a gap; over the other
 /// parameters each amplitude is a curve of its own.
-fn harmonic(plot: &mut Plot, session: &Session, height: fn(f64, f64) -> f64) {
+fn harmonic(plot: &mut Plot, session: &Session, index: usize, height: fn(f64, f64) -> f64) {
     /// Samples along the amplitude: more than any screen has dots.
     const SAMPLES: u16 = 1000;
+    let abscissa = session.plots[index].axes.abscissa;
     let Parameters { d2, d3, r, .. } = session.problem.parameters;
-    if session.abscissa == Symbol::D {
-        let largest = largest_amplitude(session);
+    if abscissa == Symbol::D {
+        let largest = largest_amplitude(session, index);
         let points = (1..=SAMPLES).map(|sample| {
             let amplitude = largest * f64::from(sample) / f64::from(SAMPLES);
             let x = damping_at(d3, r, amplitude).unwrap_or(f64::NAN);
@@ -112,7 +119,7 @@ fn harmonic(plot: &mut Plot, session: &Session, height: fn(f64, f64) -> f64) {
     }
     for stable in [false, true] {
         plot.function(Role::Harmonic, Dash::Dotted, |value| {
-            let found = amplitudes(&at(session, value)).into_iter();
+            let found = amplitudes(&at(session, abscissa, value)).into_iter();
             let mut found = found.filter(|answer| answer.stable == stable);
             found.next().map(|answer| height(answer.mean, answer.amplitude))
         });
@@ -122,15 +129,15 @@ fn harmonic(plot: &mut Plot, session: &Session, height: fn(f64, f64) -> f64) {
 /// Twice the largest amplitude that can be on show: beyond it the harmonic curve need not be followed.
 ///
 /// Where the ordinate is no length, that is twice the largest amplitude of the computed branch.
-fn largest_amplitude(session: &Session) -> f64 {
-    let y = session.diagram.window.y;
-    match session.ordinate {
+fn largest_amplitude(session: &Session, index: usize) -> f64 {
+    let y = session.plots[index].window.y;
+    match session.plots[index].axes.ordinate {
         Ordinate::QMax | Ordinate::QMin | Ordinate::VMax | Ordinate::Amplitude => {
             2.0 * y.from().abs().max(y.to().abs())
         }
         Ordinate::Mean | Ordinate::Period | Ordinate::Multiplier => {
             let points =
-                session.branch().into_iter().flat_map(|found| found.pieces.iter().flatten());
+                session.branch(index).into_iter().flat_map(|found| found.pieces.iter().flatten());
             2.0 * points.map(|point| point.cycle.q_max).fold(0.5, f64::max)
         }
     }
@@ -164,7 +171,7 @@ fn here(plot: &mut Plot, piece: &[BranchPoint], ordinate: Ordinate, value: f64, 
 }
 
 /// Writes the letter of a special point, and its value where there is room.
-fn name(plot: &mut Plot, special: &Special, ordinate: Ordinate, with_value: bool, top: f64) {
+fn caption(plot: &mut Plot, special: &Special, ordinate: Ordinate, with_value: bool, top: f64) {
     let letter = match special.kind {
         SpecialKind::Fold => "F",
         SpecialKind::Escape => "Dc",

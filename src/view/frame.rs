@@ -7,6 +7,7 @@ use ratatui::layout::Rect;
 use super::layout::{Layout, SMALLEST, layout};
 use super::look::{Look, Role};
 use super::{diagram, footer, lists, parameters, phase_plane, status};
+use crate::scene::View;
 use crate::session::Session;
 use crate::session::settings::Glyphs;
 
@@ -33,11 +34,11 @@ pub fn render(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer)
 fn panes(parts: &Layout, session: &Session, look: &Look, buffer: &mut Buffer) {
     status::title(parts.title, session, look, buffer);
     parameters::draw(parts.parameters, session, look, buffer);
-    if !parts.phase.is_empty() {
-        phase_plane::draw(parts.phase, session, look, buffer);
-    }
-    if !parts.diagram.is_empty() {
-        diagram::draw(parts.diagram, session, look, buffer);
+    for (index, area) in parts.plots.iter().enumerate().filter(|(_, area)| !area.is_empty()) {
+        match session.plots[index].view {
+            View::Phase => phase_plane::draw(*area, session, index, look, buffer),
+            View::Diagram => diagram::draw(*area, session, index, look, buffer),
+        }
     }
     status::draw(parts.status, session, look, buffer);
     footer::draw(parts.footer, session, look, buffer);

@@ -1,35 +1,36 @@
 //! Which pane stands where, for every size of the screen.
 //!
-//! Designed for 80 columns and 24 rows up. Where there is less, parts drop in this order: below 80
-//! columns the plot without focus, below 20 rows the second status line, below 60 x 16 everything,
-//! and a card says what is needed.
+//! Designed for 80 columns and 24 rows up. Where there is less, parts drop in this order: plots that
+//! would be smaller than [`SMALLEST_PLOT`], the last one without focus first; below 20 rows the second
+//! status line; below 60 x 16 everything, and a card says what is needed.
 
 use ratatui::layout::Rect;
 
-use crate::scene::Pane;
+use crate::scene::{Arrangement, View};
 use crate::session::Session;
 
 /// Smallest screen on which anything but a card is drawn.
 pub const SMALLEST: (u16, u16) = (60, 16);
 
-/// Smallest screen for which everything is designed.
-const DESIGNED: (u16, u16) = (80, 20);
+/// Smallest plot beside others: columns and rows.
+pub const SMALLEST_PLOT: (u16, u16) = (26, 8);
+
+/// Rows of a screen that has two status lines.
+const DESIGNED: u16 = 20;
 
 /// Columns of the parameter pane, by the columns of the screen: with names and values, with all
 /// steps, with meanings.
 const COLUMNS: [(u16, u16); 3] = [(150, 52), (110, 32), (0, 23)];
 
 /// The parts of the screen; an empty area is not shown.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Layout {
     /// Scene.
     pub title: Rect,
     /// Parameter pane.
     pub parameters: Rect,
-    /// Phase plane.
-    pub phase: Rect,
-    /// Bifurcation diagram.
-    pub diagram: Rect,
+    /// Plots, by their index in the session.
+    pub plots: Vec<Rect>,
     /// Status lines.
     pub status: Rect,
     /// Keys, notices and the entry line.
@@ -44,47 +45,120 @@ pub fn layout(screen: Rect, session: &Session) -> Option<Layout> {
         return None;
     }
     let band = |y: u16, rows: u16| Rect { y: screen.y + y, height: rows, ..screen };
-    let status = if height < DESIGNED.1 { 1 } else { 2 };
+    let status = if height < DESIGNED { 1 } else { 2 };
     let body = band(1, height - 2 - status);
     let column =
         COLUMNS.iter().find(|(least, _)| width >= *least).map_or(23, |(_, columns)| *columns);
     let rest = Rect { x: body.x + column + 1, width: width - column - 1, ..body };
-    let both = width >= DESIGNED.0 && session.panes().len() == 3;
-    let (phase, diagram) = match (both, session.plot) {
-        (true, _) => halves(rest),
-        (false, Pane::Diagram) => (Rect::default(), rest),
-        (false, _) => (rest, Rect::default()),
-    };
     Some(Layout {
         title: band(0, 1),
         parameters: Rect { width: column, ..body },
-        phase,
-        diagram,
+        plots: plots(rest, session),
         status: band(height - 1 - status, status),
         footer: band(height - 1, 1),
     })
 }
 
-/// The phase plane beside the diagram or above it, whichever leaves both nearer to squares.
-fn halves(area: Rect) -> (Rect, Rect) {
-    // A cell is about twice as high as wide.
-    let beside = (area.width / 2).min(2 * area.height);
-    let above = area.width.min(2 * (area.height / 2));
-    if beside >= above {
-        let width = phase_columns(area);
-        let first = Rect { width, ..area };
-        (first, Rect { x: area.x + width + 1, width: area.width - width - 1, ..area })
-    } else {
-        let height = area.height / 2;
-        let first = Rect { height, ..area };
-        (first, Rect { y: area.y + height, height: area.height - height, ..area })
+/// The places of the plots, of which as many are shown as are large enough.
+fn plots(area: Rect, session: &Session) -> Vec<Rect> {
+    let mut shown: Vec<usize> = session.on_show().collect();
+    loop {
+        let views: Vec<View> = shown.iter().map(|index| session.plots[*index].view).collect();
+        let places = divided(area, &views, session.arrangement);
+        let fits = |place: &Rect| place.width >= SMALLEST_PLOT.0 && place.height >= SMALLEST_PLOT.1;
+        let dropped = shown.iter().rposition(|index| *index != session.plot);
+        if let Some(dropped) = dropped.filter(|_| !places.iter().all(fits)) {
+            shown.remove(dropped);
+            continue;
+        }
+        let mut all = vec![Rect::default(); session.plots.len()];
+        for (index, place) in shown.into_iter().zip(places) {
+            all[index] = place;
+        }
+        return all;
     }
 }
 
-/// Columns of the phase plane beside the diagram: a square, so that circles look round, if that leaves
-/// the diagram its share; never less than half.
-fn phase_columns(area: Rect) -> u16 {
-    /// Columns that the diagram needs to be legible.
+/// Divides an area among views.
+fn divided(area: Rect, views: &[View], arrangement: Arrangement) -> Vec<Rect> {
+    match (views, arrangement) {
+        ([] | [_], _) => vec![area],
+        (_, Arrangement::Columns) => columns(area, views.len()),
+        (_, Arrangement::Rows) => rows(area, views.len()),
+        (&[first, second], Arrangement::Auto) => pair(area, first, second).to_vec(),
+        (&[_, _, _], Arrangement::Auto) => {
+            let [main, others] = if is_wide(area) { beside(area) } else { above(area) };
+            let others = if is_wide(area) { above(others) } else { beside(others) };
+            std::iter::once(main).chain(others).collect()
+        }
+        (_, Arrangement::Auto) => above(area).into_iter().flat_map(beside).collect(),
+    }
+}
+
+/// Whether halves beside each other are nearer to squares than halves above each other. A cell is about
+/// twice as high as wide.
+fn is_wide(area: Rect) -> bool {
+    let beside = (area.width / 2).min(2 * area.height);
+    let above = area.width.min(2 * (area.height / 2));
+    beside >= above
+}
+
+fn beside(area: Rect) -> [Rect; 2] {
+    at_column(area, area.width / 2)
+}
+
+/// Parts of an area left and right of a column that stays empty.
+fn at_column(area: Rect, width: u16) -> [Rect; 2] {
+    let second = width + 1;
+    [
+        Rect { width, ..area },
+        Rect { x: area.x + second, width: area.width.saturating_sub(second), ..area },
+    ]
+}
+
+fn above(area: Rect) -> [Rect; 2] {
+    let height = area.height / 2;
+    [Rect { height, ..area }, Rect { y: area.y + height, height: area.height - height, ..area }]
+}
+
+fn columns(area: Rect, count: usize) -> Vec<Rect> {
+    let mut rest = area;
+    let left = |count: usize| u16::try_from(count).unwrap_or(u16::MAX);
+    let split = |places: usize| {
+        let [first, others] = at_column(rest, (rest.width + 1) / left(places) - 1);
+        rest = others;
+        first
+    };
+    let mut places: Vec<Rect> = (2..=count).rev().map(split).collect();
+    places.push(rest);
+    places
+}
+
+fn rows(area: Rect, count: usize) -> Vec<Rect> {
+    let count = u16::try_from(count).unwrap_or(u16::MAX);
+    let edge = |index: u16| area.height * index / count;
+    let row = |index: u16| Rect {
+        y: area.y + edge(index),
+        height: edge(index + 1) - edge(index),
+        ..area
+    };
+    (0..count).map(row).collect()
+}
+
+/// Two plots beside or above each other. Beside another plot a phase plane gets a square.
+fn pair(area: Rect, first: View, second: View) -> [Rect; 2] {
+    match (is_wide(area), first == View::Phase, second == View::Phase) {
+        (false, ..) => above(area),
+        (true, true, false) => at_column(area, square(area)),
+        (true, false, true) => at_column(area, area.width - 1 - square(area)),
+        (true, ..) => beside(area),
+    }
+}
+
+/// Columns of a phase plane beside another plot: a square, so that circles look round, if that leaves
+/// the other its share; never less than half.
+fn square(area: Rect) -> u16 {
+    /// Columns that the other plot needs to be legible.
     const LEGIBLE: u16 = 36;
     let half = area.width / 2;
     let square = 2 * area.height;

@@ -1,4 +1,4 @@
-//! Lists over the panes: all keys, the scenes, the layers. They scroll so that the selected row is
+//! Lists over the panes: all keys, the scenes, the layers, the views. They scroll so that the selected row is
 //! seen, and show what is searched for.
 
 use ratatui::buffer::Buffer;
@@ -9,7 +9,7 @@ use ratatui::widgets::{Clear, Paragraph, Widget, Wrap};
 
 use super::keys;
 use super::look::{Look, Role};
-use super::pane;
+use crate::scene::ViewSpec;
 use crate::session::{Key, List, Overlay, Session};
 
 /// Widest list.
@@ -45,6 +45,7 @@ pub fn draw(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         Some(Overlay::Help(list)) => (list, help(session, list, look)),
         Some(Overlay::Scenes(list)) => (list, scenes(session, list, look)),
         Some(Overlay::Layers(list)) => (list, layers(session, list, look)),
+        Some(Overlay::Views(list)) => (list, views(session, list, look)),
         Some(Overlay::Entry(_) | Overlay::Offer(_)) | None => return,
     };
     let below = if content.about.is_empty() { 0 } else { TEXT + 1 };
@@ -194,9 +195,9 @@ fn layers(session: &Session, list: &List, look: &Look) -> Content {
     let mut rows = Vec::new();
     let mut group = None;
     for spec in session.layer_rows(list) {
-        if group != Some(spec.pane) {
-            group = Some(spec.pane);
-            rows.push(Entry::Heading(pane::name(spec.pane)));
+        if group != Some(spec.view) {
+            group = Some(spec.view);
+            rows.push(Entry::Heading(spec.view.spec().title));
         }
         let on = if session.layers.contains(&spec.layer) { "[x]" } else { "[ ]" };
         rows.push(Entry::Row(vec![
@@ -208,4 +209,18 @@ fn layers(session: &Session, list: &List, look: &Look) -> Content {
         ]));
     }
     Content { title: "layers", rows, about: Vec::new() }
+}
+
+/// The views, with those on show marked.
+fn views(session: &Session, list: &List, look: &Look) -> Content {
+    let row = |spec: &ViewSpec| {
+        let shown = session.plots.iter().any(|plot| plot.view == spec.view);
+        let on = if shown { "[x]" } else { "[ ]" };
+        Entry::Row(vec![
+            Span::styled(format!("{on} {:<14}", spec.title), look.style(Role::Key)),
+            Span::styled(spec.meaning, look.style(Role::Text)),
+        ])
+    };
+    let rows = session.view_rows(list).into_iter().map(row).collect();
+    Content { title: "show", rows, about: Vec::new() }
 }

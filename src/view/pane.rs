@@ -6,18 +6,8 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
 use super::look::{Look, Role};
-use crate::scene::{Pane, Slot};
-use crate::session::Session;
-
-/// What a pane is called.
-#[must_use]
-pub fn name(pane: Pane) -> &'static str {
-    match pane {
-        Pane::Parameters => "parameters",
-        Pane::Phase => "phase plane",
-        Pane::Diagram => "bifurcation",
-    }
-}
+use crate::scene::Slot;
+use crate::session::{Pane, Session};
 
 /// What stands in a title line besides the title.
 #[derive(Clone, Debug, Default)]
@@ -36,27 +26,24 @@ impl Heading {
     pub fn of(session: &Session, pane: Pane) -> Self {
         Heading {
             focused: session.focus == pane && session.overlay.is_none(),
-            mark: mark(session, pane),
+            mark: match pane {
+                Pane::Parameters => None,
+                Pane::Plot(index) => mark(session, index),
+            },
             reading: None,
         }
     }
 }
 
-/// Why the picture of a pane is not today's: the worst of what its layers need.
-fn mark(session: &Session, pane: Pane) -> Option<&'static str> {
-    let mut needed: Vec<Slot> = session
-        .layers
-        .iter()
-        .filter(|layer| layer.spec().pane == pane)
-        .filter_map(|layer| layer.spec().needs)
-        .collect();
-    needed.dedup();
+/// Why the picture of a plot is not today's: the worst of what its layers need.
+fn mark(session: &Session, plot: usize) -> Option<&'static str> {
+    let needed = session.needs(plot);
     let any = |test: &dyn Fn(Slot) -> bool| needed.iter().any(|slot| test(*slot));
-    if any(&|slot| session.failure(slot).is_some()) {
+    if any(&|slot| session.failure(slot, plot).is_some()) {
         Some("no answer")
-    } else if any(&|slot| session.is_stale(slot) && session.answers.contains_key(&slot)) {
+    } else if any(&|slot| session.is_stale(slot, plot) && session.answered(slot, plot).is_some()) {
         Some("stale")
-    } else if any(&|slot| session.is_stale(slot)) {
+    } else if any(&|slot| session.is_stale(slot, plot)) {
         Some("computing")
     } else {
         None

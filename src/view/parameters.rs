@@ -11,8 +11,8 @@ use super::number::{exact, significant};
 use super::pane::{self, Heading};
 use crate::flow::Problem;
 use crate::oscillator::Symbol;
-use crate::scene::{Layer, Pane};
-use crate::session::{Row, Session};
+use crate::scene::Layer;
+use crate::session::{Pane, Row, Session};
 use crate::study::harmonic_error::Balanced;
 use crate::study::{Cycle, Cycles, Edge};
 
@@ -25,7 +25,7 @@ const STEP: usize = 7;
 /// Draws the pane.
 pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let heading = Heading::of(session, Pane::Parameters);
-    pane::title(area, pane::name(Pane::Parameters), "", &heading, look, buffer);
+    pane::title(area, "parameters", "", &heading, look, buffer);
     let wide = usize::from(area.width) > VALUES + STEP;
     let mut y = 1;
     for row in session.rows() {

@@ -9,23 +9,24 @@ use ratatui::layout::Rect;
 
 use super::dots::Dash;
 use super::look::{Look, Role};
-use super::pane::{self, Heading};
+use super::pane::Heading;
 use super::plot::{Names, Plot, reading};
 use crate::closed_form::lyapunov;
 use crate::flow::Outcome;
 use crate::oscillator::{HalfPlane, Side, State};
-use crate::scene::{Layer, Pane, Point};
-use crate::session::Session;
+use crate::scene::{Layer, Point, View};
+use crate::session::{self, Pane, Session};
 
-/// Draws the pane.
-pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
-    let names = Names { title: pane::name(Pane::Phase), x: "q", y: "v" };
-    let mut heading = Heading::of(session, Pane::Phase);
-    heading.reading = session.phase.cursor.map(|cursor| {
-        let (q, v) = reading(cursor, session.phase.window);
+/// Draws the plot with this index.
+pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &mut Buffer) {
+    let session::Plot { window, cursor, .. } = session.plots[index];
+    let names = Names { title: View::Phase.spec().title, x: "q", y: "v" };
+    let mut heading = Heading::of(session, Pane::Plot(index));
+    heading.reading = cursor.map(|cursor| {
+        let (q, v) = reading(cursor, window);
         format!("q {q} v {v}")
     });
-    let mut plot = Plot::new(area, session.phase.window, names, &heading, look, buffer);
+    let mut plot = Plot::new(area, window, names, &heading, look, buffer);
     let shows = |layer| session.layers.contains(&layer);
 
     if shows(Layer::Field) {
@@ -35,7 +36,7 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         basin(&mut plot, session);
     }
     if shows(Layer::Bands) {
-        for border in session.borders().iter().flat_map(|found| &found.curves) {
+        for border in session.borders(index).iter().flat_map(|found| &found.curves) {
             plot.curve(border.iter().map(point), Role::Bands, Dash::Dotted);
         }
     }
@@ -61,7 +62,7 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     if shows(Layer::Trajectory) {
         ends(&mut plot, session, look);
     }
-    if let Some(cursor) = session.phase.cursor {
+    if let Some(cursor) = cursor {
         plot.cross(cursor);
     }
     plot.finish(buffer);

@@ -68,7 +68,7 @@ fn outcome(session: &Session) -> (String, Role) {
     if !session.layers.contains(&Layer::Trajectory) {
         return ("the motion is not shown".into(), Role::Quiet);
     }
-    if let Some(failure) = session.failure(Slot::Trajectory) {
+    if let Some(failure) = session.failure(Slot::Trajectory, session.plot) {
         return (format!("no motion: {failure}"), Role::Failure);
     }
     match session.trajectory() {

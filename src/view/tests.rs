@@ -9,13 +9,16 @@ use ratatui::layout::Rect;
 use ratatui::style::Modifier;
 
 use super::frame::render;
+use super::layout::layout;
 use super::look::Look;
 use crate::export::screen::text;
 use crate::flow::{Cost, Crossing, Method, Outcome, Problem, Reason, Sample, Trajectory};
 use crate::oscillator::{Ledger, Parameters, State, Symbol};
 use crate::scene::answer::{Borders, Failure};
 use crate::scene::library::{find, library};
-use crate::scene::{Answer, Answered, LAYERS, Layer, Point, Request, Scene, Span, Window};
+use crate::scene::{
+    Answer, Answered, Axes, Exhibit, LAYERS, Layer, Point, Request, Scene, Slot, Span, View, Window,
+};
 use crate::session::settings::{self, Colors, GLYPHS, Glyphs, THEMES, Theme};
 use crate::session::{Key, Msg, Notice, Session, Size, update};
 use crate::study::harmonic_error::HarmonicBalance;
@@ -181,6 +184,7 @@ fn approved() -> Scene {
         ..Problem::default()
     };
     let span = |from, to| Span::new(from, to).unwrap();
+    let exhibit = |view, window| Exhibit { view, axes: Axes::default(), window: Some(window) };
     Scene {
         name: "approved".into(),
         title: "A scene with a fold".into(),
@@ -189,8 +193,10 @@ fn approved() -> Scene {
         terms: [Symbol::D, Symbol::D3, Symbol::R].into(),
         problem,
         layers: LAYERS.iter().map(|row| row.layer).collect(),
-        phase: Window { x: span(-1.6, 1.6), y: span(-1.6, 1.6) },
-        diagram: Window { x: span(-0.8, 0.1), y: span(0.0, 2.0) },
+        plots: vec![
+            exhibit(View::Phase, Window { x: span(-1.6, 1.6), y: span(-1.6, 1.6) }),
+            exhibit(View::Diagram, Window { x: span(-0.8, 0.1), y: span(0.0, 2.0) }),
+        ],
         ..Scene::clone(&library)
     }
 }
@@ -209,6 +215,11 @@ fn screens_look_as_they_were_approved() {
         ("multiplier", (100, 30), "<tab> <tab> Y Y Y Y Y Y", braille()),
         ("unfolded", (80, 24), "x <down>", braille()),
         ("card", (40, 9), "", braille()),
+        ("three", (80, 24), "<tab> <tab> W X", braille()),
+        ("four", (160, 48), "<tab> <tab> W X W Y Y Y Y Y", braille()),
+        ("four-small", (80, 24), "<tab> <tab> W X W Y", letters()),
+        ("rows", (100, 40), "Z Z", braille()),
+        ("views", (80, 24), "V", letters()),
     ];
     for (name, (width, height), keys, look) in cases {
         let mut session = Session::new(Arc::new(approved()), Size { width, height });
@@ -328,7 +339,7 @@ fn without_colour_no_cell_has_any_and_stable_still_differs_from_unstable() {
         let mut session = settled("supercritical", 80, 24, "");
         session.layers = [Layer::Cycles].into();
         if let Some(Ok(Answer::Cycles(found))) =
-            session.answers.get_mut(&crate::scene::Slot::Cycles).map(|held| held.result.as_mut())
+            session.answers.get_mut(&Slot::Cycles).map(|held| Arc::make_mut(held).result.as_mut())
         {
             found.cycles = vec![cycle(1.0, stable)];
             found.picture = Some(picture(Vec::new(), vec![circle(1.0)]));
@@ -390,6 +401,32 @@ fn every_scene_fits_every_size() {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn plots_share_every_screen_without_overlap(
+        (width, height) in (1_u16..501, 1_u16..201),
+        keys in proptest::collection::vec(prop::sample::select(vec!["<tab>", "W", "Q", "Z", "z", "M", ";"]), 0..12),
+    ) {
+        let mut session = open("supercritical", width, height);
+        press(&mut session, &keys.join(" "));
+        let screen = Rect::new(0, 0, width, height);
+        if let Some(parts) = layout(screen, &session) {
+            prop_assert_eq!(parts.plots.len(), session.plots.len());
+            let shown: Vec<Rect> = parts.plots.iter().filter(|area| !area.is_empty()).copied().collect();
+            prop_assert!(!parts.plots[session.plot].is_empty(), "the plot in use is seen");
+            let all = [parts.title, parts.parameters, parts.status, parts.footer];
+            let all: Vec<Rect> = all.into_iter().chain(shown).collect();
+            for (index, area) in all.iter().enumerate() {
+                prop_assert_eq!(area.intersection(screen), *area);
+                prop_assert!(all[..index].iter().all(|other| !area.intersects(*other)));
+            }
+        }
+        draw(&session, braille());
+    }
+}
+
+proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
     #[test]
@@ -403,8 +440,9 @@ proptest! {
         session.layers = LAYERS.iter().map(|row| row.layer).collect();
         settle(&mut session);
         let states: Vec<State> = curve.iter().map(|(q, v)| State { q: *q, v: *v }).collect();
-        for held in session.answers.values_mut() {
-            match &mut held.result {
+        let own = session.plots.iter_mut().flat_map(|plot| plot.answers.values_mut());
+        for held in session.answers.values_mut().chain(own) {
+            match &mut Arc::make_mut(held).result {
                 Ok(Answer::Trajectory(found)) => {
                     found.samples = curve.iter().map(|(q, v)| Sample { tau: 0.0, q: *q, v: *v }).collect();
                     found.outcome = Outcome::Moving { tau: value, q: low, v: high };
@@ -425,10 +463,9 @@ proptest! {
                 Err(_) => {}
             }
         }
-        session.phase.cursor = Some(Point { x: value, y: low });
+        session.plots[0].cursor = Some(Point { x: value, y: low });
         if let Ok(span) = Span::new(low.min(high), low.max(high)) {
-            session.phase.window = Window { x: span, y: span };
-            session.diagram.window = Window { x: span, y: span };
+            session.plots.iter_mut().for_each(|plot| plot.window = Window { x: span, y: span });
         }
         for (glyphs, _) in GLYPHS {
             draw(&session, settings::Look { glyphs, ..braille() });

@@ -12,7 +12,7 @@ const DIGITS: [usize; 5] = [10, 8, 6, 5, 4];
 #[must_use]
 pub fn reading(session: &Session, look: &Look, width: u16) -> Option<String> {
     let held = session.held?;
-    let name = session.abscissa.spec().name;
+    let name = session.plots[session.plot].axes.abscissa.spec().name;
     let line = |digits: &usize| sentence(name, &held, *digits, look.symbols().dot);
     // The status line begins with a blank and a symbol.
     let fits = |text: &String| text.chars().count() + 4 <= usize::from(width);

@@ -8,15 +8,15 @@ use crate::session::Framing;
 #[test]
 fn every_parameter_comes_below_the_diagram_and_the_scene_s_own_comes_back() {
     let mut desk = Desk::open("supercritical");
-    let scene = desk.session.diagram;
+    let scene = desk.session.plots[1].clone();
     desk.press("<tab><tab>");
     let mut seen = Vec::new();
     for _ in 0..4 {
         assert_eq!(desk.press("X"), [Slot::Branch]);
-        assert_eq!(desk.session.branch().unwrap().parameter, desk.session.abscissa);
-        let today = desk.session.value(desk.session.abscissa);
-        assert!(desk.session.diagram.window.x.contains(today));
-        seen.push((desk.session.abscissa, desk.session.diagram.framing));
+        assert_eq!(desk.session.branch(1).unwrap().parameter, desk.session.plots[1].axes.abscissa);
+        let today = desk.session.value(desk.session.plots[1].axes.abscissa);
+        assert!(desk.session.plots[1].window.x.contains(today));
+        seen.push((desk.session.plots[1].axes.abscissa, desk.session.plots[1].framing));
     }
     let fitted = Framing::Fitted;
     assert_eq!(
@@ -28,15 +28,16 @@ fn every_parameter_comes_below_the_diagram_and_the_scene_s_own_comes_back() {
             (Symbol::D, Framing::Scene)
         ]
     );
-    assert_eq!(desk.session.diagram, scene);
+    assert_eq!(desk.session.exhibit(1), desk.session.scene.plots.get(1).copied());
+    assert_eq!(desk.session.plots[1].window, scene.window);
 }
 
 #[test]
 fn the_window_follows_a_value_of_today_that_is_out_of_the_ordinary() {
     let mut desk = Desk::open("supercritical");
     desk.press("<down>7<enter><tab><tab>X X");
-    assert_eq!(desk.session.abscissa, Symbol::D3);
-    assert!(desk.session.diagram.window.x.contains(7.0));
+    assert_eq!(desk.session.plots[1].axes.abscissa, Symbol::D3);
+    assert!(desk.session.plots[1].window.x.contains(7.0));
 }
 
 #[test]
@@ -45,16 +46,16 @@ fn every_ordinate_is_fitted_to_the_cycles_that_are_there() {
     desk.press("<tab><tab>");
     for row in ORDINATES.iter().cycle().skip(1).take(ORDINATES.len()) {
         assert_eq!(desk.press("Y"), [], "{}", row.name);
-        assert_eq!(desk.session.ordinate, row.ordinate);
-        let window = desk.session.diagram.window;
-        for point in desk.session.branch().unwrap().pieces.iter().flatten() {
+        assert_eq!(desk.session.plots[1].axes.ordinate, row.ordinate);
+        let window = desk.session.plots[1].window;
+        for point in desk.session.branch(1).unwrap().pieces.iter().flatten() {
             let height = row.ordinate.of(&point.cycle);
             // The scene's own window is not fitted.
             let shown = window.y.contains(height) || row.ordinate == Ordinate::QMax;
             assert!(shown, "{}: {height} in {window:?}", row.name);
         }
     }
-    assert_eq!(desk.session.diagram.framing, Framing::Scene);
+    assert_eq!(desk.session.plots[1].framing, Framing::Scene);
 }
 
 #[test]
@@ -62,8 +63,11 @@ fn home_brings_the_axes_of_the_scene_back() {
     let mut desk = Desk::open("supercritical");
     desk.press("<tab><tab>Y X");
     assert_eq!(desk.press("<home>"), [Slot::Branch]);
-    assert_eq!((desk.session.abscissa, desk.session.ordinate), (Symbol::D, Ordinate::QMax));
-    assert_eq!(desk.session.diagram.window, desk.session.scene.diagram);
+    assert_eq!(
+        (desk.session.plots[1].axes.abscissa, desk.session.plots[1].axes.ordinate),
+        (Symbol::D, Ordinate::QMax)
+    );
+    assert_eq!(desk.session.plots[1].window, desk.session.scene.plots[1].opening());
 }
 
 #[test]
@@ -72,7 +76,7 @@ fn the_harmonic_answer_has_no_multiplier() {
     desk.press("<tab><tab>");
     assert_eq!(desk.session.not_drawn(Layer::Harmonic), None);
     desk.press("Y Y Y Y Y Y");
-    assert_eq!(desk.session.ordinate, Ordinate::Multiplier);
+    assert_eq!(desk.session.plots[1].axes.ordinate, Ordinate::Multiplier);
     assert!(desk.session.not_drawn(Layer::Harmonic).is_some());
     assert_eq!(desk.session.not_drawn(Layer::Branch), None);
 }

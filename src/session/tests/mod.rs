@@ -2,6 +2,7 @@
 //! questions answered by hand.
 
 mod axes;
+mod desk;
 mod entries;
 mod plots;
 mod requests;

@@ -2,8 +2,8 @@
 
 use super::Desk;
 use crate::oscillator::State;
-use crate::scene::{Pane, Point, Span, Window};
-use crate::session::Framing;
+use crate::scene::{Point, Span, Window};
+use crate::session::{Framing, Pane};
 use crate::study::{Edge, Margin, Picture};
 
 #[test]
@@ -11,13 +11,13 @@ fn the_cursor_moves_on_round_numbers_and_sets_the_start() {
     let mut desk = Desk::open("plain");
     desk.press("<tab><right>");
     // A 64th of the width 4 is near 0.05.
-    assert_eq!(desk.session.phase.cursor, Some(Point { x: 1.05, y: 0.0 }));
+    assert_eq!(desk.session.plots[0].cursor, Some(Point { x: 1.05, y: 0.0 }));
     desk.press("k k h <C-left>");
-    assert_eq!(desk.session.phase.cursor, Some(Point { x: 0.6, y: 0.1 }));
+    assert_eq!(desk.session.plots[0].cursor, Some(Point { x: 0.6, y: 0.1 }));
     desk.press("<enter>");
     assert_eq!(desk.session.problem.initial, State { q: 0.6, v: 0.1 });
     desk.press("<esc>");
-    assert_eq!((desk.session.phase.cursor, desk.session.quit), (None, false));
+    assert_eq!((desk.session.plots[0].cursor, desk.session.quit), (None, false));
     desk.press("<enter>");
     assert_eq!(desk.notice(), "no cursor yet: the arrows show it and move it");
 }
@@ -28,7 +28,7 @@ fn the_cursor_stays_inside_its_window() {
         let mut desk = Desk::open("plain");
         desk.press("<tab>+L");
         desk.press(keys);
-        let plot = desk.session.phase;
+        let plot = &desk.session.plots[0];
         assert!(plot.window.contains(plot.cursor.unwrap()), "{keys}");
     }
 }
@@ -37,10 +37,10 @@ fn the_cursor_stays_inside_its_window() {
 fn the_diagram_is_jumped_to_and_knows_its_limits() {
     let mut desk = Desk::open("plain");
     desk.press("<tab><tab><left*3><enter>");
-    assert_eq!(desk.session.focus, Pane::Diagram);
+    assert_eq!(desk.session.focus, Pane::Plot(1));
     assert_eq!(desk.session.problem.parameters.d, -0.13);
-    desk.session.abscissa = crate::oscillator::Symbol::R;
-    desk.session.diagram.cursor = Some(Point { x: -0.2, y: 1.0 });
+    desk.session.plots[1].axes.abscissa = crate::oscillator::Symbol::R;
+    desk.session.plots[1].cursor = Some(Point { x: -0.2, y: 1.0 });
     desk.press("<enter>");
     assert!(desk.notice().starts_with("r = -0.2 is outside its range"), "{}", desk.notice());
 }
@@ -48,9 +48,9 @@ fn the_diagram_is_jumped_to_and_knows_its_limits() {
 #[test]
 fn a_diagram_outside_the_range_of_its_parameter_asks_nothing() {
     let mut desk = Desk::open("plain");
-    desk.session.abscissa = crate::oscillator::Symbol::R;
-    desk.session.diagram.window.x = Span::new(-2.0, -1.0).unwrap();
-    assert_eq!(desk.session.request(crate::scene::Slot::Branch), None);
+    desk.session.plots[1].axes.abscissa = crate::oscillator::Symbol::R;
+    desk.session.plots[1].window.x = Span::new(-2.0, -1.0).unwrap();
+    assert_eq!(desk.session.request(crate::scene::Slot::Branch, 1), None);
     assert_eq!(desk.session.wants().len(), 2);
 }
 
@@ -58,10 +58,10 @@ fn a_diagram_outside_the_range_of_its_parameter_asks_nothing() {
 fn zoom_keeps_the_cursor_in_place_and_home_undoes_it() {
     let mut desk = Desk::open("plain");
     desk.press("<tab><right*4><up*4>");
-    let before = desk.session.phase;
+    let before = desk.session.plots[0].clone();
     let cursor = before.cursor.unwrap();
     desk.press("++");
-    let after = desk.session.phase;
+    let after = &desk.session.plots[0];
     assert_eq!((after.cursor, after.framing), (Some(cursor), Framing::User));
     assert!(after.window.x.width() < before.window.x.width());
     let place = |window: Window| (window.x.fraction(cursor.x), window.y.fraction(cursor.y));
@@ -69,7 +69,7 @@ fn zoom_keeps_the_cursor_in_place_and_home_undoes_it() {
     assert!((place(after.window).1 - place(before.window).1).abs() < 1e-12);
     desk.press("L K <home>");
     assert_eq!(
-        (desk.session.phase.window, desk.session.phase.framing),
+        (desk.session.plots[0].window, desk.session.plots[0].framing),
         (before.window, Framing::Scene)
     );
 }
@@ -78,14 +78,14 @@ fn zoom_keeps_the_cursor_in_place_and_home_undoes_it() {
 fn fit_shows_all_that_is_computed() {
     let mut desk = Desk::open("supercritical");
     desk.press("<tab>0");
-    let window = desk.session.phase.window;
-    assert_eq!(desk.session.phase.framing, Framing::Fitted);
+    let window = desk.session.plots[0].window;
+    assert_eq!(desk.session.plots[0].framing, Framing::Fitted);
     // The stable cycle by hand reaches r + 3 in every direction.
     assert!(window.contains(Point { x: 3.1, y: -3.1 }) && window.x.to() < 3.5);
     desk.press("<tab>0");
-    assert_eq!(desk.session.diagram.framing, Framing::Fitted);
-    assert!(desk.session.diagram.window.y.contains(3.1));
-    assert_eq!(desk.session.diagram.window.x, desk.session.scene.diagram.x);
+    assert_eq!(desk.session.plots[1].framing, Framing::Fitted);
+    assert!(desk.session.plots[1].window.y.contains(3.1));
+    assert_eq!(desk.session.plots[1].window.x, desk.session.scene.plots[1].opening().x);
 }
 
 #[test]
@@ -99,10 +99,10 @@ fn fit_waits_for_what_is_being_computed() {
             crate::session::update(&mut desk.session, message);
         }
     }
-    assert_eq!(desk.session.phase.framing, Framing::Fitting);
-    assert_eq!(desk.session.phase.window, desk.session.scene.phase);
+    assert_eq!(desk.session.plots[0].framing, Framing::Fitting);
+    assert_eq!(desk.session.plots[0].window, desk.session.scene.plots[0].opening());
     desk.settle();
-    assert_eq!(desk.session.phase.framing, Framing::Fitted);
+    assert_eq!(desk.session.plots[0].framing, Framing::Fitted);
 }
 
 #[test]
@@ -125,6 +125,7 @@ fn a_separatrix_has_two_sides_too() {
     for (d2, sign) in [(0.5, 1.0), (-0.5, -1.0)] {
         let mut desk = Desk::open("escape");
         let held = desk.session.answers.get_mut(&crate::scene::Slot::Cycles).unwrap();
+        let held = std::sync::Arc::make_mut(held);
         let Ok(crate::scene::Answer::Cycles(found)) = &mut held.result else { panic!("cycles") };
         found.parameters.d2 = d2;
         found.edge = Edge::Separatrix;
@@ -145,6 +146,7 @@ fn a_cycle_close_to_the_sticking_set_still_has_two_sides() {
     let mut desk = Desk::open("linear");
     for clearance in [0.5, 1e-9, 1e-14, 3e-16, 1e-16, 6.5e-31, 5e-324] {
         let held = desk.session.answers.get_mut(&crate::scene::Slot::Cycles).unwrap();
+        let held = std::sync::Arc::make_mut(held);
         let Ok(crate::scene::Answer::Cycles(found)) = &mut held.result else { panic!("cycles") };
         found.cycles[0].clearance = clearance;
         desk.press("i");

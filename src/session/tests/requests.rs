@@ -117,11 +117,11 @@ fn terms_that_a_scene_does_not_declare_are_zero_until_the_user_unfolds_them() {
 #[test]
 fn the_branch_does_not_contain_the_value_of_its_own_parameter() {
     let desk = Desk::open("plain");
-    let wanted = desk.session.request(Slot::Branch);
+    let wanted = desk.session.request(Slot::Branch, 1);
     for d in [-0.9, 0.0, 1e-300, 2.0] {
         let mut session = desk.session.clone();
         Symbol::D.set(&mut session.problem.parameters, &mut session.problem.initial, d);
-        assert_eq!(session.request(Slot::Branch), wanted);
+        assert_eq!(session.request(Slot::Branch, 1), wanted);
     }
 }
 
@@ -145,18 +145,18 @@ fn an_old_picture_stays_and_is_known_to_be_old() {
     let mut desk = Desk::open("plain");
     let before = desk.session.trajectory().cloned();
     update(&mut desk.session, Msg::Key("<right>".parse().unwrap()));
-    assert!(desk.session.is_busy() && desk.session.is_stale(Slot::Trajectory));
-    assert!(!desk.session.is_stale(Slot::Branch));
+    assert!(desk.session.is_busy() && desk.session.is_stale(Slot::Trajectory, 1));
+    assert!(!desk.session.is_stale(Slot::Branch, 1));
     assert_eq!(desk.session.trajectory().cloned(), before);
     desk.settle();
-    assert!(!desk.session.is_stale(Slot::Trajectory));
+    assert!(!desk.session.is_stale(Slot::Trajectory, 1));
 }
 
 #[test]
 fn a_late_answer_never_replaces_the_one_that_is_asked_for() {
     let mut desk = Desk::open("plain");
     update(&mut desk.session, Msg::Key("<right>".parse().unwrap()));
-    let superseded = desk.session.request(Slot::Trajectory).unwrap();
+    let superseded = desk.session.request(Slot::Trajectory, 1).unwrap();
     desk.press("u");
     let held = desk.session.trajectory().cloned();
     update(&mut desk.session, Msg::Answered(Box::new(answered(superseded.clone()))));
@@ -166,14 +166,14 @@ fn a_late_answer_never_replaces_the_one_that_is_asked_for() {
     update(&mut desk.session, Msg::Answered(Box::new(answered(superseded.clone()))));
     let Request::Trajectory(problem) = superseded else { panic!("a trajectory was asked for") };
     assert_eq!(desk.session.trajectory().unwrap().problem, problem);
-    assert!(desk.session.is_stale(Slot::Trajectory));
+    assert!(desk.session.is_stale(Slot::Trajectory, 1));
 }
 
 #[test]
 fn a_failure_is_told_once_and_not_tried_again() {
     let mut desk = Desk::open("plain");
     update(&mut desk.session, Msg::Key("<right>".parse().unwrap()));
-    let request = desk.session.request(Slot::Cycles).unwrap();
+    let request = desk.session.request(Slot::Cycles, 1).unwrap();
     let failed = |failure| {
         let result = Err(failure);
         Msg::Answered(Box::new(Answered { request: request.clone(), result, seconds: 0.0 }))
@@ -182,12 +182,12 @@ fn a_failure_is_told_once_and_not_tried_again() {
     assert!(desk.session.is_open(&request), "an interrupted question is still a question");
     update(&mut desk.session, failed(Failure::Reason(Reason::OutOfRange)));
     assert!(!desk.session.is_open(&request));
-    assert!(desk.session.failure(Slot::Cycles).is_some());
+    assert!(desk.session.failure(Slot::Cycles, 1).is_some());
     assert_eq!(desk.notice(), "cycles: left the range of floating-point numbers; <f5> tries again");
-    assert!(desk.session.is_stale(Slot::Cycles) && desk.session.cycles().is_some());
+    assert!(desk.session.is_stale(Slot::Cycles, 1) && desk.session.cycles().is_some());
     desk.settle();
     assert_eq!(desk.press("<f5>"), [Slot::Cycles]);
-    assert!(!desk.session.is_stale(Slot::Cycles));
+    assert!(!desk.session.is_stale(Slot::Cycles, 1));
     assert_eq!(desk.press("<right>"), POINT, "another value is another question");
-    assert_eq!(desk.session.failure(Slot::Cycles), None);
+    assert_eq!(desk.session.failure(Slot::Cycles, 1), None);
 }

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use super::Desk;
 use crate::scene::{Request, library};
 use crate::session::command::COMMANDS;
-use crate::session::{Effect, Key, Msg, Session, update};
+use crate::session::{Effect, Key, Msg, Plot, Session, update};
 
 /// Keys that mean something somewhere, and some that are only typed.
 fn any_key() -> impl Strategy<Value = Key> {
@@ -25,12 +25,12 @@ fn any_key() -> impl Strategy<Value = Key> {
 fn check(session: &Session) {
     assert!(session.rows().contains(&session.selected));
     assert!(session.panes().contains(&session.focus));
-    for window in [session.phase.window, session.diagram.window] {
+    for Plot { window, .. } in &session.plots {
         for span in [window.x, window.y] {
             assert!(span.width() > 0.0 && span.width().is_finite());
         }
     }
-    for plot in [session.phase, session.diagram] {
+    for plot in &session.plots {
         if let Some(cursor) = plot.cursor {
             assert!(cursor.x.is_finite() && cursor.y.is_finite());
         }

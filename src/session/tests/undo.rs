@@ -33,10 +33,10 @@ fn undo_and_redo_restore_the_requests_exactly() {
 fn undo_says_what_it_brought_back_and_leaves_the_zoom_alone() {
     let mut desk = Desk::open("plain");
     desk.press("<right> <tab>++ b");
-    let (window, layers) = (desk.session.phase.window, desk.session.layers.clone());
+    let (window, layers) = (desk.session.plots[0].window, desk.session.layers.clone());
     desk.press("u");
     assert_eq!(desk.notice(), "undo: D = -0.1");
-    assert_eq!((desk.session.phase.window, &desk.session.layers), (window, &layers));
+    assert_eq!((desk.session.plots[0].window, &desk.session.layers), (window, &layers));
 }
 
 #[test]
@@ -86,7 +86,7 @@ fn scenes_are_picked_from_a_list_and_undone_as_a_whole() {
     desk.press("<right> u u");
     assert_eq!(desk.notice(), "undo: scene plain");
     assert_eq!(desk.session.wants(), before.wants());
-    assert_eq!(desk.session.phase.window, before.phase.window);
+    assert_eq!(desk.session.plots[0].window, before.plots[0].window);
     assert_eq!(desk.session.layers, before.layers);
     desk.press("U");
     assert_eq!(desk.session.scene.name, "marginal");

@@ -63,7 +63,7 @@ fn enter_takes_the_point_into_the_phase_plane_as_one_change() {
 fn the_cursor_says_where_to_take_hold() {
     let mut desk = Desk::open("supercritical");
     desk.press("<tab><tab><right>");
-    desk.session.diagram.cursor.as_mut().unwrap().y = 3.0;
+    desk.session.plots[1].cursor.as_mut().unwrap().y = 3.0;
     desk.press("<C-left*9> w");
     assert_eq!(q_max(&desk), 3.1);
 }
@@ -79,7 +79,7 @@ fn there_must_be_a_branch_to_hold() {
     // Zooming computes the branch anew; the hold stays on it.
     desk.press("+");
     let held = held(&desk);
-    let branch = desk.session.branch().unwrap();
+    let branch = desk.session.branch(1).unwrap();
     assert!(branch.pieces.iter().flatten().any(|point| Stop::from(point) == held));
 }
 

@@ -2,14 +2,16 @@
 
 use std::sync::Arc;
 
+use super::desk::{desk, set_up};
 use super::{inform, refuse};
 use crate::flow::Problem;
-use crate::scene::{Layer, PANES, Pane, Scene};
-use crate::session::history::{Before, Snapshot};
+use crate::scene::{Layer, Scene};
+use crate::session::history::{Before, Desk, Snapshot};
 use crate::session::message::Effect;
 use crate::session::overlay::Overlay;
+use crate::session::plot::Pane;
 use crate::session::settings::{GLYPHS, THEMES, next_of};
-use crate::session::state::{Plot, ROWS, Row, Session, Steps};
+use crate::session::state::{ROWS, Row, Session, Steps};
 use crate::session::step::shortest;
 use crate::study::harmonic_error::ladder;
 
@@ -18,16 +20,26 @@ const MOST_HARMONICS: usize = 63;
 
 /// Gives the focus to another pane.
 pub fn focus(session: &mut Session, by: isize) -> Vec<Effect> {
-    let at = PANES.iter().position(|pane| *pane == session.focus).unwrap_or(0);
-    let next = at.checked_add_signed(by).unwrap_or(PANES.len() - 1) % PANES.len();
-    session.focus = PANES[next];
-    if session.focus != Pane::Parameters {
-        session.plot = session.focus;
-    }
+    // An enlarged plot gives its place to the next one.
+    let panes = session.plots.len() + 1;
+    let at = match session.focus {
+        Pane::Parameters => 0,
+        Pane::Plot(index) => index + 1,
+    };
+    let next = at.checked_add_signed(by).unwrap_or(panes - 1) % panes;
+    focus_on(session, next.checked_sub(1).map_or(Pane::Parameters, Pane::Plot));
     Vec::new()
 }
 
-/// Gives one plot the place of both, or shares it again.
+/// Gives the focus to a pane.
+pub(in crate::session) fn focus_on(session: &mut Session, pane: Pane) {
+    session.focus = pane;
+    if let Pane::Plot(index) = pane {
+        session.plot = index;
+    }
+}
+
+/// Gives one plot the place of all, or shares it again.
 pub fn enlarge(session: &mut Session) -> Vec<Effect> {
     session.enlarged = !session.enlarged;
     Vec::new()
@@ -84,6 +96,7 @@ pub fn redo(session: &mut Session) -> Vec<Effect> {
 fn present(session: &Session, other: &Before) -> Before {
     match other {
         Before::Problem(_) => Before::Problem(session.problem),
+        Before::Desk(_) => Before::Desk(desk(session)),
         Before::Scene(_) => Before::Scene(Box::new(snapshot(session))),
     }
 }
@@ -95,10 +108,7 @@ fn snapshot(session: &Session) -> Snapshot {
         problem: session.problem,
         steps: session.steps,
         layers: session.layers.clone(),
-        phase: session.phase.window,
-        diagram: session.diagram.window,
-        abscissa: session.abscissa,
-        ordinate: session.ordinate,
+        desk: desk(session),
     }
 }
 
@@ -108,10 +118,7 @@ fn opening(scene: Arc<Scene>) -> Snapshot {
         problem: scene.problem,
         steps: Steps::of_scene(&scene),
         layers: scene.layers.clone(),
-        phase: scene.phase,
-        diagram: scene.diagram,
-        abscissa: scene.abscissa,
-        ordinate: scene.ordinate,
+        desk: Desk { plots: scene.plots.clone(), arrangement: scene.arrangement },
         scene,
     }
 }
@@ -122,6 +129,11 @@ fn bring_back(session: &mut Session, found: Option<Before>, name: &str) -> Vec<E
         Some(Before::Problem(problem)) => {
             inform(session, format!("{name}: {}", difference(&session.problem, &problem)));
             session.problem = problem;
+        }
+        Some(Before::Desk(desk)) => {
+            let titles: Vec<_> = desk.plots.iter().map(|plot| plot.view.spec().title).collect();
+            inform(session, format!("{name}: {}", titles.join(", ")));
+            set_up(session, &desk);
         }
         Some(Before::Scene(snapshot)) => {
             inform(session, format!("{name}: scene {}", snapshot.scene.name));
@@ -149,10 +161,7 @@ fn restore(session: &mut Session, snapshot: Snapshot) {
     session.problem = snapshot.problem;
     session.steps = snapshot.steps;
     session.layers = snapshot.layers;
-    session.phase = Plot::new(snapshot.phase, session.scene.phase);
-    session.diagram = Plot::new(snapshot.diagram, session.scene.diagram);
-    session.abscissa = snapshot.abscissa;
-    session.ordinate = snapshot.ordinate;
+    set_up(session, &snapshot.desk);
     session.held = None;
 }
 

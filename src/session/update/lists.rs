@@ -1,9 +1,10 @@
-//! Lists over the panes: help, scenes, layers; moving, searching, choosing.
+//! Lists over the panes: help, scenes, layers, views; moving, searching, choosing.
 
 use std::sync::Arc;
 
+use super::desk::show;
 use super::general::{open_scene, toggle};
-use crate::scene::{LAYERS, LayerSpec, Scene, library};
+use crate::scene::{LAYERS, LayerSpec, Scene, VIEWS, ViewSpec, library};
 use crate::session::command::{COMMANDS, Command};
 use crate::session::message::Effect;
 use crate::session::overlay::{List, Overlay};
@@ -38,21 +39,25 @@ impl Session {
         LAYERS.iter().filter(|row| list.matches(&[row.name, row.meaning])).collect()
     }
 
+    /// The views that the picker lists.
+    #[must_use]
+    pub fn view_rows(&self, list: &List) -> Vec<&'static ViewSpec> {
+        VIEWS.iter().filter(|row| list.matches(&[row.name, row.title, row.meaning])).collect()
+    }
+
     /// How many rows the open list has.
     fn list_length(&self) -> usize {
         match &self.overlay {
             Some(Overlay::Help(list)) => self.help_rows(list).len(),
             Some(Overlay::Scenes(list)) => self.scene_rows(list).len(),
             Some(Overlay::Layers(list)) => self.layer_rows(list).len(),
+            Some(Overlay::Views(list)) => self.view_rows(list).len(),
             Some(Overlay::Entry(_) | Overlay::Offer(_)) | None => 0,
         }
     }
 
     fn list_mut(&mut self) -> Option<&mut List> {
-        match &mut self.overlay {
-            Some(Overlay::Help(list) | Overlay::Scenes(list) | Overlay::Layers(list)) => Some(list),
-            Some(Overlay::Entry(_) | Overlay::Offer(_)) | None => None,
-        }
+        self.overlay.as_mut().and_then(Overlay::list_mut)
     }
 }
 
@@ -72,9 +77,17 @@ pub fn open_scenes(session: &mut Session) -> Vec<Effect> {
 
 /// Opens the list of layers, with the first one of the plot in use selected.
 pub fn open_layers(session: &mut Session) -> Vec<Effect> {
-    let first = LAYERS.iter().position(|row| row.pane == session.plot);
+    let view = session.plots[session.plot].view;
+    let first = LAYERS.iter().position(|row| row.view == view);
     let list = List { selected: first.unwrap_or(0), ..List::default() };
     session.overlay = Some(Overlay::Layers(list));
+    Vec::new()
+}
+
+/// Opens the picker of views, with the present one of the plot in use selected.
+pub fn open_views(session: &mut Session) -> Vec<Effect> {
+    let selected = session.plots[session.plot].view as usize;
+    session.overlay = Some(Overlay::Views(List { selected, ..List::default() }));
     Vec::new()
 }
 
@@ -101,7 +114,7 @@ pub fn search_done(session: &mut Session) -> Vec<Effect> {
         list.searching = false;
     }
     match session.overlay {
-        Some(Overlay::Scenes(_)) => choose(session),
+        Some(Overlay::Scenes(_) | Overlay::Views(_)) => choose(session),
         _ => Vec::new(),
     }
 }
@@ -132,7 +145,7 @@ pub fn search_clear(session: &mut Session) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Opens the selected scene, or switches the selected layer.
+/// Opens the selected scene, switches the selected layer, or shows the selected view.
 pub fn choose(session: &mut Session) -> Vec<Effect> {
     match &session.overlay {
         Some(Overlay::Scenes(list)) => {
@@ -144,6 +157,12 @@ pub fn choose(session: &mut Session) -> Vec<Effect> {
         Some(Overlay::Layers(list)) => {
             if let Some(row) = session.layer_rows(list).get(list.selected) {
                 return toggle(session, row.layer);
+            }
+        }
+        Some(Overlay::Views(list)) => {
+            if let Some(row) = session.view_rows(list).get(list.selected) {
+                session.overlay = None;
+                return show(session, row.view);
             }
         }
         Some(Overlay::Help(_) | Overlay::Entry(_) | Overlay::Offer(_)) | None => {}

@@ -5,6 +5,7 @@
 //! concern each.
 
 pub mod axes;
+pub mod desk;
 pub mod entry;
 pub mod general;
 pub mod lists;
@@ -17,11 +18,12 @@ use super::fit;
 use super::key::Key;
 use super::message::{Effect, Msg};
 use super::overlay::{Entry, Overlay};
+use super::plot::Pane;
 use super::replay;
-use super::state::{Notice, Price, Recomputed, Row, Session, Size};
+use super::state::{Notice, Price, Row, Session, Size};
 use crate::flow::Reason;
+use crate::scene::Answered;
 use crate::scene::answer::Failure;
-use crate::scene::{Answered, Pane};
 
 /// Takes a message in.
 pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
@@ -43,6 +45,7 @@ pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
         Msg::Idle => Vec::new(),
     };
     keep_selection(session);
+    session.share();
     fit::resolve(session);
     walk::keep_hold(session);
     effects
@@ -80,11 +83,13 @@ fn type_text(session: &mut Session, text: &str) {
     let visible = text.chars().filter(|char| !char.is_control());
     match &mut session.overlay {
         Some(Overlay::Entry(entry)) => visible.for_each(|char| entry.insert(char)),
-        Some(Overlay::Help(list) | Overlay::Scenes(list) | Overlay::Layers(list)) => {
-            list.search.extend(visible);
-            list.selected = 0;
+        Some(overlay) => {
+            if let Some(list) = overlay.list_mut() {
+                list.search.extend(visible);
+                list.selected = 0;
+            }
         }
-        Some(Overlay::Offer(_)) | None => {}
+        None => {}
     }
 }
 
@@ -109,31 +114,17 @@ fn paste(session: &mut Session, text: &str) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Takes an answer of the worker.
-///
-/// One that comes late, to a question that is no longer asked, is still newer than what is shown,
-/// unless that is the answer to today's question.
+/// Takes an answer of the worker; says what went wrong with a question of today.
 fn take(session: &mut Session, answered: Answered) {
-    let slot = answered.request.slot();
-    let asked = session.request(slot).as_ref() == Some(&answered.request);
-    match &answered.result {
-        Err(Failure::Reason(Reason::Interrupted)) => {}
-        Err(failure) => {
-            if asked {
-                let retry = session.keymap.key_of("retry");
-                let again = retry.map(|key| format!("; {key} tries again")).unwrap_or_default();
-                refuse(session, format!("{}: {failure}{again}", slot.name()));
-            }
-            session.failures.insert(slot, (answered.request, failure.clone()));
-        }
-        Ok(answer) => {
-            let (cost, seconds) = (answer.cost(), answered.seconds);
-            session.price.recomputed.push(Recomputed { slot, cost, seconds });
-            if asked || session.is_stale(slot) {
-                session.failures.remove(&slot);
-                session.answers.insert(slot, answered);
-            }
-        }
+    let name = answered.request.slot().name();
+    let failure = answered.result.as_ref().err().cloned();
+    let asked = session.take(answered);
+    if let Some(failure) = failure.filter(|_| asked)
+        && failure != Failure::Reason(Reason::Interrupted)
+    {
+        let retry = session.keymap.key_of("retry");
+        let again = retry.map(|key| format!("; {key} tries again")).unwrap_or_default();
+        refuse(session, format!("{name}: {failure}{again}"));
     }
 }
 

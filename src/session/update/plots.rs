@@ -4,9 +4,10 @@ use super::parameters::change;
 use super::refuse;
 use crate::flow::Problem;
 use crate::oscillator::State;
-use crate::scene::{Pane, Point, Span, Window};
+use crate::scene::{Exhibit, Point, Span, View, Window};
 use crate::session::message::Effect;
-use crate::session::state::{Framing, Plot, Session};
+use crate::session::plot::{Framing, Plot};
+use crate::session::state::Session;
 use crate::session::step::StepSize;
 
 /// Steps of the cursor that a far move takes.
@@ -23,35 +24,19 @@ const ZOOM: f64 = 1.5;
 /// How much of the width a pan moves.
 const PAN: f64 = 0.125;
 
-impl Session {
-    /// The plot of a pane, if it is one.
-    pub fn plot_mut(&mut self, pane: Pane) -> Option<&mut Plot> {
-        match pane {
-            Pane::Parameters => None,
-            Pane::Phase => Some(&mut self.phase),
-            Pane::Diagram => Some(&mut self.diagram),
-        }
-    }
-
-    /// Where the cursor of a plot appears: on the start of the motion, or on today's value.
-    fn cursor_origin(&self, pane: Pane) -> Point {
-        let initial = self.problem.initial;
-        match pane {
-            Pane::Parameters | Pane::Phase => {
-                self.phase.window.clamp(Point { x: initial.q, y: initial.v })
-            }
-            Pane::Diagram => {
-                let window = self.diagram.window;
-                window.clamp(Point { x: self.value(self.abscissa), y: window.center().y })
-            }
-        }
-    }
+/// Where the cursor of a plot appears: on the start of the motion, or on today's value.
+fn cursor_origin(session: &Session, plot: &Plot) -> Point {
+    let window = plot.window;
+    window.clamp(match plot.view {
+        View::Phase => Point { x: session.problem.initial.q, y: session.problem.initial.v },
+        View::Diagram => Point { x: session.value(plot.axes.abscissa), y: window.center().y },
+    })
 }
 
 /// Moves the cursor of the plot in focus; the first move shows it.
 pub fn move_cursor(session: &mut Session, right: i32, up: i32) -> Vec<Effect> {
-    let origin = session.cursor_origin(session.focus);
-    if let Some(plot) = session.plot_mut(session.focus) {
+    let origin = session.focused().map(|plot| cursor_origin(session, plot));
+    if let Some((plot, origin)) = session.focused_mut().zip(origin) {
         let Point { x, y } = plot.cursor.unwrap_or(origin);
         let Window { x: across, y: along } = plot.window;
         plot.cursor = Some(Point { x: moved(across, x, right), y: moved(along, y, up) });
@@ -78,7 +63,7 @@ fn moved(span: Span, value: f64, count: i32) -> f64 {
 
 /// Drops the cursor of the plot in focus.
 pub fn drop_cursor(session: &mut Session) -> Vec<Effect> {
-    if let Some(plot) = session.plot_mut(session.focus) {
+    if let Some(plot) = session.focused_mut() {
         plot.cursor = None;
     }
     Vec::new()
@@ -104,9 +89,9 @@ pub fn pan(session: &mut Session, right: i32, up: i32) -> Vec<Effect> {
 
 /// Gives the plot in focus a window of the user's.
 fn frame(session: &mut Session, window: impl FnOnce(&Plot) -> Window) -> Vec<Effect> {
-    let framed = session.plot_mut(session.focus).map(|plot| {
+    let framed = session.focused_mut().map(|plot| {
         let (before, after) = (plot.window, window(plot));
-        *plot = Plot { window: after, framing: Framing::User, ..*plot };
+        (plot.window, plot.framing) = (after, Framing::User);
         before != after
     });
     if framed == Some(false) {
@@ -117,51 +102,54 @@ fn frame(session: &mut Session, window: impl FnOnce(&Plot) -> Window) -> Vec<Eff
 
 /// Fits the window of the plot in focus, as soon as what it shows is computed.
 pub fn fit(session: &mut Session) -> Vec<Effect> {
-    if let Some(plot) = session.plot_mut(session.focus) {
+    if let Some(plot) = session.focused_mut() {
         plot.framing = Framing::Fitting;
     }
     Vec::new()
 }
 
-/// Gives the plot in focus the scene's window, and the diagram the scene's axes.
+/// Gives the plot in focus the scene's window and axes.
 pub fn home(session: &mut Session) -> Vec<Effect> {
-    let (phase, diagram) = (session.scene.phase, session.scene.diagram);
-    match session.focus {
-        Pane::Parameters => {}
-        Pane::Phase => {
-            session.phase = Plot { cursor: session.phase.cursor, ..Plot::new(phase, phase) }
-        }
-        Pane::Diagram => {
-            (session.abscissa, session.ordinate) = (session.scene.abscissa, session.scene.ordinate);
-            session.diagram =
-                Plot { cursor: session.diagram.cursor, ..Plot::new(diagram, diagram) };
-        }
+    let index = session.plot;
+    let Some(plot) = session.focused() else { return Vec::new() };
+    let usual = Exhibit { view: plot.view, axes: plot.axes, window: None };
+    let exhibit = session.exhibit_of_scene(index, plot.view).unwrap_or(usual);
+    if let Some(plot) = session.focused_mut() {
+        let cursor = plot.cursor;
+        plot.show(&exhibit);
+        plot.cursor = cursor;
     }
     Vec::new()
 }
 
+/// The cursor of the plot in focus; without one, a line that says how to get it.
+fn cursor(session: &mut Session) -> Option<Point> {
+    let cursor = session.focused().and_then(|plot| plot.cursor);
+    if cursor.is_none() {
+        refuse(session, "no cursor yet: the arrows show it and move it");
+    }
+    cursor
+}
+
 /// Starts the motion at the cursor of the phase plane.
 pub fn start_here(session: &mut Session) -> Vec<Effect> {
-    match session.phase.cursor {
-        Some(Point { x, y }) => {
-            let initial = State { q: x, v: y };
-            change(session, Problem { initial, ..session.problem });
-        }
-        None => refuse(session, "no cursor yet: the arrows show it and move it"),
+    if let Some(Point { x, y }) = cursor(session) {
+        let initial = State { q: x, v: y };
+        change(session, Problem { initial, ..session.problem });
     }
     Vec::new()
 }
 
 /// Gives the diagram's parameter the value under its cursor.
 pub fn jump_here(session: &mut Session) -> Vec<Effect> {
-    let Some(cursor) = session.diagram.cursor else {
-        refuse(session, "no cursor yet: the arrows show it and move it");
+    let Some(cursor) = cursor(session) else { return Vec::new() };
+    let Some(abscissa) = session.focused().map(|plot| plot.axes.abscissa) else {
         return Vec::new();
     };
-    match session.abscissa.spec().check(cursor.x) {
+    match abscissa.spec().check(cursor.x) {
         Ok(value) => {
             let mut problem = session.problem;
-            session.abscissa.set(&mut problem.parameters, &mut problem.initial, value);
+            abscissa.set(&mut problem.parameters, &mut problem.initial, value);
             change(session, problem);
         }
         Err(refused) => refuse(session, refused.to_string()),

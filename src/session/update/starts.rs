@@ -41,7 +41,7 @@ fn edge(found: &Cycles) -> Option<(f64, f64)> {
 }
 
 fn beside(session: &Session, factor: f64) -> Result<f64, &'static str> {
-    if session.is_stale(Slot::Cycles) {
+    if session.is_stale(Slot::Cycles, session.plot) {
         return Err(if session.is_busy() {
             "the cycles are still being computed"
         } else {

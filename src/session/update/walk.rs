@@ -3,8 +3,9 @@
 use super::parameters::change;
 use super::{inform, refuse};
 use crate::oscillator::State;
-use crate::scene::{Layer, Pane, Slot};
+use crate::scene::{Axes, Layer, Slot};
 use crate::session::message::Effect;
+use crate::session::plot::{Pane, Plot};
 use crate::session::state::Session;
 use crate::session::step::shortest;
 use crate::session::walk::{Stop, Way};
@@ -22,20 +23,21 @@ pub fn take_hold(session: &mut Session) -> Vec<Effect> {
 }
 
 fn first(session: &Session) -> Result<Stop, &'static str> {
-    if !session.shows(Layer::Branch) {
+    let index = session.plot;
+    if !session.shows_in(Layer::Branch, index) {
         return Err("the branch is not shown: n shows it");
     }
-    let branch = session.branch().filter(|_| !session.is_stale(Slot::Branch));
+    let branch = session.branch(index).filter(|_| !session.is_stale(Slot::Branch, index));
     let branch = branch.ok_or("the branch is not computed yet")?;
     let way = Way::along(branch);
-    let window = session.diagram.window;
-    let found = match session.diagram.cursor {
+    let Plot { axes: Axes { abscissa, ordinate }, window, cursor, .. } = &session.plots[index];
+    let found = match cursor {
         Some(cursor) => way.nearest(|stop| {
-            let height = stop.cycle.map_or(window.y.to(), |cycle| session.ordinate.of(&cycle));
+            let height = stop.cycle.map_or(window.y.to(), |cycle| ordinate.of(&cycle));
             let across = window.x.fraction(stop.value) - window.x.fraction(cursor.x);
             across.hypot(window.y.fraction(height) - window.y.fraction(cursor.y))
         }),
-        None => way.start(session.value(session.abscissa)),
+        None => way.start(session.value(*abscissa)),
     };
     found.ok_or("there is no cycle in this diagram to take hold of")
 }
@@ -57,7 +59,7 @@ pub fn go_to_landmark(session: &mut Session, onward: bool) -> Vec<Effect> {
 
 /// Holds another point; returns whether it is another.
 fn moved(session: &mut Session, choose: impl Fn(&Way, &Stop) -> Option<Stop>) -> bool {
-    let Some((branch, held)) = session.branch().zip(session.held) else { return false };
+    let Some((branch, held)) = session.branch(session.plot).zip(session.held) else { return false };
     let found = choose(&Way::along(branch), &held).unwrap_or(held);
     session.held = Some(found);
     found != held
@@ -66,7 +68,8 @@ fn moved(session: &mut Session, choose: impl Fn(&Way, &Stop) -> Option<Stop>) ->
 /// Gives the parameter the value of the point, and starts the motion on its cycle, as one change.
 pub fn take(session: &mut Session) -> Vec<Effect> {
     let Some(held) = session.held else { return Vec::new() };
-    let spec = session.abscissa.spec();
+    let abscissa = session.plots[session.plot].axes.abscissa;
+    let spec = abscissa.spec();
     let value = match spec.check(held.value) {
         Ok(value) => value,
         Err(refused) => {
@@ -75,7 +78,7 @@ pub fn take(session: &mut Session) -> Vec<Effect> {
         }
     };
     let mut problem = session.problem;
-    session.abscissa.set(&mut problem.parameters, &mut problem.initial, value);
+    abscissa.set(&mut problem.parameters, &mut problem.initial, value);
     // Where the cycle has gone to infinity there is no start on it: the old one stays.
     if let Some(cycle) = held.cycle {
         problem.initial = State { q: cycle.q_max, v: 0.0 };
@@ -96,9 +99,10 @@ pub fn let_go(session: &mut Session) -> Vec<Effect> {
 /// branch any more.
 pub(super) fn keep_hold(session: &mut Session) {
     let Some(held) = session.held else { return };
-    let on_show = session.focus == Pane::Diagram && session.shows(Layer::Branch);
-    session.held = match session.branch() {
-        Some(branch) if on_show && session.is_stale(Slot::Branch) => {
+    let index = session.plot;
+    let on_show = session.focus == Pane::Plot(index) && session.shows_in(Layer::Branch, index);
+    session.held = match session.branch(index) {
+        Some(branch) if on_show && session.is_stale(Slot::Branch, index) => {
             Some(held).filter(|_| !branch.pieces.is_empty())
         }
         Some(branch) if on_show => Way::along(branch).again(&held),

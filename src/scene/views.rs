@@ -1,0 +1,138 @@
+//! Views: what a plot of the screen can show.
+//!
+//! [`VIEWS`] is the one table of views. A screen has one to [`MOST_PLOTS`] plots; each shows a view, and
+//! two plots may show the same one over different axes. Layers belong to a view, not to a plot.
+
+use serde::{Deserialize, Serialize};
+
+use super::ordinate::{Ordinate, usual_values};
+use super::window::{Span, Window};
+use crate::oscillator::Symbol;
+
+/// Plots on a screen at most: more would be too small to read.
+pub const MOST_PLOTS: usize = 4;
+
+/// What a plot shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum View {
+    /// The phase plane, q to the right and v upwards.
+    Phase,
+    /// The bifurcation diagram: a property of the cycles over a parameter.
+    Diagram,
+}
+
+/// One row of [`VIEWS`].
+#[derive(Clone, Copy, Debug)]
+pub struct ViewSpec {
+    /// The view.
+    pub view: View,
+    /// Its name in scene files.
+    pub name: &'static str,
+    /// Its name on the screen.
+    pub title: &'static str,
+    /// What it shows, in a few words.
+    pub meaning: &'static str,
+    /// What is looked at where nobody says otherwise.
+    pub window: Window,
+}
+
+/// Every view, in the order in which they are listed and the keys visit them.
+pub const VIEWS: [ViewSpec; 2] = [
+    ViewSpec {
+        view: View::Phase,
+        name: "phase",
+        title: "phase plane",
+        meaning: "velocity over position: where motions go and where they rest",
+        window: Window { x: Span::known(-2.0, 2.0), y: Span::known(-2.0, 2.0) },
+    },
+    ViewSpec {
+        view: View::Diagram,
+        name: "diagram",
+        title: "bifurcation",
+        meaning: "a property of the limit cycles over a parameter",
+        window: Window { x: Span::known(-0.9, 0.1), y: Span::known(0.0, 2.0) },
+    },
+];
+
+impl View {
+    /// The row of [`VIEWS`] that describes this view.
+    #[must_use]
+    pub fn spec(self) -> &'static ViewSpec {
+        &VIEWS[self as usize]
+    }
+}
+
+/// What stands on the axes of a view that leaves a choice; a view that leaves none keeps it for others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Axes {
+    /// The parameter to the right.
+    pub abscissa: Symbol,
+    /// The property of the cycles upwards.
+    pub ordinate: Ordinate,
+}
+
+impl Default for Axes {
+    /// The axes of the paper's diagrams.
+    fn default() -> Self {
+        Axes { abscissa: Symbol::D, ordinate: Ordinate::QMax }
+    }
+}
+
+/// A plot as a scene sets it up: what it shows, over which axes, and which part of that.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Exhibit {
+    /// What is shown.
+    pub view: View,
+    /// Over which axes, where there is a choice.
+    pub axes: Axes,
+    /// Which part of it; `None` for a window fitted to what there is to see.
+    pub window: Option<Window>,
+}
+
+impl Exhibit {
+    /// The window with which the plot opens; where none is given, the one from which fitting begins.
+    #[must_use]
+    pub fn opening(&self) -> Window {
+        let usual = self.view.spec().window;
+        self.window.unwrap_or(match self.view {
+            View::Diagram => Window { x: usual_values(self.axes.abscissa), ..usual },
+            View::Phase => usual,
+        })
+    }
+}
+
+/// How the plots share the screen.
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize,
+)]
+#[serde(rename_all = "kebab-case")]
+pub enum Arrangement {
+    /// As leaves each nearest to a square.
+    #[default]
+    Auto,
+    /// Beside each other.
+    Columns,
+    /// Above each other.
+    Rows,
+}
+
+/// The arrangements with their names, in the order in which the key visits them.
+pub const ARRANGEMENTS: [(Arrangement, &str); 3] =
+    [(Arrangement::Auto, "auto"), (Arrangement::Columns, "columns"), (Arrangement::Rows, "rows")];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_view_stands_at_its_own_row_under_the_name_of_scene_files() {
+        for row in &VIEWS {
+            assert_eq!(row.view.spec().name, row.name);
+            assert_eq!(serde_json::to_value(row.view).unwrap(), row.name);
+        }
+        for (arrangement, name) in ARRANGEMENTS {
+            assert_eq!(serde_json::to_value(arrangement).unwrap(), name);
+        }
+    }
+}

@@ -1,0 +1,242 @@
+//! What a session asks, and what it has been answered.
+//!
+//! A question is a pure function of the state. Most are shared by all plots; those that depend on the
+//! axes or the window of a plot are that plot's own ([`Slot::is_own`]), and so are their answers. Equal
+//! questions of several plots are one question, and its answer serves them all.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use super::state::{Recomputed, Session};
+use crate::flow::{Problem, Reason, Trajectory};
+use crate::scene::answer::{Borders, Failure};
+use crate::scene::{Answer, Answered, Layer, Request, SLOTS, Slot, Span, View, Window};
+use crate::study::harmonic_error::HarmonicBalance;
+use crate::study::{Branch, Cycles};
+
+/// Bands of capture that are drawn at most: more would fill the plane.
+const MOST_BANDS: usize = 24;
+
+impl Session {
+    /// The questions that what is on show needs answered, the most urgent first; nothing for a layer
+    /// that is off, nothing twice.
+    #[must_use]
+    pub fn wants(&self) -> Vec<Request> {
+        let needed: BTreeSet<(Slot, usize)> = self
+            .on_show()
+            .flat_map(|plot| self.needs(plot).into_iter().map(move |slot| (slot, plot)))
+            .collect();
+        let mut wanted = Vec::new();
+        for request in needed.into_iter().filter_map(|(slot, plot)| self.request(slot, plot)) {
+            if !wanted.contains(&request) {
+                wanted.push(request);
+            }
+        }
+        wanted
+    }
+
+    /// The kinds of answers that the layers of a plot draw.
+    #[must_use]
+    pub fn needs(&self, plot: usize) -> BTreeSet<Slot> {
+        let shown = |layer: &&Layer| self.shows_in(**layer, plot);
+        self.layers.iter().filter(shown).filter_map(|layer| layer.spec().needs).collect()
+    }
+
+    /// The question of a kind, with exactly the inputs that its answer depends on. The plot matters to
+    /// those that are its own.
+    ///
+    /// `None` where there is nothing to ask: no bands without friction, no branch where the window of the
+    /// diagram lies outside the range of its parameter, none of the own questions of another view.
+    #[must_use]
+    pub fn request(&self, slot: Slot, plot: usize) -> Option<Request> {
+        let Problem { parameters, tolerance, .. } = self.problem;
+        let own = |view: View| self.plots.get(plot).filter(|plot| plot.view == view);
+        Some(match slot {
+            Slot::Trajectory => Request::Trajectory(self.problem),
+            Slot::Cycles => Request::Cycles { parameters },
+            Slot::Balance => Request::Balance { parameters, harmonics: self.harmonics },
+            Slot::Capture if parameters.r == 0.0 => return None,
+            Slot::Capture => {
+                let reach = reach(own(View::Phase)?.window);
+                Request::Capture { parameters, reach, most: MOST_BANDS }
+            }
+            Slot::Branch => {
+                let plot = own(View::Diagram)?;
+                let parameter = plot.axes.abscissa;
+                let spec = parameter.spec();
+                let range = plot.window.x.within(spec.min, spec.max)?;
+                let mut others = parameters;
+                parameter.set(&mut others, &mut { self.problem.initial }, 0.0);
+                Request::Branch {
+                    parameters: others,
+                    parameter,
+                    range: (range.from(), range.to()),
+                    tolerance,
+                }
+            }
+        })
+    }
+
+    /// The last good answer of a kind with its question, as a plot has it; stale or not.
+    #[must_use]
+    pub fn answered(&self, slot: Slot, plot: usize) -> Option<&Arc<Answered>> {
+        if slot.is_own() {
+            self.plots.get(plot)?.answers.get(&slot)
+        } else {
+            self.answers.get(&slot)
+        }
+    }
+
+    /// The last good answer of a kind, as a plot has it; stale or not.
+    #[must_use]
+    pub fn answer(&self, slot: Slot, plot: usize) -> Option<&Answer> {
+        self.answered(slot, plot)?.result.as_ref().ok()
+    }
+
+    /// Whether what a plot has of a kind is not the answer to today's question.
+    #[must_use]
+    pub fn is_stale(&self, slot: Slot, plot: usize) -> bool {
+        self.answered(slot, plot).map(|held| &held.request) != self.request(slot, plot).as_ref()
+    }
+
+    /// Whether a question has neither an answer nor a reason for having none.
+    #[must_use]
+    pub fn is_open(&self, request: &Request) -> bool {
+        let slot = request.slot();
+        let answered =
+            |plot| self.answered(slot, plot).is_some_and(|held| held.request == *request);
+        let failed = self.failures.iter().any(|(failed, _)| failed == request);
+        !failed && !(0..self.plots.len()).any(answered)
+    }
+
+    /// Whether something on show is still to be computed.
+    #[must_use]
+    pub fn is_busy(&self) -> bool {
+        self.wants().iter().any(|request| self.is_open(request))
+    }
+
+    /// Why today's question of a kind has no answer.
+    #[must_use]
+    pub fn failure(&self, slot: Slot, plot: usize) -> Option<&Failure> {
+        let wanted = self.request(slot, plot)?;
+        self.failures.iter().find(|(request, _)| *request == wanted).map(|(_, why)| why)
+    }
+
+    /// The last motion computed, stale or not.
+    #[must_use]
+    pub fn trajectory(&self) -> Option<&Trajectory> {
+        match self.answer(Slot::Trajectory, self.plot)? {
+            Answer::Trajectory(found) => Some(found),
+            _ => None,
+        }
+    }
+
+    /// The last cycles computed, stale or not.
+    #[must_use]
+    pub fn cycles(&self) -> Option<&Cycles> {
+        match self.answer(Slot::Cycles, self.plot)? {
+            Answer::Cycles(found) => Some(found),
+            _ => None,
+        }
+    }
+
+    /// The last harmonic balance computed, stale or not.
+    #[must_use]
+    pub fn balance(&self) -> Option<&HarmonicBalance> {
+        match self.answer(Slot::Balance, self.plot)? {
+            Answer::Balance(found) => Some(found),
+            _ => None,
+        }
+    }
+
+    /// The last borders of capture bands computed for a phase plane, stale or not.
+    #[must_use]
+    pub fn borders(&self, plot: usize) -> Option<&Borders> {
+        match self.answer(Slot::Capture, plot)? {
+            Answer::Capture(found) => Some(found),
+            _ => None,
+        }
+    }
+
+    /// The last branch computed over the parameter of a diagram, stale or not.
+    #[must_use]
+    pub fn branch(&self, plot: usize) -> Option<&Branch> {
+        match self.answer(Slot::Branch, plot)? {
+            Answer::Branch(found) if found.parameter == self.plots[plot].axes.abscissa => {
+                Some(found)
+            }
+            _ => None,
+        }
+    }
+
+    /// Takes an answer in; returns whether it is the answer to a question of today.
+    ///
+    /// One that comes late, to a question that is no longer asked, is still newer than what is shown,
+    /// unless that is the answer to today's question.
+    pub(super) fn take(&mut self, answered: Answered) -> bool {
+        let slot = answered.request.slot();
+        let wanted: Vec<_> = (0..self.plots.len()).map(|plot| self.request(slot, plot)).collect();
+        let asked = wanted.iter().flatten().any(|wanted| *wanted == answered.request);
+        match &answered.result {
+            Err(Failure::Reason(Reason::Interrupted)) => {}
+            Err(failure) => {
+                self.failures.retain(|(request, _)| *request != answered.request);
+                self.failures.push((answered.request, failure.clone()));
+            }
+            Ok(answer) => {
+                let (cost, seconds) = (answer.cost(), answered.seconds);
+                self.price.recomputed.push(Recomputed { slot, cost, seconds });
+                self.failures.retain(|(request, _)| *request != answered.request);
+                let answered = Arc::new(answered);
+                for (plot, wanted) in wanted.iter().enumerate() {
+                    let Some(wanted) = wanted else { continue };
+                    let late = answered.request.resembles(wanted) && self.is_stale(slot, plot);
+                    if answered.request == *wanted || late {
+                        self.hold(plot, Arc::clone(&answered));
+                    }
+                }
+            }
+        }
+        asked
+    }
+
+    /// Keeps an answer where it is looked for.
+    fn hold(&mut self, plot: usize, answered: Arc<Answered>) {
+        let slot = answered.request.slot();
+        if !slot.is_own() {
+            self.answers.insert(slot, answered);
+        } else if let Some(plot) = self.plots.get_mut(plot) {
+            plot.answers.insert(slot, answered);
+        }
+    }
+
+    /// Gives every plot the answers that others have to its questions, and forgets failures of
+    /// questions that nobody asks any more.
+    pub(super) fn share(&mut self) {
+        let own = || SLOTS.into_iter().filter(|slot| slot.is_own());
+        let all = (0..self.plots.len()).flat_map(|plot| own().map(move |slot| (plot, slot)));
+        for (plot, slot) in all.collect::<Vec<_>>() {
+            if let Some(wanted) = self.request(slot, plot).filter(|_| self.is_stale(slot, plot)) {
+                let mut others =
+                    (0..self.plots.len()).filter_map(|other| self.answered(slot, other));
+                let found = others.find(|held| held.request == wanted).cloned();
+                if let Some(found) = found {
+                    self.hold(plot, found);
+                }
+            }
+        }
+        let mut failures = std::mem::take(&mut self.failures);
+        failures.retain(|(failed, _)| {
+            let slot = failed.slot();
+            (0..self.plots.len()).any(|plot| self.request(slot, plot).as_ref() == Some(failed))
+        });
+        self.failures = failures;
+    }
+}
+
+/// How far out bands of capture can be seen, rounded up to a power of two: small changes of the window
+/// ask nothing new.
+fn reach(Window { x, y }: Window) -> f64 {
+    let farthest = |span: Span| span.from().abs().max(span.to().abs());
+    farthest(x).hypot(farthest(y)).log2().ceil().exp2()
+}
