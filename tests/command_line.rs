@@ -457,3 +457,27 @@ fn the_paper_against_computation_is_a_document_a_table_and_rows() {
     // No statement or place contains a line break: one line each.
     assert_eq!(rows.lines().count(), claims.len() + 1);
 }
+
+#[test]
+fn trade_says_what_each_digit_costs_and_who_rests_in_the_wrong_place() {
+    let w1 = "trade --set D=-0.1 --set D3=0.05 --set r=0.1 --set q0=3 --until 200";
+    let document = json(w1);
+    let rows = document["rows"].as_array().unwrap();
+    let errors = |method: &str| {
+        let rows = rows.iter().filter(|row| row["method"] == method);
+        rows.map(|row| row["error"].as_f64().unwrap()).collect::<Vec<_>>()
+    };
+    assert!(errors("taylor").iter().any(|error| *error < 1e-13));
+    assert!(errors("dop853")[0] > 1e-3);
+    assert!(rows.iter().all(|row| row["seconds"].as_f64().unwrap() > 0.0));
+    assert!(document["reference"].as_str().unwrap().contains("at its finest"));
+    assert!(document["reference_error"].as_f64().unwrap() < 1e-13);
+    // From (2, 0) at r = 0.5 it rests; without events it never does.
+    let document = json("trade --set D=-0.1 --set r=0.5 --set q0=2 --until 50");
+    for row in document["rows"].as_array().unwrap() {
+        let never = row["method"] == "smoothed" || row["method"] == "sign-rk4";
+        assert_eq!(row["outcome"] == "moving", never, "{row}");
+    }
+    let table = run(&["trade", "linear"]);
+    assert!(table.code == 0 && table.out.contains("reference: closed form"), "{}", table.out);
+}

@@ -18,6 +18,7 @@ mod replay;
 mod scenes;
 mod start;
 mod timing;
+mod trade;
 mod trajectory;
 
 use std::process::ExitCode;
@@ -56,6 +57,7 @@ enum Command {
     Paper(paper::Paper),
     Scenes(scenes::Scenes),
     Replay(replay::Replay),
+    Trade(trade::Trade),
 }
 
 impl Command {
@@ -69,6 +71,7 @@ impl Command {
             Command::Paper(command) => command.run(),
             Command::Scenes(command) => command.run(),
             Command::Replay(command) => command.run(),
+            Command::Trade(command) => command.run(),
         }
     }
 }

@@ -24,7 +24,8 @@ pub struct Trajectory {
     until: Option<f64>,
 }
 
-fn until(text: &str) -> Result<f64, String> {
+/// Reads an end time.
+pub fn until(text: &str) -> Result<f64, String> {
     input::within("until", UNTIL_RANGE, text)
 }
 

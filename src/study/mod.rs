@@ -1,5 +1,6 @@
 //! Questions asked of the flow: limit cycles, branches, folds, the basin of the sticking set.
 
+pub mod accuracy;
 pub mod arc;
 pub mod balance;
 pub mod basin;
