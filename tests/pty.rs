@@ -3,6 +3,7 @@
 mod support;
 
 use std::collections::BTreeSet;
+use std::process::{Command, Stdio};
 use std::time::Duration;
 
 use rustix::process::Signal;
@@ -189,6 +190,74 @@ fn five_hundred_arrows_at_once_end_where_five_hundred_slow_ones_do() {
     assert!(bytes < 50_000, "{bytes} bytes for 500 keys at once");
     leave(slow);
     leave(fast);
+}
+
+#[test]
+fn the_mouse_starts_a_motion_and_zooms_if_it_is_wanted() {
+    let mut terminal = explorer(&["--mouse"], &[], (80, 24));
+    let before = picture(&terminal);
+    // A click right of the middle of the phase plane, then the wheel.
+    terminal.types("\x1b[<0;45;12M\x1b[<0;45;12m");
+    terminal.wait("a start", |terminal| picture(terminal) != before);
+    terminal.quiet(QUIET);
+    let started = picture(&terminal);
+    terminal.types("\x1b[<64;45;12M");
+    terminal.wait("a closer look", |terminal| picture(terminal) != started);
+    terminal.types("u");
+    terminal.wait_for("undo: q0");
+    // F2 leaves the mouse to the terminal, and turns it on again.
+    terminal.types("\x1bOQ");
+    terminal.wait_for("mouse off");
+    assert!(terminal.written.ends_with(b"\x1b[6n") || terminal.quiet(QUIET) > 0);
+    let written = String::from_utf8_lossy(&terminal.written).into_owned();
+    assert!(written.contains("\x1b[?1006l\x1b[?1000l"));
+    terminal.types("\x1bOQ");
+    terminal.wait_for("mouse on");
+    leave(terminal);
+    let without = explorer(&[], &[], (80, 24));
+    assert!(!String::from_utf8_lossy(&without.written).contains("\x1b[?1000h"));
+    leave(without);
+}
+
+/// The last text that was sent to the clipboard.
+fn clipboard(terminal: &Terminal) -> String {
+    let written = String::from_utf8_lossy(&terminal.written).into_owned();
+    let (_, sequence) = written.rsplit_once("\x1b]52;c;").expect("a copy");
+    let (coded, _) = sequence.split_once("\x1b\\").expect("a copy has an end");
+    let decode = Command::new("base64")
+        .arg("-d")
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .and_then(|mut child| {
+            let mut input = child.stdin.take().expect("a pipe");
+            std::io::Write::write_all(&mut input, coded.as_bytes())?;
+            drop(input);
+            child.wait_with_output()
+        });
+    String::from_utf8(decode.unwrap().stdout).unwrap()
+}
+
+#[test]
+fn a_copied_command_line_gives_the_numbers_on_the_screen() {
+    let home = tempfile::tempdir().unwrap();
+    let state = home.path().to_str().unwrap();
+    let start = ["--set", "r=0.5", "--set", "q0=2"];
+    let mut terminal = explorer(&start, &[("XDG_STATE_HOME", state)], (120, 40));
+    terminal.wait_for("captured at q = -0.116");
+    terminal.types("\x19");
+    terminal.wait_for("sent to the terminal");
+    let line = clipboard(&terminal);
+    assert_eq!(std::fs::read_to_string(home.path().join("hopfscope/copy.txt")).unwrap(), line);
+    let (program, words) = line.split_once(' ').unwrap();
+    assert_eq!(program, "hopfscope");
+    let ran = Command::new(PROGRAM).args(words.split(' ')).output().unwrap();
+    let answer = String::from_utf8(ran.stdout).unwrap();
+    assert!(answer.contains("captured at q = -0.116"), "{line}\n{answer}");
+    terminal.types("\x1by");
+    terminal.quiet(QUIET);
+    assert!(clipboard(&terminal).contains(TITLE));
+    leave(terminal);
 }
 
 #[test]

@@ -8,7 +8,7 @@ use hopfscope::flow::Limits;
 use hopfscope::scene::answer::{Failure, answer};
 use hopfscope::scene::library::library;
 use hopfscope::scene::{Answered, Scene};
-use hopfscope::session::settings::{self, Colors, Glyphs, Theme};
+use hopfscope::session::settings::{self, Colors, Glyphs};
 use hopfscope::session::{Msg, Session, Size, update};
 use hopfscope::terminal::painter::Painter;
 use hopfscope::view::{self, Look};
@@ -48,7 +48,7 @@ impl Explorer {
             look: Look::new(settings::Look {
                 glyphs: Glyphs::Braille,
                 colors: Colors::Sixteen,
-                theme: Theme::Dark,
+                ..settings::Look::default()
             }),
         }
     }

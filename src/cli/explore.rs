@@ -48,7 +48,8 @@ impl Explore {
         let mut session = Session::new(scene, Size { width: 80, height: 24 });
         session.look = self.looks.wishes();
         let files = Files { copies: copies() };
-        let options = Options { replay, record: self.record.is_some(), files };
+        let mouse = session.look.mouse;
+        let options = Options { replay, record: self.record.is_some(), mouse, files };
         let Ended { code, recorder } = explore(session, environment, options)
             .map_err(|error| Failure::Unanswered(format!("the terminal: {error}")))?;
         if let (Some(path), Some(recorder)) = (&self.record, recorder) {

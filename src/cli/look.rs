@@ -18,12 +18,16 @@ pub struct Looks {
     #[arg(long, value_name = "NAME", default_value = "dark", hide_default_value = true,
           value_parser = |name: &str| one_of(&THEMES, name), help = help("Which colours", &THEMES))]
     theme: Theme,
+
+    /// Lets the mouse start motions and zoom, in place of selecting text
+    #[arg(long)]
+    mouse: bool,
 }
 
 impl Looks {
     /// What the user wishes.
     pub fn wishes(self) -> Look {
-        Look { glyphs: self.glyphs, colors: self.color, theme: self.theme }
+        Look { glyphs: self.glyphs, colors: self.color, theme: self.theme, mouse: self.mouse }
     }
 }
 

@@ -1,12 +1,21 @@
 //! What can happen to the running program, and what of it stops the loop.
 
-use crate::session::Msg;
+use crate::session::{Gesture, Msg};
 
 /// Something that the loop must react to.
 #[derive(Clone, Debug)]
 pub enum Event {
     /// Something for the session.
     Session(Msg),
+    /// The mouse did something in a cell of the screen, counted from 0.
+    Mouse {
+        /// What it did.
+        gesture: Gesture,
+        /// The cell's column.
+        column: u16,
+        /// The cell's row.
+        row: u16,
+    },
     /// A cursor position report: the terminal has shown everything sent before the request.
     Shown,
     /// The terminal's size may have changed.
@@ -31,6 +40,8 @@ pub enum Stop {
     Quit,
     /// The user wants the job to be stopped, as Ctrl-Z does.
     Suspend,
+    /// The user wants the mouse reported, or left alone.
+    Mouse(bool),
     /// A signal asks this process to stop until it is continued.
     Suspended,
     /// The process goes on after a stop.

@@ -4,7 +4,7 @@ use std::io;
 
 use ratatui::Frame;
 use ratatui::buffer::Buffer;
-use ratatui::layout::Size;
+use ratatui::layout::{Position, Rect, Size};
 
 use super::headless::{self, Played};
 use super::launch::{Ended, Options, launch};
@@ -12,7 +12,7 @@ use super::machine::Machine;
 use crate::scene::Request;
 use crate::scene::answer::answer;
 use crate::session::replay::Script;
-use crate::session::{Effect, Msg, Session, settings, update};
+use crate::session::{Effect, Msg, Place, Session, settings, update};
 use crate::terminal::Environment;
 use crate::view::{self, Look};
 
@@ -56,6 +56,11 @@ impl Machine for Explorer {
         let mut wants = self.session.wants();
         wants.retain(|request| self.session.is_open(request));
         wants
+    }
+
+    fn place(&self, size: Size, column: u16, row: u16) -> Option<Place> {
+        let screen = Rect::from((Position::ORIGIN, size));
+        view::place(screen, &self.session, Position { x: column, y: row })
     }
 
     fn draw(&self, frame: &mut Frame) {

@@ -90,7 +90,12 @@ fn does(machine: &mut impl Machine, player: &mut Player, msg: Msg) -> bool {
         match effect {
             Effect::Quit => return true,
             Effect::Play(script) => player.interject(script),
-            Effect::Suspend | Effect::Repaint | Effect::Copy(_) | Effect::Write { .. } => {}
+            Effect::Suspend
+            | Effect::Repaint
+            | Effect::Copy(_)
+            | Effect::CopyScreen
+            | Effect::Mouse(_)
+            | Effect::Write { .. } => {}
         }
     }
     false

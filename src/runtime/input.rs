@@ -15,10 +15,12 @@ use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::io::Errno;
 use termina::Parser;
 use termina::escape::csi::{Csi, Cursor};
-use termina::event::{KeyCode, KeyEvent, KeyEventKind, Modifiers};
+use termina::event::{
+    KeyCode, KeyEvent, KeyEventKind, Modifiers, MouseButton, MouseEvent, MouseEventKind,
+};
 
 use super::event::Event;
-use crate::session::{Code, Key, Msg};
+use crate::session::{Code, Gesture, Key, Msg};
 
 /// How long an escape byte at the end of what was read may wait for the rest of its sequence: over a
 /// slow line `ESC` and `[A` can arrive apart (crossterm#993). After that it was the key.
@@ -93,6 +95,15 @@ fn event(parsed: termina::Event) -> Option<Event> {
         termina::Event::Paste(text) => {
             let lines = text.replace("\r\n", "\n").replace('\r', "\n");
             Some(Event::Session(Msg::Paste(lines)))
+        }
+        termina::Event::Mouse(MouseEvent { kind, column, row, .. }) => {
+            let gesture = match kind {
+                MouseEventKind::Down(MouseButton::Left) => Gesture::Click,
+                MouseEventKind::ScrollUp => Gesture::Nearer,
+                MouseEventKind::ScrollDown => Gesture::Farther,
+                _ => return None,
+            };
+            Some(Event::Mouse { gesture, column, row })
         }
         termina::Event::Csi(Csi::Cursor(Cursor::ActivePositionReport { .. })) => Some(Event::Shown),
         _ => None,
@@ -243,6 +254,22 @@ mod tests {
         let mut keyboard = keyboard();
         keyboard.types(b"a\x1b[24;80Rb");
         assert_eq!(keyboard.all(), ["Char('a')", "Shown", "Char('b')", "Closed"]);
+    }
+
+    #[test]
+    fn clicks_and_the_wheel_are_heard_and_moves_are_not() {
+        let mut keyboard = keyboard();
+        keyboard.types(b"\x1b[<0;12;5M\x1b[<0;12;5m\x1b[<64;1;1M\x1b[<65;300;200M\x1b[<35;9;9M");
+        let mouse = |gesture, column: u16, row: u16| {
+            format!("Mouse {{ gesture: {gesture}, column: {column}, row: {row} }}")
+        };
+        let heard = [
+            mouse("Click", 11, 4),
+            mouse("Nearer", 0, 0),
+            mouse("Farther", 299, 199),
+            "Closed".into(),
+        ];
+        assert_eq!(keyboard.all(), heard);
     }
 
     #[test]

@@ -31,6 +31,8 @@ pub struct Options {
     pub replay: Option<Script>,
     /// Whether to write down what the user does.
     pub record: bool,
+    /// Whether the terminal reports the mouse at the start.
+    pub mouse: bool,
     /// Where copies go, besides the clipboard.
     pub files: Files,
 }
@@ -60,6 +62,7 @@ pub fn launch(
     let notes = panics::install(guard.clone(), std::thread::current().id());
     let (send, events) = unbounded();
     signals::start(send.clone(), guard.clone())?;
+    guard.mouse(options.mouse)?;
     guard.enter()?;
     input::start(send.clone())?;
     let report = move |msg| drop(send.send(Event::Session(msg)));
@@ -116,6 +119,7 @@ fn conduct<M: Machine>(
                 guard.enter()?;
                 pump.repaint()?;
             }
+            Stop::Mouse(on) => guard.mouse(on)?,
             Stop::Continued if std::mem::take(&mut expected) => {}
             Stop::Continued => {
                 guard.leave();

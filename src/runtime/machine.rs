@@ -1,9 +1,10 @@
 //! What the loop runs.
 
 use ratatui::Frame;
+use ratatui::layout::Size;
 
 use crate::scene::Request;
-use crate::session::{Effect, Msg};
+use crate::session::{Effect, Msg, Place};
 
 /// A session and the way it is drawn; tests have simpler ones.
 pub trait Machine {
@@ -12,6 +13,11 @@ pub trait Machine {
 
     /// The requests to be computed now: wanted, and neither answered nor failed.
     fn wants(&self) -> Vec<Request>;
+
+    /// What a cell of a screen of this size stands for, if anything.
+    fn place(&self, _size: Size, _column: u16, _row: u16) -> Option<Place> {
+        None
+    }
 
     /// Draws the state.
     fn draw(&self, frame: &mut Frame);

@@ -21,7 +21,7 @@ use super::worker::Worker;
 use crate::export;
 use crate::scene::Request;
 use crate::session::replay::{Action, Player, Recorder};
-use crate::session::{Code, Effect, Key, Msg, Notice};
+use crate::session::{Code, Effect, Key, Msg, Notice, Pointed};
 use crate::terminal::Screen;
 
 /// How long a frame waits for the worker before it shows what is there, marked as old.
@@ -183,6 +183,11 @@ impl<M: Machine, W: Write> Pump<M, W> {
                 }
                 self.update(msg)
             }
+            Event::Mouse { gesture, column, row } => {
+                let place = self.machine.place(self.screen.size(), column, row);
+                let pointed = place.map(|place| Msg::Pointed(Pointed { gesture, place }));
+                pointed.map_or(Ok(None), |msg| self.handle(Event::Session(msg)))
+            }
             Event::Shown => {
                 self.screen.answered(Instant::now());
                 Ok(None)
@@ -219,14 +224,15 @@ impl<M: Machine, W: Write> Pump<M, W> {
             let stop = match effect {
                 Effect::Quit => Some(Stop::Quit),
                 Effect::Suspend => Some(Stop::Suspend),
+                Effect::Mouse(on) => Some(Stop::Mouse(on)),
                 Effect::Repaint => {
                     self.repaint()?;
                     None
                 }
-                Effect::Copy(text) => {
-                    self.screen.control(&Files::clipboard(&text))?;
-                    let notice = self.files.copy(&text);
-                    self.update(Msg::Told(notice))?
+                Effect::Copy(text) => self.copy(&text)?,
+                Effect::CopyScreen => {
+                    let picture = picture::of(&self.machine, self.screen.size());
+                    self.copy(&export::screen::text(&picture))?
                 }
                 Effect::Write { path, text } => {
                     let notice = Files::write(&path, &text);
@@ -245,6 +251,12 @@ impl<M: Machine, W: Write> Pump<M, W> {
             }
         }
         Ok(None)
+    }
+
+    fn copy(&mut self, text: &str) -> io::Result<Option<Stop>> {
+        self.screen.control(&Files::clipboard(text))?;
+        let notice = self.files.copy(text);
+        self.update(Msg::Told(notice))
     }
 
     /// The next step of a replay, if the screen shows all that happened before it.

@@ -10,7 +10,9 @@ use super::keymap::Context::{
 use super::message::Effect;
 use super::overlay::Entry as Line;
 use super::state::Session;
-use super::update::{axes, desk, entry, general, lists, parameters, plots, starts, walk};
+use super::update::{
+    axes, copy, desk, entry, general, lists, mouse, parameters, plots, starts, walk,
+};
 use crate::scene::Layer;
 
 /// What a command does to a session; the key is the one that was pressed for it.
@@ -219,8 +221,14 @@ pub const COMMANDS: &[Command] = &[
 
     row("retry", &[(Everywhere, &["<f5>"])], "",
         "Compute again what has failed", |s, _| general::retry(s)),
+    row("copy-command", &[(Always, &["<C-y>"])], "",
+        "Copy the command line that gives the numbers of this pane", |s, _| copy::command(s)),
+    row("copy-screen", &[(Always, &["<A-y>"])], "",
+        "Copy the characters on the screen", |_, _| vec![Effect::CopyScreen]),
     row("glyphs", &[(Everywhere, &["g"])], "",
         "Draw with other characters: braille, octants, blocks, ASCII", |s, _| general::glyphs(s)),
+    row("mouse", &[(Everywhere, &["<f2>"])], "",
+        "Let the mouse start motions and zoom, or leave it to the terminal", |s, _| mouse::toggle(s)),
     row("theme", &[(Everywhere, &["T"])], "",
         "Use the next theme", |s, _| general::theme(s)),
     row("drop-cursor", &[(Everywhere, &["<esc>"])], "",

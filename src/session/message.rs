@@ -3,7 +3,7 @@
 use super::key::Key;
 use super::replay::Script;
 use super::state::Notice;
-use crate::scene::Answered;
+use crate::scene::{Answered, Point};
 
 /// Everything that can happen to a session.
 #[derive(Clone, Debug)]
@@ -12,6 +12,8 @@ pub enum Msg {
     Key(Key),
     /// Text was pasted, all at once.
     Paste(String),
+    /// The mouse did something.
+    Pointed(Pointed),
     /// The screen has this size now, in cells.
     Resize {
         /// Columns.
@@ -27,6 +29,35 @@ pub enum Msg {
     Told(Notice),
 }
 
+/// What the mouse did.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Gesture {
+    /// Its left button went down.
+    Click,
+    /// Its wheel turned away from the user.
+    Nearer,
+    /// Its wheel turned towards the user.
+    Farther,
+}
+
+/// The mouse on something that is on show; which cell of the screen that is, the outer rings know.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pointed {
+    /// What the mouse did.
+    pub gesture: Gesture,
+    /// Where.
+    pub place: Place,
+}
+
+/// A place on the screen that means something.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Place {
+    /// A row of the parameter pane, counted from 0.
+    Row(usize),
+    /// A point of a plot, in its world coordinates; the plot by its index among those of the session.
+    Plot(usize, Point),
+}
+
 /// What a session asks of the outer rings; `update` itself touches nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Effect {
@@ -38,8 +69,12 @@ pub enum Effect {
     Repaint,
     /// Play these keys, as if they were typed, before anything else.
     Play(Script),
+    /// Have the terminal report the mouse, or leave it alone.
+    Mouse(bool),
     /// Put this text on the clipboard (OSC 52) and into a file beside the session.
     Copy(String),
+    /// Do the same with the characters on the screen.
+    CopyScreen,
     /// Write a file; the outcome comes back as a message line.
     Write {
         /// Where.

@@ -21,7 +21,7 @@ pub mod wants;
 pub use command::{COMMANDS, Command};
 pub use key::{Code, Key};
 pub use keymap::{Context, Hint, Keymap};
-pub use message::{Effect, Msg};
+pub use message::{Effect, Gesture, Msg, Place, Pointed};
 pub use overlay::{Entry, List, Overlay};
 pub use plot::{Framing, Pane, Plot};
 pub use state::{Notice, Price, ROWS, Row, Session, Size, Steps};

@@ -81,6 +81,8 @@ pub struct Look {
     pub colors: Colors,
     /// Which colours.
     pub theme: Theme,
+    /// Whether the terminal reports the mouse; without, it selects text.
+    pub mouse: bool,
 }
 
 /// The value and name that follow `current` in a table such as [`GLYPHS`], around the end.

@@ -7,7 +7,7 @@
 use std::fs::File;
 use std::io::{self, Write};
 use std::os::fd::AsFd;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use crossterm::terminal::{disable_raw_mode, enable_raw_mode};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
@@ -40,21 +40,35 @@ pub const MODES: [Mode; 3] = [
     Mode { on: "\x1b[?25l", off: "\x1b[?25h", meaning: "hidden cursor" },
 ];
 
+/// The mode that only some users want: without it, the mouse selects text in the terminal.
+pub const MOUSE: Mode = Mode {
+    on: "\x1b[?1000h\x1b[?1006h",
+    off: "\x1b[?1006l\x1b[?1000l",
+    meaning: "the mouse: clicks and the wheel are reported, with decimal coordinates",
+};
+
 /// What `enter` writes.
-fn entering() -> String {
-    MODES.iter().map(|mode| mode.on).collect()
+fn entering(mouse: bool) -> String {
+    MODES.iter().chain(mouse.then_some(&MOUSE)).map(|mode| mode.on).collect()
 }
 
 /// What `leave` writes: the end of a frame that was cut off, plain colours, all modes off.
-fn leaving() -> String {
-    let off = MODES.iter().rev().map(|mode| mode.off);
+fn leaving(mouse: bool) -> String {
+    let off = MODES.iter().chain(mouse.then_some(&MOUSE)).rev().map(|mode| mode.off);
     [END, PLAIN].into_iter().chain(off).collect()
+}
+
+/// What is turned on.
+#[derive(Debug, Default)]
+struct State {
+    taken: bool,
+    mouse: bool,
 }
 
 /// The terminal, taken or not. Clones share that state.
 #[derive(Clone, Debug)]
 pub struct Guard {
-    taken: Arc<Mutex<bool>>,
+    state: Arc<Mutex<State>>,
     out: Arc<File>,
 }
 
@@ -65,7 +79,7 @@ impl Guard {
     /// If standard output is closed.
     pub fn new() -> io::Result<Guard> {
         let out = File::from(io::stdout().as_fd().try_clone_to_owned()?);
-        Ok(Guard { taken: Arc::default(), out: Arc::new(out) })
+        Ok(Guard { state: Arc::default(), out: Arc::new(out) })
     }
 
     /// The terminal to write frames to.
@@ -79,15 +93,32 @@ impl Guard {
     /// # Errors
     /// If the terminal cannot be switched to raw mode or written to; then it is as it was.
     pub fn enter(&self) -> io::Result<()> {
-        let mut taken = self.taken.lock().unwrap_or_else(PoisonError::into_inner);
-        if *taken {
+        let mut state = self.state();
+        if state.taken {
             return Ok(());
         }
         enable_raw_mode()?;
-        *taken = true;
-        let written = self.write(&entering());
-        drop(taken);
+        state.taken = true;
+        let written = self.write(&entering(state.mouse));
+        drop(state);
         written.inspect_err(|_| self.leave())
+    }
+
+    /// Turns reports of the mouse on or off; a terminal that is not taken gets them when it is.
+    ///
+    /// # Errors
+    /// If the terminal cannot be written to.
+    pub fn mouse(&self, on: bool) -> io::Result<()> {
+        let mut state = self.state();
+        if state.taken && state.mouse != on {
+            self.write(if on { MOUSE.on } else { MOUSE.off })?;
+        }
+        state.mouse = on;
+        Ok(())
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Gives the terminal back. Does nothing if it is not taken; there is nobody to tell an error.
@@ -108,9 +139,9 @@ impl Guard {
     }
 
     fn restore(&self, write: impl FnOnce(&str)) {
-        let mut taken = self.taken.lock().unwrap_or_else(PoisonError::into_inner);
-        if std::mem::take(&mut *taken) {
-            write(&leaving());
+        let mut state = self.state();
+        if std::mem::take(&mut state.taken) {
+            write(&leaving(state.mouse));
             drop(disable_raw_mode());
         }
     }
@@ -123,7 +154,7 @@ impl Guard {
 impl Drop for Guard {
     /// The last clone gives the terminal back; usually that has been done.
     fn drop(&mut self) {
-        if Arc::strong_count(&self.taken) == 1 {
+        if Arc::strong_count(&self.state) == 1 {
             self.leave();
         }
     }
@@ -135,14 +166,16 @@ mod tests {
 
     #[test]
     fn leaving_undoes_entering_in_reverse_order() {
-        let (entering, leaving) = (entering(), leaving());
-        let switched: Vec<&str> = entering.split('\x1b').skip(1).collect();
-        let undone: Vec<&str> = leaving.split('\x1b').skip(3).collect();
-        assert_eq!(switched.len(), MODES.len());
-        for (on, off) in switched.iter().zip(undone.iter().rev()) {
-            assert_eq!(on[..on.len() - 1], off[..off.len() - 1], "{entering:?} {leaving:?}");
-            assert_ne!(on, off);
+        for mouse in [false, true] {
+            let (entering, leaving) = (entering(mouse), leaving(mouse));
+            let switched: Vec<&str> = entering.split('\x1b').skip(1).collect();
+            let undone: Vec<&str> = leaving.split('\x1b').skip(3).collect();
+            assert_eq!(switched.len(), MODES.len() + if mouse { 2 } else { 0 });
+            for (on, off) in switched.iter().zip(undone.iter().rev()) {
+                assert_eq!(on[..on.len() - 1], off[..off.len() - 1], "{entering:?} {leaving:?}");
+                assert_ne!(on, off);
+            }
+            assert!(leaving.starts_with("\x1b[?2026l\x1b[m"));
         }
-        assert!(leaving.starts_with("\x1b[?2026l\x1b[m"));
     }
 }

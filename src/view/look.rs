@@ -221,7 +221,7 @@ impl Look {
     /// The look that these settings ask for; what they leave open becomes braille in 16 colours.
     #[must_use]
     pub fn new(settings: settings::Look) -> Self {
-        let settings::Look { glyphs, colors, theme } = settings;
+        let settings::Look { glyphs, colors, theme, .. } = settings;
         // A test reads every theme, so the plain look never serves.
         Look::from_text(text_of(theme), glyphs, colors)
             .unwrap_or(Look { glyphs, styles: [Style::new(); ROLES.len()] })
@@ -329,7 +329,7 @@ mod tests {
     }
 
     fn look(theme: Theme, glyphs: Glyphs, colors: Colors) -> Look {
-        Look::new(settings::Look { glyphs, colors, theme })
+        Look::new(settings::Look { glyphs, colors, theme, mouse: false })
     }
 
     #[test]

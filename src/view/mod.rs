@@ -16,6 +16,7 @@ pub mod number;
 pub mod pane;
 pub mod parameters;
 pub mod phase_plane;
+pub mod place;
 pub mod plot;
 pub mod status;
 pub mod ticks;
@@ -26,3 +27,4 @@ mod tests;
 
 pub use frame::draw;
 pub use look::Look;
+pub use place::place;

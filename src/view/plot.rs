@@ -11,14 +11,14 @@
 )]
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 
 use super::dots::{Dash, Dots, Pen};
 use super::look::{Look, Role};
 use super::number::resolved;
 use super::pane;
 use super::ticks::{Tick, Ticks};
-use crate::scene::{Point, Window};
+use crate::scene::{Point, Span, Window};
 use crate::session::settings::Glyphs;
 
 /// Smallest area in which axes stand outside the picture; below it labels lie inside.
@@ -47,6 +47,58 @@ pub fn reading(point: Point, window: Window) -> (String, String) {
 /// Cells of a large plot: what a cursor can tell apart.
 const CELLS: f64 = 200.0;
 
+/// Where the parts of a plot stand, and the ticks that there is room for.
+struct Geometry {
+    /// The cells between the axes.
+    inner: Rect,
+    /// Whether the axes stand outside of them.
+    roomy: bool,
+    rightward: Ticks,
+    upward: Ticks,
+}
+
+impl Geometry {
+    fn of(area: Rect, window: Window) -> Self {
+        let body = Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area };
+        let roomy = body.width >= ROOMY.0 && body.height >= ROOMY.1;
+        let rows = if roomy { body.height - 2 } else { body.height };
+        let upward =
+            Ticks::fitting(window.y, |ticks| ticks.len() <= usize::from(rows / 3).clamp(2, 9));
+        let widest = upward.ticks.iter().map(|tick| tick.label.len()).max().unwrap_or(0) as u16;
+        let gutter = if roomy { (widest + 1).max(GUTTER) } else { 0 };
+        let inner = Rect {
+            x: body.x + gutter,
+            width: body.width.saturating_sub(gutter),
+            height: rows,
+            ..body
+        };
+        let spaced = |gap| Ticks::fitting(window.x, |ticks| apart(ticks, inner.width, gap));
+        // Two ticks make a scale: rather closer together than only one.
+        let rightward = Some(spaced(3)).filter(|ticks| ticks.ticks.len() > 1).unwrap_or(spaced(1));
+        Geometry { inner, roomy, rightward, upward }
+    }
+}
+
+/// The point of a plot in `area` that a cell stands for, to the digits that cells tell apart; `None`
+/// for the cells outside of its axes.
+#[must_use]
+pub fn point_at(area: Rect, window: Window, cell: Position) -> Option<Point> {
+    let Geometry { inner, .. } = Geometry::of(area, window);
+    if !inner.contains(cell) {
+        return None;
+    }
+    let fraction = |cell: u16, cells: u16| (f64::from(cell) + 0.5) / f64::from(cells);
+    let right = fraction(cell.x - inner.x, inner.width);
+    let down = fraction(cell.y - inner.y, inner.height);
+    let rounded = |span: Span, fraction, cells: u16| {
+        resolved(span.at(fraction), span.width() / f64::from(cells)).parse().ok()
+    };
+    Some(Point {
+        x: rounded(window.x, right, inner.width)?,
+        y: rounded(window.y, 1.0 - down, inner.height)?,
+    })
+}
+
 /// A plot being drawn.
 #[derive(Debug)]
 pub struct Plot<'a> {
@@ -67,22 +119,7 @@ impl<'a> Plot<'a> {
         look: &'a Look,
         buffer: &mut Buffer,
     ) -> Self {
-        let body = Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area };
-        let roomy = body.width >= ROOMY.0 && body.height >= ROOMY.1;
-        let rows = if roomy { body.height - 2 } else { body.height };
-        let upward =
-            Ticks::fitting(window.y, |ticks| ticks.len() <= usize::from(rows / 3).clamp(2, 9));
-        let widest = upward.ticks.iter().map(|tick| tick.label.len()).max().unwrap_or(0) as u16;
-        let gutter = if roomy { (widest + 1).max(GUTTER) } else { 0 };
-        let inner = Rect {
-            x: body.x + gutter,
-            width: body.width.saturating_sub(gutter),
-            height: rows,
-            ..body
-        };
-        let spaced = |gap| Ticks::fitting(window.x, |ticks| apart(ticks, inner.width, gap));
-        // Two ticks make a scale: rather closer together than only one.
-        let rightward = Some(spaced(3)).filter(|ticks| ticks.ticks.len() > 1).unwrap_or(spaced(1));
+        let Geometry { inner, roomy, rightward, upward } = Geometry::of(area, window);
         let (x, y) = (named(names.x, &rightward), named(names.y, &upward));
         pane::title(area, names.title, &format!("{y} over {x}"), heading, look, buffer);
         let dots = Dots::new(inner, look.glyphs);

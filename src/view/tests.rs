@@ -19,7 +19,7 @@ use crate::scene::library::{find, library};
 use crate::scene::{
     Answer, Answered, Axes, Exhibit, LAYERS, Layer, Point, Request, Scene, Slot, Span, View, Window,
 };
-use crate::session::settings::{self, Colors, GLYPHS, Glyphs, THEMES, Theme};
+use crate::session::settings::{self, Colors, GLYPHS, Glyphs, THEMES};
 use crate::session::{Key, Msg, Notice, Session, Size, update};
 use crate::study::harmonic_error::HarmonicBalance;
 use crate::study::{
@@ -157,11 +157,11 @@ fn draw(session: &Session, look: settings::Look) -> Buffer {
 }
 
 fn braille() -> settings::Look {
-    settings::Look { glyphs: Glyphs::Braille, colors: Colors::Sixteen, theme: Theme::Dark }
+    settings::Look { glyphs: Glyphs::Braille, colors: Colors::Sixteen, ..settings::Look::default() }
 }
 
 fn letters() -> settings::Look {
-    settings::Look { glyphs: Glyphs::Ascii, colors: Colors::Never, theme: Theme::Dark }
+    settings::Look { glyphs: Glyphs::Ascii, colors: Colors::Never, ..settings::Look::default() }
 }
 
 fn settled(scene: &str, width: u16, height: u16, keys: &str) -> Session {
@@ -325,7 +325,8 @@ fn letters_are_letters_in_every_corner_of_the_program() {
 fn without_colour_no_cell_has_any_and_stable_still_differs_from_unstable() {
     for (glyphs, _) in GLYPHS {
         for (theme, _) in THEMES {
-            let look = settings::Look { glyphs, colors: Colors::Never, theme };
+            let colors = Colors::Never;
+            let look = settings::Look { glyphs, colors, theme, mouse: false };
             let session = settled("supercritical", 80, 24, "");
             let colourless = draw(&session, look);
             let coloured = draw(&session, settings::Look { colors: Colors::Sixteen, ..look });

@@ -4,6 +4,7 @@
 //! keys go to a session without a terminal or into the running explorer. A [`Recorder`] writes the
 //! file of a live session. The notation of keys is that of [`super::key`].
 
+mod mouse;
 mod parse;
 mod player;
 mod recorder;
@@ -13,9 +14,10 @@ pub use player::{Action, Player, Unmet};
 pub use recorder::Recorder;
 
 use super::key::Key;
+use super::message::Pointed;
 
 /// One instruction of a keystroke file.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Step {
     /// A key, pressed so many times: `x`, `<right>`, `<right*5>`.
     Key {
@@ -24,6 +26,8 @@ pub enum Step {
         /// How many times.
         count: u32,
     },
+    /// The mouse: `<click 1 0.5 -0.25>` on the first plot, `<click row 2>`; `<nearer ..>` and `<farther ..>` for its wheel.
+    Pointed(Pointed),
     /// Text pasted at once: `<paste "text">`.
     Paste(String),
     /// Go on when no computation is pending: `<wait>`.
@@ -44,7 +48,7 @@ pub enum Step {
 }
 
 /// A step and where it stands, counted from 1.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Located {
     /// Line.
     pub line: usize,
@@ -55,7 +59,7 @@ pub struct Located {
 }
 
 /// A keystroke file, read.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Script {
     /// Its steps, in order.
     pub steps: Vec<Located>,
@@ -82,6 +86,7 @@ impl std::fmt::Display for Step {
                 let name = key.strip_prefix('<').and_then(|name| name.strip_suffix('>'));
                 write!(out, "<{}*{count}>", name.unwrap_or(&key))
             }
+            Step::Pointed(pointed) => write!(out, "{}", mouse::text(pointed)),
             Step::Paste(text) => write!(out, "<paste {}>", quoted(text)),
             Step::Wait => write!(out, "<wait>"),
             Step::Async => write!(out, "<async>"),

@@ -2,8 +2,9 @@
 
 use std::fmt;
 
-use super::{Located, Script, Step};
+use super::{Located, Script, Step, mouse};
 use crate::session::key::{Code, Key};
+use crate::session::message::Gesture;
 
 /// Text that is no keystroke file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -38,13 +39,16 @@ pub(super) const ESCAPES: [(char, char); 5] =
 type Reading = fn(&str) -> Result<Step, String>;
 
 /// What stands between angle brackets and is no key: its first word, and how the rest is read.
-const DIRECTIVES: [(&str, Reading); 6] = [
+const DIRECTIVES: [(&str, Reading); 9] = [
     ("wait", |rest| alone(rest, "wait", Step::Wait)),
     ("async", |rest| alone(rest, "async", Step::Async)),
     ("resize", resize),
     ("expect", |rest| text(rest, "expect").map(Step::Expect)),
     ("paste", |rest| text(rest, "paste").map(Step::Paste)),
     ("screen", screen),
+    ("click", |rest| mouse::read(Gesture::Click, rest)),
+    ("nearer", |rest| mouse::read(Gesture::Nearer, rest)),
+    ("farther", |rest| mouse::read(Gesture::Farther, rest)),
 ];
 
 /// Reads a whole keystroke file.

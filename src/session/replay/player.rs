@@ -82,6 +82,7 @@ impl Player {
                 Step::Wait => {}
                 Step::Async => self.asynchronous = true,
                 Step::Key { key, .. } => return Ok(Action::Give(Msg::Key(key))),
+                Step::Pointed(pointed) => return Ok(Action::Give(Msg::Pointed(pointed))),
                 Step::Paste(text) => return Ok(Action::Give(Msg::Paste(text))),
                 Step::Resize { width, height } => {
                     return Ok(Action::Give(Msg::Resize { width, height }));

@@ -32,6 +32,7 @@ impl Recorder {
                     _ => self.steps.push(step),
                 }
             }
+            Msg::Pointed(pointed) => self.steps.push(Step::Pointed(*pointed)),
             Msg::Paste(_) | Msg::Answered(_) | Msg::Idle | Msg::Told(_) => {}
         }
     }

@@ -5,10 +5,12 @@
 //! concern each.
 
 pub mod axes;
+pub mod copy;
 pub mod desk;
 pub mod entry;
 pub mod general;
 pub mod lists;
+pub mod mouse;
 pub mod parameters;
 pub mod plots;
 pub mod starts;
@@ -30,6 +32,11 @@ pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
     let effects = match message {
         Msg::Key(key) => press(session, key),
         Msg::Paste(text) => paste(session, &text),
+        Msg::Pointed(pointed) => {
+            session.notice = None;
+            session.price = Price::default();
+            mouse::pointed(session, pointed)
+        }
         Msg::Resize { width, height } => {
             session.size = Size { width, height };
             Vec::new()

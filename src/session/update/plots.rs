@@ -61,6 +61,14 @@ fn moved(span: Span, value: f64, count: i32) -> f64 {
     if span.contains(inside) { inside } else { value }
 }
 
+/// Does what a click on a point of the plot in focus means: a motion starts there in the phase plane,
+/// the cursor goes there elsewhere.
+pub fn point_at(session: &mut Session, point: Point) -> Vec<Effect> {
+    let Some(plot) = session.focused_mut() else { return Vec::new() };
+    plot.cursor = Some(point);
+    if plot.view == View::Phase { start_here(session) } else { Vec::new() }
+}
+
 /// Drops the cursor of the plot in focus.
 pub fn drop_cursor(session: &mut Session) -> Vec<Effect> {
     if let Some(plot) = session.focused_mut() {
@@ -71,10 +79,18 @@ pub fn drop_cursor(session: &mut Session) -> Vec<Effect> {
 
 /// Zooms the plot in focus about its cursor, or about its middle.
 pub fn zoom(session: &mut Session, closer: bool) -> Vec<Effect> {
+    zoom_about(session, |plot| plot.cursor.unwrap_or(plot.window.center()), closer)
+}
+
+/// Zooms the plot in focus about a point of it.
+pub fn zoom_about(
+    session: &mut Session,
+    about: impl FnOnce(&Plot) -> Point,
+    closer: bool,
+) -> Vec<Effect> {
     let factor = if closer { 1.0 / ZOOM } else { ZOOM };
     frame(session, |plot| {
-        let Window { x, y } = plot.window;
-        let about = plot.cursor.unwrap_or(plot.window.center());
+        let (Window { x, y }, about) = (plot.window, about(plot));
         Window { x: x.scaled(about.x, factor), y: y.scaled(about.y, factor) }
     })
 }

@@ -1,0 +1,20 @@
+//! From a cell of the screen to what stands there: for the mouse.
+
+use ratatui::layout::{Position, Rect};
+
+use super::layout::layout;
+use super::plot::point_at;
+use crate::session::{Place, Session};
+
+/// What a cell of the screen stands for, if anything: a row of the parameter pane or a point of a plot.
+#[must_use]
+pub fn place(screen: Rect, session: &Session, cell: Position) -> Option<Place> {
+    let parts = layout(screen, session)?;
+    if parts.parameters.contains(cell) {
+        // The first line is the title.
+        return (cell.y - parts.parameters.y).checked_sub(1).map(|row| Place::Row(row.into()));
+    }
+    let index = parts.plots.iter().position(|area| area.contains(cell))?;
+    let window = session.plots[index].window;
+    point_at(parts.plots[index], window, cell).map(|point| Place::Plot(index, point))
+}
