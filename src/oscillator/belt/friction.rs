@@ -1,0 +1,246 @@
+//! Friction laws: the coefficient of friction over the relative velocity, with three derivatives.
+//!
+//! The oscillator of the paper knows a friction characteristic only by its value and its first three
+//! derivatives at the belt speed (equation 3); how well these represent it is measured against the law
+//! itself ([`super::taylor`]).
+
+use super::spline::SmoothingSpline;
+
+/// A function of velocity and its first three derivatives at one velocity.
+///
+/// For a coefficient of friction: without unit, s/m, s^2/m^2, s^3/m^3.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Derivatives {
+    /// The value.
+    pub value: f64,
+    /// First derivative.
+    pub first: f64,
+    /// Second derivative.
+    pub second: f64,
+    /// Third derivative.
+    pub third: f64,
+}
+
+impl Derivatives {
+    /// The cubic Taylor polynomial with these derivatives, `step` away from its centre.
+    #[must_use]
+    pub fn cubic(&self, step: f64) -> f64 {
+        self.value + step * (self.first + step * (self.second / 2.0 + step * self.third / 6.0))
+    }
+
+    /// Whether all four are numbers.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        [self.value, self.first, self.second, self.third].iter().all(|number| number.is_finite())
+    }
+}
+
+/// The coefficient of friction `mu` over the relative velocity `v >= 0`, in m/s.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FrictionLaw {
+    /// The same at every velocity.
+    Constant {
+        /// The coefficient.
+        mu: f64,
+    },
+    /// A polynomial in v.
+    Polynomial {
+        /// Coefficients of 1, v, v^2, ...: without unit, s/m, s^2/m^2, ...
+        coefficients: Vec<f64>,
+    },
+    /// Stribeck's characteristic, `mu = kinetic + (rest - kinetic) exp(-(v/velocity)^exponent) + viscous v`.
+    Stribeck {
+        /// Coefficient at v = 0.
+        rest: f64,
+        /// The lower coefficient to which it falls.
+        kinetic: f64,
+        /// Velocity over which it falls, in m/s.
+        velocity: f64,
+        /// 1 for the exponential, 2 for the Gaussian form.
+        exponent: f64,
+        /// Rise by lubrication, in s/m.
+        viscous: f64,
+    },
+    /// Measured points, through or near which runs the smoothest curve.
+    Table(SmoothingSpline),
+}
+
+impl FrictionLaw {
+    /// The coefficient and its derivatives with respect to the relative velocity, at `v`.
+    ///
+    /// `None` outside of the [range](Self::range) of the law. Derivatives that do not exist (a Stribeck
+    /// law with a fractional exponent, at v = 0) are infinite or not numbers.
+    #[must_use]
+    pub fn at(&self, v: f64) -> Option<Derivatives> {
+        let (low, high) = self.range();
+        if !(low..=high).contains(&v) {
+            return None;
+        }
+        Some(match self {
+            FrictionLaw::Constant { mu } => Derivatives { value: *mu, ..Derivatives::default() },
+            FrictionLaw::Polynomial { coefficients } => polynomial(coefficients, v),
+            FrictionLaw::Stribeck { rest, kinetic, velocity, exponent, viscous } => {
+                let fall = stretched_exponential(v / velocity, *exponent);
+                let drop = rest - kinetic;
+                Derivatives {
+                    value: kinetic + drop * fall.value + viscous * v,
+                    first: drop * fall.first / velocity + viscous,
+                    second: drop * fall.second / velocity.powi(2),
+                    third: drop * fall.third / velocity.powi(3),
+                }
+            }
+            FrictionLaw::Table(spline) => spline.at(v),
+        })
+    }
+
+    /// The coefficient at `v`, where the law reaches.
+    #[must_use]
+    pub fn mu(&self, v: f64) -> Option<f64> {
+        self.at(v).map(|mu| mu.value)
+    }
+
+    /// Smallest and largest relative velocity for which the law says something, in m/s.
+    #[must_use]
+    pub fn range(&self) -> (f64, f64) {
+        match self {
+            FrictionLaw::Table(spline) => spline.range(),
+            _ => (0.0, f64::MAX),
+        }
+    }
+
+    /// The name in files.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            FrictionLaw::Constant { .. } => "constant",
+            FrictionLaw::Polynomial { .. } => "polynomial",
+            FrictionLaw::Stribeck { .. } => "stribeck",
+            FrictionLaw::Table(_) => "table",
+        }
+    }
+}
+
+/// A polynomial by Horner's scheme, its derivatives by the same scheme differentiated.
+fn polynomial(coefficients: &[f64], v: f64) -> Derivatives {
+    let mut mu = Derivatives::default();
+    for coefficient in coefficients.iter().rev() {
+        mu.third = mu.third * v + 3.0 * mu.second;
+        mu.second = mu.second * v + 2.0 * mu.first;
+        mu.first = mu.first * v + mu.value;
+        mu.value = mu.value * v + coefficient;
+    }
+    mu
+}
+
+/// `exp(-u^exponent)` for `u >= 0` with its derivatives.
+fn stretched_exponential(u: f64, exponent: f64) -> Derivatives {
+    // Derivatives of the power; a factor of 0 wins over an infinite power (whole exponents at u = 0).
+    let power = |factor: f64, order: f64| {
+        if factor == 0.0 { 0.0 } else { factor * u.powf(exponent - order) }
+    };
+    let n = exponent;
+    let p = Derivatives {
+        value: power(1.0, 0.0),
+        first: power(n, 1.0),
+        second: power(n * (n - 1.0), 2.0),
+        third: power(n * (n - 1.0) * (n - 2.0), 3.0),
+    };
+    let value = (-p.value).exp();
+    Derivatives {
+        value,
+        first: -p.first * value,
+        second: (p.first * p.first - p.second) * value,
+        third: (p.first * (3.0 * p.second - p.first * p.first) - p.third) * value,
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// Value and derivatives by central differences of `mu` with Richardson's extrapolation: they know
+    /// nothing of the formulas.
+    pub fn differences(mu: impl Fn(f64) -> f64, v: f64, scale: f64) -> Derivatives {
+        let stencil = |h: f64| {
+            let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|steps| mu(v + steps * h));
+            let m = mu(v);
+            [
+                (c - b) / (2.0 * h),
+                (c - 2.0 * m + b) / (h * h),
+                (d - 2.0 * (c - b) - a) / (2.0 * h.powi(3)),
+            ]
+        };
+        let h = scale / 16.0;
+        let levels: Vec<[f64; 3]> =
+            (0..4).map(|level| stencil(h / f64::from(1 << level))).collect();
+        let [first, second, third] = std::array::from_fn(|order| {
+            let mut row: Vec<f64> = levels.iter().map(|level| level[order]).collect();
+            let mut power = 4.0;
+            while row.len() > 1 {
+                row = row
+                    .windows(2)
+                    .map(|pair| (power * pair[1] - pair[0]) / (power - 1.0))
+                    .collect();
+                power *= 4.0;
+            }
+            row[0]
+        });
+        Derivatives { value: mu(v), first, second, third }
+    }
+
+    fn laws() -> [FrictionLaw; 5] {
+        let stribeck = |exponent, viscous| FrictionLaw::Stribeck {
+            rest: 0.5,
+            kinetic: 0.2,
+            velocity: 0.3,
+            exponent,
+            viscous,
+        };
+        [
+            FrictionLaw::Constant { mu: 0.3 },
+            FrictionLaw::Polynomial { coefficients: vec![0.5, -0.3, 0.0, 0.4, 0.1] },
+            stribeck(1.0, 0.0),
+            stribeck(2.0, 0.05),
+            stribeck(1.5, 0.05),
+        ]
+    }
+
+    proptest! {
+        #[test]
+        fn derivatives_are_those_of_the_law(v in 0.2_f64..1.5) {
+            for law in laws() {
+                let found = law.at(v).unwrap();
+                let measured = differences(|v| law.mu(v).unwrap(), v, 0.2);
+                for (found, measured, tolerance) in [
+                    (found.value, measured.value, 1e-15),
+                    (found.first, measured.first, 1e-9),
+                    (found.second, measured.second, 1e-7),
+                    (found.third, measured.third, 1e-4),
+                ] {
+                    prop_assert!((found - measured).abs() <= tolerance * (1.0 + found.abs()), "{law:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn whole_exponents_have_derivatives_at_rest() {
+        let [.., exponential, gaussian, fractional] = laws();
+        let at_rest = exponential.at(0.0).unwrap();
+        assert!((at_rest.third + 0.3 / 0.3_f64.powi(3)).abs() < 1e-12);
+        assert_eq!(gaussian.at(0.0).unwrap().first, 0.05);
+        assert!(!fractional.at(0.0).unwrap().is_finite() && fractional.mu(0.0) == Some(0.5));
+        assert_eq!(exponential.at(-1e-9), None, "no law for a belt that runs backward");
+    }
+
+    #[test]
+    fn the_cubic_repeats_a_cubic() {
+        let law = FrictionLaw::Polynomial { coefficients: vec![0.5, -0.3, 0.2, 0.4] };
+        let cubic = law.at(0.7).unwrap();
+        for v in [0.0, 0.3, 0.7, 2.0] {
+            assert!((cubic.cubic(v - 0.7) - law.mu(v).unwrap()).abs() < 1e-14);
+        }
+    }
+}
