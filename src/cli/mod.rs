@@ -5,6 +5,7 @@
 //! go to standard error, one line each. Exit codes: 0 answered, 1 could not be computed, 2 bad input.
 
 mod basin;
+mod belt;
 mod border;
 mod branch;
 mod cycles;
@@ -55,6 +56,7 @@ enum Command {
     Basin(basin::Basin),
     Border(border::Border),
     Paper(paper::Paper),
+    Belt(belt::Belt),
     Scenes(scenes::Scenes),
     Replay(replay::Replay),
     Trade(trade::Trade),
@@ -69,6 +71,7 @@ impl Command {
             Command::Basin(command) => command.run(),
             Command::Border(command) => command.run(),
             Command::Paper(command) => command.run(),
+            Command::Belt(command) => command.run(),
             Command::Scenes(command) => command.run(),
             Command::Replay(command) => command.run(),
             Command::Trade(command) => command.run(),

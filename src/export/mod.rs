@@ -1,6 +1,7 @@
 //! Answers and screens as text: JSON, CSV, aligned tables, SVG. Draws what it is given, decides nothing.
 
 pub mod balance;
+pub mod belt;
 pub mod claims;
 pub mod csv;
 pub mod json;

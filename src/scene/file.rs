@@ -85,9 +85,9 @@ fn auto() -> Method {
 }
 
 /// A complaint about a part of the text.
-struct Complaint {
-    at: Range<usize>,
-    message: String,
+pub(super) struct Complaint {
+    pub at: Range<usize>,
+    pub message: String,
 }
 
 /// Reads a scene; `name` is the name by which it is opened, `file` the one in error messages.
@@ -106,14 +106,14 @@ pub fn parse(name: &str, file: &str, text: &str) -> Result<Scene, SceneError> {
 }
 
 /// Line and column, from 1, of a byte of a text.
-fn place(text: &str, byte: usize) -> (usize, usize) {
+pub(super) fn place(text: &str, byte: usize) -> (usize, usize) {
     let before = text.get(..byte).unwrap_or(text);
     let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
     (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
 }
 
 /// The message of a library as one line.
-fn one_line(message: &str) -> String {
+pub(super) fn one_line(message: &str) -> String {
     message.lines().map(str::trim).filter(|line| !line.is_empty()).collect::<Vec<_>>().join("; ")
 }
 

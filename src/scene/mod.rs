@@ -5,6 +5,7 @@ pub mod answer;
 pub mod file;
 pub mod layer;
 pub mod library;
+pub mod machine;
 pub mod ordinate;
 pub mod request;
 #[expect(clippy::module_inception, reason = "the scene itself, beside what belongs to it")]
@@ -16,6 +17,7 @@ pub use answer::{Answer, Answered};
 pub use file::SceneError;
 pub use layer::{LAYERS, Layer, LayerSpec};
 pub use library::{NoScene, find, library, plain};
+pub use machine::Machine;
 pub use ordinate::{ABSCISSAE, ORDINATES, Ordinate};
 pub use request::{Request, SLOTS, Slot};
 pub use scene::Scene;

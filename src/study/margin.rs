@@ -9,6 +9,7 @@ use super::basin::Basin;
 use super::cycle::Edge;
 use super::half_map::NoEnd;
 use crate::closed_form::lyapunov;
+use crate::oscillator::Parameters;
 
 /// The margins; `None` where every kick is survived.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -23,12 +24,16 @@ impl Basin {
     /// The margins, with impulses given at the point of rest `q`.
     #[must_use]
     pub fn margin_from(&self, q: f64) -> Margin {
+        let Parameters { d, d3, r, .. } = self.parameters;
+        if r == 0.0 && !(d > 0.0 || (d == 0.0 && d3 > 0.0)) {
+            // Neither friction nor damping: nothing comes to rest, however small the kick.
+            return Margin { displacement: Some(0.0), impulse: Some(0.0) };
+        }
         let edge = match self.edge {
             Edge::None => None,
             Edge::Cycle | Edge::Separatrix => self.borders.first(),
         };
         let Some(edge) = edge else { return Margin { displacement: None, impulse: None } };
-        let r = self.parameters.r;
         // A forward arc starts, and a backward arc ends, at the turning point of its own side.
         let turning = [&edge.upper, &edge.lower].into_iter().filter_map(|arc| match &arc.swing {
             Ok(swing) if arc.is_backward() => Some(r + swing.end.value),

@@ -18,6 +18,7 @@ pub mod parameters;
 pub mod phase_plane;
 pub mod place;
 pub mod plot;
+pub mod quantity;
 pub mod status;
 pub mod ticks;
 mod walk;

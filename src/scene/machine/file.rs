@@ -1,0 +1,399 @@
+//! Machine files: TOML in, [`Machine`] out, or one line that names what is wrong and where.
+
+use std::fmt;
+
+use serde::Deserialize;
+use serde::de::{Deserializer, Visitor};
+use toml::Spanned;
+
+use super::Machine;
+use super::unit::{Measured, measured};
+use crate::oscillator::Belt;
+use crate::oscillator::belt::spline::SmoothingSpline;
+use crate::oscillator::belt::{Dimension, FrictionLaw, QUANTITIES, Quantity};
+use crate::scene::file::{Complaint, SceneError, one_line, place};
+
+/// Displacement or velocity at which a motion may start, in SI units: up to this in both directions.
+pub const FARTHEST_START: f64 = 1e6;
+
+/// Seconds for which a motion may be followed.
+pub const UNTIL_RANGE: (f64, f64) = (0.0, 1e6);
+
+/// Seconds for which a motion is followed where a file says nothing, in periods of the free oscillation.
+const PERIODS: f64 = 20.0;
+
+/// Velocities at which a law is tried: from a creep to a tool's speed, in m/s.
+const STRIBECK_VELOCITY: (f64, f64) = (1e-12, 1e12);
+
+/// Exponents of Stribeck's characteristic.
+const STRIBECK_EXPONENT: (f64, f64) = (0.1, 10.0);
+
+/// Largest magnitude of a coefficient of friction, and of its coefficients in SI units.
+const LARGEST_COEFFICIENT: f64 = 1e12;
+
+/// Most points of a table: a curve near them is laid in linear time, but pictures and answers take many.
+const MOST_POINTS: usize = 10_000;
+
+/// The file as it stands on disk.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    title: String,
+    #[serde(default)]
+    look: String,
+    m: Option<Spanned<Number>>,
+    c: Option<Spanned<Number>>,
+    d1: Option<Spanned<Number>>,
+    d3: Option<Spanned<Number>>,
+    #[serde(rename = "F")]
+    f: Option<Spanned<Number>>,
+    #[serde(rename = "R")]
+    r: Option<Spanned<Number>>,
+    v0: Option<Spanned<Number>>,
+    friction: Spanned<Law>,
+    #[serde(default)]
+    start: Start,
+    until: Option<Spanned<Number>>,
+}
+
+/// Where the motion starts.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Start {
+    x: Option<Spanned<Number>>,
+    v: Option<Spanned<Number>>,
+}
+
+/// A friction law.
+#[derive(Deserialize)]
+#[serde(rename_all = "lowercase", deny_unknown_fields)]
+enum Law {
+    Constant {
+        mu: Spanned<Number>,
+    },
+    Polynomial {
+        coefficients: Vec<Spanned<Number>>,
+    },
+    Stribeck {
+        rest: Spanned<Number>,
+        kinetic: Spanned<Number>,
+        velocity: Spanned<Number>,
+        exponent: Option<Spanned<Number>>,
+        viscous: Option<Spanned<Number>>,
+    },
+    Table {
+        file: Option<Spanned<String>>,
+        points: Option<Spanned<Vec<(Number, Number)>>>,
+        scatter: Option<Spanned<Number>>,
+    },
+}
+
+/// A number, or a text of a number with a unit.
+#[derive(Clone, Debug)]
+enum Number {
+    Plain(f64),
+    Text(String),
+}
+
+impl<'de> Deserialize<'de> for Number {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Read;
+        impl Visitor<'_> for Read {
+            type Value = Number;
+
+            fn expecting(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+                out.write_str("a number, or a text such as \"2 kg\"")
+            }
+
+            fn visit_f64<E>(self, value: f64) -> Result<Number, E> {
+                Ok(Number::Plain(value))
+            }
+
+            #[expect(clippy::cast_precision_loss, reason = "quantities have no 16 digits")]
+            fn visit_i64<E>(self, value: i64) -> Result<Number, E> {
+                Ok(Number::Plain(value as f64))
+            }
+
+            fn visit_str<E>(self, value: &str) -> Result<Number, E> {
+                Ok(Number::Text(value.to_owned()))
+            }
+        }
+        deserializer.deserialize_any(Read)
+    }
+}
+
+impl Number {
+    fn read(&self) -> Result<Measured, String> {
+        match self {
+            Number::Plain(value) => Ok(Measured { value: *value, dimension: None }),
+            Number::Text(text) => measured(text),
+        }
+    }
+}
+
+/// Reads a machine; `name` is the name by which it is opened, `file` the one in error messages, and
+/// `fetch` gets the text of a table that the file names, or says why not.
+///
+/// # Errors
+/// [`SceneError`] with the place and what is allowed there.
+pub fn parse(
+    name: &str,
+    file: &str,
+    text: &str,
+    fetch: impl FnOnce(&str) -> Result<String, String>,
+) -> Result<Machine, SceneError> {
+    let complain = |complaint: Complaint| {
+        let (line, column) = place(text, complaint.at.start);
+        SceneError { file: file.to_owned(), line, column, message: complaint.message }
+    };
+    let read: File = toml::from_str(text).map_err(|error| {
+        complain(Complaint { at: error.span().unwrap_or(0..0), message: one_line(error.message()) })
+    })?;
+    machine(name, read, fetch).map_err(complain)
+}
+
+fn machine(
+    name: &str,
+    read: File,
+    fetch: impl FnOnce(&str) -> Result<String, String>,
+) -> Result<Machine, Complaint> {
+    let whole = read.friction.span();
+    let mut belt = Belt {
+        mass: 0.0,
+        stiffness: 0.0,
+        damping: 0.0,
+        cubic_damping: 0.0,
+        normal_force: 0.0,
+        friction: 0.0,
+        belt_speed: 0.0,
+        law: law(read.friction, fetch)?,
+    };
+    let given = [&read.m, &read.c, &read.d1, &read.d3, &read.f, &read.r, &read.v0];
+    for (row, given) in QUANTITIES.iter().zip(given) {
+        let value = match (given, row.default) {
+            (Some(given), _) => quantity(row.quantity, given)?,
+            (None, Some(default)) => default,
+            (None, None) => {
+                let message = format!(
+                    "{} ({}) is missing; such as {0} = \"1 {}\"",
+                    row.name, row.meaning, row.unit
+                );
+                return Err(Complaint { at: 0..0, message });
+            }
+        };
+        belt.set(row.quantity, value);
+    }
+    let reduced =
+        belt.reduce().map_err(|error| Complaint { at: whole, message: error.to_string() })?;
+    let start = (-FARTHEST_START, FARTHEST_START);
+    let displacement = number("x", read.start.x.as_ref(), Dimension::LENGTH, "m", start, 0.0)?;
+    let velocity = number("v", read.start.v.as_ref(), Dimension::VELOCITY, "m/s", start, 0.0)?;
+    let periods = PERIODS * std::f64::consts::TAU * reduced.units.time;
+    let until = read.until.as_ref();
+    Ok(Machine {
+        name: name.to_owned(),
+        title: read.title,
+        look: read.look,
+        belt,
+        displacement,
+        velocity,
+        until: number("until", until, Dimension::TIME, "s", UNTIL_RANGE, periods)?,
+    })
+}
+
+/// A quantity of the table.
+fn quantity(quantity: Quantity, given: &Spanned<Number>) -> Result<f64, Complaint> {
+    given.get_ref().read().and_then(|read| value_of(quantity, &read)).map_err(|message| {
+        let message = named(quantity.spec().name, message);
+        Complaint { at: given.span(), message }
+    })
+}
+
+/// A measured value as a value of this quantity, within its range.
+///
+/// # Errors
+/// One line that says what is allowed.
+pub fn value_of(quantity: Quantity, read: &Measured) -> Result<f64, String> {
+    let row = quantity.spec();
+    let value = read.as_a(row.dimension, row.unit)?;
+    quantity.check(value).map_err(|outside| outside.to_string())
+}
+
+/// A message that begins with the name of what it is about.
+fn named(name: &str, message: String) -> String {
+    if message.starts_with(&format!("{name} =")) { message } else { format!("{name}: {message}") }
+}
+
+/// A number of a dimension within a range, or its default.
+fn number(
+    name: &str,
+    given: Option<&Spanned<Number>>,
+    dimension: Dimension,
+    unit: &str,
+    (min, max): (f64, f64),
+    default: f64,
+) -> Result<f64, Complaint> {
+    let Some(given) = given else { return Ok(default) };
+    let refuse = |message| Complaint { at: given.span(), message: named(name, message) };
+    let value = given.get_ref().read().and_then(|read| read.as_a(dimension, unit));
+    let value = value.map_err(refuse)?;
+    if (min..=max).contains(&value) {
+        return Ok(value);
+    }
+    let blank = if unit.is_empty() { "" } else { " " };
+    Err(refuse(format!(
+        "{name} = {value}{blank}{unit} is outside its range {min:?} .. {max:?}{blank}{unit}"
+    )))
+}
+
+fn law(
+    given: Spanned<Law>,
+    fetch: impl FnOnce(&str) -> Result<String, String>,
+) -> Result<FrictionLaw, Complaint> {
+    let whole = given.span();
+    let any = (-LARGEST_COEFFICIENT, LARGEST_COEFFICIENT);
+    let pure =
+        |name, given: &Spanned<Number>| number(name, Some(given), Dimension::ONE, "", any, 0.0);
+    Ok(match given.into_inner() {
+        Law::Constant { mu } => FrictionLaw::Constant { mu: pure("mu", &mu)? },
+        Law::Polynomial { coefficients } => {
+            let slowness = Dimension::new(0, -1, 1);
+            let coefficient = |(power, given): (usize, &Spanned<Number>)| {
+                let power = i8::try_from(power).unwrap_or(i8::MAX);
+                let dimension = Dimension::ONE.times(slowness, power).unwrap_or(Dimension::ONE);
+                let unit = match power {
+                    0 => String::new(),
+                    1 => "s/m".to_owned(),
+                    _ => format!("s^{power}/m^{power}"),
+                };
+                number("coefficients", Some(given), dimension, &unit, any, 0.0)
+            };
+            let numbers = coefficients.iter().enumerate().map(coefficient);
+            FrictionLaw::Polynomial { coefficients: numbers.collect::<Result<_, _>>()? }
+        }
+        Law::Stribeck { rest, kinetic, velocity, exponent, viscous } => FrictionLaw::Stribeck {
+            rest: pure("rest", &rest)?,
+            kinetic: pure("kinetic", &kinetic)?,
+            velocity: number(
+                "velocity",
+                Some(&velocity),
+                Dimension::VELOCITY,
+                "m/s",
+                STRIBECK_VELOCITY,
+                1.0,
+            )?,
+            exponent: number(
+                "exponent",
+                exponent.as_ref(),
+                Dimension::ONE,
+                "",
+                STRIBECK_EXPONENT,
+                1.0,
+            )?,
+            viscous: number(
+                "viscous",
+                viscous.as_ref(),
+                Dimension::new(0, -1, 1),
+                "s/m",
+                any,
+                0.0,
+            )?,
+        },
+        Law::Table { file, points, scatter } => {
+            let scatter = number(
+                "scatter",
+                scatter.as_ref(),
+                Dimension::ONE,
+                "",
+                (0.0, LARGEST_COEFFICIENT),
+                0.0,
+            )?;
+            let (at, points) = match (file, points) {
+                (Some(file), None) => {
+                    let at = file.span();
+                    let name = file.get_ref();
+                    let text =
+                        fetch(name).map_err(|message| Complaint { at: at.clone(), message })?;
+                    let read = table(name, &text);
+                    (at.clone(), read.map_err(|message| Complaint { at, message })?)
+                }
+                (None, Some(points)) => (points.span(), listed(&points)?),
+                _ => {
+                    let message =
+                        "a table takes either file = \"NAME.csv\" or points = [[v, mu], ..]";
+                    return Err(Complaint { at: whole, message: message.to_owned() });
+                }
+            };
+            if points.len() > MOST_POINTS {
+                let message = format!("{} points; {MOST_POINTS} are allowed", points.len());
+                return Err(Complaint { at, message });
+            }
+            let spline = SmoothingSpline::new(&points, scatter)
+                .map_err(|error| Complaint { at, message: error.to_string() })?;
+            FrictionLaw::Table(spline)
+        }
+    })
+}
+
+/// The points that stand in the machine file itself.
+fn listed(points: &Spanned<Vec<(Number, Number)>>) -> Result<Vec<(f64, f64)>, Complaint> {
+    let read = |(v, mu): &(Number, Number)| {
+        Ok((v.read()?.as_a(Dimension::VELOCITY, "m/s")?, mu.read()?.as_a(Dimension::ONE, "")?))
+    };
+    let number = points.get_ref().iter().enumerate();
+    number
+        .map(|(index, point)| {
+            read(point).map_err(|message: String| Complaint {
+                at: points.span(),
+                message: format!("point {}: {message}", index + 1),
+            })
+        })
+        .collect()
+}
+
+/// Reads a table of comma-separated values: a velocity and a coefficient of friction in each line, `#`
+/// begins a remark, and a line of names may come first. Velocities are in m/s unless they, or the name
+/// of their column in brackets (`v [mm/s]`), say otherwise.
+///
+/// # Errors
+/// One line that names the file, the line and what is expected there.
+pub fn table(file: &str, text: &str) -> Result<Vec<(f64, f64)>, String> {
+    let mut unit = String::new();
+    let mut points = Vec::new();
+    let mut names_allowed = true;
+    for (index, line) in text.lines().enumerate() {
+        let line = line.split('#').next().unwrap_or(line).trim();
+        if line.is_empty() {
+            continue;
+        }
+        let wrong = |what: &str| format!("{file}:{}: {what}", index + 1);
+        let separator = if line.contains(';') { ';' } else { ',' };
+        let cells: Vec<&str> = line.split(separator).map(str::trim).collect();
+        let [v, mu] = cells[..] else {
+            return Err(wrong(&format!(
+                "{line:?} is not a velocity and a coefficient, such as 0.1, 0.35"
+            )));
+        };
+        let names = v.starts_with(|first: char| first.is_alphabetic() || first == '"');
+        if std::mem::take(&mut names_allowed) && names {
+            let bracketed = v.split_once('[').and_then(|(_, rest)| rest.split_once(']'));
+            unit = bracketed.map_or_else(String::new, |(unit, _)| unit.to_owned());
+            continue;
+        }
+        let velocity = if v.ends_with(|last: char| last.is_ascii_digit() || last == '.') {
+            measured(&format!("{v} {unit}"))
+        } else {
+            measured(v)
+        };
+        let velocity = velocity.and_then(|read| read.as_a(Dimension::VELOCITY, "m/s"));
+        let mu = measured(mu).and_then(|read| read.as_a(Dimension::ONE, ""));
+        points.push((
+            velocity.map_err(|message| wrong(&message))?,
+            mu.map_err(|message| wrong(&message))?,
+        ));
+    }
+    Ok(points)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,102 @@
+use super::*;
+
+const GOOD: &str = r#"title = "A test"
+m = "250 g"
+c = "0.4 N/mm"
+F = "20 N"
+R = 0.5
+v0 = "20 cm/s"
+friction.constant = { mu = 0.25 }
+start = { x = "2 mm", v = "-1 cm/s" }
+"#;
+
+fn nothing(_: &str) -> Result<String, String> {
+    Err("no file".to_owned())
+}
+
+fn read(text: &str) -> Result<Machine, SceneError> {
+    parse("test", "test.toml", text, nothing)
+}
+
+#[test]
+fn quantities_are_read_with_their_units_and_have_defaults() {
+    let machine = read(GOOD).unwrap();
+    let belt = &machine.belt;
+    assert_eq!((belt.mass, belt.stiffness, belt.normal_force), (0.25, 400.0, 20.0));
+    assert_eq!((belt.friction, belt.belt_speed, belt.damping), (0.5, 0.2, 0.0));
+    assert_eq!((machine.displacement, machine.velocity), (0.002, -0.01));
+    // omega_0 = 40/s: twenty periods.
+    assert!((machine.until - std::f64::consts::PI).abs() < 1e-12);
+}
+
+#[test]
+fn every_law_is_read() {
+    for (friction, at, mu) in [
+        ("polynomial = { coefficients = [0.5, \"-1 s/m\", 0.25] }", 0.2, 0.31),
+        ("stribeck = { rest = 0.4, kinetic = 0.2, velocity = \"20 cm/s\" }", 0.0, 0.4),
+        ("stribeck = { rest = 0.4, kinetic = 0.2, velocity = 1, viscous = \"1 s/m\" }", 0.0, 0.4),
+        ("table = { points = [[0, 0.4], [\"10 cm/s\", 0.3], [0.2, 0.25], [0.4, 0.2]] }", 0.1, 0.3),
+    ] {
+        let text = GOOD.replace("constant = { mu = 0.25 }", friction);
+        let machine = read(&text).unwrap_or_else(|error| panic!("{friction}: {error}"));
+        assert!((machine.belt.law.mu(at).unwrap() - mu).abs() < 1e-12, "{friction}");
+    }
+}
+
+#[test]
+fn a_table_may_stand_in_a_file_of_its_own() {
+    let text = GOOD.replace("constant = { mu = 0.25 }", "table = { file = \"mu.csv\" }");
+    let csv = "# measured\nv [mm/s],mu\n0,0.4\n100,0.3 # here\n\n20 cm/s,0.25\n400,0.2\n";
+    let machine = parse("test", "test.toml", &text, |name| {
+        assert_eq!(name, "mu.csv");
+        Ok(csv.to_owned())
+    });
+    let FrictionLaw::Table(spline) = machine.unwrap().belt.law else { panic!("a table") };
+    assert_eq!((spline.points(), spline.range()), (4, (0.0, 0.4)));
+    let missing = read(&text).unwrap_err().to_string();
+    assert_eq!(missing, "test.toml:7:27: no file");
+    for (bad, words) in [
+        ("0,0.4\nv,mu\n", "mu.csv:2:"),
+        ("0,0.4,5\n", "mu.csv:1: \"0,0.4,5\" is not a velocity and a coefficient"),
+        ("0,0.4\n1 kg,0.3\n", "mu.csv:2: has another dimension; it takes a unit such as m/s"),
+        ("0,0.4\n1,x\n", "mu.csv:2: \"x\" does not begin with a number"),
+        ("0,0.4\n", "1 points; a table needs 4 or more"),
+        ("0,1\n1,1\n1,1\n2,1\n", "point 3: numbers must be finite, velocities must increase"),
+        ("", "0 points"),
+    ] {
+        let error = parse("test", "test.toml", &text, |_| Ok(bad.to_owned())).unwrap_err();
+        let line = error.to_string();
+        assert!(line.starts_with("test.toml:7:27: ") && line.contains(words), "{bad:?}: {line}");
+    }
+}
+
+#[test]
+fn what_is_wrong_is_said_with_its_place_and_what_is_allowed() {
+    for (from, to, place, words) in [
+        ("title", "titel", "1:1", "expected one of `title`"),
+        ("\"250 g\"", "\"250 mm\"", "2:5", "m: has another dimension; it takes a unit such as kg"),
+        ("\"250 g\"", "-1", "2:5", "m = -1 kg is outside its range 1e-12 .."),
+        ("\"250 g\"", "nan", "2:5", "m = NaN kg is outside its range"),
+        ("\"250 g\"", "\"250 gr\"", "2:5", "\"gr\" is not a unit"),
+        ("\"250 g\"", "[1]", "2:5", "a number, or a text such as"),
+        ("m = \"250 g\"\n", "", "1:1", "m (mass) is missing; such as m = \"1 kg\""),
+        ("mu = 0.25", "mu = 0", "7:1", "mu = 0 at v0 = 0.2 m/s; it must be positive"),
+        ("mu = 0.25", "mu = \"3 m\"", "7:28", "mu: has another dimension; it takes no unit"),
+        ("mu = 0.25", "my = 0.25", "7:", "unexpected keys in table: my, available keys: mu"),
+        ("constant", "coulomb", "7:", "unknown variant `coulomb`"),
+        ("constant = { mu = 0.25 }", "table = {}", "7:1", "either file = "),
+        ("\"2 mm\"", "\"2 s\"", "8:15", "x: has another dimension; it takes a unit such as m"),
+        ("\"2 mm\"", "1e7", "8:15", "x = 10000000 m is outside its range"),
+        (
+            "start",
+            "until = -1\nstart",
+            "8:9",
+            "until = -1 s is outside its range 0.0 .. 1000000.0 s",
+        ),
+    ] {
+        let error = read(&GOOD.replacen(from, to, 1)).expect_err(to);
+        let line = error.to_string();
+        assert!(line.starts_with(&format!("test.toml:{place}")), "{to}: {line}");
+        assert!(line.contains(words) && !line.contains('\n'), "{to}: {line}");
+    }
+}

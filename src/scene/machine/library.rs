@@ -1,0 +1,93 @@
+//! The machines that come with the program.
+
+use std::sync::LazyLock;
+
+use super::Machine;
+use super::file::parse;
+
+/// The machine that is taken where none is named.
+pub const TEXTBOOK: &str = "textbook";
+
+/// Name and text of a machine file.
+macro_rules! machine_file {
+    ($name:literal) => {
+        ($name, include_str!(concat!("../../../assets/belts/", $name, ".toml")))
+    };
+}
+
+/// The files, in the order in which they are listed.
+const FILES: [(&str, &str); 4] = [
+    machine_file!("textbook"),
+    machine_file!("clutch"),
+    machine_file!("slideway"),
+    machine_file!("straight"),
+];
+
+/// The tables that they name.
+const TABLES: [(&str, &str); 1] =
+    [("slideway.csv", include_str!("../../../assets/belts/slideway.csv"))];
+
+/// The machines that come with the program, in the order in which they are listed.
+///
+/// # Panics
+/// Never: a test reads every file.
+#[must_use]
+pub fn machines() -> &'static [Machine] {
+    static MACHINES: LazyLock<Vec<Machine>> = LazyLock::new(|| {
+        let read = |(name, text): (&str, &str)| match parse(
+            name,
+            &format!("{name}.toml"),
+            text,
+            table_named,
+        ) {
+            Ok(machine) => machine,
+            Err(error) => unreachable!("a machine of the program is broken: {error}"),
+        };
+        FILES.into_iter().map(read).collect()
+    });
+    &MACHINES
+}
+
+/// A table that comes with the program.
+fn table_named(name: &str) -> Result<String, String> {
+    let found = TABLES.iter().find(|(table, _)| *table == name);
+    found.map(|(_, text)| (*text).to_owned()).ok_or_else(|| format!("there is no table {name:?}"))
+}
+
+/// The machine of the program with this name.
+#[must_use]
+pub fn find(name: &str) -> Option<&'static Machine> {
+    machines().iter().find(|machine| machine.name == name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_library_lists_every_file_of_the_folder() {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/belts");
+        let entries = std::fs::read_dir(folder).unwrap();
+        let mut on_disk: Vec<String> = entries
+            .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
+            .collect();
+        let files = FILES.iter().map(|(name, _)| format!("{name}.toml"));
+        let mut listed: Vec<String> =
+            files.chain(TABLES.iter().map(|(name, _)| (*name).to_owned())).collect();
+        on_disk.sort();
+        listed.sort();
+        assert_eq!(on_disk, listed);
+    }
+
+    #[test]
+    fn every_machine_reads_explains_itself_and_has_a_dimensionless_form() {
+        for machine in machines() {
+            assert!(machine.title.chars().count() <= 52, "{}: a short title", machine.name);
+            assert!(machine.look.ends_with('.') && machine.look.len() > 20, "{}", machine.name);
+            let reduced = machine.reduce().unwrap();
+            assert!(reduced.parameters.d.abs() < 1.0, "{}", machine.name);
+            assert!(reduced.sticking_velocity > 0.0);
+        }
+        assert_eq!(machines()[0].name, TEXTBOOK);
+    }
+}

@@ -1,0 +1,37 @@
+//! Machines: masses on belts in physical units, read from files, to be computed with and looked at.
+
+pub mod file;
+pub mod library;
+pub mod unit;
+
+use crate::oscillator::Belt;
+use crate::oscillator::belt::{BeltError, Reduced};
+
+/// A machine: a mass on a belt, and the motion of it that is looked at.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Machine {
+    /// The name by which it is opened.
+    pub name: String,
+    /// One line.
+    pub title: String,
+    /// What it is, and what to look at, in a sentence or two.
+    pub look: String,
+    /// The mass on its belt.
+    pub belt: Belt,
+    /// Displacement from the static one at which the motion starts, in m.
+    pub displacement: f64,
+    /// Velocity at which it starts, in m/s.
+    pub velocity: f64,
+    /// How long the motion is followed, in s.
+    pub until: f64,
+}
+
+impl Machine {
+    /// The dimensionless oscillator and its units.
+    ///
+    /// # Errors
+    /// [`BeltError`] where the machine has no dimensionless form.
+    pub fn reduce(&self) -> Result<Reduced, BeltError> {
+        self.belt.reduce()
+    }
+}

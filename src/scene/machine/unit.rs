@@ -1,0 +1,316 @@
+//! Numbers with units, as engineers write them: `2 kg`, `800 N/m`, `15 mm`, `40 N s^3/m^3`.
+//!
+//! A unit is a product and quotient of grams, metres, seconds, newtons, minutes and hours with the usual
+//! prefixes, with `^`, parentheses, and blanks or `*` or `·` for products. `N/m s`, which people read in
+//! two ways, is refused. A number without a unit is in SI units.
+
+use crate::oscillator::belt::Dimension;
+
+/// A number with its dimension, in SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measured {
+    /// The number in SI units.
+    pub value: f64,
+    /// The dimension; `None` where no unit was written.
+    pub dimension: Option<Dimension>,
+}
+
+impl Measured {
+    /// The value as a quantity of this dimension; `unit` is its SI unit, for the message.
+    ///
+    /// # Errors
+    /// One line that says which unit is expected.
+    pub fn as_a(&self, dimension: Dimension, unit: &str) -> Result<f64, String> {
+        if self.dimension.is_none_or(|written| written == dimension) {
+            Ok(self.value)
+        } else {
+            let expected = if unit.is_empty() {
+                "no unit".to_owned()
+            } else {
+                format!("a unit such as {unit}")
+            };
+            Err(format!("has another dimension; it takes {expected}"))
+        }
+    }
+}
+
+/// Units without prefixes: name, value in SI units, dimension, and whether prefixes go before it.
+const UNITS: [(&str, f64, Dimension, bool); 7] = [
+    ("g", 1e-3, Dimension::new(1, 0, 0), true),
+    ("m", 1.0, Dimension::LENGTH, true),
+    ("s", 1.0, Dimension::TIME, true),
+    ("N", 1.0, Dimension::FORCE, true),
+    ("Ns", 1.0, Dimension::IMPULSE, true),
+    ("min", 60.0, Dimension::TIME, false),
+    ("h", 3600.0, Dimension::TIME, false),
+];
+
+/// Prefixes, written before a unit without a blank.
+const PREFIXES: [(char, f64); 9] = [
+    ('G', 1e9),
+    ('M', 1e6),
+    ('k', 1e3),
+    ('d', 1e-1),
+    ('c', 1e-2),
+    ('m', 1e-3),
+    ('u', 1e-6),
+    ('\u{b5}', 1e-6),
+    ('n', 1e-9),
+];
+
+/// Largest exponent that is read.
+const LARGEST_POWER: i8 = 9;
+
+/// Reads a number with or without a unit.
+///
+/// # Errors
+/// One line that says what cannot be read.
+pub fn measured(text: &str) -> Result<Measured, String> {
+    let text = text.trim();
+    let end = number_end(text);
+    let number = &text[..end];
+    let value: f64 =
+        number.parse().map_err(|_| format!("{text:?} does not begin with a number"))?;
+    let unit = text[end..].trim();
+    if unit.is_empty() {
+        return finite(text, value, None);
+    }
+    let (factor, dimension) = read_unit(unit)?;
+    finite(text, value * factor, Some(dimension))
+}
+
+fn finite(text: &str, value: f64, dimension: Option<Dimension>) -> Result<Measured, String> {
+    if value.is_finite() {
+        Ok(Measured { value, dimension })
+    } else {
+        Err(format!("{text:?} is not a finite number"))
+    }
+}
+
+/// Where the number at the start of a text ends.
+fn number_end(text: &str) -> usize {
+    let bytes = text.as_bytes();
+    let digits = |mut at: usize| {
+        while bytes.get(at).is_some_and(u8::is_ascii_digit) {
+            at += 1;
+        }
+        at
+    };
+    let sign = |at: usize| at + usize::from(matches!(bytes.get(at), Some(b'+' | b'-')));
+    let mut end = digits(sign(0));
+    if bytes.get(end) == Some(&b'.') {
+        end = digits(end + 1);
+    }
+    if matches!(bytes.get(end), Some(b'e' | b'E')) {
+        let exponent = sign(end + 1);
+        if digits(exponent) > exponent {
+            end = digits(exponent);
+        }
+    }
+    end
+}
+
+/// The value in SI units and the dimension of a unit.
+fn read_unit(text: &str) -> Result<(f64, Dimension), String> {
+    let mut reader = Reader { text, rest: text };
+    let unit = reader.product()?;
+    if reader.rest.is_empty() { Ok(unit) } else { Err(reader.wrong()) }
+}
+
+/// What is left of a unit to read.
+struct Reader<'a> {
+    text: &'a str,
+    rest: &'a str,
+}
+
+impl Reader<'_> {
+    fn wrong(&self) -> String {
+        format!(
+            "{:?} is not a unit; units are made of g, m, s, N, min, h with prefixes, such as N s/m",
+            self.text
+        )
+    }
+
+    /// Takes a character if it comes next, and the blanks after it.
+    fn take(&mut self, char: char) -> bool {
+        let taken = self.rest.strip_prefix(char);
+        self.rest = taken.unwrap_or(self.rest).trim_start();
+        taken.is_some()
+    }
+
+    /// Factors up to the end or a closing parenthesis; a `/` divides by the next factor alone.
+    fn product(&mut self) -> Result<(f64, Dimension), String> {
+        let mut unit = self.factor()?;
+        let mut dividing = false;
+        while !self.rest.is_empty() && !self.rest.starts_with(')') {
+            if self.take('/') {
+                dividing = true;
+            } else if !(self.take('*') || self.take('\u{b7}')) && dividing {
+                // What stands after a blank behind a quotient could mean either: it must be said.
+                return Err(format!(
+                    "{:?} can be read in two ways; write parentheses, such as N/(m s)",
+                    self.text
+                ));
+            } else {
+                dividing = false;
+            }
+            let (value, dimension) = self.factor()?;
+            let power = if dividing { -1 } else { 1 };
+            unit.0 *= value.powi(i32::from(power));
+            unit.1 = unit.1.times(dimension, power).ok_or_else(|| self.wrong())?;
+        }
+        Ok(unit)
+    }
+
+    /// A name or a parenthesis, with its power.
+    fn factor(&mut self) -> Result<(f64, Dimension), String> {
+        let (value, dimension) = if self.take('(') {
+            let inner = self.product()?;
+            if !self.take(')') {
+                return Err(self.wrong());
+            }
+            inner
+        } else if self.rest.starts_with('1') {
+            self.take('1');
+            (1.0, Dimension::ONE)
+        } else {
+            self.name()?
+        };
+        let power = self.power()?;
+        let dimension = Dimension::ONE.times(dimension, power).ok_or_else(|| self.wrong())?;
+        Ok((value.powi(i32::from(power)), dimension))
+    }
+
+    fn name(&mut self) -> Result<(f64, Dimension), String> {
+        let end = self.rest.find(|char: char| !char.is_alphabetic()).unwrap_or(self.rest.len());
+        let name = &self.rest[..end];
+        let plain = UNITS.iter().find(|(unit, ..)| *unit == name);
+        let found = plain.map(|(_, value, dimension, _)| (*value, *dimension)).or_else(|| {
+            let mut letters = name.chars();
+            let first = letters.next()?;
+            let (_, scale) = PREFIXES.iter().find(|(prefix, _)| *prefix == first)?;
+            let base = letters.as_str();
+            let (_, value, dimension, _) =
+                UNITS.iter().find(|(unit, _, _, prefixed)| *prefixed && *unit == base)?;
+            Some((scale * value, *dimension))
+        });
+        let found = found.ok_or_else(|| self.wrong())?;
+        self.rest = self.rest[end..].trim_start();
+        Ok(found)
+    }
+
+    /// `^3`, `^-1`, `\u{b2}` or `\u{b3}`; 1 where nothing is written.
+    fn power(&mut self) -> Result<i8, String> {
+        for (char, power) in [('\u{b2}', 2), ('\u{b3}', 3)] {
+            if self.take(char) {
+                return Ok(power);
+            }
+        }
+        if !self.take('^') {
+            return Ok(1);
+        }
+        let end = self.rest.find(|char: char| !(char.is_ascii_digit() || char == '-'));
+        let (digits, rest) = self.rest.split_at(end.unwrap_or(self.rest.len()));
+        let power: i8 = digits.parse().map_err(|_| self.wrong())?;
+        if power.abs() > LARGEST_POWER {
+            return Err(self.wrong());
+        }
+        self.rest = rest.trim_start();
+        Ok(power)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    #[test]
+    fn units_are_read_as_engineers_write_them() {
+        let stiffness = Dimension::new(1, 0, -2);
+        let damping = Dimension::new(1, 0, -1);
+        let cubic = Dimension::new(1, -2, 1);
+        for (text, value, dimension) in [
+            ("2 kg", 2.0, Dimension::new(1, 0, 0)),
+            ("250g", 0.25, Dimension::new(1, 0, 0)),
+            ("800 N/m", 800.0, stiffness),
+            ("0.8 kN/m", 800.0, stiffness),
+            ("1.2e3 N / mm", 1.2e6, stiffness),
+            ("3 N s/m", 3.0, damping),
+            ("3 Ns/m", 3.0, damping),
+            ("3 kg/s", 3.0, damping),
+            ("3 N/(m/s)", 3.0, damping),
+            ("3 N*s*m^-1", 3.0, damping),
+            ("40 N s^3/m^3", 40.0, cubic),
+            ("40 N/(m/s)^3", 40.0, cubic),
+            ("40 N\u{b7}s\u{b3}/m\u{b3}", 40.0, cubic),
+            ("-15 cm/s", -0.15, Dimension::VELOCITY),
+            ("30 m/min", 0.5, Dimension::VELOCITY),
+            ("3.6 km/h", 1.0, Dimension::VELOCITY),
+            ("2 ms", 0.002, Dimension::TIME),
+            ("2 m s", 2.0, Dimension::new(0, 1, 1)),
+            ("5 1/s", 5.0, Dimension::new(0, 0, -1)),
+            ("7 \u{b5}m", 7e-6, Dimension::LENGTH),
+            ("7 um", 7e-6, Dimension::LENGTH),
+        ] {
+            let found = measured(text).unwrap_or_else(|error| panic!("{text}: {error}"));
+            assert_eq!(found.dimension, Some(dimension), "{text}");
+            assert!((found.value / value - 1.0).abs() < 1e-14, "{text}: {}", found.value);
+        }
+        assert_eq!(measured(" 2.5e-1 "), Ok(Measured { value: 0.25, dimension: None }));
+    }
+
+    #[test]
+    fn what_is_no_unit_is_refused_in_one_line() {
+        for text in [
+            "",
+            "kg",
+            "2 kilo",
+            "2 N/",
+            "2 N/m s",
+            "2 (N",
+            "2 N)",
+            "2 m^",
+            "2 m^99",
+            "2 mmin",
+            "1e999 m",
+            "nan m",
+            "inf",
+            "2 /s",
+            "--2 m",
+            "2 m^1.5",
+            "0x10 m",
+            "2 ^2",
+            "2 m^127 m^127",
+        ] {
+            let error = measured(text).expect_err(text);
+            assert!(!error.contains('\n') && error.len() > 10, "{text}: {error}");
+        }
+    }
+
+    #[test]
+    fn a_wrong_dimension_names_the_right_unit() {
+        let length = measured("2 mm").unwrap();
+        assert_eq!(length.as_a(Dimension::LENGTH, "m"), Ok(0.002));
+        let refused = length.as_a(Dimension::IMPULSE, "N s").unwrap_err();
+        assert!(refused.contains("such as N s"), "{refused}");
+        assert_eq!(measured("2").unwrap().as_a(Dimension::IMPULSE, "N s"), Ok(2.0));
+        assert!(length.as_a(Dimension::ONE, "").unwrap_err().contains("no unit"));
+    }
+
+    proptest! {
+        #[test]
+        fn no_text_breaks_the_reader(text in "[-+0-9. eENkmgs/^*()\u{b5}\u{b3}]{0,16}") {
+            if let Ok(found) = measured(&text) {
+                prop_assert!(found.value.is_finite());
+            }
+        }
+
+        #[test]
+        fn every_number_comes_back(value: f64) {
+            prop_assume!(value.is_finite());
+            prop_assert_eq!(measured(&format!("{value:?} m")).unwrap().value, value);
+        }
+    }
+}

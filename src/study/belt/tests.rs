@@ -1,0 +1,167 @@
+use super::*;
+use crate::oscillator::belt::FrictionLaw;
+
+fn belt() -> Belt {
+    Belt {
+        mass: 2.0,
+        stiffness: 5000.0,
+        damping: 5.0,
+        cubic_damping: 600.0,
+        normal_force: 100.0,
+        friction: 1.0,
+        belt_speed: 0.3,
+        law: FrictionLaw::Stribeck {
+            rest: 0.4,
+            kinetic: 0.2,
+            velocity: 0.3,
+            exponent: 1.0,
+            viscous: 0.0,
+        },
+    }
+}
+
+fn surveyed(belt: &Belt, start: (f64, f64), until: f64) -> Survey {
+    survey(belt, &belt.reduce().unwrap(), start, until, &Limits::PATIENT).unwrap()
+}
+
+/// The equation of motion itself, in kg, m and s, by classical Runge-Kutta steps; a half swing ends at
+/// `v = 0` by halving the last step. Knows nothing of scaling, Taylor expansion or Taylor series.
+fn turning_points(belt: &Belt, start: (f64, f64), until: f64) -> Vec<(f64, f64)> {
+    let side = |x: f64| if belt.stiffness * x > 0.0 { -1.0 } else { 1.0 };
+    let (mut t, mut x, mut v, mut sign) = (0.0, start.0, start.1, side(start.0));
+    if v != 0.0 {
+        sign = f64::signum(v);
+    }
+    let slope = |x: f64, v: f64, sign: f64| {
+        (v, (belt.force(x, v).unwrap() - sign * belt.friction) / belt.mass)
+    };
+    let step = |x: f64, v: f64, sign: f64, h: f64| {
+        let k1 = slope(x, v, sign);
+        let k2 = slope(x + 0.5 * h * k1.0, v + 0.5 * h * k1.1, sign);
+        let k3 = slope(x + 0.5 * h * k2.0, v + 0.5 * h * k2.1, sign);
+        let k4 = slope(x + h * k3.0, v + h * k3.1, sign);
+        (
+            x + h / 6.0 * (k1.0 + 2.0 * k2.0 + 2.0 * k3.0 + k4.0),
+            v + h / 6.0 * (k1.1 + 2.0 * k2.1 + 2.0 * k3.1 + k4.1),
+        )
+    };
+    let h = 2e-5;
+    let mut found = Vec::new();
+    while t < until {
+        let next = step(x, v, sign, h);
+        if sign * next.1 > 0.0 {
+            (t, x, v) = (t + h, next.0, next.1);
+            continue;
+        }
+        let (mut low, mut high) = (0.0, h);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if sign * step(x, v, sign, middle).1 > 0.0 { low = middle } else { high = middle }
+        }
+        (t, x, v) = (t + high, step(x, v, sign, high).0, 0.0);
+        found.push((t, x));
+        if belt.stiffness * x.abs() <= belt.friction {
+            break;
+        }
+        sign = side(x);
+    }
+    found
+}
+
+/// The largest distance between the turning points of the equation of motion and of the scaled model, in
+/// m and s.
+fn apart(belt: &Belt, start: (f64, f64), until: f64) -> (usize, f64, f64) {
+    let full = turning_points(belt, start, until);
+    let model = surveyed(belt, start, until);
+    let units = model.reduced.units;
+    let pairs = full.iter().zip(&model.motion.crossings);
+    let apart = pairs.map(|((t, x), turn)| {
+        ((turn.q * units.displacement - x).abs(), (turn.tau * units.time - t).abs())
+    });
+    let (x, t) =
+        apart.fold((0.0, 0.0), |worst, (x, t)| (f64::max(worst.0, x), f64::max(worst.1, t)));
+    assert_eq!(full.len(), model.motion.crossings.len());
+    (full.len(), x, t)
+}
+
+#[test]
+fn a_cubic_characteristic_is_the_physical_motion_itself() {
+    let law = FrictionLaw::Polynomial { coefficients: vec![0.5, -0.9, 0.8, -0.2] };
+    let belt = Belt { law, ..belt() };
+    let (turns, x, t) = apart(&belt, (0.001, 0.0), 1.0);
+    assert!(turns > 10 && x < 1e-11 && t < 1e-9, "{turns} turns, {x} m, {t} s");
+}
+
+#[test]
+fn the_physical_motion_is_as_far_off_as_the_taylor_error_allows() {
+    let belt = belt();
+    let start = (0.0012, 0.0);
+    let (turns, x, _) = apart(&belt, start, 0.5);
+    let error = surveyed(&belt, start, 0.5).reach.taylor.unwrap();
+    // A force that is wrong by e displaces by e/c at rest, and at most 2 e/c a half swing at resonance,
+    // each grown by the self-excitation since.
+    let growth = 1.4_f64.powi(i32::try_from(turns).unwrap());
+    let allowed = 2.0 * growth * error.force / belt.stiffness;
+    assert!(turns >= 7 && x > 1e-9 && x < allowed, "{turns} turns, {x} of {allowed} m");
+    // And the remainder is of fourth order: half the motion, a sixteenth of the force.
+    let half = surveyed(&belt, (0.0006, 0.0), 0.05).reach.taylor.unwrap();
+    let whole = surveyed(&belt, start, 0.05).reach.taylor.unwrap();
+    assert!((whole.force / half.force).log2() > 3.5);
+}
+
+#[test]
+fn a_motion_that_overtakes_the_belt_is_told_with_its_time() {
+    // An undamped oscillator without friction, x = a cos(omega t): it is fastest at 3/4 of a period.
+    let law = FrictionLaw::Constant { mu: 0.25 };
+    let free = Belt { damping: 0.0, cubic_damping: 0.0, friction: 0.0, law, ..belt() };
+    let amplitude = |speed: f64| speed / 50.0;
+    let slow = surveyed(&free, (amplitude(0.2999), 0.0), 1.0);
+    assert_eq!(slow.reach.sticks, None);
+    assert!((slow.reach.velocity.1 / 0.2999 - 1.0).abs() < 1e-7, "{:?}", slow.reach);
+    let fast = surveyed(&free, (amplitude(0.6), 0.0), 1.0);
+    let contact = (std::f64::consts::PI + (0.5_f64).asin()) / 50.0;
+    assert!((fast.reach.sticks.unwrap().t - contact).abs() < 1e-6, "{:?}", fast.reach);
+    assert!((fast.reach.velocity.1 - 0.3).abs() < 1e-15, "the model ends at the belt");
+    let at_once = surveyed(&free, (0.0, 0.3), 1.0);
+    assert_eq!(at_once.reach.sticks, Some(Contact { t: 0.0, x: 0.0 }));
+    assert_eq!(fast.alarms(), [Alarm::Motion { at: fast.reach.sticks.unwrap() }]);
+    assert!(slow.alarms().is_empty());
+}
+
+#[test]
+fn cycles_and_margins_come_back_in_physical_units() {
+    let law = FrictionLaw::Polynomial { coefficients: vec![0.5, -0.4] };
+    let linear = Belt { law, cubic_damping: 0.0, ..belt() };
+    let found = surveyed(&linear, (0.001, 0.0), 0.2);
+    let Reduced { parameters, units, .. } = found.reduced;
+    let margin = PhysicalMargin::new(&found.margin(), &units);
+    // A_q = r coth(x/2), x = -pi D/omega (equation 32); in metres R/c takes the place of r.
+    let x = -std::f64::consts::PI * parameters.d / parameters.omega().unwrap();
+    let expected = linear.friction / linear.stiffness / (0.5 * x).tanh();
+    assert!((margin.displacement.unwrap() / expected - 1.0).abs() < 1e-12);
+    let speed = margin.velocity.unwrap();
+    assert!((margin.impulse.unwrap() / (linear.mass * speed) - 1.0).abs() < 1e-15);
+    assert_eq!(found.reaches.len(), 1);
+    assert!((found.reaches[0].velocity.1 / speed - 1.0).abs() < 0.1);
+}
+
+#[test]
+fn a_sweep_of_the_belt_speed_goes_through_the_parameters() {
+    let (points, cost) =
+        sweep(&belt(), Quantity::BeltSpeed, (0.1, 1.3), 13, &Limits::PATIENT).unwrap();
+    assert!(points.len() == 13 && cost.evaluations > 0);
+    let found: Vec<&SweepFound> =
+        points.iter().map(|point| point.found.as_ref().unwrap()).collect();
+    // The faster the belt, the flatter the characteristic: damping grows and the cycles vanish.
+    for pair in found.windows(2) {
+        assert!(pair[0].reduced.parameters.d < pair[1].reduced.parameters.d);
+    }
+    assert!(found[0].sticks && !found[12].sticks);
+    assert!(!found[2].cycles.cycles.is_empty() && found[12].cycles.cycles.is_empty());
+    for found in found {
+        let d = found.reduced.parameters.d;
+        if let Some(fold) = found.fold {
+            assert_eq!(found.cycles.cycles.is_empty(), d > fold.d, "D = {d}");
+        }
+    }
+}

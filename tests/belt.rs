@@ -1,0 +1,170 @@
+//! The engineer's door: machines in physical units, from files to answers.
+
+mod program;
+
+use std::fs;
+use std::path::PathBuf;
+
+use program::{json, run};
+use serde_json::Value;
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+/// Runs a command line whose words may have blanks in them.
+fn belt(words: &[&str]) -> Value {
+    let words: Vec<&str> = ["belt"].into_iter().chain(words.iter().copied()).collect();
+    let ran = run(&[&words[..], &["--format", "json"]].concat());
+    assert_eq!((ran.code, ran.err.as_str()), (0, ""), "{words:?}");
+    serde_json::from_str(&ran.out).unwrap()
+}
+
+#[test]
+fn the_document_holds_both_units_and_they_agree() {
+    let found = belt(&["textbook"]);
+    let units = &found["units"];
+    let (x0, omega_0) = (number(&units["displacement"]), number(&units["omega_0"]));
+    // Stribeck by hand: mu(0.3) = 0.2 + 0.2/e, mu' = -0.2/(0.3 e).
+    let mu = 0.2 + 0.2 / std::f64::consts::E;
+    assert!((omega_0 - 50.0).abs() < 1e-13 && (x0 - 100.0 * mu / 5000.0).abs() < 1e-17);
+    let d = (5.0 - 100.0 * 0.2 / 0.3 / std::f64::consts::E) / (2.0 * 2.0 * 50.0);
+    assert!((number(&found["parameters"]["D"]) - d).abs() < 1e-15);
+    assert!((number(&found["parameters"]["r"]) - 1.0 / (100.0 * mu)).abs() < 1e-16);
+    assert_eq!(found["rest_band"]["physical"], 0.0002);
+    assert_eq!(found["sticking_velocity"]["physical"], 0.3);
+    for cycle in found["cycles"].as_array().unwrap() {
+        let scaled = number(&cycle["dimensionless"]["q_max"]) * x0;
+        assert!((number(&cycle["x_max"]) / scaled - 1.0).abs() < 1e-15);
+        assert_eq!(cycle["reaches_belt"], false);
+        assert!(number(&cycle["taylor"]["force"]) > 0.0);
+    }
+    // The scaled question has the scaled answer.
+    let p = &found["parameters"];
+    let set = |name: &str| format!("--set {name}={:?}", number(&p[name]));
+    let plain = json(&format!("cycles {} {} {} {}", set("D"), set("D2"), set("D3"), set("r")));
+    assert_eq!(plain["cycles"][0]["q_max"], found["cycles"][0]["dimensionless"]["q_max"]);
+}
+
+#[test]
+fn the_friction_of_a_design_gives_the_margin_that_was_asked_for() {
+    for (margin, key, wanted) in [
+        ("2 mm", "displacement", 0.002),
+        ("0.2 N s", "impulse", 0.2),
+        ("40 cm/s kg", "impulse", 0.4),
+    ] {
+        let found = belt(&["clutch", "--set", "v0=80 cm/s", "--design", margin]);
+        let force = number(&found["design"]["R"]);
+        let set = format!("R={force:?}");
+        let again = belt(&["clutch", "--set", "v0=0.8 m/s", "--set", &set]);
+        let reached = number(&again["margin"][key]);
+        assert!((reached / wanted - 1.0).abs() < 1e-9, "{margin}: {reached}");
+    }
+    let beyond = belt(&["textbook", "--design", "1 m"]);
+    assert_eq!(beyond["design"]["needed"]["kind"], "fold");
+    let set = format!("R={:?}", 1.001 * number(&beyond["design"]["R"]));
+    assert_eq!(belt(&["textbook", "--set", &set])["margin"]["displacement"], Value::Null);
+    let damped = belt(&["textbook", "--set", "d1=100", "--design", "5 mm"]);
+    assert_eq!(
+        (&damped["design"]["needed"]["kind"], &damped["design"]["R"]),
+        (&"any".into(), &Value::Null)
+    );
+    // Without the friction element nothing comes to rest.
+    let none = belt(&["textbook", "--set", "R=0"]);
+    assert_eq!(none["margin"]["displacement"], 0.0);
+}
+
+#[test]
+fn whatever_overtakes_the_belt_raises_an_alarm() {
+    let kinds = |words: &[&str]| -> Vec<String> {
+        let found = belt(words);
+        let alarms = found["alarms"].as_array().unwrap().clone();
+        alarms.iter().map(|alarm| alarm["kind"].as_str().unwrap().to_owned()).collect()
+    };
+    assert!(kinds(&["textbook"]).is_empty());
+    assert_eq!(kinds(&["textbook", "--set", "v0=12 cm/s", "--set", "x=0.1 mm"]), ["cycle"]);
+    assert_eq!(kinds(&["straight"]), ["motion"]);
+    let found = belt(&["straight"]);
+    assert_eq!(found["motion"]["outcome"]["kind"], "sticks-to-belt");
+    assert_eq!(found["motion"]["velocity"][1], 0.5);
+    let strong = ["straight", "--set", "R=2", "--set", "v0=0.05", "--set", "x=0"];
+    assert_eq!(kinds(&strong), ["cycle", "kick"]);
+}
+
+#[test]
+fn a_sweep_is_the_same_machine_at_each_speed() {
+    let swept = belt(&["textbook", "--sweep", "v0=0.1:0.9:5", "--design", "3 mm"]);
+    assert_eq!((&swept["quantity"], &swept["unit"]), (&"v0".into(), &"m/s".into()));
+    let points = swept["points"].as_array().unwrap();
+    assert_eq!(points.len(), 5);
+    for point in points {
+        let set = format!("v0={:?}", number(&point["value"]));
+        let alone = belt(&["textbook", "--set", &set, "--design", "3 mm"]);
+        assert_eq!(point["parameters"], alone["parameters"]);
+        assert_eq!(point["margin"], alone["margin"]);
+        assert_eq!(point["design"], alone["design"]);
+        let pairs =
+            point["cycles"].as_array().unwrap().iter().zip(alone["cycles"].as_array().unwrap());
+        assert!(pairs.into_iter().all(|(one, other)| *one == other["dimensionless"]));
+    }
+    let rows = run(&["belt", "textbook", "--sweep", "v0=10 cm/s:90 cm/s:5", "--format", "csv"]);
+    let lines: Vec<&str> = rows.out.lines().collect();
+    assert_eq!(lines.len(), 6);
+    let columns = |line: &str| line.split(',').count();
+    assert!(lines.iter().all(|line| columns(line) == columns(lines[0])), "{}", rows.out);
+}
+
+#[test]
+fn a_sweep_beyond_the_friction_law_says_so_at_those_points() {
+    let swept = belt(&["slideway", "--sweep", "v0=10 mm/s:110 mm/s:3"]);
+    let points = swept["points"].as_array().unwrap();
+    assert_eq!(points[2]["parameters"], Value::Null);
+    let reason = points[2]["reason"].as_str().unwrap();
+    assert!(reason.contains("outside the friction law; it reaches from 0 to 0.06 m/s"), "{reason}");
+}
+
+/// A folder for one test.
+fn folder(name: &str) -> PathBuf {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    fs::create_dir_all(&path).unwrap();
+    path
+}
+
+#[test]
+fn a_file_of_ones_own_may_name_a_table_beside_it() {
+    let folder = folder("belt-of-ones-own");
+    let file = folder.join("press.toml");
+    let text = "title = \"My press\"\nm = \"5 kg\"\nc = \"2 kN/m\"\nF = \"50 N\"\nR = \"0.5 N\"\n\
+                v0 = \"0.1 m/s\"\n[friction.table]\nfile = \"mu.csv\"\n";
+    fs::write(&file, text).unwrap();
+    let name = file.to_str().unwrap();
+    let ran = run(&["belt", name]);
+    assert_eq!(ran.code, 2);
+    assert!(ran.err.contains("press.toml:8:8: ") && ran.err.contains("mu.csv"), "{}", ran.err);
+    fs::write(folder.join("mu.csv"), "v,mu\n0,0.4\n0.05,0.36\n0.1,0.33\n0.2,0.29\n0.3,0.27\n")
+        .unwrap();
+    let found = belt(&[name]);
+    assert_eq!(found["machine"], "press");
+    assert_eq!(found["friction"]["law"], "table");
+    assert!(number(&found["parameters"]["D"]) < 0.0);
+    let table = run(&["belt", name]);
+    assert!(table.out.starts_with("press: My press\nm = 5 kg, c = 2 kN/m"), "{}", table.out);
+}
+
+#[test]
+fn bad_input_is_refused_in_one_line_with_what_is_allowed() {
+    for (words, expected) in [
+        (&["nowhere.toml"][..], "the machines of the program are textbook, clutch, slideway"),
+        (&["textbook", "--set", "m=2 mm"], "m: has another dimension; it takes a unit such as kg"),
+        (&["textbook", "--set", "k=2"], "there are m, c, d1, d3, F, R, v0, x, v"),
+        (&["textbook", "--set", "v0=0"], "v0 = 0 m/s is outside its range 1e-12 .."),
+        (&["textbook", "--design", "2"], "expected a displacement, such as \"2 mm\""),
+        (&["textbook", "--sweep", "v0=1:2"], "expected NAME=FROM:TO:COUNT"),
+        (&["slideway", "--set", "v0=1"], "v0 = 1 m/s is outside the friction law"),
+    ] {
+        let ran = run(&[&["belt"], words].concat());
+        assert_eq!((ran.code, ran.out.as_str()), (2, ""), "{words:?}");
+        assert_eq!(ran.err.lines().count(), 1, "{}", ran.err);
+        assert!(ran.err.contains(expected), "{words:?}: {}", ran.err);
+    }
+}
