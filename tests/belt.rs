@@ -51,7 +51,7 @@ fn the_friction_of_a_design_gives_the_margin_that_was_asked_for() {
     for (margin, key, wanted) in [
         ("2 mm", "displacement", 0.002),
         ("0.2 N s", "impulse", 0.2),
-        ("40 cm/s kg", "impulse", 0.4),
+        ("40 kg cm/s", "impulse", 0.4),
     ] {
         let found = belt(&["clutch", "--set", "v0=80 cm/s", "--design", margin]);
         let force = number(&found["design"]["R"]);

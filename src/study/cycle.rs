@@ -198,7 +198,9 @@ impl Edge {
     #[must_use]
     pub fn around(parameters: &Parameters, stable: &[bool]) -> Self {
         let self_excited_node = parameters.d <= -1.0 && parameters.r > 0.0;
-        let escapes = parameters.d3 == 0.0 && parameters.d2 != 0.0;
+        // Without friction a rest that repels has no basin, and nothing borders it.
+        let repels = parameters.r == 0.0 && parameters.d < 0.0;
+        let escapes = parameters.d3 == 0.0 && parameters.d2 != 0.0 && !repels;
         match stable.first() {
             Some(false) => Edge::Cycle,
             Some(true) if !self_excited_node => Edge::None,
@@ -218,9 +220,9 @@ pub fn closings(equation: &mut Equation, limits: &Limits) -> Result<Vec<Closing>
     const BUDGET: u64 = 40_000_000;
     let budget = limits.evaluations.min(BUDGET);
     let limits = &Limits { evaluations: budget, interrupted: limits.interrupted };
-    let Parameters { d, d3, .. } = equation.parameters;
-    // The first integral of D2 decreases along every motion (`K` of [`super::balance`]).
-    if d >= 0.0 && d3 >= 0.0 {
+    let Parameters { d, d3, r, .. } = equation.parameters;
+    // The first integral of D2 decreases along every motion (`K` of [`super::balance`]), or increases.
+    if d >= 0.0 && d3 >= 0.0 || r == 0.0 && d <= 0.0 && d3 <= 0.0 {
         return Ok(Vec::new());
     }
     let Some(low) = lower_end(equation, limits)? else { return Ok(Vec::new()) };
