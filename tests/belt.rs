@@ -3,7 +3,6 @@
 mod program;
 
 use std::fs;
-use std::path::PathBuf;
 
 use program::{json, run};
 use serde_json::Value;
@@ -123,17 +122,10 @@ fn a_sweep_beyond_the_friction_law_says_so_at_those_points() {
     assert!(reason.contains("outside the friction law; it reaches from 0 to 0.06 m/s"), "{reason}");
 }
 
-/// A folder for one test.
-fn folder(name: &str) -> PathBuf {
-    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
-    fs::create_dir_all(&path).unwrap();
-    path
-}
-
 #[test]
 fn a_file_of_ones_own_may_name_a_table_beside_it() {
-    let folder = folder("belt-of-ones-own");
-    let file = folder.join("press.toml");
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("press.toml");
     let text = "title = \"My press\"\nm = \"5 kg\"\nc = \"2 kN/m\"\nF = \"50 N\"\nR = \"0.5 N\"\n\
                 v0 = \"0.1 m/s\"\n[friction.table]\nfile = \"mu.csv\"\n";
     fs::write(&file, text).unwrap();
@@ -141,7 +133,7 @@ fn a_file_of_ones_own_may_name_a_table_beside_it() {
     let ran = run(&["belt", name]);
     assert_eq!(ran.code, 2);
     assert!(ran.err.contains("press.toml:8:8: ") && ran.err.contains("mu.csv"), "{}", ran.err);
-    fs::write(folder.join("mu.csv"), "v,mu\n0,0.4\n0.05,0.36\n0.1,0.33\n0.2,0.29\n0.3,0.27\n")
+    fs::write(folder.path().join("mu.csv"), "v,mu\n0,0.4\n0.05,0.36\n0.1,0.33\n0.2,0.29\n0.3,0.27\n")
         .unwrap();
     let found = belt(&[name]);
     assert_eq!(found["machine"], "press");
