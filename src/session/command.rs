@@ -2,16 +2,17 @@
 //!
 //! A new command is one row here and one small function in `session::update`.
 
+use super::input::Input;
 use super::key::Key;
 use super::keymap::Context::{
-    self, Always, Diagram, Entry, Everywhere, Help, Layers, Lists, Offer, Parameters, Phase, Plots,
-    Scenes, Search, Views, Walk,
+    self, Always, Diagram, Entry, Everywhere, Help, Layers, Lists, Offer, Palette, Parameters,
+    Phase, Plots, Prompt, Scenes, Search, Views, Walk,
 };
 use super::message::Effect;
-use super::overlay::Entry as Line;
 use super::state::Session;
 use super::update::{
-    axes, copy, desk, entry, general, lists, mouse, parameters, plots, starts, walk,
+    axes, copy, desk, entry, general, lists, mouse, palette, parameters, plots, prompt, starts,
+    typing, walk,
 };
 use crate::scene::Layer;
 
@@ -167,6 +168,10 @@ pub const COMMANDS: &[Command] = &[
         "Arrange the plots: as suits them best, in columns, in rows", |s, _| desk::arrange(s)),
     row("help", &[(Everywhere, &["?", "<f1>"]), (Walk, &["?", "<f1>"])], "help",
         "List all keys", |s, _| lists::open_help(s)),
+    row("palette", &[(Everywhere, &["<space>", "<C-p>"]), (Walk, &["<space>", "<C-p>"])], "all",
+        "List all commands, to search one and run it", |s, _| palette::open(s)),
+    row("prompt", &[(Everywhere, &[":"]), (Walk, &[":"])], "command",
+        "Type a command by its name: set, scene, until and so on", |s, _| prompt::open(s)),
     row("scenes", &[(Everywhere, &["s"])], "scenes",
         "Pick a scene", |s, _| lists::open_scenes(s)),
     row("layers", &[(Everywhere, &["v"])], "layers",
@@ -233,7 +238,7 @@ pub const COMMANDS: &[Command] = &[
         "Use the next theme", |s, _| general::theme(s)),
     row("drop-cursor", &[(Everywhere, &["<esc>"])], "",
         "Drop the cursor; never leaves, never discards", |s, _| plots::drop_cursor(s)),
-    row("back", &[(Lists, &["<esc>", "q"]), (Entry, &["<esc>"]), (Offer, &["<esc>"])], "close",
+    row("back", &[(Lists, &["<esc>", "q"]), (Entry, &["<esc>"]), (Prompt, &["<esc>"]), (Offer, &["<esc>"])], "close",
         "Close what is open", |s, _| general::back(s)),
     row("close-again", &[(Help, &["?", "<f1>"]), (Scenes, &["s"]), (Layers, &["v"]), (Views, &["V"])], "",
         "Close with the key that opened", |s, _| general::back(s)),
@@ -260,10 +265,12 @@ pub const COMMANDS: &[Command] = &[
         "Switch the selected layer on or off", |s, _| lists::choose(s)),
     row("show-view", &[(Views, &["<enter>", "<space>"])], "show",
         "Show the selected view", |s, _| lists::choose(s)),
+    row("run-command", &[(Palette, &["<enter>", "<space>"])], "run",
+        "Run the selected command", palette::choose),
     row("close-help", &[(Help, &["<enter>"])], "",
         "Close the help", |s, _| general::back(s)),
     row("search-done", &[(Search, &["<enter>"])], "done",
-        "Keep the rows found; in a picker, take the selected one", |s, _| lists::search_done(s)),
+        "Keep the rows found; in a picker, take the selected one", lists::search_done),
     row("search-drop", &[(Search, &["<esc>"])], "all rows",
         "Show all rows again", |s, _| lists::search_drop(s)),
     row("search-delete", &[(Search, &["<backspace>"])], "",
@@ -273,20 +280,32 @@ pub const COMMANDS: &[Command] = &[
 
     row("accept", &[(Entry, &["<enter>"])], "accept",
         "Take the typed value", |s, _| entry::accept(s)),
-    row("clear", &[(Entry, &["<C-u>"])], "clear",
-        "Clear the line", |s, _| entry::with(s, Line::clear)),
-    row("delete-before", &[(Entry, &["<backspace>"])], "",
-        "Delete the character before the caret", |s, _| entry::with(s, Line::delete_before)),
-    row("delete-after", &[(Entry, &["<del>"])], "",
-        "Delete the character after the caret", |s, _| entry::with(s, Line::delete_after)),
-    row("caret-left", &[(Entry, &["<left>"])], "",
-        "Move the caret left", |s, _| entry::with(s, |e| e.move_caret(-1))),
-    row("caret-right", &[(Entry, &["<right>"])], "",
-        "Move the caret right", |s, _| entry::with(s, |e| e.move_caret(1))),
-    row("caret-home", &[(Entry, &["<home>", "<C-a>"])], "",
-        "Move the caret to the beginning", |s, _| entry::with(s, |e| e.move_caret(isize::MIN))),
-    row("caret-end", &[(Entry, &["<end>", "<C-e>"])], "",
-        "Move the caret to the end", |s, _| entry::with(s, |e| e.move_caret(isize::MAX))),
+    row("run-line", &[(Prompt, &["<enter>"])], "accept",
+        "Run the typed command", |s, _| prompt::accept(s)),
+    row("complete", &[(Prompt, &["<tab>"])], "complete",
+        "Complete the word; again, its next possibility", |s, _| prompt::complete(s, 1)),
+    row("complete-back", &[(Prompt, &["<S-tab>"])], "",
+        "Complete the word by the possibility before", |s, _| prompt::complete(s, -1)),
+    row("older-line", &[(Prompt, &["<up>", "<C-p>"])], "history",
+        "Get the line typed before this one", |s, _| prompt::recall(s, 1)),
+    row("newer-line", &[(Prompt, &["<down>", "<C-n>"])], "history",
+        "Get the line typed after this one", |s, _| prompt::recall(s, -1)),
+    row("clear", &[(Entry, &["<C-u>"]), (Prompt, &["<C-u>"])], "clear",
+        "Clear the line", |s, _| typing::with(s, Input::clear)),
+    row("delete-word", &[(Entry, &["<C-w>"]), (Prompt, &["<C-w>"])], "",
+        "Delete the word before the caret", |s, _| typing::with(s, Input::delete_word)),
+    row("delete-before", &[(Entry, &["<backspace>"]), (Prompt, &["<backspace>"])], "",
+        "Delete the character before the caret", |s, _| typing::with(s, Input::delete_before)),
+    row("delete-after", &[(Entry, &["<del>"]), (Prompt, &["<del>"])], "",
+        "Delete the character after the caret", |s, _| typing::with(s, Input::delete_after)),
+    row("caret-left", &[(Entry, &["<left>"]), (Prompt, &["<left>"])], "",
+        "Move the caret left", |s, _| typing::with(s, |i| i.move_caret(-1))),
+    row("caret-right", &[(Entry, &["<right>"]), (Prompt, &["<right>"])], "",
+        "Move the caret right", |s, _| typing::with(s, |i| i.move_caret(1))),
+    row("caret-home", &[(Entry, &["<home>", "<C-a>"]), (Prompt, &["<home>", "<C-a>"])], "",
+        "Move the caret to the beginning", |s, _| typing::with(s, |i| i.move_caret(isize::MIN))),
+    row("caret-end", &[(Entry, &["<end>", "<C-e>"]), (Prompt, &["<end>", "<C-e>"])], "",
+        "Move the caret to the end", |s, _| typing::with(s, |i| i.move_caret(isize::MAX))),
 
     row("replay-pasted", &[(Offer, &["<enter>", "y"])], "replay",
         "Press the pasted keys", |s, _| general::accept_offer(s)),

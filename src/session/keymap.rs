@@ -34,12 +34,16 @@ pub enum Context {
     Layers,
     /// The picker of views is open.
     Views,
+    /// The palette is open.
+    Palette,
     /// Some list is open.
     Lists,
     /// The search of a list is being typed.
     Search,
     /// A value is being typed.
     Entry,
+    /// A command is being typed.
+    Prompt,
     /// A pasted keystroke file waits for a yes.
     Offer,
     /// Whatever is open.
@@ -61,9 +65,11 @@ impl Context {
             Context::Scenes => "In the scene picker",
             Context::Layers => "In the layer list",
             Context::Views => "In the picker of views",
+            Context::Palette => "In the palette",
             Context::Lists => "In every list",
             Context::Search => "While searching",
             Context::Entry => "While typing a value",
+            Context::Prompt => "On the command line",
             Context::Offer => "After pasting keystrokes",
             Context::Always => "At any time",
         }
@@ -72,12 +78,46 @@ impl Context {
     /// Whether characters without a command are typed into a line.
     #[must_use]
     pub fn takes_text(self) -> bool {
-        matches!(self, Context::Search | Context::Entry)
+        matches!(self, Context::Search | Context::Entry | Context::Prompt)
+    }
+
+    /// Whether this holds only while something lies over the panes.
+    #[must_use]
+    pub fn is_overlay(self) -> bool {
+        match self {
+            Context::Help
+            | Context::Scenes
+            | Context::Layers
+            | Context::Views
+            | Context::Palette
+            | Context::Lists
+            | Context::Search
+            | Context::Entry
+            | Context::Prompt
+            | Context::Offer => true,
+            Context::Parameters
+            | Context::Phase
+            | Context::Diagram
+            | Context::Walk
+            | Context::Plots
+            | Context::Everywhere
+            | Context::Always => false,
+        }
+    }
+
+    /// The view that must have the focus for this to hold, if it is about one.
+    #[must_use]
+    pub fn view(self) -> Option<View> {
+        match self {
+            Context::Phase => Some(View::Phase),
+            Context::Diagram => Some(View::Diagram),
+            _ => None,
+        }
     }
 }
 
 /// Every set of contexts that can hold together, the most specific first.
-pub const CHAINS: [&[Context]; 11] = [
+pub const CHAINS: [&[Context]; 13] = [
     &[Context::Parameters, Context::Everywhere, Context::Always],
     &[Context::Phase, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Diagram, Context::Plots, Context::Everywhere, Context::Always],
@@ -86,8 +126,10 @@ pub const CHAINS: [&[Context]; 11] = [
     &[Context::Scenes, Context::Lists, Context::Always],
     &[Context::Layers, Context::Lists, Context::Always],
     &[Context::Views, Context::Lists, Context::Always],
+    &[Context::Palette, Context::Lists, Context::Always],
     &[Context::Search, Context::Always],
     &[Context::Entry, Context::Always],
+    &[Context::Prompt, Context::Always],
     &[Context::Offer, Context::Always],
 ];
 
@@ -107,7 +149,9 @@ impl Session {
             Some(Overlay::Scenes(_)) => Context::Scenes,
             Some(Overlay::Layers(_)) => Context::Layers,
             Some(Overlay::Views(_)) => Context::Views,
+            Some(Overlay::Palette(_)) => Context::Palette,
             Some(Overlay::Entry(_)) => Context::Entry,
+            Some(Overlay::Prompt(_)) => Context::Prompt,
             Some(Overlay::Offer(_)) => Context::Offer,
         };
         CHAINS.into_iter().find(|chain| chain[0] == first).unwrap_or(CHAINS[0])

@@ -3,8 +3,10 @@
 pub mod command;
 pub mod fit;
 pub mod history;
+pub mod input;
 pub mod key;
 pub mod keymap;
+pub mod line;
 pub mod message;
 pub mod overlay;
 pub mod plot;
@@ -19,10 +21,12 @@ pub mod walk;
 pub mod wants;
 
 pub use command::{COMMANDS, Command};
+pub use input::Input;
 pub use key::{Code, Key};
 pub use keymap::{Context, Hint, Keymap};
+pub use line::{LINES, LineCommand};
 pub use message::{Effect, Gesture, Msg, Place, Pointed};
-pub use overlay::{Entry, List, Overlay};
+pub use overlay::{Entry, List, Overlay, Prompt};
 pub use plot::{Framing, Pane, Plot};
 pub use state::{Notice, Price, ROWS, Row, Session, Size, Steps};
 pub use update::update;

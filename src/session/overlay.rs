@@ -1,5 +1,6 @@
 //! What lies over the panes and gets the keys while it is there.
 
+use super::input::Input;
 use super::replay::Script;
 use super::state::Row;
 
@@ -14,8 +15,12 @@ pub enum Overlay {
     Layers(List),
     /// The views, to pick what a plot shows.
     Views(List),
+    /// All commands, to search one and run it.
+    Palette(List),
     /// A line in which a value is typed.
     Entry(Entry),
+    /// The line in which commands are typed by name.
+    Prompt(Prompt),
     /// A pasted keystroke file, waiting for a yes.
     Offer(Script),
 }
@@ -28,8 +33,9 @@ impl Overlay {
             Overlay::Help(list)
             | Overlay::Scenes(list)
             | Overlay::Layers(list)
-            | Overlay::Views(list) => Some(list),
-            Overlay::Entry(_) | Overlay::Offer(_) => None,
+            | Overlay::Views(list)
+            | Overlay::Palette(list) => Some(list),
+            Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Offer(_) => None,
         }
     }
 
@@ -39,8 +45,9 @@ impl Overlay {
             Overlay::Help(list)
             | Overlay::Scenes(list)
             | Overlay::Layers(list)
-            | Overlay::Views(list) => Some(list),
-            Overlay::Entry(_) | Overlay::Offer(_) => None,
+            | Overlay::Views(list)
+            | Overlay::Palette(list) => Some(list),
+            Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Offer(_) => None,
         }
     }
 }
@@ -64,67 +71,60 @@ pub struct Entry {
     /// The row whose value it becomes.
     pub row: Row,
     /// What is typed so far.
-    pub text: String,
-    /// Characters of the text to the left of the caret.
-    pub caret: usize,
+    pub input: Input,
     /// Why the text was refused, until it changes.
     pub refused: Option<String>,
+}
+
+/// A command being typed, by its name.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Prompt {
+    /// What is typed so far.
+    pub input: Input,
+    /// Why the text was refused, until it changes.
+    pub refused: Option<String>,
+    /// What the last word can become, once that was asked for.
+    pub completion: Option<Completion>,
+    /// How many lines back in the history the text stands; 0 for a new one.
+    pub back: usize,
+    /// The new line, while an old one stands in its place.
+    pub draft: String,
+    /// Keys and pastes since the line was opened.
+    pub presses: u32,
+}
+
+/// What a word of a line can become.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Completion {
+    /// The text before the word.
+    pub stem: String,
+    /// The words, never none.
+    pub words: Vec<String>,
+    /// The one that stands in the line.
+    pub at: usize,
 }
 
 impl List {
     /// Whether a row with these words is among those searched for.
     #[must_use]
-    pub fn matches(&self, words: &[&str]) -> bool {
+    pub fn matches(&self, words: &[impl AsRef<str>]) -> bool {
         let wanted = self.search.to_lowercase();
-        words.iter().any(|word| word.to_lowercase().contains(&wanted))
+        words.iter().any(|word| word.as_ref().to_lowercase().contains(&wanted))
     }
 }
 
 impl Entry {
     /// A line with this text, the caret behind it.
     #[must_use]
-    pub fn new(row: Row, text: String) -> Self {
-        Entry { row, caret: text.chars().count(), text, refused: None }
+    pub fn new(row: Row, text: impl Into<String>) -> Self {
+        Entry { row, input: Input::new(text), refused: None }
     }
+}
 
-    /// Byte at which a character begins.
-    fn byte(&self, index: usize) -> usize {
-        self.text.char_indices().nth(index).map_or(self.text.len(), |(byte, _)| byte)
-    }
-
-    /// Types a character at the caret.
-    pub fn insert(&mut self, char: char) {
-        let at = self.byte(self.caret);
-        self.text.insert(at, char);
-        self.caret += 1;
-        self.refused = None;
-    }
-
-    /// Deletes the character before the caret.
-    pub fn delete_before(&mut self) {
-        if self.caret > 0 {
-            self.caret -= 1;
-            self.delete_after();
-        }
-    }
-
-    /// Deletes the character after the caret.
-    pub fn delete_after(&mut self) {
-        let at = self.byte(self.caret);
-        if at < self.text.len() {
-            self.text.remove(at);
-        }
-        self.refused = None;
-    }
-
-    /// Moves the caret, as far as there is text.
-    pub fn move_caret(&mut self, by: isize) {
-        let last = self.text.chars().count();
-        self.caret = self.caret.saturating_add_signed(by).min(last);
-    }
-
-    /// Deletes everything.
-    pub fn clear(&mut self) {
-        *self = Entry::new(self.row, String::new());
+impl Prompt {
+    /// A line with this text, the caret behind it.
+    #[must_use]
+    pub fn new(text: impl Into<String>) -> Self {
+        Prompt { input: Input::new(text), ..Prompt::default() }
     }
 }

@@ -199,6 +199,8 @@ pub struct Session {
     pub overlay: Option<Overlay>,
     /// Undo and redo.
     pub history: History,
+    /// The lines typed on the command line, the newest last.
+    pub lines: Vec<String>,
     /// The last good answer of each kind that all plots share, with its question.
     pub answers: BTreeMap<Slot, Arc<Answered>>,
     /// Questions of today that have no answer, and why.
@@ -236,6 +238,7 @@ impl Session {
             layers: scene.layers.clone(),
             overlay: None,
             history: History::default(),
+            lines: Vec::new(),
             answers: BTreeMap::new(),
             failures: Vec::new(),
             price: Price::default(),

@@ -9,7 +9,8 @@ use super::keys;
 use super::look::{Look, Role};
 use super::pane;
 use crate::session::keymap::Hint;
-use crate::session::{Entry, Notice, Overlay, Row, Session};
+use crate::session::line::described;
+use crate::session::{Entry, Input, Notice, Overlay, Prompt, Row, Session};
 
 /// Hints that are never left out, at the right end of the line.
 const ALWAYS: [&str; 4] = ["help", "accept", "replay", "quit"];
@@ -27,6 +28,7 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     right.push(Span::raw(" "));
     let left = match (&session.overlay, &session.notice) {
         (Some(Overlay::Entry(entry)), _) => self::entry(entry, look),
+        (Some(Overlay::Prompt(prompt)), _) => self::prompt(prompt, look),
         (Some(Overlay::Offer(script)), _) => {
             let text =
                 format!(" pasted {} steps of a keystroke file: press them?", script.steps.len());
@@ -72,9 +74,6 @@ fn spans(hint: &Hint, look: &Look) -> [Span<'static>; 2] {
 
 /// The value being typed, with its caret, and what is allowed or why it was refused.
 fn entry(entry: &Entry, look: &Look) -> Vec<Span<'static>> {
-    let text: Vec<char> = entry.text.chars().chain([' ']).collect();
-    let (before, rest) = text.split_at(entry.caret.min(text.len() - 1));
-    let style = look.style(Role::Text);
     let remark = match (&entry.refused, entry.row) {
         (Some(why), _) => Span::styled(format!("  {why}"), look.style(Role::Failure)),
         (None, Row::Parameter(symbol)) => {
@@ -84,11 +83,44 @@ fn entry(entry: &Entry, look: &Look) -> Vec<Span<'static>> {
         }
         (None, _) => Span::raw(""),
     };
-    vec![
-        Span::styled(format!(" {} = ", entry.row.name()), look.style(Role::Title)),
-        Span::styled(before.iter().collect::<String>(), style),
-        Span::styled(rest[0].to_string(), style.add_modifier(Modifier::REVERSED)),
-        Span::styled(rest[1..].iter().collect::<String>(), style),
-        remark,
+    let lead = Span::styled(format!(" {} = ", entry.row.name()), look.style(Role::Title));
+    std::iter::once(lead).chain(typed(&entry.input, look)).chain([remark]).collect()
+}
+
+/// The command being typed, with what it can become, what it takes, or why it was refused.
+fn prompt(prompt: &Prompt, look: &Look) -> Vec<Span<'static>> {
+    let mut line = vec![Span::styled(" :", look.style(Role::Title))];
+    line.extend(typed(&prompt.input, look));
+    let quiet = |text: &str| Span::styled(format!("  {text}"), look.style(Role::Quiet));
+    match (&prompt.refused, &prompt.completion) {
+        (Some(why), _) => {
+            line.push(Span::styled(format!("  {why}"), look.style(Role::Failure)));
+        }
+        (None, Some(completion)) => {
+            line.push(Span::raw(" "));
+            for (index, word) in completion.words.iter().enumerate() {
+                let style =
+                    look.style(if index == completion.at { Role::Key } else { Role::Quiet });
+                line.extend([Span::raw(" "), Span::styled(word.clone(), style)]);
+            }
+        }
+        (None, None) => line.push(match described(prompt.input.text()) {
+            Some((arguments, doc)) => quiet(&format!("{arguments} {doc}")),
+            None => quiet("the name of a command; Tab completes"),
+        }),
+    }
+    line
+}
+
+/// Text being typed, with its caret.
+fn typed(input: &Input, look: &Look) -> [Span<'static>; 3] {
+    let (before, after) = input.halves();
+    let mut rest = after.chars();
+    let under = rest.next().unwrap_or(' ');
+    let style = look.style(Role::Text);
+    [
+        Span::styled(before.to_owned(), style),
+        Span::styled(under.to_string(), style.add_modifier(Modifier::REVERSED)),
+        Span::styled(rest.collect::<String>(), style),
     ]
 }

@@ -10,7 +10,8 @@ use ratatui::widgets::{Clear, Paragraph, Widget, Wrap};
 use super::keys;
 use super::look::{Look, Role};
 use crate::scene::ViewSpec;
-use crate::session::{Key, List, Overlay, Session};
+use crate::session::update::palette::PaletteRow;
+use crate::session::{Context, Key, List, Overlay, Session};
 
 /// Widest list.
 const WIDTH: u16 = 90;
@@ -46,7 +47,8 @@ pub fn draw(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         Some(Overlay::Scenes(list)) => (list, scenes(session, list, look)),
         Some(Overlay::Layers(list)) => (list, layers(session, list, look)),
         Some(Overlay::Views(list)) => (list, views(session, list, look)),
-        Some(Overlay::Entry(_) | Overlay::Offer(_)) | None => return,
+        Some(Overlay::Palette(list)) => (list, palette(session, list, look)),
+        Some(Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Offer(_)) | None => return,
     };
     let below = if content.about.is_empty() { 0 } else { TEXT + 1 };
     let wanted = u16::try_from(content.rows.len()).unwrap_or(u16::MAX).saturating_add(2 + below);
@@ -149,7 +151,23 @@ fn frame(area: Rect, heading: &str, remark: &str, look: &Look, buffer: &mut Buff
 fn help(session: &Session, list: &List, look: &Look) -> Content {
     let mut rows = Vec::new();
     let mut group = None;
-    for command in session.help_rows(list) {
+    for row in session.help_rows(list) {
+        let command = match row {
+            PaletteRow::Command(command) => command,
+            PaletteRow::Line(line) => {
+                if group.replace(Context::Prompt) != Some(Context::Prompt) {
+                    rows.push(Entry::Heading(Context::Prompt.title()));
+                }
+                rows.push(Entry::Row(vec![
+                    Span::styled(
+                        format!(":{} {} ", line.name, line.arguments),
+                        look.style(Role::Key),
+                    ),
+                    Span::styled(line.doc, look.style(Role::Text)),
+                ]));
+                continue;
+            }
+        };
         let mut places = session.keymap.places(command).into_iter();
         let Some((context, first)) = places.next() else { continue };
         if group != Some(context) {
@@ -170,6 +188,27 @@ fn help(session: &Session, list: &List, look: &Look) -> Content {
         }));
     }
     Content { title: "keys", rows, about: Vec::new() }
+}
+
+/// Every command, with its first keys and what it does.
+fn palette(session: &Session, list: &List, look: &Look) -> Content {
+    let row = |row: PaletteRow| {
+        let (key, doc) = match row {
+            PaletteRow::Command(command) => {
+                let keys = session.keymap.places(command).into_iter().next();
+                let key = keys.and_then(|(_, keys)| keys.first().copied());
+                (key.map(|key| keys::name(key, look)).unwrap_or_default(), command.doc)
+            }
+            PaletteRow::Line(line) => (":".to_owned(), line.doc),
+        };
+        Entry::Row(vec![
+            Span::styled(format!("{:<18} ", row.name()), look.style(Role::Title)),
+            Span::styled(format!("{key:<8} "), look.style(Role::Key)),
+            Span::styled(doc, look.style(Role::Text)),
+        ])
+    };
+    let rows = session.palette_rows(list).into_iter().map(row).collect();
+    Content { title: "commands", rows, about: Vec::new() }
 }
 
 /// The scenes, and what there is to see and to do in the selected one.

@@ -18,7 +18,7 @@ fn a_value_is_typed_from_its_first_digit_or_edited_after_enter() {
     assert_eq!(desk.session.problem.parameters.d, -0.25);
     assert_eq!(desk.session.overlay, None);
     desk.press("<enter>");
-    assert_eq!(entry(&desk).text, "-0.25");
+    assert_eq!(entry(&desk).input.text(), "-0.25");
     desk.press("<left><backspace>3<enter>");
     assert_eq!(desk.session.problem.parameters.d, -0.35);
     desk.press("<enter><C-u>1e-3<home>-<enter>");
@@ -68,12 +68,12 @@ fn pasted_text_goes_into_the_open_line_or_opens_one() {
     desk.press("<enter><C-u> <paste \"\u{2212}0.2\\n\"> <enter>");
     assert_eq!(desk.session.problem.parameters.d, -0.2);
     desk.press("<paste \" -0.3 \">");
-    assert_eq!(entry(&desk).text, "-0.3");
+    assert_eq!(entry(&desk).input.text(), "-0.3");
     desk.press("<enter>");
     assert_eq!(desk.session.problem.parameters.d, -0.3);
     desk.press("?/<paste \"undo\"><enter>");
     let Some(Overlay::Help(list)) = &desk.session.overlay else { panic!("the help is open") };
-    let names: Vec<_> = desk.session.help_rows(list).iter().map(|row| row.name).collect();
+    let names: Vec<_> = desk.session.help_rows(list).iter().map(|row| row.name()).collect();
     assert_eq!(names, ["undo", "redo"]);
 }
 

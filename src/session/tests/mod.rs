@@ -4,6 +4,7 @@
 mod axes;
 mod desk;
 mod entries;
+mod names;
 mod plots;
 mod requests;
 mod strange;

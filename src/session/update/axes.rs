@@ -1,6 +1,7 @@
 //! Commands that change what stands on the diagram's axes.
 
 use super::inform;
+use crate::scene::ordinate::usual_values;
 use crate::scene::{ABSCISSAE, Axes, Exhibit, ORDINATES, Span, View, Window};
 use crate::session::message::Effect;
 use crate::session::state::Session;
@@ -13,22 +14,34 @@ pub fn next_abscissa(session: &mut Session) -> Vec<Effect> {
     let Some(plot) = session.focused() else { return Vec::new() };
     let Axes { abscissa, ordinate } = plot.axes;
     let at = ABSCISSAE.iter().position(|(symbol, _)| *symbol == abscissa).unwrap_or(0);
-    let (symbol, usual) = ABSCISSAE[(at + 1) % ABSCISSAE.len()];
+    let (symbol, _) = ABSCISSAE[(at + 1) % ABSCISSAE.len()];
+    set(session, Axes { abscissa: symbol, ordinate });
+    inform(session, format!("over {}: {}", symbol.spec().name, symbol.spec().meaning));
+    Vec::new()
+}
+
+/// Gives the diagram in focus these axes.
+pub fn set(session: &mut Session, axes: Axes) {
+    let Some(plot) = session.focused() else { return };
+    let symbol = axes.abscissa;
+    if symbol == plot.axes.abscissa {
+        let x = plot.window.x;
+        reframe(session, axes, x);
+        return;
+    }
+    let usual = usual_values(symbol);
     let today = ROOM * session.value(symbol);
     let around = Span::covering([usual.from(), usual.to(), today]).unwrap_or(usual);
     let of_scene = of_scene(session).filter(|exhibit| exhibit.axes.abscissa == symbol);
     let x = of_scene.map_or(around, |exhibit| exhibit.opening().x);
-    reframe(session, Axes { abscissa: symbol, ordinate }, x);
-    inform(session, format!("over {}: {}", symbol.spec().name, symbol.spec().meaning));
-    Vec::new()
+    reframe(session, axes, x);
 }
 
 /// Shows the next property of the cycles, around its end; the branch is the same.
 pub fn next_ordinate(session: &mut Session) -> Vec<Effect> {
     let Some(plot) = session.focused() else { return Vec::new() };
     let row = &ORDINATES[(plot.axes.ordinate as usize + 1) % ORDINATES.len()];
-    let (axes, x) = (Axes { ordinate: row.ordinate, ..plot.axes }, plot.window.x);
-    reframe(session, axes, x);
+    set(session, Axes { ordinate: row.ordinate, ..plot.axes });
     inform(session, format!("{}: {}", row.label, row.meaning));
     Vec::new()
 }

@@ -26,18 +26,10 @@ pub fn begin(session: &mut Session, key: Key) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Does something to the open line.
-pub fn with(session: &mut Session, act: impl FnOnce(&mut Entry)) -> Vec<Effect> {
-    if let Some(Overlay::Entry(entry)) = &mut session.overlay {
-        act(entry);
-    }
-    Vec::new()
-}
-
 /// Takes the typed value, or says in the line why not.
 pub fn accept(session: &mut Session) -> Vec<Effect> {
     let Some(Overlay::Entry(entry)) = &mut session.overlay else { return Vec::new() };
-    match read(session.problem, entry.row, &entry.text) {
+    match read(session.problem, entry.row, entry.input.text()) {
         Ok(problem) => {
             session.overlay = None;
             change(session, problem);
@@ -48,7 +40,7 @@ pub fn accept(session: &mut Session) -> Vec<Effect> {
 }
 
 /// The motion with the typed value in a row, or one line that says what is allowed.
-fn read(problem: Problem, row: Row, text: &str) -> Result<Problem, String> {
+pub(in crate::session) fn read(problem: Problem, row: Row, text: &str) -> Result<Problem, String> {
     let text = text.trim();
     if row == Row::Method {
         let method = Method::named(text).ok_or_else(|| {

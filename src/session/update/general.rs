@@ -16,7 +16,7 @@ use crate::session::step::shortest;
 use crate::study::harmonic_error::ladder;
 
 /// Harmonics at most: more cost more than the picture shows.
-const MOST_HARMONICS: usize = 63;
+pub(in crate::session) const MOST_HARMONICS: usize = 63;
 
 /// Gives the focus to another pane.
 pub fn focus(session: &mut Session, by: isize) -> Vec<Effect> {

@@ -4,8 +4,11 @@ use std::sync::Arc;
 
 use super::desk::show;
 use super::general::{open_scene, toggle};
+use super::palette::{self, PaletteRow};
 use crate::scene::{LAYERS, LayerSpec, Scene, VIEWS, ViewSpec, library};
 use crate::session::command::{COMMANDS, Command};
+use crate::session::key::Key;
+use crate::session::line::LINES;
 use crate::session::message::Effect;
 use crate::session::overlay::{List, Overlay};
 use crate::session::state::Session;
@@ -14,17 +17,20 @@ use crate::session::state::Session;
 pub const PAGE: isize = 10;
 
 impl Session {
-    /// The commands that the help lists, in the order of the table.
+    /// The commands that the help lists, in the order of the tables.
     #[must_use]
-    pub fn help_rows(&self, list: &List) -> Vec<&'static Command> {
-        let matches = |command: &&Command| {
-            let keys = self.keymap.places(command);
-            let keys: Vec<_> =
-                keys.iter().flat_map(|(_, keys)| keys).map(ToString::to_string).collect();
-            let words = [command.name, command.doc].into_iter();
-            list.matches(&words.chain(keys.iter().map(String::as_str)).collect::<Vec<_>>())
-        };
-        COMMANDS.iter().filter(matches).collect()
+    pub fn help_rows(&self, list: &List) -> Vec<PaletteRow> {
+        let keys = COMMANDS.iter().filter(|command| list.matches(&self.words(command)));
+        let lines = LINES.iter().filter(|line| list.matches(&[line.name, line.doc]));
+        keys.map(PaletteRow::Command).chain(lines.map(PaletteRow::Line)).collect()
+    }
+
+    /// The words by which a command is found: its name, what it does, its keys.
+    #[must_use]
+    pub fn words(&self, command: &Command) -> Vec<String> {
+        let places = self.keymap.places(command);
+        let keys = places.iter().flat_map(|(_, keys)| keys).map(ToString::to_string);
+        [command.name.to_owned(), command.doc.to_owned()].into_iter().chain(keys).collect()
     }
 
     /// The scenes that the picker lists.
@@ -52,7 +58,8 @@ impl Session {
             Some(Overlay::Scenes(list)) => self.scene_rows(list).len(),
             Some(Overlay::Layers(list)) => self.layer_rows(list).len(),
             Some(Overlay::Views(list)) => self.view_rows(list).len(),
-            Some(Overlay::Entry(_) | Overlay::Offer(_)) | None => 0,
+            Some(Overlay::Palette(list)) => self.palette_rows(list).len(),
+            Some(Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Offer(_)) | None => 0,
         }
     }
 
@@ -109,18 +116,22 @@ pub fn search(session: &mut Session) -> Vec<Effect> {
 }
 
 /// Ends the search and keeps the rows found; what is to be picked is picked at once.
-pub fn search_done(session: &mut Session) -> Vec<Effect> {
+pub fn search_done(session: &mut Session, key: Key) -> Vec<Effect> {
     if let Some(list) = session.list_mut() {
         list.searching = false;
     }
     match session.overlay {
         Some(Overlay::Scenes(_) | Overlay::Views(_)) => choose(session),
+        Some(Overlay::Palette(_)) => palette::choose(session, key),
         _ => Vec::new(),
     }
 }
 
-/// Ends the search and shows all rows.
+/// Ends the search and shows all rows; the palette is a search and nothing else, and closes.
 pub fn search_drop(session: &mut Session) -> Vec<Effect> {
+    if matches!(session.overlay, Some(Overlay::Palette(_))) {
+        session.overlay = None;
+    }
     if let Some(list) = session.list_mut() {
         *list = List::default();
     }
@@ -165,7 +176,7 @@ pub fn choose(session: &mut Session) -> Vec<Effect> {
                 return show(session, row.view);
             }
         }
-        Some(Overlay::Help(_) | Overlay::Entry(_) | Overlay::Offer(_)) | None => {}
+        _ => {}
     }
     Vec::new()
 }

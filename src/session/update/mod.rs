@@ -11,9 +11,12 @@ pub mod entry;
 pub mod general;
 pub mod lists;
 pub mod mouse;
+pub mod palette;
 pub mod parameters;
 pub mod plots;
+pub mod prompt;
 pub mod starts;
+pub mod typing;
 pub mod walk;
 
 use super::fit;
@@ -59,7 +62,7 @@ pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
 }
 
 /// Shows a line that is no complaint.
-pub(super) fn inform(session: &mut Session, text: impl Into<String>) {
+pub(in crate::session) fn inform(session: &mut Session, text: impl Into<String>) {
     session.notice = Some(Notice { error: false, text: text.into() });
 }
 
@@ -71,12 +74,15 @@ pub(super) fn refuse(session: &mut Session, text: impl Into<String>) {
 fn press(session: &mut Session, key: Key) -> Vec<Effect> {
     session.notice = None;
     session.price = Price { key: Some(key), recomputed: Vec::new() };
+    if let Some(Overlay::Prompt(prompt)) = &mut session.overlay {
+        prompt.presses += 1;
+    }
     let contexts = session.contexts();
     if let Some(command) = session.keymap.command(contexts, key) {
         return (command.run)(session, key);
     }
     if let Some(char) = key.typed().filter(|_| contexts[0].takes_text()) {
-        type_text(session, &char.to_string());
+        typing::insert(session, &char.to_string());
     } else {
         let help = session.keymap.key_of("help");
         let more = help.map(|help| format!("; {help} lists the keys")).unwrap_or_default();
@@ -85,26 +91,14 @@ fn press(session: &mut Session, key: Key) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Types into the line that is open, if one is; characters that cannot be shown are dropped.
-fn type_text(session: &mut Session, text: &str) {
-    let visible = text.chars().filter(|char| !char.is_control());
-    match &mut session.overlay {
-        Some(Overlay::Entry(entry)) => visible.for_each(|char| entry.insert(char)),
-        Some(overlay) => {
-            if let Some(list) = overlay.list_mut() {
-                list.search.extend(visible);
-                list.selected = 0;
-            }
-        }
-        None => {}
-    }
-}
-
 /// Pasted text goes into the open line; a number into a new one; keystrokes are offered for replay.
 fn paste(session: &mut Session, text: &str) -> Vec<Effect> {
     session.notice = None;
+    if let Some(Overlay::Prompt(prompt)) = &mut session.overlay {
+        prompt.presses += 1;
+    }
     if session.contexts()[0].takes_text() {
-        type_text(session, text);
+        typing::insert(session, text);
         return Vec::new();
     }
     let number = text.trim().parse::<f64>().is_ok();

@@ -119,7 +119,7 @@ pub(super) fn range(row: Row) -> (f64, f64) {
 }
 
 /// The value of a row that is a number.
-pub(super) fn number(problem: &Problem, row: Row) -> f64 {
+pub(in crate::session) fn number(problem: &Problem, row: Row) -> f64 {
     match row {
         Row::Parameter(symbol) => symbol.get(&problem.parameters, &problem.initial),
         Row::Until => problem.until,

@@ -1,0 +1,236 @@
+//! Lines that give values: parameters, scene, views, layers, looks; and what completes them.
+
+use std::sync::Arc;
+
+use crate::flow::METHODS;
+use crate::scene::{ABSCISSAE, Axes, LAYERS, ORDINATES, Span, VIEWS, View, Window, find, library};
+use crate::session::message::Effect;
+use crate::session::plot::{Framing, Pane};
+use crate::session::settings::{COLORS, GLYPHS, THEMES, named};
+use crate::session::state::{ROWS, Row, Session};
+use crate::session::step::shortest;
+use crate::session::update::{axes as axis, desk, entry, general, inform, parameters};
+
+/// What a line has done, or why not.
+type Done = Result<Vec<Effect>, String>;
+
+/// Names in a row, for a line that says what is allowed.
+fn listed<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+    names.into_iter().collect::<Vec<_>>().join(", ")
+}
+
+/// The row of the parameter pane with this name.
+fn row_named(name: &str) -> Result<Row, String> {
+    ROWS.into_iter()
+        .find(|row| row.name() == name)
+        .ok_or_else(|| format!("no value {name:?}; there are {}", listed(ROWS.map(Row::name))))
+}
+
+/// `NAME=VALUE ..`, as one change.
+pub fn set(session: &mut Session, rest: &str) -> Done {
+    let mut problem = session.problem;
+    for word in rest.split_whitespace() {
+        let (name, value) = word
+            .split_once('=')
+            .ok_or_else(|| format!("{word:?} is no NAME=VALUE, such as D=-0.3"))?;
+        problem = entry::read(problem, row_named(name)?, value)?;
+    }
+    parameters::change(session, problem);
+    Ok(Vec::new())
+}
+
+/// A single value.
+pub fn set_row(session: &mut Session, row: &str, value: &str) -> Done {
+    let problem = entry::read(session.problem, row_named(row)?, value)?;
+    parameters::change(session, problem);
+    Ok(Vec::new())
+}
+
+/// The names of values with their `=`; behind that, today's value.
+pub fn assignments(session: &Session, words: &[&str]) -> Vec<String> {
+    let word = words.last().copied().unwrap_or_default();
+    match word.split_once('=') {
+        Some(("method", _)) => methods().iter().map(|name| format!("method={name}")).collect(),
+        Some((name, "")) => {
+            let row = ROWS.into_iter().find(|row| row.name() == name);
+            row.map(|row| format!("{name}={}", today(session, row))).into_iter().collect()
+        }
+        Some(_) => Vec::new(),
+        None => ROWS.map(|row| format!("{}=", row.name())).to_vec(),
+    }
+}
+
+/// A value as one would type it.
+fn today(session: &Session, row: Row) -> String {
+    match row {
+        Row::Method => session.problem.method.to_string(),
+        row => shortest(parameters::number(&session.problem, row)),
+    }
+}
+
+/// The names of the methods.
+pub fn methods() -> Vec<String> {
+    METHODS.iter().map(|row| row.name.to_owned()).collect()
+}
+
+/// Opens a scene.
+pub fn scene(session: &mut Session, name: &str) -> Done {
+    let scene = find(name).map_err(|missing| missing.to_string())?;
+    general::open_scene(session, Arc::clone(&scene));
+    Ok(Vec::new())
+}
+
+/// The names of the scenes.
+pub fn scenes() -> Vec<String> {
+    library().iter().map(|scene| scene.name.clone()).collect()
+}
+
+/// Shows a view in the plot in use.
+pub fn view(session: &mut Session, name: &str) -> Done {
+    let row = VIEWS.iter().find(|row| row.name == name);
+    let row = row.ok_or_else(|| {
+        format!("no view {name:?}; there are {}", listed(VIEWS.iter().map(|row| row.name)))
+    })?;
+    Ok(desk::show(session, row.view))
+}
+
+/// The names of the views.
+pub fn views() -> Vec<String> {
+    VIEWS.iter().map(|row| row.name.to_owned()).collect()
+}
+
+/// Switches a layer on, off, or to what it is not.
+pub fn layer(session: &mut Session, rest: &str) -> Done {
+    let (name, state) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
+    let row = LAYERS.iter().find(|row| row.name == name);
+    let row = row.ok_or_else(|| {
+        format!("no layer {name:?}; there are {}", listed(LAYERS.iter().map(|row| row.name)))
+    })?;
+    let is_on = session.layers.contains(&row.layer);
+    let wanted = match state.trim() {
+        "" => !is_on,
+        "on" => true,
+        "off" => false,
+        other => return Err(format!("{name} can be on or off, not {other:?}")),
+    };
+    Ok(if wanted == is_on { Vec::new() } else { general::toggle(session, row.layer) })
+}
+
+/// The names of the layers, then on and off.
+pub fn layer_words(_: &Session, words: &[&str]) -> Vec<String> {
+    match words.len() {
+        0 | 1 => LAYERS.iter().map(|row| row.name.to_owned()).collect(),
+        2 => vec!["on".to_owned(), "off".to_owned()],
+        _ => Vec::new(),
+    }
+}
+
+/// Shows a part of the world in the plot in use.
+pub fn window(session: &mut Session, rest: &str) -> Done {
+    let form = || format!("{rest:?} is no X0:X1,Y0:Y1, such as -2:2,-1:1");
+    let (x, y) = rest.split_once(',').ok_or_else(form)?;
+    let span = |text: &str| {
+        let (from, to) = text.split_once(':').ok_or_else(form)?;
+        let number = |text: &str| text.trim().parse::<f64>().map_err(|_| form());
+        Span::new(number(from)?, number(to)?).map_err(|refused| refused.to_string())
+    };
+    let window = Window { x: span(x)?, y: span(y)? };
+    let index = session.plot;
+    let plot = &mut session.plots[index];
+    (plot.window, plot.framing) = (window, Framing::User);
+    Ok(Vec::new())
+}
+
+/// Today's window of the plot in use.
+pub fn windows(session: &Session, _: &[&str]) -> Vec<String> {
+    let Window { x, y } = session.plots[session.plot].window;
+    let [x0, x1, y0, y1] = [x.from(), x.to(), y.from(), y.to()].map(shortest);
+    vec![format!("{x0}:{x1},{y0}:{y1}")]
+}
+
+/// Gives the diagram in use its axes: a parameter, and perhaps a property of the cycles.
+pub fn axes(session: &mut Session, rest: &str) -> Done {
+    let (over, property) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
+    let allowed = || ABSCISSAE.iter().map(|(symbol, _)| symbol.spec().name);
+    let (abscissa, _) = ABSCISSAE
+        .iter()
+        .find(|(symbol, _)| symbol.spec().name == over)
+        .ok_or_else(|| format!("no diagram over {over:?}; there are {}", listed(allowed())))?;
+    let index = diagram(session).ok_or("no plot shows a diagram; view diagram makes one")?;
+    let ordinate = match property.trim() {
+        "" => session.plots[index].axes.ordinate,
+        name => {
+            let row = ORDINATES.iter().find(|row| row.name == name);
+            let names = || listed(ORDINATES.iter().map(|row| row.name));
+            row.ok_or_else(|| format!("no property {name:?}; there are {}", names()))?.ordinate
+        }
+    };
+    general::focus_on(session, Pane::Plot(index));
+    axis::set(session, Axes { abscissa: *abscissa, ordinate });
+    Ok(Vec::new())
+}
+
+/// The plot in use if it is a diagram, else the first one on show.
+fn diagram(session: &Session) -> Option<usize> {
+    let is_one = |index: &usize| session.plots[*index].view == View::Diagram;
+    Some(session.plot).filter(is_one).or_else(|| session.on_show().find(is_one))
+}
+
+/// The parameters of diagrams, then the properties.
+pub fn axis_words(_: &Session, words: &[&str]) -> Vec<String> {
+    match words.len() {
+        0 | 1 => ABSCISSAE.iter().map(|(symbol, _)| symbol.spec().name.to_owned()).collect(),
+        2 => ORDINATES.iter().map(|row| row.name.to_owned()).collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// Shows the cycles of N harmonics.
+pub fn harmonics(session: &mut Session, rest: &str) -> Done {
+    let most = general::MOST_HARMONICS;
+    let count = rest.parse().ok().filter(|count| (1..=most).contains(count));
+    session.harmonics =
+        count.ok_or_else(|| format!("{rest:?} is no number of harmonics from 1 to {most}"))?;
+    session.layers.insert(crate::scene::Layer::Balance);
+    inform(session, format!("harmonic balance with N = {rest}"));
+    Ok(Vec::new())
+}
+
+/// The value with a name in a table of looks.
+fn look<T: Copy>(table: &[(T, &'static str)], name: &str) -> Result<T, String> {
+    let names = || listed(table.iter().map(|row| row.1));
+    named(table, name).ok_or_else(|| format!("no {name:?}; there are {}", names()))
+}
+
+/// Uses a theme.
+pub fn theme(session: &mut Session, name: &str) -> Done {
+    session.look.theme = look(&THEMES, name)?;
+    Ok(Vec::new())
+}
+
+/// Draws with a set of characters.
+pub fn glyphs(session: &mut Session, name: &str) -> Done {
+    session.look.glyphs = look(&GLYPHS, name)?;
+    Ok(Vec::new())
+}
+
+/// Uses so many colours.
+pub fn color(session: &mut Session, name: &str) -> Done {
+    session.look.colors = look(&COLORS, name)?;
+    Ok(Vec::new())
+}
+
+/// The names of the themes.
+pub fn themes() -> Vec<String> {
+    THEMES.iter().map(|row| row.1.to_owned()).collect()
+}
+
+/// The names of the sets of characters.
+pub fn glyph_names() -> Vec<String> {
+    GLYPHS.iter().map(|row| row.1.to_owned()).collect()
+}
+
+/// The names of the depths of colour.
+pub fn colors() -> Vec<String> {
+    COLORS.iter().map(|row| row.1.to_owned()).collect()
+}

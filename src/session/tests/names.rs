@@ -1,0 +1,206 @@
+//! Commands by their names: the palette and the command line.
+
+use super::Desk;
+use crate::flow::Method;
+use crate::scene::{Layer, Ordinate, Slot, View};
+use crate::session::{COMMANDS, Effect, LINES, Msg, Overlay, Pane, Prompt, update};
+
+/// Runs a line.
+fn run(desk: &mut Desk, line: &str) -> Vec<Slot> {
+    desk.press(":");
+    desk.give(Msg::Paste(line.to_owned()));
+    desk.press("<enter>")
+}
+
+/// The open line.
+fn prompt(desk: &Desk) -> &Prompt {
+    match &desk.session.overlay {
+        Some(Overlay::Prompt(prompt)) => prompt,
+        other => panic!("no line is open but {other:?}"),
+    }
+}
+
+#[test]
+fn every_command_is_reached_from_the_palette_without_a_key_of_its_own() {
+    let desk = Desk::open("plain");
+    let list = crate::session::List::default();
+    let listed: Vec<_> = desk.session.palette_rows(&list).iter().map(|row| row.name()).collect();
+    for command in COMMANDS {
+        let inside = command.keys.iter().all(|(context, _)| context.is_overlay());
+        assert!(inside || listed.contains(&command.name), "{}", command.name);
+    }
+    for line in LINES {
+        assert!(listed.contains(&line.name), "{}", line.name);
+    }
+}
+
+#[test]
+fn the_palette_runs_a_command_in_the_pane_that_it_belongs_to() {
+    let mut desk = Desk::open("plain");
+    desk.press("<space>next-abs<enter>");
+    let focused = desk.session.focused().expect("the diagram has the focus");
+    assert_eq!((focused.view, focused.axes.abscissa.spec().name), (View::Diagram, "D2"));
+    desk.press("<space>step-size-larger<enter>");
+    assert_eq!(desk.session.focus, Pane::Parameters);
+    desk.press("<space>walk-on<enter>");
+    assert!(desk.notice().contains("Walking along the branch"), "{}", desk.notice());
+    desk.press("<space>nothing<enter>");
+    assert!(matches!(desk.session.overlay, Some(Overlay::Palette(_))));
+    desk.press("<esc>");
+    assert_eq!(desk.session.overlay, None);
+}
+
+#[test]
+fn what_takes_words_gets_a_line_from_the_palette() {
+    let mut desk = Desk::open("plain");
+    desk.press("<space>open<space>a<space>sc<enter>supercritical<enter>");
+    assert_eq!(desk.session.scene.name, "supercritical");
+}
+
+#[test]
+fn values_are_set_by_name_as_one_change() {
+    let mut desk = Desk::open("plain");
+    let asked = run(&mut desk, "set D=-0.3 D3=0.5 until=100 method=taylor");
+    assert!(asked.contains(&Slot::Trajectory));
+    let problem = desk.session.problem;
+    assert_eq!((problem.parameters.d, problem.parameters.d3), (-0.3, 0.5));
+    assert_eq!((problem.until, problem.method), (100.0, Method::Taylor));
+    run(&mut desk, "tol 1e-9");
+    assert_eq!(desk.session.problem.tolerance, 1e-9);
+    desk.press("u u");
+    assert_eq!(desk.session.problem, desk.session.scene.problem);
+}
+
+#[test]
+fn scenes_views_layers_windows_and_axes_have_names() {
+    let mut desk = Desk::open("plain");
+    run(&mut desk, "scene linear");
+    assert_eq!(desk.session.scene.name, "linear");
+    let on = desk.session.layers.contains(&Layer::Basin);
+    run(&mut desk, "layer basin");
+    assert_ne!(desk.session.layers.contains(&Layer::Basin), on);
+    run(&mut desk, "layer basin on");
+    run(&mut desk, "layer basin on");
+    assert!(desk.session.layers.contains(&Layer::Basin));
+    run(&mut desk, "window -3:3,-1:1.5");
+    let window = desk.session.plots[0].window;
+    assert_eq!((window.x.from(), window.y.to()), (-3.0, 1.5));
+    run(&mut desk, "axes r period");
+    let plot = desk.session.focused().expect("the diagram");
+    assert_eq!(plot.axes.ordinate, Ordinate::Period);
+    run(&mut desk, "view phase");
+    assert!(desk.session.plots.iter().all(|plot| plot.view == View::Phase));
+    run(&mut desk, "axes D");
+    assert_eq!(
+        prompt(&desk).refused.as_deref(),
+        Some("axes: no plot shows a diagram; view diagram makes one")
+    );
+}
+
+#[test]
+fn every_command_of_the_keys_is_a_line_too() {
+    let mut desk = Desk::open("plain");
+    let on = desk.session.layers.contains(&Layer::Field);
+    run(&mut desk, "toggle-field");
+    assert_ne!(desk.session.layers.contains(&Layer::Field), on);
+    run(&mut desk, "theme light");
+    run(&mut desk, "theme");
+    assert_eq!(desk.notice(), "theme: contrast");
+    run(&mut desk, "quit");
+    assert!(desk.session.quit && desk.effects.contains(&Effect::Quit));
+}
+
+#[test]
+fn what_is_wrong_stays_in_the_line_with_what_is_allowed() {
+    for (line, said) in [
+        ("sett D=1", "no command \"sett\"; did you mean set?"),
+        ("xyzzy", "no command \"xyzzy\"; Tab lists them"),
+        ("set", "set needs NAME=VALUE ..: Give values"),
+        ("set D", "set: \"D\" is no NAME=VALUE, such as D=-0.3"),
+        ("set E=1", "set: no value \"E\"; there are D, D2"),
+        ("set D=-0.3 r=-1", "set: r = -1 is out of range; r takes 0 to 1e300"),
+        ("set D=nan", "set: nan is no finite number; D takes -1000000 to 1000000"),
+        ("method euler", "method: no method \"euler\"; there are auto"),
+        ("tol 1", "tol: tolerance = 1 is out of range; tolerance takes 1e-15 to 0.01"),
+        ("scene linaer", "scene: no scene \"linaer\"; did you mean linear"),
+        ("layer basin maybe", "layer: basin can be on or off, not \"maybe\""),
+        ("window 1:1,0:1", "window: [1.0, 1.0] is no interval"),
+        ("window 1", "window: \"1\" is no X0:X1,Y0:Y1"),
+        ("harmonics 0", "harmonics: \"0\" is no number of harmonics from 1 to 63"),
+        ("glyphs runes", "glyphs: no \"runes\"; there are auto, braille"),
+        ("undo twice", "undo takes no words, but there are \"twice\""),
+        ("axes q0", "axes: no diagram over \"q0\"; there are D, D2, D3, r"),
+    ] {
+        let mut desk = Desk::open("plain");
+        let before = desk.session.problem;
+        run(&mut desk, line);
+        let refused = prompt(&desk).refused.clone().unwrap_or_default();
+        assert!(refused.starts_with(said) && !refused.contains('\n'), "{line}: {refused}");
+        assert_eq!(desk.session.problem, before, "{line}: all of it or nothing");
+        desk.press("<backspace>");
+        assert_eq!(prompt(&desk).refused, None);
+        desk.press("<esc>");
+        assert_eq!(desk.session.overlay, None);
+    }
+}
+
+#[test]
+fn tab_completes_and_goes_through_what_is_possible() {
+    let mut desk = Desk::open("plain");
+    desk.press(":sce<tab>");
+    assert_eq!(prompt(&desk).input.text(), "scene");
+    desk.press("<tab>");
+    assert_eq!(prompt(&desk).input.text(), "scenes");
+    desk.press("<S-tab><space>sup<tab>");
+    assert_eq!(prompt(&desk).input.text(), "scene supercritical ");
+    desk.press("<C-u>set<space>D3<tab>");
+    assert_eq!(prompt(&desk).input.text(), "set D3=");
+    desk.press("<tab>");
+    assert_eq!(prompt(&desk).input.text(), "set D3=0 ");
+    desk.press("<tab>");
+    assert_eq!(prompt(&desk).input.text(), "set D3=0 D=");
+    desk.press("<C-u>layer<space>zz<tab>");
+    assert_eq!(prompt(&desk).refused.as_deref(), Some("nothing to complete here"));
+    desk.press("<C-u>layer<space>fi<space>on<left*3><tab>");
+    assert_eq!(prompt(&desk).input.text(), "layer field on");
+}
+
+#[test]
+fn every_line_completes_its_words_to_ones_that_it_accepts() {
+    for line in LINES {
+        let mut desk = Desk::open("linear");
+        desk.press("<tab>");
+        let words = (line.complete)(&desk.session, &[""]);
+        for word in words.iter().filter(|word| !word.ends_with('=')) {
+            let mut session = desk.session.clone();
+            let done = (line.run)(&mut session, word);
+            assert!(done.is_ok(), "{} {word}: {done:?}", line.name);
+        }
+    }
+}
+
+#[test]
+fn old_lines_come_back_and_the_new_one_is_not_lost() {
+    let mut desk = Desk::open("plain");
+    run(&mut desk, "set D=-0.2");
+    run(&mut desk, "toggle-field");
+    run(&mut desk, "set D=-0.2");
+    assert_eq!(desk.session.lines, ["toggle-field", "set D=-0.2"]);
+    desk.press(":un<up>");
+    assert_eq!(prompt(&desk).input.text(), "set D=-0.2");
+    desk.press("<up*5>");
+    assert_eq!(prompt(&desk).input.text(), "toggle-field");
+    desk.press("<down*5>");
+    assert_eq!(prompt(&desk).input.text(), "un");
+    desk.press("<up><enter>");
+    assert_eq!(desk.session.overlay, None);
+}
+
+#[test]
+fn an_empty_line_does_nothing() {
+    let mut desk = Desk::open("plain");
+    let before = desk.session.clone();
+    desk.press(":<enter>:<space><enter>");
+    assert_eq!((desk.session.problem, &desk.session.lines), (before.problem, &before.lines));
+    let _ = update(&mut desk.session, Msg::Idle);
+}
