@@ -133,8 +133,11 @@ fn a_file_of_ones_own_may_name_a_table_beside_it() {
     let ran = run(&["belt", name]);
     assert_eq!(ran.code, 2);
     assert!(ran.err.contains("press.toml:8:8: ") && ran.err.contains("mu.csv"), "{}", ran.err);
-    fs::write(folder.path().join("mu.csv"), "v,mu\n0,0.4\n0.05,0.36\n0.1,0.33\n0.2,0.29\n0.3,0.27\n")
-        .unwrap();
+    fs::write(
+        folder.path().join("mu.csv"),
+        "v,mu\n0,0.4\n0.05,0.36\n0.1,0.33\n0.2,0.29\n0.3,0.27\n",
+    )
+    .unwrap();
     let found = belt(&[name]);
     assert_eq!(found["machine"], "press");
     assert_eq!(found["friction"]["law"], "table");
