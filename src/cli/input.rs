@@ -4,6 +4,7 @@ use std::str::FromStr;
 
 use crate::flow::{METHODS, Method};
 use crate::oscillator::{PARAMETERS, Symbol};
+use crate::scene::file::UNTIL_RANGE;
 use crate::study::basin::Window;
 
 /// A finite number; `1e400` is none, since no double is that large.
@@ -24,6 +25,11 @@ pub fn within(name: &str, (min, max): (f64, f64), text: &str) -> Result<f64, Str
     } else {
         Err(format!("{name} = {text} is outside its range; {allowed}"))
     }
+}
+
+/// An end time.
+pub fn until(text: &str) -> Result<f64, String> {
+    within("until", UNTIL_RANGE, text)
 }
 
 /// One of the six numbers that define a motion.

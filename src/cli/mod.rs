@@ -57,9 +57,9 @@ enum Command {
     Border(border::Border),
     Paper(paper::Paper),
     Belt(belt::Belt),
+    Trade(trade::Trade),
     Scenes(scenes::Scenes),
     Replay(replay::Replay),
-    Trade(trade::Trade),
 }
 
 impl Command {
@@ -72,9 +72,9 @@ impl Command {
             Command::Border(command) => command.run(),
             Command::Paper(command) => command.run(),
             Command::Belt(command) => command.run(),
+            Command::Trade(command) => command.run(),
             Command::Scenes(command) => command.run(),
             Command::Replay(command) => command.run(),
-            Command::Trade(command) => command.run(),
         }
     }
 }

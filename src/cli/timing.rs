@@ -20,6 +20,38 @@ pub fn timed<T>(times: u32, mut compute: impl FnMut() -> T) -> (T, f64) {
     (answer, median(&mut seconds))
 }
 
+/// Rows of computations that take less than this are repeated until they have taken as long, at most
+/// [`ROUNDS`] times, when no number of repetitions is asked for: the first run of a short one says little.
+const ENOUGH: f64 = 0.02;
+
+/// What takes less than this is computed once before each measurement, so that it does not pay for
+/// what the one before it left in the caches.
+const SHORT: f64 = 1e-3;
+
+/// See [`ENOUGH`].
+const ROUNDS: usize = 25;
+
+/// The median seconds of each of `count` computations, `times` each (by default as often as they need).
+///
+/// They take turns, so that whatever else the machine does disturbs all of them alike.
+pub fn in_turn<T>(times: u32, count: usize, mut compute: impl FnMut(usize) -> T) -> Vec<f64> {
+    let mut seconds = vec![Vec::new(); count];
+    let rounds = if times > 1 { times as usize } else { ROUNDS };
+    for _ in 0..rounds {
+        for (index, seconds) in seconds.iter_mut().enumerate() {
+            if times > 1 || seconds.iter().sum::<f64>() < ENOUGH {
+                if seconds.last().is_none_or(|last| *last < SHORT) {
+                    black_box(compute(index));
+                }
+                let started = Instant::now();
+                black_box(compute(index));
+                seconds.push(started.elapsed().as_secs_f64());
+            }
+        }
+    }
+    seconds.iter_mut().map(|seconds| median(seconds)).collect()
+}
+
 /// The median; of an even number of values, the mean of the middle two.
 fn median(values: &mut [f64]) -> f64 {
     values.sort_by(f64::total_cmp);

@@ -1,21 +1,21 @@
-//! `hopfscope trade`: what accuracy costs.
+//! `hopfscope trade`: error against cost, every method over its tolerances on one motion.
 
 use clap::Args;
 
 use super::failure::Failure;
+use super::input;
 use super::output::{Format, Output, print};
 use super::start::Start;
-use super::timing::timed;
-use super::trajectory::until;
-use crate::export::trade;
+use super::timing::in_turn;
+use crate::export::trade as export;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits};
-use crate::study::accuracy::{affordable, reference, row, settings};
+use crate::study::trade::Trade as Found;
 
-/// Computes one motion by every method and setting: error against cost, and the best choices
+/// Shows what accuracy costs: every method over its tolerances on the same motion
 #[derive(Debug, Args)]
 pub struct Trade {
-    /// Scene whose motion it is
+    /// Scene whose motion is followed
     #[arg(value_name = "SCENE", conflicts_with = "scene")]
     named: Option<String>,
     #[command(flatten)]
@@ -23,7 +23,7 @@ pub struct Trade {
     #[command(flatten)]
     output: Output,
     /// Time at which to stop, 0 .. 1e9 (default: that of the scene)
-    #[arg(long, value_name = "T", value_parser = until, allow_hyphen_values = true)]
+    #[arg(long, value_name = "T", value_parser = input::until, allow_hyphen_values = true)]
     until: Option<f64>,
 }
 
@@ -33,20 +33,19 @@ impl Trade {
         let name = self.named.as_deref().unwrap_or(&self.start.scene);
         let mut problem = self.start.scene_named(name)?.problem;
         problem.until = self.until.unwrap_or(problem.until);
-        let limits = affordable(&Limits::PATIENT);
-        let failed = |reason| Failure::Unanswered(format!("no motion to compare with: {reason}"));
-        let reference = reference(&problem, &limits).map_err(failed)?;
-        let measure = |setting| {
-            // The arrivals alone are timed; what an error needs besides is made apart.
-            let run = || trajectory(&setting, Detail::default(), &limits);
-            let (_, seconds) = timed(self.output.repeat, run);
-            row(&reference, &setting, &limits).map(|row| (row, seconds)).map_err(failed)
-        };
-        let rows = settings(&problem).into_iter().map(measure).collect::<Result<Vec<_>, _>>()?;
+        let trade = Found::of(&problem, &Limits::PATIENT).map_err(|reason| {
+            Failure::Unanswered(format!("there is nothing to measure errors against: {reason}"))
+        })?;
+        let seconds = in_turn(self.output.repeat, trade.rows.len(), |index| {
+            // A row that was given up is known to cost its whole budget and not tried again.
+            let row = &trade.rows[index];
+            row.error().map(|_| trajectory(&row.problem, Detail::default(), &Limits::PATIENT))
+        });
+        let timed = export::Timed { trade, seconds };
         print(&match self.output.format {
-            Format::Table => trade::table(&reference, &rows, &trade::plain()),
-            Format::Json => trade::json(&reference, &rows),
-            Format::Csv => trade::csv(&rows),
+            Format::Table => export::table(&timed),
+            Format::Json => export::json(&timed),
+            Format::Csv => export::csv(&timed),
         })
     }
 }

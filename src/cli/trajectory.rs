@@ -10,7 +10,6 @@ use super::timing::timed;
 use crate::export::{csv, json, table};
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits, Outcome, Problem};
-use crate::scene::file::UNTIL_RANGE;
 
 /// Follows one motion: its turning points, how it ends, where the energy went
 #[derive(Debug, Args)]
@@ -20,13 +19,8 @@ pub struct Trajectory {
     #[command(flatten)]
     output: Output,
     /// Time at which to stop, 0 .. 1e9 (default: that of the scene)
-    #[arg(long, value_name = "T", value_parser = until, allow_hyphen_values = true)]
+    #[arg(long, value_name = "T", value_parser = input::until, allow_hyphen_values = true)]
     until: Option<f64>,
-}
-
-/// Reads an end time.
-pub fn until(text: &str) -> Result<f64, String> {
-    input::within("until", UNTIL_RANGE, text)
 }
 
 impl Trajectory {

@@ -52,6 +52,26 @@ impl Twofold {
         if exact.high < 0.0 { Twofold { high: -exact.high, low: -exact.low } } else { exact }
     }
 
+    /// The sum of two of them, right to its last digits also where they cancel.
+    #[must_use]
+    pub fn plus(self, other: Self) -> Self {
+        let (high, low) = (Self::sum(self.high, other.high), Self::sum(self.low, other.low));
+        let middle = Self::sum(high.high, high.low + low.high);
+        Self::sum(middle.high, middle.low + low.low)
+    }
+
+    /// The difference of two of them.
+    #[must_use]
+    pub fn minus(self, other: Self) -> Self {
+        self.plus(other.opposite())
+    }
+
+    /// `-self`.
+    #[must_use]
+    pub fn opposite(self) -> Self {
+        Twofold { high: -self.high, low: -self.low }
+    }
+
     /// `1 - self`.
     #[must_use]
     pub fn one_minus(self) -> Self {

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::flow::Trajectory;
+use crate::flow::{Problem, Trajectory};
 use crate::oscillator::{PARAMETERS, Parameters, State, Symbol};
 use crate::study::basin::{Counts, Survey};
 use crate::study::fold::Border;
@@ -84,6 +84,13 @@ fn rounded(value: Option<f64>, digits: usize) -> String {
     value.map_or_else(|| "-".to_owned(), |value| significant(value, digits))
 }
 
+/// Which motion: parameters and start.
+pub(super) fn motion(problem: &Problem) -> String {
+    let State { q, v } = problem.initial;
+    let parameters = parameters(&problem.parameters, None);
+    format!("{parameters}; from q = {}, v = {}", exact(q, 24), exact(v, 24))
+}
+
 /// A motion: the question, every turning point, the outcome, where the energy went, the cost.
 #[must_use]
 pub fn trajectory(motion: &Trajectory, seconds: f64) -> String {
@@ -94,13 +101,7 @@ pub fn trajectory(motion: &Trajectory, seconds: f64) -> String {
         let number = (index + 1).to_string();
         turns.row(vec![number, significant(crossing.tau, places), significant(crossing.q, places)]);
     }
-    let mut out = format!(
-        "{}; from q = {}, v = {}\n",
-        parameters(&problem.parameters, None),
-        exact(problem.initial.q, 24),
-        exact(problem.initial.v, 24),
-    );
-    out += &format!("{}\n\n", sentence(motion));
+    let mut out = format!("{}\n{}\n\n", self::motion(problem), sentence(motion));
     if !turns.rows.is_empty() {
         out += &format!("{turns}\n");
     }

@@ -1,161 +1,357 @@
-//! What accuracy costs, in every form: rows of numbers, and for reading also a plot of error over cost.
+//! Error against cost, in every form of output: one row for each method and accuracy.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use serde::Serialize;
 
 use super::csv::{exact_or_empty, line};
-use super::json;
 use super::screen;
-use super::table::Table;
+use super::table::{Table, motion};
 use crate::flow::method::Dial;
-use crate::flow::{Method, Outcome};
+use crate::flow::{METHODS, Method, MethodSpec, Outcome};
+use crate::oscillator::{Parameters, State};
 use crate::scene::{Point, Span, Window};
 use crate::session::settings;
-use crate::study::accuracy::{Reference, Row, front};
+use crate::study::accuracy::{Ending, Reference, Source};
+use crate::study::trade::{self, Trade};
 use crate::view::Look;
 use crate::view::look::Role;
 use crate::view::number::{count, duration, significant};
 use crate::view::pane::Heading;
 use crate::view::plot::{Names, Plot};
 
-/// A row of the table, and the seconds that it took.
-pub type Timed = (Row, f64);
+/// A trade with the seconds that each row took, measured by someone with a clock.
+#[derive(Clone, Debug)]
+pub struct Timed {
+    /// The rows.
+    pub trade: Trade,
+    /// Seconds of each row.
+    pub seconds: Vec<f64>,
+}
 
-#[derive(Serialize)]
-struct Line {
+/// One method at one accuracy that has an error.
+#[derive(Clone, Debug, Serialize)]
+#[expect(clippy::struct_excessive_bools, reason = "fields of a document")]
+struct Row {
+    method: Method,
+    /// The method that `auto` chose.
+    used: Method,
+    tolerance: Option<f64>,
+    step: Option<f64>,
+    epsilon: Option<f64>,
+    error: f64,
+    evaluations: u64,
+    seconds: f64,
+    steps: u64,
+    rejected: u64,
+    outcome: Outcome,
+    turns: usize,
+    time_error: f64,
+    /// Whether the motion ends as the reference does.
+    agrees: bool,
+    /// Whether no other row has a smaller error in less time, and for fewer evaluations.
+    front: bool,
+    front_by_evaluations: bool,
+    /// Whether this is the method and the accuracy that were asked for.
+    own: bool,
+}
+
+/// One method at one accuracy that has no error, and why.
+#[derive(Clone, Debug, Serialize)]
+struct Unanswered {
     method: Method,
     tolerance: Option<f64>,
     step: Option<f64>,
     epsilon: Option<f64>,
-    error: Option<f64>,
+    reason: String,
     evaluations: u64,
-    steps: u64,
-    seconds: f64,
-    outcome: &'static str,
-    arrivals: usize,
-    best: bool,
-    reason: Option<String>,
 }
 
 #[derive(Serialize)]
-struct Document {
-    rows: Vec<Line>,
+struct Document<'a> {
+    parameters: &'a Parameters,
+    initial: &'a State,
+    until: f64,
     reference: String,
     reference_error: f64,
+    scale: f64,
+    turns: usize,
+    rows: Vec<Row>,
+    unanswered: Vec<Unanswered>,
 }
 
-/// The lines of the table; the best choices are those of error and seconds.
-fn lines(rows: &[Timed]) -> Vec<Line> {
-    let choices: Vec<_> = rows.iter().map(|(row, seconds)| (*seconds, row.error)).collect();
-    let best = front(&choices);
-    let line = |((row, seconds), best): (&Timed, bool)| {
-        let dial = row.problem.method.spec().dial;
-        let set = |kind, value| (dial == kind).then_some(value);
-        let (outcome, reason) = match row.outcome {
-            Outcome::Captured { .. } => ("captured", None),
-            Outcome::Moving { .. } => ("moving", None),
-            Outcome::Escaped { .. } => ("escaped", None),
-            Outcome::GaveUp { reason, .. } => ("gave-up", Some(reason.to_string())),
-        };
-        Line {
-            method: row.problem.method,
-            tolerance: set(Dial::Tolerance, row.problem.tolerance),
-            step: set(Dial::Step, row.problem.step),
-            epsilon: set(Dial::Epsilon, row.problem.epsilon),
-            error: row.error,
-            evaluations: row.cost.evaluations,
-            steps: row.cost.steps,
-            seconds: *seconds,
-            outcome,
-            arrivals: row.arrivals,
-            best,
-            reason,
-        }
-    };
-    rows.iter().zip(best).map(line).collect()
+/// What sets the accuracy of a row: tolerance, step and epsilon, those that do.
+fn dials(row: &trade::Row) -> [Option<f64>; 3] {
+    let problem = &row.problem;
+    let dial = problem.method.spec().dial;
+    let number = |wanted: Dial, value: f64| (dial == wanted).then_some(value);
+    let tolerance = matches!(dial, Dial::Tolerance | Dial::Epsilon).then_some(problem.tolerance);
+    [tolerance, number(Dial::Step, problem.step), number(Dial::Epsilon, problem.epsilon)]
 }
 
-/// What the errors are measured against, in words.
-#[must_use]
-pub fn reference_in_words(reference: &Reference) -> String {
-    let error = significant(reference.error, 2);
-    match reference.confirmed_by {
-        None => format!("closed form, rounding {error}"),
-        Some(method) => {
-            let own = reference.motion.method;
-            format!("{own} at its finest, {error} from {method} at its finest")
-        }
+impl Timed {
+    /// The rows that have an error.
+    fn rows(&self) -> Vec<Row> {
+        let trade = &self.trade;
+        let by_time = trade.front(&self.seconds);
+        let by_evaluations = trade.front(&trade.evaluations());
+        let judged =
+            trade.rows.iter().zip(&self.seconds).zip(by_time.into_iter().zip(by_evaluations));
+        judged
+            .filter_map(|((row, &seconds), (front, front_by_evaluations))| {
+                let deviation = row.deviation.ok()?;
+                let [tolerance, step, epsilon] = dials(row);
+                Some(Row {
+                    method: row.problem.method,
+                    used: row.method,
+                    tolerance,
+                    step,
+                    epsilon,
+                    error: deviation.error,
+                    evaluations: row.cost.evaluations,
+                    seconds,
+                    steps: row.cost.steps,
+                    rejected: row.cost.rejected,
+                    outcome: row.outcome,
+                    turns: row.turns,
+                    time_error: deviation.time,
+                    agrees: deviation.agrees,
+                    front,
+                    front_by_evaluations,
+                    own: trade.is_own(row),
+                })
+            })
+            .collect()
+    }
+
+    /// The rows that have none.
+    fn unanswered(&self) -> Vec<Unanswered> {
+        let rows = self.trade.rows.iter();
+        rows.filter_map(|row| {
+            let reason = row.deviation.err()?.to_string();
+            let [tolerance, step, epsilon] = dials(row);
+            let (method, evaluations) = (row.problem.method, row.cost.evaluations);
+            Some(Unanswered { method, tolerance, step, epsilon, reason, evaluations })
+        })
+        .collect()
     }
 }
 
-/// As a JSON document.
+/// Where the reference comes from and how good it is, in a sentence.
 #[must_use]
-pub fn json(reference: &Reference, rows: &[Timed]) -> String {
-    json::text(&Document {
-        rows: lines(rows),
-        reference: reference_in_words(reference),
-        reference_error: reference.error,
+pub fn reference(trade: &Trade) -> String {
+    let reference = &trade.reference;
+    let (first, second) = match reference.source {
+        Source::TwicePrecision => (
+            "Taylor series of order 32 in twice the working precision",
+            "another of order 28 with other steps",
+        ),
+        Source::ClosedForm => ("closed form", "taylor at 1e-13"),
+        Source::Implicit => ("stiff at 1e-14", "auto at 1e-13"),
+    };
+    let differs = if reference.error.is_finite() {
+        format!("differs by {}", significant(reference.error, 1))
+    } else {
+        "ends otherwise: no error is certain".to_owned()
+    };
+    let closed = trade.rows.iter().find(|row| row.problem.method == Method::Exact);
+    let closed = closed.filter(|_| reference.source == Source::TwicePrecision);
+    let closed = closed.and_then(trade::Row::error).map_or_else(String::new, |error| {
+        format!(", the closed form in doubles by {}", significant(error, 1))
+    });
+    format!("{first}; {second} {differs}{closed}")
+}
+
+/// The document.
+#[must_use]
+pub fn json(timed: &Timed) -> String {
+    let Trade { problem, reference: known, .. } = &timed.trade;
+    super::json::text(&Document {
+        parameters: &problem.parameters,
+        initial: &problem.initial,
+        until: problem.until,
+        reference: reference(&timed.trade),
+        reference_error: known.error,
+        scale: known.scale,
+        turns: known.turns.len(),
+        rows: timed.rows(),
+        unanswered: timed.unanswered(),
     })
 }
 
-/// As comma-separated values.
+/// One line for each method and accuracy, those without an error at the end.
 #[must_use]
-pub fn csv(rows: &[Timed]) -> String {
+pub fn csv(timed: &Timed) -> String {
     let mut out = String::from(
-        "method,tolerance,step,epsilon,error,evaluations,steps,seconds,outcome,arrivals,best,reason\n",
+        "method,used,tolerance,step,epsilon,error,evaluations,seconds,steps,rejected,turns,time_error,agrees,front,front_by_evaluations,own,reason\n",
     );
-    for row in lines(rows) {
-        out += &line(&[
+    for row in timed.rows() {
+        out.push_str(&line(&[
             row.method.to_string(),
+            row.used.to_string(),
             exact_or_empty(row.tolerance),
             exact_or_empty(row.step),
             exact_or_empty(row.epsilon),
-            exact_or_empty(row.error),
+            exact_or_empty(Some(row.error)),
             row.evaluations.to_string(),
+            exact_or_empty(Some(row.seconds)),
             row.steps.to_string(),
-            format!("{:?}", row.seconds),
-            row.outcome.to_owned(),
-            row.arrivals.to_string(),
-            row.best.to_string(),
-            row.reason.unwrap_or_default(),
-        ]);
+            row.rejected.to_string(),
+            row.turns.to_string(),
+            exact_or_empty(Some(row.time_error)),
+            row.agrees.to_string(),
+            row.front.to_string(),
+            row.front_by_evaluations.to_string(),
+            row.own.to_string(),
+            String::new(),
+        ]));
+    }
+    for row in timed.unanswered() {
+        let mut cells = vec![String::new(); 17];
+        cells[0] = row.method.to_string();
+        cells[2] = exact_or_empty(row.tolerance);
+        cells[3] = exact_or_empty(row.step);
+        cells[4] = exact_or_empty(row.epsilon);
+        cells[6] = row.evaluations.to_string();
+        cells[16] = row.reason;
+        out.push_str(&line(&cells));
     }
     out
 }
 
-/// Aligned columns, the plot below them, and what the errors are measured against.
+/// Every row to read: the best choices are marked with `*`, the method in use with `<`.
 #[must_use]
-pub fn table(reference: &Reference, rows: &[Timed], look: &Look) -> String {
-    let mut table =
-        Table::new(&["method", "setting", "error", "evaluations", "time", "end", "best"]);
-    let lines = lines(rows);
-    for row in &lines {
-        let setting = [
-            row.tolerance.map(|value| format!("tolerance {value:e}")),
-            row.step.map(|value| format!("step {value}")),
-            row.epsilon.map(|value| format!("epsilon {value:e}")),
-        ];
-        let end = match row.outcome {
-            "captured" => "rests".to_owned(),
-            "moving" => format!("moves, {} arrivals", row.arrivals),
-            other => row.reason.clone().unwrap_or_else(|| other.to_owned()),
+pub fn table(timed: &Timed) -> String {
+    let Trade { problem, reference: known, .. } = &timed.trade;
+    let mut out = format!(
+        "{}; until tau = {}\n{}\nreference: {}\n\n",
+        motion(problem),
+        significant(problem.until, 6),
+        ending(known),
+        reference(&timed.trade)
+    );
+    let mut rows = Table::new(&[
+        "method",
+        "set to",
+        "error",
+        "evaluations",
+        "time",
+        "half swings",
+        "ends",
+        "",
+    ]);
+    for row in timed.rows() {
+        let setting = row.step.or(row.epsilon).or(row.tolerance);
+        let mark = match (row.front, row.own) {
+            (true, true) => "* <",
+            (true, false) => "*",
+            (false, true) => "<",
+            (false, false) => "",
         };
-        table.row(vec![
+        rows.row(vec![
             row.method.to_string(),
-            setting.into_iter().flatten().next().unwrap_or_default(),
-            row.error.map_or("-".to_owned(), |error| format!("{error:.1e}")),
+            setting.map_or_else(|| "-".to_owned(), |setting| format!("{setting:e}")),
+            format!("{:.1e}", row.error),
             count(row.evaluations),
             duration(row.seconds),
-            end,
-            if row.best { "*" } else { "" }.to_owned(),
+            row.turns.to_string(),
+            end_of(&row.outcome),
+            mark.to_owned(),
         ]);
     }
-    let reference = reference_in_words(reference);
-    format!(
-        "{table}\n{}\nreference: {reference}\n*: nothing else is both faster and better\n",
-        plot(&lines, look)
-    )
+    out += &rows.to_string();
+    for row in timed.unanswered() {
+        let setting = row.step.or(row.epsilon).or(row.tolerance);
+        let setting = setting.map_or_else(String::new, |setting| format!(" at {setting:e}"));
+        out += &format!("{}{setting}: {}\n", row.method, row.reason);
+    }
+    out += "\n*: nothing else is better for less time; <: the method in use\n\n";
+    out += &format!("{}\n", plot(&timed.rows(), &plain()));
+    out + &digits(timed)
+}
+
+/// How the motion ends, in a sentence.
+fn ending(reference: &Reference) -> String {
+    let turns = reference.turns.len();
+    let swings = match turns {
+        1 => "1 half swing".to_owned(),
+        number => format!("{number} half swings"),
+    };
+    match reference.end {
+        Ending::Rest { q } => format!("rests at q = {} after {swings}", significant(q.high, 12)),
+        Ending::Moving { q, v } => {
+            let [q, v] = [q, v].map(|number| significant(number.high, 12));
+            format!("moving still after {swings}: q = {q}, v = {v}")
+        }
+        Ending::Escape { tau } => {
+            format!("escapes at tau = {} after {swings}", significant(tau.high, 12))
+        }
+    }
+}
+
+/// How a row ends, in a few words.
+fn end_of(outcome: &Outcome) -> String {
+    match outcome {
+        Outcome::Captured { q, .. } => format!("rests at {}", significant(*q, 6)),
+        Outcome::Moving { q, .. } => format!("moving at {}", significant(*q, 6)),
+        Outcome::Escaped { tau } => format!("escapes at {}", significant(*tau, 6)),
+        Outcome::GaveUp { .. } => "gave up".to_owned(),
+    }
+}
+
+/// Errors for which [`digits`] says what they cost.
+const LEVELS: [(f64, &str); 5] =
+    [(1e-2, "1e-2"), (1e-4, "1e-4"), (1e-6, "1e-6"), (1e-9, "1e-9"), (1e-12, "1e-12")];
+
+/// What digits cost: for each method its cheapest row with at most an error, and what one digit more adds.
+#[must_use]
+pub fn digits(timed: &Timed) -> String {
+    let mut titles = vec!["evaluations (time) for an error of"];
+    titles.extend(LEVELS.map(|level| level.1));
+    titles.extend(["a digit more", "ends right"]);
+    let mut table = Table::new(&titles);
+    let rows = timed.rows();
+    for spec in METHODS {
+        let own: Vec<&Row> = rows.iter().filter(|row| row.method == spec.method).collect();
+        if own.is_empty() {
+            continue;
+        }
+        table.row(line_of_digits(spec, &own));
+    }
+    table.to_string()
+}
+
+fn line_of_digits(spec: &MethodSpec, rows: &[&Row]) -> Vec<String> {
+    let cheapest = |error: f64| {
+        let good = rows.iter().filter(|row| row.error <= error);
+        good.min_by(|one, other| one.seconds.total_cmp(&other.seconds))
+    };
+    let mut cells = vec![spec.name.to_owned()];
+    for (error, _) in LEVELS {
+        cells.push(cheapest(error).map_or_else(
+            || "-".to_owned(),
+            |row| format!("{} ({})", count(row.evaluations), duration(row.seconds)),
+        ));
+    }
+    cells.push(growth(rows).map_or_else(|| "-".to_owned(), |factor| format!("x{factor:.2}")));
+    let right = rows.iter().filter(|row| row.agrees).count();
+    cells.push(match right {
+        0 => "never".to_owned(),
+        all if all == rows.len() => "always".to_owned(),
+        some => format!("{some} of {}", rows.len()),
+    });
+    cells
+}
+
+/// By what factor one digit more multiplies the evaluations, from the worst row to the best.
+fn growth(rows: &[&Row]) -> Option<f64> {
+    let known = || rows.iter().filter(|row| row.error > 0.0 && row.evaluations > 0);
+    let worst = known().max_by(|one, other| one.error.total_cmp(&other.error))?;
+    let best = known().min_by(|one, other| one.error.total_cmp(&other.error))?;
+    let digits = (worst.error / best.error).log10();
+    #[expect(clippy::cast_precision_loss, reason = "counts far below 2^53")]
+    let factor = best.evaluations as f64 / worst.evaluations as f64;
+    (digits >= 1.0).then(|| factor.powf(1.0 / digits))
 }
 
 /// The letter of a method in the plot.
@@ -175,14 +371,15 @@ fn letter(method: Method) -> char {
 }
 
 /// The logarithm of the error over that of the time, one letter a row; later methods lie below.
-fn plot(lines: &[Line], look: &Look) -> String {
+fn plot(rows: &[Row], look: &Look) -> String {
     const AREA: Rect = Rect { x: 0, y: 0, width: 78, height: 24 };
-    let points: Vec<(Point, char)> = lines
+    let points: Vec<(Point, char)> = rows
         .iter()
-        .filter_map(|line| {
-            let error = line.error.filter(|error| *error > 0.0)?;
-            let point = Point { x: (1e3 * line.seconds).log10(), y: error.log10() };
-            Some((point, letter(line.method)))
+        .filter(|row| row.error > 0.0 && row.seconds > 0.0)
+        .map(|row| {
+            let point = Point { x: (1e3 * row.seconds).log10(), y: row.error.log10() };
+            let letter = letter(row.method);
+            (point, if row.front { letter.to_ascii_uppercase() } else { letter })
         })
         .collect();
     let around = |place: fn(&Point) -> f64| {
@@ -199,7 +396,7 @@ fn plot(lines: &[Line], look: &Look) -> String {
         plot.mark(point, letter, Role::Text);
     }
     plot.finish(&mut buffer);
-    let methods: Vec<Method> = lines.iter().map(|line| line.method).collect();
+    let methods: Vec<Method> = rows.iter().map(|row| row.method).collect();
     let mut key: Vec<String> = Vec::new();
     for method in methods {
         let entry = format!("{} {method}", letter(method));

@@ -9,6 +9,7 @@ pub mod exact;
 pub mod explicit;
 pub mod limits;
 pub mod method;
+pub mod precise;
 pub mod regularized;
 pub mod run;
 pub mod scaling;

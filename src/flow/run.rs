@@ -124,7 +124,7 @@ impl Run {
         let mut point = Point { x: side.position(initial.q, r), v: initial.v.abs() };
         let mut last = initial;
         loop {
-            let remaining = until - self.time.plus(0.0);
+            let remaining = self.time.until(until);
             if remaining <= 0.0 {
                 return Outcome::Moving { tau: until, q: last.q, v: last.v };
             }

@@ -14,6 +14,12 @@ impl Time {
         self.sum + (self.lost + duration)
     }
 
+    /// How long it is until `end`.
+    #[must_use]
+    pub fn until(self, end: f64) -> f64 {
+        (end - self.sum) - self.lost
+    }
+
     /// Lets time pass.
     pub fn advance(&mut self, duration: f64) {
         // Neumaier's compensated summation.

@@ -18,6 +18,7 @@ pub mod half_map;
 pub mod harmonic_error;
 pub mod margin;
 pub mod search;
+pub mod trade;
 
 pub use branch::{Branch, BranchPoint, Special, SpecialKind};
 pub use cycle::{Cycle, Cycles, Edge, Picture};

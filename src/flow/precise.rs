@@ -1,0 +1,447 @@
+//! A motion to more digits than a double holds, to measure the error of all others.
+//!
+//! The Taylor series of [`super::taylor`] in numbers of twice the working precision: order and steps
+//! are chosen so that truncation stays below rounding, and a crossing is a root of the step's own
+//! polynomial. It shares no arithmetic with the methods that it judges. It takes a hundred times their time.
+
+use super::limits::{Limits, Reason};
+use super::scaling::{exponent, field_in_units, times_power};
+use super::step::{LONGEST, Point};
+use super::swing::time_to_blow_up;
+use super::trajectory::{Cost, Problem};
+use crate::closed_form::twofold::Twofold;
+use crate::oscillator::sticking::rests;
+use crate::oscillator::{HalfPlane, Side};
+
+/// An arrival at `v = 0`, or where a motion is at its end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mark {
+    /// Time.
+    pub tau: Twofold,
+    /// Displacement.
+    pub q: Twofold,
+    /// Velocity.
+    pub v: Twofold,
+}
+
+/// How a motion ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum End {
+    /// At rest: the last arrival, or the start.
+    Captured(Mark),
+    /// Moving still at the end time.
+    Moving(Mark),
+    /// The velocity becomes infinite at this time.
+    Escaped {
+        /// The time.
+        tau: Twofold,
+    },
+}
+
+/// A motion in twice the working precision.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Precise {
+    /// Every arrival at `v = 0` after the start, the last one included.
+    pub turns: Vec<Mark>,
+    /// How it ended.
+    pub end: End,
+    /// What it cost; an evaluation here takes a hundred times that of a double.
+    pub cost: Cost,
+}
+
+/// How finely a motion is computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grain {
+    /// Order of the series, at most 32.
+    pub order: usize,
+    /// Size of the last term, relative to the velocity.
+    pub tolerance: f64,
+}
+
+/// Truncation below rounding.
+pub const FINE: Grain = Grain { order: 32, tolerance: 1e-30 };
+
+/// Three digits fewer by other steps: how far both differ says how good the finer one is at least.
+pub const COARSE: Grain = Grain { order: 28, tolerance: 1e-27 };
+
+/// Most coefficients.
+const MOST: usize = 33;
+
+/// How many of the last coefficients decide on a step.
+const TAIL: usize = 4;
+
+/// Times of a blow-up are read off their asymptotic form only where it holds so much better than a
+/// double can tell.
+const SURE: f64 = 1e-8;
+
+const ZERO: Twofold = Twofold { high: 0.0, low: 0.0 };
+
+/// Computes the motion of a problem; its method and tolerance are not looked at.
+///
+/// Guarantee: the error is that of some hundred operations of relative error `1e-31`, amplified as the
+/// motion itself amplifies disturbances; measure it by two grains.
+///
+/// # Errors
+/// [`Reason`] where the budget does not suffice (stiff motions) or a number leaves the range of doubles.
+pub fn precise(problem: &Problem, grain: Grain, limits: &Limits) -> Result<Precise, Reason> {
+    let Problem { parameters, initial, until, .. } = *problem;
+    let r = parameters.r;
+    let (mut tau, mut turns, mut cost) = (ZERO, Vec::new(), Cost::default());
+    let mark = |tau, q, v| Mark { tau, q, v };
+    let start = mark(ZERO, Twofold::of(initial.q), Twofold::of(initial.v));
+    let Some(mut side) = Side::entered_from(initial, r).filter(|_| !rests(initial, r)) else {
+        return Ok(Precise { turns, end: End::Captured(start), cost });
+    };
+    let mut place = (Twofold::sum(side.sign() * initial.q, r), Twofold::of(initial.v.abs()));
+    loop {
+        let remaining = Twofold::of(until).minus(tau);
+        if remaining.high <= 0.0 {
+            let last = turns.last().copied().unwrap_or(start);
+            return Ok(Precise { turns, end: End::Moving(mark(tau, last.q, last.v)), cost });
+        }
+        let mut swing = Swing::new(HalfPlane::new(&parameters, side), place, grain);
+        let arrival = swing.run(tau.high, remaining, &mut cost, limits)?;
+        tau = tau.plus(swing.time);
+        let (x, v) = swing.place();
+        let sign = side.sign();
+        let q = x.minus(Twofold::of(r)).times(sign);
+        match arrival {
+            Arrival::Escape => return Ok(Precise { turns, end: End::Escaped { tau }, cost }),
+            Arrival::Time => {
+                let end = End::Moving(mark(Twofold::of(until), q, v.times(sign)));
+                return Ok(Precise { turns, end, cost });
+            }
+            Arrival::Standstill => turns.push(mark(tau, q, ZERO)),
+        }
+        let clearance = x.minus(Twofold::of(2.0 * r));
+        if clearance.high <= 0.0 {
+            return Ok(Precise { turns, end: End::Captured(mark(tau, q, ZERO)), cost });
+        }
+        side = side.opposite();
+        place = (clearance.opposite(), ZERO);
+    }
+}
+
+/// Where a half swing led.
+enum Arrival {
+    Standstill,
+    Time,
+    Escape,
+}
+
+/// One half swing, in units of a power of two in which it is near 1.
+struct Swing {
+    /// The field in the units of the problem, and in those of the swing.
+    plane: HalfPlane,
+    field: HalfPlane,
+    unit: i32,
+    grain: Grain,
+    x: [Twofold; MOST],
+    v: [Twofold; MOST],
+    time_exponent: i32,
+    time: Twofold,
+}
+
+impl Swing {
+    fn new(plane: HalfPlane, (x, v): (Twofold, Twofold), grain: Grain) -> Self {
+        let unit = exponent(x.high.abs().max(v.high.abs()));
+        let mut swing = Swing {
+            plane,
+            field: field_in_units(&plane, unit),
+            unit,
+            grain,
+            x: [ZERO; MOST],
+            v: [ZERO; MOST],
+            time_exponent: 0,
+            time: ZERO,
+        };
+        (swing.x[0], swing.v[0]) = (scaled(x, -unit), scaled(v, -unit));
+        swing
+    }
+
+    /// The point reached, in the units of the problem.
+    fn place(&self) -> (Twofold, Twofold) {
+        (scaled(self.x[0], self.unit), scaled(self.v[0], self.unit))
+    }
+
+    /// Steps until `v = 0`, the time is over or escape is certain.
+    fn run(
+        &mut self,
+        elapsed: f64,
+        longest: Twofold,
+        cost: &mut Cost,
+        limits: &Limits,
+    ) -> Result<Arrival, Reason> {
+        loop {
+            if (limits.interrupted)() {
+                return Err(Reason::Interrupted);
+            }
+            if cost.evaluations > limits.evaluations {
+                return Err(Reason::Budget { evaluations: cost.evaluations });
+            }
+            let allowed = self.settle(cost)?;
+            let remaining = longest.minus(self.time);
+            let last = remaining.high <= allowed;
+            let duration = if last { remaining } else { Twofold::of(allowed) };
+            let (crossed, duration) = self.advance(duration, cost)?;
+            self.time = self.time.plus(duration);
+            if crossed {
+                return Ok(Arrival::Standstill);
+            }
+            if last && longest.minus(self.time).high <= 0.0 {
+                return Ok(Arrival::Time);
+            }
+            let point = Point { x: self.x[0].high, v: self.v[0].high };
+            let now = elapsed + self.time.high;
+            if let Some(rest) = time_to_blow_up(&self.field, point, SURE * now)
+                && rest <= longest.minus(self.time).high
+            {
+                self.time = self.time.plus(Twofold::of(rest));
+                return Ok(Arrival::Escape);
+            }
+            if point.size() > FAR {
+                let (place, time) = (self.place(), self.time);
+                *self = Swing { time, ..Swing::new(self.plane, place, self.grain) };
+            }
+        }
+    }
+
+    /// Takes a step of at most this duration; says whether it ended at `v = 0`, and how long it was.
+    fn advance(&mut self, duration: Twofold, cost: &mut Cost) -> Result<(bool, Twofold), Reason> {
+        let from = self.x[0];
+        let mut t = scaled(duration, -self.time_exponent);
+        loop {
+            if t.high == 0.0 {
+                return Err(Reason::StepTooSmall { step: 0.0 });
+            }
+            let v = self.value(&self.v, t);
+            let crossed = v.high <= 0.0;
+            if crossed {
+                t = self.root(t);
+            }
+            let x = self.value(&self.x, t);
+            // A standstill lies at x >= 0, and above v = 0 the position grows; else the step passed two.
+            if (crossed && x.high >= 0.0) || (!crossed && x.minus(from).high >= 0.0) {
+                (self.x[0], self.v[0]) = (x, if crossed { ZERO } else { v });
+                cost.steps += 1;
+                return Ok((crossed, scaled(t, self.time_exponent)));
+            }
+            cost.rejected += 1;
+            t = t.times(0.5);
+        }
+    }
+
+    /// Expands at the point reached; gives the longest step that the tolerance allows.
+    fn settle(&mut self, cost: &mut Cost) -> Result<f64, Reason> {
+        loop {
+            self.expand();
+            cost.evaluations += self.grain.order as u64;
+            if let Some(allowed) = self.allowed() {
+                let duration = times_power(allowed, self.time_exponent).min(LONGEST);
+                // Near the step as unit of time, coefficients neither over- nor underflow.
+                self.time_exponent = if (exponent(duration) - self.time_exponent).abs() > 8 {
+                    let (from, to) = (self.time_exponent, exponent(duration));
+                    self.change_unit(to - from);
+                    to
+                } else {
+                    self.time_exponent
+                };
+                return Ok(duration);
+            }
+            if self.time_exponent < -1000 {
+                return Err(Reason::OutOfRange);
+            }
+            self.time_exponent -= 20;
+        }
+    }
+
+    /// Coefficients in powers of a unit of time that is `2^shift` times the one before.
+    fn change_unit(&mut self, shift: i32) {
+        let mut power = 0;
+        for k in 0..=self.grain.order {
+            self.x[k] = scaled(self.x[k], power);
+            self.v[k] = scaled(self.v[k], power);
+            power += shift;
+        }
+    }
+
+    /// Fills the coefficients by the recurrence of the field.
+    fn expand(&mut self) {
+        let HalfPlane { d, d2, d3 } = self.field;
+        let linear = self.field.is_linear();
+        let mut force = [ZERO; MOST];
+        for k in 0..self.grain.order {
+            let mut damping = ZERO;
+            if !linear {
+                let square = product(&self.v, &self.v, k);
+                force[k] = self.v[k].times(d2).plus(square.times(d3));
+                damping = product(&force, &self.v, k);
+            }
+            let acceleration = self.x[k].plus(self.v[k].times(2.0 * d)).plus(damping).opposite();
+            #[expect(clippy::cast_precision_loss, reason = "k is below 32")]
+            let divisor = Twofold::of((k + 1) as f64);
+            self.x[k + 1] = scaled(self.v[k], self.time_exponent).over(divisor);
+            self.v[k + 1] = scaled(acceleration, self.time_exponent).over(divisor);
+        }
+    }
+
+    /// The longest step in units of the coefficients, or `None` where they overflow.
+    fn allowed(&self) -> Option<f64> {
+        let order = self.grain.order;
+        let mut steps = [f64::INFINITY; 2];
+        let size = self.v[0].high.abs();
+        let slope = self.v[1].high.abs();
+        for k in order + 1 - TAIL..=order {
+            let coefficient = self.v[k].high.abs();
+            if !coefficient.is_finite() {
+                return None;
+            }
+            #[expect(clippy::cast_precision_loss, reason = "k is at most 32")]
+            let power = k as f64;
+            let part = |scale: f64| (scale / coefficient * self.grain.tolerance).ln();
+            steps[0] = steps[0].min(part(size) / power);
+            steps[1] = steps[1].min(part(slope) / (power - 1.0));
+        }
+        Some(steps[0].max(steps[1]).min(600.0).exp()).filter(|step| *step > 0.0)
+    }
+
+    /// The sum of a series.
+    fn value(&self, coefficients: &[Twofold; MOST], t: Twofold) -> Twofold {
+        let terms = coefficients[..=self.grain.order].iter().rev();
+        terms.fold(ZERO, |sum, coefficient| sum.by(t).plus(*coefficient))
+    }
+
+    /// First root of v in `(0, end]`: Newton's method in a bracket.
+    fn root(&self, end: Twofold) -> Twofold {
+        /// A Newton step of this relative length leaves an error below rounding: it is squared.
+        const SETTLED: f64 = 1e-17;
+        let (mut low, mut high, mut t) = (ZERO, end, end);
+        for _ in 0..300 {
+            let (mut value, mut slope) = (ZERO, ZERO);
+            for coefficient in self.v[..=self.grain.order].iter().rev() {
+                slope = slope.by(t).plus(value);
+                value = value.by(t).plus(*coefficient);
+            }
+            let change = value.over(slope);
+            let newton = t.minus(change);
+            if change.high.abs() <= SETTLED * t.high {
+                return newton;
+            }
+            if value.high > 0.0 {
+                low = t;
+            } else {
+                high = t;
+            }
+            let inside = newton.minus(low).high > 0.0 && high.minus(newton).high > 0.0;
+            t = if inside { newton } else { low.plus(high).times(0.5) };
+        }
+        t
+    }
+}
+
+/// Size at which the unit is chosen anew.
+const FAR: f64 = 1e60;
+
+/// A number times a power of two.
+fn scaled(number: Twofold, power: i32) -> Twofold {
+    Twofold { high: times_power(number.high, power), low: times_power(number.low, power) }
+}
+
+/// Coefficient k of the product of two series.
+fn product(a: &[Twofold; MOST], b: &[Twofold; MOST], k: usize) -> Twofold {
+    (0..=k).fold(ZERO, |sum, i| sum.plus(a[i].by(b[k - i])))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Method;
+    use super::*;
+    use crate::closed_form::twofold::PI;
+    use crate::oscillator::{Parameters, State};
+
+    fn problem([d, d2, d3, r]: [f64; 4], q: f64, until: f64) -> Problem {
+        Problem {
+            parameters: Parameters { d, d2, d3, r },
+            initial: State { q, v: 0.0 },
+            until,
+            method: Method::Auto,
+            ..Problem::default()
+        }
+    }
+
+    fn apart(one: Twofold, other: Twofold) -> f64 {
+        one.minus(other).value().abs()
+    }
+
+    #[test]
+    fn without_damping_each_half_swing_takes_pi_and_two_r_to_thirty_digits() {
+        let found = precise(&problem([0.0, 0.0, 0.0, 0.125], 3.0, 60.0), FINE, &Limits::PATIENT);
+        let found = found.unwrap();
+        assert_eq!(found.turns.len(), 12);
+        for (index, turn) in (0_i32..).zip(&found.turns) {
+            let place = (2.75 - 0.25 * f64::from(index)) * if index % 2 == 0 { -1.0 } else { 1.0 };
+            assert!(apart(turn.q, Twofold::of(place)) < 1e-28, "{turn:?}");
+            assert!(apart(turn.tau, PI.times(f64::from(index + 1))) < 1e-28, "{turn:?}");
+        }
+        assert_eq!(found.end, End::Captured(found.turns[11]));
+    }
+
+    /// D = 2 sqrt(2)/3 makes `omega = 1/3`, but is no double; so the ratio of two successive half swings
+    /// about the shifted centre stands for it: it is the same each time.
+    #[test]
+    fn linear_half_swings_shrink_by_one_and_the_same_factor() {
+        let r = 0.25;
+        let found = precise(&problem([-0.3, 0.0, 0.0, r], 1.0, 40.0), FINE, &Limits::PATIENT);
+        let found = found.unwrap();
+        let ratio = |before: Twofold, after: Twofold| {
+            // From q0 > r to q1: q1 - r = -(q0 - r) e^x in magnitudes, mirrored each time.
+            let size = |q: Twofold| if q.high < 0.0 { q.opposite() } else { q };
+            let r = Twofold::of(r);
+            size(after).plus(r).over(size(before).minus(r))
+        };
+        let ratios: Vec<_> =
+            found.turns.windows(2).map(|pair| ratio(pair[0].q, pair[1].q)).collect();
+        assert!(ratios.len() > 8);
+        for other in &ratios[1..] {
+            assert!(apart(*other, ratios[0]) < 1e-27, "{other:?} {:?}", ratios[0]);
+        }
+    }
+
+    #[test]
+    fn two_grains_agree_to_many_more_digits_than_a_double_has() {
+        for (parameters, q, until) in [
+            ([-0.1, 0.0, 0.05, 0.1], 3.0, 200.0),
+            ([-0.2, 0.2, 0.5, 0.1], 0.5, 100.0),
+            ([0.3, -0.4, 2.0, 0.01], 50.0, 30.0),
+            ([-0.1, 0.0, 0.05, 1e-200], 3e-200, 20.0),
+        ] {
+            let question = problem(parameters, q, until);
+            let [fine, coarse] =
+                [FINE, COARSE].map(|grain| precise(&question, grain, &Limits::PATIENT).unwrap());
+            assert_eq!(fine.turns.len(), coarse.turns.len());
+            assert!(!fine.turns.is_empty() && fine.cost.steps < coarse.cost.steps);
+            for (one, other) in fine.turns.iter().zip(&coarse.turns) {
+                assert!(apart(one.q, other.q) < 1e-24 * q.max(1e-200), "{one:?} {other:?}");
+            }
+        }
+    }
+
+    /// `v' = v^3` from v0 blows up after `1/(2 v0^2)` where all else is small.
+    #[test]
+    fn an_escape_has_its_time() {
+        let start = State { q: 0.0, v: 1e9 };
+        let question = Problem { initial: start, ..problem([0.0, 0.0, -1.0, 0.0], 0.0, 1.0) };
+        let found = precise(&question, FINE, &Limits::PATIENT).unwrap();
+        let End::Escaped { tau } = found.end else { panic!("{found:?}") };
+        assert!((tau.value() / 5e-19 - 1.0).abs() < 1e-15, "{tau:?}");
+    }
+
+    #[test]
+    fn a_rest_stays_and_a_budget_is_kept() {
+        let rest = precise(&problem([-0.1, 0.0, 0.0, 0.5], 0.5, 9.0), FINE, &Limits::PATIENT);
+        assert!(matches!(rest.unwrap().end, End::Captured(mark) if mark.q == Twofold::of(0.5)));
+        let limits = Limits { evaluations: 1000, ..Limits::PATIENT };
+        let stiff = precise(&problem([0.0, 0.0, 1.0, 0.1], 1e6, 1e4), FINE, &limits);
+        assert!(matches!(stiff, Err(Reason::Budget { .. })));
+    }
+}
