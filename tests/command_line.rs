@@ -485,3 +485,36 @@ fn trade_says_what_each_digit_costs_and_who_rests_in_the_wrong_place() {
         table.out
     );
 }
+
+#[test]
+fn keys_lists_what_the_settings_file_makes_of_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("config.toml");
+    let file = path.to_str().unwrap();
+    std::fs::write(&path, "[keys.parameters]\nstep-up = [\"<A-l>\"]\n").unwrap();
+    let listed = run(&["keys", "--config", file]);
+    assert_eq!(listed.code, 0);
+    assert!(listed.err.contains(file), "{}", listed.err);
+    let row = listed
+        .out
+        .lines()
+        .find(|line| line.starts_with("parameters") && line.contains(" step-up "));
+    assert!(row.unwrap().contains("<A-l>"), "{row:?}");
+    let usual = run(&["keys", "--no-config", "--format", "csv"]);
+    assert!(usual.out.contains("parameters,step-up,<right> l,"), "{}", usual.out);
+    assert_eq!(usual.err, "");
+    // A mistake is one line with its place, wherever settings are read.
+    std::fs::write(&path, "[keys.parameters]\nstep-up = [\"k\"]\n").unwrap();
+    for arguments in [vec!["keys", "--config", file], vec!["--config", file]] {
+        let refused = run(&arguments);
+        assert_eq!(refused.code, 2);
+        assert!(
+            refused.err.contains("config.toml:2:12: k already means select-previous"),
+            "{}",
+            refused.err
+        );
+        assert_eq!(refused.err.lines().count(), 1);
+    }
+    let missing = run(&["keys", "--config", "/no/such/file"]);
+    assert_eq!((missing.code, missing.err.lines().count()), (2, 1));
+}

@@ -2,15 +2,18 @@
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use clap::Args;
 
+use super::config::Settings;
 use super::failure::Failure;
 use super::look::Looks;
 use super::replay::script;
 use super::start::Start;
 use crate::runtime::effects::Files;
 use crate::runtime::{Ended, Options, explore};
+use crate::scene::library::PLAIN;
 use crate::session::{Session, Size};
 use crate::terminal::Environment;
 
@@ -24,6 +27,8 @@ pub struct Explore {
     start: Start,
     #[command(flatten)]
     looks: Looks,
+    #[command(flatten)]
+    settings: Settings,
     /// Plays a keystroke file at the start, then goes on
     #[arg(long, value_name = "FILE")]
     play: Option<PathBuf>,
@@ -35,7 +40,9 @@ pub struct Explore {
 impl Explore {
     /// Runs the explorer until it is left.
     pub fn run(&self) -> Result<ExitCode, Failure> {
-        let name = self.named.as_deref().unwrap_or(&self.start.scene);
+        let config = self.settings.read()?;
+        let named = self.named.as_ref().or(self.start.scene.as_ref()).or(config.scene.as_ref());
+        let name = named.map_or(PLAIN, String::as_str);
         let scene = self.start.scene_named(name).map_err(|missing| or_command(name, missing))?;
         let replay = self.play.as_deref().map(script).transpose()?;
         let environment = Environment::of_process();
@@ -46,7 +53,8 @@ impl Explore {
         }
         // The terminal says its size before the first picture.
         let mut session = Session::new(scene, Size { width: 80, height: 24 });
-        session.look = self.looks.wishes();
+        session.look = self.looks.wishes(&config);
+        session.keymap = Arc::new(config.keymap);
         let files = Files { copies: copies() };
         let mouse = session.look.mouse;
         let options = Options { replay, record: self.record.is_some(), mouse, files };

@@ -2,22 +2,23 @@
 
 use clap::Args;
 
+use crate::session::config::Config;
 use crate::session::settings::{COLORS, Colors, GLYPHS, Glyphs, Look, THEMES, Theme, named};
 
 /// How the screen looks.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Looks {
-    #[arg(long, value_name = "KIND", default_value = "auto", hide_default_value = true,
+    #[arg(long, value_name = "KIND",
           value_parser = |name: &str| one_of(&GLYPHS, name), help = help("What dots are made of", &GLYPHS))]
-    glyphs: Glyphs,
+    glyphs: Option<Glyphs>,
 
-    #[arg(long, value_name = "DEPTH", default_value = "auto", hide_default_value = true,
+    #[arg(long, value_name = "DEPTH",
           value_parser = |name: &str| one_of(&COLORS, name), help = help("How many colours", &COLORS))]
-    color: Colors,
+    color: Option<Colors>,
 
-    #[arg(long, value_name = "NAME", default_value = "dark", hide_default_value = true,
+    #[arg(long, value_name = "NAME",
           value_parser = |name: &str| one_of(&THEMES, name), help = help("Which colours", &THEMES))]
-    theme: Theme,
+    theme: Option<Theme>,
 
     /// Lets the mouse start motions and zoom, in place of selecting text
     #[arg(long)]
@@ -25,9 +26,14 @@ pub struct Looks {
 }
 
 impl Looks {
-    /// What the user wishes.
-    pub fn wishes(self) -> Look {
-        Look { glyphs: self.glyphs, colors: self.color, theme: self.theme, mouse: self.mouse }
+    /// What the user wishes: the flags, else the settings file, else the defaults.
+    pub fn wishes(self, config: &Config) -> Look {
+        Look {
+            glyphs: self.glyphs.or(config.glyphs).unwrap_or_default(),
+            colors: self.color.or(config.colors).unwrap_or_default(),
+            theme: self.theme.or(config.theme).unwrap_or_default(),
+            mouse: self.mouse || config.mouse,
+        }
     }
 }
 

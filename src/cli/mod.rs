@@ -8,10 +8,12 @@ mod basin;
 mod belt;
 mod border;
 mod branch;
+mod config;
 mod cycles;
 mod explore;
 mod failure;
 mod input;
+mod keys;
 mod look;
 mod output;
 mod paper;
@@ -59,6 +61,7 @@ enum Command {
     Belt(belt::Belt),
     Trade(trade::Trade),
     Scenes(scenes::Scenes),
+    Keys(keys::Keys),
     Replay(replay::Replay),
 }
 
@@ -74,6 +77,7 @@ impl Command {
             Command::Belt(command) => command.run(),
             Command::Trade(command) => command.run(),
             Command::Scenes(command) => command.run(),
+            Command::Keys(command) => command.run(),
             Command::Replay(command) => command.run(),
         }
     }

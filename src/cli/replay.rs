@@ -12,6 +12,7 @@ use super::output::print;
 use super::start::Start;
 use crate::export::screen;
 use crate::runtime::replay;
+use crate::session::config::Config;
 use crate::session::replay::{Script, parse};
 use crate::session::{Session, Size};
 use crate::terminal::Environment;
@@ -68,7 +69,8 @@ impl Replay {
         let script = script(&self.file)?;
         let (width, height) = self.size;
         let mut session = Session::new(self.start.scene()?, Size { width, height });
-        session.look = self.looks.wishes();
+        // The user's own settings would make the same file show something else.
+        session.look = self.looks.wishes(&Config::default());
         let size = ratatui::layout::Size { width, height };
         let played = replay(session, anywhere(), script, size)
             .map_err(|error| Failure::Unanswered(format!("no thread to compute in: {error}")))?;

@@ -17,8 +17,8 @@ use crate::scene::library::{PLAIN, find};
 #[derive(Clone, Debug, Args)]
 pub struct Start {
     /// Scene to start from
-    #[arg(long = "scene", value_name = "NAME", default_value = PLAIN, hide_default_value = true)]
-    pub scene: String,
+    #[arg(long = "scene", value_name = "NAME")]
+    pub scene: Option<String>,
 
     #[arg(long, value_name = "NAME=VALUE", value_parser = input::assignment, help = parameters_help(),
           allow_hyphen_values = true)]
@@ -65,7 +65,7 @@ fn methods_help() -> String {
 impl Start {
     /// The scene with what was set on the command line; a parameter that is set belongs to it.
     pub fn scene(&self) -> Result<Arc<Scene>, Failure> {
-        self.scene_named(&self.scene)
+        self.scene_named(self.scene.as_deref().unwrap_or(PLAIN))
     }
 
     /// The same with another scene.

@@ -30,8 +30,11 @@ pub struct Trade {
 impl Trade {
     /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
-        let name = self.named.as_deref().unwrap_or(&self.start.scene);
-        let mut problem = self.start.scene_named(name)?.problem;
+        let scene = match &self.named {
+            Some(name) => self.start.scene_named(name),
+            None => self.start.scene(),
+        };
+        let mut problem = scene?.problem;
         problem.until = self.until.unwrap_or(problem.until);
         let trade = Found::of(&problem, &Limits::PATIENT).map_err(|reason| {
             Failure::Unanswered(format!("there is nothing to measure errors against: {reason}"))

@@ -7,6 +7,7 @@ use crate::closed_form::harmonic::Harmonic;
 use crate::flow::{Cost, Crossing, Method, Outcome, Trajectory};
 use crate::oscillator::{Ledger, Parameters, State, Symbol};
 use crate::scene::Scene;
+use crate::session::Keymap;
 use crate::study::basin::Survey;
 use crate::study::fold::{Border, BorderPoint};
 use crate::study::harmonic_error::HarmonicBalance;
@@ -84,8 +85,8 @@ struct BorderDocument<'a> {
 struct SceneDocument<'a> {
     name: &'a str,
     title: &'a str,
-    look: &'a str,
-    press: &'a str,
+    look: String,
+    press: String,
     parameters: &'a Parameters,
     initial: &'a State,
     until: f64,
@@ -153,11 +154,13 @@ pub fn border(found: &Border, seconds: f64) -> String {
 /// The list of scenes.
 #[must_use]
 pub fn scenes<'a>(scenes: impl IntoIterator<Item = &'a Scene>) -> String {
+    let keymap = Keymap::default();
+    let sentence = |text: &str| keymap.fill(text, |key| key.to_string());
     let document = |scene: &'a Scene| SceneDocument {
         name: &scene.name,
         title: &scene.title,
-        look: &scene.look,
-        press: &scene.press,
+        look: sentence(&scene.look),
+        press: sentence(&scene.press),
         parameters: &scene.problem.parameters,
         initial: &scene.problem.initial,
         until: scene.problem.until,
@@ -169,7 +172,7 @@ pub fn scenes<'a>(scenes: impl IntoIterator<Item = &'a Scene>) -> String {
 ///
 /// # Panics
 /// Never: strings, numbers and structs of them have no way to fail, and keys are strings.
-pub(super) fn text(document: &impl Serialize) -> String {
+pub fn text(document: &impl Serialize) -> String {
     match serde_json::to_string(document) {
         Ok(text) => text + "\n",
         Err(error) => unreachable!("a document cannot be written: {error}"),

@@ -29,6 +29,23 @@ impl Table {
         self.rows.push(cells);
     }
 
+    /// The table as text with every column aligned at its left end: for words.
+    #[must_use]
+    pub fn aligned_left(&self) -> String {
+        let titles = self.titles.iter().map(|title| (*title).to_owned()).collect();
+        let rows: Vec<&Vec<String>> = std::iter::once(&titles).chain(&self.rows).collect();
+        let width = |column: usize| {
+            let cells = rows.iter().filter_map(|row| row.get(column));
+            cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+        };
+        let widths: Vec<usize> = (0..titles.len()).map(width).collect();
+        let line = |row: &&Vec<String>| {
+            let cells = row.iter().zip(&widths).map(|(cell, width)| format!("{cell:width$}"));
+            cells.collect::<Vec<_>>().join("  ").trim_end().to_owned() + "\n"
+        };
+        rows.iter().map(line).collect()
+    }
+
     /// Width of a column before and from the point on.
     fn widths(&self, column: usize) -> (usize, usize) {
         let cells = self.rows.iter().filter_map(|row| row.get(column));

@@ -1,13 +1,12 @@
 //! Scene files: TOML in, [`Scene`] out, or one line that names what is wrong and where.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt;
-use std::ops::Range;
 
 use serde::Deserialize;
 use toml::Spanned;
 
 use super::layer::Layer;
+use super::misread::{self, Complaint, Misread};
 use super::ordinate::{ABSCISSAE, Ordinate};
 use super::scene::{Scene, TOLERANCE, UNTIL};
 use super::views::{Arrangement, Axes, Exhibit, MOST_PLOTS, View};
@@ -21,28 +20,6 @@ pub const UNTIL_RANGE: (f64, f64) = (0.0, 1e9);
 
 /// Tolerances that make sense for double precision.
 pub const TOLERANCE_RANGE: (f64, f64) = (1e-15, 1e-2);
-
-/// What is wrong in a scene file, and where.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SceneError {
-    /// The file.
-    pub file: String,
-    /// Line, from 1.
-    pub line: usize,
-    /// Column in characters, from 1.
-    pub column: usize,
-    /// What is wrong and what is allowed, in one line.
-    pub message: String,
-}
-
-impl fmt::Display for SceneError {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { file, line, column, message } = self;
-        write!(out, "{file}:{line}:{column}: {message}")
-    }
-}
-
-impl std::error::Error for SceneError {}
 
 /// The file as it stands on disk.
 #[derive(Deserialize)]
@@ -84,37 +61,13 @@ fn auto() -> Method {
     Method::Auto
 }
 
-/// A complaint about a part of the text.
-pub(super) struct Complaint {
-    pub at: Range<usize>,
-    pub message: String,
-}
-
 /// Reads a scene; `name` is the name by which it is opened, `file` the one in error messages.
 ///
 /// # Errors
-/// [`SceneError`] with the place and what is allowed there.
-pub fn parse(name: &str, file: &str, text: &str) -> Result<Scene, SceneError> {
-    let complain = |complaint: Complaint| {
-        let (line, column) = place(text, complaint.at.start);
-        SceneError { file: file.to_owned(), line, column, message: complaint.message }
-    };
-    let read: File = toml::from_str(text).map_err(|error| {
-        complain(Complaint { at: error.span().unwrap_or(0..0), message: one_line(error.message()) })
-    })?;
-    scene(name, read).map_err(complain)
-}
-
-/// Line and column, from 1, of a byte of a text.
-pub(super) fn place(text: &str, byte: usize) -> (usize, usize) {
-    let before = text.get(..byte).unwrap_or(text);
-    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
-    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
-}
-
-/// The message of a library as one line.
-pub(super) fn one_line(message: &str) -> String {
-    message.lines().map(str::trim).filter(|line| !line.is_empty()).collect::<Vec<_>>().join("; ")
+/// [`Misread`] with the place and what is allowed there.
+pub fn parse(name: &str, file: &str, text: &str) -> Result<Scene, Misread> {
+    let read: File = misread::toml(file, text)?;
+    scene(name, read).map_err(|complaint| complaint.in_file(file, text))
 }
 
 fn scene(name: &str, read: File) -> Result<Scene, Complaint> {

@@ -6,6 +6,7 @@ pub mod file;
 pub mod layer;
 pub mod library;
 pub mod machine;
+pub mod misread;
 pub mod ordinate;
 pub mod request;
 #[expect(clippy::module_inception, reason = "the scene itself, beside what belongs to it")]
@@ -14,10 +15,10 @@ pub mod views;
 pub mod window;
 
 pub use answer::{Answer, Answered};
-pub use file::SceneError;
 pub use layer::{LAYERS, Layer, LayerSpec};
 pub use library::{NoScene, find, library, plain};
 pub use machine::Machine;
+pub use misread::Misread;
 pub use ordinate::{ABSCISSAE, ORDINATES, Ordinate};
 pub use request::{Request, SLOTS, Slot};
 pub use scene::Scene;

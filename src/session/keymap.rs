@@ -50,7 +50,32 @@ pub enum Context {
     Always,
 }
 
+/// Every context with its name in settings files.
+pub const CONTEXTS: [(Context, &str); 15] = [
+    (Context::Parameters, "parameters"),
+    (Context::Phase, "phase"),
+    (Context::Diagram, "diagram"),
+    (Context::Walk, "walk"),
+    (Context::Plots, "plots"),
+    (Context::Everywhere, "everywhere"),
+    (Context::Help, "help"),
+    (Context::Scenes, "scenes"),
+    (Context::Layers, "layers"),
+    (Context::Views, "views"),
+    (Context::Lists, "lists"),
+    (Context::Search, "search"),
+    (Context::Entry, "entry"),
+    (Context::Offer, "offer"),
+    (Context::Always, "always"),
+];
+
 impl Context {
+    /// The name in settings files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        CONTEXTS.iter().find(|(context, _)| *context == self).map_or("", |(_, name)| name)
+    }
+
     /// A heading for the keys of this context.
     #[must_use]
     pub fn title(self) -> &'static str {
@@ -208,7 +233,70 @@ impl Default for Keymap {
     }
 }
 
+/// Why keys cannot be given to a command.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Unbindable {
+    /// A key would mean two things where contexts hold together.
+    Clash {
+        /// The key.
+        key: Key,
+        /// The command that has it.
+        command: &'static str,
+        /// And where.
+        context: Context,
+    },
+    /// A key that types a character cannot be a command where text is typed.
+    Types(Key),
+}
+
+impl std::fmt::Display for Unbindable {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Unbindable::Clash { key, command, context } => {
+                let context = context.name();
+                write!(
+                    out,
+                    "{key} already means {command}; give that other keys in [keys.{context}] first"
+                )
+            }
+            Unbindable::Types(key) => {
+                write!(out, "{key} types a character here; use a key that types none, as <f6>")
+            }
+        }
+    }
+}
+
 impl Keymap {
+    /// Takes all keys from a command in a context.
+    pub fn unbind(&mut self, context: Context, command: &Command) {
+        self.bindings.retain(|(at, _), bound| *at != context || bound != &command);
+    }
+
+    /// Gives a key to a command in a context.
+    ///
+    /// # Errors
+    /// [`Unbindable`] if the key means something else where this context holds, or types a character
+    /// there.
+    pub fn bind(
+        &mut self,
+        context: Context,
+        command: &'static Command,
+        key: Key,
+    ) -> Result<(), Unbindable> {
+        let together = CHAINS.iter().filter(|chain| chain.contains(&context));
+        let contexts: BTreeSet<Context> =
+            together.flat_map(|chain| chain.iter()).copied().collect();
+        if key.typed().is_some() && contexts.iter().any(|context| context.takes_text()) {
+            return Err(Unbindable::Types(key));
+        }
+        let taken = contexts.iter().find_map(|at| Some((*at, *self.bindings.get(&(*at, key))?)));
+        if let Some((context, bound)) = taken.filter(|(_, bound)| *bound != command) {
+            return Err(Unbindable::Clash { key, command: bound.name, context });
+        }
+        self.bindings.insert((context, key), command);
+        Ok(())
+    }
+
     /// What a key means in contexts that hold together.
     #[must_use]
     pub fn command(&self, contexts: &[Context], key: Key) -> Option<&'static Command> {
@@ -236,6 +324,25 @@ impl Keymap {
     pub fn key_of(&self, name: &str) -> Option<Key> {
         let (_, keys) = self.places(command(name)?).into_iter().next()?;
         keys.first().copied()
+    }
+
+    /// A sentence in which `{command}` stands for the first key of that command, as `write` names it.
+    #[must_use]
+    pub fn fill(&self, sentence: &str, write: impl Fn(Key) -> String) -> String {
+        let mut filled = String::new();
+        let mut rest = sentence;
+        while let Some((before, (name, after))) =
+            rest.split_once('{').and_then(|(before, rest)| Some((before, rest.split_once('}')?)))
+        {
+            filled += before;
+            match self.key_of(name) {
+                Some(key) => filled += &write(key),
+                // A command without a key is in the palette under its name.
+                None => filled += name,
+            }
+            rest = after;
+        }
+        filled + rest
     }
 
     /// The contexts in which a command has keys, with them.

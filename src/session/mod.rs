@@ -1,6 +1,7 @@
 //! The session: a pure machine of state, commands and keys.
 
 pub mod command;
+pub mod config;
 pub mod fit;
 pub mod history;
 pub mod input;

@@ -1,6 +1,7 @@
 //! How keys are named on the screen: arrows as arrows, other keys by name, without brackets.
 
 use super::look::Look;
+use crate::session::Keymap;
 use crate::session::key::{Code, Key};
 use crate::session::settings::Glyphs;
 
@@ -33,6 +34,12 @@ pub fn names(keys: impl IntoIterator<Item = Key>, look: &Look) -> String {
     let names: Vec<String> = keys.into_iter().map(|key| name(key, look)).collect();
     let short = names.iter().all(|name| name.chars().count() == 1);
     names.join(if short { "" } else { " " })
+}
+
+/// A sentence of a scene, with the keys that the user has in place of the commands that it names.
+#[must_use]
+pub fn sentence(text: &str, keymap: &Keymap, look: &Look) -> String {
+    keymap.fill(text, |key| name(key, look))
 }
 
 #[cfg(test)]

@@ -222,7 +222,7 @@ fn scenes(session: &Session, list: &List, look: &Look) -> Content {
     };
     let about = found.get(list.selected).map(|scene| {
         let quiet = look.style(Role::Quiet);
-        let text = |text: &str| Line::styled(text.to_owned(), quiet);
+        let text = |text: &str| Line::styled(keys::sentence(text, &session.keymap, look), quiet);
         vec![text(&scene.look), Line::default(), text(&scene.press)]
     });
     let rows = found.iter().map(|scene| row(&scene.name, &scene.title)).collect();

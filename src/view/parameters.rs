@@ -5,6 +5,7 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Paragraph, Widget, Wrap};
 
+use super::keys;
 use super::legend;
 use super::look::{Look, Role};
 use super::number::{exact, significant};
@@ -61,17 +62,21 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
 fn guide(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let inner = Rect { x: area.x + 1, width: area.width.saturating_sub(2), ..area };
     let style = look.style(Role::Quiet);
+    let [seen, pressed] = [&session.scene.look, &session.scene.press]
+        .map(|text| keys::sentence(text, &session.keymap, look));
+    let rows = |text: &str| {
+        text.chars().count().div_ceil(usize::from(inner.width).saturating_sub(6).max(1))
+    };
+    // Broken lines are a few letters shorter than the pane is wide; two headings, a blank, a gap.
+    let taken = rows(&seen) + rows(&pressed) + 5;
     let lines = vec![
         Line::styled("look", look.style(Role::Title)),
-        Line::styled(session.scene.look.clone(), style),
+        Line::styled(seen, style),
         Line::default(),
         Line::styled("press", look.style(Role::Title)),
-        Line::styled(session.scene.press.clone(), style),
+        Line::styled(pressed, style),
     ];
     Paragraph::new(lines).wrap(Wrap { trim: true }).render(inner, buffer);
-    // Broken lines are a few letters shorter than the pane is wide; two headings, a blank, a gap.
-    let rows = |text: &str| text.len().div_ceil(usize::from(inner.width).saturating_sub(6).max(1));
-    let taken = rows(&session.scene.look) + rows(&session.scene.press) + 5;
     let below = area.height.saturating_sub(u16::try_from(taken).unwrap_or(u16::MAX));
     let above_status = below.saturating_sub(1);
     legend::draw(

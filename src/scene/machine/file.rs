@@ -11,7 +11,7 @@ use super::unit::{Measured, measured};
 use crate::oscillator::Belt;
 use crate::oscillator::belt::spline::SmoothingSpline;
 use crate::oscillator::belt::{Dimension, FrictionLaw, QUANTITIES, Quantity};
-use crate::scene::file::{Complaint, SceneError, one_line, place};
+use crate::scene::misread::{self, Complaint, Misread};
 
 /// Displacement or velocity at which a motion may start, in SI units: up to this in both directions.
 pub const FARTHEST_START: f64 = 1e6;
@@ -135,21 +135,15 @@ impl Number {
 /// `fetch` gets the text of a table that the file names, or says why not.
 ///
 /// # Errors
-/// [`SceneError`] with the place and what is allowed there.
+/// [`Misread`] with the place and what is allowed there.
 pub fn parse(
     name: &str,
     file: &str,
     text: &str,
     fetch: impl FnOnce(&str) -> Result<String, String>,
-) -> Result<Machine, SceneError> {
-    let complain = |complaint: Complaint| {
-        let (line, column) = place(text, complaint.at.start);
-        SceneError { file: file.to_owned(), line, column, message: complaint.message }
-    };
-    let read: File = toml::from_str(text).map_err(|error| {
-        complain(Complaint { at: error.span().unwrap_or(0..0), message: one_line(error.message()) })
-    })?;
-    machine(name, read, fetch).map_err(complain)
+) -> Result<Machine, Misread> {
+    let read: File = misread::toml(file, text)?;
+    machine(name, read, fetch).map_err(|complaint| complaint.in_file(file, text))
 }
 
 fn machine(

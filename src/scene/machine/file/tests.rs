@@ -14,7 +14,7 @@ fn nothing(_: &str) -> Result<String, String> {
     Err("no file".to_owned())
 }
 
-fn read(text: &str) -> Result<Machine, SceneError> {
+fn read(text: &str) -> Result<Machine, Misread> {
     parse("test", "test.toml", text, nothing)
 }
 

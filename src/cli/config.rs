@@ -1,0 +1,56 @@
+//! The settings file of the user: where it is, and what it says.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::failure::Failure;
+use crate::session::config::{Config, parse};
+
+/// Which settings file is read.
+#[derive(Clone, Debug, Args)]
+pub struct Settings {
+    /// Reads this settings file, not the user's own
+    #[arg(long, value_name = "FILE", conflicts_with = "no_config")]
+    config: Option<PathBuf>,
+
+    /// Reads no settings file
+    #[arg(long)]
+    no_config: bool,
+}
+
+impl Settings {
+    /// What the file says. The user's own file need not exist; one that is named must.
+    pub fn read(&self) -> Result<Config, Failure> {
+        let (path, named) = match (&self.config, self.no_config) {
+            (Some(path), _) => (path.clone(), true),
+            (None, true) => return Ok(Config::default()),
+            (None, false) => match own() {
+                Some(path) => (path, false),
+                None => return Ok(Config::default()),
+            },
+        };
+        match std::fs::read_to_string(&path) {
+            Ok(text) => parse(&path.display().to_string(), &text)
+                .map_err(|misread| Failure::Usage(misread.to_string())),
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound && !named => {
+                Ok(Config::default())
+            }
+            Err(error) => Err(Failure::Usage(format!("{}: {error}", path.display()))),
+        }
+    }
+
+    /// The file that is read, whether it exists or not.
+    pub fn path(&self) -> Option<PathBuf> {
+        if self.no_config { None } else { self.config.clone().or_else(own) }
+    }
+}
+
+/// The user's own settings file; `None` where there is no directory for it.
+fn own() -> Option<PathBuf> {
+    let variable =
+        |name| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
+    let base = variable("XDG_CONFIG_HOME").filter(|path| path.is_absolute());
+    let base = base.or_else(|| variable("HOME").map(|home| home.join(".config")))?;
+    Some(base.join("hopfscope/config.toml"))
+}

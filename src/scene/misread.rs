@@ -1,0 +1,64 @@
+//! What is wrong in a file that people write, and where: one line, `file:line:column: message`.
+
+use std::fmt;
+use std::ops::Range;
+
+use serde::de::DeserializeOwned;
+
+/// What is wrong in a file, and where.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Misread {
+    /// The file.
+    pub file: String,
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+    /// What is wrong and what is allowed, in one line.
+    pub message: String,
+}
+
+impl fmt::Display for Misread {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { file, line, column, message } = self;
+        write!(out, "{file}:{line}:{column}: {message}")
+    }
+}
+
+impl std::error::Error for Misread {}
+
+/// A complaint about a part of a text, in bytes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Complaint {
+    /// Which part.
+    pub at: Range<usize>,
+    /// What is wrong and what is allowed, in one line.
+    pub message: String,
+}
+
+impl Complaint {
+    /// The complaint with the place at which its part of this text begins.
+    #[must_use]
+    pub fn in_file(self, file: &str, text: &str) -> Misread {
+        let before = text.get(..self.at.start).unwrap_or(text);
+        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        Misread {
+            file: file.to_owned(),
+            line: before.matches('\n').count() + 1,
+            column: before[line_start..].chars().count() + 1,
+            message: self.message,
+        }
+    }
+}
+
+/// Reads a TOML file.
+///
+/// # Errors
+/// [`Misread`] with the first mistake, the message of the library as one line.
+pub fn toml<T: DeserializeOwned>(file: &str, text: &str) -> Result<T, Misread> {
+    toml::from_str(text).map_err(|error| {
+        let lines = error.message().lines().map(str::trim).filter(|line| !line.is_empty());
+        let message = lines.collect::<Vec<_>>().join("; ");
+        Complaint { at: error.span().unwrap_or(0..0), message }.in_file(file, text)
+    })
+}

@@ -1,0 +1,251 @@
+//! The settings file: how the screen looks, and which keys mean what.
+//!
+//! Keys are given by context and command, and replace the default keys of that command there:
+//!
+//! ```toml
+//! theme = "light"
+//!
+//! [keys.parameters]
+//! step-up = ["<right>", "l", "+"]
+//! ```
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::command::{COMMANDS, Command, command};
+use super::key::Key;
+use super::keymap::{CONTEXTS, Context, Keymap};
+use super::settings::{COLORS, Colors, GLYPHS, Glyphs, THEMES, Theme, named};
+use crate::scene::library;
+use crate::scene::misread::{self, Complaint, Misread};
+
+/// What a settings file says; what it does not say is left to the defaults.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Config {
+    /// The scene to open where none is named.
+    pub scene: Option<String>,
+    /// How points are made of characters.
+    pub glyphs: Option<Glyphs>,
+    /// How many colours to use.
+    pub colors: Option<Colors>,
+    /// Which colours.
+    pub theme: Option<Theme>,
+    /// Whether the terminal reports the mouse.
+    pub mouse: bool,
+    /// Which key means what.
+    pub keymap: Keymap,
+}
+
+/// A command's keys as a file gives them.
+type Given<'a> = (Context, &'static Command, &'a Spanned<Vec<Spanned<String>>>);
+
+/// The keys of commands, by their names.
+type Keys = BTreeMap<Spanned<String>, Spanned<Vec<Spanned<String>>>>;
+
+/// The file as it stands on disk.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    scene: Option<Spanned<String>>,
+    glyphs: Option<Spanned<String>>,
+    color: Option<Spanned<String>>,
+    theme: Option<Spanned<String>>,
+    #[serde(default)]
+    mouse: bool,
+    #[serde(default)]
+    keys: BTreeMap<Spanned<String>, Keys>,
+}
+
+/// Commands that must have a key: without them there is no way out.
+const INDISPENSABLE: [&str; 2] = ["quit", "back"];
+
+/// Reads a settings file; `file` is its name in error messages.
+///
+/// # Errors
+/// [`Misread`] with the place of the first mistake and what is allowed there.
+pub fn parse(file: &str, text: &str) -> Result<Config, Misread> {
+    let read: File = misread::toml(file, text)?;
+    config(&read).map_err(|complaint| complaint.in_file(file, text))
+}
+
+fn config(read: &File) -> Result<Config, Complaint> {
+    let scenes: Vec<_> =
+        library().iter().map(|scene| (scene.name.clone(), scene.name.as_str())).collect();
+    let scene = read.scene.as_ref().map(|given| {
+        let known = scenes.iter().find(|(name, _)| name == given.get_ref());
+        known
+            .map(|(name, _)| name.clone())
+            .ok_or_else(|| unknown(given, "scene", scenes.iter().map(|(_, name)| *name)))
+    });
+    Ok(Config {
+        scene: scene.transpose()?,
+        glyphs: one_of(read.glyphs.as_ref(), &GLYPHS)?,
+        colors: one_of(read.color.as_ref(), &COLORS)?,
+        theme: one_of(read.theme.as_ref(), &THEMES)?,
+        mouse: read.mouse,
+        keymap: keymap(&read.keys)?,
+    })
+}
+
+/// The value with this name in a table of settings.
+fn one_of<T: Copy>(
+    given: Option<&Spanned<String>>,
+    table: &[(T, &'static str)],
+) -> Result<Option<T>, Complaint> {
+    let find = |given: &Spanned<String>| {
+        let names = table.iter().map(|(_, name)| *name).collect::<Vec<_>>().join(", ");
+        let message = format!("{:?} is none of {names}", given.get_ref());
+        named(table, given.get_ref()).ok_or(Complaint { at: given.span(), message })
+    };
+    given.map(find).transpose()
+}
+
+/// A complaint about a name, with the nearest of those that there are.
+fn unknown<'a>(
+    given: &Spanned<String>,
+    what: &str,
+    names: impl Iterator<Item = &'a str>,
+) -> Complaint {
+    let likeness = |name: &&str| strsim::jaro(given.get_ref(), name);
+    let nearest = names.max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
+    let nearest = nearest.map_or(String::new(), |name| format!("; did you mean {name}?"));
+    Complaint { at: given.span(), message: format!("no {what} {:?}{nearest}", given.get_ref()) }
+}
+
+/// The default keys with those of the file. All replaced keys are taken away before new ones are
+/// given, so that two commands can swap theirs.
+fn keymap(read: &BTreeMap<Spanned<String>, Keys>) -> Result<Keymap, Complaint> {
+    let mut keymap = Keymap::default();
+    let mut given: Vec<Given> = Vec::new();
+    for (context, commands) in read {
+        let names = || CONTEXTS.iter().map(|(_, name)| *name);
+        let known = named(&CONTEXTS, context.get_ref())
+            .ok_or_else(|| unknown(context, "context", names()))?;
+        for (name, keys) in commands {
+            let found = command(name.get_ref())
+                .ok_or_else(|| unknown(name, "command", COMMANDS.iter().map(|row| row.name)))?;
+            if !found.keys.iter().any(|(context, _)| *context == known) {
+                let places: Vec<_> = found.keys.iter().map(|(context, _)| context.name()).collect();
+                let message = format!("{} applies in {}", found.name, places.join(", "));
+                return Err(Complaint { at: name.span(), message });
+            }
+            given.push((known, found, keys));
+        }
+    }
+    for (context, command, _) in &given {
+        keymap.unbind(*context, command);
+    }
+    for (context, command, keys) in given {
+        for text in keys.get_ref() {
+            let complain = |message: String| Complaint { at: text.span(), message };
+            let key: Key =
+                text.get_ref().parse().map_err(|no_key| complain(format!("{no_key}")))?;
+            keymap.bind(context, command, key).map_err(|clash| complain(clash.to_string()))?;
+        }
+        if INDISPENSABLE.contains(&command.name)
+            && keymap.keys_in(context, command).next().is_none()
+        {
+            let message = format!("{} needs a key here: there is no other way out", command.name);
+            return Err(Complaint { at: keys.span(), message });
+        }
+    }
+    Ok(keymap)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn key(text: &str) -> Key {
+        text.parse().unwrap()
+    }
+
+    fn meaning(config: &Config, context: Context, text: &str) -> Option<&'static str> {
+        config.keymap.command(&[context], key(text)).map(|command| command.name)
+    }
+
+    #[test]
+    fn an_empty_file_changes_nothing() {
+        assert_eq!(parse("config.toml", "").unwrap(), Config::default());
+    }
+
+    #[test]
+    fn looks_and_keys_are_what_the_file_says() {
+        let text = "theme = \"light\"\nglyphs = \"block\"\ncolor = \"256\"\nscene = \"hopf\"\n\
+                    mouse = true\n[keys.parameters]\nstep-up = [\"l\", \"<A-l>\"]\nstep-down = []\n";
+        let config = parse("config.toml", text).unwrap();
+        assert_eq!(config.theme, Some(Theme::Light));
+        assert_eq!((config.glyphs, config.colors), (Some(Glyphs::Block), Some(Colors::Indexed)));
+        assert_eq!((config.scene.as_deref(), config.mouse), (Some("hopf"), true));
+        assert_eq!(meaning(&config, Context::Parameters, "<A-l>"), Some("step-up"));
+        assert_eq!(meaning(&config, Context::Parameters, "<right>"), None);
+        assert_eq!(meaning(&config, Context::Parameters, "h"), None);
+        // In the plots nothing was said about it.
+        assert_eq!(meaning(&config, Context::Plots, "<gt>"), Some("step-up"));
+    }
+
+    #[test]
+    fn two_commands_can_swap_their_keys() {
+        let text = "[keys.parameters]\nstep-up = [\"h\"]\nstep-down = [\"l\"]\n";
+        let config = parse("config.toml", text).unwrap();
+        assert_eq!(meaning(&config, Context::Parameters, "h"), Some("step-up"));
+        assert_eq!(meaning(&config, Context::Parameters, "l"), Some("step-down"));
+    }
+
+    #[test]
+    fn what_is_wrong_is_said_with_its_place() {
+        for (text, said) in [
+            ("theme = \"blue\"", "1:9: \"blue\" is none of dark, light, contrast, mono"),
+            ("themes = 1", "1:1: unknown field `themes`"),
+            ("scene = \"hoff\"", "1:9: no scene \"hoff\"; did you mean hopf?"),
+            ("[keys.everwhere]", "1:7: no context \"everwhere\"; did you mean everywhere?"),
+            (
+                "[keys.parameters]\nstep-upp = []",
+                "2:1: no command \"step-upp\"; did you mean step-up?",
+            ),
+            ("[keys.walk]\nstep-up = []", "2:1: step-up applies in parameters, plots"),
+            ("[keys.parameters]\nstep-up = [\"<rigth>\"]", "2:12: unknown key <rigth>"),
+            ("[keys.parameters]\nstep-up = [\"k\"]", "2:12: k already means select-previous"),
+            ("[keys.parameters]\nstep-up = [\"q\"]", "2:12: q already means quit"),
+            ("[keys.everywhere]\nquit = []", "2:8: quit needs a key here"),
+            ("[keys.entry]\naccept = [\"y\"]", "2:11: y types a character here"),
+            ("[keys", "1:"),
+        ] {
+            let error = parse("config.toml", text).unwrap_err().to_string();
+            assert!(error.starts_with(&format!("config.toml:{said}")), "{text}: {error}");
+            assert!(!error.contains('\n'));
+        }
+    }
+
+    #[test]
+    fn every_default_key_can_be_said_in_a_file() {
+        use std::fmt::Write;
+        let mut text = String::new();
+        for (context, name) in CONTEXTS {
+            writeln!(text, "[keys.{name}]").unwrap();
+            for command in COMMANDS {
+                if let Some((_, keys)) = command.keys.iter().find(|(at, _)| *at == context) {
+                    writeln!(text, "{} = {keys:?}", command.name).unwrap();
+                }
+            }
+        }
+        let config = parse("config.toml", &text).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        assert_eq!(config.keymap, Keymap::default());
+    }
+
+    #[test]
+    fn sentences_of_scenes_name_commands_and_follow_the_keys() {
+        let config = parse("config.toml", "[keys.everywhere]\nundo = [\"<A-u>\"]").unwrap();
+        let written = |text: &str| config.keymap.fill(text, |key| key.to_string());
+        assert_eq!(written("{undo} or {step-up}, {no"), "<A-u> or <right>, {no");
+        for scene in library() {
+            for text in [&scene.look, &scene.press] {
+                for name in text.split('{').skip(1).map(|rest| rest.split('}').next().unwrap()) {
+                    assert!(command(name).is_some(), "{}: no command {name}", scene.name);
+                }
+            }
+        }
+    }
+}
