@@ -271,13 +271,18 @@ mod tests {
 
         #[test]
         fn velocity_is_positive_until_the_first_standstill(
-            d in damping(), x in -1.0..1.0, v in 1e-3..1.0, part in 0.0..1.0,
+            d in damping(), x0 in -1.0..1.0, v0 in 1e-3..1.0, part in 0.0..1.0,
         ) {
-            let end = first_standstill(d, x, v).map_or(10.0, |it| it.time);
-            prop_assert!(linear_flow(d, x, v, end * part).1 >= 0.0);
-            if let Some(still) = first_standstill(d, x, v) {
-                let (x, v) = linear_flow(d, x, v, still.time);
-                prop_assert!(v.abs() <= 1e-14 * x.abs() * (1.0 + still.time), "{x} {v} {still:?}");
+            let end = first_standstill(d, x0, v0).map_or(10.0, |it| it.time);
+            prop_assert!(linear_flow(d, x0, v0, end * part).1 >= 0.0);
+            if let Some(still) = first_standstill(d, x0, v0) {
+                let (x, v) = linear_flow(d, x0, v0, still.time);
+                // The last digit of the start alone moves the time by this much: where next to critical
+                // damping a motion almost misses v = 0, by more than any rounding.
+                let moved = first_standstill(d, x0, v0.next_up());
+                let unsure = moved.map_or(f64::INFINITY, |moved| (moved.time - still.time).abs());
+                let bound = 1e-14 * (1.0 + still.time) + 4.0 * unsure;
+                prop_assert!(v.abs() <= bound * x.abs(), "{x} {v} {still:?}");
                 // Next to critical damping what is left after so long a time underflows.
                 prop_assert!(x > 0.0 || still.time > 100.0);
             }
