@@ -158,7 +158,10 @@ impl<'a> Curve<'a> {
             let (u, p) = place(s);
             let Some(closing) = self.closing(route, u, p)? else { return Ok(None) };
             let value = closing.node.value();
-            let in_u = closing.node.slope * UNIT_OF_U * tangent.p;
+            // Where a swing begins at the very end of the sticking set the slope in u does not exist,
+            // and across u it does not matter.
+            let in_u =
+                if tangent.p == 0.0 { 0.0 } else { closing.node.slope * UNIT_OF_U * tangent.p };
             let along = match (before, self.slope_in_p) {
                 // A secant along the line, which renews the quotient on the way.
                 (Some((s_before, value_before)), _) => {

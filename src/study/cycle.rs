@@ -201,10 +201,12 @@ impl Edge {
         // Without friction a rest that repels has no basin, and nothing borders it.
         let repels = parameters.r == 0.0 && parameters.d < 0.0;
         let escapes = parameters.d3 == 0.0 && parameters.d2 != 0.0 && !repels;
+        // Positive cubic damping bounds every motion: where no cycle is left for it, it comes to rest.
+        let bounded = parameters.d3 > 0.0;
         match stable.first() {
             Some(false) => Edge::Cycle,
             Some(true) if !self_excited_node => Edge::None,
-            None if !(escapes || self_excited_node) => Edge::None,
+            None if bounded || !(escapes || self_excited_node) => Edge::None,
             _ => Edge::Separatrix,
         }
     }

@@ -34,48 +34,161 @@ const TOLERANCE: f64 = 1e-13;
 /// # Errors
 /// The [`Reason`] why a swing failed, or [`Reason::NoConvergence`].
 pub fn fold(parameters: &Parameters, limits: &Limits) -> Result<(Option<FoldPoint>, Cost), Reason> {
-    /// First stride from the harmonic estimate, in u; it is doubled until the fold lies between.
-    const STRIDE: f64 = 0.2;
-    let Some(estimate) = harmonic::fold(parameters.d3, parameters.r) else {
-        return Ok((None, Cost::default()));
-    };
+    let Some(start) = start(parameters) else { return Ok((None, Cost::default())) };
     let side = first_side(parameters);
-    let mut curve = Curve::new(parameters, Symbol::D, side, 1.0, TOLERANCE, limits);
+    let limits =
+        Limits { evaluations: limits.evaluations.min(BUDGET), interrupted: limits.interrupted };
+    let curve = Curve::new(parameters, Symbol::D, side, 1.0, TOLERANCE, &limits);
+    let mut graph = Graph { curve, parameters: *parameters, d: start.d };
+    let fold = match graph.around_fold(start)? {
+        Around::Plateau(point) => point,
+        Around::Between(low, high) => match graph.curve.fold_between(&low, &high)? {
+            Some(fold) => fold,
+            None => graph.highest(low, high)?,
+        },
+    };
+    let cycle = fold.closing.describe(&graph.curve.parameters_at(fold.p), side);
+    let point = FoldPoint { d: fold.p, q_max: cycle.q_max, period: cycle.period };
+    Ok((Some(point), graph.curve.cost))
+}
+
+/// Most evaluations of one swing: a cycle that takes more is not followed.
+const BUDGET: u64 = 200_000;
+
+const LOST: Reason = Reason::NoConvergence { sought: "the fold", change: f64::NAN };
+
+/// Where the search begins.
+#[derive(Clone, Copy)]
+struct Start {
+    u: f64,
+    d: f64,
+    /// First stride in u.
+    stride: f64,
+}
+
+/// The harmonic estimate where it is near, else a cycle close to the sticking set, which lies below the
+/// fold.
+fn start(parameters: &Parameters) -> Option<Start> {
+    /// Mean shift, as a part of the amplitude, and damping up to which the harmonic estimate is near.
+    const NEAR: (f64, f64) = (0.3, 0.8);
+    /// Clearance that is small, in units of r.
+    const CLOSE: f64 = 0.2;
+    let estimate = harmonic::fold(parameters.d3, parameters.r)?;
     // The first swing starts where its side's D2 brakes: the turning point displaced outwards.
     let shift = harmonic::mean(parameters.d2.abs(), estimate.amplitude).abs();
-    let clearance = estimate.amplitude + shift - parameters.r;
-    let u = clearance.max(0.1 * parameters.r).ln();
-    let lost = Reason::NoConvergence { sought: "the fold", change: f64::NAN };
-    let mut d = estimate.d;
-    let mut at = |u: f64, curve: &mut Curve| -> Result<CurvePoint, Reason> {
-        let near = curve.correct((u, d), Tangent::ACROSS_P, Route::Mixed)?;
+    let near = shift < NEAR.0 * estimate.amplitude && estimate.d > -NEAR.1;
+    let clearance =
+        if near { estimate.amplitude + shift - parameters.r } else { CLOSE * parameters.r };
+    let u = clearance.max(CLOSE * parameters.r).ln();
+    Some(Start { u, d: estimate.d.max(-0.5), stride: if near { 0.2 } else { 0.5 } })
+}
+
+/// What is known of the place of the fold.
+enum Around {
+    /// It lies between these.
+    Between(CurvePoint, CurvePoint),
+    /// Cycles grow and grow while D stays the same to rounding: the fold is where they begin to shrink,
+    /// and its D is this one. So it is where D3 is much weaker than D2.
+    Plateau(CurvePoint),
+}
+
+/// All cycles as the graph `D(u)`.
+struct Graph<'a> {
+    curve: Curve<'a>,
+    parameters: Parameters,
+    /// D of the last cycle found, the guess for the next.
+    d: f64,
+}
+
+impl Graph<'_> {
+    /// The cycle at `u`; `None` where it cannot be followed that far out.
+    fn at(&mut self, u: f64) -> Result<Option<CurvePoint>, Reason> {
+        let near = self.curve.correct((u, self.d), Tangent::ACROSS_P, Route::Mixed)?;
         let found = match near {
-            Some(found) => found,
-            // Strong friction is far from harmonic: begin anew with all of (-1, 0).
-            None => curve.bracketed(u, (-1.0 + f64::EPSILON, 0.0))?.ok_or(lost)?,
+            Some(found) => Some(found),
+            // Far from the guess: begin anew with all of the dampings that can close a cycle.
+            None => match self.curve.bracketed(u, (self.lowest_damping(u), 0.0)) {
+                Err(Reason::Budget { .. } | Reason::OutOfRange) => None,
+                found => found?,
+            },
         };
-        d = found.p;
+        if let Some(found) = found {
+            self.d = found.p;
+        }
         Ok(found)
-    };
-    let here = at(u, &mut curve)?;
-    let (mut low, mut high) = (here, here);
-    let mut stride = STRIDE;
-    // The inner cycles are unstable (multiplier above 1), the outer ones stable.
-    while low.log_multiplier <= 0.0 || high.log_multiplier > 0.0 {
-        if low.log_multiplier <= 0.0 {
-            low = at(low.u - stride, &mut curve)?;
-        } else {
-            high = at(high.u + stride, &mut curve)?;
-        }
-        stride *= 1.5;
-        if stride > 40.0 {
-            return Err(lost);
-        }
     }
-    let fold = curve.fold_between(&low, &high)?.ok_or(lost)?;
-    let cycle = fold.closing.describe(&curve.parameters_at(fold.p), side);
-    let point = FoldPoint { d: fold.p, q_max: cycle.q_max, period: cycle.period };
-    Ok((Some(point), curve.cost))
+
+    /// A damping below that of the cycle at `u`: well beyond the harmonic one, and beyond critical.
+    fn lowest_damping(&self, u: f64) -> f64 {
+        let Parameters { d2, d3, r, .. } = self.parameters;
+        let harmonic = harmonic::damping_at(d3, r, u.exp() + r).unwrap_or(-1.0);
+        -1.5 + 2.0 * harmonic - r * d2.abs()
+    }
+
+    /// A cycle on either side of the fold: the inner ones are unstable (multiplier above 1), the outer
+    /// ones stable.
+    fn around_fold(&mut self, start: Start) -> Result<Around, Reason> {
+        /// Shortest and longest stride, and strides before giving up.
+        const LENGTHS: (f64, f64) = (0.01, 1.0);
+        const STRIDES: usize = 60;
+        let mut stride = start.stride;
+        let here = self.at(start.u)?.ok_or(LOST)?;
+        let (mut low, mut high) = (here, here);
+        for _ in 0..STRIDES {
+            // Where the second swing begins at the very end of the sticking set there is no multiplier:
+            // next to it it is infinite.
+            let inwards = low.log_multiplier <= 0.0;
+            if !inwards && high.log_multiplier <= 0.0 {
+                return Ok(Around::Between(low, high));
+            }
+            let u = if inwards { low.u - stride } else { high.u + stride };
+            match self.at(u)? {
+                Some(next) if inwards => low = next,
+                Some(next) => {
+                    // The fold lies beyond: what is behind is no longer needed.
+                    if next.log_multiplier > 0.0 || next.log_multiplier.is_nan() {
+                        low = next;
+                    }
+                    let rise = (next.p - high.p).abs();
+                    if rise <= 4.0 * f64::EPSILON * next.p.abs() && stride >= LENGTHS.1 {
+                        return Ok(Around::Plateau(next));
+                    }
+                    high = next;
+                }
+                None => stride *= 0.25,
+            }
+            stride = (1.5 * stride).min(LENGTHS.1);
+            if stride < LENGTHS.0 {
+                break;
+            }
+        }
+        Err(LOST)
+    }
+
+    /// The cycle of the largest D between two, by golden section.
+    ///
+    /// For where the multiplier does not tell: beyond critical negative damping the second swing of a
+    /// cycle may begin at the very end of the sticking set. D comes out to rounding, the amplitude to
+    /// about half of the digits.
+    fn highest(&mut self, low: CurvePoint, high: CurvePoint) -> Result<CurvePoint, Reason> {
+        /// The shorter part of a golden section.
+        const GOLDEN: f64 = 0.381_966_011_250_105_2;
+        /// Width in u at which D is flat to rounding.
+        const FLAT: f64 = 1e-7;
+        let (mut from, mut to) = (low.u, high.u);
+        let mut inner = self.at(from + GOLDEN * (to - from))?.ok_or(LOST)?;
+        let mut outer = self.at(to - GOLDEN * (to - from))?.ok_or(LOST)?;
+        while to - from > FLAT {
+            if inner.p > outer.p {
+                (to, outer) = (outer.u, inner);
+                inner = self.at(from + GOLDEN * (to - from))?.ok_or(LOST)?;
+            } else {
+                (from, inner) = (inner.u, outer);
+                outer = self.at(to - GOLDEN * (to - from))?.ok_or(LOST)?;
+            }
+        }
+        Ok(if inner.p > outer.p { inner } else { outer })
+    }
 }
 
 /// One value of the second parameter, and where the basin changes its kind along D.
@@ -175,6 +288,31 @@ mod tests {
         assert!(
             (scaled.d - fold.d).abs() < 1e-13 && (scaled.q_max / fold.q_max - 4.0).abs() < 1e-6
         );
+    }
+
+    #[test]
+    fn cycles_exist_below_the_fold_and_not_above_also_where_it_is_far_from_harmonic() {
+        for (d2, d3) in [(0.3, 0.8), (1.0, 0.1), (0.05, 1.3), (0.5, 0.3)] {
+            let d = found(d2, d3, 1.0).d;
+            let count = |part: f64| {
+                let parameters = Parameters { d: part * d, d2, d3, r: 1.0 };
+                crate::study::cycle::cycles(&parameters, false, &Limits::PATIENT).unwrap()
+            };
+            assert!(!count(1.0 + 1e-4).cycles.is_empty(), "D2 = {d2}, D3 = {d3}: D_F = {d}");
+            let above = count(1.0 - 1e-4);
+            assert!(above.cycles.is_empty(), "D2 = {d2}, D3 = {d3}: D_F = {d}");
+            assert_eq!(above.edge, crate::study::Edge::None, "D2 = {d2}, D3 = {d3}: D_F = {d}");
+        }
+    }
+
+    #[test]
+    fn weak_cubic_damping_folds_where_the_cycle_escapes_without_it() {
+        for d2 in [0.1, 0.3, 1.0] {
+            let without = Parameters { d: 0.0, d2, d3: 0.0, r: 1.0 };
+            let escape = escape_point(&without, &Limits::PATIENT).unwrap().unwrap();
+            let [near, far] = [1e-6, 1e-4].map(|d3| (found(d2, d3, 1.0).d - escape).abs());
+            assert!(near < 5e-5 && near < 0.02 * far, "D2 = {d2}: {near} {far}");
+        }
     }
 
     #[test]
