@@ -11,6 +11,7 @@ mod branch;
 mod config;
 mod cycles;
 mod explore;
+mod extremes;
 mod failure;
 mod input;
 mod keys;
@@ -62,6 +63,7 @@ enum Command {
     Trade(trade::Trade),
     Scenes(scenes::Scenes),
     Keys(keys::Keys),
+    Extremes(extremes::Extremes),
     Replay(replay::Replay),
 }
 
@@ -78,6 +80,7 @@ impl Command {
             Command::Trade(command) => command.run(),
             Command::Scenes(command) => command.run(),
             Command::Keys(command) => command.run(),
+            Command::Extremes(command) => command.run(),
             Command::Replay(command) => command.run(),
         }
     }

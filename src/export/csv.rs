@@ -7,7 +7,7 @@ use crate::study::fold::Border;
 use crate::study::{Branch, Cycle, Cycles};
 
 /// All digits that tell this double from its neighbours: `0.1`, `-3.0`, `1e-300`.
-fn exact(value: f64) -> String {
+pub(super) fn exact(value: f64) -> String {
     format!("{value:?}")
 }
 

@@ -4,6 +4,7 @@ pub mod balance;
 pub mod belt;
 pub mod claims;
 pub mod csv;
+pub mod extremes;
 pub mod json;
 pub mod screen;
 pub mod table;

@@ -13,6 +13,7 @@ pub mod continuation;
 pub mod cycle;
 pub mod design;
 pub mod escape;
+pub mod extremes;
 pub mod fold;
 pub mod half_map;
 pub mod harmonic_error;

@@ -1,0 +1,45 @@
+//! `hopfscope extremes`: how well motions at the edges of the range are answered.
+
+use clap::Args;
+use rayon::prelude::*;
+
+use super::failure::Failure;
+use super::input;
+use super::output::{Format, print};
+use crate::export::extremes;
+use crate::flow::Limits;
+use crate::scene::file::TOLERANCE_RANGE;
+use crate::study::extremes::verdict::TOLERANCE;
+use crate::study::extremes::{Case, cases, judge, named};
+
+/// Follows motions at the extremes of all parameters by every method, and says how well
+#[derive(Debug, Args)]
+pub struct Extremes {
+    /// Form of the answer
+    #[arg(long, value_enum, default_value_t = Format::Table, value_name = "FORM")]
+    format: Format,
+    /// Every motion of the lattice, not each eleventh
+    #[arg(long)]
+    long: bool,
+    /// Relative error of a step, 1e-15 .. 0.01
+    #[arg(long, value_name = "X", value_parser = tolerance, default_value_t = TOLERANCE)]
+    tol: f64,
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    input::within("tolerance", TOLERANCE_RANGE, text)
+}
+
+impl Extremes {
+    /// Computes and prints.
+    pub fn run(&self) -> Result<(), Failure> {
+        let cases: Vec<Case> = cases(!self.long).collect();
+        let verdicts: Vec<_> =
+            cases.par_iter().map(|case| judge(case, self.tol, &Limits::PATIENT)).collect();
+        print(&match self.format {
+            Format::Table => extremes::table(&verdicts, &named(&Limits::PATIENT), self.tol),
+            Format::Json => extremes::json(&verdicts, &named(&Limits::PATIENT), self.tol),
+            Format::Csv => extremes::csv(&verdicts),
+        })
+    }
+}

@@ -1,0 +1,181 @@
+//! The lattice of extremes: values of each parameter, and starts.
+
+use std::fmt;
+
+use serde::Serialize;
+
+use crate::oscillator::{Parameters, State};
+
+/// Linear damping: a node that repels, both sides of critical, nearly none, none, and much.
+pub const D: [f64; 12] =
+    [-1.0 - 1e-3, -1.0, -0.999_999, -0.999, -0.1, -1e-12, -0.0, 0.0, 1e-300, 0.5, 1.0, 2.0];
+
+/// Friction, from none through the smallest number there is to a sticking set larger than most starts.
+pub const R: [f64; 6] = [0.0, 5e-324, 1e-300, 1e-12, 1.0, 1e12];
+
+/// Asymmetric and cubic damping.
+pub const D2_D3: [f64; 5] = [-1e6, -1e-12, 0.0, 1e-12, 1e6];
+
+/// A start, by what is special about it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Start {
+    /// At rest in the middle of the sticking set.
+    Centre,
+    /// At `q = r`.
+    RightEnd,
+    /// At `q = -r`.
+    LeftEnd,
+    /// One unit in the last place inside the right end.
+    InsideRight,
+    /// The same at the left end.
+    InsideLeft,
+    /// One unit in the last place outside the right end.
+    OutsideRight,
+    /// The same at the left end.
+    OutsideLeft,
+    /// Three clearances beyond the right end, with `v = -0.0`.
+    NegativeZero,
+    /// At the centre with the smallest velocity.
+    SmallestUp,
+    /// The same downwards.
+    SmallestDown,
+    /// At `q = 1e-300`.
+    Tiny,
+    /// At `q = 1e6`: far out, where cubic damping is stiff.
+    Far,
+    /// At `q = 1e150`.
+    Huge,
+    /// At the centre with a velocity far beyond which motions escape, where there is such a one.
+    Escaping,
+}
+
+impl fmt::Display for Start {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.pad(match self {
+            Start::Centre => "centre",
+            Start::RightEnd => "right-end",
+            Start::LeftEnd => "left-end",
+            Start::InsideRight => "inside-right",
+            Start::InsideLeft => "inside-left",
+            Start::OutsideRight => "outside-right",
+            Start::OutsideLeft => "outside-left",
+            Start::NegativeZero => "negative-zero",
+            Start::SmallestUp => "smallest-up",
+            Start::SmallestDown => "smallest-down",
+            Start::Tiny => "tiny",
+            Start::Far => "far",
+            Start::Huge => "huge",
+            Start::Escaping => "escaping",
+        })
+    }
+}
+
+/// Every start.
+pub const STARTS: [Start; 14] = [
+    Start::Centre,
+    Start::RightEnd,
+    Start::LeftEnd,
+    Start::InsideRight,
+    Start::InsideLeft,
+    Start::OutsideRight,
+    Start::OutsideLeft,
+    Start::NegativeZero,
+    Start::SmallestUp,
+    Start::SmallestDown,
+    Start::Tiny,
+    Start::Far,
+    Start::Huge,
+    Start::Escaping,
+];
+
+/// End time of every motion: some twenty half swings.
+pub const UNTIL: f64 = 60.0;
+
+/// Every how many motions the thin lattice takes one. It has no factor in common with the number of
+/// values of any parameter or of starts, so every value meets every other one.
+pub const THIN: usize = 11;
+
+/// One motion of the lattice.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Case {
+    /// Its parameters.
+    pub parameters: Parameters,
+    /// What is special about its start.
+    pub start: Start,
+    /// Its start.
+    pub initial: State,
+}
+
+impl Start {
+    /// The start at these parameters.
+    #[must_use]
+    pub fn state(self, parameters: &Parameters) -> State {
+        /// How far beyond the balance of all other terms the escaping velocity is.
+        const BEYOND: f64 = 100.0;
+        let Parameters { d, d2, d3, r } = *parameters;
+        let at = |q| State { q, v: 0.0 };
+        match self {
+            Start::Centre => at(0.0),
+            Start::RightEnd => at(r),
+            Start::LeftEnd => at(-r),
+            Start::InsideRight => at(r.next_down()),
+            Start::InsideLeft => at((-r).next_up()),
+            Start::OutsideRight => at(r.next_up()),
+            Start::OutsideLeft => at((-r).next_down()),
+            Start::NegativeZero => State { q: 4.0 * r.max(1e-3), v: -0.0 },
+            Start::SmallestUp => State { q: 0.0, v: 5e-324 },
+            Start::SmallestDown => State { q: 0.0, v: -5e-324 },
+            Start::Tiny => at(1e-300),
+            Start::Far => at(1e6),
+            Start::Huge => at(1e150),
+            Start::Escaping => {
+                let others = 1.0 + 2.0 * d.abs();
+                let quadratic = if d2 == 0.0 { 0.0 } else { others / d2.abs() };
+                let cubic = if d3 == 0.0 { 0.0 } else { others.sqrt() / d3.abs().sqrt() };
+                let beyond = BEYOND * quadratic.max(cubic).max(r.sqrt()).max(1.0);
+                State { q: 0.0, v: if d2 > 0.0 { -beyond } else { beyond } }
+            }
+        }
+    }
+}
+
+/// The motions of the lattice, every one or, if `thin`, each [`THIN`]th.
+pub fn cases(thin: bool) -> impl Iterator<Item = Case> {
+    let all = D.iter().flat_map(|&d| {
+        let rows = R.iter().flat_map(move |&r| D2_D3.map(|d2| (r, d2)));
+        rows.flat_map(move |(r, d2)| D2_D3.map(|d3| Parameters { d, d2, d3, r }))
+    });
+    let all = all.flat_map(|parameters| {
+        STARTS.map(|start| Case { parameters, start, initial: start.state(&parameters) })
+    });
+    all.step_by(if thin { THIN } else { 1 })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashSet;
+
+    use super::*;
+
+    #[test]
+    fn the_thin_lattice_still_pairs_every_value_with_every_other() {
+        assert_eq!(cases(false).count(), 25_200);
+        let mut pairs = HashSet::new();
+        for case in cases(true) {
+            let Parameters { d, d2, d3, r } = case.parameters;
+            let values = [d, r, d2, d3].map(f64::to_bits);
+            for first in 0..4 {
+                pairs.insert((first, 4, values[first], case.start as u64));
+                for second in first + 1..4 {
+                    pairs.insert((first, second, values[first], values[second]));
+                }
+            }
+        }
+        let sides = [D.len(), R.len(), D2_D3.len(), D2_D3.len(), STARTS.len()];
+        let expected: usize = (0..5)
+            .map(|one| (one + 1..5).map(|other| sides[one] * sides[other]).sum::<usize>())
+            .sum();
+        assert_eq!(pairs.len(), expected);
+    }
+}

@@ -1,0 +1,15 @@
+//! Motions at the edges of what floating-point numbers and the equation allow, and how well they are
+//! answered.
+//!
+//! [`lattice`] lists them: every combination of a few extreme values of each parameter with a few extreme
+//! starts. [`verdict`] follows each by every event-driven method and says what it answered, how many of
+//! the digits asked for it lost, and at what cost. Nothing is left out for being answered badly. A few more
+//! have names and known answers ([`named`]).
+
+pub mod lattice;
+pub mod named;
+pub mod verdict;
+
+pub use lattice::{Case, Start, cases};
+pub use named::{Named, named};
+pub use verdict::{Answer, Verdict, judge};
