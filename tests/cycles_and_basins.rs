@@ -278,3 +278,14 @@ fn one_cycle_costs_at_most_forty_half_swings() {
     assert!((closing.node.at - near).abs() < 1e-14);
     assert!(equation.swings() <= 40, "{} half swings", equation.swings());
 }
+
+#[test]
+fn a_cycle_is_found_where_two_ways_to_compute_it_are_equally_good() {
+    // At the first guess of one of them the ways of computing it contradict each other.
+    for index in 0..40 {
+        let d = -0.2226 + 2e-5 * f64::from(index);
+        let parameters = Parameters { d, d2: 0.2, d3: 0.5, r: 0.1 };
+        let found = cycles(&parameters, false, &Limits::PATIENT).unwrap().cycles;
+        assert_eq!(found.len(), 2, "D = {d}");
+    }
+}

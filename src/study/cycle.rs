@@ -91,7 +91,7 @@ pub struct Cycles {
 }
 
 /// Tolerance of the integration steps of the search and the polish: rounding.
-const STEP: f64 = 1e-16;
+pub(super) const STEP: f64 = 1e-16;
 
 /// Points drawn on each integration step of a curve.
 const CURVE_POINTS: u8 = 12;
@@ -140,12 +140,33 @@ pub fn cycles(parameters: &Parameters, curves: bool, limits: &Limits) -> Result<
 /// # Errors
 /// The [`Reason`] why a swing failed.
 pub fn all_closings(equation: &mut Equation, limits: &Limits) -> Result<Vec<Closing>, Reason> {
+    some_closings(equation, usize::MAX, limits)
+}
+
+/// The closing of the smallest amplitude, from the closed form where there is one: half the work of
+/// finding all.
+///
+/// # Errors
+/// The [`Reason`] why a swing failed.
+pub fn innermost_closing(
+    equation: &mut Equation,
+    limits: &Limits,
+) -> Result<Option<Closing>, Reason> {
+    Ok(some_closings(equation, 1, limits)?.pop())
+}
+
+/// As many closings as are wanted, by amplitude, from the closed form where there is one.
+fn some_closings(
+    equation: &mut Equation,
+    most: usize,
+    limits: &Limits,
+) -> Result<Vec<Closing>, Reason> {
     let parameters = equation.parameters;
     if parameters.is_piecewise_linear() {
         let cycle = LinearCycle::new(parameters.d, parameters.r).ok();
         return Ok(cycle.iter().map(Closing::from).collect());
     }
-    closings(equation, limits)
+    searched(equation, most, limits)
 }
 
 impl From<&LinearCycle> for Closing {
@@ -217,6 +238,11 @@ impl Edge {
 /// # Errors
 /// The [`Reason`] why a swing failed.
 pub fn closings(equation: &mut Equation, limits: &Limits) -> Result<Vec<Closing>, Reason> {
+    searched(equation, usize::MAX, limits)
+}
+
+/// As many closings as are wanted, by amplitude, from the search.
+fn searched(equation: &mut Equation, most: usize, limits: &Limits) -> Result<Vec<Closing>, Reason> {
     /// A search takes some tens of thousands of evaluations; where it takes this many on one half map,
     /// the flow is too stiff for it.
     const BUDGET: u64 = 40_000_000;
@@ -228,9 +254,9 @@ pub fn closings(equation: &mut Equation, limits: &Limits) -> Result<Vec<Closing>
         return Ok(Vec::new());
     }
     let Some(low) = lower_end(equation, limits)? else { return Ok(Vec::new()) };
-    let brackets = brackets(equation, low, limits)?;
+    let brackets = brackets(equation, low, most, limits)?;
     equation.want_fastest(true);
-    brackets.into_iter().map(|bracket| polish(equation, bracket, limits)).collect()
+    brackets.into_iter().take(most).map(|bracket| polish(equation, bracket, limits)).collect()
 }
 
 /// Where the search begins, or `None` where no swing passes the sticking set.
@@ -269,8 +295,14 @@ fn upper_end(parameters: &Parameters) -> f64 {
     }
 }
 
-/// Marches outwards in `ln c0` until the end of the domain, collecting brackets of roots.
-fn brackets(equation: &mut Equation, low: f64, limits: &Limits) -> Result<Vec<Bracket>, Reason> {
+/// Marches outwards in `ln c0` until the end of the domain, collecting brackets of roots until there are
+/// as many as are wanted.
+fn brackets(
+    equation: &mut Equation,
+    low: f64,
+    most: usize,
+    limits: &Limits,
+) -> Result<Vec<Bracket>, Reason> {
     /// Tolerance of the steps of the search, and the blur of a residual that comes of it; weak damping
     /// makes residuals that small and needs steps to rounding from the beginning.
     const ROUGH: (f64, f64) = (1e-10, 1e-7);
@@ -290,7 +322,7 @@ fn brackets(equation: &mut Equation, low: f64, limits: &Limits) -> Result<Vec<Br
     while here.at < high {
         let next: Node = function((here.at + stride).min(high), false)?;
         search(here, next, blur, &mut function, &mut found)?;
-        if !next.value().is_finite() {
+        if found.len() >= most || !next.value().is_finite() {
             break;
         }
         here = next;
@@ -312,16 +344,19 @@ pub fn polish(
     let rising = bracket.1.value() > bracket.0.value();
     let (mut low, mut high) = (bracket.0.at, bracket.1.at);
     let mut route = Route::Mixed;
+    let mut switched = false;
     let mut u = secant(&bracket);
     let mut change = f64::INFINITY;
     for _ in 0..ITERATIONS {
         let closing = equation.at(route, u, limits)?;
         let mut node = closing.node;
         let contracting = Route::contracting(closing.log_multiplier(&equation.parameters));
-        if node.value().is_finite() && contracting != route {
-            route = contracting;
+        // Where two routes contract alike each may say that the other is better: move on regardless.
+        if node.value().is_finite() && contracting != route && !switched {
+            (route, switched) = (contracting, true);
             continue;
         }
+        switched = false;
         let flat = route == Route::Mixed && node.slope.abs() < FLAT;
         if flat && let Some(weighed) = weighed_residual(equation, u, limits)? {
             node = Node { rise: weighed, fall: 0.0, ..node };
