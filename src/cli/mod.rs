@@ -18,7 +18,9 @@ mod keys;
 mod look;
 mod output;
 mod paper;
+mod progress;
 mod replay;
+mod scan;
 mod scenes;
 mod start;
 mod timing;
@@ -60,6 +62,7 @@ enum Command {
     Border(border::Border),
     Paper(paper::Paper),
     Belt(belt::Belt),
+    Scan(scan::ScanCommand),
     Trade(trade::Trade),
     Scenes(scenes::Scenes),
     Keys(keys::Keys),
@@ -68,8 +71,9 @@ enum Command {
 }
 
 impl Command {
-    fn run(&self) -> Result<(), Failure> {
-        match self {
+    fn run(&self) -> Result<ExitCode, Failure> {
+        let answered = match self {
+            Command::Scan(command) => return command.run(),
             Command::Trajectory(command) => command.run(),
             Command::Cycles(command) => command.run(),
             Command::Branch(command) => command.run(),
@@ -82,7 +86,8 @@ impl Command {
             Command::Keys(command) => command.run(),
             Command::Extremes(command) => command.run(),
             Command::Replay(command) => command.run(),
-        }
+        };
+        answered.map(|()| ExitCode::SUCCESS)
     }
 }
 
@@ -90,7 +95,7 @@ impl Command {
 #[must_use]
 pub fn main() -> ExitCode {
     let result = match Cli::try_parse() {
-        Ok(Cli { command: Some(command), .. }) => command.run().map(|()| ExitCode::SUCCESS),
+        Ok(Cli { command: Some(command), .. }) => command.run(),
         Ok(Cli { command: None, explore }) => explore.run(),
         Err(error) => Failure::from_parser(&error).map_or(Ok(ExitCode::SUCCESS), Err),
     };

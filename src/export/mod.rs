@@ -6,6 +6,7 @@ pub mod claims;
 pub mod csv;
 pub mod extremes;
 pub mod json;
+pub mod scan;
 pub mod screen;
 pub mod table;
 pub mod trade;

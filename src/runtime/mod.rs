@@ -15,6 +15,8 @@ pub mod machine;
 pub mod panics;
 pub mod picture;
 pub mod pump;
+pub mod scan_file;
+pub mod scanning;
 pub mod signals;
 pub mod worker;
 

@@ -18,7 +18,10 @@ pub mod fold;
 pub mod half_map;
 pub mod harmonic_error;
 pub mod margin;
+pub mod measure;
+pub mod scan;
 pub mod search;
+pub mod stability;
 pub mod trade;
 
 pub use branch::{Branch, BranchPoint, Special, SpecialKind};

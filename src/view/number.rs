@@ -84,6 +84,21 @@ pub fn duration(seconds: f64) -> String {
     }
 }
 
+/// Writes how long `wanted` equal parts take of which `done` took `elapsed` seconds, from now on:
+/// `12 s`, `3 min`, `2.5 h`.
+#[must_use]
+pub fn remaining(elapsed: f64, done: usize, wanted: usize) -> String {
+    #[expect(clippy::cast_precision_loss, reason = "a rough number")]
+    let seconds = elapsed * wanted.saturating_sub(done) as f64 / done.max(1) as f64;
+    if seconds < 90.0 {
+        format!("{} s", seconds.ceil())
+    } else if seconds < 5400.0 {
+        format!("{} min", (seconds / 60.0).round())
+    } else {
+        format!("{} h", significant(seconds / 3600.0, 2))
+    }
+}
+
 fn without_trailing_zeros(text: &str) -> &str {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
 }

@@ -1,0 +1,299 @@
+//! `hopfscope scan`: the same measures at every point of a line or grid of parameters.
+
+use std::io::{self, IsTerminal, Write};
+use std::ops::{ControlFlow, Range};
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+use clap::{Args, ValueEnum};
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::flag;
+
+use super::failure::Failure;
+use super::input;
+use super::progress::Progress;
+use super::start::Start;
+use crate::export::scan::Form;
+use crate::flow::Limits;
+use crate::runtime::scan_file::{Refusal, ScanFile};
+use crate::runtime::scanning::{Effort, rows};
+use crate::runtime::signals::exit_code;
+use crate::study::basin::Window;
+use crate::study::measure::{MEASURES, Measure};
+use crate::study::scan::{Row, Scan, Sweep};
+
+/// Measures at every point of a line or grid of parameters, on all cores, one row a point
+#[derive(Debug, Args)]
+#[command(name = "scan")]
+pub struct ScanCommand {
+    #[command(flatten)]
+    start: Start,
+    /// A parameter and its values, evenly spaced, or by equal ratios with log: before FROM; repeatable,
+    /// the last one varies fastest
+    #[arg(long, value_name = "NAME=FROM:TO:COUNT", required = true, allow_hyphen_values = true)]
+    over: Vec<Sweep>,
+    #[arg(long, value_name = "NAME,..", required = true, value_delimiter = ',',
+          value_parser = Measure::named, help = measures_help())]
+    measure: Vec<Measure>,
+    /// Displacements and velocities whose captured part is `stability`
+    #[arg(long, value_name = "QMIN:QMAX,VMIN:VMAX", default_value = "-3:3,-3:3",
+          value_parser = input::window, allow_hyphen_values = true)]
+    window: Window,
+    /// Time at which the motions of `outcome` and `rest` stop (default: that of the scene)
+    #[arg(long, value_name = "T", value_parser = input::until, allow_hyphen_values = true)]
+    until: Option<f64>,
+    /// Threads (default: as many as there are cores)
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    jobs: Option<u16>,
+    /// Form of the rows; json writes one object a line (default: csv, or what FILE ends with)
+    #[arg(long, value_enum, value_name = "FORM")]
+    format: Option<Rows>,
+    /// Writes the rows to FILE instead of standard output
+    #[arg(long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Goes on where an earlier scan to the same FILE has ended
+    #[arg(long, requires = "output")]
+    resume: bool,
+    /// Computes part K of N only; the parts, put together in their order, are the whole
+    #[arg(long, value_name = "K/N", value_parser = shard)]
+    shard: Option<Shard>,
+}
+
+/// The form of the rows, by its name on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Rows {
+    /// Aligned columns, to read.
+    Table,
+    /// One object a line, all digits.
+    #[value(alias = "jsonl")]
+    Json,
+    /// One row a line after a line of names, all digits.
+    Csv,
+}
+
+/// Part `number` (from 1) of `of`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Shard {
+    number: usize,
+    of: usize,
+}
+
+fn measures_help() -> String {
+    let names = MEASURES.map(|row| format!("{} ({})", row.name, row.meaning));
+    format!("What to measure; repeatable: {}", names.join("; "))
+}
+
+fn shard(text: &str) -> Result<Shard, String> {
+    /// Most parts.
+    const MOST: usize = 1_000_000;
+    let parts = text.split_once('/').and_then(|(number, of)| {
+        let shard = Shard { number: number.parse().ok()?, of: of.parse().ok()? };
+        ((1..=shard.of).contains(&shard.number) && shard.of <= MOST).then_some(shard)
+    });
+    parts.ok_or_else(|| format!("{text:?} is not a part; expected K/N with 1 <= K <= N <= {MOST}"))
+}
+
+impl Shard {
+    /// Its points: the parts are runs of points in order, as long as each other give or take one.
+    fn points(self, all: usize) -> Range<usize> {
+        let end = |number: usize| all / self.of * number + (all % self.of).min(number);
+        end(self.number - 1)..end(self.number)
+    }
+}
+
+/// Where the rows go.
+enum Sink {
+    Standard(Form),
+    File(ScanFile),
+}
+
+impl Sink {
+    fn add(&mut self, scan: &Scan, index: usize, row: &Row) -> io::Result<()> {
+        match self {
+            Sink::Standard(form) => {
+                io::stdout().write_all(form.line(scan, index, row).as_bytes())?;
+                io::stdout().flush()
+            }
+            Sink::File(file) => file.add(scan, index, row),
+        }
+    }
+}
+
+impl ScanCommand {
+    /// Computes and writes, until it is done or told to stop.
+    pub fn run(&self) -> Result<ExitCode, Failure> {
+        let mut base = self.start.problem()?;
+        base.until = self.until.unwrap_or(base.until);
+        let scan = Scan::new(base, self.over.clone(), self.measure.clone(), self.window)
+            .map_err(Failure::Usage)?;
+        let shard = self.shard.unwrap_or(Shard { number: 1, of: 1 });
+        let mut points = shard.points(scan.points());
+        let stop = Stop::listen()?;
+        let interrupted = || stop.signal().is_some();
+        let (mut sink, done) = self.sink(&scan, shard, points.clone(), &interrupted)?;
+        points.start += done;
+
+        let mut effort = Effort::whole();
+        effort.jobs = self.jobs.map_or(effort.jobs, usize::from);
+        let mut tally = Tally { wanted: points.len(), ..Tally::default() };
+        let shown =
+            io::stderr().is_terminal() && !(self.output.is_none() && io::stdout().is_terminal());
+        let mut progress = Progress::new(points.len(), done, shown);
+        let mut broken = None;
+        let took = rows(&scan, points, effort, &interrupted, |index, row| {
+            if let Err(error) = sink.add(&scan, index, &row) {
+                broken = Some(error);
+                return ControlFlow::Break(());
+            }
+            tally.rows += 1;
+            tally.given_up += usize::from(row.reason.is_some());
+            progress.step();
+            ControlFlow::Continue(())
+        });
+        progress.end();
+        took.map_err(|error| Failure::Unanswered(format!("no threads to scan with: {error}")))?;
+        match broken {
+            // A reader that has gone has seen what it wanted.
+            Some(error) if self.output.is_none() && error.kind() == io::ErrorKind::BrokenPipe => {
+                return Ok(ExitCode::SUCCESS);
+            }
+            Some(error) => {
+                let to = self
+                    .output
+                    .as_ref()
+                    .map_or("standard output".into(), |path| path.display().to_string());
+                return Err(Failure::Unanswered(format!("{to}: {error}; {tally}")));
+            }
+            None => {}
+        }
+        Ok(self.report(&tally, stop.signal().filter(|_| tally.rows < tally.wanted)))
+    }
+
+    /// Where the rows go, and how many of them are there already.
+    fn sink(
+        &self,
+        scan: &Scan,
+        shard: Shard,
+        points: Range<usize>,
+        interrupted: &(dyn Fn() -> bool + Sync),
+    ) -> Result<(Sink, usize), Failure> {
+        let form = self.form()?;
+        // The heading belongs to the whole: the other parts follow the first.
+        let headed = shard.number == 1;
+        let Some(path) = &self.output else {
+            super::output::print(&if headed { form.heading(scan) } else { String::new() })?;
+            return Ok((Sink::Standard(form), 0));
+        };
+        let limits = Limits { interrupted, ..Limits::PATIENT };
+        let opened = if self.resume {
+            ScanFile::resume(path, scan, form, headed, points, &limits)
+        } else {
+            ScanFile::create(path, scan, form, headed).map(|file| (file, 0))
+        };
+        let (file, done) = opened.map_err(|refusal| match refusal {
+            Refusal::Io(error) => Failure::file(path, &error),
+            other => Failure::Usage(format!("{}: {other}", path.display())),
+        })?;
+        Ok((Sink::File(file), done))
+    }
+
+    fn form(&self) -> Result<Form, Failure> {
+        let ending = self.output.as_ref().and_then(|path| path.extension());
+        let form = match self.format {
+            Some(Rows::Json) => Form::Json,
+            Some(Rows::Table) => Form::Table,
+            None if ending.is_some_and(|end| end == "json" || end == "jsonl") => Form::Json,
+            Some(Rows::Csv) | None => Form::Csv,
+        };
+        if form == Form::Table && self.resume {
+            let line = "--format table rounds its numbers; --resume needs csv or json";
+            return Err(Failure::Usage(line.to_owned()));
+        }
+        Ok(form)
+    }
+
+    /// Says how it ended, where there is something to say.
+    fn report(&self, tally: &Tally, signal: Option<i32>) -> ExitCode {
+        let Some(signal) = signal else {
+            if tally.given_up > 0 {
+                eprintln!("hopfscope: note: {tally}; their reason stands in the last column");
+            }
+            return ExitCode::SUCCESS;
+        };
+        let again = if self.output.is_some() { "; --resume goes on" } else { "" };
+        eprintln!("hopfscope: stopped: {tally}{again}");
+        exit_code(signal).into()
+    }
+}
+
+/// How many rows there are.
+#[derive(Clone, Copy, Debug, Default)]
+struct Tally {
+    wanted: usize,
+    rows: usize,
+    given_up: usize,
+}
+
+impl std::fmt::Display for Tally {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(out, "{} of {} rows", self.rows, self.wanted)?;
+        if self.given_up > 0 {
+            write!(out, ", {} of them given up", self.given_up)?;
+        }
+        Ok(())
+    }
+}
+
+/// The signal that asks to stop, once it has come; a second one ends the process at once.
+struct Stop(Arc<AtomicUsize>);
+
+impl Stop {
+    fn listen() -> Result<Self, Failure> {
+        let came = Arc::new(AtomicUsize::new(0));
+        let again = Arc::new(AtomicBool::new(false));
+        let listen = |signal: i32| {
+            let code = i32::from(exit_code(signal));
+            flag::register_conditional_shutdown(signal, code, Arc::clone(&again))?;
+            flag::register(signal, Arc::clone(&again))?;
+            flag::register_usize(signal, Arc::clone(&came), usize::try_from(signal).unwrap_or(0))
+        };
+        for signal in [SIGINT, SIGTERM, SIGHUP] {
+            listen(signal).map_err(|error| {
+                Failure::Unanswered(format!("signals cannot be heard: {error}"))
+            })?;
+        }
+        Ok(Stop(came))
+    }
+
+    fn signal(&self) -> Option<i32> {
+        i32::try_from(self.0.load(Ordering::Relaxed)).ok().filter(|&signal| signal != 0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_are_the_whole_in_order_and_as_long_as_each_other() {
+        for all in [2, 7, 100, 101] {
+            for of in [1, 2, 3, 7, 150] {
+                let parts = (1..=of).map(|number| Shard { number, of }.points(all));
+                let lengths: Vec<usize> = parts.clone().map(|part| part.len()).collect();
+                let (least, most) = (lengths.iter().min().unwrap(), lengths.iter().max().unwrap());
+                assert!(most - least <= 1, "{lengths:?}");
+                assert!(parts.flatten().eq(0..all), "{all} in {of}");
+            }
+        }
+    }
+
+    #[test]
+    fn parts_that_are_none_are_refused() {
+        assert_eq!(shard("2/3"), Ok(Shard { number: 2, of: 3 }));
+        for text in ["0/3", "4/3", "1", "1/0", "a/b", "-1/2", "1/2/3"] {
+            assert!(shard(text).unwrap_err().contains("K/N"), "{text}");
+        }
+    }
+}

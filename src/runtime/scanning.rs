@@ -1,0 +1,117 @@
+//! A scan on all cores: rows are computed side by side and come out in order.
+
+use std::collections::BTreeMap;
+use std::io;
+use std::ops::{ControlFlow, Range};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::available_parallelism;
+
+use crossbeam_channel::unbounded;
+use rayon::ThreadPoolBuilder;
+
+use super::panics;
+use crate::flow::Limits;
+use crate::study::scan::{Row, Scan};
+
+/// Rows that each thread may be ahead of the first one that is not done yet: enough that one slow row
+/// does not hold the others up, few enough that little is lost when the process is killed.
+const AHEAD: usize = 32;
+
+/// What a scan may use of the machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Effort {
+    /// Threads.
+    pub jobs: usize,
+    /// Whether others, such as the keys of the explorer, go first.
+    pub polite: bool,
+}
+
+impl Effort {
+    /// All cores.
+    #[must_use]
+    pub fn whole() -> Self {
+        Effort { jobs: available_parallelism().map_or(1, usize::from), polite: false }
+    }
+}
+
+/// Computes the rows of these points and hands each to `take`, in their order, as soon as it and all
+/// before it are known; until `take` breaks off or `interrupted` says so.
+///
+/// A row whose computation panics has the panic for its reason.
+///
+/// # Errors
+/// If the system gives no threads.
+pub fn rows(
+    scan: &Scan,
+    points: Range<usize>,
+    effort: Effort,
+    interrupted: &(dyn Fn() -> bool + Sync),
+    mut take: impl FnMut(usize, Row) -> ControlFlow<()>,
+) -> io::Result<()> {
+    let jobs = effort.jobs.clamp(1, points.len().max(1));
+    let pool = ThreadPoolBuilder::new()
+        .num_threads(jobs)
+        .thread_name(|index| format!("scan {index}"))
+        .start_handler(move |_| step_back(effort.polite))
+        .build()
+        .map_err(io::Error::other)?;
+    let stopped = AtomicBool::new(false);
+    let is_over = || stopped.load(Ordering::Relaxed) || interrupted();
+    let (ticket, tickets) = unbounded::<usize>();
+    let (done, found) = unbounded::<(usize, Row)>();
+    pool.in_place_scope(|scope| {
+        for _ in 0..jobs {
+            let (tickets, done, is_over) = (tickets.clone(), done.clone(), &is_over);
+            scope.spawn(move |_| {
+                let limits = Limits { interrupted: is_over, ..Limits::PATIENT };
+                for index in tickets {
+                    let Some(row) = computed(scan, index, &limits) else { return };
+                    drop(done.send((index, row)));
+                }
+            });
+        }
+        drop((tickets, done));
+        let mut next = points.start;
+        let mut given = points.start;
+        let mut waiting = BTreeMap::new();
+        while next < points.end {
+            while given < points.end && given < next + AHEAD * jobs {
+                let _ = ticket.send(given);
+                given += 1;
+            }
+            let Ok((index, row)) = found.recv() else { break };
+            waiting.insert(index, row);
+            while let Some(row) = waiting.remove(&next) {
+                if take(next, row).is_break() {
+                    stopped.store(true, Ordering::Relaxed);
+                    return drop(ticket);
+                }
+                next += 1;
+            }
+        }
+        drop(ticket);
+    });
+    Ok(())
+}
+
+/// A row, or nothing if the scan is over.
+fn computed(scan: &Scan, index: usize, limits: &Limits) -> Option<Row> {
+    if (limits.interrupted)() {
+        return None;
+    }
+    match catch_unwind(AssertUnwindSafe(|| scan.row(index, limits))) {
+        Ok(row) => row.ok(),
+        Err(panic) => Some(scan.failed(format!("internal error: {}", panics::message(&*panic)))),
+    }
+}
+
+/// Lets other threads go first, where the system knows threads of lower priority.
+fn step_back(polite: bool) {
+    /// How many steps of niceness, of 19.
+    const STEPS: i32 = 10;
+    if polite {
+        // Without it the scan is as right, only less considerate.
+        let _ = rustix::process::nice(STEPS);
+    }
+}

@@ -1,0 +1,292 @@
+//! `hopfscope scan`: rows, files that survive a kill, parts that are the whole.
+
+mod program;
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use hopfscope::flow::Limits;
+use hopfscope::oscillator::Parameters;
+use hopfscope::study::cycle::cycles;
+use program::{Ran, command, run};
+use serde_json::Value;
+
+/// Runs `hopfscope scan` with these words.
+fn scan(line: &str) -> Ran {
+    run(&["scan"].into_iter().chain(line.split_whitespace()).collect::<Vec<_>>())
+}
+
+/// The rows of a CSV text as maps from column to cell.
+fn rows(text: &str) -> Vec<std::collections::BTreeMap<&str, &str>> {
+    let mut lines = text.lines();
+    let names: Vec<&str> = lines.next().expect("names").split(',').collect();
+    lines.map(|line| names.iter().copied().zip(line.split(',')).collect()).collect()
+}
+
+#[test]
+fn each_point_has_its_row_in_order_and_the_numbers_are_those_of_the_questions() {
+    let ran = scan("--over D=-0.3:-0.2:3 --set D3=0.5 --measure margin,cycles --jobs 4");
+    assert_eq!((ran.code, ran.err.as_str()), (0, ""));
+    let rows = rows(&ran.out);
+    let values: Vec<&str> = rows.iter().map(|row| row["D"]).collect();
+    assert_eq!(values, ["-0.3", "-0.25", "-0.2"]);
+    for row in rows {
+        let d = row["D"].parse().unwrap();
+        let parameters = Parameters { d, d3: 0.5, ..Parameters::default() };
+        let found = cycles(&parameters, true, &Limits::PATIENT).unwrap();
+        let margin = found.picture.unwrap().margin;
+        assert_eq!(row["displacement"].parse(), Ok(margin.displacement.unwrap()));
+        assert_eq!(row["impulse"].parse(), Ok(margin.impulse.unwrap()));
+        assert_eq!(row["cycles"], "2");
+        assert_eq!(row["q_max_2"].parse(), Ok(found.cycles[1].q_max));
+        assert_eq!(row["reason"], "");
+    }
+}
+
+#[test]
+fn a_json_row_is_one_object_a_line_and_null_is_what_does_not_exist() {
+    let ran = scan("--over D=-0.3:0.1:3 --over q0=0.2:3:2 --measure outcome,margin --format json");
+    let rows: Vec<Value> =
+        ran.out.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(rows.len(), 6);
+    assert_eq!(rows[0]["outcome"], "captured");
+    assert_eq!(rows[1]["outcome"], "moving");
+    assert!(rows[1]["displacement"].is_number() && rows[1]["half_swings"].is_number());
+    assert_eq!(rows[5]["displacement"], Value::Null);
+    assert_eq!(rows[5]["reason"], Value::Null);
+    assert_eq!((rows[5]["q0"].as_f64(), rows[5]["method"].as_str()), (Some(3.0), Some("auto")));
+}
+
+#[test]
+fn a_row_that_cannot_be_computed_says_why_and_the_others_go_on() {
+    let line = "--over D=-0.999999:-0.1:2 --set r=0 --until 1e5 --measure rest,outcome";
+    let ran = scan(line);
+    assert_eq!(ran.code, 0);
+    assert_eq!(ran.err.lines().count(), 1, "{}", ran.err);
+    assert!(ran.err.contains("2 of 2 rows, ") && ran.err.contains("given up"), "{}", ran.err);
+    assert!(!ran.out.contains("NaN") && !ran.out.contains("inf"), "{}", ran.out);
+    let row = &rows(&ran.out)[0];
+    assert_eq!((row["rest_q"], row["outcome"]), ("", "gave-up"));
+    assert!(row["reason"].starts_with("motion: "), "{}", row["reason"]);
+}
+
+#[test]
+fn the_table_is_for_reading() {
+    let ran = scan("--over r=log:0.01:1:3 --measure margin --format table");
+    let lines: Vec<&str> = ran.out.lines().collect();
+    assert_eq!(lines[0].split_whitespace().collect::<Vec<_>>(), ["r", "displacement", "impulse"]);
+    assert_eq!(lines.len(), 4);
+    assert!(lines.iter().all(|line| line.len() == lines[0].len()), "{}", ran.out);
+}
+
+#[test]
+fn a_wrong_scan_is_refused_in_one_line() {
+    for (line, expected) in [
+        ("--over D=-1:0:3", "--measure"),
+        ("--measure margin", "--over"),
+        ("--over D=-1:0:3 --measure margins", "margin, stability"),
+        ("--over x=-1:0:3 --measure margin", "D, D2, D3, r, q0, v0"),
+        ("--over D=-1:0 --measure margin", "NAME=FROM:TO:COUNT"),
+        ("--over q0=-1:0:3 --measure margin", "margin does not depend on q0"),
+        ("--over D=-1:0:3 --measure margin --shard 4/3", "1 <= K <= N"),
+        ("--over D=-1:0:3 --measure margin --jobs 0", "1..=1024"),
+        ("--over D=-1:0:3 --measure margin --resume", "--output"),
+        ("--over D=-1:0:3 --measure margin --output nowhere/x.csv", "nowhere/x.csv"),
+        ("--over D=-1:0:3 --measure margin --window 1:0,0:1", "not below"),
+    ] {
+        let ran = scan(line);
+        assert_eq!((ran.code, ran.out.as_str()), (2, ""), "{line}");
+        assert_eq!(ran.err.lines().count(), 1, "{line}: {}", ran.err);
+        assert!(ran.err.contains(expected), "{line}: {}", ran.err);
+    }
+}
+
+/// A scan of some seconds' work, so that kills meet it at work.
+const LONG: &str =
+    "--over D=-0.6:-0.1:40 --over D3=0.1:0.5:25 --set D2=0.2 --measure margin,cycles";
+
+/// The same with this file, and more.
+fn to_file(path: &Path, more: &str) -> Command {
+    let mut words = vec!["scan", "--output", path.to_str().unwrap()];
+    words.extend(LONG.split_whitespace().chain(more.split_whitespace()));
+    command(&words)
+}
+
+/// Starts a scan again and again, and kills it when the file has grown by some rows, until it is done;
+/// says how often it was killed.
+fn killed_until_done(path: &Path, more: &str, rows: &mut dyn FnMut() -> usize) -> usize {
+    for kills in 0.. {
+        let length = || fs::metadata(path).map_or(0, |file| file.len());
+        let enough = length() + 150 * rows() as u64;
+        let mut child = to_file(path, &format!("{more} --resume")).spawn().unwrap();
+        let ended = loop {
+            if let Some(status) = child.try_wait().unwrap() {
+                break Some(status);
+            }
+            if length() >= enough {
+                break None;
+            }
+            std::thread::yield_now();
+        };
+        if let Some(status) = ended {
+            assert!(status.success());
+            return kills;
+        }
+        child.kill().unwrap();
+        child.wait().unwrap();
+    }
+    unreachable!("a scan ends")
+}
+
+/// Numbers that jump about, the same in every run.
+fn jumps(seed: u64) -> impl FnMut() -> usize {
+    let mut state = seed;
+    move || {
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        usize::try_from(state >> 56).unwrap()
+    }
+}
+
+#[test]
+fn a_scan_that_is_killed_and_gone_on_with_is_the_same_to_the_last_byte() {
+    let folder = tempfile::tempdir().unwrap();
+    for form in ["csv", "json"] {
+        let whole = folder.path().join(format!("whole.{form}"));
+        assert!(to_file(&whole, "").status().unwrap().success());
+        let whole = fs::read_to_string(whole).unwrap();
+        assert_eq!(whole.lines().count(), 1000 + usize::from(form == "csv"));
+        let path = folder.path().join(format!("killed.{form}"));
+        let kills = killed_until_done(&path, "", &mut jumps(7));
+        assert!(kills >= 3, "killed {kills} times only");
+        assert!(fs::read_to_string(&path).unwrap() == whole, "after {kills} kills");
+        // A file may also end anywhere, as when a disk was full.
+        for end in [0, 1, 40, whole.len() / 2, whole.len() - 1] {
+            fs::write(&path, &whole[..end]).unwrap();
+            assert!(to_file(&path, "--resume").status().unwrap().success());
+            assert!(fs::read_to_string(&path).unwrap() == whole, "cut at {end}");
+        }
+    }
+}
+
+#[test]
+fn parts_of_a_scan_put_together_are_the_whole_though_one_is_killed() {
+    let folder = tempfile::tempdir().unwrap();
+    let whole = scan(LONG).out;
+    let mut parts = Vec::new();
+    for part in 1..=3 {
+        let path = folder.path().join(format!("part{part}.csv"));
+        let shard = format!("--shard {part}/3");
+        if part == 2 {
+            killed_until_done(&path, &shard, &mut jumps(3));
+        } else {
+            assert!(to_file(&path, &shard).status().unwrap().success());
+        }
+        parts.push(fs::read_to_string(path).unwrap());
+    }
+    assert_eq!(parts.concat(), whole);
+}
+
+#[test]
+fn a_file_of_something_else_is_refused_and_left_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("rows.csv");
+    let name = path.to_str().unwrap();
+    let own = "--over D=-0.5:-0.1:5 --measure margin --resume --output";
+    let other = |text: &str, expected: &str| {
+        fs::write(&path, text).unwrap();
+        let ran = scan(&format!("{own} {name}"));
+        assert_eq!((ran.code, ran.err.lines().count()), (2, 1), "{}", ran.err);
+        assert!(ran.err.contains(name) && ran.err.contains(expected), "{}", ran.err);
+        assert_eq!(fs::read_to_string(&path).unwrap(), text);
+    };
+    other("Dear diary,\n", "line 1 names other columns");
+    other("no line at all", "line 1 names other columns");
+    let whole = scan("--over D=-0.5:-0.1:5 --measure margin").out;
+    let finer = scan("--over D=-0.5:-0.1:9 --measure margin").out;
+    other(&finer, "line 3 is of another point");
+    other(&whole.replace("-0.3,", "-0.31,"), "line 4 is of another point");
+    other(
+        &(whole.clone() + "-0.05,0.0,0.0,0.1,1.0,1.0,\n"),
+        "line 7 is one more than it has points",
+    );
+    let first = whole.lines().nth(1).unwrap();
+    let altered = whole.replacen(&first[first.len() - 4..], "999,", 1);
+    other(&altered, "line 2 is different when computed anew");
+    // With another friction the rows are of other points.
+    let rougher = scan("--over D=-0.5:-0.1:5 --measure margin --set r=0.2").out;
+    other(&rougher, "line 2 is of another point");
+    // The untouched file is complete, and nothing is computed or changed.
+    fs::write(&path, &whole).unwrap();
+    assert_eq!(scan(&format!("{own} {name}")).code, 0);
+    assert_eq!(fs::read_to_string(&path).unwrap(), whole);
+}
+
+#[test]
+fn an_interrupt_keeps_what_is_done_and_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("rows.csv");
+    let mut child = to_file(&path, "").stderr(Stdio::piped()).spawn().unwrap();
+    while fs::metadata(&path).map_or(0, |file| file.len()) < 1000 {
+        std::thread::yield_now();
+    }
+    let pid = rustix::process::Pid::from_child(&child);
+    rustix::process::kill_process(pid, rustix::process::Signal::INT).unwrap();
+    let mut told = String::new();
+    std::io::Read::read_to_string(child.stderr.as_mut().unwrap(), &mut told).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130), "{told}");
+    assert!(told.contains("of 1000 rows; --resume goes on"), "{told}");
+    let text = fs::read_to_string(&path).unwrap();
+    let done: usize = told.split_whitespace().nth(2).unwrap().parse().unwrap();
+    assert_eq!(text.lines().count(), 1 + done);
+    assert!(text.ends_with('\n') && done < 1000);
+}
+
+/// The one line of the README that begins with these words.
+fn readme_line(beginning: &str) -> String {
+    let readme = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).unwrap();
+    let mut lines = readme.lines().map(str::trim).filter(|line| line.starts_with(beginning));
+    let line = lines.next().unwrap_or_else(|| panic!("no line {beginning}")).to_owned();
+    assert_eq!(lines.next(), None);
+    line
+}
+
+/// A line for the shell in a folder, with the program on the path.
+fn shell(line: &str, folder: &Path) -> Command {
+    let program = Path::new(env!("CARGO_BIN_EXE_hopfscope")).parent().unwrap();
+    let path = format!("{}:{}", program.display(), std::env::var("PATH").unwrap());
+    let mut shell = Command::new("sh");
+    shell.args(["-c", line]).current_dir(folder).env("PATH", path).stdin(Stdio::null());
+    shell
+}
+
+/// The scan of the README in one piece.
+fn readme_scan() -> String {
+    let line = readme_line("hopfscope scan --over D=-0.9:-0.2:400");
+    scan(line.strip_prefix("hopfscope scan").unwrap().split('#').next().unwrap()).out
+}
+
+#[test]
+#[ignore = "needs GNU parallel: cargo test --test scan -- --ignored"]
+fn the_line_for_gnu_parallel_makes_the_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let line = readme_line("parallel hopfscope scan");
+    assert!(shell(&line, folder.path()).status().unwrap().success());
+    assert!(shell("cat part[1-4].csv > all.csv", folder.path()).status().unwrap().success());
+    assert_eq!(fs::read_to_string(folder.path().join("all.csv")).unwrap(), readme_scan());
+}
+
+#[test]
+fn the_line_for_slurm_makes_the_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let line = readme_line("sbatch --array=1-4");
+    let wrapped = line.split('\'').nth(1).expect("a wrapped command");
+    let mut parts = String::new();
+    for task in ["1", "2", "3", "4"] {
+        let mut job = shell(wrapped, folder.path());
+        assert!(job.env("SLURM_ARRAY_TASK_ID", task).status().unwrap().success());
+        parts += &fs::read_to_string(folder.path().join(format!("part{task}.csv"))).unwrap();
+    }
+    assert_eq!(parts, readme_scan());
+}
