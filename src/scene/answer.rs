@@ -8,7 +8,8 @@ use crate::study::branch::branch;
 use crate::study::capture::bands;
 use crate::study::cycle::cycles;
 use crate::study::harmonic_error::{HarmonicBalance, harmonic_balance};
-use crate::study::{Branch, Cycles};
+use crate::study::return_map::return_map;
+use crate::study::{Branch, Cycles, ReturnMap};
 
 /// What the worker found.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +24,8 @@ pub enum Answer {
     Balance(HarmonicBalance),
     /// To [`Request::Branch`].
     Branch(Branch),
+    /// To [`Request::ReturnMap`].
+    ReturnMap(ReturnMap),
 }
 
 /// The borders between bands of capture, to be drawn.
@@ -75,6 +78,9 @@ const CURVE_POINTS: usize = 240;
 /// Points of a branch, a piece.
 const BRANCH_POINTS: usize = 160;
 
+/// Points of a return map, a side.
+const MAP_POINTS: u16 = 128;
+
 /// Answers a request: the only place where a question becomes a computation.
 ///
 /// # Errors
@@ -100,6 +106,9 @@ pub fn answer(request: &Request, limits: &Limits) -> Result<Answer, Reason> {
             branch(parameters, *parameter, *range, BRANCH_POINTS, *tolerance, limits)
                 .map(Answer::Branch)
         }
+        Request::ReturnMap { parameters, range } => {
+            return_map(parameters, *range, MAP_POINTS, limits).map(Answer::ReturnMap)
+        }
     }
 }
 
@@ -113,6 +122,7 @@ impl Answer {
             Answer::Capture(answer) => answer.cost,
             Answer::Balance(answer) => answer.cost,
             Answer::Branch(answer) => answer.cost,
+            Answer::ReturnMap(answer) => answer.cost,
         }
     }
 }

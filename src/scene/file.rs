@@ -254,7 +254,7 @@ plot = [
             ("[-3, 3]", "[3, -3]", "8:25", "the second larger"),
             ("over = \"D\"", "over = \"q0\"", "9:30", "D, D2, D3 and r are allowed"),
             ("over", "ordinate = \"size\", over", "9:34", "expected one of `q_max`, `q_min`"),
-            ("\"phase\"", "\"plane\"", "8:12", "expected `phase` or `diagram`"),
+            ("\"phase\"", "\"plane\"", "8:12", "expected one of `phase`, `diagram`"),
             ("\"diagram\"", "\"phase\"", "9:28", "has fixed axes"),
             (", y = [0, 2]", "", "9:3", "has no y; give x and y, or neither"),
             ("\"trajectory\"", "\"tail\"", "6:11", "expected one of `trajectory`"),

@@ -36,6 +36,26 @@ pub enum Layer {
     Asymptotes,
     /// Labels at the special points.
     Special,
+    /// Displacement over time.
+    Position,
+    /// Velocity over time.
+    Velocity,
+    /// The force of dry friction over time.
+    Friction,
+    /// Energy over time.
+    Energy,
+    /// Turning points and capture on the time axis.
+    Events,
+    /// Works over one turn of each cycle.
+    CycleWorks,
+    /// Works along the motion.
+    MotionWorks,
+    /// The return map.
+    Map,
+    /// The turning points of the motion, as a cobweb.
+    Cobweb,
+    /// The cycles, as fixed points of the return map.
+    FixedPoints,
 }
 
 /// One row of [`LAYERS`].
@@ -51,16 +71,19 @@ pub struct LayerSpec {
     pub meaning: &'static str,
     /// The question whose answer it draws; `None` where formulas do.
     pub needs: Option<Slot>,
+    /// Whether it is switched on with its view, where the scene has nothing to say about that.
+    pub usual: bool,
 }
 
 /// Every layer, in the order in which they are listed.
-pub const LAYERS: [LayerSpec; 12] = [
+pub const LAYERS: [LayerSpec; 22] = [
     LayerSpec {
         layer: Layer::Trajectory,
         name: "trajectory",
         view: View::Phase,
         meaning: "the motion from (q0, v0)",
         needs: Some(Slot::Trajectory),
+        usual: true,
     },
     LayerSpec {
         layer: Layer::Sticking,
@@ -68,6 +91,7 @@ pub const LAYERS: [LayerSpec; 12] = [
         view: View::Phase,
         meaning: "the sticking set: every point of it is at rest",
         needs: None,
+        usual: true,
     },
     LayerSpec {
         layer: Layer::Cycles,
@@ -75,6 +99,7 @@ pub const LAYERS: [LayerSpec; 12] = [
         view: View::Phase,
         meaning: "limit cycles, stable and unstable",
         needs: Some(Slot::Cycles),
+        usual: true,
     },
     LayerSpec {
         layer: Layer::Basin,
@@ -82,6 +107,7 @@ pub const LAYERS: [LayerSpec; 12] = [
         view: View::Phase,
         meaning: "starts that come to rest, shaded",
         needs: Some(Slot::Cycles),
+        usual: true,
     },
     LayerSpec {
         layer: Layer::Field,
@@ -89,6 +115,7 @@ pub const LAYERS: [LayerSpec; 12] = [
         view: View::Phase,
         meaning: "directions of the flow",
         needs: None,
+        usual: false,
     },
     LayerSpec {
         layer: Layer::Lyapunov,
@@ -96,6 +123,7 @@ pub const LAYERS: [LayerSpec; 12] = [
         view: View::Phase,
         meaning: "the circle in which a Lyapunov function proves capture",
         needs: None,
+        usual: false,
     },
     LayerSpec {
         layer: Layer::Bands,
@@ -103,6 +131,7 @@ pub const LAYERS: [LayerSpec; 12] = [
         view: View::Phase,
         meaning: "bands of capture: across a border, one half swing more",
         needs: Some(Slot::Capture),
+        usual: false,
     },
     LayerSpec {
         layer: Layer::Balance,
@@ -110,6 +139,7 @@ pub const LAYERS: [LayerSpec; 12] = [
         view: View::Phase,
         meaning: "cycles of N harmonics, and their error",
         needs: Some(Slot::Balance),
+        usual: false,
     },
     LayerSpec {
         layer: Layer::Branch,
@@ -117,6 +147,7 @@ pub const LAYERS: [LayerSpec; 12] = [
         view: View::Diagram,
         meaning: "computed limit cycles, stable and unstable",
         needs: Some(Slot::Branch),
+        usual: true,
     },
     LayerSpec {
         layer: Layer::Harmonic,
@@ -124,6 +155,7 @@ pub const LAYERS: [LayerSpec; 12] = [
         view: View::Diagram,
         meaning: "amplitudes of the first-order harmonic balance",
         needs: None,
+        usual: false,
     },
     LayerSpec {
         layer: Layer::Asymptotes,
@@ -131,6 +163,7 @@ pub const LAYERS: [LayerSpec; 12] = [
         view: View::Diagram,
         meaning: "asymptotes A1 and A2 of the harmonic amplitudes",
         needs: None,
+        usual: false,
     },
     LayerSpec {
         layer: Layer::Special,
@@ -138,6 +171,87 @@ pub const LAYERS: [LayerSpec; 12] = [
         view: View::Diagram,
         meaning: "special points: fold, crossing, escape, Hopf",
         needs: Some(Slot::Branch),
+        usual: true,
+    },
+    LayerSpec {
+        layer: Layer::Position,
+        name: "position",
+        view: View::TimeSeries,
+        meaning: "displacement q",
+        needs: Some(Slot::Trajectory),
+        usual: true,
+    },
+    LayerSpec {
+        layer: Layer::Velocity,
+        name: "velocity",
+        view: View::TimeSeries,
+        meaning: "velocity v",
+        needs: Some(Slot::Trajectory),
+        usual: false,
+    },
+    LayerSpec {
+        layer: Layer::Friction,
+        name: "friction",
+        view: View::TimeSeries,
+        meaning: "force of dry friction, between -r and r",
+        needs: Some(Slot::Trajectory),
+        usual: true,
+    },
+    LayerSpec {
+        layer: Layer::Energy,
+        name: "energy",
+        view: View::TimeSeries,
+        meaning: "energy (q^2 + v^2)/2",
+        needs: Some(Slot::Trajectory),
+        usual: false,
+    },
+    LayerSpec {
+        layer: Layer::Events,
+        name: "events",
+        view: View::TimeSeries,
+        meaning: "turning points, capture",
+        needs: Some(Slot::Trajectory),
+        usual: true,
+    },
+    LayerSpec {
+        layer: Layer::CycleWorks,
+        name: "cycle-works",
+        view: View::EnergyLedger,
+        meaning: "works over one turn of each cycle",
+        needs: Some(Slot::Cycles),
+        usual: true,
+    },
+    LayerSpec {
+        layer: Layer::MotionWorks,
+        name: "motion-works",
+        view: View::EnergyLedger,
+        meaning: "works along the motion",
+        needs: Some(Slot::Trajectory),
+        usual: true,
+    },
+    LayerSpec {
+        layer: Layer::Map,
+        name: "map",
+        view: View::ReturnMap,
+        meaning: "the next turning point on the same side",
+        needs: Some(Slot::ReturnMap),
+        usual: true,
+    },
+    LayerSpec {
+        layer: Layer::Cobweb,
+        name: "cobweb",
+        view: View::ReturnMap,
+        meaning: "the turning points of the motion, step by step",
+        needs: Some(Slot::Trajectory),
+        usual: true,
+    },
+    LayerSpec {
+        layer: Layer::FixedPoints,
+        name: "fixed-points",
+        view: View::ReturnMap,
+        meaning: "limit cycles, stable and unstable",
+        needs: Some(Slot::Cycles),
+        usual: true,
     },
 ];
 

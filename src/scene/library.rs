@@ -17,7 +17,7 @@ macro_rules! scene_file {
 }
 
 /// The files, in the order in which they are listed.
-const FILES: [(&str, &str); 9] = [
+const FILES: [(&str, &str); 11] = [
     scene_file!("plain"),
     scene_file!("capture"),
     scene_file!("linear"),
@@ -27,6 +27,8 @@ const FILES: [(&str, &str); 9] = [
     scene_file!("subcritical"),
     scene_file!("asymmetry"),
     scene_file!("escape"),
+    scene_file!("return-map"),
+    scene_file!("energy"),
 ];
 
 /// The scenes that come with the program, in the order in which they are listed.
@@ -116,6 +118,8 @@ mod tests {
                         assert!(x.contains(plot.axes.abscissa.get(&parameters, &initial)));
                     }
                     View::Phase => assert!(x.contains(initial.q) && y.contains(initial.v)),
+                    View::TimeSeries => assert!(x.contains(0.0)),
+                    View::EnergyLedger | View::ReturnMap => {}
                 }
             }
         }

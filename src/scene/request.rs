@@ -40,6 +40,13 @@ pub enum Request {
         /// Relative error wanted.
         tolerance: f64,
     },
+    /// From turning points to the next ones.
+    ReturnMap {
+        /// The parameters.
+        parameters: Parameters,
+        /// Displacements, from and to.
+        range: (f64, f64),
+    },
 }
 
 /// The kind of a request.
@@ -58,28 +65,31 @@ pub enum Slot {
     Branch,
     /// Harmonic balance.
     Balance,
+    /// The return map.
+    ReturnMap,
 }
 
 /// Every kind, the most urgent first.
-pub const SLOTS: [Slot; 5] =
-    [Slot::Trajectory, Slot::Cycles, Slot::Capture, Slot::Branch, Slot::Balance];
+pub const SLOTS: [Slot; 6] =
+    [Slot::Trajectory, Slot::Cycles, Slot::Capture, Slot::Branch, Slot::Balance, Slot::ReturnMap];
 
 impl Slot {
     /// Whether the question depends on the axes or the window of the plot that asks it.
     #[must_use]
     pub fn is_own(self) -> bool {
-        matches!(self, Slot::Capture | Slot::Branch)
+        matches!(self, Slot::Capture | Slot::Branch | Slot::ReturnMap)
     }
 
     /// The name on the screen.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Slot::Trajectory => "trajectory",
+            Slot::Trajectory => "motion",
             Slot::Cycles => "cycles",
             Slot::Capture => "bands",
             Slot::Branch => "branch",
             Slot::Balance => "harmonics",
+            Slot::ReturnMap => "return map",
         }
     }
 }
@@ -94,6 +104,7 @@ impl Request {
             Request::Capture { .. } => Slot::Capture,
             Request::Balance { .. } => Slot::Balance,
             Request::Branch { .. } => Slot::Branch,
+            Request::ReturnMap { .. } => Slot::ReturnMap,
         }
     }
 

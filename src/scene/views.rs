@@ -20,6 +20,12 @@ pub enum View {
     Phase,
     /// The bifurcation diagram: a property of the cycles over a parameter.
     Diagram,
+    /// Displacement, velocity, friction force and energy over time.
+    TimeSeries,
+    /// The work that each source does over one turn of each cycle, and along the motion.
+    EnergyLedger,
+    /// The next turning point on the same side over a turning point.
+    ReturnMap,
 }
 
 /// One row of [`VIEWS`].
@@ -38,7 +44,7 @@ pub struct ViewSpec {
 }
 
 /// Every view, in the order in which they are listed and the keys visit them.
-pub const VIEWS: [ViewSpec; 2] = [
+pub const VIEWS: [ViewSpec; 5] = [
     ViewSpec {
         view: View::Phase,
         name: "phase",
@@ -52,6 +58,27 @@ pub const VIEWS: [ViewSpec; 2] = [
         title: "bifurcation",
         meaning: "a property of the limit cycles over a parameter",
         window: Window { x: Span::known(-0.9, 0.1), y: Span::known(0.0, 2.0) },
+    },
+    ViewSpec {
+        view: View::TimeSeries,
+        name: "time-series",
+        title: "time series",
+        meaning: "displacement, velocity, friction, energy over time",
+        window: Window { x: Span::known(0.0, 60.0), y: Span::known(-2.0, 2.0) },
+    },
+    ViewSpec {
+        view: View::EnergyLedger,
+        name: "energy-ledger",
+        title: "energy",
+        meaning: "what feeds cycles and motion, and what brakes them",
+        window: Window { x: Span::known(-1.1, 1.1), y: Span::known(0.0, 10.0) },
+    },
+    ViewSpec {
+        view: View::ReturnMap,
+        name: "return-map",
+        title: "return map",
+        meaning: "the next turning point over a turning point",
+        window: Window { x: Span::known(0.0, 2.0), y: Span::known(0.0, 2.0) },
     },
 ];
 
@@ -97,7 +124,7 @@ impl Exhibit {
         let usual = self.view.spec().window;
         self.window.unwrap_or(match self.view {
             View::Diagram => Window { x: usual_values(self.axes.abscissa), ..usual },
-            View::Phase => usual,
+            _ => usual,
         })
     }
 }

@@ -5,8 +5,8 @@
 use super::input::Input;
 use super::key::Key;
 use super::keymap::Context::{
-    self, Always, Diagram, Entry, Everywhere, Help, Layers, Lists, Offer, Palette, Parameters,
-    Phase, Plots, Prompt, Scenes, Search, Views, Walk,
+    self, Always, Diagram, EnergyLedger, Entry, Everywhere, Help, Layers, Lists, Offer, Palette,
+    Parameters, Phase, Plots, Prompt, ReturnMap, Scenes, Search, TimeSeries, Views, Walk,
 };
 use super::message::Effect;
 use super::state::Session;
@@ -81,8 +81,10 @@ pub const COMMANDS: &[Command] = &[
     row("reset-value", &[(Parameters, &["r", "<backspace>", "<del>"])], "reset",
         "Give the selected row the scene's value and step", |s, _| parameters::reset_row(s)),
 
-    row("start-here", &[(Phase, &["<enter>"])], "start here",
+    row("start-here", &[(Phase, &["<enter>"]), (TimeSeries, &["<enter>"]), (ReturnMap, &["<enter>"])], "start here",
         "Start the motion at the cursor", |s, _| plots::start_here(s)),
+    row("start-on-cycle", &[(EnergyLedger, &["<enter>"])], "start there",
+        "Start the motion on the cycle that the cursor is at", |s, _| plots::start_here(s)),
     row("jump-here", &[(Diagram, &["<enter>"])], "jump here",
         "Give the diagram's parameter the value under the cursor", |s, _| plots::jump_here(s)),
 
@@ -223,6 +225,26 @@ pub const COMMANDS: &[Command] = &[
         "Show or hide the asymptotes A1 and A2", |s, _| general::toggle(s, Layer::Asymptotes)),
     row("toggle-special", &[(Everywhere, &["p"])], "",
         "Show or hide the labels of special points", |s, _| general::toggle(s, Layer::Special)),
+    row("toggle-position", &[(TimeSeries, &["P"])], "",
+        "Show or hide the displacement", |s, _| general::toggle(s, Layer::Position)),
+    row("toggle-velocity", &[(TimeSeries, &["I"])], "",
+        "Show or hide the velocity", |s, _| general::toggle(s, Layer::Velocity)),
+    row("toggle-friction", &[(TimeSeries, &["F"])], "",
+        "Show or hide the force of dry friction", |s, _| general::toggle(s, Layer::Friction)),
+    row("toggle-energy", &[(TimeSeries, &["E"])], "",
+        "Show or hide the energy", |s, _| general::toggle(s, Layer::Energy)),
+    row("toggle-events", &[(TimeSeries, &["G"])], "",
+        "Show or hide turning points and capture", |s, _| general::toggle(s, Layer::Events)),
+    row("toggle-cycle-works", &[(EnergyLedger, &["P"])], "",
+        "Show or hide the works over a turn of each cycle", |s, _| general::toggle(s, Layer::CycleWorks)),
+    row("toggle-motion-works", &[(EnergyLedger, &["I"])], "",
+        "Show or hide the works along the motion", |s, _| general::toggle(s, Layer::MotionWorks)),
+    row("toggle-map", &[(ReturnMap, &["F"])], "",
+        "Show or hide the map", |s, _| general::toggle(s, Layer::Map)),
+    row("toggle-cobweb", &[(ReturnMap, &["G"])], "",
+        "Show or hide the cobweb of the motion", |s, _| general::toggle(s, Layer::Cobweb)),
+    row("toggle-fixed-points", &[(ReturnMap, &["P"])], "",
+        "Show or hide the limit cycles as fixed points", |s, _| general::toggle(s, Layer::FixedPoints)),
 
     row("retry", &[(Everywhere, &["<f5>"])], "",
         "Compute again what has failed", |s, _| general::retry(s)),

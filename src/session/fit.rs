@@ -3,6 +3,8 @@
 use super::plot::Framing;
 use super::state::Session;
 use crate::flow::Outcome;
+use crate::oscillator::State;
+use crate::oscillator::energy::energy;
 use crate::scene::{Layer, Point, Span, View, Window};
 
 /// Room around what is fitted, as a factor of its width.
@@ -10,6 +12,15 @@ const ROOM: f64 = 1.1;
 
 /// How far a motion that escapes is followed, in extents of all else.
 const ESCAPE: f64 = 2.0;
+
+/// How much of the time axis a motion at rest takes, as a factor of the time until then.
+const REST: f64 = 1.2;
+
+/// How far beyond the largest cycle a return map goes.
+const FARTHER: f64 = 1.25;
+
+/// Room beyond the sticking set, as a part of that.
+const MARGIN: f64 = 0.2;
 
 /// The part of a branch that must fit, from above and from below: where it goes to infinity, its end
 /// need not.
@@ -26,6 +37,9 @@ pub(super) fn resolve(session: &mut Session) {
         let window = match view {
             View::Phase => phase(session, index),
             View::Diagram => diagram(session, index),
+            View::TimeSeries => time_series(session, index),
+            View::EnergyLedger => energy_ledger(session),
+            View::ReturnMap => return_map(session),
         };
         let of_scene = session.exhibit_of_scene(index, view);
         let plot = &mut session.plots[index];
@@ -96,6 +110,54 @@ fn diagram(session: &Session, plot: usize) -> Option<Window> {
     // A window that begins or ends at zero has room on the other side only.
     let about = if span.contains(0.0) && zero.is_some() { 0.0 } else { span.center() };
     Some(Window { x, y: span.scaled(about, ROOM) })
+}
+
+/// The time until the motion ends or comes to rest, and the values that the layers have in it.
+fn time_series(session: &Session, plot: usize) -> Option<Window> {
+    let found = session.trajectory()?;
+    let r = session.problem.parameters.r;
+    let mut values = vec![0.0];
+    let shown = |layer| session.shows_in(layer, plot);
+    for sample in &found.samples {
+        values.extend(shown(Layer::Position).then_some(sample.q));
+        values.extend(shown(Layer::Velocity).then_some(sample.v));
+        let state = State { q: sample.q, v: sample.v };
+        values.extend(shown(Layer::Energy).then(|| energy(state)));
+    }
+    if let Outcome::Escaped { .. } = found.outcome {
+        // Where the values run away their beginning is looked at.
+        let extent = ESCAPE * session.problem.initial.q.hypot(session.problem.initial.v).max(r);
+        values.retain(|value| value.abs() <= extent);
+    }
+    if shown(Layer::Friction) {
+        values.extend([-r, r]);
+    }
+    let end = match found.outcome {
+        Outcome::Captured { tau, .. } => (REST * tau).min(found.problem.until),
+        Outcome::Moving { tau, .. } => tau,
+        Outcome::Escaped { tau } | Outcome::GaveUp { tau, .. } => ROOM * tau,
+    };
+    let y = Span::covering(values)?;
+    Some(Window { x: Span::new(0.0, end).ok()?, y: y.scaled(y.center(), ROOM) })
+}
+
+/// All lines of the ledger.
+fn energy_ledger(session: &Session) -> Option<Window> {
+    let x = View::EnergyLedger.spec().window.x;
+    #[expect(clippy::cast_precision_loss, reason = "a few dozen lines")]
+    let lines = session.ledger().len().max(1) as f64;
+    Some(Window { x, y: Span::new(-lines, 0.0).ok()? })
+}
+
+/// Turning points on the right: those of the cycles, else those of the motion.
+fn return_map(session: &Session) -> Option<Window> {
+    let r = session.problem.parameters.r;
+    let cycles = session.cycles().into_iter().flat_map(|found| &found.cycles);
+    let largest = cycles.map(|cycle| cycle.q_max).fold(session.problem.initial.q.abs(), f64::max);
+    // A map without a cycle: some half swings of friction alone.
+    let far = if largest > r { largest } else { 10.0 * r };
+    let span = Span::new(-(1.0 + MARGIN) * r, FARTHER * far).ok()?;
+    Some(Window { x: span, y: span })
 }
 
 /// The value that this part of some sorted values does not exceed.

@@ -20,6 +20,12 @@ pub enum Context {
     Phase,
     /// The focus is on the diagram.
     Diagram,
+    /// The focus is on the time series.
+    TimeSeries,
+    /// The focus is on the energy ledger.
+    EnergyLedger,
+    /// The focus is on the return map.
+    ReturnMap,
     /// A point of the branch is held.
     Walk,
     /// The focus is on a plot.
@@ -83,6 +89,9 @@ impl Context {
             Context::Parameters => "Parameters",
             Context::Phase => "Phase plane",
             Context::Diagram => "Bifurcation diagram",
+            Context::TimeSeries => "Time series",
+            Context::EnergyLedger => "Energy ledger",
+            Context::ReturnMap => "Return map",
             Context::Walk => "Walking along the branch",
             Context::Plots => "Every plot",
             Context::Everywhere => "Everywhere",
@@ -142,10 +151,13 @@ impl Context {
 }
 
 /// Every set of contexts that can hold together, the most specific first.
-pub const CHAINS: [&[Context]; 13] = [
+pub const CHAINS: [&[Context]; 16] = [
     &[Context::Parameters, Context::Everywhere, Context::Always],
     &[Context::Phase, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Diagram, Context::Plots, Context::Everywhere, Context::Always],
+    &[Context::TimeSeries, Context::Plots, Context::Everywhere, Context::Always],
+    &[Context::EnergyLedger, Context::Plots, Context::Everywhere, Context::Always],
+    &[Context::ReturnMap, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Walk, Context::Always],
     &[Context::Help, Context::Lists, Context::Always],
     &[Context::Scenes, Context::Lists, Context::Always],
@@ -168,6 +180,9 @@ impl Session {
                 None => Context::Parameters,
                 Some(View::Phase) => Context::Phase,
                 Some(View::Diagram) => Context::Diagram,
+                Some(View::TimeSeries) => Context::TimeSeries,
+                Some(View::EnergyLedger) => Context::EnergyLedger,
+                Some(View::ReturnMap) => Context::ReturnMap,
             },
             Some(overlay) if overlay.list().is_some_and(|list| list.searching) => Context::Search,
             Some(Overlay::Help(_)) => Context::Help,

@@ -7,12 +7,13 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use super::plot::Framing;
 use super::state::{Recomputed, Session};
 use crate::flow::{Problem, Reason, Trajectory};
 use crate::scene::answer::{Borders, Failure};
 use crate::scene::{Answer, Answered, Layer, Request, SLOTS, Slot, Span, View, Window};
 use crate::study::harmonic_error::HarmonicBalance;
-use crate::study::{Branch, Cycles};
+use crate::study::{Branch, Cycles, ReturnMap};
 
 /// Bands of capture that are drawn at most: more would fill the plane.
 const MOST_BANDS: usize = 24;
@@ -73,6 +74,12 @@ impl Session {
                     range: (range.from(), range.to()),
                     tolerance,
                 }
+            }
+            Slot::ReturnMap => {
+                // As long as the window is not known there is nothing to ask.
+                let plot = own(View::ReturnMap)?;
+                let range = (plot.framing != Framing::Fitting).then_some(plot.window.x)?;
+                Request::ReturnMap { parameters, range: (range.from(), range.to()) }
             }
         })
     }
@@ -165,6 +172,15 @@ impl Session {
             Answer::Branch(found) if found.parameter == self.plots[plot].axes.abscissa => {
                 Some(found)
             }
+            _ => None,
+        }
+    }
+
+    /// The last return map computed for a plot, stale or not.
+    #[must_use]
+    pub fn return_map(&self, plot: usize) -> Option<&ReturnMap> {
+        match self.answer(Slot::ReturnMap, plot)? {
+            Answer::ReturnMap(found) => Some(found),
             _ => None,
         }
     }

@@ -7,7 +7,7 @@
 
 use super::half_map::{HalfMap, HalfSwing, Length, NoEnd};
 use crate::flow::scaling::times_power;
-use crate::flow::step::Stepper;
+use crate::flow::step::{Powers, Stepper};
 use crate::flow::tableau::GAUSS;
 use crate::flow::taylor::Taylor;
 use crate::flow::{Cost, Limits, Reason};
@@ -127,6 +127,20 @@ impl Arc {
             times_power(times_power(second, piece.unit), piece.unit)
         };
         self.pieces.iter().map(piece_area).sum()
+    }
+
+    /// The integrals of powers of the speed over time.
+    #[must_use]
+    pub fn powers(&self) -> Powers {
+        let mut sum = Powers::default();
+        for Piece { series, unit, .. } in &self.pieces {
+            let powers = series.powers();
+            let square = times_power(times_power(1.0, *unit), *unit);
+            sum.second += square * powers.second;
+            sum.third += times_power(square * powers.third, *unit);
+            sum.fourth += square * (square * powers.fourth);
+        }
+        sum
     }
 
     /// The integral of the displacement over time.

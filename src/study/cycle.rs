@@ -13,10 +13,11 @@ use super::closing::{Closing, Equation, Route};
 use super::half_map::Length;
 use super::margin::Margin;
 use super::search::{Bracket, Node, search};
+use super::works::works as works_over;
 use crate::closed_form::harmonic::{Harmonic, amplitudes};
 use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::{Cost, Limits, Reason};
-use crate::oscillator::{Parameters, Side, State};
+use crate::oscillator::{Ledger, Parameters, Side, State};
 
 /// A limit cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -62,6 +63,8 @@ pub enum Edge {
 pub struct Picture {
     /// The closed curve of each cycle.
     pub curves: Vec<Vec<State>>,
+    /// What each source does over one turn of each cycle.
+    pub works: Vec<Ledger>,
     /// The edge of the basin: a closed curve, or the separatrix as far as it was followed; else empty.
     pub edge: Vec<State>,
     /// The kicks that are survived.
@@ -180,6 +183,8 @@ impl Picture {
     fn of(basin: &Basin) -> Self {
         let mut curves: Vec<Vec<State>> =
             basin.borders.iter().map(|border| border.curve(CURVE_POINTS)).collect();
+        let works = basin.borders.iter().skip(usize::from(basin.edge == Edge::Separatrix));
+        let works = works.filter_map(|border| works_over(border, &basin.parameters)).collect();
         let edge = match basin.edge {
             Edge::None => Vec::new(),
             Edge::Cycle => curves.first().cloned().unwrap_or_default(),
@@ -187,6 +192,7 @@ impl Picture {
         };
         Picture {
             curves,
+            works,
             edge,
             margin: basin.margin(),
             area: basin.area(),

@@ -19,12 +19,15 @@ pub mod half_map;
 pub mod harmonic_error;
 pub mod margin;
 pub mod measure;
+pub mod return_map;
 pub mod scan;
 pub mod search;
 pub mod stability;
 pub mod trade;
+pub mod works;
 
 pub use branch::{Branch, BranchPoint, Special, SpecialKind};
 pub use cycle::{Cycle, Cycles, Edge, Picture};
 pub use harmonic_error::HarmonicBalance;
 pub use margin::Margin;
+pub use return_map::{Return, ReturnMap};

@@ -6,7 +6,9 @@ use ratatui::layout::Rect;
 
 use super::layout::{Layout, SMALLEST, layout};
 use super::look::{Look, Role};
-use super::{diagram, footer, lists, parameters, phase_plane, status};
+use super::{
+    diagram, energy_ledger, footer, lists, parameters, phase_plane, return_map, status, time_series,
+};
 use crate::scene::View;
 use crate::session::Session;
 use crate::session::settings::Glyphs;
@@ -38,6 +40,9 @@ fn panes(parts: &Layout, session: &Session, look: &Look, buffer: &mut Buffer) {
         match session.plots[index].view {
             View::Phase => phase_plane::draw(*area, session, index, look, buffer),
             View::Diagram => diagram::draw(*area, session, index, look, buffer),
+            View::TimeSeries => time_series::draw(*area, session, index, look, buffer),
+            View::EnergyLedger => energy_ledger::draw(*area, session, index, look, buffer),
+            View::ReturnMap => return_map::draw(*area, session, index, look, buffer),
         }
     }
     status::draw(parts.status, session, look, buffer);

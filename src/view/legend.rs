@@ -18,10 +18,11 @@ enum Sample {
     Bar,
     Shade,
     Arrow,
+    Point,
 }
 
 /// What there is to explain: the layer that shows it, its role, how it is drawn, and what it is.
-const ENTRIES: [(Layer, Role, Sample, &str); 12] = [
+const ENTRIES: [(Layer, Role, Sample, &str); 20] = [
     (Layer::Trajectory, Role::Trajectory, Sample::Line(Dash::Solid), "motion"),
     (Layer::Sticking, Role::Sticking, Sample::Bar, "sticking set, at rest"),
     (Layer::Cycles, Role::Stable, Sample::Line(Dash::Solid), "stable cycle"),
@@ -34,6 +35,14 @@ const ENTRIES: [(Layer, Role, Sample, &str); 12] = [
     (Layer::Harmonic, Role::Harmonic, Sample::Line(Dash::Dotted), "first harmonic"),
     (Layer::Asymptotes, Role::Asymptote, Sample::Line(Dash::Sparse), "its asymptotes"),
     (Layer::Branch, Role::Current, Sample::Line(Dash::Sparse), "present value"),
+    (Layer::Position, Role::Trajectory, Sample::Line(Dash::Solid), "displacement q"),
+    (Layer::Velocity, Role::Velocity, Sample::Line(Dash::Dashed), "velocity v"),
+    (Layer::Friction, Role::Sticking, Sample::Line(Dash::Solid), "friction force f"),
+    (Layer::Energy, Role::Energy, Sample::Line(Dash::Dotted), "energy V"),
+    (Layer::Map, Role::Map, Sample::Line(Dash::Solid), "next turning point"),
+    (Layer::Map, Role::Basin, Sample::Shade, "at rest there"),
+    (Layer::Cobweb, Role::Trajectory, Sample::Line(Dash::Solid), "motion, turn by turn"),
+    (Layer::FixedPoints, Role::Stable, Sample::Point, "cycles"),
 ];
 
 /// Draws the legend of the layers that are on at the bottom of `area`, if it fits there.
@@ -65,6 +74,7 @@ fn draw_sample(place: Rect, role: Role, sample: Sample, look: &Look, buffer: &mu
         Sample::Shade => {
             (0..SAMPLE).step_by(2).for_each(|x| dots.texture(x, 0, look.symbols().shade, role));
         }
+        Sample::Point => dots.symbol(1, 0, look.symbols().points[0], role),
         Sample::Arrow => dots.texture(1, 0, look.symbols().arrows[0], role),
     }
     dots.paint(buffer, look);

@@ -46,6 +46,12 @@ pub enum Role {
     Sticking,
     /// The motion on show.
     Trajectory,
+    /// Velocity over time.
+    Velocity,
+    /// Energy over time.
+    Energy,
+    /// The return map.
+    Map,
     /// Stable cycles.
     Stable,
     /// Unstable cycles, and the separatrix.
@@ -63,7 +69,7 @@ pub enum Role {
 }
 
 /// Name in theme files, and glyph in a plot without dots, of every role in order.
-const ROLES: [(Role, &str, char); 23] = [
+const ROLES: [(Role, &str, char); 26] = [
     (Role::Text, "text", '*'),
     (Role::Quiet, "quiet", '.'),
     (Role::Title, "title", '*'),
@@ -80,6 +86,9 @@ const ROLES: [(Role, &str, char); 23] = [
     (Role::Lyapunov, "lyapunov", ':'),
     (Role::Sticking, "sticking", '='),
     (Role::Trajectory, "trajectory", '*'),
+    (Role::Velocity, "velocity", 'v'),
+    (Role::Energy, "energy", 'e'),
+    (Role::Map, "map", '#'),
     (Role::Stable, "stable", '#'),
     (Role::Unstable, "unstable", 'o'),
     (Role::Harmonic, "harmonic", '~'),

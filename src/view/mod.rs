@@ -5,6 +5,7 @@
 
 pub mod diagram;
 pub mod dots;
+pub mod energy_ledger;
 pub mod footer;
 pub mod frame;
 pub mod keys;
@@ -19,8 +20,10 @@ pub mod phase_plane;
 pub mod place;
 pub mod plot;
 pub mod quantity;
+pub mod return_map;
 pub mod status;
 pub mod ticks;
+pub mod time_series;
 mod walk;
 
 #[cfg(test)]

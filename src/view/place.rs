@@ -2,8 +2,10 @@
 
 use ratatui::layout::{Position, Rect};
 
+use super::energy_ledger;
 use super::layout::layout;
 use super::plot::point_at;
+use crate::scene::View;
 use crate::session::{Place, Session};
 
 /// What a cell of the screen stands for, if anything: a row of the parameter pane or a point of a plot.
@@ -15,6 +17,13 @@ pub fn place(screen: Rect, session: &Session, cell: Position) -> Option<Place> {
         return (cell.y - parts.parameters.y).checked_sub(1).map(|row| Place::Row(row.into()));
     }
     let index = parts.plots.iter().position(|area| area.contains(cell))?;
-    let window = session.plots[index].window;
-    point_at(parts.plots[index], window, cell).map(|point| Place::Plot(index, point))
+    let (area, window) = (parts.plots[index], session.plots[index].window);
+    let point = match session.plots[index].view {
+        View::EnergyLedger => {
+            let (window, marks) = energy_ledger::marks(area, session, window);
+            point_at(area, window, Some(marks), cell)
+        }
+        _ => point_at(area, window, None, cell),
+    };
+    point.map(|point| Place::Plot(index, point))
 }

@@ -15,7 +15,7 @@ use ratatui::layout::{Position, Rect};
 
 use super::dots::{Dash, Dots, Pen};
 use super::look::{Look, Role};
-use super::number::resolved;
+use super::number::{resolved, significant};
 use super::pane;
 use super::ticks::{Tick, Ticks};
 use crate::scene::{Point, Span, Window};
@@ -45,7 +45,7 @@ pub fn reading(point: Point, window: Window) -> (String, String) {
 }
 
 /// Cells of a large plot: what a cursor can tell apart.
-const CELLS: f64 = 200.0;
+pub(super) const CELLS: f64 = 200.0;
 
 /// Where the parts of a plot stand, and the ticks that there is room for.
 struct Geometry {
@@ -58,12 +58,13 @@ struct Geometry {
 }
 
 impl Geometry {
-    fn of(area: Rect, window: Window) -> Self {
+    fn of(area: Rect, window: Window, upward: Option<Ticks>) -> Self {
         let body = Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area };
         let roomy = body.width >= ROOMY.0 && body.height >= ROOMY.1;
-        let rows = if roomy { body.height - 2 } else { body.height };
+        let rows = rows(area);
+        let most = usize::from(rows / 3).clamp(2, 9);
         let upward =
-            Ticks::fitting(window.y, |ticks| ticks.len() <= usize::from(rows / 3).clamp(2, 9));
+            upward.unwrap_or_else(|| Ticks::fitting(window.y, |ticks| ticks.len() <= most));
         let widest = upward.ticks.iter().map(|tick| tick.label.len()).max().unwrap_or(0) as u16;
         let gutter = if roomy { (widest + 1).max(GUTTER) } else { 0 };
         let inner = Rect {
@@ -79,11 +80,25 @@ impl Geometry {
     }
 }
 
-/// The point of a plot in `area` that a cell stands for, to the digits that cells tell apart; `None`
-/// for the cells outside of its axes.
+/// Rows of the raster of a plot in `area`.
 #[must_use]
-pub fn point_at(area: Rect, window: Window, cell: Position) -> Option<Point> {
-    let Geometry { inner, .. } = Geometry::of(area, window);
+pub fn rows(area: Rect) -> u16 {
+    let height = area.height.saturating_sub(1);
+    let roomy = area.width >= ROOMY.0 && height >= ROOMY.1;
+    if roomy { height - 2 } else { height }
+}
+
+/// The point of a plot in `area` that a cell stands for, to the digits that cells tell apart; `None`
+/// for the cells outside of its axes. `upward` are the marks of its vertical axis if those are no round
+/// numbers.
+#[must_use]
+pub fn point_at(
+    area: Rect,
+    window: Window,
+    upward: Option<Ticks>,
+    cell: Position,
+) -> Option<Point> {
+    let Geometry { inner, .. } = Geometry::of(area, window, upward);
     if !inner.contains(cell) {
         return None;
     }
@@ -119,7 +134,20 @@ impl<'a> Plot<'a> {
         look: &'a Look,
         buffer: &mut Buffer,
     ) -> Self {
-        let Geometry { inner, roomy, rightward, upward } = Geometry::of(area, window);
+        Self::with_ticks(area, window, names, heading, look, buffer, None)
+    }
+
+    /// The same with these marks on the vertical axis in place of round numbers.
+    pub fn with_ticks(
+        area: Rect,
+        window: Window,
+        names: Names,
+        heading: &pane::Heading,
+        look: &'a Look,
+        buffer: &mut Buffer,
+        upward: Option<Ticks>,
+    ) -> Self {
+        let Geometry { inner, roomy, rightward, upward } = Geometry::of(area, window, upward);
         let (x, y) = (named(names.x, &rightward), named(names.y, &upward));
         pane::title(area, names.title, &format!("{y} over {x}"), heading, look, buffer);
         let dots = Dots::new(inner, look.glyphs);
@@ -257,6 +285,19 @@ impl<'a> Plot<'a> {
         }
     }
 
+    /// Shades the cells whose middle lies in a part of the world.
+    pub fn shade_where(&mut self, role: Role, inside: impl Fn(Point) -> bool) {
+        let symbol = self.look.symbols().shade;
+        let Rect { width, height, .. } = self.inner;
+        for (row, column) in (0..height).flat_map(|row| (0..width).map(move |column| (row, column)))
+        {
+            if inside(self.world(column, row)) {
+                let symbol = if (column + row) % 2 == 0 { symbol } else { ' ' };
+                self.dots.texture(column, row, symbol, role);
+            }
+        }
+    }
+
     /// Puts arrows on a sparse lattice of cells, in the direction that `flow` gives there.
     pub fn arrows(&mut self, role: Role, flow: impl Fn(Point) -> Point) {
         let arrows = self.look.symbols().arrows;
@@ -301,6 +342,47 @@ impl<'a> Plot<'a> {
         let Some((x, y)) = candidates().find(free).or_else(|| candidates().next()) else { return };
         for (offset, letter) in (0..).zip(text.chars()) {
             self.dots.symbol((x + offset) as u16, y as u16, letter, role);
+        }
+    }
+
+    /// Writes a text from the left end of the row in which a height lies.
+    pub fn write(&mut self, y: f64, text: &str, role: Role) {
+        let left = Point { x: self.window.x.from(), y };
+        if let Some((_, row)) = self.dots.cell_at(self.place(left)) {
+            self.letters(0, row, text, role);
+        }
+    }
+
+    /// Writes a number beside the line `x = 0`, with as many digits as there is room for.
+    pub fn beside_zero(&mut self, y: f64, value: f64, right: bool) {
+        /// Digits at most.
+        const DIGITS: usize = 4;
+        let Some((column, row)) = self.dots.cell_at(self.place(Point { x: 0.0, y })) else {
+            return;
+        };
+        let room = if right { self.inner.width.saturating_sub(column + 2) } else { column };
+        let texts = (1..=DIGITS).rev().map(|digits| significant(value, digits));
+        let fits = |text: &String| text.len() <= usize::from(room);
+        let Some(text) = texts.into_iter().find(fits) else { return };
+        let start = if right { column + 2 } else { column.saturating_sub(text.len() as u16 + 1) };
+        self.letters(start, row, &text, Role::Text);
+    }
+
+    fn letters(&mut self, start: u16, row: u16, text: &str, role: Role) {
+        for (column, letter) in (start..self.inner.width).zip(text.chars()) {
+            self.dots.symbol(column, row, letter, role);
+        }
+    }
+
+    /// Draws a level bar half a cell thick.
+    pub fn thick(&mut self, from: Point, to: Point, role: Role) {
+        let offsets: &[f64] = if self.look.glyphs == Glyphs::Ascii { &[0.0] } else { &[-0.5, 0.5] };
+        for offset in offsets {
+            let ends = [from, to].map(|end| {
+                let (x, y) = self.place(end);
+                (x, y + offset)
+            });
+            self.dots.stroke(ends, Pen { role, dash: Dash::Solid });
         }
     }
 

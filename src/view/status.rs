@@ -140,14 +140,7 @@ fn price(session: &Session, look: &Look, words: &Words) -> String {
     if price.recomputed.is_empty() {
         return String::new();
     }
-    let name = |slot| match slot {
-        Slot::Trajectory => "motion",
-        Slot::Cycles => "cycles",
-        Slot::Capture => "bands",
-        Slot::Branch => "branch",
-        Slot::Balance => "harmonics",
-    };
-    let names: Vec<&str> = price.recomputed.iter().map(|part| name(part.slot)).collect();
+    let names: Vec<&str> = price.recomputed.iter().map(|part| part.slot.name()).collect();
     let key = price.key.map_or_else(|| "open".into(), |key| keys::name(key, look));
     let (recomputed, evaluations) = (words.recomputed, count(price.evaluations()));
     let names = names.join("+");

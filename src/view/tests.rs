@@ -23,7 +23,8 @@ use crate::session::settings::{self, Colors, GLYPHS, Glyphs, THEMES};
 use crate::session::{Key, Msg, Notice, Session, Size, update};
 use crate::study::harmonic_error::HarmonicBalance;
 use crate::study::{
-    Branch, BranchPoint, Cycle, Cycles, Edge, Margin, Picture, Special, SpecialKind,
+    Branch, BranchPoint, Cycle, Cycles, Edge, Margin, Picture, Return, ReturnMap, Special,
+    SpecialKind,
 };
 
 /// A scene whose questions are not answered yet.
@@ -79,12 +80,23 @@ fn by_hand(request: &Request) -> Answer {
             cost: Cost { evaluations: 200, steps: 10, rejected: 0 },
         }),
         Request::Branch { parameter, .. } => Answer::Branch(folded(*parameter)),
+        Request::ReturnMap { parameters, .. } => Answer::ReturnMap(halving(*parameters)),
     }
 }
 
 fn picture(edge: Vec<State>, curves: Vec<Vec<State>>) -> Picture {
     let margin = Margin { displacement: Some(0.5), impulse: Some(0.5) };
-    Picture { curves, edge, margin, area: Some(0.8), lyapunov_share: Some(0.3) }
+    let ledger = Ledger {
+        start: 0.72,
+        end: 0.72,
+        linear: 2.5,
+        quadratic: 0.25,
+        cubic: -2.0,
+        friction: -0.75,
+        residual: 3e-15,
+    };
+    let works = curves.iter().map(|_| ledger).collect();
+    Picture { curves, works, edge, margin, area: Some(0.8), lyapunov_share: Some(0.3) }
 }
 
 /// A motion that winds inwards and comes to rest after three half swings.
@@ -126,6 +138,19 @@ fn cycle(radius: f64, stable: bool) -> Cycle {
         clearance: radius - 0.1,
         log_clearance: (radius - 0.1).ln(),
         error: 1e-14,
+    }
+}
+
+/// A map on which every turning point on the right comes to half of it, or from far out to twice it.
+fn halving(parameters: Parameters) -> ReturnMap {
+    let turn = |index: u8| {
+        let from = 0.02 * f64::from(index);
+        Return { from, to: Some(if from < 1.0 { 0.5 * from } else { 2.0 * from - 1.5 }) }
+    };
+    ReturnMap {
+        parameters,
+        sides: [Vec::new(), (5..=100).map(turn).collect()],
+        cost: Cost { evaluations: 900, steps: 30, rejected: 0 },
     }
 }
 
@@ -215,10 +240,13 @@ fn screens_look_as_they_were_approved() {
         ("multiplier", (100, 30), "<tab> <tab> Y Y Y Y Y Y", braille()),
         ("unfolded", (80, 24), "x <down>", braille()),
         ("card", (40, 9), "", braille()),
-        ("three", (80, 24), "<tab> <tab> W X", braille()),
-        ("four", (160, 48), "<tab> <tab> W X W Y Y Y Y Y", braille()),
-        ("four-small", (80, 24), "<tab> <tab> W X W Y", letters()),
+        ("three", (80, 24), "<tab> <tab> W V / d i a <enter> X", braille()),
+        ("four", (160, 48), "<tab> <tab> W W W", braille()),
+        ("four-small", (80, 24), "<tab> <tab> W W W", letters()),
         ("rows", (100, 40), "Z Z", braille()),
+        ("time-series", (80, 24), "<tab> <tab> ; E z <right>", braille()),
+        ("energy-ledger", (80, 24), "<tab> <tab> V / e n e <enter> <down>", braille()),
+        ("return-map", (80, 24), "<tab> Q V / r e t <enter> <right>", braille()),
         ("views", (80, 24), "V", letters()),
     ];
     for (name, (width, height), keys, look) in cases {
@@ -251,7 +279,7 @@ fn a_refused_value_says_why_where_it_is_typed() {
 
 #[test]
 fn the_layer_list_says_which_are_on() {
-    let screen = text(&draw(&settled("plain", 80, 24, "v"), letters()));
+    let screen = text(&draw(&settled("plain", 80, 60, "v"), letters()));
     for row in &LAYERS {
         let on = if find("plain").unwrap().layers.contains(&row.layer) { "[x]" } else { "[ ]" };
         assert!(screen.contains(&format!("{on} {}", row.name)), "{screen}");
@@ -460,6 +488,10 @@ proptest! {
                     session.held = Some((&found.special[0]).into());
                 }
                 Ok(Answer::Balance(found)) => found.balanced.clear(),
+                Ok(Answer::ReturnMap(found)) => {
+                    let turn = |(from, to): &(f64, f64)| Return { from: *from, to: Some(*to) };
+                    found.sides = [curve.iter().map(turn).collect(), Vec::new()];
+                }
                 Ok(Answer::Capture(found)) => found.curves = vec![states.clone()],
                 Err(_) => {}
             }

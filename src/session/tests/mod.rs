@@ -9,6 +9,7 @@ mod plots;
 mod requests;
 mod strange;
 mod undo;
+mod views;
 mod walk;
 
 use std::sync::Arc;
@@ -16,11 +17,13 @@ use std::sync::Arc;
 use super::replay::{Action, Player, parse};
 use super::{Effect, Msg, Session, Size, update};
 use crate::flow::{Cost, Method, Outcome, Problem, Sample, Trajectory};
-use crate::oscillator::State;
+use crate::oscillator::{Ledger, State};
 use crate::scene::answer::Borders;
 use crate::scene::{Answer, Answered, Request, Slot, find};
 use crate::study::harmonic_error::HarmonicBalance;
-use crate::study::{Branch, BranchPoint, Cycle, Cycles, Edge, Special, SpecialKind};
+use crate::study::{
+    Branch, BranchPoint, Cycle, Cycles, Edge, Margin, Picture, ReturnMap, Special, SpecialKind,
+};
 
 /// A session whose questions are answered as soon as they are asked.
 struct Desk {
@@ -125,7 +128,14 @@ fn answered(request: Request) -> Answered {
             cycles: vec![cycle(false, parameters.r), cycle(true, parameters.r)],
             harmonic: Vec::new(),
             edge: Edge::Cycle,
-            picture: None,
+            picture: Some(Picture {
+                curves: Vec::new(),
+                works: vec![Ledger { linear: 1.0, friction: -1.0, ..Ledger::default() }; 2],
+                edge: Vec::new(),
+                margin: Margin { displacement: None, impulse: None },
+                area: None,
+                lyapunov_share: None,
+            }),
             cost,
         }),
         Request::Capture { .. } => Answer::Capture(Borders { curves: Vec::new(), cost }),
@@ -134,6 +144,11 @@ fn answered(request: Request) -> Answered {
             harmonics: *harmonics,
             balanced: Vec::new(),
             unknown: None,
+            cost,
+        }),
+        Request::ReturnMap { parameters, .. } => Answer::ReturnMap(ReturnMap {
+            parameters: *parameters,
+            sides: [Vec::new(), Vec::new()],
             cost,
         }),
         Request::Branch { parameter, range: (from, to), parameters, .. } => {

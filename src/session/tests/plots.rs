@@ -132,7 +132,14 @@ fn a_separatrix_has_two_sides_too() {
         found.cycles.clear();
         let margin = Margin { displacement: Some(1.1), impulse: Some(1.4) };
         let (curves, edge) = (Vec::new(), Vec::new());
-        found.picture = Some(Picture { curves, edge, margin, area: None, lyapunov_share: None });
+        found.picture = Some(Picture {
+            curves,
+            works: Vec::new(),
+            edge,
+            margin,
+            area: None,
+            lyapunov_share: None,
+        });
         // r is 0.1: the clearance is 1.
         desk.press("i");
         assert_eq!(desk.session.problem.initial, State { q: sign * 1.05, v: 0.0 });

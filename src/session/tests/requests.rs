@@ -93,6 +93,7 @@ fn terms_that_a_scene_does_not_declare_are_zero_until_the_user_unfolds_them() {
             Request::Cycles { parameters }
             | Request::Capture { parameters, .. }
             | Request::Balance { parameters, .. }
+            | Request::ReturnMap { parameters, .. }
             | Request::Branch { parameters, .. } => parameters,
         };
         assert!(parameters.is_piecewise_linear());

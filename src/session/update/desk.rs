@@ -3,7 +3,7 @@
 
 use super::general::focus_on;
 use super::{inform, refuse};
-use crate::scene::{ARRANGEMENTS, Exhibit, MOST_PLOTS, VIEWS, View};
+use crate::scene::{ARRANGEMENTS, Exhibit, LAYERS, MOST_PLOTS, VIEWS, View};
 use crate::session::history::{Before, Desk};
 use crate::session::message::Effect;
 use crate::session::plot::{Pane, Plot};
@@ -56,6 +56,15 @@ fn exhibit(session: &Session, plot: usize, view: View) -> Exhibit {
     of_scene.find(|exhibit| absent(exhibit)).or(others.first()).copied().unwrap_or(all)
 }
 
+/// Switches the usual layers of a view on where none of its layers is.
+fn switch_on(session: &mut Session, view: View) {
+    let of_view = || LAYERS.iter().filter(|row| row.view == view);
+    if of_view().all(|row| !session.layers.contains(&row.layer)) {
+        let usual = of_view().filter(|row| row.usual).map(|row| row.layer);
+        session.layers.extend(usual);
+    }
+}
+
 /// Lets the plot in use show a view.
 pub fn show(session: &mut Session, view: View) -> Vec<Effect> {
     let index = session.plot;
@@ -63,6 +72,7 @@ pub fn show(session: &mut Session, view: View) -> Vec<Effect> {
         let exhibit = exhibit(session, index, view);
         record(session);
         session.plots[index].show(&exhibit);
+        switch_on(session, view);
     }
     focus_on(session, Pane::Plot(index));
     let spec = view.spec();
@@ -92,6 +102,7 @@ pub fn add(session: &mut Session) -> Vec<Effect> {
     };
     record(session);
     session.plots.insert(index + 1, Plot::opened(&exhibit));
+    switch_on(session, exhibit.view);
     session.enlarged = false;
     focus_on(session, Pane::Plot(index + 1));
     inform(session, format!("{} more: {}", exhibit.view.spec().title, exhibit.view.spec().meaning));

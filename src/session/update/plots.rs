@@ -30,6 +30,9 @@ fn cursor_origin(session: &Session, plot: &Plot) -> Point {
     window.clamp(match plot.view {
         View::Phase => Point { x: session.problem.initial.q, y: session.problem.initial.v },
         View::Diagram => Point { x: session.value(plot.axes.abscissa), y: window.center().y },
+        View::TimeSeries => Point { x: 0.0, y: session.problem.initial.q },
+        View::EnergyLedger => Point { x: 0.0, y: 0.0 },
+        View::ReturnMap => Point { x: session.problem.initial.q, y: session.problem.initial.q },
     })
 }
 
@@ -147,11 +150,21 @@ fn cursor(session: &mut Session) -> Option<Point> {
     cursor
 }
 
-/// Starts the motion at the cursor of the phase plane.
+/// Starts the motion where the cursor is: at its state, at the state that the motion has at its time, at
+/// rest at its displacement, or on its cycle.
 pub fn start_here(session: &mut Session) -> Vec<Effect> {
-    if let Some(Point { x, y }) = cursor(session) {
-        let initial = State { q: x, v: y };
-        change(session, Problem { initial, ..session.problem });
+    let Some(Point { x, y }) = cursor(session) else { return Vec::new() };
+    let initial = match session.focused().map(|plot| plot.view) {
+        Some(View::TimeSeries) => session.state_at(x),
+        Some(View::EnergyLedger) => session.start_of_line(y),
+        Some(View::ReturnMap) => Some(State { q: x, v: 0.0 }),
+        Some(View::Phase | View::Diagram) | None => Some(State { q: x, v: y }),
+    };
+    match initial {
+        Some(initial) => {
+            change(session, Problem { initial, ..session.problem });
+        }
+        None => refuse(session, "there is no motion to be taken here"),
     }
     Vec::new()
 }

@@ -1,0 +1,89 @@
+//! What each view asks, and what can be taken from it into the phase plane.
+
+use super::Desk;
+use crate::oscillator::State;
+use crate::scene::{Request, Slot, VIEWS, View};
+use crate::session::{Context, Pane};
+
+/// A scene with one plot, turned to a view.
+fn turned_to(view: &str) -> Desk {
+    let mut desk = Desk::open("supercritical");
+    desk.press(&format!("<tab>Q V/{view}<enter>"));
+    assert_eq!(desk.session.plots.len(), 1);
+    desk
+}
+
+#[test]
+fn a_view_asks_what_its_layers_need_and_a_step_asks_that_again() {
+    for (view, needs, on_q0) in [
+        ("phase", &[Slot::Trajectory, Slot::Cycles][..], &[Slot::Trajectory][..]),
+        ("diagram", &[Slot::Branch], &[]),
+        ("time-series", &[Slot::Trajectory], &[Slot::Trajectory]),
+        ("energy-ledger", &[Slot::Trajectory, Slot::Cycles], &[Slot::Trajectory]),
+        ("return-map", &[Slot::Trajectory, Slot::Cycles, Slot::ReturnMap], &[Slot::Trajectory]),
+    ] {
+        let mut desk = turned_to(view);
+        let wanted: Vec<Slot> = desk.session.wants().iter().map(Request::slot).collect();
+        assert_eq!(wanted, needs, "{view}");
+        assert_eq!(desk.press("<S-tab><down*3><right>"), on_q0, "q0 in {view}");
+        assert_eq!(desk.press("<up><right>"), needs, "r in {view}");
+    }
+}
+
+#[test]
+fn views_of_the_same_answers_cost_nothing() {
+    let mut desk = Desk::open("supercritical");
+    assert_eq!(desk.press("<tab>V/energy<enter>"), [], "the cycles have their works");
+    assert_eq!(desk.press("V/time<enter>"), []);
+    assert_eq!(desk.press("F E I P G"), []);
+    assert_eq!(desk.press("V/return<enter>"), [Slot::ReturnMap], "once, when its window is known");
+    assert_eq!(desk.press("F"), []);
+    assert_eq!(desk.press("L"), [], "a map that is not shown is not computed");
+    assert_eq!(desk.press("F"), [Slot::ReturnMap]);
+}
+
+#[test]
+fn every_view_has_its_keys_and_can_be_looked_around_in() {
+    for row in &VIEWS {
+        let mut desk = turned_to(row.name);
+        assert_eq!(desk.session.focus, Pane::Plot(0));
+        assert_eq!(desk.session.contexts()[1], Context::Plots);
+        let before = desk.session.plots[0].window;
+        desk.press("<right> + L");
+        assert_ne!(desk.session.plots[0].window, before);
+        assert!(desk.session.plots[0].cursor.is_some());
+        desk.press("0 <home>");
+    }
+}
+
+#[test]
+fn enter_takes_the_point_under_the_cursor_into_the_phase_plane() {
+    let initial = |view: &str, keys: &str| {
+        let mut desk = turned_to(view);
+        desk.press("W");
+        assert_eq!(desk.session.plots[1].view, View::Phase);
+        desk.press("<S-tab>");
+        desk.press(keys);
+        desk.session.problem.initial
+    };
+    let opened = Desk::open("supercritical").session.problem.initial;
+    // By hand the motion stays where it starts, and the unstable cycle turns at r + 1 = 1.1.
+    assert_eq!(initial("time-series", "<right*5><enter>"), opened);
+    assert_eq!(initial("energy-ledger", "<down><enter>"), State { q: 1.1, v: 0.0 });
+    assert_eq!(initial("return-map", "<right*4><enter>").v, 0.0);
+    assert_ne!(initial("return-map", "<right*4><enter>"), opened);
+}
+
+#[test]
+fn a_view_that_the_scene_does_not_know_opens_with_its_usual_layers() {
+    for row in &VIEWS {
+        let desk = turned_to(row.name);
+        assert!(!desk.session.needs(0).is_empty(), "{}", row.name);
+    }
+    // What is on stays as it is.
+    let mut desk = turned_to("time-series");
+    desk.press("P G");
+    let layers = desk.session.layers.clone();
+    desk.press(", ;");
+    assert_eq!(desk.session.layers, layers);
+}

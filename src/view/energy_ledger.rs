@@ -1,0 +1,117 @@
+//! The energy ledger: a bar for the work of each source, over one turn of each cycle and along the
+//! motion. What feeds points to the right, what brakes to the left; the number stands on the other side.
+//!
+//! Bars are parts of the largest work of their owner, numbers are energies in the units of the model.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+
+use super::dots::Dash;
+use super::look::{Look, Role};
+use super::number::significant;
+use super::pane::Heading;
+use super::plot::{Names, Plot, rows};
+use super::ticks::{Tick, Ticks};
+use crate::scene::{Point, Span, View, Window};
+use crate::session::ledger::{Entry, Owner};
+use crate::session::{self, Pane, Session};
+
+/// Digits of an energy.
+const DIGITS: usize = 4;
+
+/// Draws the plot with this index.
+pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &mut Buffer) {
+    let session::Plot { window, cursor, .. } = session.plots[index];
+    let lines = session.ledger();
+    let (window, marks) = marks(area, session, window);
+    let names =
+        Names { title: View::EnergyLedger.spec().title, x: "part of the largest", y: "work" };
+    let mut heading = Heading::of(session, Pane::Plot(index));
+    heading.reading = cursor.map(|cursor| {
+        lines
+            .iter()
+            .enumerate()
+            .find(|(line, _)| (middle(*line) - cursor.y).abs() <= 0.5)
+            .map(|(_, entry)| reading(entry))
+            .unwrap_or_default()
+    });
+    let mut plot = Plot::with_ticks(area, window, names, &heading, look, buffer, Some(marks));
+    plot.upright(0.0, Role::Axis, Dash::Solid);
+    let symbols = look.symbols();
+    for (line, entry) in lines.iter().enumerate() {
+        let y = middle(line);
+        match entry {
+            Entry::Title(Owner::Motion) => plot.write(y, "motion", Role::Title),
+            Entry::Title(Owner::Cycle(cycle)) => {
+                let (symbol, role) = if cycle.stable {
+                    (symbols.points[0], Role::Stable)
+                } else {
+                    (symbols.points[1], Role::Unstable)
+                };
+                let short = format!("{symbol} q_max {}", significant(cycle.q_max, DIGITS));
+                let stability = if cycle.stable { "stable" } else { "unstable" };
+                let full = format!("{short}, {stability} cycle");
+                let room = usize::from(plot.inner().width);
+                let fits = full.chars().count() <= room;
+                plot.write(y, if fits { &full } else { &short }, role);
+            }
+            Entry::Work { work, part, .. } => {
+                let role = if *work < 0.0 { Role::Stable } else { Role::Unstable };
+                plot.thick(Point { x: 0.0, y }, Point { x: *part, y }, role);
+                plot.beside_zero(y, *work, *work < 0.0);
+            }
+            Entry::Residual(part) => {
+                plot.beside_zero(y, *part, true);
+            }
+        }
+    }
+    if let Some(cursor) = cursor {
+        plot.cross(cursor);
+    }
+    plot.finish(buffer);
+}
+
+/// The lines that are seen in `area`, each in whole rows, and the sources at the axis.
+#[must_use]
+pub fn marks(area: Rect, session: &Session, window: Window) -> (Window, Ticks) {
+    let window = Window { y: whole_lines(window.y, rows(area)), ..window };
+    let mark = |(line, entry): (usize, &Entry)| {
+        let fraction = window.y.fraction(middle(line));
+        let label = label(entry)?.to_owned();
+        (0.0..1.0).contains(&fraction).then_some(Tick { fraction, label })
+    };
+    let ticks = session.ledger().iter().enumerate().filter_map(mark).collect();
+    (window, Ticks { base: None, ticks })
+}
+
+/// The height in the middle of a line.
+#[expect(clippy::cast_precision_loss, reason = "a few dozen lines")]
+fn middle(line: usize) -> f64 {
+    -(line as f64) - 0.5
+}
+
+/// The same top, and as many heights as leave each line whole rows.
+fn whole_lines(y: Span, rows: u16) -> Span {
+    let rows = f64::from(rows.max(1));
+    let pitch = (rows / y.width()).floor().clamp(1.0, 2.0);
+    Span::new(y.to() - rows / pitch, y.to()).unwrap_or(y)
+}
+
+/// What stands at the axis.
+fn label(entry: &Entry) -> Option<&'static str> {
+    match entry {
+        Entry::Work { source, .. } => Some(source),
+        Entry::Residual(_) => Some("error"),
+        Entry::Title(_) => None,
+    }
+}
+
+/// A line in numbers.
+fn reading(entry: &Entry) -> String {
+    match entry {
+        Entry::Title(Owner::Motion) => "motion".to_owned(),
+        Entry::Title(Owner::Cycle(cycle)) => format!("q_max {}", significant(cycle.q_max, 6)),
+        Entry::Work { source, work, .. } => format!("{source} {}", significant(*work, 6)),
+        Entry::Residual(part) => format!("error {}", significant(*part, 2)),
+    }
+}
