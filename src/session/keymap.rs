@@ -57,10 +57,13 @@ pub enum Context {
 }
 
 /// Every context with its name in settings files.
-pub const CONTEXTS: [(Context, &str); 15] = [
+pub const CONTEXTS: [(Context, &str); 18] = [
     (Context::Parameters, "parameters"),
     (Context::Phase, "phase"),
     (Context::Diagram, "diagram"),
+    (Context::TimeSeries, "time-series"),
+    (Context::EnergyLedger, "energy-ledger"),
+    (Context::ReturnMap, "return-map"),
     (Context::Walk, "walk"),
     (Context::Plots, "plots"),
     (Context::Everywhere, "everywhere"),
@@ -132,6 +135,9 @@ impl Context {
             Context::Parameters
             | Context::Phase
             | Context::Diagram
+            | Context::TimeSeries
+            | Context::EnergyLedger
+            | Context::ReturnMap
             | Context::Walk
             | Context::Plots
             | Context::Everywhere
@@ -145,6 +151,9 @@ impl Context {
         match self {
             Context::Phase => Some(View::Phase),
             Context::Diagram => Some(View::Diagram),
+            Context::TimeSeries => Some(View::TimeSeries),
+            Context::EnergyLedger => Some(View::EnergyLedger),
+            Context::ReturnMap => Some(View::ReturnMap),
             _ => None,
         }
     }

@@ -49,9 +49,6 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
     plot.function(Role::Axis, Dash::Sparse, |_| Some(0.0));
     if let Some(motion) = session.trajectory() {
         let end = motion.problem.until;
-        if shows(Layer::Events) {
-            capture(&mut plot, motion);
-        }
         if shows(Layer::Friction) {
             let force = friction_force(motion, end);
             let first = force.first().copied();
@@ -95,13 +92,6 @@ fn curve(motion: &Trajectory, end: f64, read: fn(State) -> f64) -> Vec<Point> {
 fn label(plot: &mut Plot, first: Option<(f64, f64)>, letter: &str, role: Role) {
     if let Some((x, y)) = first {
         plot.caption(Point { x, y }, letter, role);
-    }
-}
-
-/// An upright where the motion comes to rest.
-fn capture(plot: &mut Plot, motion: &Trajectory) {
-    if let Outcome::Captured { tau, .. } = motion.outcome {
-        plot.upright(tau, Role::Sticking, Dash::Sparse);
     }
 }
 
