@@ -89,7 +89,9 @@ fn does(machine: &mut impl Machine, player: &mut Player, msg: Msg) -> bool {
     for effect in machine.update(msg) {
         match effect {
             Effect::Quit => return true,
-            Effect::Play(script) => player.interject(script),
+            Effect::Play(script) => {
+                player.interject(script);
+            }
             Effect::Suspend
             | Effect::Repaint
             | Effect::Copy(_)

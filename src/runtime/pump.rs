@@ -239,11 +239,14 @@ impl<M: Machine, W: Write> Pump<M, W> {
                     self.update(Msg::Told(notice))?
                 }
                 Effect::Play(script) => {
-                    match &mut self.player {
-                        Some(player) => player.interject(script),
-                        None => self.player = Some(Player::new(script)),
+                    let played =
+                        self.player.as_mut().is_none_or(|player| player.interject(script.clone()));
+                    self.player.get_or_insert_with(|| Player::new(script));
+                    if played {
+                        None
+                    } else {
+                        self.played(true, "replay stopped: it plays itself".to_owned())?
                     }
-                    None
                 }
             };
             if stop.is_some() {

@@ -28,6 +28,8 @@ pub enum Layer {
     Bands,
     /// The cycles of N harmonics.
     Balance,
+    /// The point left last for a mark: its motion and cycles.
+    Ghost,
     /// Computed cycles along the diagram's parameter.
     Branch,
     /// First-order harmonic amplitudes.
@@ -76,7 +78,7 @@ pub struct LayerSpec {
 }
 
 /// Every layer, in the order in which they are listed.
-pub const LAYERS: [LayerSpec; 22] = [
+pub const LAYERS: [LayerSpec; 23] = [
     LayerSpec {
         layer: Layer::Trajectory,
         name: "trajectory",
@@ -139,6 +141,14 @@ pub const LAYERS: [LayerSpec; 22] = [
         view: View::Phase,
         meaning: "cycles of N harmonics, and their error",
         needs: Some(Slot::Balance),
+        usual: false,
+    },
+    LayerSpec {
+        layer: Layer::Ghost,
+        name: "ghost",
+        view: View::Phase,
+        meaning: "the point left for a mark: its motion and cycles, dim",
+        needs: None,
         usual: false,
     },
     LayerSpec {

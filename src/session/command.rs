@@ -5,14 +5,15 @@
 use super::input::Input;
 use super::key::Key;
 use super::keymap::Context::{
-    self, Always, Diagram, EnergyLedger, Entry, Everywhere, Help, Layers, Lists, Offer, Palette,
-    Parameters, Phase, Plots, Prompt, ReturnMap, Scenes, Search, TimeSeries, Views, Walk,
+    self, Always, Count, Diagram, EnergyLedger, Entry, Everywhere, Help, Layers, Letter, Lists, Offer,
+    Palette, Parameters, Phase, Plots, Prompt, ReturnMap, Scenes, Search, TimeSeries, Views, Walk,
 };
 use super::message::Effect;
+use super::pending::{self, Letter as Ask};
 use super::state::Session;
 use super::update::{
-    axes, copy, desk, entry, general, lists, mouse, palette, parameters, plots, prompt, starts,
-    typing, walk,
+    axes, copy, desk, entry, general, lists, macros, mouse, palette, parameters, plots, prompt,
+    starts, typing, walk,
 };
 use crate::scene::Layer;
 
@@ -54,6 +55,12 @@ const fn row(
 
 /// Characters with which a number can begin.
 const NUMERIC: &[&str] = &["0", "1", "2", "3", "4", "5", "6", "7", "8", "9", "-", "."];
+
+/// Digits with which a count can begin where no number is typed.
+const DIGITS: &[&str] = &["1", "2", "3", "4", "5", "6", "7", "8", "9"];
+
+/// Digits with which a count goes on.
+const MORE_DIGITS: &[&str] = &["0", "1", "2", "3", "4", "5", "6", "7", "8", "9"];
 
 /// Every command, in the order in which the help lists them.
 #[rustfmt::skip]
@@ -213,6 +220,8 @@ pub const COMMANDS: &[Command] = &[
         "Show or hide the bands of capture: half swings until rest", |s, _| general::toggle(s, Layer::Bands)),
     row("toggle-balance", &[(Everywhere, &["N"])], "",
         "Show or hide the cycles of N harmonics", |s, _| general::toggle(s, Layer::Balance)),
+    row("toggle-ghost", &[(Phase, &["G"])], "",
+        "Show or hide the point left for a mark", |s, _| general::toggle(s, Layer::Ghost)),
     row("fewer-harmonics", &[(Everywhere, &["("])], "",
         "Fewer harmonics", |s, _| general::harmonics(s, false)),
     row("more-harmonics", &[(Everywhere, &[")"])], "",
@@ -245,6 +254,23 @@ pub const COMMANDS: &[Command] = &[
         "Show or hide the cobweb of the motion", |s, _| general::toggle(s, Layer::Cobweb)),
     row("toggle-fixed-points", &[(ReturnMap, &["P"])], "",
         "Show or hide the limit cycles as fixed points", |s, _| general::toggle(s, Layer::FixedPoints)),
+
+    row("count", &[(Plots, DIGITS), (Walk, DIGITS), (Lists, DIGITS), (Count, MORE_DIGITS)], "",
+        "A digit: press the next key so many times, as one change", pending::count),
+    row("begin-count", &[(Everywhere, &["*"]), (Walk, &["*"]), (Lists, &["*"])], "",
+        "Begin a count where digits are values: *12 and a key", pending::count),
+    row("delete-digit", &[(Count, &["<backspace>"])], "",
+        "Delete the last digit of the count", |s, _| pending::delete_digit(s)),
+    row("forget-pending", &[(Count, &["<esc>"]), (Letter, &["<esc>"])], "forget",
+        "Forget the count, or the question for a letter", |s, _| pending::drop(s)),
+    row("set-mark", &[(Everywhere, &["\""])], "",
+        "Mark this point by a letter: parameters, start, method", |s, _| pending::ask(s, Ask::Mark)),
+    row("go-to-mark", &[(Everywhere, &["'"])], "",
+        "Go to a mark; twice: to the point left last", |s, _| pending::ask(s, Ask::GoTo)),
+    row("record-macro", &[(Everywhere, &["&"])], "",
+        "Record keys into a register; again: end that", |s, _| macros::record_or_end(s)),
+    row("play-macro", &[(Everywhere, &["@"])], "",
+        "Play the keys of a register; twice: the last one again", |s, _| pending::ask(s, Ask::Play)),
 
     row("retry", &[(Everywhere, &["<f5>"])], "",
         "Compute again what has failed", |s, _| general::retry(s)),
@@ -417,7 +443,8 @@ mod tests {
             }
             if key.to_string() == "<esc>" {
                 assert!(
-                    ["back", "drop-cursor", "search-drop", "walk-let-go"].contains(&name),
+                    ["back", "drop-cursor", "search-drop", "walk-let-go", "forget-pending"]
+                        .contains(&name),
                     "{name}"
                 );
             }

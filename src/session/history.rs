@@ -57,6 +57,13 @@ impl History {
         self.future.clear();
     }
 
+    /// Makes one change of those since the past was so deep, if all of them are of a kind.
+    pub fn merge(&mut self, depth: usize, is_of_kind: impl Fn(&Before) -> bool) {
+        if self.past.get(depth..).is_some_and(|since| since.iter().all(is_of_kind)) {
+            self.past.truncate(depth + 1);
+        }
+    }
+
     /// The state before the last change. `present` tells today's state to the same extent, for redo.
     pub fn undo(&mut self, present: impl FnOnce(&Before) -> Before) -> Option<Before> {
         let before = self.past.pop()?;

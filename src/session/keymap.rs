@@ -8,6 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::command::{COMMANDS, Command, command};
 use super::key::Key;
 use super::overlay::Overlay;
+use super::pending::Pending;
 use super::state::Session;
 use crate::scene::View;
 
@@ -42,6 +43,10 @@ pub enum Context {
     Views,
     /// The palette is open.
     Palette,
+    /// A count is being typed before a key.
+    Count,
+    /// The letter of a register or mark is waited for.
+    Letter,
     /// Some list is open.
     Lists,
     /// The search of a list is being typed.
@@ -103,6 +108,8 @@ impl Context {
             Context::Layers => "In the layer list",
             Context::Views => "In the picker of views",
             Context::Palette => "In the palette",
+            Context::Count => "After a count",
+            Context::Letter => "Before the letter of a register or mark",
             Context::Lists => "In every list",
             Context::Search => "While searching",
             Context::Entry => "While typing a value",
@@ -118,7 +125,7 @@ impl Context {
         matches!(self, Context::Search | Context::Entry | Context::Prompt)
     }
 
-    /// Whether this holds only while something lies over the panes.
+    /// Whether this holds only while something is open or waited for.
     #[must_use]
     pub fn is_overlay(self) -> bool {
         match self {
@@ -127,6 +134,8 @@ impl Context {
             | Context::Layers
             | Context::Views
             | Context::Palette
+            | Context::Count
+            | Context::Letter
             | Context::Lists
             | Context::Search
             | Context::Entry
@@ -160,7 +169,7 @@ impl Context {
 }
 
 /// Every set of contexts that can hold together, the most specific first.
-pub const CHAINS: [&[Context]; 16] = [
+pub const CHAINS: [&[Context]; 18] = [
     &[Context::Parameters, Context::Everywhere, Context::Always],
     &[Context::Phase, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Diagram, Context::Plots, Context::Everywhere, Context::Always],
@@ -173,6 +182,8 @@ pub const CHAINS: [&[Context]; 16] = [
     &[Context::Layers, Context::Lists, Context::Always],
     &[Context::Views, Context::Lists, Context::Always],
     &[Context::Palette, Context::Lists, Context::Always],
+    &[Context::Count, Context::Always],
+    &[Context::Letter, Context::Always],
     &[Context::Search, Context::Always],
     &[Context::Entry, Context::Always],
     &[Context::Prompt, Context::Always],
@@ -184,6 +195,8 @@ impl Session {
     #[must_use]
     pub fn contexts(&self) -> &'static [Context] {
         let first = match &self.overlay {
+            _ if matches!(self.pending, Some(Pending::Count(_))) => Context::Count,
+            _ if self.pending.is_some() => Context::Letter,
             None if self.held.is_some() => Context::Walk,
             None => match self.focused().map(|plot| plot.view) {
                 None => Context::Parameters,
@@ -204,6 +217,12 @@ impl Session {
             Some(Overlay::Offer(_)) => Context::Offer,
         };
         CHAINS.into_iter().find(|chain| chain[0] == first).unwrap_or(CHAINS[0])
+    }
+
+    /// Whether a key means something now, or is typed.
+    pub(super) fn means(&self, key: Key) -> bool {
+        let contexts = self.contexts();
+        self.keymap.command(contexts, key).is_some() || contexts[0].takes_text()
     }
 
     /// The keys that matter now, with a word each: for the footer.

@@ -89,8 +89,6 @@ pub struct Prompt {
     pub back: usize,
     /// The new line, while an old one stands in its place.
     pub draft: String,
-    /// Keys and pastes since the line was opened.
-    pub presses: u32,
 }
 
 /// What a word of a line can become.

@@ -11,9 +11,12 @@ use super::history::History;
 use super::key::Key;
 use super::keymap::Keymap;
 use super::overlay::Overlay;
+use super::pending::Pending;
 use super::plot::{Pane, Plot};
 use super::settings::Look;
 use super::step::StepSize;
+use super::update::macros::Macros;
+use super::update::marks::Marks;
 use super::walk::Stop;
 use crate::flow::{Cost, Problem};
 use crate::oscillator::Symbol;
@@ -199,6 +202,12 @@ pub struct Session {
     pub overlay: Option<Overlay>,
     /// Undo and redo.
     pub history: History,
+    /// A count or a letter that the next key completes.
+    pub pending: Option<Pending>,
+    /// Recorded keys.
+    pub macros: Macros,
+    /// Points to come back to, and the one that is compared with.
+    pub marks: Marks,
     /// The lines typed on the command line, the newest last.
     pub lines: Vec<String>,
     /// The last good answer of each kind that all plots share, with its question.
@@ -238,6 +247,9 @@ impl Session {
             layers: scene.layers.clone(),
             overlay: None,
             history: History::default(),
+            pending: None,
+            macros: Macros::default(),
+            marks: Marks::default(),
             lines: Vec::new(),
             answers: BTreeMap::new(),
             failures: Vec::new(),

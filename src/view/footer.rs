@@ -10,7 +10,7 @@ use super::look::{Look, Role};
 use super::pane;
 use crate::session::keymap::Hint;
 use crate::session::line::described;
-use crate::session::{Entry, Input, Notice, Overlay, Prompt, Row, Session};
+use crate::session::{Entry, Input, Notice, Overlay, Pending, Prompt, Row, Session};
 
 /// Hints that are never left out, at the right end of the line.
 const ALWAYS: [&str; 4] = ["help", "accept", "replay", "quit"];
@@ -27,6 +27,7 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let mut right: Vec<Span> = always.into_iter().flat_map(|hint| spans(hint, look)).collect();
     right.push(Span::raw(" "));
     let left = match (&session.overlay, &session.notice) {
+        _ if session.pending.is_some() => vec![pending(session.pending, look)],
         (Some(Overlay::Entry(entry)), _) => self::entry(entry, look),
         (Some(Overlay::Prompt(prompt)), _) => self::prompt(prompt, look),
         (Some(Overlay::Offer(script)), _) => {
@@ -70,6 +71,17 @@ fn spans(hint: &Hint, look: &Look) -> [Span<'static>; 2] {
         ),
         Span::styled(format!(" {} ", hint.text), look.style(Role::Quiet)),
     ]
+}
+
+/// What the next key is waited for.
+fn pending(pending: Option<Pending>, look: &Look) -> Span<'static> {
+    let text = match pending {
+        Some(Pending::Count(0)) => " how often? a number, then a key".to_owned(),
+        Some(Pending::Count(count)) => format!(" {count} times: which key?"),
+        Some(Pending::Letter { what, .. }) => format!(" {}", what.question()),
+        None => String::new(),
+    };
+    Span::styled(text, look.style(Role::Title))
 }
 
 /// The value being typed, with its caret, and what is allowed or why it was refused.

@@ -22,7 +22,7 @@ enum Sample {
 }
 
 /// What there is to explain: the layer that shows it, its role, how it is drawn, and what it is.
-const ENTRIES: [(Layer, Role, Sample, &str); 20] = [
+const ENTRIES: [(Layer, Role, Sample, &str); 21] = [
     (Layer::Trajectory, Role::Trajectory, Sample::Line(Dash::Solid), "motion"),
     (Layer::Sticking, Role::Sticking, Sample::Bar, "sticking set, at rest"),
     (Layer::Cycles, Role::Stable, Sample::Line(Dash::Solid), "stable cycle"),
@@ -30,6 +30,7 @@ const ENTRIES: [(Layer, Role, Sample, &str); 20] = [
     (Layer::Basin, Role::Basin, Sample::Shade, "comes to rest"),
     (Layer::Lyapunov, Role::Lyapunov, Sample::Line(Dash::Dotted), "Lyapunov circle"),
     (Layer::Bands, Role::Bands, Sample::Line(Dash::Dotted), "one half swing more"),
+    (Layer::Ghost, Role::Ghost, Sample::Line(Dash::Dotted), "the point left"),
     (Layer::Field, Role::Field, Sample::Arrow, "direction of flow"),
     (Layer::Balance, Role::Harmonic, Sample::Line(Dash::Dotted), "N harmonics"),
     (Layer::Harmonic, Role::Harmonic, Sample::Line(Dash::Dotted), "first harmonic"),

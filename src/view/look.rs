@@ -40,6 +40,8 @@ pub enum Role {
     Basin,
     /// Borders of the bands of capture.
     Bands,
+    /// Motion and cycles of the point that is compared with.
+    Ghost,
     /// Circle of the Lyapunov estimate.
     Lyapunov,
     /// The segment of equilibria.
@@ -69,7 +71,7 @@ pub enum Role {
 }
 
 /// Name in theme files, and glyph in a plot without dots, of every role in order.
-const ROLES: [(Role, &str, char); 26] = [
+const ROLES: [(Role, &str, char); 27] = [
     (Role::Text, "text", '*'),
     (Role::Quiet, "quiet", '.'),
     (Role::Title, "title", '*'),
@@ -83,6 +85,7 @@ const ROLES: [(Role, &str, char); 26] = [
     (Role::Field, "field", '.'),
     (Role::Basin, "basin", '.'),
     (Role::Bands, "bands", '-'),
+    (Role::Ghost, "ghost", ','),
     (Role::Lyapunov, "lyapunov", ':'),
     (Role::Sticking, "sticking", '='),
     (Role::Trajectory, "trajectory", '*'),

@@ -1,7 +1,7 @@
 //! The phase plane: where motions go, where they rest, and what separates those that do.
 //!
 //! Layers from back to front: directions of the flow, shading of the basin, borders of the capture bands,
-//! the line `v = 0`, the Lyapunov circle, the motion, cycles, the sticking set, markers, cursor. Formulas show the present
+//! the point left for a mark, the line `v = 0`, the Lyapunov circle, the motion, cycles, the sticking set, markers, cursor. Formulas show the present
 //! parameters; what had to be computed shows the last answer, and the title says if it is old.
 
 use ratatui::buffer::Buffer;
@@ -39,6 +39,9 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
         for border in session.borders(index).iter().flat_map(|found| &found.curves) {
             plot.curve(border.iter().map(point), Role::Bands, Dash::Dotted);
         }
+    }
+    if shows(Layer::Ghost) {
+        ghost(&mut plot, session);
     }
     plot.function(Role::Axis, Dash::Sparse, |_| Some(0.0));
     if shows(Layer::Lyapunov) {
@@ -117,6 +120,19 @@ fn cycles(plot: &mut Plot, session: &Session) {
     for (cycle, curve) in found.cycles.iter().zip(curves) {
         let (role, dash) = stability(cycle.stable);
         plot.curve(curve.iter().map(point), role, dash);
+    }
+}
+
+/// Motion and cycles of the point that was left for a mark.
+fn ghost(plot: &mut Plot, session: &Session) {
+    let Some(left) = &session.marks.left else { return };
+    if let Some(found) = left.trajectory() {
+        let samples = found.samples.iter().map(|sample| Point { x: sample.q, y: sample.v });
+        plot.curve(samples, Role::Ghost, Dash::Dotted);
+    }
+    let picture = left.cycles().and_then(|found| found.picture.as_ref());
+    for curve in picture.iter().flat_map(|picture| &picture.curves) {
+        plot.curve(curve.iter().map(point), Role::Ghost, Dash::Dashed);
     }
 }
 

@@ -29,6 +29,10 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         (format!("{}{sentence}", symbol(session, look)), role)
     };
     let busy = if session.is_busy() { "computing " } else { "" };
+    let busy = match &session.macros.recording {
+        Some((register, _)) => format!("{busy}recording {register} "),
+        None => busy.to_owned(),
+    };
     let text = format!(" {text}");
     let text = pane::cut(&text, usize::from(area.width), look);
     let left = Span::styled(text, look.style(role));

@@ -5,11 +5,14 @@ use std::sync::Arc;
 use crate::flow::METHODS;
 use crate::scene::{ABSCISSAE, Axes, LAYERS, ORDINATES, Span, VIEWS, View, Window, find, library};
 use crate::session::message::Effect;
+use crate::session::pending;
 use crate::session::plot::{Framing, Pane};
 use crate::session::settings::{COLORS, GLYPHS, THEMES, named};
 use crate::session::state::{ROWS, Row, Session};
 use crate::session::step::shortest;
-use crate::session::update::{axes as axis, desk, entry, general, inform, parameters};
+use crate::session::update::{
+    axes as axis, desk, entry, general, inform, macros, marks, parameters,
+};
 
 /// What a line has done, or why not.
 type Done = Result<Vec<Effect>, String>;
@@ -194,6 +197,39 @@ pub fn harmonics(session: &mut Session, rest: &str) -> Done {
     session.layers.insert(crate::scene::Layer::Balance);
     inform(session, format!("harmonic balance with N = {rest}"));
     Ok(Vec::new())
+}
+
+/// The letter of a register or mark.
+pub fn letter(text: &str) -> Result<char, String> {
+    let mut chars = text.chars();
+    match (chars.next(), chars.next()) {
+        (Some(letter @ 'a'..='z'), None) => Ok(letter),
+        _ => Err(format!("{text:?} is no letter from a to z")),
+    }
+}
+
+/// Letters as words.
+pub fn letters<'a>(letters: impl IntoIterator<Item = &'a char>) -> Vec<String> {
+    letters.into_iter().map(char::to_string).collect()
+}
+
+/// Marks this point.
+pub fn mark(session: &mut Session, rest: &str) -> Done {
+    Ok(marks::set(session, letter(rest)?))
+}
+
+/// Goes to a mark.
+pub fn go_to(session: &mut Session, rest: &str) -> Done {
+    Ok(marks::go_to(session, letter(rest)?))
+}
+
+/// Plays a register, perhaps many times.
+pub fn play(session: &mut Session, rest: &str) -> Done {
+    let (name, times) = rest.split_once(char::is_whitespace).unwrap_or((rest, "1"));
+    let most = pending::MOST;
+    let count = times.trim().parse().ok().filter(|count| (1..=most).contains(count));
+    let count = count.ok_or_else(|| format!("{times:?} is no number from 1 to {most}"))?;
+    Ok(macros::play(session, letter(name)?, count))
 }
 
 /// The value with a name in a table of looks.

@@ -11,7 +11,7 @@ mod recorder;
 
 pub use parse::{BadScript, parse};
 pub use player::{Action, Player, Unmet};
-pub use recorder::Recorder;
+pub use recorder::{Recorder, text};
 
 use super::key::Key;
 use super::message::Pointed;
@@ -66,6 +66,18 @@ pub struct Script {
 }
 
 impl Script {
+    /// A file of these steps, so many times over.
+    #[must_use]
+    pub fn repeated(steps: &[Step], times: u32) -> Self {
+        let located = |(index, step): (usize, &Step)| Located {
+            line: 1,
+            column: index + 1,
+            step: step.clone(),
+        };
+        let once: Vec<Located> = steps.iter().enumerate().map(located).collect();
+        Script { steps: (0..times).flat_map(|_| once.iter().cloned()).collect() }
+    }
+
     /// How many keys it presses.
     #[must_use]
     pub fn keys(&self) -> u64 {

@@ -46,22 +46,35 @@ impl std::error::Error for Unmet {}
 /// its author saw.
 #[derive(Clone, Debug)]
 pub struct Player {
-    steps: VecDeque<Located>,
+    /// What is left, each with how many files deep it stands.
+    steps: VecDeque<(Located, u32)>,
+    /// How deep the last step stood.
+    depth: u32,
     asynchronous: bool,
 }
+
+/// Files played by files by files: more are one that plays itself.
+const DEEPEST: u32 = 1000;
 
 impl Player {
     /// Plays a file from its beginning.
     #[must_use]
     pub fn new(script: Script) -> Self {
-        Player { steps: script.steps.into(), asynchronous: false }
+        let steps = script.steps.into_iter().map(|step| (step, 0)).collect();
+        Player { steps, depth: 0, asynchronous: false }
     }
 
-    /// Plays another file first, and then what is left of this one.
-    pub fn interject(&mut self, script: Script) {
-        for step in script.steps.into_iter().rev() {
-            self.steps.push_front(step);
+    /// Plays another file first, and then what is left of this one. One that plays itself without end is
+    /// left out in the end; returns whether this one was played.
+    pub fn interject(&mut self, script: Script) -> bool {
+        let depth = self.depth + 1;
+        if depth > DEEPEST {
+            return false;
         }
+        for step in script.steps.into_iter().rev() {
+            self.steps.push_front((step, depth));
+        }
+        true
     }
 
     /// What to do next, given whether the session is idle and, if asked, what the screen shows: its
@@ -71,13 +84,14 @@ impl Player {
     /// [`Unmet`] if the screen does not show what it should. The player then stands behind that step.
     pub fn next(&mut self, idle: bool, screen: impl Fn() -> String) -> Result<Action, Unmet> {
         loop {
-            let Some(Located { line, column, step }) = self.steps.front().cloned() else {
+            let Some((Located { line, column, step }, depth)) = self.steps.front().cloned() else {
                 return Ok(if idle { Action::Done } else { Action::Wait });
             };
             if !idle && (!self.asynchronous || step == Step::Wait) {
                 return Ok(Action::Wait);
             }
             self.advance();
+            self.depth = depth;
             match step {
                 Step::Wait => {}
                 Step::Async => self.asynchronous = true,
@@ -96,7 +110,7 @@ impl Player {
 
     /// Goes behind the first step, or behind one press of it.
     fn advance(&mut self) {
-        if let Some(Located { step: Step::Key { count, .. }, .. }) = self.steps.front_mut()
+        if let Some((Located { step: Step::Key { count, .. }, .. }, _)) = self.steps.front_mut()
             && *count > 1
         {
             *count -= 1;
@@ -156,8 +170,19 @@ mod tests {
             other => format!("{other:?}"),
         };
         let mut keys = vec![next(&mut player)];
-        player.interject(parse("x<y*2>").unwrap());
+        assert!(player.interject(parse("x<y*2>").unwrap()));
         keys.extend((0..5).map(|_| next(&mut player)));
         assert_eq!(keys, ["a", "x", "y", "y", "b", "Done"]);
+    }
+
+    #[test]
+    fn a_file_that_plays_itself_comes_to_an_end() {
+        let mut player = Player::new(parse("a").unwrap());
+        let mut played = 0;
+        while let Action::Give(_) = player.next(true, String::new).unwrap() {
+            player.interject(parse("a").unwrap());
+            played += 1;
+        }
+        assert_eq!(played, DEEPEST + 1);
     }
 }

@@ -7,7 +7,7 @@ use crate::session::message::Msg;
 const LINE: usize = 72;
 
 /// What a user did, as a keystroke file.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Recorder {
     steps: Vec<Step>,
 }
@@ -37,29 +37,59 @@ impl Recorder {
         }
     }
 
+    /// What was noted.
+    #[must_use]
+    pub fn steps(&self) -> &[Step] {
+        &self.steps
+    }
+
+    /// Forgets the last presses of keys, pastes and clicks.
+    pub fn forget(&mut self, mut presses: u32) {
+        while presses > 0 {
+            match self.steps.last_mut() {
+                Some(Step::Key { count, .. }) if *count > presses => {
+                    *count -= presses;
+                    return;
+                }
+                Some(Step::Key { count, .. }) => presses -= *count,
+                // The size of the screen is nobody's press.
+                Some(Step::Resize { .. }) => {}
+                Some(_) => presses -= 1,
+                None => return,
+            }
+            self.steps.pop();
+        }
+    }
+
     /// The file so far, below a comment that says how the session was started.
     #[must_use]
     pub fn text(&self, started: &str) -> String {
-        let mut text: String = started.lines().flat_map(|line| ["# ", line, "\n"]).collect();
-        let mut length = 0;
-        for step in &self.steps {
-            let step = step.to_string();
-            let added = step.chars().count() + 1;
-            if length > 0 && length + added > LINE + 1 {
-                text.push('\n');
-                length = 0;
-            }
-            if length > 0 {
-                text.push(' ');
-            }
-            text.push_str(&step);
-            length += added;
+        text(started, &self.steps)
+    }
+}
+
+/// A keystroke file of these steps, below a comment.
+#[must_use]
+pub fn text(comment: &str, steps: &[Step]) -> String {
+    let mut text: String = comment.lines().flat_map(|line| ["# ", line, "\n"]).collect();
+    let mut length = 0;
+    for step in steps {
+        let step = step.to_string();
+        let added = step.chars().count() + 1;
+        if length > 0 && length + added > LINE + 1 {
+            text.push('\n');
+            length = 0;
         }
         if length > 0 {
-            text.push('\n');
+            text.push(' ');
         }
-        text
+        text.push_str(&step);
+        length += added;
     }
+    if length > 0 {
+        text.push('\n');
+    }
+    text
 }
 
 #[cfg(test)]
@@ -95,6 +125,21 @@ mod tests {
             text,
             "# hopfscope basin\n<right*5> <hash> <resize 80x24> <paste \"a\\n\\\"b\\\"\">\n"
         );
+    }
+
+    #[test]
+    fn the_last_presses_can_be_forgotten() {
+        let mut recorder = Recorder::default();
+        let key =
+            |recorder: &mut Recorder, name: &str| recorder.note(&Msg::Key(name.parse().unwrap()));
+        for name in ["<right>", "<right>", "<right>", "@", "a"] {
+            key(&mut recorder, name);
+        }
+        recorder.note(&Msg::Resize { width: 80, height: 24 });
+        recorder.forget(3);
+        assert_eq!(recorder.text(""), "<right*2>\n");
+        recorder.forget(9);
+        assert_eq!(recorder.text(""), "");
     }
 
     proptest! {

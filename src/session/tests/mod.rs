@@ -4,6 +4,7 @@
 mod axes;
 mod desk;
 mod entries;
+mod language;
 mod names;
 mod plots;
 mod requests;
@@ -59,7 +60,13 @@ impl Desk {
         self.asked.clear();
         let mut player = Player::new(parse(keys).unwrap_or_else(|error| panic!("{keys}: {error}")));
         while let Action::Give(message) = player.next(true, String::new).unwrap() {
+            let before = self.effects.len();
             self.give(message);
+            for effect in &self.effects[before..] {
+                if let Effect::Play(script) = effect {
+                    player.interject(script.clone());
+                }
+            }
         }
         self.asked.clone()
     }

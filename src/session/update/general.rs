@@ -144,7 +144,7 @@ fn bring_back(session: &mut Session, found: Option<Before>, name: &str) -> Vec<E
 }
 
 /// What is different in `new`, as `name = value`.
-fn difference(old: &Problem, new: &Problem) -> String {
+pub(super) fn difference(old: &Problem, new: &Problem) -> String {
     let value = |problem: &Problem, row: Row| match row {
         Row::Parameter(symbol) => shortest(symbol.get(&problem.parameters, &problem.initial)),
         Row::Until => shortest(problem.until),

@@ -10,6 +10,8 @@ pub mod desk;
 pub mod entry;
 pub mod general;
 pub mod lists;
+pub mod macros;
+pub mod marks;
 pub mod mouse;
 pub mod palette;
 pub mod parameters;
@@ -23,6 +25,7 @@ use super::fit;
 use super::key::Key;
 use super::message::{Effect, Msg};
 use super::overlay::{Entry, Overlay};
+use super::pending;
 use super::plot::Pane;
 use super::replay;
 use super::state::{Notice, Price, Row, Session, Size};
@@ -32,6 +35,7 @@ use crate::scene::answer::Failure;
 
 /// Takes a message in.
 pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
+    macros::note(session, &message);
     let effects = match message {
         Msg::Key(key) => press(session, key),
         Msg::Paste(text) => paste(session, &text),
@@ -58,6 +62,7 @@ pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
     session.share();
     fit::resolve(session);
     walk::keep_hold(session);
+    macros::rest(session);
     effects
 }
 
@@ -74,9 +79,14 @@ pub(super) fn refuse(session: &mut Session, text: impl Into<String>) {
 fn press(session: &mut Session, key: Key) -> Vec<Effect> {
     session.notice = None;
     session.price = Price { key: Some(key), recomputed: Vec::new() };
-    if let Some(Overlay::Prompt(prompt)) = &mut session.overlay {
-        prompt.presses += 1;
+    match session.pending {
+        Some(pending) => pending::resolve(session, pending, key),
+        None => act(session, key),
     }
+}
+
+/// Does what a key means now.
+pub(super) fn act(session: &mut Session, key: Key) -> Vec<Effect> {
     let contexts = session.contexts();
     if let Some(command) = session.keymap.command(contexts, key) {
         return (command.run)(session, key);
@@ -94,9 +104,6 @@ fn press(session: &mut Session, key: Key) -> Vec<Effect> {
 /// Pasted text goes into the open line; a number into a new one; keystrokes are offered for replay.
 fn paste(session: &mut Session, text: &str) -> Vec<Effect> {
     session.notice = None;
-    if let Some(Overlay::Prompt(prompt)) = &mut session.overlay {
-        prompt.presses += 1;
-    }
     if session.contexts()[0].takes_text() {
         typing::insert(session, text);
         return Vec::new();

@@ -64,8 +64,8 @@ pub fn recall(session: &mut Session, by: isize) -> Vec<Effect> {
         0 => prompt.draft.clone(),
         back => lines[lines.len() - back].clone(),
     };
-    let (draft, presses) = (std::mem::take(&mut prompt.draft), prompt.presses);
-    *prompt = Prompt { back, draft, presses, ..Prompt::new(text) };
+    let draft = std::mem::take(&mut prompt.draft);
+    *prompt = Prompt { back, draft, ..Prompt::new(text) };
     Vec::new()
 }
 

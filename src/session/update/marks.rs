@@ -1,0 +1,116 @@
+//! Marks: points of the parameters to come back to, and the one that is compared with.
+//!
+//! A mark keeps the answers that were there when its point was left. Coming back they are today's again,
+//! and nothing is computed twice; the point that was left is drawn dim behind the other one.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::general::difference;
+use super::parameters::change;
+use super::{inform, refuse};
+use crate::flow::{Problem, Trajectory};
+use crate::scene::{Answer, Answered, Layer, Slot};
+use crate::session::message::Effect;
+use crate::session::state::Session;
+use crate::study::Cycles;
+
+/// Marked points.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Marks {
+    /// By letter.
+    pub places: BTreeMap<char, Mark>,
+    /// The point left last: what is compared with.
+    pub left: Option<Mark>,
+}
+
+/// A point of the parameters, and what was known about it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mark {
+    /// Parameters, start, end time, method and tolerance.
+    pub problem: Problem,
+    /// The answers to its questions, as far as they were there.
+    pub answers: BTreeMap<Slot, Arc<Answered>>,
+}
+
+impl Mark {
+    /// A point about which nothing is known yet.
+    #[must_use]
+    pub fn new(problem: Problem) -> Self {
+        Mark { problem, answers: BTreeMap::new() }
+    }
+
+    /// The present point.
+    fn present(session: &Session) -> Self {
+        let todays = |slot: &Slot| !session.is_stale(*slot, session.plot);
+        let answers = session.answers.iter().filter(|(slot, _)| todays(slot));
+        let answers = answers.map(|(slot, answered)| (*slot, Arc::clone(answered))).collect();
+        Mark { problem: session.problem, answers }
+    }
+
+    /// Its motion, if that was computed.
+    #[must_use]
+    pub fn trajectory(&self) -> Option<&Trajectory> {
+        match self.answers.get(&Slot::Trajectory)?.result.as_ref().ok()? {
+            Answer::Trajectory(found) => Some(found),
+            _ => None,
+        }
+    }
+
+    /// Its limit cycles, if those were computed.
+    #[must_use]
+    pub fn cycles(&self) -> Option<&Cycles> {
+        match self.answers.get(&Slot::Cycles)?.result.as_ref().ok()? {
+            Answer::Cycles(found) => Some(found),
+            _ => None,
+        }
+    }
+}
+
+/// Marks the present point.
+pub(in crate::session) fn set(session: &mut Session, name: char) -> Vec<Effect> {
+    session.marks.places.insert(name, Mark::present(session));
+    let key = session.keymap.key_of("go-to-mark");
+    let back = key.map(|key| format!("; {key}{name} comes back")).unwrap_or_default();
+    inform(session, format!("mark {name} is here{back}"));
+    Vec::new()
+}
+
+/// Goes to a mark.
+pub(in crate::session) fn go_to(session: &mut Session, name: char) -> Vec<Effect> {
+    match session.marks.places.get(&name).cloned() {
+        Some(mark) => go(session, &mark),
+        None => refuse(session, format!("there is no mark {name}")),
+    }
+    Vec::new()
+}
+
+/// Goes to the point that was left last.
+pub(in crate::session) fn go_back(session: &mut Session) -> Vec<Effect> {
+    match session.marks.left.clone() {
+        Some(mark) => go(session, &mark),
+        None => refuse(session, "no mark has been gone to yet"),
+    }
+    Vec::new()
+}
+
+/// Goes to a point, as a change that can be undone, and keeps what is known about the one that is left.
+fn go(session: &mut Session, mark: &Mark) {
+    let here = Mark::present(session);
+    for known in session.marks.places.values_mut().filter(|known| known.problem == here.problem) {
+        known.answers.clone_from(&here.answers);
+    }
+    if mark.problem == here.problem {
+        inform(session, "here already");
+        return;
+    }
+    inform(session, difference(&here.problem, &mark.problem));
+    change(session, mark.problem);
+    for (slot, answered) in &mark.answers {
+        if session.request(*slot, session.plot).as_ref() == Some(&answered.request) {
+            session.answers.insert(*slot, Arc::clone(answered));
+        }
+    }
+    session.marks.left = Some(here);
+    session.layers.insert(Layer::Ghost);
+}
