@@ -62,7 +62,7 @@ pub enum Context {
 }
 
 /// Every context with its name in settings files.
-pub const CONTEXTS: [(Context, &str); 18] = [
+pub const CONTEXTS: [(Context, &str); 22] = [
     (Context::Parameters, "parameters"),
     (Context::Phase, "phase"),
     (Context::Diagram, "diagram"),
@@ -76,9 +76,13 @@ pub const CONTEXTS: [(Context, &str); 18] = [
     (Context::Scenes, "scenes"),
     (Context::Layers, "layers"),
     (Context::Views, "views"),
+    (Context::Palette, "palette"),
+    (Context::Count, "count"),
+    (Context::Letter, "letter"),
     (Context::Lists, "lists"),
     (Context::Search, "search"),
     (Context::Entry, "entry"),
+    (Context::Prompt, "prompt"),
     (Context::Offer, "offer"),
     (Context::Always, "always"),
 ];

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::desk::{desk, set_up};
-use super::{inform, refuse};
+use super::{inform, macros, refuse};
 use crate::flow::Problem;
 use crate::scene::{Layer, Scene};
 use crate::session::history::{Before, Desk, Snapshot};
@@ -221,7 +221,10 @@ pub fn retry(session: &mut Session) -> Vec<Effect> {
 /// Agrees to press the pasted keys.
 pub fn accept_offer(session: &mut Session) -> Vec<Effect> {
     match session.overlay.take() {
-        Some(Overlay::Offer(script)) => vec![Effect::Play(script)],
+        Some(Overlay::Offer(script)) => {
+            macros::inline(session);
+            vec![Effect::Play(script)]
+        }
         other => {
             session.overlay = other;
             Vec::new()

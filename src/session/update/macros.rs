@@ -68,6 +68,14 @@ pub(in crate::session) fn record(session: &mut Session, register: char) -> Vec<E
     Vec::new()
 }
 
+/// Forgets what asks for keys to be played, so that these are recorded in its place.
+pub(in crate::session) fn inline(session: &mut Session) {
+    let chord = session.macros.chord;
+    if let Some((_, recorder)) = &mut session.macros.recording {
+        recorder.forget(chord);
+    }
+}
+
 /// Plays a register so many times.
 pub(in crate::session) fn play(session: &mut Session, register: char, times: u32) -> Vec<Effect> {
     let Some(steps) = session.macros.registers.get(&register) else {
@@ -80,10 +88,7 @@ pub(in crate::session) fn play(session: &mut Session, register: char, times: u32
         return Vec::new();
     }
     let script = Script::repeated(steps, times);
-    let chord = session.macros.chord;
-    if let Some((_, recorder)) = &mut session.macros.recording {
-        recorder.forget(chord);
-    }
+    inline(session);
     session.macros.last = Some(register);
     vec![Effect::Play(script)]
 }
