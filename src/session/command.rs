@@ -5,8 +5,9 @@
 use super::input::Input;
 use super::key::Key;
 use super::keymap::Context::{
-    self, Always, Count, Diagram, EnergyLedger, Entry, Everywhere, Help, Layers, Letter, Lists, Offer,
-    Palette, Parameters, Phase, Plots, Prompt, ReturnMap, Scenes, Search, TimeSeries, Views, Walk,
+    self, Always, Count, Diagram, EnergyLedger, Entry, Everywhere, Help, Layers, Letter, Lists,
+    Offer, Palette, Parameters, Phase, Plots, Prompt, ReturnMap, Scenes, Search, TimeSeries, Views,
+    Walk,
 };
 use super::message::Effect;
 use super::pending::{self, Letter as Ask};

@@ -117,6 +117,9 @@ impl Session {
     /// Why a layer that is on shows nothing, where that lies in the axes of every diagram on show.
     #[must_use]
     pub fn not_drawn(&self, layer: Layer) -> Option<&'static str> {
+        if layer == Layer::Ghost {
+            return self.marks.left.is_none().then_some("not drawn: no mark has been gone to yet");
+        }
         let harmonic = matches!(layer, Layer::Harmonic | Layer::Asymptotes);
         let drawn = |index: usize| {
             self.shows_in(layer, index) && self.plots[index].axes.ordinate.spec().harmonic.is_some()
