@@ -103,7 +103,7 @@ fn events(plot: &mut Plot, motion: &Trajectory, look: &Look) {
     if motion.crossings.len() * APART <= usize::from(plot.inner().width) {
         for crossing in &motion.crossings {
             let point = Point { x: crossing.tau, y: crossing.q };
-            plot.mark(point, symbols.start, Role::Special);
+            plot.mark(point, symbols.start, Role::Trajectory);
         }
     }
     match motion.outcome {
