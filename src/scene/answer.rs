@@ -6,6 +6,7 @@ use crate::flow::{Cost, Detail, Limits, Reason, Trajectory};
 use crate::oscillator::State;
 use crate::study::branch::branch;
 use crate::study::capture::bands;
+use crate::study::chart::{Chart, chart};
 use crate::study::cycle::cycles;
 use crate::study::harmonic_error::{HarmonicBalance, harmonic_balance};
 use crate::study::return_map::return_map;
@@ -26,6 +27,8 @@ pub enum Answer {
     Branch(Branch),
     /// To [`Request::ReturnMap`].
     ReturnMap(ReturnMap),
+    /// To [`Request::Regimes`].
+    Regimes(Chart),
 }
 
 /// The borders between bands of capture, to be drawn.
@@ -81,6 +84,9 @@ const BRANCH_POINTS: usize = 160;
 /// Points of a return map, a side.
 const MAP_POINTS: u16 = 128;
 
+/// Lines of a chart of regimes, evenly spaced; borders between them are interpolated.
+const CHART_LINES: usize = 40;
+
 /// Answers a request: the only place where a question becomes a computation.
 ///
 /// # Errors
@@ -109,6 +115,9 @@ pub fn answer(request: &Request, limits: &Limits) -> Result<Answer, Reason> {
         Request::ReturnMap { parameters, range } => {
             return_map(parameters, *range, MAP_POINTS, limits).map(Answer::ReturnMap)
         }
+        Request::Regimes { parameters, plane } => {
+            chart(parameters, *plane, CHART_LINES, limits).map(Answer::Regimes)
+        }
     }
 }
 
@@ -123,6 +132,7 @@ impl Answer {
             Answer::Balance(answer) => answer.cost,
             Answer::Branch(answer) => answer.cost,
             Answer::ReturnMap(answer) => answer.cost,
+            Answer::Regimes(answer) => answer.cost,
         }
     }
 }

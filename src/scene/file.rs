@@ -53,6 +53,7 @@ struct Plot {
     view: View,
     over: Option<Spanned<Symbol>>,
     ordinate: Option<Spanned<Ordinate>>,
+    against: Option<Spanned<Symbol>>,
     x: Option<Span>,
     y: Option<Span>,
 }
@@ -97,24 +98,37 @@ fn scene(name: &str, read: File) -> Result<Scene, Complaint> {
 
 /// A plot of a scene: axes only where there is a choice, a window in both directions or in none.
 fn exhibit(read: &Spanned<Plot>) -> Result<Exhibit, Complaint> {
-    let Plot { view, over, ordinate, x, y } = read.get_ref();
+    let Plot { view, over, ordinate, against, x, y } = read.get_ref();
     let title = view.spec().title;
-    let chosen = over.as_ref().map(Spanned::span).or(ordinate.as_ref().map(Spanned::span));
-    if let Some(at) = chosen.filter(|_| *view != View::Diagram) {
-        let message = format!("a view \"{}\" has fixed axes; leave this out", view.spec().name);
-        return Err(Complaint { at, message });
+    let span = |given: &Option<Spanned<Symbol>>| given.as_ref().map(Spanned::span);
+    for (given, views) in [
+        (span(over), &[View::Diagram, View::Regimes][..]),
+        (ordinate.as_ref().map(Spanned::span), &[View::Diagram]),
+        (span(against), &[View::Regimes]),
+    ] {
+        if let Some(at) = given.filter(|_| !views.contains(view)) {
+            let message =
+                format!("a view \"{}\" has no such axis; leave this out", view.spec().name);
+            return Err(Complaint { at, message });
+        }
     }
     let usual = Axes::default();
     let axes = Axes {
         abscissa: over.as_ref().map_or(usual.abscissa, |over| *over.get_ref()),
         ordinate: ordinate.as_ref().map_or(usual.ordinate, |ordinate| *ordinate.get_ref()),
+        against: against.as_ref().map_or(usual.against, |against| *against.get_ref()),
     };
-    if let Some(over) = over
-        && ABSCISSAE.iter().all(|(symbol, _)| *symbol != axes.abscissa)
-    {
-        let message =
-            format!("a diagram over {} does not exist; D, D2, D3 and r are allowed", axes.abscissa);
-        return Err(Complaint { at: over.span(), message });
+    for axis in [over, against].into_iter().flatten() {
+        if ABSCISSAE.iter().all(|(symbol, _)| symbol != axis.get_ref()) {
+            let message =
+                format!("no plot over {} exists; D, D2, D3 and r are allowed", axis.get_ref());
+            return Err(Complaint { at: axis.span(), message });
+        }
+    }
+    if *view == View::Regimes && axes.abscissa == axes.against {
+        let at = span(against).or(span(over)).unwrap_or_else(|| read.span());
+        let message = format!("a chart has two different axes; both are {}", axes.against);
+        return Err(Complaint { at, message });
     }
     let window = match (*x, *y) {
         (Some(x), Some(y)) => Some(Window { x, y }),
@@ -230,7 +244,10 @@ plot = [
         assert_eq!(scene.plots[1].axes, Axes::default());
         let period = GOOD.replace("over = \"D\"", "over = \"r\", ordinate = \"period\"");
         let scene = parse("test", "test.toml", &period).unwrap();
-        assert_eq!(scene.plots[1].axes, Axes { abscissa: Symbol::R, ordinate: Ordinate::Period });
+        assert_eq!(
+            scene.plots[1].axes,
+            Axes { abscissa: Symbol::R, ordinate: Ordinate::Period, ..Axes::default() }
+        );
     }
 
     #[test]
@@ -255,7 +272,13 @@ plot = [
             ("over = \"D\"", "over = \"q0\"", "9:30", "D, D2, D3 and r are allowed"),
             ("over", "ordinate = \"size\", over", "9:34", "expected one of `q_max`, `q_min`"),
             ("\"phase\"", "\"plane\"", "8:12", "expected one of `phase`, `diagram`"),
-            ("\"diagram\"", "\"phase\"", "9:28", "has fixed axes"),
+            ("\"diagram\"", "\"phase\"", "9:28", "has no such axis"),
+            (
+                "view = \"diagram\", over",
+                "view = \"regimes\", against = \"D\", over",
+                "9:33",
+                "two different axes; both are D",
+            ),
             (", y = [0, 2]", "", "9:3", "has no y; give x and y, or neither"),
             ("\"trajectory\"", "\"tail\"", "6:11", "expected one of `trajectory`"),
             ("layers", "until = -1\nlayers", "6:9", "until = -1.0 is outside its range 0.0 .."),

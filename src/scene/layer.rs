@@ -58,6 +58,12 @@ pub enum Layer {
     Cobweb,
     /// The cycles, as fixed points of the return map.
     FixedPoints,
+    /// What becomes of kicks, over two parameters.
+    Regimes,
+    /// The computed borders between regimes.
+    Borders,
+    /// The border by one harmonic (48).
+    HarmonicBorder,
 }
 
 /// One row of [`LAYERS`].
@@ -78,7 +84,7 @@ pub struct LayerSpec {
 }
 
 /// Every layer, in the order in which they are listed.
-pub const LAYERS: [LayerSpec; 23] = [
+pub const LAYERS: [LayerSpec; 26] = [
     LayerSpec {
         layer: Layer::Trajectory,
         name: "trajectory",
@@ -261,6 +267,30 @@ pub const LAYERS: [LayerSpec; 23] = [
         view: View::ReturnMap,
         meaning: "limit cycles, stable and unstable",
         needs: Some(Slot::Cycles),
+        usual: true,
+    },
+    LayerSpec {
+        layer: Layer::Regimes,
+        name: "regimes",
+        view: View::Regimes,
+        meaning: "what becomes of kicks",
+        needs: Some(Slot::Regimes),
+        usual: true,
+    },
+    LayerSpec {
+        layer: Layer::Borders,
+        name: "borders",
+        view: View::Regimes,
+        meaning: "computed fold and escape point",
+        needs: Some(Slot::Regimes),
+        usual: true,
+    },
+    LayerSpec {
+        layer: Layer::HarmonicBorder,
+        name: "harmonic-border",
+        view: View::Regimes,
+        meaning: "the fold by one harmonic (48)",
+        needs: Some(Slot::Regimes),
         usual: true,
     },
 ];

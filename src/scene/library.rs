@@ -17,7 +17,7 @@ macro_rules! scene_file {
 }
 
 /// The files, in the order in which they are listed.
-const FILES: [(&str, &str); 11] = [
+const FILES: [(&str, &str); 12] = [
     scene_file!("plain"),
     scene_file!("capture"),
     scene_file!("linear"),
@@ -28,6 +28,7 @@ const FILES: [(&str, &str); 11] = [
     scene_file!("asymmetry"),
     scene_file!("escape"),
     scene_file!("return-map"),
+    scene_file!("regimes"),
     scene_file!("energy"),
 ];
 
@@ -99,6 +100,8 @@ pub fn find(name: &str) -> Result<Arc<Scene>, NoScene> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::oscillator::Symbol;
+    use crate::scene::Axes;
     use crate::scene::{View, Window};
 
     #[test]
@@ -119,6 +122,11 @@ mod tests {
                     }
                     View::Phase => assert!(x.contains(initial.q) && y.contains(initial.v)),
                     View::TimeSeries => assert!(x.contains(0.0)),
+                    View::Regimes => {
+                        let value = |symbol: Symbol| symbol.get(&parameters, &initial);
+                        let Axes { abscissa, against, .. } = plot.axes;
+                        assert!(x.contains(value(abscissa)) && y.contains(value(against)));
+                    }
                     View::EnergyLedger | View::ReturnMap => {}
                 }
             }

@@ -2,6 +2,7 @@
 
 use crate::flow::Problem;
 use crate::oscillator::{Parameters, Symbol};
+use crate::study::chart::Plane;
 
 /// A question to the worker. Two equal requests have the same answer.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,6 +48,13 @@ pub enum Request {
         /// Displacements, from and to.
         range: (f64, f64),
     },
+    /// What becomes of kicks, over two parameters.
+    Regimes {
+        /// The parameters; the two that vary are set to 0 so that stepping them changes nothing here.
+        parameters: Parameters,
+        /// The two that vary, and their ranges.
+        plane: Plane,
+    },
 }
 
 /// The kind of a request.
@@ -67,17 +75,26 @@ pub enum Slot {
     Balance,
     /// The return map.
     ReturnMap,
+    /// The chart of regimes.
+    Regimes,
 }
 
 /// Every kind, the most urgent first.
-pub const SLOTS: [Slot; 6] =
-    [Slot::Trajectory, Slot::Cycles, Slot::Capture, Slot::Branch, Slot::Balance, Slot::ReturnMap];
+pub const SLOTS: [Slot; 7] = [
+    Slot::Trajectory,
+    Slot::Cycles,
+    Slot::Capture,
+    Slot::Branch,
+    Slot::Balance,
+    Slot::ReturnMap,
+    Slot::Regimes,
+];
 
 impl Slot {
     /// Whether the question depends on the axes or the window of the plot that asks it.
     #[must_use]
     pub fn is_own(self) -> bool {
-        matches!(self, Slot::Capture | Slot::Branch | Slot::ReturnMap)
+        matches!(self, Slot::Capture | Slot::Branch | Slot::ReturnMap | Slot::Regimes)
     }
 
     /// The name on the screen.
@@ -90,6 +107,7 @@ impl Slot {
             Slot::Branch => "branch",
             Slot::Balance => "harmonics",
             Slot::ReturnMap => "return map",
+            Slot::Regimes => "regimes",
         }
     }
 }
@@ -105,6 +123,7 @@ impl Request {
             Request::Balance { .. } => Slot::Balance,
             Request::Branch { .. } => Slot::Branch,
             Request::ReturnMap { .. } => Slot::ReturnMap,
+            Request::Regimes { .. } => Slot::Regimes,
         }
     }
 
@@ -114,6 +133,9 @@ impl Request {
         match (self, wanted) {
             (Request::Branch { parameter: mine, .. }, Request::Branch { parameter, .. }) => {
                 mine == parameter
+            }
+            (Request::Regimes { plane: mine, .. }, Request::Regimes { plane, .. }) => {
+                (mine.right, mine.up) == (plane.right, plane.up)
             }
             _ => self.slot() == wanted.slot(),
         }

@@ -26,6 +26,8 @@ pub enum View {
     EnergyLedger,
     /// The next turning point on the same side over a turning point.
     ReturnMap,
+    /// What becomes of kicks, over two parameters.
+    Regimes,
 }
 
 /// One row of [`VIEWS`].
@@ -44,7 +46,7 @@ pub struct ViewSpec {
 }
 
 /// Every view, in the order in which they are listed and the keys visit them.
-pub const VIEWS: [ViewSpec; 5] = [
+pub const VIEWS: [ViewSpec; 6] = [
     ViewSpec {
         view: View::Phase,
         name: "phase",
@@ -80,6 +82,13 @@ pub const VIEWS: [ViewSpec; 5] = [
         meaning: "the next turning point over a turning point",
         window: Window { x: Span::known(0.0, 2.0), y: Span::known(0.0, 2.0) },
     },
+    ViewSpec {
+        view: View::Regimes,
+        name: "regimes",
+        title: "regimes",
+        meaning: "what becomes of kicks, over two parameters",
+        window: Window { x: Span::known(-0.9, 0.1), y: Span::known(-1.0, 1.0) },
+    },
 ];
 
 impl View {
@@ -97,12 +106,14 @@ pub struct Axes {
     pub abscissa: Symbol,
     /// The property of the cycles upwards.
     pub ordinate: Ordinate,
+    /// The parameter upwards, in a chart of two.
+    pub against: Symbol,
 }
 
 impl Default for Axes {
     /// The axes of the paper's diagrams.
     fn default() -> Self {
-        Axes { abscissa: Symbol::D, ordinate: Ordinate::QMax }
+        Axes { abscissa: Symbol::D, ordinate: Ordinate::QMax, against: Symbol::D3 }
     }
 }
 
@@ -124,6 +135,10 @@ impl Exhibit {
         let usual = self.view.spec().window;
         self.window.unwrap_or(match self.view {
             View::Diagram => Window { x: usual_values(self.axes.abscissa), ..usual },
+            View::Regimes => {
+                let Axes { abscissa, against, .. } = self.axes;
+                Window { x: usual_values(abscissa), y: usual_values(against) }
+            }
             _ => usual,
         })
     }

@@ -6,8 +6,8 @@ use super::input::Input;
 use super::key::Key;
 use super::keymap::Context::{
     self, Always, Count, Diagram, EnergyLedger, Entry, Everywhere, Help, Layers, Letter, Lists,
-    Offer, Palette, Parameters, Phase, Plots, Prompt, ReturnMap, Scenes, Search, TimeSeries, Views,
-    Walk,
+    Offer, Palette, Parameters, Phase, Plots, Prompt, Regimes, ReturnMap, Scenes, Search,
+    TimeSeries, Views, Walk,
 };
 use super::message::Effect;
 use super::pending::{self, Letter as Ask};
@@ -96,10 +96,17 @@ pub const COMMANDS: &[Command] = &[
     row("jump-here", &[(Diagram, &["<enter>"])], "jump here",
         "Give the diagram's parameter the value under the cursor", |s, _| plots::jump_here(s)),
 
+    row("take-parameters", &[(Regimes, &["<enter>"])], "take these",
+        "Give both parameters of the chart the values under the cursor", |s, _| plots::jump_here(s)),
+
     row("next-abscissa", &[(Diagram, &["X"])], "axes",
         "Draw the diagram over the next parameter: D, D2, D3, r", |s, _| axes::next_abscissa(s)),
     row("next-ordinate", &[(Diagram, &["Y"]), (Walk, &["Y"])], "axes",
         "Show the next property of the cycles: q_max, q_min, v_max and so on", |s, _| axes::next_ordinate(s)),
+    row("next-chart-right", &[(Regimes, &["X"])], "axes",
+        "Draw the chart over the next parameter to the right: D, D2, D3, r", |s, _| axes::next_of_chart(s, false)),
+    row("next-chart-up", &[(Regimes, &["Y"])], "axes",
+        "Draw the chart over the next parameter upwards", |s, _| axes::next_of_chart(s, true)),
     row("walk", &[(Diagram, &["w"])], "walk",
         "Take hold of the branch, at today's value or the cursor", |s, _| walk::take_hold(s)),
     row("walk-back", &[(Walk, &["<left>", "h", "<down>", "j"])], "walk",
@@ -255,6 +262,12 @@ pub const COMMANDS: &[Command] = &[
         "Show or hide the cobweb of the motion", |s, _| general::toggle(s, Layer::Cobweb)),
     row("toggle-fixed-points", &[(ReturnMap, &["P"])], "",
         "Show or hide the limit cycles as fixed points", |s, _| general::toggle(s, Layer::FixedPoints)),
+    row("toggle-regimes", &[(Regimes, &["F"])], "",
+        "Show or hide what becomes of kicks", |s, _| general::toggle(s, Layer::Regimes)),
+    row("toggle-borders", &[(Regimes, &["G"])], "",
+        "Show or hide the computed borders", |s, _| general::toggle(s, Layer::Borders)),
+    row("toggle-harmonic-border", &[(Regimes, &["P"])], "",
+        "Show or hide the border by one harmonic (48)", |s, _| general::toggle(s, Layer::HarmonicBorder)),
 
     row("count", &[(Plots, DIGITS), (Walk, DIGITS), (Lists, DIGITS), (Count, MORE_DIGITS)], "",
         "A digit: press the next key so many times, as one change", pending::count),

@@ -3,9 +3,10 @@
 use super::plot::Framing;
 use super::state::Session;
 use crate::flow::Outcome;
-use crate::oscillator::State;
 use crate::oscillator::energy::energy;
-use crate::scene::{Layer, Point, Span, View, Window};
+use crate::oscillator::{State, Symbol};
+use crate::scene::ordinate::usual_values;
+use crate::scene::{Axes, Layer, Point, Span, View, Window};
 
 /// Room around what is fitted, as a factor of its width.
 const ROOM: f64 = 1.1;
@@ -40,6 +41,7 @@ pub(super) fn resolve(session: &mut Session) {
             View::TimeSeries => time_series(session, index),
             View::EnergyLedger => energy_ledger(session),
             View::ReturnMap => return_map(session),
+            View::Regimes => regimes(session, index),
         };
         let of_scene = session.exhibit_of_scene(index, view);
         let plot = &mut session.plots[index];
@@ -158,6 +160,16 @@ fn return_map(session: &Session) -> Option<Window> {
     let far = if largest > r { largest } else { 10.0 * r };
     let span = Span::new(-(1.0 + MARGIN) * r, FARTHER * far).ok()?;
     Some(Window { x: span, y: span })
+}
+
+/// The values of both parameters first looked at, and today's.
+fn regimes(session: &Session, plot: usize) -> Option<Window> {
+    let Axes { abscissa, against, .. } = session.plots[plot].axes;
+    let around = |symbol: Symbol| {
+        let usual = usual_values(symbol);
+        Span::covering([usual.from(), usual.to(), ROOM * session.value(symbol)])
+    };
+    Some(Window { x: around(abscissa)?, y: around(against)? })
 }
 
 /// The value that this part of some sorted values does not exceed.

@@ -27,6 +27,8 @@ pub enum Context {
     EnergyLedger,
     /// The focus is on the return map.
     ReturnMap,
+    /// The focus is on a chart of regimes.
+    Regimes,
     /// A point of the branch is held.
     Walk,
     /// The focus is on a plot.
@@ -62,13 +64,14 @@ pub enum Context {
 }
 
 /// Every context with its name in settings files.
-pub const CONTEXTS: [(Context, &str); 22] = [
+pub const CONTEXTS: [(Context, &str); 23] = [
     (Context::Parameters, "parameters"),
     (Context::Phase, "phase"),
     (Context::Diagram, "diagram"),
     (Context::TimeSeries, "time-series"),
     (Context::EnergyLedger, "energy-ledger"),
     (Context::ReturnMap, "return-map"),
+    (Context::Regimes, "regimes"),
     (Context::Walk, "walk"),
     (Context::Plots, "plots"),
     (Context::Everywhere, "everywhere"),
@@ -104,6 +107,7 @@ impl Context {
             Context::TimeSeries => "Time series",
             Context::EnergyLedger => "Energy ledger",
             Context::ReturnMap => "Return map",
+            Context::Regimes => "Chart of regimes",
             Context::Walk => "Walking along the branch",
             Context::Plots => "Every plot",
             Context::Everywhere => "Everywhere",
@@ -151,6 +155,7 @@ impl Context {
             | Context::TimeSeries
             | Context::EnergyLedger
             | Context::ReturnMap
+            | Context::Regimes
             | Context::Walk
             | Context::Plots
             | Context::Everywhere
@@ -167,19 +172,21 @@ impl Context {
             Context::TimeSeries => Some(View::TimeSeries),
             Context::EnergyLedger => Some(View::EnergyLedger),
             Context::ReturnMap => Some(View::ReturnMap),
+            Context::Regimes => Some(View::Regimes),
             _ => None,
         }
     }
 }
 
 /// Every set of contexts that can hold together, the most specific first.
-pub const CHAINS: [&[Context]; 18] = [
+pub const CHAINS: [&[Context]; 19] = [
     &[Context::Parameters, Context::Everywhere, Context::Always],
     &[Context::Phase, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Diagram, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::TimeSeries, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::EnergyLedger, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::ReturnMap, Context::Plots, Context::Everywhere, Context::Always],
+    &[Context::Regimes, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Walk, Context::Always],
     &[Context::Help, Context::Lists, Context::Always],
     &[Context::Scenes, Context::Lists, Context::Always],
@@ -209,6 +216,7 @@ impl Session {
                 Some(View::TimeSeries) => Context::TimeSeries,
                 Some(View::EnergyLedger) => Context::EnergyLedger,
                 Some(View::ReturnMap) => Context::ReturnMap,
+                Some(View::Regimes) => Context::Regimes,
             },
             Some(overlay) if overlay.list().is_some_and(|list| list.searching) => Context::Search,
             Some(Overlay::Help(_)) => Context::Help,

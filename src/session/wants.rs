@@ -10,8 +10,10 @@ use std::sync::Arc;
 use super::plot::Framing;
 use super::state::{Recomputed, Session};
 use crate::flow::{Problem, Reason, Trajectory};
+use crate::oscillator::Symbol;
 use crate::scene::answer::{Borders, Failure};
-use crate::scene::{Answer, Answered, Layer, Request, SLOTS, Slot, Span, View, Window};
+use crate::scene::{Answer, Answered, Axes, Layer, Request, SLOTS, Slot, Span, View, Window};
+use crate::study::chart::{Chart, Plane};
 use crate::study::harmonic_error::HarmonicBalance;
 use crate::study::{Branch, Cycles, ReturnMap};
 
@@ -80,6 +82,25 @@ impl Session {
                 let plot = own(View::ReturnMap)?;
                 let range = (plot.framing != Framing::Fitting).then_some(plot.window.x)?;
                 Request::ReturnMap { parameters, range: (range.from(), range.to()) }
+            }
+            Slot::Regimes => {
+                let plot = own(View::Regimes)?;
+                let Axes { abscissa, against, .. } = plot.axes;
+                let within = |symbol: Symbol, span: Span| {
+                    let spec = symbol.spec();
+                    span.within(spec.min, spec.max).map(|span| (span.from(), span.to()))
+                };
+                let plane = Plane {
+                    right: abscissa,
+                    up: against,
+                    right_range: within(abscissa, plot.window.x)?,
+                    up_range: within(against, plot.window.y)?,
+                };
+                let mut others = parameters;
+                for symbol in [abscissa, against] {
+                    symbol.set(&mut others, &mut { self.problem.initial }, 0.0);
+                }
+                Request::Regimes { parameters: others, plane }
             }
         })
     }
@@ -170,6 +191,20 @@ impl Session {
     pub fn branch(&self, plot: usize) -> Option<&Branch> {
         match self.answer(Slot::Branch, plot)? {
             Answer::Branch(found) if found.parameter == self.plots[plot].axes.abscissa => {
+                Some(found)
+            }
+            _ => None,
+        }
+    }
+
+    /// The last chart computed over the two parameters of a plot, stale or not.
+    #[must_use]
+    pub fn chart(&self, plot: usize) -> Option<&Chart> {
+        let Axes { abscissa, against, .. } = self.plots.get(plot)?.axes;
+        match self.answer(Slot::Regimes, plot)? {
+            Answer::Regimes(found)
+                if (found.plane.right, found.plane.up) == (abscissa, against) =>
+            {
                 Some(found)
             }
             _ => None,

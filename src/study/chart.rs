@@ -419,7 +419,8 @@ impl Chart {
     }
 
     /// The point (right, up) at a place on a line.
-    fn point(&self, at: f64, along: f64) -> (f64, f64) {
+    #[must_use]
+    pub fn point(&self, at: f64, along: f64) -> (f64, f64) {
         if self.along == self.plane.right { (along, at) } else { (at, along) }
     }
 

@@ -27,7 +27,7 @@ const WIDE: u16 = 44;
 /// Draws the plot with this index.
 pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &mut Buffer) {
     let diagram = &session.plots[index];
-    let Axes { abscissa, ordinate } = diagram.axes;
+    let Axes { abscissa, ordinate, .. } = diagram.axes;
     let (name, label) = (abscissa.spec().name, ordinate.spec().label);
     let names = Names { title: View::Diagram.spec().title, x: name, y: label };
     let mut heading = Heading::of(session, Pane::Plot(index));
@@ -85,7 +85,7 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
 /// gone to infinity stands at the top.
 fn held(session: &Session, diagram: &session::Plot) -> Option<Point> {
     let held = session.held?;
-    let Axes { abscissa, ordinate } = diagram.axes;
+    let Axes { abscissa, ordinate, .. } = diagram.axes;
     let same = session.focused().is_some_and(|focused| focused.axes.abscissa == abscissa);
     let top = diagram.window.y.to();
     same.then(|| Point { x: held.value, y: held.cycle.map_or(top, |cycle| ordinate.of(&cycle)) })

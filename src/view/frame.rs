@@ -7,7 +7,8 @@ use ratatui::layout::Rect;
 use super::layout::{Layout, SMALLEST, layout};
 use super::look::{Look, Role};
 use super::{
-    diagram, energy_ledger, footer, lists, parameters, phase_plane, return_map, status, time_series,
+    diagram, energy_ledger, footer, lists, parameters, phase_plane, regimes, return_map, status,
+    time_series,
 };
 use crate::scene::View;
 use crate::session::Session;
@@ -43,6 +44,7 @@ fn panes(parts: &Layout, session: &Session, look: &Look, buffer: &mut Buffer) {
             View::TimeSeries => time_series::draw(*area, session, index, look, buffer),
             View::EnergyLedger => energy_ledger::draw(*area, session, index, look, buffer),
             View::ReturnMap => return_map::draw(*area, session, index, look, buffer),
+            View::Regimes => regimes::draw(*area, session, index, look, buffer),
         }
     }
     status::draw(parts.status, session, look, buffer);

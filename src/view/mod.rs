@@ -20,6 +20,7 @@ pub mod phase_plane;
 pub mod place;
 pub mod plot;
 pub mod quantity;
+pub mod regimes;
 pub mod return_map;
 pub mod status;
 pub mod ticks;

@@ -298,6 +298,20 @@ impl<'a> Plot<'a> {
         }
     }
 
+    /// Puts a texture on the cells of parts of the world; blanks leave what is there.
+    pub fn texture_where(&mut self, texture: impl Fn(Point) -> Option<(char, Role)>) {
+        let Rect { width, height, .. } = self.inner;
+        for (row, column) in (0..height).flat_map(|row| (0..width).map(move |column| (row, column)))
+        {
+            // Every other cell of every other line, so that borders and names can be read.
+            if (column + 2 * row) % 4 == 0
+                && let Some((symbol, role)) = texture(self.world(column, row))
+            {
+                self.dots.texture(column, row, symbol, role);
+            }
+        }
+    }
+
     /// Puts arrows on a sparse lattice of cells, in the direction that `flow` gives there.
     pub fn arrows(&mut self, role: Role, flow: impl Fn(Point) -> Point) {
         let arrows = self.look.symbols().arrows;

@@ -21,7 +21,9 @@ use crate::scene::{
 };
 use crate::session::settings::{self, Colors, GLYPHS, Glyphs, THEMES};
 use crate::session::{Key, Msg, Notice, Session, Size, update};
+use crate::study::chart::{Band, Chart, Line, Plane};
 use crate::study::harmonic_error::HarmonicBalance;
+use crate::study::regime::Regime;
 use crate::study::{
     Branch, BranchPoint, Cycle, Cycles, Edge, Margin, Picture, Return, ReturnMap, Special,
     SpecialKind,
@@ -81,6 +83,7 @@ fn by_hand(request: &Request) -> Answer {
         }),
         Request::Branch { parameter, .. } => Answer::Branch(folded(*parameter)),
         Request::ReturnMap { parameters, .. } => Answer::ReturnMap(halving(*parameters)),
+        Request::Regimes { plane, .. } => Answer::Regimes(parted(*plane)),
     }
 }
 
@@ -152,6 +155,22 @@ fn halving(parameters: Parameters) -> ReturnMap {
         sides: [Vec::new(), (5..=100).map(turn).collect()],
         cost: Cost { evaluations: 900, steps: 30, rejected: 0 },
     }
+}
+
+/// A chart whose lines are parted by a border that moves to the left.
+fn parted(plane: Plane) -> Chart {
+    let line = |index: u8| {
+        let part = f64::from(index) / 20.0;
+        let (from, to) = plane.right_range;
+        let fold = -0.4 * part;
+        let band = |from, to, regime| Band { from, to, regime: Some(regime) };
+        let bands = vec![band(from, fold, Regime::Coexisting), band(fold, to, Regime::Global)];
+        let at = plane.up_range.0 + part * (plane.up_range.1 - plane.up_range.0);
+        let harmonic = Some(0.9 * fold);
+        Line { at, bands, fold: Some(fold), harmonic, escape: None, failure: None }
+    };
+    let cost = Cost { evaluations: 9_000, steps: 300, rejected: 0 };
+    Chart { plane, along: plane.right, lines: (0..=20).map(line).collect(), cost }
 }
 
 /// A branch that turns back at a fold.
@@ -491,6 +510,11 @@ proptest! {
                 Ok(Answer::ReturnMap(found)) => {
                     let turn = |(from, to): &(f64, f64)| Return { from: *from, to: Some(*to) };
                     found.sides = [curve.iter().map(turn).collect(), Vec::new()];
+                }
+                Ok(Answer::Regimes(found)) => {
+                    for (line, (at, fold)) in found.lines.iter_mut().zip(&curve) {
+                        (line.at, line.fold, line.harmonic) = (*at, Some(*fold), Some(low));
+                    }
                 }
                 Ok(Answer::Capture(found)) => found.curves = vec![states.clone()],
                 Err(_) => {}

@@ -169,7 +169,8 @@ pub fn axes(session: &mut Session, rest: &str) -> Done {
         }
     };
     general::focus_on(session, Pane::Plot(index));
-    axis::set(session, Axes { abscissa: *abscissa, ordinate });
+    let axes = session.plots[index].axes;
+    axis::set(session, Axes { abscissa: *abscissa, ordinate, ..axes });
     Ok(Vec::new())
 }
 

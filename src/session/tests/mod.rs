@@ -21,6 +21,7 @@ use crate::flow::{Cost, Method, Outcome, Problem, Sample, Trajectory};
 use crate::oscillator::{Ledger, State};
 use crate::scene::answer::Borders;
 use crate::scene::{Answer, Answered, Request, Slot, find};
+use crate::study::chart::Chart;
 use crate::study::harmonic_error::HarmonicBalance;
 use crate::study::{
     Branch, BranchPoint, Cycle, Cycles, Edge, Margin, Picture, ReturnMap, Special, SpecialKind,
@@ -158,6 +159,10 @@ fn answered(request: Request) -> Answered {
             sides: [Vec::new(), Vec::new()],
             cost,
         }),
+        Request::Regimes { plane, .. } => {
+            let along = plane.along();
+            Answer::Regimes(Chart { plane: *plane, along, lines: Vec::new(), cost })
+        }
         Request::Branch { parameter, range: (from, to), parameters, .. } => {
             let fold = Cycle { q_max: 1.5, log_multiplier: 0.0, ..cycle(false, parameters.r) };
             let point = |stable| BranchPoint { value: *from, cycle: cycle(stable, parameters.r) };

@@ -94,6 +94,7 @@ fn terms_that_a_scene_does_not_declare_are_zero_until_the_user_unfolds_them() {
             | Request::Capture { parameters, .. }
             | Request::Balance { parameters, .. }
             | Request::ReturnMap { parameters, .. }
+            | Request::Regimes { parameters, .. }
             | Request::Branch { parameters, .. } => parameters,
         };
         assert!(parameters.is_piecewise_linear());

@@ -21,6 +21,7 @@ fn a_view_asks_what_its_layers_need_and_a_step_asks_that_again() {
         ("time-series", &[Slot::Trajectory], &[Slot::Trajectory]),
         ("energy-ledger", &[Slot::Trajectory, Slot::Cycles], &[Slot::Trajectory]),
         ("return-map", &[Slot::Trajectory, Slot::Cycles, Slot::ReturnMap], &[Slot::Trajectory]),
+        ("regimes", &[Slot::Regimes], &[]),
     ] {
         let mut desk = turned_to(view);
         let wanted: Vec<Slot> = desk.session.wants().iter().map(Request::slot).collect();

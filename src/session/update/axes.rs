@@ -12,10 +12,26 @@ const ROOM: f64 = 1.25;
 /// Draws the diagram in focus over the next parameter, around its end; the branch is another one.
 pub fn next_abscissa(session: &mut Session) -> Vec<Effect> {
     let Some(plot) = session.focused() else { return Vec::new() };
-    let Axes { abscissa, ordinate } = plot.axes;
-    let at = ABSCISSAE.iter().position(|(symbol, _)| *symbol == abscissa).unwrap_or(0);
+    let axes = plot.axes;
+    let at = ABSCISSAE.iter().position(|(symbol, _)| *symbol == axes.abscissa).unwrap_or(0);
     let (symbol, _) = ABSCISSAE[(at + 1) % ABSCISSAE.len()];
-    set(session, Axes { abscissa: symbol, ordinate });
+    set(session, Axes { abscissa: symbol, ..axes });
+    inform(session, format!("over {}: {}", symbol.spec().name, symbol.spec().meaning));
+    Vec::new()
+}
+
+/// Draws the chart in focus over the next parameter to the right or upwards, never one over the other's.
+pub fn next_of_chart(session: &mut Session, upwards: bool) -> Vec<Effect> {
+    let Some(plot) = session.focused_mut() else { return Vec::new() };
+    let Axes { abscissa, against, .. } = plot.axes;
+    let (present, other) = if upwards { (against, abscissa) } else { (abscissa, against) };
+    let at = ABSCISSAE.iter().position(|(symbol, _)| *symbol == present).unwrap_or(0);
+    let later = (1..ABSCISSAE.len()).map(|step| ABSCISSAE[(at + step) % ABSCISSAE.len()].0);
+    let Some(symbol) = later.into_iter().find(|symbol| *symbol != other) else { return Vec::new() };
+    let axis = if upwards { &mut plot.axes.against } else { &mut plot.axes.abscissa };
+    *axis = symbol;
+    // The chart of these parameters is nobody's yet: its window is the usual one, today's point in it.
+    plot.fit_from(Exhibit { view: plot.view, axes: plot.axes, window: None }.opening());
     inform(session, format!("over {}: {}", symbol.spec().name, symbol.spec().meaning));
     Vec::new()
 }

@@ -33,6 +33,9 @@ fn cursor_origin(session: &Session, plot: &Plot) -> Point {
         View::TimeSeries => Point { x: 0.0, y: session.problem.initial.q },
         View::EnergyLedger => Point { x: 0.0, y: 0.0 },
         View::ReturnMap => Point { x: session.problem.initial.q, y: session.problem.initial.q },
+        View::Regimes => {
+            Point { x: session.value(plot.axes.abscissa), y: session.value(plot.axes.against) }
+        }
     })
 }
 
@@ -158,7 +161,7 @@ pub fn start_here(session: &mut Session) -> Vec<Effect> {
         Some(View::TimeSeries) => session.state_at(x),
         Some(View::EnergyLedger) => session.start_of_line(y),
         Some(View::ReturnMap) => Some(State { q: x, v: 0.0 }),
-        Some(View::Phase | View::Diagram) | None => Some(State { q: x, v: y }),
+        Some(View::Phase | View::Diagram | View::Regimes) | None => Some(State { q: x, v: y }),
     };
     match initial {
         Some(initial) => {
@@ -169,19 +172,23 @@ pub fn start_here(session: &mut Session) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Gives the diagram's parameter the value under its cursor.
+/// Gives the parameter of a diagram, or both of a chart, the values under its cursor.
 pub fn jump_here(session: &mut Session) -> Vec<Effect> {
     let Some(cursor) = cursor(session) else { return Vec::new() };
-    let Some(abscissa) = session.focused().map(|plot| plot.axes.abscissa) else {
+    let Some((view, axes)) = session.focused().map(|plot| (plot.view, plot.axes)) else {
         return Vec::new();
     };
-    match abscissa.spec().check(cursor.x) {
-        Ok(value) => {
-            let mut problem = session.problem;
-            abscissa.set(&mut problem.parameters, &mut problem.initial, value);
-            change(session, problem);
+    let upwards = (view == View::Regimes).then_some((axes.against, cursor.y));
+    let mut problem = session.problem;
+    for (symbol, value) in [(axes.abscissa, cursor.x)].into_iter().chain(upwards) {
+        match symbol.spec().check(value) {
+            Ok(value) => symbol.set(&mut problem.parameters, &mut problem.initial, value),
+            Err(refused) => {
+                refuse(session, refused.to_string());
+                return Vec::new();
+            }
         }
-        Err(refused) => refuse(session, refused.to_string()),
     }
+    change(session, problem);
     Vec::new()
 }

@@ -30,7 +30,7 @@ fn first(session: &Session) -> Result<Stop, &'static str> {
     let branch = session.branch(index).filter(|_| !session.is_stale(Slot::Branch, index));
     let branch = branch.ok_or("the branch is not computed yet")?;
     let way = Way::along(branch);
-    let Plot { axes: Axes { abscissa, ordinate }, window, cursor, .. } = &session.plots[index];
+    let Plot { axes: Axes { abscissa, ordinate, .. }, window, cursor, .. } = &session.plots[index];
     let found = match cursor {
         Some(cursor) => way.nearest(|stop| {
             let height = stop.cycle.map_or(window.y.to(), |cycle| ordinate.of(&cycle));
