@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::failure::Failure;
+use super::places;
 use crate::session::config::{Config, parse};
 
 /// Which settings file is read.
@@ -25,7 +26,7 @@ impl Settings {
         let (path, named) = match (&self.config, self.no_config) {
             (Some(path), _) => (path.clone(), true),
             (None, true) => return Ok(Config::default()),
-            (None, false) => match own() {
+            (None, false) => match places::settings() {
                 Some(path) => (path, false),
                 None => return Ok(Config::default()),
             },
@@ -42,15 +43,6 @@ impl Settings {
 
     /// The file that is read, whether it exists or not.
     pub fn path(&self) -> Option<PathBuf> {
-        if self.no_config { None } else { self.config.clone().or_else(own) }
+        if self.no_config { None } else { self.config.clone().or_else(places::settings) }
     }
-}
-
-/// The user's own settings file; `None` where there is no directory for it.
-fn own() -> Option<PathBuf> {
-    let variable =
-        |name| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
-    let base = variable("XDG_CONFIG_HOME").filter(|path| path.is_absolute());
-    let base = base.or_else(|| variable("HOME").map(|home| home.join(".config")))?;
-    Some(base.join("hopfscope/config.toml"))
 }

@@ -9,12 +9,14 @@ use clap::Args;
 use super::config::Settings;
 use super::failure::Failure;
 use super::look::Looks;
+use super::places::Memory;
 use super::replay::script;
 use super::start::Start;
 use crate::runtime::effects::Files;
 use crate::runtime::{Ended, Options, explore};
 use crate::scene::library::PLAIN;
-use crate::session::{Session, Size};
+use crate::session::replay::Script;
+use crate::session::{Notice, Session, Size, save};
 use crate::terminal::Environment;
 
 /// Opens the explorer.
@@ -29,6 +31,9 @@ pub struct Explore {
     looks: Looks,
     #[command(flatten)]
     settings: Settings,
+    /// Goes on with a saved session
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["named", "scene", "set", "method", "tol", "step", "epsilon"])]
+    open: Option<PathBuf>,
     /// Plays a keystroke file at the start, then goes on
     #[arg(long, value_name = "FILE")]
     play: Option<PathBuf>,
@@ -45,26 +50,63 @@ impl Explore {
         let name = named.map_or(PLAIN, String::as_str);
         let scene = self.start.scene_named(name).map_err(|missing| or_command(name, missing))?;
         let replay = self.play.as_deref().map(script).transpose()?;
-        let environment = Environment::of_process();
-        environment.admit().map_err(|refusal| Failure::Usage(refusal.to_string()))?;
-        // A file that cannot be written should be known before the session, not after.
-        if let Some(path) = &self.record {
-            write(path, "")?;
-        }
         // The terminal says its size before the first picture.
         let mut session = Session::new(scene, Size { width: 80, height: 24 });
         session.look = self.looks.wishes(&config);
         session.keymap = Arc::new(config.keymap);
-        let files = Files { copies: copies() };
-        let mouse = session.look.mouse;
-        let options = Options { replay, record: self.record.is_some(), mouse, files };
-        let Ended { code, recorder } = explore(session, environment, options)
-            .map_err(|error| Failure::Unanswered(format!("the terminal: {error}")))?;
-        if let (Some(path), Some(recorder)) = (&self.record, recorder) {
-            write(path, &recorder.text(&started()))?;
+        if let Some(path) = &self.open {
+            open(&mut session, path)?;
         }
-        Ok(code)
+        go(session, replay, self.record.as_deref())
     }
+}
+
+/// Makes a session the saved one of a file.
+pub fn open(session: &mut Session, path: &Path) -> Result<(), Failure> {
+    let text = Files::read(path).map_err(Failure::Usage)?;
+    let refused = |why| Failure::Usage(format!("{}: {why}", path.display()));
+    save::open(session, &text).map_err(refused)
+}
+
+/// Runs the explorer until it is left.
+pub fn go(
+    mut session: Session,
+    replay: Option<Script>,
+    record: Option<&Path>,
+) -> Result<ExitCode, Failure> {
+    let environment = Environment::of_process();
+    environment.admit().map_err(|refusal| Failure::Usage(refusal.to_string()))?;
+    // A file that cannot be written should be known before the session, not after.
+    if let Some(path) = record {
+        write(path, "")?;
+    }
+    let memory = Memory::open();
+    if let Some(memory) = &memory {
+        session.interrupted = memory.interrupted();
+        session.notice = welcome(&session, memory).map(|text| Notice { error: false, text });
+    }
+    let files = Files { copies: memory.as_ref().map(Memory::copies) };
+    let mouse = session.look.mouse;
+    let keep = memory.as_ref().map(Memory::keep);
+    let options = Options { replay, started: started(), keep, mouse, files };
+    let Ended { code, recorder } = explore(session, environment, options)
+        .map_err(|error| Failure::Unanswered(format!("the terminal: {error}")))?;
+    if let Some(path) = record {
+        write(path, &recorder.text(&started()))?;
+    }
+    Ok(code)
+}
+
+/// What is said before the first key: that a session was interrupted, or what to press at the first start.
+fn welcome(session: &Session, memory: &Memory) -> Option<String> {
+    let said = if session.interrupted.is_some() {
+        "a session was interrupted: {restore} goes on with it, {forget-interrupted} forgets it"
+    } else if memory.is_new {
+        "arrows change the numbers; {help} keys, {palette} commands, {explain} what to see, {tour} a tour"
+    } else {
+        return None;
+    };
+    Some(session.keymap.fill(said, |key| key.to_string()))
 }
 
 fn write(path: &Path, text: &str) -> Result<(), Failure> {
@@ -76,18 +118,6 @@ fn started() -> String {
     let words = std::env::args_os().skip(1);
     let words = words.map(|word| word.to_string_lossy().into_owned());
     std::iter::once("hopfscope".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
-}
-
-/// The file that holds the last copy, in the user's directory for such things; `None` where there is
-/// none.
-fn copies() -> Option<PathBuf> {
-    let variable =
-        |name| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
-    let state = variable("XDG_STATE_HOME").filter(|path| path.is_absolute());
-    let state = state.or_else(|| variable("HOME").map(|home| home.join(".local/state")))?;
-    let folder = state.join("hopfscope");
-    std::fs::create_dir_all(&folder).ok()?;
-    Some(folder.join("copy.txt"))
 }
 
 /// Adds to the complaint about a scene the command that was meant, if one looks like it.

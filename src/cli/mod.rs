@@ -18,12 +18,14 @@ mod keys;
 mod look;
 mod output;
 mod paper;
+mod places;
 mod progress;
 mod replay;
 mod scan;
 mod scenes;
 mod start;
 mod timing;
+mod tour;
 mod trade;
 mod trajectory;
 
@@ -68,12 +70,14 @@ enum Command {
     Keys(keys::Keys),
     Extremes(extremes::Extremes),
     Replay(replay::Replay),
+    Tour(tour::Tour),
 }
 
 impl Command {
     fn run(&self) -> Result<ExitCode, Failure> {
         let answered = match self {
             Command::Scan(command) => return command.run(),
+            Command::Tour(command) => return command.run(),
             Command::Trajectory(command) => command.run(),
             Command::Cycles(command) => command.run(),
             Command::Branch(command) => command.run(),

@@ -1,6 +1,6 @@
 //! A motion: swings until it is captured, escapes, reaches its end or is given up.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::auto::Auto;
 use super::exact::Exact;
@@ -15,7 +15,8 @@ use super::{Limits, Method, Reason};
 use crate::oscillator::{HalfPlane, Ledger, Parameters, Side, State};
 
 /// An initial value problem.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Problem {
     /// Parameters of the oscillator.
     pub parameters: Parameters,

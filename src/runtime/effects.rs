@@ -31,21 +31,70 @@ impl Files {
         match &self.copies {
             None => Notice { error: false, text: sent },
             Some(path) => {
-                let Notice { error, text } = Files::write(path, text);
+                let Notice { error, text } = Files::write(path, text, true);
                 Notice { error, text: format!("{sent}; {text}") }
             }
         }
     }
 
-    /// Writes a file, and says how that ended.
+    /// Writes a file, and says how that ended. Whatever happens, the file is there as a whole or as it
+    /// was; one that is there already is replaced only on demand.
     #[must_use]
-    pub fn write(path: &Path, text: &str) -> Notice {
+    pub fn write(path: &Path, text: &str, replace: bool) -> Notice {
+        let path = at_home(path);
         let name = path.display();
-        match std::fs::write(path, text) {
+        if !replace && path.exists() {
+            let text = format!("{name} is there already; with ! behind the command it is replaced");
+            return Notice { error: true, text };
+        }
+        match write_whole(&path, text) {
             Ok(()) => Notice { error: false, text: format!("written to {name}") },
             Err(why) => Notice { error: true, text: format!("{name} not written: {why}") },
         }
     }
+
+    /// The text of a file, or one line that says why there is none.
+    ///
+    /// # Errors
+    /// One line with the name of the file.
+    pub fn read(path: &Path) -> Result<String, String> {
+        let path = at_home(path);
+        let told = |why: &dyn std::fmt::Display| format!("{}: {why}", path.display());
+        // A device or a pipe could go on for ever.
+        let length = std::fs::metadata(&path).map_err(|why| told(&why))?;
+        if !length.is_file() || length.len() > LONGEST {
+            return Err(told(&format!("no file of at most {} MB", LONGEST >> 20)));
+        }
+        std::fs::read_to_string(&path).map_err(|why| told(&why))
+    }
+
+    /// Puts a kept session aside: it is not offered again, but not lost before the next one is.
+    pub fn put_aside(path: &Path) {
+        drop(std::fs::rename(path, path.with_file_name("last.toml")));
+    }
+}
+
+/// Longest file that is read, in bytes.
+const LONGEST: u64 = 16 << 20;
+
+/// A path in which a leading `~/` is the user's home, as in the shell.
+fn at_home(path: &Path) -> PathBuf {
+    match (path.strip_prefix("~"), std::env::home_dir()) {
+        (Ok(rest), Some(home)) => home.join(rest),
+        _ => path.to_owned(),
+    }
+}
+
+/// Writes a file beside its place and moves it there.
+fn write_whole(path: &Path, text: &str) -> std::io::Result<()> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let name = path.file_name().ok_or(std::io::ErrorKind::InvalidFilename)?;
+    let mut beside = std::ffi::OsString::from(".");
+    beside.push(name);
+    beside.push(format!(".{}.new", std::process::id()));
+    let beside = folder.unwrap_or(Path::new(".")).join(beside);
+    let written = std::fs::write(&beside, text).and_then(|()| std::fs::rename(&beside, path));
+    written.inspect_err(|_| drop(std::fs::remove_file(&beside)))
 }
 
 #[cfg(test)]
@@ -66,7 +115,27 @@ mod tests {
     #[test]
     fn a_file_that_cannot_be_written_is_told_by_name() {
         let folder = tempfile::tempdir().unwrap();
-        let notice = Files::write(&folder.path().join("no/such/folder"), "");
+        let notice = Files::write(&folder.path().join("no/such/folder"), "", true);
         assert!(notice.error && notice.text.contains("no/such/folder"), "{notice:?}");
+    }
+
+    #[test]
+    fn a_file_that_is_there_is_replaced_only_on_demand_and_nothing_else_is_left() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("session.toml");
+        assert!(!Files::write(&path, "one", false).error);
+        let notice = Files::write(&path, "two", false);
+        assert!(notice.error && notice.text.contains("is there already"), "{notice:?}");
+        assert_eq!(Files::read(&path).unwrap(), "one");
+        assert!(!Files::write(&path, "two", true).error);
+        assert_eq!(Files::read(&path).unwrap(), "two");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn what_is_no_file_is_not_read() {
+        for path in ["/no/such/file", "/dev/zero", "/"] {
+            assert!(Files::read(Path::new(path)).unwrap_err().starts_with(path));
+        }
     }
 }

@@ -12,7 +12,7 @@ use super::machine::Machine;
 use crate::scene::Request;
 use crate::scene::answer::answer;
 use crate::session::replay::Script;
-use crate::session::{Effect, Msg, Place, Session, settings, update};
+use crate::session::{Effect, Msg, Place, Session, save, settings, update};
 use crate::terminal::Environment;
 use crate::view::{self, Look};
 
@@ -61,6 +61,10 @@ impl Machine for Explorer {
     fn place(&self, size: Size, column: u16, row: u16) -> Option<Place> {
         let screen = Rect::from((Position::ORIGIN, size));
         view::place(screen, &self.session, Position { x: column, y: row })
+    }
+
+    fn keepsake(&self) -> Option<String> {
+        self.session.is_worth_keeping().then(|| save::text(&self.session).ok())?
     }
 
     fn draw(&self, frame: &mut Frame) {

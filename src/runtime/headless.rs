@@ -9,6 +9,7 @@ use crossbeam_channel::unbounded;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
 
+use super::effects::Files;
 use super::machine::Machine;
 use super::panics::Notes;
 use super::picture;
@@ -35,7 +36,8 @@ pub struct Played<M> {
 /// Plays a file on a machine at this size, until its end, the first expectation that is not met, or
 /// until the machine wants to quit.
 ///
-/// Effects on the world outside are not carried out: a replay writes no files and copies nothing.
+/// Effects on the world outside are not carried out: a replay writes no files and copies nothing. Files
+/// that the session asks for are read.
 ///
 /// # Errors
 /// If the system gives no thread for the worker.
@@ -89,6 +91,13 @@ fn does(machine: &mut impl Machine, player: &mut Player, msg: Msg) -> bool {
     for effect in machine.update(msg) {
         match effect {
             Effect::Quit => return true,
+            // What it reads, a session depends on.
+            Effect::Read { path, purpose } => {
+                let result = Files::read(&path);
+                if does(machine, player, Msg::Read { path, purpose, result }) {
+                    return true;
+                }
+            }
             Effect::Play(script) => {
                 player.interject(script);
             }
@@ -97,6 +106,8 @@ fn does(machine: &mut impl Machine, player: &mut Player, msg: Msg) -> bool {
             | Effect::Copy(_)
             | Effect::CopyScreen
             | Effect::Mouse(_)
+            | Effect::Record { .. }
+            | Effect::PutAside(_)
             | Effect::Write { .. } => {}
         }
     }

@@ -2,6 +2,8 @@
 //! gives the terminal back.
 
 use std::io;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use crossbeam_channel::unbounded;
@@ -29,8 +31,10 @@ const HANG_UP: i32 = signal_hook::consts::SIGHUP;
 pub struct Options {
     /// Keys to play at the start.
     pub replay: Option<Script>,
-    /// Whether to write down what the user does.
-    pub record: bool,
+    /// How the session was started, in words, for a file of what the user does.
+    pub started: String,
+    /// Where to keep a session that is interrupted.
+    pub keep: Option<PathBuf>,
     /// Whether the terminal reports the mouse at the start.
     pub mouse: bool,
     /// Where copies go, besides the clipboard.
@@ -42,8 +46,8 @@ pub struct Options {
 pub struct Ended {
     /// Its exit code: 0 when the user left, 128 + n after signal n.
     pub code: ExitCode,
-    /// What the user did, if it was to be written down.
-    pub recorder: Option<Recorder>,
+    /// What the user did.
+    pub recorder: Recorder,
 }
 
 /// Runs a machine in the terminal at standard input and output; see
@@ -70,9 +74,14 @@ pub fn launch(
     let screen = Screen::new(guard.out(), terminal_size())?;
     let mut pump = Pump::new(machine, screen, worker, events, options.files, terminal_size)
         .playing(options.replay.map(Player::new))
-        .recording(options.record.then(Recorder::default));
+        .started(options.started);
     pump.repaint()?;
-    let ended = match conduct(&mut pump, &guard) {
+    // A panic has been reported by now, and the terminal given back; it ends the program all the same.
+    let conducted = catch_unwind(AssertUnwindSafe(|| conduct(&mut pump, &guard)));
+    if !matches!(conducted, Ok(Ok(Stop::Quit))) {
+        keep(&pump, options.keep.as_deref());
+    }
+    let ended = match conducted.unwrap_or_else(|panic| resume_unwind(panic)) {
         // A terminal that is gone refuses what is written to it, before its signal arrives.
         Err(error) if error.raw_os_error() == Some(Errno::IO.raw_os_error()) => Ok(Stop::Closed),
         ended => ended,
@@ -88,7 +97,17 @@ pub fn launch(
         Stop::Closed => exit_code(HANG_UP).into(),
         _ => ExitCode::SUCCESS,
     };
-    Ok(Ended { code, recorder: pump.recorder().cloned() })
+    Ok(Ended { code, recorder: pump.recorder().clone() })
+}
+
+/// Keeps what would be missed of an interrupted session. It is the last thing that is done, and if it
+/// fails there is nobody to tell.
+fn keep<M: Machine, W: io::Write>(pump: &Pump<M, W>, path: Option<&Path>) {
+    // After a panic the state may be one that nobody has thought of.
+    let text = catch_unwind(AssertUnwindSafe(|| pump.machine().keepsake())).ok().flatten();
+    if let Some((path, text)) = path.zip(text) {
+        drop(Files::write(path, &text, true));
+    }
 }
 
 /// Runs the loop through all stops and continuations to its end.

@@ -19,6 +19,11 @@ pub trait Machine {
         None
     }
 
+    /// What to keep of it if it is interrupted, as the text of a file; `None`: nothing would be missed.
+    fn keepsake(&self) -> Option<String> {
+        None
+    }
+
     /// Draws the state.
     fn draw(&self, frame: &mut Frame);
 }

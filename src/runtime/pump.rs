@@ -44,7 +44,11 @@ pub struct Pump<M, W: Write> {
     /// No frames are drawn while the terminal is not ours.
     held: bool,
     player: Option<Player>,
-    recorder: Option<Recorder>,
+    /// A caption waits to be read.
+    paused: bool,
+    /// What the user did, and how the session was started.
+    recorder: Recorder,
+    started: String,
     terminal_size: fn() -> Size,
 }
 
@@ -69,7 +73,9 @@ impl<M: Machine, W: Write> Pump<M, W> {
             changed: Some(Instant::now()),
             held: false,
             player: None,
-            recorder: None,
+            paused: false,
+            recorder: Recorder::default(),
+            started: String::new(),
             terminal_size,
         }
     }
@@ -81,16 +87,21 @@ impl<M: Machine, W: Write> Pump<M, W> {
         self
     }
 
-    /// Writes down what the user does.
+    /// Says how the session was started, for a file of what the user does.
     #[must_use]
-    pub fn recording(mut self, recorder: Option<Recorder>) -> Self {
-        self.recorder = recorder;
+    pub fn started(mut self, started: String) -> Self {
+        self.started = started;
         self
     }
 
-    /// What the user did, if it was to be written down.
-    pub fn recorder(&self) -> Option<&Recorder> {
-        self.recorder.as_ref()
+    /// What the user did.
+    pub fn recorder(&self) -> &Recorder {
+        &self.recorder
+    }
+
+    /// What runs in the loop.
+    pub fn machine(&self) -> &M {
+        &self.machine
     }
 
     /// Runs until something happens that concerns the whole process.
@@ -173,10 +184,12 @@ impl<M: Machine, W: Write> Pump<M, W> {
             Event::Session(Msg::Key(Key { code: Code::Esc, .. })) if self.player.is_some() => {
                 self.played(false, "replay stopped".to_owned())
             }
+            Event::Session(Msg::Key(_)) if self.player.is_some() && self.paused => {
+                self.paused = false;
+                Ok(None)
+            }
             Event::Session(msg) => {
-                if let Some(recorder) = &mut self.recorder {
-                    recorder.note(&msg);
-                }
+                self.recorder.note(&msg);
                 if let Msg::Answered(answered) = &msg {
                     self.worker.taken(&answered.request);
                     self.asked.retain(|request| *request != answered.request);
@@ -208,9 +221,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
         self.screen.resize(size);
         let Size { width, height } = self.screen.size();
         let msg = Msg::Resize { width, height };
-        if let Some(recorder) = &mut self.recorder {
-            recorder.note(&msg);
-        }
+        self.recorder.note(&msg);
         // A size asks for nothing.
         drop(self.machine.update(msg));
         self.changed.get_or_insert_with(Instant::now);
@@ -234,9 +245,23 @@ impl<M: Machine, W: Write> Pump<M, W> {
                     let picture = picture::of(&self.machine, self.screen.size());
                     self.copy(&export::screen::text(&picture))?
                 }
-                Effect::Write { path, text } => {
-                    let notice = Files::write(&path, &text);
+                Effect::Write { path, text, replace } => {
+                    let notice = Files::write(&path, &text, replace);
                     self.update(Msg::Told(notice))?
+                }
+                Effect::Record { path, forget, replace } => {
+                    let mut recorder = self.recorder.clone();
+                    recorder.forget(if self.player.is_none() { forget } else { 0 });
+                    let notice = Files::write(&path, &recorder.text(&self.started), replace);
+                    self.update(Msg::Told(notice))?
+                }
+                Effect::Read { path, purpose } => {
+                    let result = Files::read(&path);
+                    self.update(Msg::Read { path, purpose, result })?
+                }
+                Effect::PutAside(path) => {
+                    Files::put_aside(&path);
+                    None
                 }
                 Effect::Play(script) => {
                     let played =
@@ -266,7 +291,11 @@ impl<M: Machine, W: Write> Pump<M, W> {
     ///
     /// A replay inside the explorer has the size of the terminal and keeps no pictures.
     fn play(&mut self) -> io::Result<Option<Stop>> {
-        if self.changed.is_some() || !self.events.is_empty() || !self.missed.is_empty() {
+        if self.paused
+            || self.changed.is_some()
+            || !self.events.is_empty()
+            || !self.missed.is_empty()
+        {
             return Ok(None);
         }
         let Some(player) = &mut self.player else { return Ok(None) };
@@ -277,7 +306,10 @@ impl<M: Machine, W: Write> Pump<M, W> {
             return match player.next(idle, screen) {
                 Ok(Action::Give(Msg::Resize { .. }) | Action::Keep(_)) => continue,
                 Ok(Action::Wait) => Ok(None),
-                Ok(Action::Give(msg)) => self.update(msg),
+                Ok(Action::Give(msg)) => {
+                    self.paused = matches!(msg, Msg::Say(_));
+                    self.update(msg)
+                }
                 Ok(Action::Done) => self.played(false, "replay done".to_owned()),
                 Err(unmet) => self.played(true, format!("replay stopped: {unmet}")),
             };
@@ -286,7 +318,8 @@ impl<M: Machine, W: Write> Pump<M, W> {
 
     /// Ends a replay.
     fn played(&mut self, error: bool, text: String) -> io::Result<Option<Stop>> {
-        self.player = None;
+        (self.player, self.paused) = (None, false);
+        self.update(Msg::Say(String::new()))?;
         self.update(Msg::Told(Notice { error, text }))
     }
 

@@ -6,6 +6,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use serde::{Deserialize, Serialize};
+
 use super::layer::Layer;
 use super::views::{Arrangement, Exhibit};
 use crate::flow::Problem;
@@ -19,7 +21,8 @@ pub const TOLERANCE: f64 = 1e-10;
 pub const UNTIL: f64 = 60.0;
 
 /// A phenomenon, set up to be looked at.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Scene {
     /// The name by which it is opened.
     pub name: String,

@@ -100,7 +100,7 @@ impl View {
 }
 
 /// What stands on the axes of a view that leaves a choice; a view that leaves none keeps it for others.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Axes {
     /// The parameter to the right.
     pub abscissa: Symbol,
@@ -118,7 +118,7 @@ impl Default for Axes {
 }
 
 /// A plot as a scene sets it up: what it shows, over which axes, and which part of that.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Exhibit {
     /// What is shown.
     pub view: View,

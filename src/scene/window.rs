@@ -173,7 +173,7 @@ impl std::convert::From<Span> for [f64; 2] {
 }
 
 /// A rectangle of a plot's world.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Window {
     /// The horizontal axis.
     pub x: Span,
@@ -182,7 +182,7 @@ pub struct Window {
 }
 
 /// A point of a plot's world.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Point {
     /// Along the horizontal axis.
     pub x: f64,

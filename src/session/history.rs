@@ -78,6 +78,18 @@ impl History {
         Some(after)
     }
 
+    /// A past and a future, the newest change last in each.
+    #[must_use]
+    pub fn of(past: Vec<Before>, future: Vec<Before>) -> Self {
+        History { past, future }
+    }
+
+    /// The past and the future, the newest change last in each.
+    #[must_use]
+    pub fn parts(&self) -> (&[Before], &[Before]) {
+        (&self.past, &self.future)
+    }
+
     /// How many changes can be undone, and how many redone.
     #[must_use]
     pub fn depth(&self) -> (usize, usize) {

@@ -1,5 +1,7 @@
 //! What goes into the machine, and what it asks of the outer rings.
 
+use std::path::PathBuf;
+
 use super::key::Key;
 use super::replay::Script;
 use super::state::Notice;
@@ -25,8 +27,34 @@ pub enum Msg {
     Answered(Box<Answered>),
     /// The worker has nothing left to do (sent after the last answer).
     Idle,
+    /// A line of the command line, without the line: `<run "set D=-0.3">` in a keystroke file.
+    Run(String),
+    /// A caption of a tour, to be shown until the next one; empty: none.
+    Say(String),
+    /// A file that was asked for, or why it cannot be read.
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What for.
+        purpose: Purpose,
+        /// Its text, or one line.
+        result: Result<String, String>,
+    },
     /// The outer rings tell how an effect ended, such as a file written or not, or a replay.
     Told(Notice),
+}
+
+/// What a file is read for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// To go on with the session that it holds.
+    Open,
+    /// The same, with one that was kept when it was interrupted.
+    Restore,
+    /// To press its keys.
+    Play,
+    /// To have its keys in a register.
+    Register(char),
 }
 
 /// What the mouse did.
@@ -75,11 +103,31 @@ pub enum Effect {
     Copy(String),
     /// Do the same with the characters on the screen.
     CopyScreen,
-    /// Write a file; the outcome comes back as a message line.
+    /// Write a file as a whole; the outcome comes back as a message line.
     Write {
         /// Where.
-        path: std::path::PathBuf,
+        path: PathBuf,
         /// What.
         text: String,
+        /// Whether a file that is there may be replaced.
+        replace: bool,
     },
+    /// Write what was pressed since the start as a keystroke file.
+    Record {
+        /// Where.
+        path: PathBuf,
+        /// How many presses at the end are no part of it.
+        forget: u32,
+        /// Whether a file that is there may be replaced.
+        replace: bool,
+    },
+    /// Read a file; it comes back as [`Msg::Read`].
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What for.
+        purpose: Purpose,
+    },
+    /// Put the kept file of an interrupted session aside, so that it is not offered again.
+    PutAside(PathBuf),
 }

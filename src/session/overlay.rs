@@ -52,6 +52,18 @@ impl Overlay {
     }
 }
 
+/// What is said in words above the status lines, without taking keys.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Caption {
+    /// Nothing.
+    #[default]
+    Nothing,
+    /// What there is to see in the scene, and what to press.
+    Scene,
+    /// A caption of a tour.
+    Tour(String),
+}
+
 /// A list with a selected row and a search.
 ///
 /// The view scrolls so that the selected row is seen; the session need not know the height.

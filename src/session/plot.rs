@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
+
 use super::state::Session;
 use crate::scene::{Answered, Axes, Exhibit, Layer, Point, Slot, View, Window};
 
@@ -16,7 +18,8 @@ pub enum Pane {
 }
 
 /// Who chose a plot's window.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Framing {
     /// The scene.
     Scene,

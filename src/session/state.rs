@@ -5,12 +5,15 @@
 //! [`super::wants`]).
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
 use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
 
 use super::history::History;
 use super::key::Key;
 use super::keymap::Keymap;
-use super::overlay::Overlay;
+use super::overlay::{Caption, Overlay};
 use super::pending::Pending;
 use super::plot::{Pane, Plot};
 use super::settings::Look;
@@ -63,7 +66,7 @@ impl Row {
 }
 
 /// The step sizes of the six numbers and of the end time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Steps {
     /// Step of each parameter, in the order of the table.
     pub parameters: [StepSize; 6],
@@ -208,6 +211,10 @@ pub struct Session {
     pub macros: Macros,
     /// Points to come back to, and the one that is compared with.
     pub marks: Marks,
+    /// What is said in words above the status lines.
+    pub caption: Caption,
+    /// The file of a session that was interrupted and could be gone on with.
+    pub interrupted: Option<PathBuf>,
     /// The lines typed on the command line, the newest last.
     pub lines: Vec<String>,
     /// The last good answer of each kind that all plots share, with its question.
@@ -250,6 +257,8 @@ impl Session {
             pending: None,
             macros: Macros::default(),
             marks: Marks::default(),
+            caption: Caption::Nothing,
+            interrupted: None,
             lines: Vec::new(),
             answers: BTreeMap::new(),
             failures: Vec::new(),

@@ -5,11 +5,26 @@
 
 use std::cmp::Ordering;
 
+use serde::{Deserialize, Serialize};
+
 /// A step size: 1, 2 or 5 times a power of ten.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(from = "f64", into = "f64")]
 pub struct StepSize {
     mantissa: u8,
     exponent: i16,
+}
+
+impl From<f64> for StepSize {
+    fn from(value: f64) -> Self {
+        StepSize::near(value)
+    }
+}
+
+impl From<StepSize> for f64 {
+    fn from(step: StepSize) -> Self {
+        step.value()
+    }
 }
 
 /// Exponents of the smallest and the largest step: well inside the range of floating point.

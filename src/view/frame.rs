@@ -7,7 +7,7 @@ use ratatui::layout::Rect;
 use super::layout::{Layout, SMALLEST, layout};
 use super::look::{Look, Role};
 use super::{
-    diagram, energy_ledger, footer, lists, parameters, phase_plane, regimes, return_map, status,
+    caption, diagram, energy_ledger, footer, lists, parameters, phase_plane, regimes, return_map, status,
     time_series,
 };
 use crate::scene::View;
@@ -26,6 +26,8 @@ pub fn render(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer)
         None => card(screen, look, buffer),
         Some(parts) => {
             panes(&parts, session, look, buffer);
+            let body = Rect { height: parts.status.y.saturating_sub(screen.y), ..screen };
+            caption::draw(body, session, look, buffer);
             lists::draw(screen, session, look, buffer);
         }
     }

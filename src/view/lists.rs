@@ -125,7 +125,7 @@ fn rows(area: Rect, rows: &[Entry], selected: usize, look: &Look, buffer: &mut B
 }
 
 /// Draws a frame with a heading above and a remark below at the right.
-fn frame(area: Rect, heading: &str, remark: &str, look: &Look, buffer: &mut Buffer) {
+pub(super) fn frame(area: Rect, heading: &str, remark: &str, look: &Look, buffer: &mut Buffer) {
     let symbols = look.symbols();
     let style = look.style(Role::Axis);
     let [top_left, top_right, bottom_left, bottom_right] = symbols.corners;

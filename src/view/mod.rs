@@ -3,6 +3,7 @@
 //! [`frame::draw`] is the only way in. It divides the screen ([`layout`]), and each pane draws itself
 //! into its part with the help of [`plot`] and [`pane`]. How things look is decided in [`look`] alone.
 
+pub mod caption;
 pub mod diagram;
 pub mod dots;
 pub mod energy_ledger;

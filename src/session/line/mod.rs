@@ -6,12 +6,14 @@
 
 mod values;
 
+pub(super) use values::letter;
+
 use super::command::{COMMANDS, Command, command};
 use super::key::{Code, Key};
-use super::message::Effect;
+use super::message::{Effect, Purpose};
 use super::overlay::Completion;
 use super::state::Session;
-use super::update::palette;
+use super::update::{files, palette};
 
 /// What a line does to a session, given the words behind its name; or one line that says why not.
 pub type RunLine = fn(&mut Session, &str) -> Result<Vec<Effect>, String>;
@@ -74,6 +76,22 @@ pub const LINES: &[LineCommand] = &[
         |s, _| values::letters(s.marks.places.keys()), values::go_to),
     row("macro", "LETTER [TIMES]", "Play the keys of a register",
         |s, _| values::letters(s.macros.registers.keys()), values::play),
+    row("write", "FILE", "Save the session; write! replaces a file that is there",
+        |_, _| Vec::new(), |s, rest| files::write(s, rest, false)),
+    row("write!", "FILE", "Save the session, in place of what is there",
+        |_, _| Vec::new(), |s, rest| files::write(s, rest, true)),
+    row("open", "FILE", "Go on with a saved session",
+        |_, _| Vec::new(), |_, rest| Ok(files::ask(rest, Purpose::Open))),
+    row("record", "FILE", "Write what was pressed since the start to a file",
+        |_, _| Vec::new(), |s, rest| Ok(files::record(s, rest, false))),
+    row("record!", "FILE", "The same, in place of what is there",
+        |_, _| Vec::new(), |s, rest| Ok(files::record(s, rest, true))),
+    row("play", "FILE", "Press the keys of a keystroke file",
+        |_, _| Vec::new(), |_, rest| Ok(files::ask(rest, Purpose::Play))),
+    row("write-macro", "LETTER FILE", "Write a register to a keystroke file",
+        |s, _| values::letters(s.macros.registers.keys()), files::write_macro),
+    row("read-macro", "LETTER FILE", "Read a register from a keystroke file",
+        |s, _| values::letters(s.macros.registers.keys()), files::read_macro),
     row("theme", "NAME", "Use these colours",
         |_, _| values::themes(), values::theme),
     row("glyphs", "NAME", "Draw with these characters",

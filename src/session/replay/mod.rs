@@ -43,6 +43,10 @@ pub enum Step {
     },
     /// The screen must show this text on one of its rows: `<expect "text">`.
     Expect(String),
+    /// Run a line of the command line, whatever the keys are: `<run "set D=-0.3">`.
+    Run(String),
+    /// Show a caption and, where somebody watches, wait for a key: `<say "text">`.
+    Say(String),
     /// Keep the screen under this name: `<screen name>`.
     Screen(String),
 }
@@ -104,6 +108,8 @@ impl std::fmt::Display for Step {
             Step::Async => write!(out, "<async>"),
             Step::Resize { width, height } => write!(out, "<resize {width}x{height}>"),
             Step::Expect(text) => write!(out, "<expect {}>", quoted(text)),
+            Step::Run(line) => write!(out, "<run {}>", quoted(line)),
+            Step::Say(text) => write!(out, "<say {}>", quoted(text)),
             Step::Screen(name) => write!(out, "<screen {name}>"),
         }
     }

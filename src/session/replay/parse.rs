@@ -39,12 +39,14 @@ pub(super) const ESCAPES: [(char, char); 5] =
 type Reading = fn(&str) -> Result<Step, String>;
 
 /// What stands between angle brackets and is no key: its first word, and how the rest is read.
-const DIRECTIVES: [(&str, Reading); 9] = [
+const DIRECTIVES: [(&str, Reading); 11] = [
     ("wait", |rest| alone(rest, "wait", Step::Wait)),
     ("async", |rest| alone(rest, "async", Step::Async)),
     ("resize", resize),
     ("expect", |rest| text(rest, "expect").map(Step::Expect)),
     ("paste", |rest| text(rest, "paste").map(Step::Paste)),
+    ("run", |rest| text(rest, "run").map(Step::Run)),
+    ("say", |rest| text(rest, "say").map(Step::Say)),
     ("screen", screen),
     ("click", |rest| mouse::read(Gesture::Click, rest)),
     ("nearer", |rest| mouse::read(Gesture::Nearer, rest)),

@@ -97,6 +97,8 @@ impl Player {
                 Step::Async => self.asynchronous = true,
                 Step::Key { key, .. } => return Ok(Action::Give(Msg::Key(key))),
                 Step::Pointed(pointed) => return Ok(Action::Give(Msg::Pointed(pointed))),
+                Step::Run(line) => return Ok(Action::Give(Msg::Run(line))),
+                Step::Say(text) => return Ok(Action::Give(Msg::Say(text))),
                 Step::Paste(text) => return Ok(Action::Give(Msg::Paste(text))),
                 Step::Resize { width, height } => {
                     return Ok(Action::Give(Msg::Resize { width, height }));

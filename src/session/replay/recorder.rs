@@ -33,7 +33,13 @@ impl Recorder {
                 }
             }
             Msg::Pointed(pointed) => self.steps.push(Step::Pointed(*pointed)),
-            Msg::Paste(_) | Msg::Answered(_) | Msg::Idle | Msg::Told(_) => {}
+            Msg::Run(line) => self.steps.push(Step::Run(line.clone())),
+            Msg::Paste(_)
+            | Msg::Say(_)
+            | Msg::Read { .. }
+            | Msg::Answered(_)
+            | Msg::Idle
+            | Msg::Told(_) => {}
         }
     }
 

@@ -8,7 +8,7 @@ use crate::session::command::COMMANDS;
 use crate::session::{Effect, Key, Msg, Plot, Session, update};
 
 /// Keys that mean something somewhere, and some that are only typed.
-fn any_key() -> impl Strategy<Value = Key> {
+pub(super) fn any_key() -> impl Strategy<Value = Key> {
     let bound: Vec<Key> = COMMANDS
         .iter()
         .flat_map(|command| command.keys.iter().flat_map(|(_, keys)| keys.iter()))
@@ -22,7 +22,7 @@ fn any_key() -> impl Strategy<Value = Key> {
 }
 
 /// What must hold whatever was pressed.
-fn check(session: &Session) {
+pub(super) fn check(session: &Session) {
     assert!(session.rows().contains(&session.selected));
     assert!(session.panes().contains(&session.focus));
     for Plot { window, .. } in &session.plots {

@@ -8,7 +8,7 @@ use crate::flow::Problem;
 use crate::scene::{Layer, Scene};
 use crate::session::history::{Before, Desk, Snapshot};
 use crate::session::message::Effect;
-use crate::session::overlay::Overlay;
+use crate::session::overlay::{Caption, Overlay};
 use crate::session::plot::Pane;
 use crate::session::settings::{GLYPHS, THEMES, next_of};
 use crate::session::state::{ROWS, Row, Session, Steps};
@@ -184,6 +184,13 @@ pub fn reset_scene(session: &mut Session) -> Vec<Effect> {
     let scene = Arc::clone(&session.scene);
     inform(session, format!("scene {} as it was opened", scene.name));
     open_scene(session, scene);
+    Vec::new()
+}
+
+/// Shows what there is to see in the scene and to press, or hides it.
+pub fn explain(session: &mut Session) -> Vec<Effect> {
+    session.caption =
+        if session.caption == Caption::Scene { Caption::Nothing } else { Caption::Scene };
     Vec::new()
 }
 

@@ -8,6 +8,7 @@ pub mod axes;
 pub mod copy;
 pub mod desk;
 pub mod entry;
+pub mod files;
 pub mod general;
 pub mod lists;
 pub mod macros;
@@ -24,7 +25,7 @@ pub mod walk;
 use super::fit;
 use super::key::Key;
 use super::message::{Effect, Msg};
-use super::overlay::{Entry, Overlay};
+use super::overlay::{Caption, Entry, Overlay};
 use super::pending;
 use super::plot::Pane;
 use super::replay;
@@ -52,6 +53,16 @@ pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
             take(session, *answered);
             Vec::new()
         }
+        Msg::Run(line) => {
+            session.price = Price { key: None, recomputed: Vec::new() };
+            prompt::run(session, &line)
+        }
+        Msg::Say(caption) => {
+            session.caption =
+                if caption.is_empty() { Caption::Nothing } else { Caption::Tour(caption) };
+            Vec::new()
+        }
+        Msg::Read { path, purpose, result } => files::read(session, &path, purpose, result),
         Msg::Told(notice) => {
             session.notice = Some(notice);
             Vec::new()

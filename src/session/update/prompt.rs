@@ -1,5 +1,6 @@
 //! The command line: it opens, completes, remembers, and runs what is typed.
 
+use super::refuse;
 use crate::session::line;
 use crate::session::message::Effect;
 use crate::session::overlay::{Completion, Overlay, Prompt};
@@ -39,6 +40,15 @@ pub fn accept(session: &mut Session) -> Vec<Effect> {
             Vec::new()
         }
     }
+}
+
+/// Runs a line that was not typed.
+pub fn run(session: &mut Session, text: &str) -> Vec<Effect> {
+    (session.overlay, session.pending, session.notice) = (None, None, None);
+    line::run(session, text).unwrap_or_else(|why| {
+        refuse(session, why);
+        Vec::new()
+    })
 }
 
 /// Keeps a line, as the newest one and only once.

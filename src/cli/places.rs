@@ -1,0 +1,64 @@
+//! The user's directories for settings and for what a program remembers, by the XDG conventions.
+
+use std::path::PathBuf;
+use std::time::SystemTime;
+
+/// How the names of kept sessions begin.
+const INTERRUPTED: &str = "interrupted-";
+
+/// A directory from the environment, if it is set to something.
+fn variable(name: &str) -> Option<PathBuf> {
+    std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from)
+}
+
+/// The directory that a variable names, else one below the user's home.
+fn base(name: &str, below_home: &str) -> Option<PathBuf> {
+    let named = variable(name).filter(|path| path.is_absolute());
+    named.or_else(|| variable("HOME").map(|home| home.join(below_home)))
+}
+
+/// The user's own settings file, whether it exists or not; `None` where there is no directory for it.
+pub fn settings() -> Option<PathBuf> {
+    Some(base("XDG_CONFIG_HOME", ".config")?.join("hopfscope/config.toml"))
+}
+
+/// What the program remembers.
+#[derive(Clone, Debug)]
+pub struct Memory {
+    folder: PathBuf,
+    /// Whether there was nothing before: the first start.
+    pub is_new: bool,
+}
+
+impl Memory {
+    /// The directory for it, made if need be; `None` where there is none.
+    pub fn open() -> Option<Memory> {
+        let folder = base("XDG_STATE_HOME", ".local/state")?.join("hopfscope");
+        let is_new = !folder.exists();
+        std::fs::create_dir_all(&folder).ok()?;
+        Some(Memory { folder, is_new })
+    }
+
+    /// The file that holds the last copy.
+    pub fn copies(&self) -> PathBuf {
+        self.folder.join("copy.txt")
+    }
+
+    /// Where this process keeps its session if it is interrupted.
+    pub fn keep(&self) -> PathBuf {
+        self.folder.join(format!("{INTERRUPTED}{}.toml", std::process::id()))
+    }
+
+    /// The session that was interrupted last and has not been put aside since.
+    pub fn interrupted(&self) -> Option<PathBuf> {
+        let entries = std::fs::read_dir(&self.folder).ok()?;
+        let kept = entries.filter_map(|entry| {
+            let entry = entry.ok()?;
+            let name = entry.file_name().into_string().ok()?;
+            let is_kept = name.starts_with(INTERRUPTED);
+            let when = entry.metadata().and_then(|data| data.modified());
+            is_kept.then(|| (when.unwrap_or(SystemTime::UNIX_EPOCH), entry.path()))
+        });
+        kept.max().map(|(_, path)| path)
+    }
+}

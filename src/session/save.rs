@@ -1,0 +1,335 @@
+//! Saved sessions: everything that a session is, as a TOML file, and back.
+//!
+//! What is saved is what the user made: scene, motion, steps, plots, layers, marks, registers, typed lines
+//! and the history. Answers are not: they follow from the rest. How the screen looks belongs to the
+//! terminal, and which key means what to the settings. A field of [`Session`] that should survive the
+//! program has its place here.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use super::history::{Before, Desk, History, Snapshot};
+use super::overlay::Overlay;
+use super::plot::{Framing, Pane, Plot};
+use super::replay::{self, Step};
+use super::state::{ROWS, Row, Session, Steps};
+use super::update::marks::{Mark, Marks};
+use crate::flow::Problem;
+use crate::flow::method::{EPSILON_RANGE, STEP_RANGE};
+use crate::oscillator::PARAMETERS;
+use crate::scene::file::{TOLERANCE_RANGE, UNTIL_RANGE};
+use crate::scene::{
+    Arrangement, Axes, Exhibit, Layer, MOST_PLOTS, Point, Scene, View, Window, find,
+};
+
+/// The format that this program writes; it reads this one and all before.
+const VERSION: u32 = 1;
+
+/// A session as it stands on disk.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    /// The format.
+    hopfscope: u32,
+    /// The selected row of the parameter pane, by its name.
+    selected: String,
+    /// The pane in focus: 0 for the parameters, then the plots.
+    focus: usize,
+    /// The plot in use, from 1.
+    plot: usize,
+    enlarged: bool,
+    unfolded: bool,
+    harmonics: usize,
+    /// Lines typed on the command line, the newest last.
+    lines: Vec<String>,
+    present: Show,
+    plots: Vec<Look>,
+    #[serde(default)]
+    marks: BTreeMap<char, Problem>,
+    /// The point left last for a mark.
+    left: Option<Problem>,
+    /// Recorded keys, as keystroke files.
+    #[serde(default)]
+    registers: BTreeMap<char, String>,
+    #[serde(default)]
+    past: Vec<Change>,
+    #[serde(default)]
+    future: Vec<Change>,
+}
+
+/// A scene, by its name if it comes with the program, else in full.
+#[derive(Serialize, Deserialize)]
+#[serde(untagged)]
+enum Named {
+    Library(String),
+    Whole(Box<Scene>),
+}
+
+/// What a scene sets, as it is or was.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Show {
+    arrangement: Arrangement,
+    layers: BTreeSet<Layer>,
+    steps: Steps,
+    motion: Problem,
+    scene: Named,
+}
+
+/// A plot and where one looks in it.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Look {
+    view: View,
+    framing: Framing,
+    axes: Axes,
+    window: Window,
+    cursor: Option<Point>,
+}
+
+/// A change that can be undone or redone: the state on its other side.
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Change {
+    Motion(Problem),
+    Plots { arrangement: Arrangement, plots: Vec<Exhibit> },
+    Scene { plots: Vec<Exhibit>, show: Box<Show> },
+}
+
+/// The session as the text of a file.
+///
+/// # Errors
+/// One line, if the text cannot be made; no session is known for which that is so.
+pub fn text(session: &Session) -> Result<String, String> {
+    let (past, future) = session.history.parts();
+    let file = File {
+        hopfscope: VERSION,
+        selected: session.selected.name().to_owned(),
+        focus: match session.focus {
+            Pane::Parameters => 0,
+            Pane::Plot(index) => index + 1,
+        },
+        plot: session.plot + 1,
+        enlarged: session.enlarged,
+        unfolded: session.unfolded,
+        harmonics: session.harmonics,
+        lines: session.lines.clone(),
+        present: Show {
+            arrangement: session.arrangement,
+            layers: session.layers.clone(),
+            steps: session.steps,
+            motion: session.problem,
+            scene: named(&session.scene),
+        },
+        plots: session.plots.iter().map(look).collect(),
+        marks: session.marks.places.iter().map(|(name, mark)| (*name, mark.problem)).collect(),
+        left: session.marks.left.as_ref().map(|mark| mark.problem),
+        registers: session
+            .macros
+            .registers
+            .iter()
+            .map(|(name, steps)| (*name, replay::text("", steps)))
+            .collect(),
+        past: past.iter().map(change).collect(),
+        future: future.iter().map(change).collect(),
+    };
+    let body = toml::to_string(&file).map_err(|error| format!("not saved: {error}"))?;
+    Ok(format!("# A session of hopfscope; `hopfscope --open FILE` goes on with it.\n{body}"))
+}
+
+fn named(scene: &Arc<Scene>) -> Named {
+    match find(&scene.name) {
+        Ok(known) if known == *scene => Named::Library(scene.name.clone()),
+        _ => Named::Whole(Box::new(Scene::clone(scene))),
+    }
+}
+
+fn look(plot: &Plot) -> Look {
+    let Plot { view, axes, window, framing, cursor, .. } = *plot;
+    Look { view, framing, axes, window, cursor }
+}
+
+fn change(before: &Before) -> Change {
+    match before {
+        Before::Problem(problem) => Change::Motion(*problem),
+        Before::Desk(Desk { plots, arrangement }) => {
+            Change::Plots { arrangement: *arrangement, plots: plots.clone() }
+        }
+        Before::Scene(snapshot) => Change::Scene {
+            plots: snapshot.desk.plots.clone(),
+            show: Box::new(Show {
+                arrangement: snapshot.desk.arrangement,
+                layers: snapshot.layers.clone(),
+                steps: snapshot.steps,
+                motion: snapshot.problem,
+                scene: named(&snapshot.scene),
+            }),
+        },
+    }
+}
+
+/// Makes a session what a file says. Look, keys and size stay, and so do answers, as far as they fit.
+///
+/// # Errors
+/// One line that says what is wrong; the session is as it was.
+pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
+    let file = read(text)?;
+    let scene = scene(file.present.scene)?;
+    let motion = checked(file.present.motion)?;
+    let plots = checked_plots(file.plots, |look| opened(&look))?;
+    let in_range = |index: usize| index < plots.len();
+    let focus = match file.focus.checked_sub(1) {
+        None => Pane::Parameters,
+        Some(index) if in_range(index) => Pane::Plot(index),
+        Some(_) => {
+            return Err(format!("focus = {}, but there are {} plots", file.focus, plots.len()));
+        }
+    };
+    let plot = file.plot.checked_sub(1).filter(|index| in_range(*index));
+    let plot =
+        plot.ok_or_else(|| format!("plot = {}, but there are {}", file.plot, plots.len()))?;
+    let row = |row: &Row| row.name() == file.selected;
+    let selected = ROWS.into_iter().find(row);
+    let selected = selected.ok_or_else(|| format!("no row {:?} to select", file.selected))?;
+    let most = super::update::general::MOST_HARMONICS;
+    if !(1..=most).contains(&file.harmonics) {
+        return Err(format!("harmonics = {}, not 1 to {most}", file.harmonics));
+    }
+    let mark = |problem| checked(problem).map(Mark::new);
+    let places = file.marks.into_iter().map(|(name, problem)| Ok((name, mark(problem)?)));
+    let places = places.collect::<Result<BTreeMap<_, _>, String>>()?;
+    let left = file.left.map(mark).transpose()?;
+    let register = |(name, keys): (char, String)| Ok((name, steps(name, &keys)?));
+    let registers = file.registers.into_iter().map(register);
+    let registers = registers.collect::<Result<BTreeMap<_, _>, String>>()?;
+    let changes = |changes: Vec<Change>| changes.into_iter().map(before).collect::<Result<_, _>>();
+    let history = History::of(changes(file.past)?, changes(file.future)?);
+
+    let mut opened = Session::new(scene, session.size);
+    opened.problem = motion;
+    opened.steps = file.present.steps;
+    opened.layers = file.present.layers;
+    opened.arrangement = file.present.arrangement;
+    opened.plots = plots;
+    (opened.plot, opened.focus, opened.selected) = (plot, focus, selected);
+    (opened.enlarged, opened.unfolded, opened.harmonics) =
+        (file.enlarged, file.unfolded, file.harmonics);
+    (opened.lines, opened.history) = (file.lines, history);
+    opened.marks = Marks { places, left };
+    opened.macros.registers = registers;
+    opened.answers = std::mem::take(&mut session.answers);
+    opened.keymap = Arc::clone(&session.keymap);
+    opened.look = session.look;
+    *session = opened;
+    Ok(())
+}
+
+/// The file, if it is one of a format that is known.
+fn read(text: &str) -> Result<File, String> {
+    #[derive(Deserialize)]
+    struct Head {
+        hopfscope: Option<u32>,
+    }
+    let refused = |error: toml::de::Error| {
+        let line =
+            error.span().map_or(0, |span| text[..span.start.min(text.len())].matches('\n').count());
+        let message = error.message().lines().next().unwrap_or_default();
+        format!("line {}: {message}", line + 1)
+    };
+    let head: Head = toml::from_str(text).map_err(refused)?;
+    match head.hopfscope {
+        None => Err("no saved session: it does not say hopfscope = 1".to_owned()),
+        Some(version @ (0 | VERSION..)) if version != VERSION => {
+            Err(format!("a session of format {version}; this program reads up to {VERSION}"))
+        }
+        Some(_) => toml::from_str(text).map_err(refused),
+    }
+}
+
+fn scene(named: Named) -> Result<Arc<Scene>, String> {
+    match named {
+        Named::Library(name) => find(&name).map_err(|missing| missing.to_string()),
+        Named::Whole(scene) => {
+            checked(scene.problem)?;
+            if scene.plots.is_empty() || scene.plots.len() > MOST_PLOTS {
+                return Err(format!("a scene with {} plots", scene.plots.len()));
+            }
+            Ok(Arc::new(*scene))
+        }
+    }
+}
+
+/// A motion whose numbers are all within their ranges.
+fn checked(problem: Problem) -> Result<Problem, String> {
+    for row in &PARAMETERS {
+        let value = row.symbol.get(&problem.parameters, &problem.initial);
+        row.check(value).map_err(|refused| refused.to_string())?;
+    }
+    for (name, value, (min, max)) in [
+        ("until", problem.until, UNTIL_RANGE),
+        ("tolerance", problem.tolerance, TOLERANCE_RANGE),
+        ("step", problem.step, STEP_RANGE),
+        ("epsilon", problem.epsilon, EPSILON_RANGE),
+    ] {
+        if !(min..=max).contains(&value) {
+            return Err(format!("{name} = {value:?} is outside its range {min:?} .. {max:?}"));
+        }
+    }
+    Ok(problem)
+}
+
+/// As many plots as a screen can have.
+fn checked_plots<T, U>(plots: Vec<T>, make: impl Fn(T) -> U) -> Result<Vec<U>, String> {
+    match plots.len() {
+        1..=MOST_PLOTS => Ok(plots.into_iter().map(make).collect()),
+        count => Err(format!("{count} plots; there can be 1 to {MOST_PLOTS}")),
+    }
+}
+
+fn opened(look: &Look) -> Plot {
+    let Look { view, framing, axes, window, cursor } = *look;
+    let plot = Plot::opened(&Exhibit { view, axes, window: Some(window) });
+    Plot {
+        framing,
+        cursor: cursor.filter(|cursor| cursor.x.is_finite() && cursor.y.is_finite()),
+        ..plot
+    }
+}
+
+fn steps(name: char, keys: &str) -> Result<Vec<Step>, String> {
+    let script = replay::parse(keys).map_err(|error| format!("register {name}: {error}"))?;
+    Ok(script.steps.into_iter().map(|located| located.step).collect())
+}
+
+fn before(change: Change) -> Result<Before, String> {
+    Ok(match change {
+        Change::Motion(problem) => Before::Problem(checked(problem)?),
+        Change::Plots { arrangement, plots } => {
+            Before::Desk(Desk { plots: checked_plots(plots, |plot| plot)?, arrangement })
+        }
+        Change::Scene { plots, show } => {
+            let Show { arrangement, layers, steps, motion, scene } = *show;
+            Before::Scene(Box::new(Snapshot {
+                scene: self::scene(scene)?,
+                problem: checked(motion)?,
+                steps,
+                layers,
+                desk: Desk { plots: checked_plots(plots, |plot| plot)?, arrangement },
+            }))
+        }
+    })
+}
+
+impl Session {
+    /// Whether the user did something that would be missed: a change, a mark, a register.
+    #[must_use]
+    pub fn is_worth_keeping(&self) -> bool {
+        let (past, future) = self.history.depth();
+        past + future > 0
+            || !self.marks.places.is_empty()
+            || !self.macros.registers.is_empty()
+            || matches!(self.overlay, Some(Overlay::Entry(_)))
+    }
+}

@@ -1,0 +1,201 @@
+//! Sessions as files: what is saved comes back, and what is no session is refused in one line.
+
+use std::path::PathBuf;
+
+use proptest::prelude::*;
+
+use super::strange::any_key;
+use super::{Desk, answered};
+use crate::flow::Problem;
+use crate::scene::library;
+use crate::session::replay::Recorder;
+use crate::session::{Effect, Msg, Purpose, Session, save, update};
+
+/// Everything of a session that a file holds.
+fn essence(session: &Session) -> impl PartialEq + std::fmt::Debug {
+    let marks: Vec<(char, Problem)> =
+        session.marks.places.iter().map(|(name, mark)| (*name, mark.problem)).collect();
+    let plots: Vec<_> = session
+        .plots
+        .iter()
+        .map(|plot| (plot.view, plot.axes, plot.window, plot.framing, plot.cursor))
+        .collect();
+    (
+        (session.scene.clone(), session.problem, session.steps, session.selected, session.focus),
+        (plots, session.plot, session.enlarged, session.arrangement, session.unfolded),
+        (session.harmonics, session.layers.clone(), session.history.clone()),
+        (session.lines.clone(), marks, session.macros.registers.clone()),
+        session.wants(),
+    )
+}
+
+/// What comes back of a session that is saved.
+fn reopened(session: &Session) -> Session {
+    let text = save::text(session).unwrap();
+    let mut other = Desk::open("plain").session;
+    save::open(&mut other, &text).unwrap_or_else(|why| panic!("{why}\n{text}"));
+    other
+}
+
+/// A session in which everything is different from the beginning.
+fn used() -> Desk {
+    let mut desk = Desk::open("linear");
+    desk.press(
+        "<right*3> \"a <left> [ -0.3<enter> 'a v<down><space><esc> W ; <tab*2> +++ L <left*3>",
+    );
+    desk.press("&x <right> & :set<space>r=2<enter> s/super<enter> <right*2> u u u U x Z ) ) z");
+    desk
+}
+
+#[test]
+fn a_saved_session_comes_back_as_it_was() {
+    let desk = used();
+    let other = reopened(&desk.session);
+    assert_eq!(format!("{:?}", essence(&other)), format!("{:?}", essence(&desk.session)));
+    assert!(essence(&other) == essence(&desk.session));
+    assert_eq!(save::text(&other), save::text(&desk.session), "and is saved as the same file");
+}
+
+#[test]
+fn a_scene_changed_on_the_command_line_is_saved_in_full() {
+    let mut desk = Desk::open("linear");
+    std::sync::Arc::make_mut(&mut desk.session.scene).problem.parameters.d = -0.25;
+    desk.press("R");
+    let other = reopened(&desk.session);
+    assert_eq!(other.scene, desk.session.scene);
+    assert_eq!(other.problem.parameters.d, -0.25);
+}
+
+#[test]
+fn a_session_is_also_the_keys_that_led_to_it() {
+    let keys = "<right*3> <tab> ++ <left*3> <enter> \"a s/asym<enter> i 'a <tab*2> X z";
+    let mut desk = Desk::open("plain");
+    let mut recorder = Recorder::default();
+    let mut player =
+        crate::session::replay::Player::new(crate::session::replay::parse(keys).unwrap());
+    while let crate::session::replay::Action::Give(message) =
+        player.next(true, String::new).unwrap()
+    {
+        recorder.note(&message);
+        desk.give(message);
+    }
+    let mut replayed = Desk::open("plain");
+    replayed.press(&recorder.text("hopfscope"));
+    assert!(essence(&replayed.session) == essence(&desk.session));
+    assert!(essence(&reopened(&desk.session)) == essence(&replayed.session));
+}
+
+#[test]
+fn lines_write_open_and_play_files_without_touching_any() {
+    let mut desk = used();
+    desk.press("z :write<space>a.toml<enter>");
+    let Some(Effect::Write { path, text, replace: false }) = desk.effects.last().cloned() else {
+        panic!("{:?}", desk.effects.last());
+    };
+    assert_eq!(path, PathBuf::from("a.toml"));
+    let mut other = Desk::open("plain");
+    other.press(":open<space>a.toml<enter>");
+    let asked = Effect::Read { path: path.clone(), purpose: Purpose::Open };
+    assert_eq!(other.effects.last(), Some(&asked));
+    other.give(Msg::Read { path, purpose: Purpose::Open, result: Ok(text) });
+    assert_eq!(other.notice(), "opened a.toml");
+    assert!(essence(&other.session) == essence(&desk.session));
+    other.press(":write!<space>a.toml<enter>");
+    assert!(matches!(other.effects.last(), Some(Effect::Write { replace: true, .. })));
+    other.press("<right> :record<space>a.keys<enter>");
+    assert!(matches!(other.effects.last(), Some(Effect::Record { forget: 15, .. })));
+    let path = PathBuf::from("a.keys");
+    let result = Ok("<right*2>".to_owned());
+    other.give(Msg::Read { path: path.clone(), purpose: Purpose::Register('k'), result });
+    other.press(":write-macro<space>k<space>b.keys<enter>");
+    let Some(Effect::Write { text, .. }) = other.effects.last() else { panic!("no file") };
+    assert_eq!(text, "# register k of hopfscope\n<right*2>\n");
+    let result = Err("a.keys: no such file".to_owned());
+    other.give(Msg::Read { path, purpose: Purpose::Play, result });
+    assert_eq!(other.notice(), "a.keys: no such file");
+}
+
+#[test]
+fn an_interrupted_session_is_offered_until_it_is_taken_or_forgotten() {
+    let kept = save::text(&used().session).unwrap();
+    let path = PathBuf::from("interrupted-1.toml");
+    let mut desk = Desk::open("plain");
+    desk.press("<f3>");
+    assert_eq!(desk.notice(), "no session was interrupted");
+    desk.session.interrupted = Some(path.clone());
+    desk.press("<f3>");
+    let asked = Effect::Read { path: path.clone(), purpose: Purpose::Restore };
+    assert_eq!(desk.effects.last(), Some(&asked));
+    let effects = update(
+        &mut desk.session,
+        Msg::Read { path: path.clone(), purpose: Purpose::Restore, result: Ok(kept) },
+    );
+    assert_eq!(effects, [Effect::PutAside(path.clone())]);
+    assert_eq!(desk.session.scene.name, "linear");
+    desk.session.interrupted = Some(path.clone());
+    desk.press("<f4>");
+    assert_eq!(desk.effects.last(), Some(&Effect::PutAside(path)));
+}
+
+#[test]
+fn what_is_no_session_is_refused_in_one_line_and_changes_nothing() {
+    let good = save::text(&used().session).unwrap();
+    for (from, to, said) in [
+        ("hopfscope = 1", "hopfscope = 2", "a session of format 2; this program reads up to 1"),
+        ("hopfscope = 1\n", "", "no saved session: it does not say hopfscope = 1"),
+        ("hopfscope = 1", "hopfscope = ", "line 2: "),
+        ("harmonics = ", "harmonics = 1000 # ", "harmonics = 1000, not 1 to 63"),
+        ("harmonics", "harmony", "line 8: unknown field `harmony`"),
+        ("focus = ", "focus = 9 # ", "focus = 9, but there are 3 plots"),
+        ("selected = \"", "selected = \"no ", "no row \"no "),
+        ("tolerance = ", "tolerance = 7.0 # ", "tolerance = 7.0 is outside its range"),
+        ("D = ", "D = 1e9 # ", "D = 1000000000 is outside its range"),
+        ("x = \"<right>", "x = \"<rigth>", "register x: line 1, column 1: unknown key <rigth>"),
+        ("scene = \"linear\"", "scene = \"liner\"", "no scene \"liner\"; did you mean linear"),
+    ] {
+        assert!(good.contains(from), "{from}\n{good}");
+        let mut desk = Desk::open("plain");
+        let before = desk.session.clone();
+        let said_instead = save::open(&mut desk.session, &good.replacen(from, to, 1)).unwrap_err();
+        assert!(said_instead.starts_with(said) && !said_instead.contains('\n'), "{said_instead}");
+        assert!(desk.session == before);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn any_session_can_be_saved_and_comes_back(
+        scene in 0..library().len(),
+        keys in prop::collection::vec(any_key(), 0..60),
+    ) {
+        let mut desk = Desk::open(&library()[scene].name);
+        for key in keys {
+            desk.give(Msg::Key(key));
+        }
+        let other = reopened(&desk.session);
+        prop_assert!(essence(&other) == essence(&desk.session), "{:?}\n{:?}", essence(&other), essence(&desk.session));
+    }
+
+    #[test]
+    fn no_file_is_too_strange(text in any::<String>(), cut in 0..2000_usize, other in any::<char>()) {
+        let mut desk = Desk::open("plain");
+        let _ = save::open(&mut desk.session, &text);
+        let mut broken: Vec<char> = save::text(&desk.session).unwrap().chars().collect();
+        let at = cut.min(broken.len() - 1);
+        broken[at] = other;
+        let _ = save::open(&mut desk.session, &broken.into_iter().collect::<String>());
+        for request in desk.session.wants() {
+            update(&mut desk.session, Msg::Answered(Box::new(answered(request))));
+        }
+    }
+
+    #[test]
+    fn any_line_is_run_or_refused(line in "[a-z!-]{0,12}( [A-Za-z0-9=:,.!~ -]{0,20})?", name in 0..crate::session::LINES.len()) {
+        let mut desk = Desk::open("linear");
+        desk.give(Msg::Run(line.clone()));
+        desk.give(Msg::Run(format!("{} {line}", crate::session::LINES[name].name)));
+        super::strange::check(&desk.session);
+    }
+}

@@ -1,0 +1,150 @@
+//! Files: sessions saved and opened, keys recorded and played. The outer rings touch the disk; what is
+//! written is made here, and what was read is understood here.
+
+use std::path::{Path, PathBuf};
+
+use super::macros;
+use super::{inform, refuse};
+use crate::session::line::letter;
+use crate::session::message::{Effect, Purpose};
+use crate::session::replay::{self, Script};
+use crate::session::save;
+use crate::session::state::Session;
+
+/// The tour that comes with the program.
+const TOUR: &str = include_str!("../../../assets/replays/tour.keys");
+
+/// What a line has done, or why not.
+type Done = Result<Vec<Effect>, String>;
+
+/// Saves the session.
+pub(in crate::session) fn write(session: &mut Session, path: &str, replace: bool) -> Done {
+    let text = save::text(session)?;
+    Ok(vec![Effect::Write { path: PathBuf::from(path), text, replace }])
+}
+
+/// Writes what was pressed since the start, without what asks for that.
+pub(in crate::session) fn record(session: &mut Session, path: &str, replace: bool) -> Vec<Effect> {
+    let forget = session.macros.chord;
+    vec![Effect::Record { path: PathBuf::from(path), forget, replace }]
+}
+
+/// Asks for a file.
+pub(in crate::session) fn ask(path: &str, purpose: Purpose) -> Vec<Effect> {
+    vec![Effect::Read { path: PathBuf::from(path), purpose }]
+}
+
+/// A register and a file.
+fn register(rest: &str) -> Result<(char, &str), String> {
+    let (name, path) = rest
+        .split_once(char::is_whitespace)
+        .ok_or_else(|| format!("{rest:?} is no letter and file, such as: a walk.keys"))?;
+    Ok((letter(name)?, path.trim()))
+}
+
+/// Writes a register to a keystroke file.
+pub(in crate::session) fn write_macro(session: &mut Session, rest: &str) -> Done {
+    let (name, path) = register(rest)?;
+    let steps = session.macros.registers.get(&name);
+    let steps = steps.ok_or_else(|| format!("register {name} is empty"))?;
+    let text = replay::text(&format!("register {name} of hopfscope"), steps);
+    Ok(vec![Effect::Write { path: PathBuf::from(path), text, replace: false }])
+}
+
+/// Reads a register from a keystroke file.
+pub(in crate::session) fn read_macro(_: &mut Session, rest: &str) -> Done {
+    let (name, path) = register(rest)?;
+    Ok(ask(path, Purpose::Register(name)))
+}
+
+/// Takes a file in, or says what is wrong with it; then everything is as it was.
+pub(super) fn read(
+    session: &mut Session,
+    path: &Path,
+    purpose: Purpose,
+    result: Result<String, String>,
+) -> Vec<Effect> {
+    take(session, path, purpose, result).unwrap_or_else(|why| {
+        refuse(session, why);
+        Vec::new()
+    })
+}
+
+fn take(
+    session: &mut Session,
+    path: &Path,
+    purpose: Purpose,
+    result: Result<String, String>,
+) -> Done {
+    let text = result?;
+    let of_file = |why: String| format!("{}: {why}", path.display());
+    let script = || replay::parse(&text).map_err(|error| of_file(error.to_string()));
+    match purpose {
+        Purpose::Open => {
+            save::open(session, &text).map_err(of_file)?;
+            inform(session, format!("opened {}", path.display()));
+        }
+        Purpose::Restore => {
+            save::open(session, &text).map_err(of_file)?;
+            inform(session, "the interrupted session is back");
+            return Ok(vec![Effect::PutAside(path.to_owned())]);
+        }
+        Purpose::Play => {
+            let script = script()?;
+            macros::inline(session);
+            return Ok(vec![Effect::Play(script)]);
+        }
+        Purpose::Register(name) => {
+            let steps = script()?.steps.into_iter().map(|located| located.step).collect();
+            session.macros.registers.insert(name, steps);
+            inform(session, format!("register {name} has the keys of {}", path.display()));
+        }
+    }
+    Ok(Vec::new())
+}
+
+/// Goes on with the session that was interrupted.
+pub fn restore(session: &mut Session) -> Vec<Effect> {
+    match session.interrupted.take() {
+        Some(path) => vec![Effect::Read { path, purpose: Purpose::Restore }],
+        None => none_interrupted(session),
+    }
+}
+
+/// Offers the interrupted session no longer.
+pub fn forget(session: &mut Session) -> Vec<Effect> {
+    match session.interrupted.take() {
+        Some(path) => {
+            inform(session, "the interrupted session is not offered again");
+            vec![Effect::PutAside(path)]
+        }
+        None => none_interrupted(session),
+    }
+}
+
+fn none_interrupted(session: &mut Session) -> Vec<Effect> {
+    refuse(session, "no session was interrupted");
+    Vec::new()
+}
+
+/// The tour that comes with the program, as a keystroke file.
+///
+/// # Errors
+/// One line; a test plays the tour.
+pub fn tour_script() -> Result<Script, String> {
+    replay::parse(TOUR).map_err(|error| format!("the tour: {error}"))
+}
+
+/// Starts the tour.
+pub fn tour(session: &mut Session) -> Vec<Effect> {
+    match tour_script() {
+        Ok(script) => {
+            macros::inline(session);
+            vec![Effect::Play(script)]
+        }
+        Err(why) => {
+            refuse(session, why);
+            Vec::new()
+        }
+    }
+}
