@@ -1,0 +1,197 @@
+//! The loop with a machine that counts.
+
+use crossbeam_channel::{Sender, unbounded};
+use ratatui::Frame;
+
+use super::*;
+use crate::flow::Reason;
+use crate::runtime::panics::Notes;
+use crate::session::replay;
+use crate::terminal::pacing::{FRAME_TIME, Pacing};
+
+/// A machine that counts right-arrows, shows the last notice, and leaves at `q`.
+#[derive(Debug, Default)]
+struct Counter {
+    count: u32,
+    notice: String,
+    /// What it asks for at the next enter.
+    asks: Option<Effect>,
+}
+
+impl Machine for Counter {
+    fn update(&mut self, msg: Msg) -> Vec<Effect> {
+        match msg {
+            Msg::Key(Key { code: Code::Right, .. }) => self.count += 1,
+            Msg::Key(Key { code: Code::Char('q'), .. }) => return vec![Effect::Quit],
+            Msg::Key(Key { code: Code::Enter, .. }) => {
+                return self.asks.take().into_iter().collect();
+            }
+            Msg::Told(notice) => self.notice = notice.text,
+            Msg::Say(caption) => self.notice = caption,
+            _ => {}
+        }
+        vec![]
+    }
+
+    fn wants(&self) -> Vec<Request> {
+        vec![]
+    }
+
+    fn draw(&self, frame: &mut Frame) {
+        frame.render_widget(format!("{} {}", self.count, self.notice), frame.area());
+    }
+}
+
+/// A terminal that tells what is written to it.
+struct Line(Sender<String>);
+
+impl Write for Line {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let _ = self.0.send(String::from_utf8_lossy(bytes).into_owned());
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+fn size() -> Size {
+    Size { width: 60, height: 1 }
+}
+
+struct Bench {
+    pump: Pump<Counter, Line>,
+    events: Sender<Event>,
+    written: Receiver<String>,
+}
+
+fn bench() -> Bench {
+    let (write, written) = unbounded();
+    let (events, received) = unbounded();
+    let screen = Screen::new(Line(write), size()).unwrap();
+    let job = |_: &Request, _: &crate::flow::Limits| Err(Reason::OutOfRange);
+    let worker = Worker::start(job, Notes::default(), |_| ()).unwrap();
+    let machine = Counter::default();
+    let pump = Pump::new(machine, screen, worker, received, Files::default(), size);
+    Bench { pump, events, written }
+}
+
+fn key(name: &str) -> Event {
+    Event::Session(Msg::Key(name.parse().unwrap()))
+}
+
+#[test]
+fn five_hundred_keys_at_once_are_one_frame_of_the_newest_state() {
+    let Bench { mut pump, events, written } = bench();
+    for _ in 0..500 {
+        events.send(key("<right>")).unwrap();
+    }
+    let running = std::thread::spawn(move || pump.run().unwrap());
+    assert!(written.recv().unwrap().contains("500"));
+    events.send(key("q")).unwrap();
+    assert_eq!(running.join().unwrap(), Stop::Quit);
+    assert!(written.is_empty());
+}
+
+#[test]
+fn when_the_screen_shows_everything_there_is_nothing_to_wait_for() {
+    let Bench { mut pump, .. } = bench();
+    assert!(pump.due().is_some());
+    pump.draw().unwrap();
+    assert_eq!(pump.due(), None);
+    pump.handle(key("x")).unwrap();
+    assert!(pump.due().is_some());
+    pump.hold();
+    assert_eq!(pump.due(), None);
+}
+
+#[test]
+fn the_next_frame_waits_until_the_terminal_has_shown_the_last() {
+    let Bench { mut pump, .. } = bench();
+    pump.repaint().unwrap();
+    pump.handle(Event::Shown).unwrap();
+    let drawn = Instant::now();
+    pump.draw().unwrap();
+    pump.handle(key("<right>")).unwrap();
+    assert!(pump.due().unwrap() >= drawn + Pacing::PATIENCE);
+    pump.handle(Event::Shown).unwrap();
+    let shown = Instant::now();
+    assert!(pump.due().unwrap() <= shown + FRAME_TIME);
+}
+
+/// Plays a file and gives back what is on the screen when it is through.
+fn play(file: &str) -> String {
+    let Bench { pump, events, written } = bench();
+    let mut pump = pump.playing(Some(Player::new(replay::parse(file).unwrap())));
+    let running = std::thread::spawn(move || (pump.run().unwrap(), pump));
+    while !written.recv().unwrap().contains("replay") {}
+    events.send(key("q")).unwrap();
+    let (stop, pump) = running.join().unwrap();
+    assert_eq!(stop, Stop::Quit);
+    export::screen::text(&picture::of(&pump.machine, size()))
+}
+
+#[test]
+fn a_replay_types_its_keys_and_says_how_it_ended() {
+    assert_eq!(play("<right*3> <resize 20x5> <screen a> <expect \"3\">"), "3 replay done\n");
+    let stopped = play("<right> <expect \"2\"> <right>");
+    assert!(stopped.starts_with("1 replay stopped: line 1, column 9"), "{stopped}");
+}
+
+#[test]
+fn what_concerns_the_process_stops_the_loop() {
+    let Bench { mut pump, events, .. } = bench();
+    for (event, stop) in [
+        (Event::Suspend, Stop::Suspended),
+        (Event::Continued, Stop::Continued),
+        (Event::Ended { signal: 15 }, Stop::Ended { signal: 15 }),
+        (Event::Closed, Stop::Closed),
+    ] {
+        events.send(event).unwrap();
+        assert_eq!(pump.run().unwrap(), stop);
+    }
+}
+
+#[test]
+fn a_caption_waits_for_a_key_that_does_nothing_else() {
+    let Bench { pump, events, written } = bench();
+    let file = replay::parse("<right> <say \"look\"> <right>").unwrap();
+    let mut pump = pump.playing(Some(Player::new(file)));
+    let running = std::thread::spawn(move || (pump.run().unwrap(), pump));
+    while !written.recv().unwrap().contains("look") {}
+    events.send(key("q")).unwrap();
+    while !written.recv().unwrap().contains("done") {}
+    events.send(key("q")).unwrap();
+    let (stop, pump) = running.join().unwrap();
+    assert_eq!(stop, Stop::Quit);
+    assert_eq!(pump.machine().count, 2, "the first q went on with the tour");
+}
+
+#[test]
+fn a_tour_is_left_at_any_caption_by_escape() {
+    let Bench { pump, events, written } = bench();
+    let file = replay::parse("<right> <say \"look\"> <right>").unwrap();
+    let mut pump = pump.playing(Some(Player::new(file)));
+    let running = std::thread::spawn(move || (pump.run().unwrap(), pump));
+    while !written.recv().unwrap().contains("look") {}
+    events.send(key("<esc>")).unwrap();
+    while !written.recv().unwrap().contains("stopped") {}
+    events.send(key("q")).unwrap();
+    let (_, pump) = running.join().unwrap();
+    assert_eq!(pump.machine().count, 1);
+}
+
+#[test]
+fn what_was_pressed_is_written_without_what_asks_for_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("walk.keys");
+    let Bench { pump, .. } = bench();
+    let mut pump = pump.started("hopfscope basin".to_owned());
+    for name in ["<right>", "<right>", ":"] {
+        pump.handle(key(name)).unwrap();
+    }
+    pump.machine.asks = Some(Effect::Record { path: path.clone(), forget: 2, replace: false });
+    pump.handle(key("<enter>")).unwrap();
+    assert_eq!(std::fs::read_to_string(path).unwrap(), "# hopfscope basin\n<right*2>\n");
+}
