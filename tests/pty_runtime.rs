@@ -5,6 +5,7 @@
 
 mod support;
 
+use std::path::PathBuf;
 use std::time::Duration;
 
 use hopfscope::flow::{Cost, Limits, Reason};
@@ -76,6 +77,10 @@ impl Machine for Machinery {
         if self.confirmed.is_none() { vec![request(self.count)] } else { vec![] }
     }
 
+    fn keepsake(&self) -> Option<String> {
+        Some(format!("count {}", self.count))
+    }
+
     fn draw(&self, frame: &mut Frame) {
         let (width, height) = self.size;
         let confirmed = match &self.confirmed {
@@ -95,7 +100,9 @@ impl Machine for Machinery {
 #[test]
 #[ignore = "the program that the other tests start"]
 fn machinery() {
-    let ended = launch(Machinery::default(), confirm, Options::default()).unwrap();
+    let keep = std::env::var_os("KEEP").map(PathBuf::from);
+    let options = Options { keep, ..Options::default() };
+    let ended = launch(Machinery::default(), confirm, options).unwrap();
     let failed = ended.code != std::process::ExitCode::SUCCESS;
     println!("{}", if failed { "ended by a signal" } else { "left by the user" });
     std::process::exit(if failed { 77 } else { 0 });
@@ -127,6 +134,40 @@ fn it_starts_draws_and_leaves_the_terminal_as_it_was() {
     assert_eq!(terminal.end(), 0);
     terminal.assert_restored();
     assert!(terminal.text().contains("left by the user"));
+}
+
+#[test]
+fn what_was_done_is_kept_however_it_is_interrupted_and_not_when_it_is_left() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("kept");
+    let started = |keys: &str| {
+        let program = program();
+        let program: Vec<&str> = program.iter().map(String::as_str).collect();
+        let keep = [("KEEP", path.to_str().unwrap())];
+        let mut terminal = Terminal::start(&program, &keep, (80, 24), Answers::AtOnce);
+        terminal.wait_for("count 0 confirmed 0");
+        terminal.types(keys);
+        terminal.wait_for("count 1 confirmed 1");
+        terminal
+    };
+    let kept = || std::fs::read_to_string(&path).ok();
+    let mut terminal = started("\x1b[C");
+    terminal.types("q");
+    assert_eq!((terminal.end(), kept()), (0, None));
+    type End = fn(&mut Terminal);
+    let ends: [End; 3] = [
+        |terminal| terminal.types("p"),
+        |terminal| terminal.signal(Signal::TERM),
+        |terminal| terminal.signal(Signal::HUP),
+    ];
+    for end in ends {
+        let mut terminal = started("\x1b[C");
+        end(&mut terminal);
+        assert_ne!(terminal.end(), 0);
+        terminal.assert_restored();
+        assert_eq!(kept().as_deref(), Some("count 1"));
+        std::fs::remove_file(&path).unwrap();
+    }
 }
 
 #[test]

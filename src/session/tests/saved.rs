@@ -150,7 +150,7 @@ fn what_is_no_session_is_refused_in_one_line_and_changes_nothing() {
         ("selected = \"", "selected = \"no ", "no row \"no "),
         ("tolerance = ", "tolerance = 7.0 # ", "tolerance = 7.0 is outside its range"),
         ("D = ", "D = 1e9 # ", "D = 1000000000 is outside its range"),
-        ("x = \"<right>", "x = \"<rigth>", "register x: line 1, column 1: unknown key <rigth>"),
+        ("<right>", "<rigth>", "register x: line 1, column 1: unknown key <rigth>"),
         ("scene = \"linear\"", "scene = \"liner\"", "no scene \"liner\"; did you mean linear"),
     ] {
         assert!(good.contains(from), "{from}\n{good}");
