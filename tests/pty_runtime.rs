@@ -154,8 +154,7 @@ fn what_was_done_is_kept_however_it_is_interrupted_and_not_when_it_is_left() {
     let mut terminal = started("\x1b[C");
     terminal.types("q");
     assert_eq!((terminal.end(), kept()), (0, None));
-    type End = fn(&mut Terminal);
-    let ends: [End; 3] = [
+    let ends: [fn(&mut Terminal); 3] = [
         |terminal| terminal.types("p"),
         |terminal| terminal.signal(Signal::TERM),
         |terminal| terminal.signal(Signal::HUP),
