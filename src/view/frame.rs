@@ -7,8 +7,8 @@ use ratatui::layout::Rect;
 use super::layout::{Layout, SMALLEST, layout};
 use super::look::{Look, Role};
 use super::{
-    caption, diagram, energy_ledger, footer, lists, parameters, phase_plane, regimes, return_map, status,
-    time_series,
+    caption, diagram, energy_ledger, footer, lists, parameters, phase_plane, regimes, return_map,
+    status, time_series,
 };
 use crate::scene::View;
 use crate::session::Session;
