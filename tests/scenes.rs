@@ -6,7 +6,7 @@ use hopfscope::scene::answer::answer;
 use hopfscope::scene::{Answered, Slot, find};
 use hopfscope::session::replay::{Action, Player, parse};
 use hopfscope::session::{Msg, Session, Size, update};
-use hopfscope::study::{Cycle, Edge};
+use hopfscope::study::{Cycle, Edge, Return};
 
 /// A scene with its motion and its cycles computed; the diagram is not looked at here.
 struct Stage(Session);
@@ -181,4 +181,40 @@ fn escape_in_finite_time_until_the_start_is_slow_enough() {
     assert!(slow.is_captured());
     assert_eq!(Stage::open("escape").press("<left>").edge(), Edge::Separatrix);
     assert_eq!(Stage::open("escape").press("<left*3>").edge(), Edge::Cycle);
+}
+
+#[test]
+fn return_map_lies_above_the_diagonal_between_the_cycles_and_below_it_beyond_the_fold() {
+    let stage = Stage::open("return-map");
+    let [inner, outer] = stage.cycles() else { panic!("two cycles") };
+    let (inner, outer) = (inner.q_max, outer.q_max);
+    let right = |stage: &Stage| stage.0.return_map(1).unwrap().sides[1].clone();
+    for Return { from, to } in right(&stage) {
+        let climbs = to.unwrap() > from;
+        assert_eq!(climbs, inner < from && from < outer, "{from} to {to:?}");
+    }
+    assert!(Stage::open("return-map").press("i").is_captured());
+    assert!(!Stage::open("return-map").press("o").is_captured());
+    let beyond = Stage::open("return-map").press("<right*13>");
+    assert!(right(&beyond).iter().skip(1).all(|turn| turn.to.unwrap() < turn.from));
+}
+
+#[test]
+fn energy_friction_pays_for_the_inner_cycle_and_cubic_damping_for_the_outer_one() {
+    let works = |stage: &Stage| stage.0.cycles().unwrap().picture.as_ref().unwrap().works.clone();
+    let stage = Stage::open("energy");
+    let [inner, outer] = works(&stage)[..] else { panic!("two cycles") };
+    for ledger in [inner, outer] {
+        assert!(ledger.linear > 0.0 && ledger.friction < 0.0 && ledger.cubic < 0.0);
+        assert!((ledger.residual / ledger.linear).abs() < 1e-12);
+    }
+    assert!(inner.friction < 10.0 * inner.cubic && outer.cubic < 3.0 * outer.friction);
+    // What the motion has gained is stored: the outer cycle's energy, at some phase of it.
+    let motion = stage.0.trajectory().unwrap().ledger.unwrap();
+    assert!(motion.end > 5.0 * motion.start && motion.residual.abs() < 1e-9);
+    let rows = |stage: &Stage| stage.0.ledger().len();
+    // D2 is one more source in each part.
+    let bent = Stage::open("energy").press("<down><right>");
+    assert_eq!(rows(&bent), rows(&stage) + 3);
+    assert!(Stage::open("energy").press("<right*13>").cycles().is_empty());
 }

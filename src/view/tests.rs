@@ -264,7 +264,7 @@ fn screens_look_as_they_were_approved() {
         ("four-small", (80, 24), "<tab> <tab> W W W", letters()),
         ("rows", (100, 40), "Z Z", braille()),
         ("time-series", (80, 24), "<tab> <tab> ; E z <right>", braille()),
-        ("energy-ledger", (80, 24), "<tab> <tab> V / e n e <enter> <down>", braille()),
+        ("energy-ledger", (80, 24), "<tab> <tab> V / l e d <enter> <down>", braille()),
         ("return-map", (80, 24), "<tab> Q V / r e t <enter> <right>", braille()),
         ("views", (80, 24), "V", letters()),
     ];

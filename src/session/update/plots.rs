@@ -1,14 +1,14 @@
 //! Commands of the plots: cursor, zoom, pan, and taking the point under the cursor.
 
 use super::parameters::change;
-use super::refuse;
+use super::{inform, refuse};
 use crate::flow::Problem;
 use crate::oscillator::State;
 use crate::scene::{Exhibit, Point, Span, View, Window};
 use crate::session::message::Effect;
 use crate::session::plot::{Framing, Plot};
 use crate::session::state::Session;
-use crate::session::step::StepSize;
+use crate::session::step::{StepSize, shortest};
 
 /// Steps of the cursor that a far move takes.
 pub const FAR: i32 = 8;
@@ -166,6 +166,11 @@ pub fn start_here(session: &mut Session) -> Vec<Effect> {
     match initial {
         Some(initial) => {
             change(session, Problem { initial, ..session.problem });
+            // The phase plane shows it; from another view it may be out of sight.
+            if session.focused().is_some_and(|plot| plot.view != View::Phase) {
+                let State { q, v } = initial;
+                inform(session, format!("q0 = {}, v0 = {}", shortest(q), shortest(v)));
+            }
         }
         None => refuse(session, "there is no motion to be taken here"),
     }
