@@ -29,6 +29,8 @@ pub enum Answer {
     ReturnMap(ReturnMap),
     /// To [`Request::Regimes`].
     Regimes(Chart),
+    /// To [`Request::Family`]: in its order, each for itself.
+    Family(Vec<Result<Answer, Reason>>),
 }
 
 /// The borders between bands of capture, to be drawn.
@@ -118,6 +120,13 @@ pub fn answer(request: &Request, limits: &Limits) -> Result<Answer, Reason> {
         Request::Regimes { parameters, plane } => {
             chart(parameters, *plane, CHART_LINES, limits).map(Answer::Regimes)
         }
+        Request::Family(members) => {
+            let answers: Vec<_> = members.iter().map(|member| answer(member, limits)).collect();
+            if answers.contains(&Err(Reason::Interrupted)) {
+                return Err(Reason::Interrupted);
+            }
+            Ok(Answer::Family(answers))
+        }
     }
 }
 
@@ -133,6 +142,11 @@ impl Answer {
             Answer::Branch(answer) => answer.cost,
             Answer::ReturnMap(answer) => answer.cost,
             Answer::Regimes(answer) => answer.cost,
+            Answer::Family(answers) => {
+                let mut sum = Cost::default();
+                answers.iter().flatten().for_each(|answer| sum += answer.cost());
+                sum
+            }
         }
     }
 }

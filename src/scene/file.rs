@@ -8,7 +8,7 @@ use toml::Spanned;
 use super::layer::Layer;
 use super::misread::{self, Complaint, Misread};
 use super::ordinate::{ABSCISSAE, Ordinate};
-use super::scene::{Scene, TOLERANCE, UNTIL};
+use super::scene::{Scene, TOLERANCE, UNTIL, Variant};
 use super::views::{Arrangement, Axes, Exhibit, MOST_PLOTS, View};
 use super::window::{Span, Window};
 use crate::flow::method::{EPSILON, EPSILON_RANGE, STEP, STEP_RANGE};
@@ -54,6 +54,8 @@ struct Plot {
     over: Option<Spanned<Symbol>>,
     ordinate: Option<Spanned<Ordinate>>,
     against: Option<Spanned<Symbol>>,
+    #[serde(default)]
+    with: Vec<BTreeMap<Symbol, Spanned<f64>>>,
     x: Option<Span>,
     y: Option<Span>,
 }
@@ -73,7 +75,9 @@ pub fn parse(name: &str, file: &str, text: &str) -> Result<Scene, Misread> {
 
 fn scene(name: &str, read: File) -> Result<Scene, Complaint> {
     let problem = problem(&read)?;
-    let plots = read.plot.iter().map(exhibit).collect::<Result<Vec<_>, _>>()?;
+    let mut families = Vec::new();
+    let exhibits = read.plot.iter().map(|plot| exhibit(plot, &mut families));
+    let plots = exhibits.collect::<Result<Vec<_>, _>>()?;
     if plots.is_empty() || plots.len() > MOST_PLOTS {
         let at = read.plot.get(MOST_PLOTS).map_or(0..0, Spanned::span);
         let message = format!(
@@ -92,13 +96,14 @@ fn scene(name: &str, read: File) -> Result<Scene, Complaint> {
         terms: read.terms,
         layers: read.layers,
         plots,
+        families,
         arrangement: read.arrange,
     })
 }
 
 /// A plot of a scene: axes only where there is a choice, a window in both directions or in none.
-fn exhibit(read: &Spanned<Plot>) -> Result<Exhibit, Complaint> {
-    let Plot { view, over, ordinate, against, x, y } = read.get_ref();
+fn exhibit(read: &Spanned<Plot>, families: &mut Vec<Vec<Variant>>) -> Result<Exhibit, Complaint> {
+    let Plot { view, over, ordinate, against, with, x, y } = read.get_ref();
     let title = view.spec().title;
     let span = |given: &Option<Spanned<Symbol>>| given.as_ref().map(Spanned::span);
     for (given, views) in [
@@ -141,7 +146,23 @@ fn exhibit(read: &Spanned<Plot>) -> Result<Exhibit, Complaint> {
             return Err(Complaint { at: read.span(), message });
         }
     };
-    Ok(Exhibit { view: *view, axes, window })
+    let variants = with.iter().map(variant).collect::<Result<Vec<_>, _>>()?;
+    let family = (!variants.is_empty()).then(|| {
+        families.push(variants);
+        families.len() - 1
+    });
+    Ok(Exhibit { view: *view, axes, window, family })
+}
+
+/// Values that a plot holds, each within the range of its parameter.
+fn variant(read: &BTreeMap<Symbol, Spanned<f64>>) -> Result<Variant, Complaint> {
+    let checked = |(symbol, value): (&Symbol, &Spanned<f64>)| {
+        let refused =
+            |refused: &dyn ToString| Complaint { at: value.span(), message: refused.to_string() };
+        let value = symbol.spec().check(*value.get_ref()).map_err(|error| refused(&error))?;
+        Ok((*symbol, value))
+    };
+    Ok(Variant { held: read.iter().map(checked).collect::<Result<_, _>>()? })
 }
 
 /// The motion of a scene: declared terms have the values of the file or of the table, others are zero.

@@ -21,6 +21,6 @@ pub use machine::Machine;
 pub use misread::Misread;
 pub use ordinate::{ABSCISSAE, ORDINATES, Ordinate};
 pub use request::{Request, SLOTS, Slot};
-pub use scene::Scene;
+pub use scene::{Scene, Variant};
 pub use views::{ARRANGEMENTS, Arrangement, Axes, Exhibit, MOST_PLOTS, VIEWS, View, ViewSpec};
 pub use window::{Point, Span, Window};

@@ -55,6 +55,8 @@ pub enum Request {
         /// The two that vary, and their ranges.
         plane: Plane,
     },
+    /// All of these, for a plot that shows several variants.
+    Family(Vec<Request>),
 }
 
 /// The kind of a request.
@@ -77,10 +79,12 @@ pub enum Slot {
     ReturnMap,
     /// The chart of regimes.
     Regimes,
+    /// Several questions, one for each variant that a plot shows.
+    Family,
 }
 
 /// Every kind, the most urgent first.
-pub const SLOTS: [Slot; 7] = [
+pub const SLOTS: [Slot; 8] = [
     Slot::Trajectory,
     Slot::Cycles,
     Slot::Capture,
@@ -88,13 +92,17 @@ pub const SLOTS: [Slot; 7] = [
     Slot::Balance,
     Slot::ReturnMap,
     Slot::Regimes,
+    Slot::Family,
 ];
 
 impl Slot {
     /// Whether the question depends on the axes or the window of the plot that asks it.
     #[must_use]
     pub fn is_own(self) -> bool {
-        matches!(self, Slot::Capture | Slot::Branch | Slot::ReturnMap | Slot::Regimes)
+        matches!(
+            self,
+            Slot::Capture | Slot::Branch | Slot::ReturnMap | Slot::Regimes | Slot::Family
+        )
     }
 
     /// The name on the screen.
@@ -108,6 +116,7 @@ impl Slot {
             Slot::Balance => "harmonics",
             Slot::ReturnMap => "return map",
             Slot::Regimes => "regimes",
+            Slot::Family => "family",
         }
     }
 }
@@ -124,6 +133,7 @@ impl Request {
             Request::Branch { .. } => Slot::Branch,
             Request::ReturnMap { .. } => Slot::ReturnMap,
             Request::Regimes { .. } => Slot::Regimes,
+            Request::Family(_) => Slot::Family,
         }
     }
 
@@ -136,6 +146,10 @@ impl Request {
             }
             (Request::Regimes { plane: mine, .. }, Request::Regimes { plane, .. }) => {
                 (mine.right, mine.up) == (plane.right, plane.up)
+            }
+            (Request::Family(mine), Request::Family(wanted)) => {
+                let mut pairs = mine.iter().zip(wanted);
+                mine.len() == wanted.len() && pairs.all(|(mine, wanted)| mine.resembles(wanted))
             }
             _ => self.slot() == wanted.slot(),
         }

@@ -42,8 +42,36 @@ pub struct Scene {
     pub layers: BTreeSet<Layer>,
     /// The plots, one to four, in the order of the focus.
     pub plots: Vec<Exhibit>,
+    /// What plots show in place of the present values: one picture over another for each variant.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub families: Vec<Vec<Variant>>,
     /// How they share the screen.
     pub arrangement: Arrangement,
+}
+
+/// Values that are held while the others follow the keys.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Variant {
+    /// The values that are held.
+    pub held: BTreeMap<Symbol, f64>,
+}
+
+impl Variant {
+    /// A motion with the values that are held.
+    #[must_use]
+    pub fn of(&self, mut problem: Problem) -> Problem {
+        for (symbol, value) in &self.held {
+            symbol.set(&mut problem.parameters, &mut problem.initial, *value);
+        }
+        problem
+    }
+
+    /// The values that are held, as text.
+    #[must_use]
+    pub fn label(&self) -> String {
+        let value = |(symbol, value): (&Symbol, &f64)| format!("{symbol} = {value}");
+        self.held.iter().map(value).collect::<Vec<_>>().join(", ")
+    }
 }
 
 impl Scene {

@@ -126,6 +126,9 @@ pub struct Exhibit {
     pub axes: Axes,
     /// Which part of it; `None` for a window fitted to what there is to see.
     pub window: Option<Window>,
+    /// Which family of the scene's stands in for the present values, if one does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub family: Option<usize>,
 }
 
 impl Exhibit {

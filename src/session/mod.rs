@@ -22,6 +22,7 @@ pub mod step;
 #[cfg(test)]
 mod tests;
 pub mod update;
+pub mod variants;
 pub mod walk;
 pub mod wants;
 
@@ -36,4 +37,5 @@ pub use pending::Pending;
 pub use plot::{Framing, Pane, Plot};
 pub use state::{Notice, Price, ROWS, Row, Session, Size, Steps};
 pub use update::update;
+pub use variants::Shown;
 pub use walk::Stop;

@@ -38,6 +38,8 @@ pub struct Plot {
     pub view: View,
     /// Over which axes, where the view leaves a choice.
     pub axes: Axes,
+    /// Which family of the scene's stands in for the present values, if one does.
+    pub family: Option<usize>,
     /// What part of the world is on show.
     pub window: Window,
     /// Who chose the window.
@@ -55,6 +57,7 @@ impl Plot {
         Plot {
             view: exhibit.view,
             axes: exhibit.axes,
+            family: exhibit.family,
             window: exhibit.opening(),
             framing: if exhibit.window.is_some() { Framing::Scene } else { Framing::Fitting },
             cursor: None,
@@ -150,6 +153,6 @@ impl Session {
             Framing::Fitting => None,
             Framing::Fitted | Framing::User => Some(plot.window),
         };
-        Some(Exhibit { view: plot.view, axes: plot.axes, window })
+        Some(Exhibit { view: plot.view, axes: plot.axes, window, family: plot.family })
     }
 }

@@ -87,6 +87,8 @@ struct Look {
     axes: Axes,
     window: Window,
     cursor: Option<Point>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    family: Option<usize>,
 }
 
 /// A change that can be undone or redone: the state on its other side.
@@ -147,8 +149,8 @@ fn named(scene: &Arc<Scene>) -> Named {
 }
 
 fn look(plot: &Plot) -> Look {
-    let Plot { view, axes, window, framing, cursor, .. } = *plot;
-    Look { view, framing, axes, window, cursor }
+    let Plot { view, axes, window, framing, cursor, family, .. } = *plot;
+    Look { view, framing, axes, window, cursor, family }
 }
 
 fn change(before: &Before) -> Change {
@@ -289,8 +291,8 @@ fn checked_plots<T, U>(plots: Vec<T>, make: impl Fn(T) -> U) -> Result<Vec<U>, S
 }
 
 fn opened(look: &Look) -> Plot {
-    let Look { view, framing, axes, window, cursor } = *look;
-    let plot = Plot::opened(&Exhibit { view, axes, window: Some(window) });
+    let Look { view, framing, axes, window, cursor, family } = *look;
+    let plot = Plot::opened(&Exhibit { view, axes, window: Some(window), family });
     Plot {
         framing,
         cursor: cursor.filter(|cursor| cursor.x.is_finite() && cursor.y.is_finite()),

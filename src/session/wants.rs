@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use super::plot::Framing;
 use super::state::{Recomputed, Session};
+use super::variants::MEMBERS;
 use crate::flow::{Problem, Reason, Trajectory};
 use crate::oscillator::Symbol;
 use crate::scene::answer::{Borders, Failure};
@@ -42,7 +43,12 @@ impl Session {
     #[must_use]
     pub fn needs(&self, plot: usize) -> BTreeSet<Slot> {
         let shown = |layer: &&Layer| self.shows_in(**layer, plot);
-        self.layers.iter().filter(shown).filter_map(|layer| layer.spec().needs).collect()
+        let needed = self.layers.iter().filter(shown).filter_map(|layer| layer.spec().needs);
+        let own = |slot: Slot| match self.variants(plot) {
+            Some(_) if MEMBERS.contains(&slot) => Slot::Family,
+            _ => slot,
+        };
+        needed.map(own).collect()
     }
 
     /// The question of a kind, with exactly the inputs that its answer depends on. The plot matters to
@@ -52,10 +58,18 @@ impl Session {
     /// diagram lies outside the range of its parameter, none of the own questions of another view.
     #[must_use]
     pub fn request(&self, slot: Slot, plot: usize) -> Option<Request> {
-        let Problem { parameters, tolerance, .. } = self.problem;
+        match slot {
+            Slot::Family => self.members(plot).map(Request::Family),
+            slot => self.request_for(slot, plot, self.problem),
+        }
+    }
+
+    /// The same for another motion than the present one.
+    pub(super) fn request_for(&self, slot: Slot, plot: usize, problem: Problem) -> Option<Request> {
+        let Problem { parameters, tolerance, initial, .. } = problem;
         let own = |view: View| self.plots.get(plot).filter(|plot| plot.view == view);
         Some(match slot {
-            Slot::Trajectory => Request::Trajectory(self.problem),
+            Slot::Trajectory => Request::Trajectory(problem),
             Slot::Cycles => Request::Cycles { parameters },
             Slot::Balance => Request::Balance { parameters, harmonics: self.harmonics },
             Slot::Capture if parameters.r == 0.0 => return None,
@@ -69,7 +83,7 @@ impl Session {
                 let spec = parameter.spec();
                 let range = plot.window.x.within(spec.min, spec.max)?;
                 let mut others = parameters;
-                parameter.set(&mut others, &mut { self.problem.initial }, 0.0);
+                parameter.set(&mut others, &mut { initial }, 0.0);
                 Request::Branch {
                     parameters: others,
                     parameter,
@@ -102,6 +116,7 @@ impl Session {
                 }
                 Request::Regimes { parameters: others, plane }
             }
+            Slot::Family => return None,
         })
     }
 

@@ -4,81 +4,77 @@
 //! harmonic answer is dotted beside them. A dotted upright stands at the present value of the
 //! parameter, and the cycles there are marked. A point of the branch that is held has a cross.
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
-
 use super::dots::Dash;
-use super::look::{Look, Role};
+use super::look::Role;
 use super::number::significant;
-use super::pane::Heading;
-use super::phase_plane::stability;
-use super::plot::{Names, Plot, reading};
+use super::phase_plane::{named, stability};
+use super::picture::{Item, Line, Mark, Picture};
+use super::plot::reading;
 use crate::closed_form::harmonic::{
     amplitudes, damping_at, large_asymptote, mean, small_asymptote,
 };
 use crate::oscillator::{Parameters, Symbol};
-use crate::scene::{Axes, Layer, Ordinate, Point, View};
-use crate::session::{self, Pane, Session};
-use crate::study::{BranchPoint, Special, SpecialKind};
+use crate::scene::{Answer, Axes, Layer, Ordinate, Point, Slot, View};
+use crate::session::{self, Session, Shown};
+use crate::study::{Branch, BranchPoint, Special, SpecialKind};
 
-/// Plots at least this wide write the values of special points beside their letters.
-const WIDE: u16 = 44;
-
-/// Draws the plot with this index.
-pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &mut Buffer) {
+/// What the plot with this index shows.
+#[must_use]
+pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     let diagram = &session.plots[index];
     let Axes { abscissa, ordinate, .. } = diagram.axes;
     let (name, label) = (abscissa.spec().name, ordinate.spec().label);
-    let names = Names { title: View::Diagram.spec().title, x: name, y: label };
-    let mut heading = Heading::of(session, Pane::Plot(index));
     let window = diagram.window;
+    let mut picture = Picture::new(View::Diagram.spec().title, name, label, window);
     let pointed = held(session, diagram).or(diagram.cursor);
-    heading.reading = pointed.map(|point| {
+    picture.reading = pointed.map(|point| {
         let (value, height) = reading(point, window);
         format!("{name} {value} {label} {height}")
     });
-    let mut plot = Plot::new(area, window, names, &heading, look, buffer);
     let shows = |layer| session.layers.contains(&layer);
     let current = session.value(abscissa);
-    let found = session.branch(index);
+    let found: Vec<(String, &Branch)> = session
+        .found(Slot::Branch, index)
+        .into_iter()
+        .filter_map(|(label, answer)| match answer {
+            Answer::Branch(found) if found.parameter == abscissa => Some((label, found)),
+            _ => None,
+        })
+        .collect();
 
-    plot.upright(0.0, Role::Axis, Dash::Sparse);
+    picture.upright(Line::guide(), 0.0);
     if window.y.from() < 0.0 && window.y.to() > 0.0 {
-        plot.function(Role::Axis, Dash::Sparse, |_| Some(0.0));
+        picture.level(Line::guide(), 0.0);
     }
-    plot.upright(current, Role::Current, Dash::Sparse);
-    if let Some(height) = ordinate.spec().harmonic {
-        if shows(Layer::Asymptotes) {
-            for asymptote in [small_asymptote, large_asymptote] {
-                plot.function(Role::Asymptote, Dash::Sparse, |value| {
-                    let parameters = at(session, abscissa, value);
-                    let amplitude = asymptote(&parameters)?;
-                    Some(height(mean(parameters.d2, amplitude), amplitude))
-                });
+    picture.upright(Line::new("present value", Role::Current, Dash::Sparse), current);
+    if ordinate.spec().harmonic.is_some() {
+        for shown in session.shown(index) {
+            if shows(Layer::Asymptotes) {
+                asymptotes(&mut picture, &shown, diagram.axes);
             }
-        }
-        if shows(Layer::Harmonic) {
-            harmonic(&mut plot, session, index, height);
+            if shows(Layer::Harmonic) {
+                let largest = largest_amplitude(diagram, &found);
+                harmonic(&mut picture, &shown, diagram.axes, largest);
+            }
         }
     }
     if shows(Layer::Branch) {
-        for piece in found.iter().flat_map(|branch| &branch.pieces) {
-            branch(&mut plot, piece, ordinate);
+        for (label, found) in &found {
+            for piece in &found.pieces {
+                branch(&mut picture, piece, ordinate, label);
+            }
         }
-        for piece in found.iter().flat_map(|branch| &branch.pieces) {
-            here(&mut plot, piece, ordinate, current, look);
+        for piece in found.iter().flat_map(|(_, branch)| &branch.pieces) {
+            here(&mut picture, piece, ordinate, current);
         }
     }
     if shows(Layer::Special) {
-        let with_value = plot.inner().width >= WIDE;
-        for special in found.iter().flat_map(|branch| &branch.special) {
-            caption(&mut plot, special, ordinate, with_value, window.y.to());
+        for special in found.iter().flat_map(|(_, branch)| &branch.special) {
+            caption(&mut picture, special, ordinate, window.y.to());
         }
     }
-    if let Some(point) = pointed {
-        plot.cross(point);
-    }
-    plot.finish(buffer);
+    picture.cross(pointed);
+    picture
 }
 
 /// Where the point that is held stands in a diagram: in every one over its parameter. A cycle that has
@@ -91,35 +87,59 @@ fn held(session: &Session, diagram: &session::Plot) -> Option<Point> {
     same.then(|| Point { x: held.value, y: held.cycle.map_or(top, |cycle| ordinate.of(&cycle)) })
 }
 
-/// The parameters of the session, with that of a diagram at `value`.
-fn at(session: &Session, abscissa: Symbol, value: f64) -> Parameters {
-    let (mut parameters, mut initial) = (session.problem.parameters, session.problem.initial);
+/// The parameters of a motion, with that of a diagram at `value`.
+fn at(shown: &Shown, abscissa: Symbol, value: f64) -> Parameters {
+    let (mut parameters, mut initial) = (shown.problem.parameters, shown.problem.initial);
     abscissa.set(&mut parameters, &mut initial, value);
     parameters
 }
 
-/// The first-order harmonic answer, its `height` read out of A0 and A.
+/// The asymptotes A1 and A2 (51, 52), their height read out of A0 and A.
+fn asymptotes(picture: &mut Picture, shown: &Shown, Axes { abscissa, ordinate, .. }: Axes) {
+    let Some(height) = ordinate.spec().harmonic else { return };
+    for (name, asymptote) in [
+        ("asymptote A1", small_asymptote as fn(&Parameters) -> Option<f64>),
+        ("asymptote A2", large_asymptote),
+    ] {
+        let line = Line::new(named(name, &shown.label), Role::Asymptote, Dash::Sparse);
+        let shown = shown.clone();
+        picture.graph(line, move |value| {
+            let parameters = at(&shown, abscissa, value);
+            let amplitude = asymptote(&parameters)?;
+            Some(height(mean(parameters.d2, amplitude), amplitude))
+        });
+    }
+}
+
+/// The first-order harmonic answer, its height read out of A0 and A.
 ///
-/// Over D it is drawn along the amplitude, which leads through the fold without a gap; over the other
-/// parameters each amplitude is a curve of its own.
-fn harmonic(plot: &mut Plot, session: &Session, index: usize, height: fn(f64, f64) -> f64) {
+/// Over D it is drawn along the amplitude, up to `largest`, which leads through the fold without a gap;
+/// over the other parameters each amplitude is a curve of its own.
+fn harmonic(
+    picture: &mut Picture,
+    shown: &Shown,
+    Axes { abscissa, ordinate, .. }: Axes,
+    largest: f64,
+) {
     /// Samples along the amplitude: more than any screen has dots.
     const SAMPLES: u16 = 1000;
-    let abscissa = session.plots[index].axes.abscissa;
-    let Parameters { d2, d3, r, .. } = session.problem.parameters;
+    let Some(height) = ordinate.spec().harmonic else { return };
+    let name = named("first harmonic", &shown.label);
+    let line = Line::new(name, Role::Harmonic, Dash::Dotted);
+    let Parameters { d2, d3, r, .. } = shown.problem.parameters;
     if abscissa == Symbol::D {
-        let largest = largest_amplitude(session, index);
         let points = (1..=SAMPLES).map(|sample| {
             let amplitude = largest * f64::from(sample) / f64::from(SAMPLES);
             let x = damping_at(d3, r, amplitude).unwrap_or(f64::NAN);
             Point { x, y: height(mean(d2, amplitude), amplitude) }
         });
-        plot.curve(points, Role::Harmonic, Dash::Dotted);
+        picture.curve(line, points);
         return;
     }
     for stable in [false, true] {
-        plot.function(Role::Harmonic, Dash::Dotted, |value| {
-            let found = amplitudes(&at(session, abscissa, value)).into_iter();
+        let shown = shown.clone();
+        picture.graph(line.clone(), move |value| {
+            let found = amplitudes(&at(&shown, abscissa, value)).into_iter();
             let mut found = found.filter(|answer| answer.stable == stable);
             found.next().map(|answer| height(answer.mean, answer.amplitude))
         });
@@ -128,66 +148,73 @@ fn harmonic(plot: &mut Plot, session: &Session, index: usize, height: fn(f64, f6
 
 /// Twice the largest amplitude that can be on show: beyond it the harmonic curve need not be followed.
 ///
-/// Where the ordinate is no length, that is twice the largest amplitude of the computed branch.
-fn largest_amplitude(session: &Session, index: usize) -> f64 {
-    let y = session.plots[index].window.y;
-    match session.plots[index].axes.ordinate {
+/// Where the ordinate is no length, that is twice the largest amplitude of the computed branches.
+fn largest_amplitude(diagram: &session::Plot, found: &[(String, &Branch)]) -> f64 {
+    let y = diagram.window.y;
+    match diagram.axes.ordinate {
         Ordinate::QMax | Ordinate::QMin | Ordinate::VMax | Ordinate::Amplitude => {
             2.0 * y.from().abs().max(y.to().abs())
         }
         Ordinate::Mean | Ordinate::Period | Ordinate::Multiplier => {
-            let points =
-                session.branch(index).into_iter().flat_map(|found| found.pieces.iter().flatten());
+            let points = found.iter().flat_map(|(_, branch)| branch.pieces.iter().flatten());
             2.0 * points.map(|point| point.cycle.q_max).fold(0.5, f64::max)
         }
     }
 }
 
-/// Draws a piece, run by run of equal stability; neighbouring runs share their border point.
-fn branch(plot: &mut Plot, piece: &[BranchPoint], ordinate: Ordinate) {
+/// Adds a piece, run by run of equal stability; neighbouring runs share their border point. One of
+/// several branches has its label where it is highest in the window.
+fn branch(picture: &mut Picture, piece: &[BranchPoint], ordinate: Ordinate, label: &str) {
     let place = |point: &BranchPoint| Point { x: point.value, y: ordinate.of(&point.cycle) };
     let mut rest = piece;
     while let Some(first) = rest.first() {
         let (role, dash) = stability(first.cycle.stable);
+        let name = if first.cycle.stable { "stable cycles" } else { "unstable cycles" };
         let run = rest.iter().take_while(|point| point.cycle.stable == first.cycle.stable).count();
-        plot.curve(rest.iter().take(run + 1).map(place), role, dash);
+        let line = Line::new(named(name, label), role, dash);
+        picture.curve(line, rest.iter().take(run + 1).map(place));
         rest = &rest[run..];
+    }
+    let window = picture.window;
+    let seen = piece.iter().map(place).filter(|point| window.contains(*point));
+    let highest = seen.max_by(|a, b| a.y.total_cmp(&b.y));
+    if let Some(highest) = highest.filter(|_| !label.is_empty()) {
+        picture.caption(highest, label.to_owned(), Role::Special);
     }
 }
 
 /// Marks the cycles of a piece at the present value.
-fn here(plot: &mut Plot, piece: &[BranchPoint], ordinate: Ordinate, value: f64, look: &Look) {
-    let [stable, unstable] = look.symbols().points;
+fn here(picture: &mut Picture, piece: &[BranchPoint], ordinate: Ordinate, value: f64) {
     for pair in piece.windows(2) {
         let (a, b) = (&pair[0], &pair[1]);
         if (a.value < value) != (b.value < value) {
             let along = (value - a.value) / (b.value - a.value);
             let (from, to) = (ordinate.of(&a.cycle), ordinate.of(&b.cycle));
             let height = from + along * (to - from);
-            let symbol = if a.cycle.stable { stable } else { unstable };
-            plot.mark(Point { x: value, y: height }, symbol, Role::Current);
+            let mark = if a.cycle.stable { Mark::Stable } else { Mark::Unstable };
+            picture.mark(mark, Point { x: value, y: height }, Role::Current);
         }
     }
 }
 
-/// Writes the letter of a special point, and its value where there is room.
-fn caption(plot: &mut Plot, special: &Special, ordinate: Ordinate, with_value: bool, top: f64) {
+/// Adds the letter of a special point, and its value where there is room.
+fn caption(picture: &mut Picture, special: &Special, ordinate: Ordinate, top: f64) {
     let letter = match special.kind {
         SpecialKind::Fold => "F",
         SpecialKind::Escape => "Dc",
         SpecialKind::Hopf => "H",
         SpecialKind::ZeroCrossing => "Z",
     };
-    let text = if with_value {
-        format!("{letter} {}", significant(special.value, 4))
-    } else {
-        letter.into()
-    };
     // A cycle that has gone to infinity is named at the top, where its branch leaves.
     if special.cycle.is_none() {
-        plot.upright(special.value, Role::Asymptote, Dash::Dotted);
+        let line = Line::new("escape", Role::Asymptote, Dash::Dotted);
+        picture.upright(line, special.value);
     }
     let height = special.cycle.map_or(top, |cycle| ordinate.of(&cycle));
-    let point = Point { x: special.value, y: height };
-    plot.caption(point, &text, Role::Special);
+    picture.items.push(Item::Caption {
+        at: Point { x: special.value, y: height },
+        long: format!("{letter} {}", significant(special.value, 4)).into(),
+        short: letter.into(),
+        role: Role::Special,
+    });
 }

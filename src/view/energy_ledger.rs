@@ -10,6 +10,7 @@ use super::dots::Dash;
 use super::look::{Look, Role};
 use super::number::significant;
 use super::pane::Heading;
+use super::picture::{Line, Picture};
 use super::plot::{Names, Plot, rows};
 use super::ticks::{Tick, Ticks};
 use crate::scene::{Point, Span, View, Window};
@@ -69,6 +70,29 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
         plot.cross(cursor);
     }
     plot.finish(buffer);
+}
+
+/// The same for a file: each work a bar with its name and number.
+#[must_use]
+pub fn picture(session: &Session, index: usize) -> Picture<'_> {
+    let lines = session.ledger();
+    let spec = View::EnergyLedger.spec();
+    let window = Window {
+        y: Span::new(middle(lines.len()), 0.0).unwrap_or(Span::known(-1.0, 0.0)),
+        ..session.plots[index].window
+    };
+    let mut picture = Picture::new(spec.title, "part of the largest work", "line", window);
+    picture.upright(Line::guide(), 0.0);
+    for (line, entry) in lines.iter().enumerate() {
+        let from = Point { x: 0.0, y: middle(line) };
+        if let Entry::Work { source, work, part } = entry {
+            let role = if *work < 0.0 { Role::Stable } else { Role::Unstable };
+            picture.bar(*source, role, from, Point { x: *part, ..from });
+        }
+        let at = Point { x: window.x.at(0.02), ..from };
+        picture.caption(at, reading(entry), Role::Text);
+    }
+    picture
 }
 
 /// The lines that are seen in `area`, each in whole rows, and the sources at the axis.

@@ -6,13 +6,12 @@ use ratatui::layout::Rect;
 
 use super::layout::{Layout, SMALLEST, layout};
 use super::look::{Look, Role};
-use super::{
-    caption, diagram, energy_ledger, footer, lists, parameters, phase_plane, regimes, return_map,
-    status, time_series,
-};
+use super::paint::paint;
+use super::pane::Heading;
+use super::{caption, energy_ledger, footer, lists, parameters, picture, status};
 use crate::scene::View;
-use crate::session::Session;
 use crate::session::settings::Glyphs;
+use crate::session::{Pane, Session};
 
 /// Draws a session. Nothing is decided or computed here except what a visible cell shows.
 pub fn draw(frame: &mut Frame, session: &Session, look: &Look) {
@@ -40,13 +39,12 @@ fn panes(parts: &Layout, session: &Session, look: &Look, buffer: &mut Buffer) {
     status::title(parts.title, session, look, buffer);
     parameters::draw(parts.parameters, session, look, buffer);
     for (index, area) in parts.plots.iter().enumerate().filter(|(_, area)| !area.is_empty()) {
-        match session.plots[index].view {
-            View::Phase => phase_plane::draw(*area, session, index, look, buffer),
-            View::Diagram => diagram::draw(*area, session, index, look, buffer),
-            View::TimeSeries => time_series::draw(*area, session, index, look, buffer),
-            View::EnergyLedger => energy_ledger::draw(*area, session, index, look, buffer),
-            View::ReturnMap => return_map::draw(*area, session, index, look, buffer),
-            View::Regimes => regimes::draw(*area, session, index, look, buffer),
+        if session.plots[index].view == View::EnergyLedger {
+            // Its lines are whole rows of the screen.
+            energy_ledger::draw(*area, session, index, look, buffer);
+        } else {
+            let heading = Heading::of(session, Pane::Plot(index));
+            paint(*area, picture::of(session, index), heading, look, buffer);
         }
     }
     status::draw(parts.status, session, look, buffer);

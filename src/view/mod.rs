@@ -1,7 +1,7 @@
 //! The screen: a session, drawn.
 //!
-//! [`frame::draw`] is the only way in. It divides the screen ([`layout`]), and each pane draws itself
-//! into its part with the help of [`plot`] and [`pane`]. How things look is decided in [`look`] alone.
+//! [`frame::draw`] is the only way in. It divides the screen ([`layout`]), and each view says what it
+//! shows as a [`picture`], which [`paint`] puts into its part with the help of [`plot`] and [`pane`]. How things look is decided in [`look`] alone.
 
 pub mod caption;
 pub mod diagram;
@@ -15,9 +15,11 @@ pub mod legend;
 pub mod lists;
 pub mod look;
 pub mod number;
+pub mod paint;
 pub mod pane;
 pub mod parameters;
 pub mod phase_plane;
+pub mod picture;
 pub mod place;
 pub mod plot;
 pub mod quantity;

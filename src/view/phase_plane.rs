@@ -4,71 +4,104 @@
 //! the point left for a mark, the line `v = 0`, the Lyapunov circle, the motion, cycles, the sticking set, markers, cursor. Formulas show the present
 //! parameters; what had to be computed shows the last answer, and the title says if it is old.
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
-
 use super::dots::Dash;
-use super::look::{Look, Role};
-use super::pane::Heading;
-use super::plot::{Names, Plot, reading};
+use super::look::Role;
+use super::picture::{Item, Line, Mark, Picture, Text};
+use super::plot::reading;
 use crate::closed_form::lyapunov;
-use crate::flow::Outcome;
-use crate::oscillator::{HalfPlane, Side, State};
-use crate::scene::{Layer, Point, View};
-use crate::session::{self, Pane, Session};
+use crate::flow::{Outcome, Trajectory};
+use crate::oscillator::{HalfPlane, Parameters, Side, State};
+use crate::scene::{Answer, Layer, Point, Slot, View};
+use crate::session::{self, Session};
+use crate::study::Cycles;
 
-/// Draws the plot with this index.
-pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &mut Buffer) {
+/// What the plot with this index shows.
+#[must_use]
+pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     let session::Plot { window, cursor, .. } = session.plots[index];
-    let names = Names { title: View::Phase.spec().title, x: "q", y: "v" };
-    let mut heading = Heading::of(session, Pane::Plot(index));
-    heading.reading = cursor.map(|cursor| {
+    let mut picture = Picture::new(View::Phase.spec().title, "q", "v", window);
+    picture.reading = cursor.map(|cursor| {
         let (q, v) = reading(cursor, window);
         format!("q {q} v {v}")
     });
-    let mut plot = Plot::new(area, window, names, &heading, look, buffer);
     let shows = |layer| session.layers.contains(&layer);
+    let shown = session.shown(index);
 
-    if shows(Layer::Field) {
-        plot.arrows(Role::Field, |point| flow(session, point));
+    if shows(Layer::Field)
+        && let Some(first) = shown.first()
+    {
+        let parameters = first.problem.parameters;
+        picture.items.push(Item::Arrows(Role::Field, Box::new(move |at| flow(&parameters, at))));
     }
     if shows(Layer::Basin) {
-        basin(&mut plot, session);
+        for (label, answer) in session.found(Slot::Cycles, index) {
+            if let Answer::Cycles(found) = answer {
+                basin(&mut picture, found, &label);
+            }
+        }
     }
     if shows(Layer::Bands) {
         for border in session.borders(index).iter().flat_map(|found| &found.curves) {
-            plot.curve(border.iter().map(point), Role::Bands, Dash::Dotted);
+            let line = Line::new("border of a band of capture", Role::Bands, Dash::Dotted);
+            picture.curve(line, border.iter().map(point));
         }
     }
     if shows(Layer::Ghost) {
-        ghost(&mut plot, session);
+        ghost(&mut picture, session);
     }
-    plot.function(Role::Axis, Dash::Sparse, |_| Some(0.0));
+    picture.level(Line::guide(), 0.0);
     if shows(Layer::Lyapunov) {
-        circle(&mut plot, session);
+        for shown in &shown {
+            circle(&mut picture, &shown.problem.parameters, &shown.label);
+        }
     }
     if shows(Layer::Trajectory) {
-        trajectory(&mut plot, session);
+        for (label, answer) in session.found(Slot::Trajectory, index) {
+            if let Answer::Trajectory(found) = answer {
+                let line = Line::new(named("motion", &label), Role::Trajectory, Dash::Solid);
+                let samples = found.samples.iter();
+                picture.curve(line, samples.map(|sample| Point { x: sample.q, y: sample.v }));
+            }
+        }
     }
     if shows(Layer::Cycles) {
-        cycles(&mut plot, session);
+        for (label, answer) in session.found(Slot::Cycles, index) {
+            if let Answer::Cycles(found) = answer {
+                cycles(&mut picture, found, &label);
+            }
+        }
     }
     if shows(Layer::Balance) {
         for found in session.balance().iter().flat_map(|balance| &balance.balanced) {
-            plot.curve(found.curve.iter().map(point), Role::Harmonic, Dash::Dotted);
+            let line = Line::new("cycle of N harmonics", Role::Harmonic, Dash::Dotted);
+            picture.curve(line, found.curve.iter().map(point));
         }
     }
     if shows(Layer::Sticking) {
-        let r = session.problem.parameters.r;
-        plot.bar(Point { x: -r, y: 0.0 }, Point { x: r, y: 0.0 }, Role::Sticking);
+        for shown in &shown {
+            let r = shown.problem.parameters.r;
+            let [from, to] = [-r, r].map(|x| Point { x, y: 0.0 });
+            picture.bar(named("sticking set", &shown.label), Role::Sticking, from, to);
+        }
     }
     if shows(Layer::Trajectory) {
-        ends(&mut plot, session, look);
+        for (_, answer) in session.found(Slot::Trajectory, index) {
+            if let Answer::Trajectory(found) = answer {
+                end(&mut picture, found);
+            }
+        }
+        for shown in &shown {
+            picture.mark(Mark::Start, point(&shown.problem.initial), Role::Trajectory);
+        }
     }
-    if let Some(cursor) = cursor {
-        plot.cross(cursor);
-    }
-    plot.finish(buffer);
+    picture.cross(cursor);
+    picture
+}
+
+/// A name, and which of several it is.
+#[must_use]
+pub fn named(name: &'static str, label: &str) -> Text {
+    if label.is_empty() { name.into() } else { format!("{name}, {label}").into() }
 }
 
 fn point(state: &State) -> Point {
@@ -76,8 +109,7 @@ fn point(state: &State) -> Point {
 }
 
 /// Direction of the flow (equation 8); on `v = 0` it is that of the upper side.
-fn flow(session: &Session, Point { x: q, y: v }: Point) -> Point {
-    let parameters = &session.problem.parameters;
+fn flow(parameters: &Parameters, Point { x: q, y: v }: Point) -> Point {
     let side = if v < 0.0 { Side::Lower } else { Side::Upper };
     let field = HalfPlane::new(parameters, side);
     let (position, speed) = (side.position(q, parameters.r), side.sign() * v);
@@ -85,54 +117,51 @@ fn flow(session: &Session, Point { x: q, y: v }: Point) -> Point {
 }
 
 /// The shaded basin of the sticking set, if it has an edge.
-fn basin(plot: &mut Plot, session: &Session) {
-    let Some(picture) = session.cycles().and_then(|found| found.picture.as_ref()) else { return };
-    let edge: Vec<Point> = picture.edge.iter().map(point).collect();
-    if !edge.is_empty() {
-        plot.shade(&edge, Role::Basin);
-        plot.curve(edge, Role::Unstable, Dash::Dashed);
-    }
+fn basin(picture: &mut Picture, found: &Cycles, label: &str) {
+    let Some(drawn) = found.picture.as_ref().filter(|drawn| !drawn.edge.is_empty()) else { return };
+    let edge: Vec<Point> = drawn.edge.iter().map(point).collect();
+    let area = Line::new(named("basin of the sticking set", label), Role::Basin, Dash::Solid);
+    picture.items.push(Item::Shade(area, edge.clone()));
+    picture.curve(Line::new(named("edge of the basin", label), Role::Unstable, Dash::Dashed), edge);
 }
 
-fn circle(plot: &mut Plot, session: &Session) {
+fn circle(picture: &mut Picture, parameters: &Parameters, label: &str) {
     /// Corners of the polygon that stands for the circle.
     const CORNERS: u16 = 180;
-    if let Some(radius) = lyapunov::radius(&session.problem.parameters) {
+    if let Some(radius) = lyapunov::radius(parameters) {
         let corners = (0..=CORNERS).map(|corner| {
             let (sin, cos) =
                 (std::f64::consts::TAU * f64::from(corner) / f64::from(CORNERS)).sin_cos();
             Point { x: radius * cos, y: radius * sin }
         });
-        plot.curve(corners, Role::Lyapunov, Dash::Dotted);
+        let line = Line::new(named("Lyapunov circle", label), Role::Lyapunov, Dash::Dotted);
+        picture.curve(line, corners);
     }
 }
 
-fn trajectory(plot: &mut Plot, session: &Session) {
-    if let Some(found) = session.trajectory() {
-        let samples = found.samples.iter().map(|sample| Point { x: sample.q, y: sample.v });
-        plot.curve(samples, Role::Trajectory, Dash::Solid);
-    }
-}
-
-fn cycles(plot: &mut Plot, session: &Session) {
-    let Some(found) = session.cycles() else { return };
+fn cycles(picture: &mut Picture, found: &Cycles, label: &str) {
     let curves = found.picture.iter().flat_map(|picture| &picture.curves);
     for (cycle, curve) in found.cycles.iter().zip(curves) {
+        let name = if cycle.stable { "stable cycle" } else { "unstable cycle" };
         let (role, dash) = stability(cycle.stable);
-        plot.curve(curve.iter().map(point), role, dash);
+        picture.curve(Line::new(named(name, label), role, dash), curve.iter().map(point));
+        let top = curve.iter().max_by(|a, b| a.v.total_cmp(&b.v));
+        if let Some(top) = top.filter(|_| !label.is_empty()) {
+            picture.caption(point(top), label.to_owned(), role);
+        }
     }
 }
 
 /// Motion and cycles of the point that was left for a mark.
-fn ghost(plot: &mut Plot, session: &Session) {
+fn ghost(picture: &mut Picture, session: &Session) {
     let Some(left) = &session.marks.left else { return };
     if let Some(found) = left.trajectory() {
         let samples = found.samples.iter().map(|sample| Point { x: sample.q, y: sample.v });
-        plot.curve(samples, Role::Ghost, Dash::Dotted);
+        picture.curve(Line::new("motion left", Role::Ghost, Dash::Dotted), samples);
     }
-    let picture = left.cycles().and_then(|found| found.picture.as_ref());
-    for curve in picture.iter().flat_map(|picture| &picture.curves) {
-        plot.curve(curve.iter().map(point), Role::Ghost, Dash::Dashed);
+    let drawn = left.cycles().and_then(|found| found.picture.as_ref());
+    for curve in drawn.iter().flat_map(|drawn| &drawn.curves) {
+        picture.curve(Line::new("cycle left", Role::Ghost, Dash::Dashed), curve.iter().map(point));
     }
 }
 
@@ -142,19 +171,15 @@ pub fn stability(stable: bool) -> (Role, Dash) {
     if stable { (Role::Stable, Dash::Solid) } else { (Role::Unstable, Dash::Dashed) }
 }
 
-/// Where the motion starts, and where it is in the end.
-fn ends(plot: &mut Plot, session: &Session, look: &Look) {
-    let symbols = look.symbols();
-    if let Some(found) = session.trajectory() {
-        match found.outcome {
-            Outcome::Captured { q, .. } => {
-                plot.mark(Point { x: q, y: 0.0 }, symbols.rest, Role::Trajectory);
-            }
-            Outcome::Moving { q, v, .. } => {
-                plot.mark(Point { x: q, y: v }, symbols.head, Role::Trajectory);
-            }
-            Outcome::Escaped { .. } | Outcome::GaveUp { .. } => {}
+/// Where a motion is in the end.
+fn end(picture: &mut Picture, motion: &Trajectory) {
+    match motion.outcome {
+        Outcome::Captured { q, .. } => {
+            picture.mark(Mark::Rest, Point { x: q, y: 0.0 }, Role::Trajectory);
         }
+        Outcome::Moving { q, v, .. } => {
+            picture.mark(Mark::Head, Point { x: q, y: v }, Role::Trajectory);
+        }
+        Outcome::Escaped { .. } | Outcome::GaveUp { .. } => {}
     }
-    plot.mark(point(&session.problem.initial), symbols.start, Role::Trajectory);
 }

@@ -4,30 +4,27 @@
 //! harmonic (48) is dotted. Today's point is marked: stepping the two parameters moves it and nothing
 //! else.
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
-
 use super::dots::Dash;
-use super::look::{Look, Role};
-use super::pane::Heading;
-use super::plot::{Names, Plot, reading};
+use super::look::Role;
+use super::picture::{Item, Line, Mark, Pattern, Picture};
+use super::plot::reading;
 use crate::oscillator::Symbol;
-use crate::scene::{Axes, Layer, Point, View, Window};
-use crate::session::{self, Pane, Session};
+use crate::scene::{Axes, Layer, Point, View};
+use crate::session::{self, Session};
 use crate::study::chart::{Border, Chart};
 use crate::study::regime::{REGIMES, Regime};
 
-/// Draws the plot with this index.
-pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &mut Buffer) {
+/// What the plot with this index shows.
+#[must_use]
+pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     let session::Plot { window, cursor, axes, .. } = session.plots[index];
     let Axes { abscissa, against, .. } = axes;
     let (right, up) = (abscissa.spec().name, against.spec().name);
-    let names = Names { title: View::Regimes.spec().title, x: right, y: up };
     let today = Point { x: session.value(abscissa), y: session.value(against) };
     let found = session.chart(index);
-    let mut heading = Heading::of(session, Pane::Plot(index));
+    let mut picture = Picture::new(View::Regimes.spec().title, right, up, window);
     let read = |point: Point| found.and_then(|chart| chart.regime_at(point.x, point.y));
-    heading.reading = Some(cursor.map_or_else(
+    picture.reading = Some(cursor.map_or_else(
         || read(today).map_or_else(String::new, |regime| regime.name().into()),
         |cursor| {
             let (x, y) = reading(cursor, window);
@@ -35,55 +32,58 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
             format!("{right} {x} {up} {y} {regime}")
         },
     ));
-    let mut plot = Plot::new(area, window, names, &heading, look, buffer);
     let shows = |layer| session.layers.contains(&layer);
 
     if let Some(chart) = found.filter(|_| shows(Layer::Regimes)) {
-        plot.texture_where(|point| {
-            chart.regime_at(point.x, point.y).and_then(|at| texture(at, look))
-        });
+        let texture = |point: Point| chart.regime_at(point.x, point.y).and_then(texture);
+        picture.items.push(Item::Texture(Box::new(texture)));
     }
-    signs(&mut plot, abscissa, against, window);
+    signs(&mut picture, abscissa, against);
     if let Some(chart) = found {
+        let mut border = |border, line: Line| {
+            for run in chart.border(border) {
+                picture.curve(line.clone(), run.into_iter().map(|(x, y)| Point { x, y }));
+            }
+        };
         if shows(Layer::HarmonicBorder) {
-            border(&mut plot, chart, Border::Harmonic, Role::Harmonic, Dash::Dotted);
+            let name = "fold of the first harmonic";
+            border(Border::Harmonic, Line::new(name, Role::Harmonic, Dash::Dotted));
         }
         if shows(Layer::Borders) {
-            border(&mut plot, chart, Border::Fold, Role::Special, Dash::Solid);
-            border(&mut plot, chart, Border::Escape, Role::Unstable, Dash::Solid);
+            border(Border::Fold, Line::new("fold", Role::Special, Dash::Solid));
+            border(Border::Escape, Line::new("escape", Role::Unstable, Dash::Solid));
         }
         if shows(Layer::Regimes) {
-            names_of_regimes(&mut plot, chart, window);
+            names_of_regimes(&mut picture, chart);
         }
     }
-    plot.upright(today.x, Role::Current, Dash::Sparse);
+    let present = || Line::new("present values", Role::Current, Dash::Sparse);
+    picture.upright(present(), today.x);
     let level = [window.x.from(), window.x.to()].map(|x| Point { x, y: today.y });
-    plot.curve(level, Role::Current, Dash::Sparse);
-    plot.mark(today, look.symbols().head, Role::Current);
-    if let Some(cursor) = cursor {
-        plot.cross(cursor);
-    }
-    plot.finish(buffer);
+    picture.curve(present(), level);
+    picture.mark(Mark::Head, today, Role::Current);
+    picture.cross(cursor);
+    picture
 }
 
 /// What a regime looks like; nothing where every kick is survived.
-fn texture(regime: Regime, look: &Look) -> Option<(char, Role)> {
-    let [stable, unstable] = look.symbols().points;
+fn texture(regime: Regime) -> Option<(Pattern, Role)> {
     match regime {
         Regime::Global | Regime::Neutral => None,
-        Regime::Finite => Some((look.symbols().shade, Role::Unstable)),
-        Regime::Coexisting => Some((look.symbols().shade, Role::Stable)),
-        Regime::Escape => Some((look.symbols().arrows[0], Role::Field)),
-        Regime::Cycle => Some((stable, Role::Stable)),
-        Regime::Repelling => Some((unstable, Role::Unstable)),
+        Regime::Finite => Some((Pattern::Shade, Role::Unstable)),
+        Regime::Coexisting => Some((Pattern::Shade, Role::Stable)),
+        Regime::Escape => Some((Pattern::Arrows, Role::Field)),
+        Regime::Cycle => Some((Pattern::Stable, Role::Stable)),
+        Regime::Repelling => Some((Pattern::Unstable, Role::Unstable)),
     }
 }
 
 /// Where a parameter changes its sign; D = 0 is the Hopf point of the system without friction.
-fn signs(plot: &mut Plot, right: Symbol, up: Symbol, window: Window) {
-    plot.upright(0.0, Role::Axis, Dash::Sparse);
+fn signs(picture: &mut Picture, right: Symbol, up: Symbol) {
+    let window = picture.window;
+    picture.upright(Line::guide(), 0.0);
     let level = [window.x.from(), window.x.to()].map(|x| Point { x, y: 0.0 });
-    plot.curve(level, Role::Axis, Dash::Sparse);
+    picture.curve(Line::guide(), level);
     let hopf = if right == Symbol::D {
         Some(Point { x: 0.0, y: window.y.to() })
     } else {
@@ -92,18 +92,13 @@ fn signs(plot: &mut Plot, right: Symbol, up: Symbol, window: Window) {
     if let Some(place) =
         hopf.filter(|place| window.x.contains(place.x) && window.y.contains(place.y))
     {
-        plot.caption(place, "H", Role::Quiet);
-    }
-}
-
-fn border(plot: &mut Plot, chart: &Chart, border: Border, role: Role, dash: Dash) {
-    for run in chart.border(border) {
-        plot.curve(run.into_iter().map(|(x, y)| Point { x, y }), role, dash);
+        picture.caption(place, "H", Role::Quiet);
     }
 }
 
 /// Writes each name where its regime has most room on a line, near the middle of the window.
-fn names_of_regimes(plot: &mut Plot, chart: &Chart, window: Window) {
+fn names_of_regimes(picture: &mut Picture, chart: &Chart) {
+    let window = picture.window;
     for (regime, name, _) in REGIMES {
         let mut best: Option<(f64, Point)> = None;
         for line in &chart.lines {
@@ -125,7 +120,7 @@ fn names_of_regimes(plot: &mut Plot, chart: &Chart, window: Window) {
             }
         }
         if let Some((_, place)) = best {
-            plot.caption(place, name, Role::Text);
+            picture.caption(place, name, Role::Text);
         }
     }
 }

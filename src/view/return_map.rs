@@ -3,71 +3,68 @@
 //! Where the map crosses the diagonal it has a cycle; where it enters the shaded band the motion comes
 //! to rest. The turning points of the motion climb and descend between map and diagonal as a cobweb.
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
-
 use super::dots::Dash;
-use super::look::{Look, Role};
-use super::pane::Heading;
-use super::plot::{Names, Plot, reading};
+use super::look::Role;
+use super::picture::{Item, Line, Mark, Picture};
+use super::plot::reading;
 use crate::flow::Outcome;
 use crate::scene::{Layer, Point, View};
 use crate::session::motion::turning_points;
-use crate::session::{self, Pane, Session};
+use crate::session::{self, Session};
 
-/// Draws the plot with this index.
-pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &mut Buffer) {
+/// What the plot with this index shows.
+#[must_use]
+pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     let session::Plot { window, cursor, .. } = session.plots[index];
-    let names = Names { title: View::ReturnMap.spec().title, x: "q", y: "next q" };
-    let mut heading = Heading::of(session, Pane::Plot(index));
-    heading.reading = cursor.map(|cursor| {
+    let mut picture = Picture::new(View::ReturnMap.spec().title, "q", "next q", window);
+    picture.reading = cursor.map(|cursor| {
         let (q, next) = reading(cursor, window);
         format!("q {q} next {next}")
     });
-    let mut plot = Plot::new(area, window, names, &heading, look, buffer);
     let shows = |layer| session.layers.contains(&layer);
     let r = session.problem.parameters.r;
 
     if shows(Layer::Map) && r > 0.0 {
-        plot.shade_where(Role::Basin, |Point { x, y }| y.abs() <= r || x.abs() <= r);
+        let rest = || Line::new("at rest there", Role::Basin, Dash::Solid);
+        picture.items.extend([Item::Rows(rest(), -r, r), Item::Columns(rest(), -r, r)]);
     }
-    plot.function(Role::Axis, Dash::Sparse, Some);
+    picture.graph(Line::new("diagonal", Role::Axis, Dash::Sparse), Some);
     if shows(Layer::Map)
         && let Some(found) = session.return_map(index)
     {
         for side in &found.sides {
             let points =
                 side.iter().map(|turn| Point { x: turn.from, y: turn.to.unwrap_or(f64::NAN) });
-            plot.curve(points, Role::Map, Dash::Solid);
+            picture.curve(Line::new("next turning point", Role::Map, Dash::Solid), points);
         }
         // Whoever rests there stays there.
         let held = found.parameters.r;
-        plot.bar(Point { x: -held, y: -held }, Point { x: held, y: held }, Role::Sticking);
+        let [from, to] = [-held, held].map(|q| Point { x: q, y: q });
+        picture.bar("sticking set", Role::Sticking, from, to);
     }
     if shows(Layer::Cobweb) {
-        cobweb(&mut plot, session, look);
+        cobweb(&mut picture, session);
     }
     if shows(Layer::FixedPoints) {
-        let [stable, unstable] = look.symbols().points;
         for cycle in session.cycles().into_iter().flat_map(|found| &found.cycles) {
-            let (symbol, role) =
-                if cycle.stable { (stable, Role::Stable) } else { (unstable, Role::Unstable) };
+            let (mark, role) = if cycle.stable {
+                (Mark::Stable, Role::Stable)
+            } else {
+                (Mark::Unstable, Role::Unstable)
+            };
             for turning in [cycle.q_min, cycle.q_max] {
-                plot.mark(Point { x: turning, y: turning }, symbol, role);
+                picture.mark(mark, Point { x: turning, y: turning }, role);
             }
         }
     }
-    if let Some(cursor) = cursor {
-        plot.cross(cursor);
-    }
-    plot.finish(buffer);
+    picture.cross(cursor);
+    picture
 }
 
 /// The turning points of the motion, each side for itself: up or down to the map, across to the diagonal.
-fn cobweb(plot: &mut Plot, session: &Session, look: &Look) {
+fn cobweb(picture: &mut Picture, session: &Session) {
     let Some(motion) = session.trajectory() else { return };
     let points = turning_points(motion);
-    let symbols = look.symbols();
     let rest = match motion.outcome {
         Outcome::Captured { q, .. } => Some(q),
         _ => None,
@@ -83,13 +80,13 @@ fn cobweb(plot: &mut Plot, session: &Session, look: &Look) {
             [Point { x: from, y: to }, Point { x: to, y: to }]
         });
         let first = turns.first().map(|q| Point { x: *q, y: *q });
-        let path: Vec<Point> = first.into_iter().chain(steps).collect();
-        plot.curve(path, Role::Trajectory, Dash::Solid);
+        let line = Line::new("motion, turn by turn", Role::Trajectory, Dash::Solid);
+        picture.curve(line, first.into_iter().chain(steps));
         if let Some(start) = first {
-            plot.mark(start, symbols.start, Role::Trajectory);
+            picture.mark(Mark::Start, start, Role::Trajectory);
         }
     }
     if let Some(q) = rest {
-        plot.mark(Point { x: q, y: q }, symbols.rest, Role::Trajectory);
+        picture.mark(Mark::Rest, Point { x: q, y: q }, Role::Trajectory);
     }
 }

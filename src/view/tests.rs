@@ -84,6 +84,9 @@ fn by_hand(request: &Request) -> Answer {
         Request::Branch { parameter, .. } => Answer::Branch(folded(*parameter)),
         Request::ReturnMap { parameters, .. } => Answer::ReturnMap(halving(*parameters)),
         Request::Regimes { plane, .. } => Answer::Regimes(parted(*plane)),
+        Request::Family(members) => {
+            Answer::Family(members.iter().map(|member| Ok(by_hand(member))).collect())
+        }
     }
 }
 
@@ -228,7 +231,8 @@ fn approved() -> Scene {
         ..Problem::default()
     };
     let span = |from, to| Span::new(from, to).unwrap();
-    let exhibit = |view, window| Exhibit { view, axes: Axes::default(), window: Some(window) };
+    let exhibit =
+        |view, window| Exhibit { view, axes: Axes::default(), window: Some(window), family: None };
     Scene {
         name: "approved".into(),
         title: "A scene with a fold".into(),
@@ -517,7 +521,7 @@ proptest! {
                     }
                 }
                 Ok(Answer::Capture(found)) => found.curves = vec![states.clone()],
-                Err(_) => {}
+                Ok(Answer::Family(_)) | Err(_) => {}
             }
         }
         session.plots[0].cursor = Some(Point { x: value, y: low });

@@ -3,41 +3,40 @@
 //! Displacement and energy change smoothly through the turning points, where the force of friction
 //! jumps from one end of `[-r, r]` to the other; at rest it is what the spring asks for.
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
-
 use super::dots::Dash;
-use super::look::{Look, Role};
+use super::look::Role;
 use super::number::resolved;
-use super::pane::Heading;
-use super::plot::{CELLS, Names, Plot};
+use super::picture::{Item, Line, Mark, Picture};
+use super::plot::CELLS;
 use crate::flow::{Outcome, Trajectory};
 use crate::oscillator::State;
 use crate::oscillator::energy::energy;
 use crate::scene::{Layer, Point, View};
 use crate::session::motion::friction_force;
-use crate::session::{self, Pane, Session};
+use crate::session::{self, Session};
 
-/// A quantity over time: its layer, its letter, how it is drawn, and how it is read from a state.
-type Quantity = (Layer, &'static str, Role, Dash, fn(State) -> f64);
+/// A quantity over time: its layer, its letter, its name, how it is drawn, and how it is read from a
+/// state.
+type Quantity = (Layer, &'static str, &'static str, Role, Dash, fn(State) -> f64);
 
 /// The smooth quantities.
 const QUANTITIES: [Quantity; 3] = [
-    (Layer::Energy, "V", Role::Energy, Dash::Dotted, energy),
-    (Layer::Velocity, "v", Role::Velocity, Dash::Dashed, |state| state.v),
-    (Layer::Position, "q", Role::Trajectory, Dash::Solid, |state| state.q),
+    (Layer::Energy, "V", "energy V", Role::Energy, Dash::Dotted, energy),
+    (Layer::Velocity, "v", "velocity v", Role::Velocity, Dash::Dashed, |state| state.v),
+    (Layer::Position, "q", "displacement q", Role::Trajectory, Dash::Solid, |state| state.q),
 ];
 
-/// Draws the plot with this index.
-pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &mut Buffer) {
+/// What the plot with this index shows.
+#[must_use]
+pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     let session::Plot { window, cursor, .. } = session.plots[index];
     let shows = |layer| session.layers.contains(&layer);
     let shown = || QUANTITIES.iter().rev().filter(|(layer, ..)| shows(*layer));
     let friction = shows(Layer::Friction).then_some("f");
     let letters: Vec<&str> = shown().map(|(_, letter, ..)| *letter).chain(friction).collect();
-    let names = Names { title: View::TimeSeries.spec().title, x: "tau", y: &letters.join(" ") };
-    let mut heading = Heading::of(session, Pane::Plot(index));
-    heading.reading = cursor.map(|Point { x: tau, .. }| {
+    let title = View::TimeSeries.spec().title;
+    let mut picture = Picture::new(title, "tau", letters.join(" "), window);
+    picture.reading = cursor.map(|Point { x: tau, .. }| {
         let time = format!("tau {}", resolved(tau, window.x.width() / CELLS));
         let value = |value: f64| resolved(value, window.y.width() / CELLS);
         let Some(state) = session.state_at(tau) else { return time };
@@ -45,33 +44,30 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
             format!("{line} {letter} {}", value(read(state)))
         })
     });
-    let mut plot = Plot::new(area, window, names, &heading, look, buffer);
-    plot.function(Role::Axis, Dash::Sparse, |_| Some(0.0));
+    picture.level(Line::guide(), 0.0);
     if let Some(motion) = session.trajectory() {
         let end = motion.problem.until;
         if shows(Layer::Friction) {
             let force = friction_force(motion, end);
-            let first = force.first().copied();
-            let points = force.into_iter().map(|(x, y)| Point { x, y });
-            plot.curve(points, Role::Sticking, Dash::Solid);
-            label(&mut plot, first, "f", Role::Sticking);
+            let points: Vec<Point> = force.into_iter().map(|(x, y)| Point { x, y }).collect();
+            let first = points.first().copied();
+            picture.curve(Line::new("friction force f", Role::Sticking, Dash::Solid), points);
+            label(&mut picture, first, "f", Role::Sticking);
         }
-        for (layer, letter, role, dash, read) in QUANTITIES {
+        for (layer, letter, name, role, dash, read) in QUANTITIES {
             if shows(layer) {
-                plot.curve(curve(motion, end, read), role, dash);
+                picture.curve(Line::new(name, role, dash), curve(motion, end, read));
                 let first = motion.samples.first();
-                let first = first.map(|s| (s.tau, read(State { q: s.q, v: s.v })));
-                label(&mut plot, first, letter, role);
+                let first = first.map(|s| Point { x: s.tau, y: read(State { q: s.q, v: s.v }) });
+                label(&mut picture, first, letter, role);
             }
         }
         if shows(Layer::Events) {
-            events(&mut plot, motion, look);
+            events(&mut picture, motion);
         }
     }
-    if let Some(cursor) = cursor {
-        plot.cross(cursor);
-    }
-    plot.finish(buffer);
+    picture.cross(cursor);
+    picture
 }
 
 /// A quantity along a motion, and on while it rests.
@@ -89,31 +85,26 @@ fn curve(motion: &Trajectory, end: f64, read: fn(State) -> f64) -> Vec<Point> {
 }
 
 /// The letter of a curve, where it begins.
-fn label(plot: &mut Plot, first: Option<(f64, f64)>, letter: &str, role: Role) {
-    if let Some((x, y)) = first {
-        plot.caption(Point { x, y }, letter, role);
+fn label(picture: &mut Picture, first: Option<Point>, letter: &'static str, role: Role) {
+    if let Some(first) = first {
+        picture.caption(first, letter, role);
     }
 }
 
 /// The turning points, where they stand apart, and how the motion ends.
-fn events(plot: &mut Plot, motion: &Trajectory, look: &Look) {
-    /// Columns between marks.
-    const APART: usize = 4;
-    let symbols = look.symbols();
-    if motion.crossings.len() * APART <= usize::from(plot.inner().width) {
-        for crossing in &motion.crossings {
-            let point = Point { x: crossing.tau, y: crossing.q };
-            plot.mark(point, symbols.start, Role::Trajectory);
-        }
-    }
+fn events(picture: &mut Picture, motion: &Trajectory) {
+    let turns = motion.crossings.iter().map(|turn| Point { x: turn.tau, y: turn.q });
+    picture.items.push(Item::Marks(Mark::Turn, turns.collect(), Role::Trajectory));
     match motion.outcome {
         Outcome::Captured { tau, q } => {
-            plot.mark(Point { x: tau, y: q }, symbols.rest, Role::Trajectory);
+            picture.mark(Mark::Rest, Point { x: tau, y: q }, Role::Trajectory);
         }
         Outcome::Moving { tau, q, .. } => {
-            plot.mark(Point { x: tau, y: q }, symbols.head, Role::Trajectory);
+            picture.mark(Mark::Head, Point { x: tau, y: q }, Role::Trajectory);
         }
-        Outcome::Escaped { tau } => plot.upright(tau, Role::Unstable, Dash::Sparse),
+        Outcome::Escaped { tau } => {
+            picture.upright(Line::new("escapes", Role::Unstable, Dash::Sparse), tau);
+        }
         Outcome::GaveUp { .. } => {}
     }
 }

@@ -96,6 +96,7 @@ fn terms_that_a_scene_does_not_declare_are_zero_until_the_user_unfolds_them() {
             | Request::ReturnMap { parameters, .. }
             | Request::Regimes { parameters, .. }
             | Request::Branch { parameters, .. } => parameters,
+            Request::Family(_) => unreachable!("capture has no variants"),
         };
         assert!(parameters.is_piecewise_linear());
     }

@@ -31,7 +31,9 @@ pub fn next_of_chart(session: &mut Session, upwards: bool) -> Vec<Effect> {
     let axis = if upwards { &mut plot.axes.against } else { &mut plot.axes.abscissa };
     *axis = symbol;
     // The chart of these parameters is nobody's yet: its window is the usual one, today's point in it.
-    plot.fit_from(Exhibit { view: plot.view, axes: plot.axes, window: None }.opening());
+    plot.fit_from(
+        Exhibit { view: plot.view, axes: plot.axes, window: None, family: plot.family }.opening(),
+    );
     inform(session, format!("over {}: {}", symbol.spec().name, symbol.spec().meaning));
     Vec::new()
 }

@@ -52,7 +52,7 @@ fn exhibit(session: &Session, plot: usize, view: View) -> Exhibit {
     let of_scene = here.into_iter().chain(&session.scene.plots);
     let mut of_scene = of_scene.filter(|exhibit| exhibit.view == view);
     let axes = session.plots.get(plot).map(|plot| plot.axes).unwrap_or_default();
-    let all = Exhibit { view, axes, window: None };
+    let all = Exhibit { view, axes, window: None, family: None };
     of_scene.find(|exhibit| absent(exhibit)).or(others.first()).copied().unwrap_or(all)
 }
 

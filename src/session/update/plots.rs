@@ -134,7 +134,7 @@ pub fn fit(session: &mut Session) -> Vec<Effect> {
 pub fn home(session: &mut Session) -> Vec<Effect> {
     let index = session.plot;
     let Some(plot) = session.focused() else { return Vec::new() };
-    let usual = Exhibit { view: plot.view, axes: plot.axes, window: None };
+    let usual = Exhibit { view: plot.view, axes: plot.axes, window: None, family: None };
     let exhibit = session.exhibit_of_scene(index, plot.view).unwrap_or(usual);
     if let Some(plot) = session.focused_mut() {
         let cursor = plot.cursor;

@@ -1,0 +1,80 @@
+//! A picture painted into a part of the screen.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+
+use super::look::{Look, Symbols};
+use super::pane::Heading;
+use super::picture::{Item, Mark, Pattern, Picture};
+use super::plot::{Names, Plot};
+
+/// Plots at least this wide have the long form of captions.
+const WIDE: u16 = 44;
+
+/// Columns between marks of one meaning.
+const APART: usize = 4;
+
+/// Paints a picture under its heading.
+pub fn paint(area: Rect, picture: Picture, mut heading: Heading, look: &Look, buffer: &mut Buffer) {
+    let Picture { title, x, y, window, reading, items } = picture;
+    heading.reading = reading;
+    let names = Names { title: &title, x: &x, y: &y };
+    let mut plot = Plot::new(area, window, names, &heading, look, buffer);
+    for item in &items {
+        put(&mut plot, item, look);
+    }
+    plot.finish(buffer);
+}
+
+fn put(plot: &mut Plot, item: &Item, look: &Look) {
+    let symbols = look.symbols();
+    match item {
+        Item::Curve(line, points) => plot.curve(points.iter().copied(), line.role, line.dash),
+        Item::Graph(line, value) => plot.function(line.role, line.dash, value),
+        Item::Upright(line, x) => plot.upright(*x, line.role, line.dash),
+        Item::Bar(line, from, to) => plot.bar(*from, *to, line.role),
+        Item::Shade(line, edge) => plot.shade(edge, line.role),
+        Item::Columns(line, from, to) => {
+            plot.shade_where(line.role, |point| (*from..=*to).contains(&point.x));
+        }
+        Item::Rows(line, from, to) => {
+            plot.shade_where(line.role, |point| (*from..=*to).contains(&point.y));
+        }
+        Item::Texture(at) => plot.texture_where(|point| {
+            at(point).map(|(pattern, role)| (filling(pattern, symbols), role))
+        }),
+        Item::Arrows(role, flow) => plot.arrows(*role, flow),
+        Item::Mark(mark, at, role) => plot.mark(*at, symbol(*mark, symbols), *role),
+        Item::Marks(mark, points, role) => {
+            if points.len() * APART <= usize::from(plot.inner().width) {
+                for at in points {
+                    plot.mark(*at, symbol(*mark, symbols), *role);
+                }
+            }
+        }
+        Item::Caption { at, long, short, role } => {
+            let text = if plot.inner().width >= WIDE { long } else { short };
+            plot.caption(*at, text, *role);
+        }
+        Item::Cross(at) => plot.cross(*at),
+    }
+}
+
+fn filling(pattern: Pattern, symbols: &Symbols) -> char {
+    match pattern {
+        Pattern::Shade => symbols.shade,
+        Pattern::Arrows => symbols.arrows[0],
+        Pattern::Stable => symbols.points[0],
+        Pattern::Unstable => symbols.points[1],
+    }
+}
+
+fn symbol(mark: Mark, symbols: &Symbols) -> char {
+    match mark {
+        Mark::Start | Mark::Turn => symbols.start,
+        Mark::Rest => symbols.rest,
+        Mark::Head => symbols.head,
+        Mark::Stable => symbols.points[0],
+        Mark::Unstable => symbols.points[1],
+    }
+}

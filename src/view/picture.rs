@@ -1,0 +1,231 @@
+//! What a plot shows, before anyone draws it: curves, areas and marks in world coordinates, each with a
+//! name and a role.
+//!
+//! A [`Picture`] decides nothing and knows no terminal. Each view builds one from the session; the
+//! terminal ([`super::paint`]) and files ([`crate::export::figure`]) draw the same one, so what is
+//! exported is what was looked at.
+
+use std::borrow::Cow;
+use std::fmt;
+
+use super::dots::Dash;
+use super::look::Role;
+use super::{diagram, energy_ledger, phase_plane, regimes, return_map, time_series};
+use crate::scene::{Point, View, Window};
+use crate::session::Session;
+
+/// A text that is a constant or was made for this picture.
+pub type Text = Cow<'static, str>;
+
+/// What a mark says about its point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// A motion starts here.
+    Start,
+    /// A motion came to rest here.
+    Rest,
+    /// A motion is here at its end time.
+    Head,
+    /// A turning point.
+    Turn,
+    /// A stable point.
+    Stable,
+    /// An unstable point.
+    Unstable,
+}
+
+impl Mark {
+    /// The name in files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Mark::Start => "start",
+            Mark::Rest => "rest",
+            Mark::Head => "head",
+            Mark::Turn => "turning point",
+            Mark::Stable => "stable",
+            Mark::Unstable => "unstable",
+        }
+    }
+}
+
+/// How a line looks and what it is called.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Line {
+    /// What it is, as the legend says it; empty for lines that need no name.
+    pub name: Text,
+    /// What it is, as far as its colour goes.
+    pub role: Role,
+    /// How it is interrupted.
+    pub dash: Dash,
+}
+
+impl Line {
+    /// A line of this name and look.
+    pub fn new(name: impl Into<Text>, role: Role, dash: Dash) -> Self {
+        Line { name: name.into(), role, dash }
+    }
+
+    /// An axis or another line that is there to be read against.
+    #[must_use]
+    pub fn guide() -> Self {
+        Line::new("", Role::Axis, Dash::Sparse)
+    }
+}
+
+/// How a part of the world is filled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pattern {
+    /// Shaded.
+    Shade,
+    /// With arrows that lead away.
+    Arrows,
+    /// With stable points.
+    Stable,
+    /// With unstable points.
+    Unstable,
+}
+
+/// What fills the world at a point, if anything does.
+pub type Texture<'a> = Box<dyn Fn(Point) -> Option<(Pattern, Role)> + 'a>;
+
+/// `y(x)`, or nothing where it has no value.
+pub type Function<'a> = Box<dyn Fn(f64) -> Option<f64> + 'a>;
+
+/// A direction at each point.
+pub type Flow<'a> = Box<dyn Fn(Point) -> Point + 'a>;
+
+/// Something in a picture.
+pub enum Item<'a> {
+    /// A polyline; a point that is not finite interrupts it.
+    Curve(Line, Vec<Point>),
+    /// A graph over the whole window, sampled as finely as whoever draws it needs.
+    Graph(Line, Function<'a>),
+    /// An upright through the whole window.
+    Upright(Line, f64),
+    /// A thick straight line.
+    Bar(Line, Point, Point),
+    /// The area that a curve, closed or with ends outside the window, does not separate from the origin.
+    Shade(Line, Vec<Point>),
+    /// All points whose abscissa lies between two values.
+    Columns(Line, f64, f64),
+    /// All points whose ordinate lies between two values.
+    Rows(Line, f64, f64),
+    /// Parts of the world, each filled with its pattern.
+    Texture(Texture<'a>),
+    /// Directions on a sparse lattice.
+    Arrows(Role, Flow<'a>),
+    /// A mark with a meaning.
+    Mark(Mark, Point, Role),
+    /// Marks of one meaning, left out where they would touch each other.
+    Marks(Mark, Vec<Point>, Role),
+    /// A text beside a point, and a shorter one for where there is little room.
+    Caption {
+        /// The point.
+        at: Point,
+        /// The text.
+        long: Text,
+        /// The text for small plots.
+        short: Text,
+        /// What it is.
+        role: Role,
+    },
+    /// The cross of the cursor.
+    Cross(Point),
+}
+
+/// What a plot shows, in the order in which it is painted.
+pub struct Picture<'a> {
+    /// What it is called.
+    pub title: Text,
+    /// Name of the horizontal axis.
+    pub x: Text,
+    /// Name of the vertical axis.
+    pub y: Text,
+    /// The part of the world on show.
+    pub window: Window,
+    /// What the cursor reads.
+    pub reading: Option<String>,
+    /// From back to front.
+    pub items: Vec<Item<'a>>,
+}
+
+impl fmt::Debug for Picture<'_> {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            out,
+            "Picture {:?}: {} over {}, {} items",
+            self.title,
+            self.y,
+            self.x,
+            self.items.len()
+        )
+    }
+}
+
+impl<'a> Picture<'a> {
+    /// An empty picture.
+    pub fn new(
+        title: impl Into<Text>,
+        x: impl Into<Text>,
+        y: impl Into<Text>,
+        window: Window,
+    ) -> Self {
+        let (title, x, y) = (title.into(), x.into(), y.into());
+        Picture { title, x, y, window, reading: None, items: Vec::new() }
+    }
+
+    /// Adds a polyline.
+    pub fn curve(&mut self, line: Line, points: impl IntoIterator<Item = Point>) {
+        self.items.push(Item::Curve(line, points.into_iter().collect()));
+    }
+
+    /// Adds a graph.
+    pub fn graph(&mut self, line: Line, value: impl Fn(f64) -> Option<f64> + 'a) {
+        self.items.push(Item::Graph(line, Box::new(value)));
+    }
+
+    /// Adds the line on which the ordinate has this value.
+    pub fn level(&mut self, line: Line, y: f64) {
+        self.graph(line, move |_| Some(y));
+    }
+
+    /// Adds an upright.
+    pub fn upright(&mut self, line: Line, x: f64) {
+        self.items.push(Item::Upright(line, x));
+    }
+
+    /// Adds a thick straight line.
+    pub fn bar(&mut self, name: impl Into<Text>, role: Role, from: Point, to: Point) {
+        self.items.push(Item::Bar(Line::new(name, role, Dash::Solid), from, to));
+    }
+
+    /// Adds a mark.
+    pub fn mark(&mut self, mark: Mark, at: Point, role: Role) {
+        self.items.push(Item::Mark(mark, at, role));
+    }
+
+    /// Adds a text.
+    pub fn caption(&mut self, at: Point, text: impl Into<Text>, role: Role) {
+        let long = text.into();
+        self.items.push(Item::Caption { at, short: long.clone(), long, role });
+    }
+
+    /// Adds the cross of the cursor, if there is one.
+    pub fn cross(&mut self, cursor: Option<Point>) {
+        self.items.extend(cursor.map(Item::Cross));
+    }
+}
+
+/// What the plot with this index shows.
+#[must_use]
+pub fn of(session: &Session, index: usize) -> Picture<'_> {
+    match session.plots[index].view {
+        View::Phase => phase_plane::picture(session, index),
+        View::Diagram => diagram::picture(session, index),
+        View::TimeSeries => time_series::picture(session, index),
+        View::EnergyLedger => energy_ledger::picture(session, index),
+        View::ReturnMap => return_map::picture(session, index),
+        View::Regimes => regimes::picture(session, index),
+    }
+}
