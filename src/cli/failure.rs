@@ -4,6 +4,8 @@ use std::fmt;
 use std::io;
 use std::process::ExitCode;
 
+use crate::scene::misread::printable;
+
 /// Why a command did not answer.
 #[derive(Debug)]
 pub enum Failure {
@@ -44,7 +46,7 @@ impl Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Failure::Usage(line) | Failure::Unanswered(line) => out.write_str(line),
+            Failure::Usage(line) | Failure::Unanswered(line) => out.write_str(&printable(line)),
         }
     }
 }

@@ -185,7 +185,8 @@ fn time_to_infinity(a: f64, b: f64, v: f64) -> f64 {
     const LARGE: f64 = 100.0;
     let s = b * v / a;
     if s.abs() <= LARGE {
-        let bend = if s == 0.0 { 0.0 } else { s * (1.0 / s).ln_1p() };
+        // Below, 1/s would overflow; s ln(1/s) is nothing beside 1 long before.
+        let bend = if s.abs() < f64::MIN_POSITIVE { 0.0 } else { s * (1.0 / s).ln_1p() };
         return (1.0 - bend) / (a * v);
     }
     // 1/(b v^2) times the sum of (-1/s)^k/(k + 2).

@@ -1,5 +1,6 @@
 //! What is wrong in a file that people write, and where: one line, `file:line:column: message`.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::ops::Range;
 
@@ -21,11 +22,24 @@ pub struct Misread {
 impl fmt::Display for Misread {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { file, line, column, message } = self;
-        write!(out, "{file}:{line}:{column}: {message}")
+        write!(out, "{file}:{line}:{column}: {}", printable(message))
     }
 }
 
 impl std::error::Error for Misread {}
+
+/// The same text with its control characters written out: a message quotes what it complains about, and
+/// a terminal must not obey that.
+#[must_use]
+pub fn printable(message: &str) -> Cow<'_, str> {
+    if !message.contains(char::is_control) {
+        return message.into();
+    }
+    let written = message.chars().map(|char| {
+        if char.is_control() { char.escape_default().to_string() } else { char.to_string() }
+    });
+    written.collect::<String>().into()
+}
 
 /// A complaint about a part of a text, in bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]

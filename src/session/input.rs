@@ -64,7 +64,8 @@ impl Input {
     /// Deletes the word before the caret.
     pub fn delete_word(&mut self) {
         let (before, after) = self.halves();
-        let kept = before.trim_end().rfind(char::is_whitespace).map_or(0, |space| space + 1);
+        let word = |char: char| !char.is_whitespace();
+        let kept = before.trim_end().trim_end_matches(word).len();
         let (kept, after) = (before.get(..kept).unwrap_or_default(), after.to_owned());
         *self = Input::new(kept);
         self.text.push_str(&after);

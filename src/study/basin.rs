@@ -245,11 +245,22 @@ impl Basin {
     }
 
     /// Counts the fates of `columns` by `rows` starts, evenly spaced, the window's ends included.
-    #[must_use]
-    pub fn count(&self, window: &Window, columns: usize, rows: usize) -> Counts {
+    ///
+    /// # Errors
+    /// [`Reason::Interrupted`], asked for at each column.
+    pub fn count(
+        &self,
+        window: &Window,
+        columns: usize,
+        rows: usize,
+        limits: &Limits,
+    ) -> Result<Counts, Reason> {
         let mut counts = Counts::default();
         let velocities: Vec<f64> = (0..rows).map(|row| between(window.v, row, rows)).collect();
         for column in 0..columns {
+            if (limits.interrupted)() {
+                return Err(Reason::Interrupted);
+            }
             let q = between(window.q, column, columns);
             // The rows inside each border; nested, so that each takes what the inner ones left.
             let mut taken = 0;
@@ -264,7 +275,7 @@ impl Basin {
             }
             counts.add(self.fates[self.borders.len()], (rows - taken) as u64);
         }
-        counts
+        Ok(counts)
     }
 }
 
@@ -303,7 +314,7 @@ impl Survey {
     ) -> Result<Self, Reason> {
         let reach = window.q.0.abs().max(window.q.1.abs());
         let basin = basin(parameters, reach, limits)?;
-        let counts = basin.count(window, columns, rows);
+        let counts = basin.count(window, columns, rows, limits)?;
         #[expect(clippy::cast_precision_loss, reason = "at most 1e10 starts")]
         let captured = counts.captured as f64 / (columns * rows) as f64;
         Ok(Survey {

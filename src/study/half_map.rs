@@ -148,6 +148,14 @@ impl HalfMap {
         mut watch: impl FnMut(&Taylor, i32, f64),
     ) -> Result<HalfSwing, NoEnd> {
         self.swings += 1;
+        // A swing in closed form takes no steps, but thousands of them take time.
+        if (limits.interrupted)() {
+            return Err(NoEnd::Failed(Reason::Interrupted));
+        }
+        let spent = self.taylor.evaluations() + self.swings;
+        if spent > limits.evaluations {
+            return Err(NoEnd::Failed(Reason::Budget { evaluations: spent }));
+        }
         let mut leg = Leg { point: Point { x: -start.value, v: 0.0 }, duration: 0.0 };
         if self.linear_below > 0.0 && self.field.d < 1.0 {
             match Spiral::of(self.field.d).grow(start, self.linear_below) {

@@ -14,6 +14,7 @@ use super::message::{Effect, Purpose};
 use super::overlay::Completion;
 use super::state::Session;
 use super::update::{files, palette};
+use crate::scene::misread::printable;
 
 /// What a line does to a session, given the words behind its name; or one line that says why not.
 pub type RunLine = fn(&mut Session, &str) -> Result<Vec<Effect>, String>;
@@ -123,7 +124,9 @@ pub fn run(session: &mut Session, text: &str) -> Result<Vec<Effect>, String> {
         (Some(line), _) if rest.is_empty() => {
             Err(format!("{name} needs {}: {}", line.arguments, line.doc))
         }
-        (Some(line), _) => (line.run)(session, rest).map_err(|why| format!("{name}: {why}")),
+        (Some(line), _) => {
+            (line.run)(session, rest).map_err(|why| printable(&format!("{name}: {why}")).into())
+        }
         (None, Some(_)) => Err(format!("{name} takes no words, but there are {rest:?}")),
         (None, None) => Err(match nearest(name, names()) {
             Some(nearest) => format!("no command {name:?}; did you mean {nearest}?"),
@@ -152,7 +155,7 @@ fn nearest<'a>(wanted: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a
 /// What the last word of a text can become.
 #[must_use]
 pub fn completion(session: &Session, text: &str) -> Option<Completion> {
-    let start = text.rfind(char::is_whitespace).map_or(0, |space| space + 1);
+    let start = text.trim_end_matches(|char: char| !char.is_whitespace()).len();
     let (stem, word) = text.split_at(start);
     let words = match stem.split_whitespace().next() {
         None => names().map(str::to_owned).collect(),

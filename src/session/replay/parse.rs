@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::{Located, Script, Step, mouse};
+use crate::scene::misread::printable;
 use crate::session::key::{Code, Key};
 use crate::session::message::Gesture;
 
@@ -19,7 +20,7 @@ pub struct BadScript {
 
 impl fmt::Display for BadScript {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(out, "line {}, column {}: {}", self.line, self.column, self.message)
+        write!(out, "line {}, column {}: {}", self.line, self.column, printable(&self.message))
     }
 }
 
