@@ -74,7 +74,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(120))]
+    #![proptest_config(ProptestConfig::with_cases(600))]
 
     #[test]
     fn cycles_have_typed_answers(parameters in any_parameters()) {
