@@ -130,7 +130,7 @@ impl Context {
     /// Whether characters without a command are typed into a line.
     #[must_use]
     pub fn takes_text(self) -> bool {
-        matches!(self, Context::Search | Context::Entry | Context::Prompt)
+        matches!(self, Context::Search | Context::Palette | Context::Entry | Context::Prompt)
     }
 
     /// Whether this holds only while something is open or waited for.
@@ -192,7 +192,7 @@ pub const CHAINS: [&[Context]; 19] = [
     &[Context::Scenes, Context::Lists, Context::Always],
     &[Context::Layers, Context::Lists, Context::Always],
     &[Context::Views, Context::Lists, Context::Always],
-    &[Context::Palette, Context::Lists, Context::Always],
+    &[Context::Palette, Context::Always],
     &[Context::Count, Context::Always],
     &[Context::Letter, Context::Always],
     &[Context::Search, Context::Always],
@@ -218,12 +218,12 @@ impl Session {
                 Some(View::ReturnMap) => Context::ReturnMap,
                 Some(View::Regimes) => Context::Regimes,
             },
+            Some(Overlay::Palette(_)) => Context::Palette,
             Some(overlay) if overlay.list().is_some_and(|list| list.searching) => Context::Search,
             Some(Overlay::Help(_)) => Context::Help,
             Some(Overlay::Scenes(_)) => Context::Scenes,
             Some(Overlay::Layers(_)) => Context::Layers,
             Some(Overlay::Views(_)) => Context::Views,
-            Some(Overlay::Palette(_)) => Context::Palette,
             Some(Overlay::Entry(_)) => Context::Entry,
             Some(Overlay::Prompt(_)) => Context::Prompt,
             Some(Overlay::Offer(_)) => Context::Offer,
@@ -267,10 +267,18 @@ pub struct Hint {
     pub text: &'static str,
 }
 
+/// What a key means.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Binding {
+    command: &'static Command,
+    /// Where the key stands among those of the command.
+    rank: usize,
+}
+
 /// Which key means which command in each context.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Keymap {
-    bindings: BTreeMap<(Context, Key), &'static Command>,
+    bindings: BTreeMap<(Context, Key), Binding>,
 }
 
 impl Default for Keymap {
@@ -279,9 +287,9 @@ impl Default for Keymap {
         let mut bindings = BTreeMap::new();
         for command in COMMANDS {
             for (context, keys) in command.keys {
-                for key in keys.iter().filter_map(|text| text.parse().ok()) {
-                    bindings.insert((*context, key), command);
-                }
+                let keys = keys.iter().filter_map(|text| text.parse().ok()).enumerate();
+                bindings
+                    .extend(keys.map(|(rank, key)| ((*context, key), Binding { command, rank })));
             }
         }
         Keymap { bindings }
@@ -324,7 +332,7 @@ impl std::fmt::Display for Unbindable {
 impl Keymap {
     /// Takes all keys from a command in a context.
     pub fn unbind(&mut self, context: Context, command: &Command) {
-        self.bindings.retain(|(at, _), bound| *at != context || bound != &command);
+        self.bindings.retain(|(at, _), bound| *at != context || bound.command != command);
     }
 
     /// Gives a key to a command in a context.
@@ -345,33 +353,29 @@ impl Keymap {
             return Err(Unbindable::Types(key));
         }
         let taken = contexts.iter().find_map(|at| Some((*at, *self.bindings.get(&(*at, key))?)));
-        if let Some((context, bound)) = taken.filter(|(_, bound)| *bound != command) {
-            return Err(Unbindable::Clash { key, command: bound.name, context });
+        if let Some((context, bound)) = taken.filter(|(_, bound)| bound.command != command) {
+            return Err(Unbindable::Clash { key, command: bound.command.name, context });
         }
-        self.bindings.insert((context, key), command);
+        let rank = self.keys_in(context, command).count();
+        self.bindings.entry((context, key)).or_insert(Binding { command, rank });
         Ok(())
     }
 
     /// What a key means in contexts that hold together.
     #[must_use]
     pub fn command(&self, contexts: &[Context], key: Key) -> Option<&'static Command> {
-        contexts.iter().find_map(|context| self.bindings.get(&(*context, key)).copied())
+        let mut bound = contexts.iter().filter_map(|context| self.bindings.get(&(*context, key)));
+        bound.next().map(|bound| bound.command)
     }
 
-    /// The keys of a command in a context, in the order in which its row names them.
+    /// The keys of a command in a context, in the order in which they were given to it.
     pub fn keys_in(&self, context: Context, command: &Command) -> impl Iterator<Item = Key> {
-        let mut keys: Vec<Key> = self
-            .bindings
-            .iter()
-            .filter(|((at, _), bound)| *at == context && bound.name == command.name)
-            .map(|((_, key), _)| *key)
-            .collect();
-        let place = |key: &Key| {
-            let named = command.keys.iter().flat_map(|(_, keys)| keys.iter());
-            named.clone().position(|text| text.parse() == Ok(*key)).unwrap_or(usize::MAX)
-        };
-        keys.sort_by_key(place);
-        keys.into_iter()
+        let bound = self.bindings.iter();
+        let of_it = bound.filter(|((at, _), bound)| *at == context && bound.command == command);
+        let mut keys: Vec<(usize, Key)> =
+            of_it.map(|((_, key), bound)| (bound.rank, *key)).collect();
+        keys.sort_unstable();
+        keys.into_iter().map(|(_, key)| key)
     }
 
     /// The first key of the command with this name, for sentences that say what to press.

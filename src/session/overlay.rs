@@ -115,11 +115,12 @@ pub struct Completion {
 }
 
 impl List {
-    /// Whether a row with these words is among those searched for.
+    /// Whether a row with these texts, in which all searched words stand, is among those searched for.
     #[must_use]
     pub fn matches(&self, words: &[impl AsRef<str>]) -> bool {
-        let wanted = self.search.to_lowercase();
-        words.iter().any(|word| word.as_ref().to_lowercase().contains(&wanted))
+        let words: Vec<String> = words.iter().map(|word| word.as_ref().to_lowercase()).collect();
+        let found = |wanted: &str| words.iter().any(|word| word.contains(wanted));
+        self.search.to_lowercase().split_whitespace().all(found)
     }
 }
 

@@ -204,3 +204,14 @@ fn an_empty_line_does_nothing() {
     assert_eq!((desk.session.problem, &desk.session.lines), (before.problem, &before.lines));
     let _ = update(&mut desk.session, Msg::Idle);
 }
+
+#[test]
+fn the_palette_finds_what_has_all_the_words() {
+    let mut desk = Desk::open("plain");
+    desk.press("<space>mark<space>go");
+    let Some(Overlay::Palette(list)) = &desk.session.overlay else { panic!("the palette") };
+    let rows = desk.session.palette_rows(list);
+    let names: Vec<_> = rows.iter().map(|row| row.name()).collect();
+    assert_eq!(names[0], "go-to-mark");
+    assert!(names.contains(&"goto") && !names.contains(&"set-mark"), "{names:?}");
+}

@@ -19,7 +19,7 @@ fn the_cursor_moves_on_round_numbers_and_sets_the_start() {
     desk.press("<esc>");
     assert_eq!((desk.session.plots[0].cursor, desk.session.quit), (None, false));
     desk.press("<enter>");
-    assert_eq!(desk.notice(), "no cursor yet: the arrows show it and move it");
+    assert_eq!(desk.notice(), "no cursor yet: <left>, <up> and so on show it");
 }
 
 #[test]

@@ -4,10 +4,9 @@ use std::sync::Arc;
 
 use super::desk::show;
 use super::general::{open_scene, toggle};
-use super::palette::{self, PaletteRow};
+use super::palette::PaletteRow;
 use crate::scene::{LAYERS, LayerSpec, Scene, VIEWS, ViewSpec, library};
 use crate::session::command::{COMMANDS, Command};
-use crate::session::key::Key;
 use crate::session::line::LINES;
 use crate::session::message::Effect;
 use crate::session::overlay::{List, Overlay};
@@ -116,22 +115,18 @@ pub fn search(session: &mut Session) -> Vec<Effect> {
 }
 
 /// Ends the search and keeps the rows found; what is to be picked is picked at once.
-pub fn search_done(session: &mut Session, key: Key) -> Vec<Effect> {
+pub fn search_done(session: &mut Session) -> Vec<Effect> {
     if let Some(list) = session.list_mut() {
         list.searching = false;
     }
     match session.overlay {
         Some(Overlay::Scenes(_) | Overlay::Views(_)) => choose(session),
-        Some(Overlay::Palette(_)) => palette::choose(session, key),
         _ => Vec::new(),
     }
 }
 
-/// Ends the search and shows all rows; the palette is a search and nothing else, and closes.
+/// Ends the search and shows all rows.
 pub fn search_drop(session: &mut Session) -> Vec<Effect> {
-    if matches!(session.overlay, Some(Overlay::Palette(_))) {
-        session.overlay = None;
-    }
     if let Some(list) = session.list_mut() {
         *list = List::default();
     }

@@ -82,6 +82,11 @@ pub(in crate::session) fn inform(session: &mut Session, text: impl Into<String>)
     session.notice = Some(Notice { error: false, text: text.into() });
 }
 
+/// A sentence in which `{command}` stands for the key of that command.
+pub(super) fn told(session: &Session, sentence: &str) -> String {
+    session.keymap.fill(sentence, |key| key.to_string())
+}
+
 /// Shows a line that says what was refused.
 pub(super) fn refuse(session: &mut Session, text: impl Into<String>) {
     session.notice = Some(Notice { error: true, text: text.into() });

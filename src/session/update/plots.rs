@@ -1,7 +1,7 @@
 //! Commands of the plots: cursor, zoom, pan, and taking the point under the cursor.
 
 use super::parameters::change;
-use super::{inform, refuse};
+use super::{inform, refuse, told};
 use crate::flow::Problem;
 use crate::oscillator::State;
 use crate::scene::{Exhibit, Point, Span, View, Window};
@@ -148,7 +148,8 @@ pub fn home(session: &mut Session) -> Vec<Effect> {
 fn cursor(session: &mut Session) -> Option<Point> {
     let cursor = session.focused().and_then(|plot| plot.cursor);
     if cursor.is_none() {
-        refuse(session, "no cursor yet: the arrows show it and move it");
+        let text = "no cursor yet: {cursor-left}, {cursor-up} and so on show it";
+        refuse(session, told(session, text));
     }
     cursor
 }

@@ -1,7 +1,7 @@
 //! Starts on either side of the edge of the basin: what is captured, and what is not.
 
 use super::parameters::change;
-use super::refuse;
+use super::{refuse, told};
 use crate::flow::Problem;
 use crate::oscillator::State;
 use crate::scene::Slot;
@@ -25,7 +25,7 @@ pub fn beside_edge(session: &mut Session, factor: f64) -> Vec<Effect> {
             let initial = State { q, v: 0.0 };
             change(session, Problem { initial, ..session.problem });
         }
-        Err(why) => refuse(session, why),
+        Err(why) => refuse(session, told(session, why)),
     }
     Vec::new()
 }
@@ -45,7 +45,7 @@ fn beside(session: &Session, factor: f64) -> Result<f64, &'static str> {
         return Err(if session.is_busy() {
             "the cycles are still being computed"
         } else {
-            "the cycles are not computed: c shows them"
+            "the cycles are not computed: {toggle-cycles} shows them"
         });
     }
     let edge = session.cycles().and_then(edge);

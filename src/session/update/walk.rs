@@ -1,7 +1,7 @@
 //! Walking along the branch: a point is held, moved along, and taken into the phase plane.
 
 use super::parameters::change;
-use super::{inform, refuse};
+use super::{inform, refuse, told};
 use crate::oscillator::State;
 use crate::scene::{Axes, Layer, Slot};
 use crate::session::message::Effect;
@@ -46,7 +46,8 @@ fn first(session: &Session) -> Result<Stop, &'static str> {
 pub fn go(session: &mut Session, count: isize) -> Vec<Effect> {
     let further = |way: &Way, held: &Stop| way.further(held, count);
     if !moved(session, further) {
-        inform(session, "the branch ends here; tab goes on to the next special point or end");
+        let text = "the branch ends here; {walk-to-next} goes on to the next special point or end";
+        inform(session, told(session, text));
     }
     Vec::new()
 }
