@@ -44,9 +44,25 @@ impl Session {
         let lines =
             LINES.iter().filter(|line| list.matches(&[line.name, line.doc])).map(PaletteRow::Line);
         let mut rows: Vec<PaletteRow> = commands.chain(lines).collect();
-        rows.sort_by_key(|row| !list.matches(&[row.name()]));
+        rows.sort_by_key(|row| rank(*row, &list.search.to_lowercase()));
         rows
     }
+}
+
+/// How far down a row stands that has the searched words: those come first that are called so.
+fn rank(row: PaletteRow, search: &str) -> usize {
+    let doc = match row {
+        PaletteRow::Command(command) => command.doc,
+        PaletteRow::Line(line) => line.doc,
+    };
+    let (name, search) = (row.name(), search.trim());
+    let tests = [
+        name == search,
+        name.starts_with(search),
+        name.contains(search),
+        doc.to_lowercase().contains(search),
+    ];
+    tests.iter().position(|test| *test).unwrap_or(tests.len())
 }
 
 /// Opens the palette; what is typed searches it.
