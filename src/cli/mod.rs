@@ -22,6 +22,7 @@ mod places;
 mod progress;
 mod replay;
 mod scan;
+mod scene_cost;
 mod scenes;
 mod start;
 mod timing;

@@ -7,10 +7,10 @@ use clap::Args;
 use super::failure::Failure;
 use super::input;
 use crate::flow::method::{EPSILON_RANGE, STEP_RANGE};
+use crate::flow::quality::TOLERANCE_RANGE;
 use crate::flow::{METHODS, Method, Problem};
 use crate::oscillator::{PARAMETERS, Symbol};
 use crate::scene::Scene;
-use crate::scene::file::TOLERANCE_RANGE;
 use crate::scene::library::{PLAIN, find};
 
 /// Which motion is meant.

@@ -7,6 +7,7 @@ pub mod csv;
 pub mod extremes;
 pub mod json;
 pub mod scan;
+pub mod scene_cost;
 pub mod screen;
 pub mod table;
 pub mod trade;

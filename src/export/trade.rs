@@ -19,6 +19,7 @@ use crate::view::look::Role;
 use crate::view::number::{count, duration, significant};
 use crate::view::pane::Heading;
 use crate::view::plot::{Names, Plot};
+use crate::view::trade::letter;
 
 /// A trade with the seconds that each row took, measured by someone with a clock.
 #[derive(Clone, Debug)]
@@ -352,22 +353,6 @@ fn growth(rows: &[&Row]) -> Option<f64> {
     #[expect(clippy::cast_precision_loss, reason = "counts far below 2^53")]
     let factor = best.evaluations as f64 / worst.evaluations as f64;
     (digits >= 1.0).then(|| factor.powf(1.0 / digits))
-}
-
-/// The letter of a method in the plot.
-fn letter(method: Method) -> char {
-    match method {
-        Method::Auto => 'a',
-        Method::Exact => 'e',
-        Method::Taylor => 't',
-        Method::Dop853 => '8',
-        Method::Dopri5 => '5',
-        Method::Rk4 => '4',
-        Method::Stiff => 'i',
-        Method::Smoothed => '~',
-        Method::SignRk4 => 's',
-        Method::TimeStepping => 'm',
-    }
 }
 
 /// The logarithm of the error over that of the time, one letter a row; later methods lie below.

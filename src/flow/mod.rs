@@ -10,6 +10,7 @@ pub mod explicit;
 pub mod limits;
 pub mod method;
 pub mod precise;
+pub mod quality;
 pub mod regularized;
 pub mod run;
 pub mod scaling;
@@ -25,4 +26,5 @@ pub mod without_events;
 
 pub use limits::{Limits, Reason};
 pub use method::{METHODS, Method, MethodSpec};
+pub use quality::{QUALITIES, Quality};
 pub use trajectory::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory};

@@ -1,15 +1,18 @@
 //! Answers to requests.
 
 use super::request::Request;
+use crate::flow::quality::DRAFT;
 use crate::flow::trajectory::trajectory;
-use crate::flow::{Cost, Detail, Limits, Reason, Trajectory};
+use crate::flow::{Cost, Detail, Limits, Problem, Reason, Trajectory};
 use crate::oscillator::State;
+use crate::study::accuracy::Reference;
 use crate::study::branch::branch;
 use crate::study::capture::bands;
 use crate::study::chart::{Chart, chart};
 use crate::study::cycle::cycles;
 use crate::study::harmonic_error::{HarmonicBalance, harmonic_balance};
 use crate::study::return_map::return_map;
+use crate::study::trade::Trade;
 use crate::study::{Branch, Cycles, ReturnMap};
 
 /// What the worker found.
@@ -31,6 +34,10 @@ pub enum Answer {
     Regimes(Chart),
     /// To [`Request::Family`]: in its order, each for itself.
     Family(Vec<Result<Answer, Reason>>),
+    /// To [`Request::Trade`].
+    Trade(Box<Trade>),
+    /// To [`Request::Reference`]; why there is none, where it would take too long.
+    Reference(Result<Box<Reference>, Reason>),
 }
 
 /// The borders between bands of capture, to be drawn.
@@ -89,6 +96,15 @@ const MAP_POINTS: u16 = 128;
 /// Lines of a chart of regimes, evenly spaced; borders between them are interpolated.
 const CHART_LINES: usize = 40;
 
+/// The same at draft quality: the picture of them hardly differs.
+const DRAFT_POINTS: usize = 40;
+
+/// Evaluations that a reference may take in the explorer: beyond, the energy ledger must do.
+const REFERENCE: u64 = 4_000_000;
+
+/// Evaluations that a row of the trade may take on the screen; the command line waits longer.
+const ROW: u64 = 1_000_000;
+
 /// Answers a request: the only place where a question becomes a computation.
 ///
 /// # Errors
@@ -111,8 +127,23 @@ pub fn answer(request: &Request, limits: &Limits) -> Result<Answer, Reason> {
             harmonic_balance(parameters, *harmonics, CURVE_POINTS, limits).map(Answer::Balance)
         }
         Request::Branch { parameters, parameter, range, tolerance } => {
-            branch(parameters, *parameter, *range, BRANCH_POINTS, *tolerance, limits)
-                .map(Answer::Branch)
+            let points = if *tolerance < DRAFT.tolerance { BRANCH_POINTS } else { DRAFT_POINTS };
+            branch(parameters, *parameter, *range, points, *tolerance, limits).map(Answer::Branch)
+        }
+        Request::Trade { parameters, initial, until } => {
+            let (parameters, initial, until) = (*parameters, *initial, *until);
+            let problem = Problem { parameters, initial, until, ..Problem::default() };
+            let limits = Limits { evaluations: limits.evaluations.min(ROW), ..*limits };
+            Trade::of(&problem, &limits).map(Box::new).map(Answer::Trade)
+        }
+        Request::Reference { parameters, initial, until } => {
+            let (parameters, initial, until) = (*parameters, *initial, *until);
+            let problem = Problem { parameters, initial, until, ..Problem::default() };
+            let limits = Limits { evaluations: limits.evaluations.min(REFERENCE), ..*limits };
+            match Reference::of(&problem, &limits) {
+                Err(Reason::Interrupted) => Err(Reason::Interrupted),
+                found => Ok(Answer::Reference(found.map(Box::new))),
+            }
         }
         Request::ReturnMap { parameters, range } => {
             return_map(parameters, *range, MAP_POINTS, limits).map(Answer::ReturnMap)
@@ -146,6 +177,10 @@ impl Answer {
                 let mut sum = Cost::default();
                 answers.iter().flatten().for_each(|answer| sum += answer.cost());
                 sum
+            }
+            Answer::Trade(answer) => answer.cost(),
+            Answer::Reference(answer) => {
+                answer.as_ref().map_or(Cost::default(), |found| found.cost)
             }
         }
     }

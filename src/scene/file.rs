@@ -12,14 +12,12 @@ use super::scene::{Scene, TOLERANCE, UNTIL, Variant};
 use super::views::{Arrangement, Axes, Exhibit, MOST_PLOTS, View};
 use super::window::{Span, Window};
 use crate::flow::method::{EPSILON, EPSILON_RANGE, STEP, STEP_RANGE};
+pub use crate::flow::quality::TOLERANCE_RANGE;
 use crate::flow::{Method, Problem};
 use crate::oscillator::{PARAMETERS, Parameters, State, Symbol};
 
 /// End times up to which motions are computed.
 pub const UNTIL_RANGE: (f64, f64) = (0.0, 1e9);
-
-/// Tolerances that make sense for double precision.
-pub const TOLERANCE_RANGE: (f64, f64) = (1e-15, 1e-2);
 
 /// The file as it stands on disk.
 #[derive(Deserialize)]

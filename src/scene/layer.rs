@@ -64,6 +64,10 @@ pub enum Layer {
     Borders,
     /// The border by one harmonic (48).
     HarmonicBorder,
+    /// Error over cost, method by method.
+    Rows,
+    /// The best choices among them.
+    Front,
 }
 
 /// One row of [`LAYERS`].
@@ -84,7 +88,7 @@ pub struct LayerSpec {
 }
 
 /// Every layer, in the order in which they are listed.
-pub const LAYERS: [LayerSpec; 26] = [
+pub const LAYERS: [LayerSpec; 28] = [
     LayerSpec {
         layer: Layer::Trajectory,
         name: "trajectory",
@@ -291,6 +295,22 @@ pub const LAYERS: [LayerSpec; 26] = [
         view: View::Regimes,
         meaning: "the fold by one harmonic (48)",
         needs: Some(Slot::Regimes),
+        usual: false,
+    },
+    LayerSpec {
+        layer: Layer::Rows,
+        name: "rows",
+        view: View::Trade,
+        meaning: "every method over its tolerances, steps or widths",
+        needs: Some(Slot::Trade),
+        usual: true,
+    },
+    LayerSpec {
+        layer: Layer::Front,
+        name: "front",
+        view: View::Trade,
+        meaning: "the best choices: nothing else is better for less",
+        needs: Some(Slot::Trade),
         usual: true,
     },
 ];

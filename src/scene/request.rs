@@ -1,7 +1,8 @@
 //! Requests: exactly the inputs that a layer depends on, so that equal requests need no new answer.
 
-use crate::flow::Problem;
-use crate::oscillator::{Parameters, Symbol};
+use crate::flow::quality::DRAFT;
+use crate::flow::{Method, Problem};
+use crate::oscillator::{Parameters, State, Symbol};
 use crate::study::chart::Plane;
 
 /// A question to the worker. Two equal requests have the same answer.
@@ -57,6 +58,24 @@ pub enum Request {
     },
     /// All of these, for a plot that shows several variants.
     Family(Vec<Request>),
+    /// What accuracy costs on this motion: every method over its tolerances.
+    Trade {
+        /// The parameters.
+        parameters: Parameters,
+        /// The start.
+        initial: State,
+        /// The end time.
+        until: f64,
+    },
+    /// The motion to more digits than any method gives: what its error is measured against.
+    Reference {
+        /// The parameters.
+        parameters: Parameters,
+        /// The start.
+        initial: State,
+        /// The end time.
+        until: f64,
+    },
 }
 
 /// The kind of a request.
@@ -81,10 +100,14 @@ pub enum Slot {
     Regimes,
     /// Several questions, one for each variant that a plot shows.
     Family,
+    /// What accuracy costs.
+    Trade,
+    /// What errors are measured against: wanted last of all.
+    Reference,
 }
 
 /// Every kind, the most urgent first.
-pub const SLOTS: [Slot; 8] = [
+pub const SLOTS: [Slot; 10] = [
     Slot::Trajectory,
     Slot::Cycles,
     Slot::Capture,
@@ -93,6 +116,8 @@ pub const SLOTS: [Slot; 8] = [
     Slot::ReturnMap,
     Slot::Regimes,
     Slot::Family,
+    Slot::Trade,
+    Slot::Reference,
 ];
 
 impl Slot {
@@ -117,6 +142,8 @@ impl Slot {
             Slot::ReturnMap => "return map",
             Slot::Regimes => "regimes",
             Slot::Family => "family",
+            Slot::Trade => "trade",
+            Slot::Reference => "reference",
         }
     }
 }
@@ -134,6 +161,40 @@ impl Request {
             Request::ReturnMap { .. } => Slot::ReturnMap,
             Request::Regimes { .. } => Slot::Regimes,
             Request::Family(_) => Slot::Family,
+            Request::Trade { .. } => Slot::Trade,
+            Request::Reference { .. } => Slot::Reference,
+        }
+    }
+
+    /// The same question, to be answered quickly and roughly first; `None` where it is rough already, or
+    /// where roughness saves nothing.
+    #[must_use]
+    pub fn draft(&self) -> Option<Request> {
+        match self {
+            Request::Trajectory(problem) => {
+                let (rough, linear) =
+                    (problem.at(&DRAFT), problem.parameters.is_piecewise_linear());
+                let closed = matches!(problem.method, Method::Exact)
+                    || (problem.method == Method::Auto && linear);
+                let finer = problem.setting() < rough.setting();
+                (finer && !closed).then_some(Request::Trajectory(rough))
+            }
+            Request::Branch { parameters, parameter, range, tolerance } => {
+                (*tolerance < DRAFT.tolerance).then_some(Request::Branch {
+                    parameters: *parameters,
+                    parameter: *parameter,
+                    range: *range,
+                    tolerance: DRAFT.tolerance,
+                })
+            }
+            Request::Cycles { .. }
+            | Request::Capture { .. }
+            | Request::Balance { .. }
+            | Request::ReturnMap { .. }
+            | Request::Regimes { .. }
+            | Request::Family(_)
+            | Request::Trade { .. }
+            | Request::Reference { .. } => None,
         }
     }
 

@@ -28,6 +28,8 @@ pub enum View {
     ReturnMap,
     /// What becomes of kicks, over two parameters.
     Regimes,
+    /// The error of every method over its cost.
+    Trade,
 }
 
 /// One row of [`VIEWS`].
@@ -46,7 +48,7 @@ pub struct ViewSpec {
 }
 
 /// Every view, in the order in which they are listed and the keys visit them.
-pub const VIEWS: [ViewSpec; 6] = [
+pub const VIEWS: [ViewSpec; 7] = [
     ViewSpec {
         view: View::Phase,
         name: "phase",
@@ -88,6 +90,13 @@ pub const VIEWS: [ViewSpec; 6] = [
         title: "regimes",
         meaning: "what becomes of kicks, over two parameters",
         window: Window { x: Span::known(-0.9, 0.1), y: Span::known(-1.0, 1.0) },
+    },
+    ViewSpec {
+        view: View::Trade,
+        name: "trade",
+        title: "trade",
+        meaning: "error over cost: what accuracy costs, by every method",
+        window: Window { x: Span::known(1.0, 6.0), y: Span::known(-17.0, 1.0) },
     },
 ];
 

@@ -7,7 +7,7 @@ use super::key::Key;
 use super::keymap::Context::{
     self, Always, Count, Diagram, EnergyLedger, Entry, Everywhere, Help, Layers, Letter, Lists,
     Offer, Palette, Parameters, Phase, Plots, Prompt, Regimes, ReturnMap, Scenes, Search,
-    TimeSeries, Views, Walk,
+    TimeSeries, Trade, Views, Walk,
 };
 use super::message::Effect;
 use super::pending::{self, Letter as Ask};
@@ -93,6 +93,8 @@ pub const COMMANDS: &[Command] = &[
         "Start the motion at the cursor", |s, _| plots::start_here(s)),
     row("start-on-cycle", &[(EnergyLedger, &["<enter>"])], "start there",
         "Start the motion on the cycle that the cursor is at", |s, _| plots::start_here(s)),
+    row("use-method", &[(Trade, &["<enter>"])], "use this method",
+        "Integrate by the method and at the accuracy under the cursor", |s, _| plots::use_method(s)),
     row("jump-here", &[(Diagram, &["<enter>"])], "jump here",
         "Give the diagram's parameter the value under the cursor", |s, _| plots::jump_here(s)),
 
@@ -206,9 +208,9 @@ pub const COMMANDS: &[Command] = &[
     row("reset-scene", &[(Everywhere, &["R"])], "",
         "Bring the scene back as it was opened", |s, _| general::reset_scene(s)),
     row("coarser", &[(Everywhere, &["{"])], "",
-        "Compute less exactly: ten times the tolerance", |s, _| parameters::dial(s, 1)),
+        "Compute less exactly: reference, fine, normal, draft", |s, _| parameters::dial(s, false)),
     row("finer", &[(Everywhere, &["}"])], "",
-        "Compute more exactly: a tenth of the tolerance", |s, _| parameters::dial(s, -1)),
+        "Compute more exactly: draft, normal, fine, reference", |s, _| parameters::dial(s, true)),
     row("next-method", &[(Everywhere, &["m"])], "",
         "Integrate by the next method", |s, _| parameters::next_method(s, 1)),
 
@@ -268,6 +270,10 @@ pub const COMMANDS: &[Command] = &[
         "Show or hide the computed borders", |s, _| general::toggle(s, Layer::Borders)),
     row("toggle-harmonic-border", &[(Regimes, &["P"])], "",
         "Show or hide the border by one harmonic (48)", |s, _| general::toggle(s, Layer::HarmonicBorder)),
+    row("toggle-rows", &[(Trade, &["E"])], "",
+        "Show or hide the error of every method over its cost", |s, _| general::toggle(s, Layer::Rows)),
+    row("toggle-front", &[(Trade, &["F"])], "",
+        "Show or hide the best choices", |s, _| general::toggle(s, Layer::Front)),
 
     row("count", &[(Plots, DIGITS), (Walk, DIGITS), (Lists, DIGITS), (Count, MORE_DIGITS)], "",
         "A digit: press the next key so many times, as one change", pending::count),
@@ -295,6 +301,8 @@ pub const COMMANDS: &[Command] = &[
     row("forget-interrupted", &[(Everywhere, &["<f4>"])], "",
         "Offer the interrupted session no longer", |s, _| files::forget(s)),
 
+    row("costs", &[(Everywhere, &["$"])], "",
+        "List what the picture costs, and what each step asks anew", |s, _| lists::open_cost(s)),
     row("retry", &[(Everywhere, &["<f5>"])], "",
         "Compute again what has failed", |s, _| general::retry(s)),
     row("copy-command", &[(Always, &["<C-y>"])], "",
@@ -311,7 +319,7 @@ pub const COMMANDS: &[Command] = &[
         "Drop the cursor; never leaves, never discards", |s, _| plots::drop_cursor(s)),
     row("back", &[(Lists, &["<esc>", "q"]), (Entry, &["<esc>"]), (Prompt, &["<esc>"]), (Palette, &["<esc>"]), (Offer, &["<esc>"])], "close",
         "Close what is open", |s, _| general::back(s)),
-    row("close-again", &[(Help, &["?", "<f1>"]), (Scenes, &["s"]), (Layers, &["v"]), (Views, &["V"])], "",
+    row("close-again", &[(Help, &["?", "<f1>", "$"]), (Scenes, &["s"]), (Layers, &["v"]), (Views, &["V"])], "",
         "Close with the key that opened", |s, _| general::back(s)),
     row("quit", &[(Everywhere, &["q"]), (Walk, &["q"]), (Always, &["<C-c>"])], "quit",
         "Leave", |s, _| general::quit(s)),

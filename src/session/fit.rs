@@ -7,6 +7,7 @@ use crate::oscillator::energy::energy;
 use crate::oscillator::{State, Symbol};
 use crate::scene::ordinate::usual_values;
 use crate::scene::{Axes, Layer, Point, Span, View, Window};
+use crate::study::trade::Row;
 
 /// Room around what is fitted, as a factor of its width.
 const ROOM: f64 = 1.1;
@@ -42,6 +43,7 @@ pub(super) fn resolve(session: &mut Session) {
             View::EnergyLedger => energy_ledger(session),
             View::ReturnMap => return_map(session),
             View::Regimes => regimes(session, index),
+            View::Trade => trade(session),
         };
         let of_scene = session.exhibit_of_scene(index, view);
         let plot = &mut session.plots[index];
@@ -56,6 +58,14 @@ pub(super) fn resolve(session: &mut Session) {
 fn is_pending(session: &Session, plot: usize) -> bool {
     let requests = session.needs(plot).into_iter().filter_map(|slot| session.request(slot, plot));
     requests.into_iter().any(|request| session.is_open(&request))
+}
+
+/// Every row of the trade.
+fn trade(session: &Session) -> Option<Window> {
+    let places: Vec<_> = session.trade()?.rows.iter().filter_map(Row::place).collect();
+    let x = Span::covering(places.iter().map(|place| place.0))?;
+    let y = Span::covering(places.iter().map(|place| place.1))?;
+    Some(Window { x: x.scaled(x.center(), ROOM), y: y.scaled(y.center(), ROOM) })
 }
 
 /// Around the motion, the cycles and the sticking set.

@@ -29,6 +29,8 @@ pub enum Context {
     ReturnMap,
     /// The focus is on a chart of regimes.
     Regimes,
+    /// The focus is on the trade of error for cost.
+    Trade,
     /// A point of the branch is held.
     Walk,
     /// The focus is on a plot.
@@ -64,7 +66,7 @@ pub enum Context {
 }
 
 /// Every context with its name in settings files.
-pub const CONTEXTS: [(Context, &str); 23] = [
+pub const CONTEXTS: [(Context, &str); 24] = [
     (Context::Parameters, "parameters"),
     (Context::Phase, "phase"),
     (Context::Diagram, "diagram"),
@@ -72,6 +74,7 @@ pub const CONTEXTS: [(Context, &str); 23] = [
     (Context::EnergyLedger, "energy-ledger"),
     (Context::ReturnMap, "return-map"),
     (Context::Regimes, "regimes"),
+    (Context::Trade, "trade"),
     (Context::Walk, "walk"),
     (Context::Plots, "plots"),
     (Context::Everywhere, "everywhere"),
@@ -108,10 +111,11 @@ impl Context {
             Context::EnergyLedger => "Energy ledger",
             Context::ReturnMap => "Return map",
             Context::Regimes => "Chart of regimes",
+            Context::Trade => "Trade of error for cost",
             Context::Walk => "Walking along the branch",
             Context::Plots => "Every plot",
             Context::Everywhere => "Everywhere",
-            Context::Help => "In this help",
+            Context::Help => "In this help and the list of costs",
             Context::Scenes => "In the scene picker",
             Context::Layers => "In the layer list",
             Context::Views => "In the picker of views",
@@ -156,6 +160,7 @@ impl Context {
             | Context::EnergyLedger
             | Context::ReturnMap
             | Context::Regimes
+            | Context::Trade
             | Context::Walk
             | Context::Plots
             | Context::Everywhere
@@ -173,13 +178,14 @@ impl Context {
             Context::EnergyLedger => Some(View::EnergyLedger),
             Context::ReturnMap => Some(View::ReturnMap),
             Context::Regimes => Some(View::Regimes),
+            Context::Trade => Some(View::Trade),
             _ => None,
         }
     }
 }
 
 /// Every set of contexts that can hold together, the most specific first.
-pub const CHAINS: [&[Context]; 19] = [
+pub const CHAINS: [&[Context]; 20] = [
     &[Context::Parameters, Context::Everywhere, Context::Always],
     &[Context::Phase, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Diagram, Context::Plots, Context::Everywhere, Context::Always],
@@ -187,6 +193,7 @@ pub const CHAINS: [&[Context]; 19] = [
     &[Context::EnergyLedger, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::ReturnMap, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Regimes, Context::Plots, Context::Everywhere, Context::Always],
+    &[Context::Trade, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Walk, Context::Always],
     &[Context::Help, Context::Lists, Context::Always],
     &[Context::Scenes, Context::Lists, Context::Always],
@@ -217,10 +224,12 @@ impl Session {
                 Some(View::EnergyLedger) => Context::EnergyLedger,
                 Some(View::ReturnMap) => Context::ReturnMap,
                 Some(View::Regimes) => Context::Regimes,
+                Some(View::Trade) => Context::Trade,
             },
             Some(Overlay::Palette(_)) => Context::Palette,
             Some(overlay) if overlay.list().is_some_and(|list| list.searching) => Context::Search,
-            Some(Overlay::Help(_)) => Context::Help,
+            // Both are read and closed; neither is chosen from.
+            Some(Overlay::Help(_) | Overlay::Cost(_)) => Context::Help,
             Some(Overlay::Scenes(_)) => Context::Scenes,
             Some(Overlay::Layers(_)) => Context::Layers,
             Some(Overlay::Views(_)) => Context::Views,

@@ -15,12 +15,14 @@ pub mod overlay;
 pub mod pending;
 pub mod plot;
 pub mod replay;
+pub mod requirement;
 pub mod save;
 pub mod settings;
 pub mod state;
 pub mod step;
 #[cfg(test)]
 mod tests;
+pub mod trade;
 pub mod update;
 pub mod variants;
 pub mod walk;

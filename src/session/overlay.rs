@@ -17,6 +17,8 @@ pub enum Overlay {
     Views(List),
     /// All commands, to search one and run it.
     Palette(List),
+    /// What the picture costs, question by question.
+    Cost(List),
     /// A line in which a value is typed.
     Entry(Entry),
     /// The line in which commands are typed by name.
@@ -34,6 +36,7 @@ impl Overlay {
             | Overlay::Scenes(list)
             | Overlay::Layers(list)
             | Overlay::Views(list)
+            | Overlay::Cost(list)
             | Overlay::Palette(list) => Some(list),
             Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Offer(_) => None,
         }
@@ -46,6 +49,7 @@ impl Overlay {
             | Overlay::Scenes(list)
             | Overlay::Layers(list)
             | Overlay::Views(list)
+            | Overlay::Cost(list)
             | Overlay::Palette(list) => Some(list),
             Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Offer(_) => None,
         }

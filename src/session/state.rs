@@ -35,7 +35,7 @@ pub enum Row {
     Until,
     /// How to integrate.
     Method,
-    /// Relative error of a step.
+    /// What sets the accuracy of the method: relative error of a step, its length, or a width.
     Tolerance,
 }
 
@@ -61,6 +61,15 @@ impl Row {
             Row::Until => "until",
             Row::Method => "method",
             Row::Tolerance => "tolerance",
+        }
+    }
+
+    /// The name on the screen where a motion is computed by a method of its own dial.
+    #[must_use]
+    pub fn name_in(self, problem: &Problem) -> &'static str {
+        match self {
+            Row::Tolerance => problem.method.spec().dial.name(),
+            row => row.name(),
         }
     }
 }
@@ -154,6 +163,15 @@ impl Price {
     }
 }
 
+/// What answers take, and whether their error is looked at.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Effort {
+    /// Evaluations that the last answer of each kind took, drafts aside.
+    pub burdens: BTreeMap<Slot, u64>,
+    /// Whether the last key turned the dial or changed the method: then the error is measured.
+    pub measuring: bool,
+}
+
 /// A line for the user.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Notice {
@@ -223,6 +241,8 @@ pub struct Session {
     pub failures: Vec<(Request, Failure)>,
     /// What the last key press cost.
     pub price: Price,
+    /// What answers take, and whether their error is looked at.
+    pub effort: Effort,
     /// A line for the user.
     pub notice: Option<Notice>,
     /// Which key means which command.
@@ -263,6 +283,7 @@ impl Session {
             answers: BTreeMap::new(),
             failures: Vec::new(),
             price: Price::default(),
+            effort: Effort::default(),
             notice: None,
             keymap: Arc::new(Keymap::default()),
             look: Look::default(),

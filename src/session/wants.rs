@@ -7,16 +7,21 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use super::plot::Framing;
-use super::state::{Recomputed, Session};
+use super::plot::{Framing, Pane};
+use super::state::{Recomputed, Row, Session};
 use super::variants::MEMBERS;
 use crate::flow::{Problem, Reason, Trajectory};
 use crate::oscillator::Symbol;
 use crate::scene::answer::{Borders, Failure};
 use crate::scene::{Answer, Answered, Axes, Layer, Request, SLOTS, Slot, Span, View, Window};
+use crate::study::accuracy::{Deviation, Reference};
 use crate::study::chart::{Chart, Plane};
 use crate::study::harmonic_error::HarmonicBalance;
 use crate::study::{Branch, Cycles, ReturnMap};
+
+/// Evaluations beyond which an answer may take longer than a quarter of a frame: the next question of its
+/// kind is answered by a draft first.
+const LONG: u64 = 100_000;
 
 /// Bands of capture that are drawn at most: more would fill the plane.
 const MOST_BANDS: usize = 24;
@@ -24,6 +29,10 @@ const MOST_BANDS: usize = 24;
 impl Session {
     /// The questions that what is on show needs answered, the most urgent first; nothing for a layer
     /// that is off, nothing twice.
+    ///
+    /// A question that took long last time is preceded by its draft until one of them is answered: the
+    /// picture follows the keys first and refines then. What the error of the motion is measured against
+    /// comes last of all.
     #[must_use]
     pub fn wants(&self) -> Vec<Request> {
         let needed: BTreeSet<(Slot, usize)> = self
@@ -36,7 +45,27 @@ impl Session {
                 wanted.push(request);
             }
         }
-        wanted
+        let drafts: Vec<Request> =
+            wanted.iter().filter_map(|request| self.draft(request)).collect();
+        let last = self.measures().then(|| self.request(Slot::Reference, self.plot)).flatten();
+        drafts.into_iter().chain(wanted).chain(last).collect()
+    }
+
+    /// The draft of a question, if it is worth having first.
+    fn draft(&self, request: &Request) -> Option<Request> {
+        let long = self.effort.burdens.get(&request.slot()).is_some_and(|cost| *cost > LONG);
+        let open = || self.is_open(request);
+        request.draft().filter(|draft| long && open() && self.is_open(draft))
+    }
+
+    /// Whether the error of the motion on show is to be measured: while the user rests on the dial or the
+    /// method, or has just turned them.
+    #[must_use]
+    pub fn measures(&self) -> bool {
+        let rests = self.focus == Pane::Parameters
+            && self.overlay.is_none()
+            && matches!(self.selected, Row::Method | Row::Tolerance);
+        (rests || self.effort.measuring) && self.shows(Layer::Trajectory)
     }
 
     /// The kinds of answers that the layers of a plot draw.
@@ -72,6 +101,14 @@ impl Session {
             Slot::Trajectory => Request::Trajectory(problem),
             Slot::Cycles => Request::Cycles { parameters },
             Slot::Balance => Request::Balance { parameters, harmonics: self.harmonics },
+            Slot::Trade => {
+                let Problem { initial, until, .. } = self.problem;
+                Request::Trade { parameters, initial, until }
+            }
+            Slot::Reference => {
+                let Problem { initial, until, .. } = self.problem;
+                Request::Reference { parameters, initial, until }
+            }
             Slot::Capture if parameters.r == 0.0 => return None,
             Slot::Capture => {
                 let reach = reach(own(View::Phase)?.window);
@@ -142,6 +179,13 @@ impl Session {
         self.answered(slot, plot).map(|held| &held.request) != self.request(slot, plot).as_ref()
     }
 
+    /// Whether what a plot has of a kind is the draft of the answer to today's question.
+    #[must_use]
+    pub fn has_draft(&self, slot: Slot, plot: usize) -> bool {
+        let draft = self.request(slot, plot).and_then(|request| request.draft());
+        draft.is_some() && self.answered(slot, plot).map(|held| &held.request) == draft.as_ref()
+    }
+
     /// Whether a question has neither an answer nor a reason for having none.
     #[must_use]
     pub fn is_open(&self, request: &Request) -> bool {
@@ -190,6 +234,21 @@ impl Session {
             Answer::Balance(found) => Some(found),
             _ => None,
         }
+    }
+
+    /// The error of the motion on show, and what it was measured against, where both are known.
+    ///
+    /// `None` until both are computed, and where the motion takes too long for a reference.
+    #[must_use]
+    pub fn measured(&self) -> Option<(Deviation, &Reference)> {
+        let fresh = |slot| !self.is_stale(slot, self.plot);
+        if !self.measures() || !fresh(Slot::Trajectory) || !fresh(Slot::Reference) {
+            return None;
+        }
+        let Answer::Reference(Ok(reference)) = self.answer(Slot::Reference, self.plot)? else {
+            return None;
+        };
+        Some((reference.compare(self.trajectory()?).ok()?, reference))
     }
 
     /// The last borders of capture bands computed for a phase plane, stale or not.
@@ -251,6 +310,9 @@ impl Session {
             }
             Ok(answer) => {
                 let (cost, seconds) = (answer.cost(), answered.seconds);
+                if answered.request.draft().is_some() {
+                    self.effort.burdens.insert(slot, cost.evaluations);
+                }
                 self.price.recomputed.push(Recomputed { slot, cost, seconds });
                 self.failures.retain(|(request, _)| *request != answered.request);
                 let answered = Arc::new(answered);
@@ -294,7 +356,10 @@ impl Session {
         let mut failures = std::mem::take(&mut self.failures);
         failures.retain(|(failed, _)| {
             let slot = failed.slot();
-            (0..self.plots.len()).any(|plot| self.request(slot, plot).as_ref() == Some(failed))
+            let today = |plot| self.request(slot, plot);
+            let is_asked =
+                |wanted: Request| wanted == *failed || wanted.draft().as_ref() == Some(failed);
+            (0..self.plots.len()).filter_map(today).any(is_asked)
         });
         self.failures = failures;
     }

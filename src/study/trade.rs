@@ -53,29 +53,12 @@ pub struct Trade {
     pub rows: Vec<Row>,
 }
 
-/// A problem with the number that sets the accuracy of its method.
-fn set(problem: &Problem, method: Method, number: f64) -> Problem {
-    let mut rung = Problem { method, ..*problem };
+/// The problem by a method at an accuracy.
+fn rung(problem: &Problem, method: Method, number: f64) -> Problem {
+    let rung = Problem { method, ..*problem }.with_setting(number);
     match method.spec().dial {
-        Dial::Nothing => {}
-        Dial::Tolerance => rung.tolerance = number,
-        Dial::Step => rung.step = number,
-        Dial::Epsilon => {
-            rung.epsilon = number;
-            rung.tolerance = INTEGRATION * number;
-        }
-    }
-    rung
-}
-
-/// The number that sets the accuracy of a problem's method, if there is one.
-#[must_use]
-pub fn setting(problem: &Problem) -> Option<f64> {
-    match problem.method.spec().dial {
-        Dial::Nothing => None,
-        Dial::Tolerance => Some(problem.tolerance),
-        Dial::Step => Some(problem.step),
-        Dial::Epsilon => Some(problem.epsilon),
+        Dial::Epsilon => Problem { tolerance: INTEGRATION * number, ..rung },
+        Dial::Nothing | Dial::Tolerance | Dial::Step => rung,
     }
 }
 
@@ -85,18 +68,16 @@ fn ladder(problem: &Problem, method: Method) -> Vec<Problem> {
     let numbers: &[f64] = match method.spec().dial {
         // The closed form has no tolerance, whoever chose it.
         Dial::Tolerance if closed => &[problem.tolerance],
-        Dial::Nothing => &[0.0],
+        Dial::Nothing => &[problem.tolerance],
         Dial::Tolerance => &TOLERANCES,
         Dial::Step => &STEPS,
         Dial::Epsilon => &EPSILONS,
     };
     let mut rungs: Vec<Problem> =
-        numbers.iter().map(|number| set(problem, method, *number)).collect();
-    if method == problem.method && rungs.iter().all(|rung| setting(rung) != setting(problem)) {
+        numbers.iter().map(|number| rung(problem, method, *number)).collect();
+    if method == problem.method && rungs.iter().all(|rung| rung.setting() != problem.setting()) {
         rungs.push(*problem);
-        rungs.sort_by(|one, other| {
-            setting(other).partial_cmp(&setting(one)).unwrap_or(std::cmp::Ordering::Equal)
-        });
+        rungs.sort_by(|one, other| other.setting().total_cmp(&one.setting()));
     }
     rungs
 }
@@ -119,6 +100,15 @@ impl Row {
     #[must_use]
     pub fn error(&self) -> Option<f64> {
         self.deviation.ok().map(|deviation| deviation.error)
+    }
+
+    /// The decimal logarithms of evaluations and error; `None` where one of them is none or zero.
+    #[must_use]
+    pub fn place(&self) -> Option<(f64, f64)> {
+        #[expect(clippy::cast_precision_loss, reason = "counts far below 2^53")]
+        let evaluations = self.cost.evaluations as f64;
+        let place = (evaluations.log10(), self.error()?.log10());
+        (place.0.is_finite() && place.1.is_finite()).then_some(place)
     }
 
     /// Whether the motion ends as it should: right kind of outcome, right number of half swings.
@@ -160,7 +150,16 @@ impl Trade {
     /// Which rows stand for the method and tolerance of the problem.
     #[must_use]
     pub fn is_own(&self, row: &Row) -> bool {
-        row.problem.method == self.problem.method && setting(&row.problem) == setting(&self.problem)
+        row.problem.method == self.problem.method && row.problem.setting() == self.problem.setting()
+    }
+
+    /// The row of a problem's method whose accuracy is nearest to the problem's.
+    #[must_use]
+    pub fn nearest_to(&self, problem: &Problem) -> Option<&Row> {
+        let far = |row: &&Row| (row.problem.setting() / problem.setting()).ln().abs();
+        let rows = self.rows.iter().filter(|row| row.problem.method == problem.method);
+        rows.filter(|row| row.error().is_some())
+            .min_by(|one, other| far(one).total_cmp(&far(other)))
     }
 
     /// The cost of all rows together.

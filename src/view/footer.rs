@@ -8,6 +8,7 @@ use ratatui::text::Span;
 use super::keys;
 use super::look::{Look, Role};
 use super::pane;
+use crate::flow::QUALITIES;
 use crate::session::keymap::Hint;
 use crate::session::line::described;
 use crate::session::{Entry, Input, Notice, Overlay, Pending, Prompt, Row, Session};
@@ -28,7 +29,7 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     right.push(Span::raw(" "));
     let left = match (&session.overlay, &session.notice) {
         _ if session.pending.is_some() => vec![pending(session.pending, look)],
-        (Some(Overlay::Entry(entry)), _) => self::entry(entry, look),
+        (Some(Overlay::Entry(entry)), _) => self::entry(entry, session, look),
         (Some(Overlay::Prompt(prompt)), _) => self::prompt(prompt, look),
         (Some(Overlay::Offer(script)), _) => {
             let text =
@@ -85,7 +86,7 @@ fn pending(pending: Option<Pending>, look: &Look) -> Span<'static> {
 }
 
 /// The value being typed, with its caret, and what is allowed or why it was refused.
-fn entry(entry: &Entry, look: &Look) -> Vec<Span<'static>> {
+fn entry(entry: &Entry, session: &Session, look: &Look) -> Vec<Span<'static>> {
     let remark = match (&entry.refused, entry.row) {
         (Some(why), _) => Span::styled(format!("  {why}"), look.style(Role::Failure)),
         (None, Row::Parameter(symbol)) => {
@@ -93,9 +94,17 @@ fn entry(entry: &Entry, look: &Look) -> Vec<Span<'static>> {
             let range = format!("  {} .. {}, {}", spec.min, spec.max, spec.meaning);
             Span::styled(range, look.style(Role::Quiet))
         }
-        (None, _) => Span::raw(""),
+        (None, Row::Tolerance) => {
+            let (min, max) = session.problem.method.spec().dial.range();
+            let names = QUALITIES.map(|quality| quality.name).join(", ");
+            Span::styled(format!("  {min:e} .. {max}, or {names}"), look.style(Role::Quiet))
+        }
+        (None, Row::Until | Row::Method) => Span::raw(""),
     };
-    let lead = Span::styled(format!(" {} = ", entry.row.name()), look.style(Role::Title));
+    let lead = Span::styled(
+        format!(" {} = ", entry.row.name_in(&session.problem)),
+        look.style(Role::Title),
+    );
     std::iter::once(lead).chain(typed(&entry.input, look)).chain([remark]).collect()
 }
 

@@ -22,7 +22,7 @@ enum Sample {
 }
 
 /// What there is to explain: the layer that shows it, its role, how it is drawn, and what it is.
-const ENTRIES: [(Layer, Role, Sample, &str); 21] = [
+const ENTRIES: [(Layer, Role, Sample, &str); 24] = [
     (Layer::Trajectory, Role::Trajectory, Sample::Line(Dash::Solid), "motion"),
     (Layer::Sticking, Role::Sticking, Sample::Bar, "sticking set, at rest"),
     (Layer::Cycles, Role::Stable, Sample::Line(Dash::Solid), "stable cycle"),
@@ -44,6 +44,9 @@ const ENTRIES: [(Layer, Role, Sample, &str); 21] = [
     (Layer::Map, Role::Basin, Sample::Shade, "at rest there"),
     (Layer::Cobweb, Role::Trajectory, Sample::Line(Dash::Solid), "motion, turn by turn"),
     (Layer::FixedPoints, Role::Stable, Sample::Point, "cycles"),
+    (Layer::Rows, Role::Trajectory, Sample::Line(Dash::Solid), "methods with events"),
+    (Layer::Rows, Role::Unstable, Sample::Line(Dash::Dotted), "and without"),
+    (Layer::Front, Role::Stable, Sample::Point, "best choices"),
 ];
 
 /// Draws the legend of the layers that are on at the bottom of `area`, if it fits there.

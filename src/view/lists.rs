@@ -7,6 +7,7 @@ use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Clear, Paragraph, Widget, Wrap};
 
+use super::costs;
 use super::keys;
 use super::look::{Look, Role};
 use crate::scene::ViewSpec;
@@ -23,15 +24,15 @@ const KEYS: usize = 16;
 const TEXT: u16 = 8;
 
 /// What is listed.
-struct Content {
-    title: &'static str,
-    rows: Vec<Entry>,
+pub(super) struct Content {
+    pub title: &'static str,
+    pub rows: Vec<Entry>,
     /// About the selected row, below the list.
-    about: Vec<Line<'static>>,
+    pub about: Vec<Line<'static>>,
 }
 
 /// A line of a list.
-enum Entry {
+pub(super) enum Entry {
     /// Groups the rows below it.
     Heading(&'static str),
     /// Can be selected.
@@ -47,6 +48,7 @@ pub fn draw(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         Some(Overlay::Scenes(list)) => (list, scenes(session, list, look)),
         Some(Overlay::Layers(list)) => (list, layers(session, list, look)),
         Some(Overlay::Views(list)) => (list, views(session, list, look)),
+        Some(Overlay::Cost(list)) => (list, costs::content(session, list, look)),
         Some(Overlay::Palette(list)) => (list, palette(session, list, look)),
         Some(Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Offer(_)) | None => return,
     };

@@ -4,6 +4,7 @@
 //! shows as a [`picture`], which [`paint`] puts into its part with the help of [`plot`] and [`pane`]. How things look is decided in [`look`] alone.
 
 pub mod caption;
+mod costs;
 pub mod diagram;
 pub mod dots;
 pub mod energy_ledger;
@@ -28,6 +29,7 @@ pub mod return_map;
 pub mod status;
 pub mod ticks;
 pub mod time_series;
+pub mod trade;
 mod walk;
 
 #[cfg(test)]

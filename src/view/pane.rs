@@ -42,7 +42,12 @@ fn mark(session: &Session, plot: usize) -> Option<&'static str> {
     if any(&|slot| session.failure(slot, plot).is_some()) {
         Some("no answer")
     } else if any(&|slot| session.is_stale(slot, plot) && session.answered(slot, plot).is_some()) {
-        Some("stale")
+        let rough = |slot| session.has_draft(slot, plot);
+        Some(if needed.iter().all(|slot| !session.is_stale(*slot, plot) || rough(*slot)) {
+            "draft"
+        } else {
+            "stale"
+        })
     } else if any(&|slot| session.is_stale(slot, plot)) {
         Some("computing")
     } else {

@@ -97,7 +97,7 @@ fn row_line(
     let selected = row == session.selected;
     let pointer = if selected { look.symbols().pointer } else { " " };
     let role = if selected { Role::Selected } else { Role::Text };
-    let name = row.name();
+    let name = row.name_in(&session.problem);
     let room = VALUES - name.len() - 2;
     let value = value(&session.problem, row, room);
     let changed = value != self::value(&session.scene.problem, row, room);
@@ -109,7 +109,7 @@ fn row_line(
         Span::styled(value, value_style),
     ];
     let step = step.unwrap_or_default();
-    let meaning = meaning(row);
+    let meaning = meaning(&session.problem, row);
     if usize::from(width) >= VALUES + STEP + 3 + meaning.len() {
         line.push(Span::styled(format!("{step:<STEP$}  {meaning}"), look.style(Role::Quiet)));
     } else {
@@ -123,22 +123,26 @@ fn value(problem: &Problem, row: Row, width: usize) -> String {
         Row::Parameter(symbol) => exact(symbol.get(&problem.parameters, &problem.initial), width),
         Row::Until => exact(problem.until, width),
         Row::Method => problem.method.to_string(),
-        Row::Tolerance => exact(problem.tolerance, width),
+        Row::Tolerance => exact(problem.setting(), width),
     }
 }
 
+/// The step of a row; of the dial the name of its stop.
 fn step(session: &Session, row: Row, look: &Look) -> Option<String> {
+    if row == Row::Tolerance {
+        return session.problem.quality().map(|quality| format!(" {}", quality.name));
+    }
     let step = session.steps.of(row)?;
     let sign = look.symbols().plus_minus;
     Some(format!(" {sign}{}", exact(step.value(), STEP - 1 - sign.chars().count())))
 }
 
-fn meaning(row: Row) -> &'static str {
+fn meaning(problem: &Problem, row: Row) -> &'static str {
     match row {
         Row::Parameter(symbol) => symbol.spec().meaning,
         Row::Until => "end time",
         Row::Method => "integrator of half swings",
-        Row::Tolerance => "relative error of a step",
+        Row::Tolerance => problem.method.spec().dial.meaning(),
     }
 }
 

@@ -9,6 +9,7 @@ use super::look::{Look, Role};
 use super::number::{count, duration, significant};
 use super::pane;
 use super::walk;
+use crate::flow::trajectory::choice;
 use crate::flow::{Outcome, Trajectory};
 use crate::scene::{Layer, Slot};
 use crate::session::Session;
@@ -43,7 +44,7 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let fits = |(left, right): &(String, String)| {
         left.chars().count() + right.chars().count() + 4 <= usize::from(area.width)
     };
-    let (left, right) = WORDS.iter().map(line).find(fits).unwrap_or_else(|| line(&WORDS[2]));
+    let (left, right) = WORDS.iter().map(line).find(fits).unwrap_or_else(|| line(&WORDS[3]));
     pane::line(area, 1, quiet(format!(" {left}")), quiet(format!("{right} ")), buffer);
 }
 
@@ -51,20 +52,47 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
 struct Words {
     evaluations: &'static str,
     error: &'static str,
+    measured: &'static str,
     recomputed: &'static str,
     duration: bool,
+    /// Whether the choice of `auto` is explained.
+    choice: bool,
 }
 
 /// The words in full, and shorter for narrow screens.
-const WORDS: [Words; 3] = [
+const WORDS: [Words; 4] = [
     Words {
         evaluations: "evaluations",
         error: "energy error",
+        measured: "measured error",
         recomputed: "recomputed ",
         duration: true,
+        choice: true,
     },
-    Words { evaluations: "ev", error: "error", recomputed: "", duration: true },
-    Words { evaluations: "ev", error: "error", recomputed: "", duration: false },
+    Words {
+        evaluations: "ev",
+        error: "error",
+        measured: "measured",
+        recomputed: "",
+        duration: true,
+        choice: true,
+    },
+    Words {
+        evaluations: "ev",
+        error: "error",
+        measured: "measured",
+        recomputed: "",
+        duration: true,
+        choice: false,
+    },
+    Words {
+        evaluations: "ev",
+        error: "error",
+        measured: "measured",
+        recomputed: "",
+        duration: false,
+        choice: false,
+    },
 ];
 
 /// What became of the motion, in a sentence.
@@ -119,18 +147,30 @@ pub fn sentence(motion: &Trajectory) -> String {
     }
 }
 
-/// How the motion was computed, what it cost, and its measured error.
+/// How the motion was computed, what it cost, and its error: measured while the dial is in use, else
+/// that of the energy.
 fn work(session: &Session, look: &Look, words: &Words) -> String {
     let Some(motion) = session.trajectory() else { return String::new() };
     let seconds = session.answers.get(&Slot::Trajectory).map_or(0.0, |answered| answered.seconds);
+    let chosen = choice(motion).filter(|_| session.measures() && words.choice);
     let mut parts = vec![
-        motion.method.to_string(),
+        chosen.unwrap_or_else(|| motion.method.to_string()),
         format!("{} {}", count(motion.cost.evaluations), words.evaluations),
     ];
     if words.duration {
         parts.push(duration(seconds));
     }
-    if let Some(ledger) = motion.ledger {
+    if session.measures() {
+        parts.insert(
+            0,
+            session.problem.quality().map_or("typed", |quality| quality.name).to_owned(),
+        );
+    }
+    let measured = session.measured();
+    if let Some((deviation, reference)) = measured {
+        let least = deviation.error.max(reference.error);
+        parts.push(format!("{} {}", words.measured, significant(least, 2)));
+    } else if let Some(ledger) = motion.ledger {
         let largest = ledger.start.max(ledger.end);
         let error = if largest > 0.0 { (ledger.residual / largest).abs() } else { 0.0 };
         parts.push(format!("{} {}", words.error, significant(error, 1)));

@@ -1,7 +1,7 @@
 //! Screens of hand-made answers: pictures kept as text, and facts that hold for every picture.
 
 use std::f64::consts::TAU;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use proptest::prelude::*;
 use ratatui::buffer::Buffer;
@@ -12,7 +12,7 @@ use super::frame::render;
 use super::layout::layout;
 use super::look::Look;
 use crate::export::screen::text;
-use crate::flow::{Cost, Crossing, Method, Outcome, Problem, Reason, Sample, Trajectory};
+use crate::flow::{Cost, Crossing, Limits, Method, Outcome, Problem, Reason, Sample, Trajectory};
 use crate::oscillator::{Ledger, Parameters, State, Symbol};
 use crate::scene::answer::{Borders, Failure};
 use crate::scene::library::{find, library};
@@ -24,6 +24,7 @@ use crate::session::{Key, Msg, Notice, Session, Size, update};
 use crate::study::chart::{Band, Chart, Line, Plane};
 use crate::study::harmonic_error::HarmonicBalance;
 use crate::study::regime::Regime;
+use crate::study::trade::Trade;
 use crate::study::{
     Branch, BranchPoint, Cycle, Cycles, Edge, Margin, Picture, Return, ReturnMap, Special,
     SpecialKind,
@@ -87,6 +88,8 @@ fn by_hand(request: &Request) -> Answer {
         Request::Family(members) => {
             Answer::Family(members.iter().map(|member| Ok(by_hand(member))).collect())
         }
+        Request::Trade { .. } => Answer::Trade(compared()),
+        Request::Reference { .. } => Answer::Reference(Err(Reason::OutOfRange)),
     }
 }
 
@@ -174,6 +177,17 @@ fn parted(plane: Plane) -> Chart {
     };
     let cost = Cost { evaluations: 9_000, steps: 300, rejected: 0 };
     Chart { plane, along: plane.right, lines: (0..=20).map(line).collect(), cost }
+}
+
+/// What accuracy costs on a short motion, computed once and for all.
+fn compared() -> Box<Trade> {
+    static FOUND: LazyLock<Box<Trade>> = LazyLock::new(|| {
+        let parameters = Parameters { d: -0.1, d2: 0.0, d3: 0.05, r: 0.1 };
+        let problem = Problem { parameters, until: 20.0, ..Problem::default() };
+        let limits = Limits { evaluations: 50_000, ..Limits::PATIENT };
+        Box::new(Trade::of(&problem, &limits).unwrap())
+    });
+    FOUND.clone()
 }
 
 /// A branch that turns back at a fold.
@@ -270,6 +284,9 @@ fn screens_look_as_they_were_approved() {
         ("time-series", (80, 24), "<tab> <tab> ; E z <right>", braille()),
         ("energy-ledger", (80, 24), "<tab> <tab> V / l e d <enter> <down>", braille()),
         ("return-map", (80, 24), "<tab> Q V / r e t <enter> <right>", braille()),
+        ("trade", (80, 24), "<tab> Q V / t r a d e <enter> <right>", letters()),
+        ("costs", (100, 30), "$", letters()),
+        ("dial", (100, 24), "}", letters()),
         ("views", (80, 24), "V", letters()),
     ];
     for (name, (width, height), keys, look) in cases {
@@ -521,7 +538,7 @@ proptest! {
                     }
                 }
                 Ok(Answer::Capture(found)) => found.curves = vec![states.clone()],
-                Ok(Answer::Family(_)) | Err(_) => {}
+                Ok(Answer::Family(_) | Answer::Trade(_) | Answer::Reference(_)) | Err(_) => {}
             }
         }
         session.plots[0].cursor = Some(Point { x: value, y: low });

@@ -3,6 +3,7 @@
 
 mod axes;
 mod desk;
+mod dial;
 mod entries;
 mod language;
 mod names;
@@ -19,12 +20,15 @@ use std::sync::Arc;
 
 use super::replay::{Action, Player, parse};
 use super::{Effect, Msg, Session, Size, update};
-use crate::flow::{Cost, Method, Outcome, Problem, Sample, Trajectory};
+use crate::closed_form::twofold::Twofold;
+use crate::flow::{Cost, Method, Outcome, Problem, Reason, Sample, Trajectory};
 use crate::oscillator::{Ledger, State};
 use crate::scene::answer::Borders;
 use crate::scene::{Answer, Answered, Request, Slot, find};
+use crate::study::accuracy::{Deviation, Ending, Reference, Source};
 use crate::study::chart::Chart;
 use crate::study::harmonic_error::HarmonicBalance;
+use crate::study::trade::{Row, Trade};
 use crate::study::{
     Branch, BranchPoint, Cycle, Cycles, Edge, Margin, Picture, ReturnMap, Special, SpecialKind,
 };
@@ -116,6 +120,31 @@ fn cycle(stable: bool, r: f64) -> Cycle {
     }
 }
 
+/// Two methods, the second better and dearer.
+fn trade(cost: Cost) -> Trade {
+    let problem = Problem::default();
+    let row = |method, tolerance, evaluations, error| Row {
+        problem: Problem { method, tolerance, ..problem },
+        method,
+        outcome: Outcome::Moving { tau: problem.until, q: 0.0, v: 0.0 },
+        deviation: Ok(Deviation { error, time: 0.0, agrees: true }),
+        turns: 3,
+        cost: Cost { evaluations, ..cost },
+    };
+    let zero = Twofold::of(0.0);
+    let reference = Reference {
+        turns: Vec::new(),
+        end: Ending::Moving { q: zero, v: zero },
+        source: Source::TwicePrecision,
+        error: 1e-30,
+        scale: 1.0,
+        cost,
+    };
+    let rows =
+        vec![row(Method::Taylor, 1e-4, 100, 1e-5), row(Method::Dop853, 1e-12, 10_000, 1e-13)];
+    Trade { problem, reference, rows }
+}
+
 /// An answer by hand: a motion that stays where it starts, two cycles, one fold.
 fn answered(request: Request) -> Answered {
     let cost = Cost { evaluations: COST, steps: 1, rejected: 0 };
@@ -148,6 +177,9 @@ fn answered(request: Request) -> Answered {
             }),
             cost,
         }),
+        Request::Trade { .. } => Answer::Trade(Box::new(trade(cost))),
+        // Nothing is known better than by hand.
+        Request::Reference { .. } => Answer::Reference(Err(Reason::OutOfRange)),
         Request::Capture { .. } => Answer::Capture(Borders { curves: Vec::new(), cost }),
         Request::Balance { parameters, harmonics } => Answer::Balance(HarmonicBalance {
             parameters: *parameters,

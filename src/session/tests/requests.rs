@@ -8,6 +8,7 @@ use crate::scene::{Answered, Request, Slot};
 use crate::session::{Msg, update};
 
 const MOTION: &[Slot] = &[Slot::Trajectory];
+const MEASURED: &[Slot] = &[Slot::Trajectory, Slot::Reference];
 const BRANCH: &[Slot] = &[Slot::Branch];
 const POINT: &[Slot] = &[Slot::Trajectory, Slot::Cycles];
 const ALL: &[Slot] = &[Slot::Trajectory, Slot::Cycles, Slot::Branch];
@@ -15,17 +16,17 @@ const ALL: &[Slot] = &[Slot::Trajectory, Slot::Cycles, Slot::Branch];
 #[test]
 fn a_key_recomputes_exactly_what_depends_on_it() {
     for (keys, recomputed) in [
-        ("<right>", POINT),                         // D is the abscissa of the branch
-        ("<down><right>", ALL),                     // D3 of this scene
-        ("<down*2><right>", ALL),                   // r
-        ("<down*3><right>", MOTION),                // q0
-        ("<down*4><right>", MOTION),                // v0
-        ("<down*5><right>", MOTION),                // until
-        ("m", MOTION),                              // the method integrates the motion
-        ("}", &[Slot::Trajectory, Slot::Branch]),   // cycles are computed to rounding in any case
-        ("[ ] x x <tab> <S-tab> ? <esc> g T", &[]), // looks and lists
-        ("<tab>+-", &[]),                           // the phase plane is drawn from its answers
-        ("<tab><tab>+", BRANCH),                    // the diagram computes what it shows
+        ("<right>", POINT),          // D is the abscissa of the branch
+        ("<down><right>", ALL),      // D3 of this scene
+        ("<down*2><right>", ALL),    // r
+        ("<down*3><right>", MOTION), // q0
+        ("<down*4><right>", MOTION), // v0
+        ("<down*5><right>", MOTION), // until
+        ("m", MEASURED),             // the method integrates the motion
+        ("}", &[Slot::Trajectory, Slot::Branch, Slot::Reference]), // cycles are computed to rounding
+        ("[ ] x x <tab> <S-tab> ? <esc> g T", &[]),                // looks and lists
+        ("<tab>+-", &[]),        // the phase plane is drawn from its answers
+        ("<tab><tab>+", BRANCH), // the diagram computes what it shows
         ("<tab><tab>L", BRANCH),
         ("<tab><tab>J", &[]),
         ("<tab><right><up>", &[]),
@@ -95,7 +96,9 @@ fn terms_that_a_scene_does_not_declare_are_zero_until_the_user_unfolds_them() {
             | Request::Balance { parameters, .. }
             | Request::ReturnMap { parameters, .. }
             | Request::Regimes { parameters, .. }
-            | Request::Branch { parameters, .. } => parameters,
+            | Request::Branch { parameters, .. }
+            | Request::Trade { parameters, .. }
+            | Request::Reference { parameters, .. } => parameters,
             Request::Family(_) => unreachable!("capture has no variants"),
         };
         assert!(parameters.is_piecewise_linear());

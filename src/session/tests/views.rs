@@ -1,6 +1,7 @@
 //! What each view asks, and what can be taken from it into the phase plane.
 
 use super::Desk;
+use crate::flow::Method;
 use crate::oscillator::State;
 use crate::scene::{Request, Slot, VIEWS, View};
 use crate::session::{Context, Pane};
@@ -22,6 +23,7 @@ fn a_view_asks_what_its_layers_need_and_a_step_asks_that_again() {
         ("energy-ledger", &[Slot::Trajectory, Slot::Cycles], &[Slot::Trajectory]),
         ("return-map", &[Slot::Trajectory, Slot::Cycles, Slot::ReturnMap], &[Slot::Trajectory]),
         ("regimes", &[Slot::Regimes], &[]),
+        ("trade", &[Slot::Trade], &[Slot::Trade]),
     ] {
         let mut desk = turned_to(view);
         let wanted: Vec<Slot> = desk.session.wants().iter().map(Request::slot).collect();
@@ -87,4 +89,22 @@ fn a_view_that_the_scene_does_not_know_opens_with_its_usual_layers() {
     let layers = desk.session.layers.clone();
     desk.press(", ;");
     assert_eq!(desk.session.layers, layers);
+}
+
+#[test]
+fn the_trade_is_asked_for_the_motion_and_not_for_the_method_that_computes_it() {
+    let mut desk = turned_to("trade");
+    assert_eq!(desk.session.needs(0).into_iter().collect::<Vec<_>>(), [Slot::Trade]);
+    // The dial and the method are no inputs; every number of the motion is.
+    assert_eq!(desk.press("} m {"), []);
+    assert_eq!(desk.press("<S-tab><down*3><right>"), [Slot::Trade]);
+    // Enter takes the method and the accuracy of the nearest row.
+    desk.press("<tab><enter>");
+    assert_eq!(desk.notice(), "no cursor yet: the arrows show it and move it");
+    desk.press("<right*200> <down*200> <enter>");
+    let problem = desk.session.problem;
+    assert_eq!((problem.method, problem.tolerance), (Method::Dop853, 1e-12));
+    desk.press("<left*200> <up*200> <enter>");
+    let problem = desk.session.problem;
+    assert_eq!((problem.method, problem.tolerance), (Method::Taylor, 1e-4));
 }

@@ -1,7 +1,7 @@
 //! Typing a value: the line opens, takes characters, and is accepted or refused.
 
 use super::parameters::{change, number, range, with_number};
-use crate::flow::{METHODS, Method, Problem};
+use crate::flow::{METHODS, Method, Problem, QUALITIES};
 use crate::session::key::Key;
 use crate::session::message::Effect;
 use crate::session::overlay::{Entry, Overlay};
@@ -49,8 +49,13 @@ pub(in crate::session) fn read(problem: Problem, row: Row, text: &str) -> Result
         })?;
         return Ok(Problem { method, ..problem });
     }
-    let name = row.name();
-    let (min, max) = range(row);
+    if row == Row::Tolerance
+        && let Some(quality) = QUALITIES.iter().find(|quality| quality.name == text)
+    {
+        return Ok(problem.at(quality));
+    }
+    let name = row.name_in(&problem);
+    let (min, max) = range(&problem, row);
     let takes = format!("{name} takes {} to {}", shortest(min), shortest(max));
     // Documents print the minus sign as a character of its own.
     let value: f64 = text

@@ -149,10 +149,11 @@ pub(super) fn difference(old: &Problem, new: &Problem) -> String {
         Row::Parameter(symbol) => shortest(symbol.get(&problem.parameters, &problem.initial)),
         Row::Until => shortest(problem.until),
         Row::Method => problem.method.to_string(),
-        Row::Tolerance => shortest(problem.tolerance),
+        Row::Tolerance => shortest(problem.setting()),
     };
     let changed = ROWS.into_iter().filter(|row| value(old, *row) != value(new, *row));
-    let said: Vec<_> = changed.map(|row| format!("{} = {}", row.name(), value(new, row))).collect();
+    let said: Vec<_> =
+        changed.map(|row| format!("{} = {}", row.name_in(new), value(new, row))).collect();
     said.join(", ")
 }
 

@@ -58,6 +58,7 @@ impl Session {
             Some(Overlay::Layers(list)) => self.layer_rows(list).len(),
             Some(Overlay::Views(list)) => self.view_rows(list).len(),
             Some(Overlay::Palette(list)) => self.palette_rows(list).len(),
+            Some(Overlay::Cost(list)) => self.cost_rows(list).len(),
             Some(Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Offer(_)) | None => 0,
         }
     }
@@ -94,6 +95,12 @@ pub fn open_layers(session: &mut Session) -> Vec<Effect> {
 pub fn open_views(session: &mut Session) -> Vec<Effect> {
     let selected = session.plots[session.plot].view as usize;
     session.overlay = Some(Overlay::Views(List { selected, ..List::default() }));
+    Vec::new()
+}
+
+/// Opens the list of what the picture costs.
+pub fn open_cost(session: &mut Session) -> Vec<Effect> {
+    session.overlay = Some(Overlay::Cost(List::default()));
     Vec::new()
 }
 

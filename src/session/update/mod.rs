@@ -43,6 +43,7 @@ pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
         Msg::Pointed(pointed) => {
             session.notice = None;
             session.price = Price::default();
+            session.effort.measuring = false;
             mouse::pointed(session, pointed)
         }
         Msg::Resize { width, height } => {
@@ -94,6 +95,7 @@ pub(super) fn refuse(session: &mut Session, text: impl Into<String>) {
 
 fn press(session: &mut Session, key: Key) -> Vec<Effect> {
     session.notice = None;
+    session.effort.measuring = false;
     session.price = Price { key: Some(key), recomputed: Vec::new() };
     match session.pending {
         Some(pending) => pending::resolve(session, pending, key),

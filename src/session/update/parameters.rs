@@ -1,8 +1,8 @@
 //! Commands of the parameter pane: select, step, reset.
 
 use super::{inform, refuse};
-use crate::flow::{METHODS, Problem};
-use crate::scene::file::{TOLERANCE_RANGE, UNTIL_RANGE};
+use crate::flow::{METHODS, Problem, QUALITIES};
+use crate::scene::file::UNTIL_RANGE;
 use crate::session::history::Before;
 use crate::session::message::Effect;
 use crate::session::state::{Row, Session, Steps};
@@ -30,17 +30,17 @@ pub fn select(session: &mut Session, by: isize) -> Vec<Effect> {
 pub fn step(session: &mut Session, count: i32) -> Vec<Effect> {
     match session.selected {
         Row::Method => return next_method(session, count.signum() as isize),
-        Row::Tolerance => return dial(session, count.signum()),
+        Row::Tolerance => return turn(session, count.signum()),
         Row::Parameter(_) | Row::Until => {}
     }
     let row = session.selected;
     let Some(size) = session.steps.of(row) else { return Vec::new() };
-    let (min, max) = range(row);
+    let (min, max) = range(&session.problem, row);
     let value = number(&session.problem, row);
     let stepped = size.from(value, count).clamp(min, max);
     let changed = with_number(session.problem, row, stepped);
     if !change(session, changed) {
-        let name = row.name();
+        let name = row.name_in(&session.problem);
         let why = if (min..=max).contains(&size.from(value, count)) {
             format!("the step is too small to change {name} = {}", shortest(value))
         } else {
@@ -75,7 +75,7 @@ pub fn reset_row(session: &mut Session) -> Vec<Effect> {
         }
     };
     if !change(session, reset) {
-        inform(session, format!("{} has the scene's value", row.name()));
+        inform(session, format!("{} has the scene's value", row.name_in(&session.problem)));
     }
     Vec::new()
 }
@@ -86,14 +86,36 @@ pub fn unfold(session: &mut Session) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Multiplies the tolerance by a power of ten.
-pub fn dial(session: &mut Session, decades: i32) -> Vec<Effect> {
-    let (min, max) = TOLERANCE_RANGE;
-    let exponent = session.problem.tolerance.log10().round() + f64::from(decades);
+/// Turns the dial to the next of its stops: draft, normal, fine, reference.
+pub fn dial(session: &mut Session, finer: bool) -> Vec<Effect> {
+    session.effort.measuring = true;
+    match session.problem.next_quality(finer) {
+        Some(quality) => {
+            change(session, session.problem.at(quality));
+            let (dial, meaning) = (session.problem.method.spec().dial, quality.meaning);
+            let setting = shortest(session.problem.setting());
+            inform(session, format!("{}: {} {setting}; {meaning}", quality.name, dial.name()));
+        }
+        None => refuse(session, format!("the dial ends at {}", end_of_dial(finer))),
+    }
+    Vec::new()
+}
+
+fn end_of_dial(finer: bool) -> &'static str {
+    let [first, .., last] = &QUALITIES;
+    if finer { last.name } else { first.name }
+}
+
+/// Multiplies the number behind the dial by a power of ten.
+fn turn(session: &mut Session, decades: i32) -> Vec<Effect> {
+    let dial = session.problem.method.spec().dial;
+    let (min, max) = dial.range();
+    let exponent = session.problem.setting().log10().round() + f64::from(decades);
     // A power of ten to the last bit, which powi does not promise.
-    let tolerance = format!("1e{exponent}").parse().unwrap_or(max).clamp(min, max);
-    if !change(session, Problem { tolerance, ..session.problem }) {
-        refuse(session, format!("tolerance ends at {}", shortest(tolerance)));
+    let setting = format!("1e{exponent}").parse().unwrap_or(max).clamp(min, max);
+    let turned = session.problem.with_setting(setting);
+    if !change(session, turned) {
+        refuse(session, format!("{} ends at {}", dial.name(), shortest(setting)));
     }
     Vec::new()
 }
@@ -104,17 +126,18 @@ pub fn next_method(session: &mut Session, by: isize) -> Vec<Effect> {
     let at = methods.clone().position(|method| method == session.problem.method).unwrap_or(0);
     let next = at.checked_add_signed(by).unwrap_or(METHODS.len() - 1) % METHODS.len();
     let row = &METHODS[next];
+    session.effort.measuring = true;
     change(session, Problem { method: row.method, ..session.problem });
     inform(session, format!("{}: {}", row.name, row.guarantee));
     Vec::new()
 }
 
 /// The range of a row that is a number.
-pub(super) fn range(row: Row) -> (f64, f64) {
+pub(super) fn range(problem: &Problem, row: Row) -> (f64, f64) {
     match row {
         Row::Parameter(symbol) => (symbol.spec().min, symbol.spec().max),
         Row::Until => UNTIL_RANGE,
-        Row::Tolerance | Row::Method => TOLERANCE_RANGE,
+        Row::Tolerance | Row::Method => problem.method.spec().dial.range(),
     }
 }
 
@@ -123,7 +146,7 @@ pub(in crate::session) fn number(problem: &Problem, row: Row) -> f64 {
     match row {
         Row::Parameter(symbol) => symbol.get(&problem.parameters, &problem.initial),
         Row::Until => problem.until,
-        Row::Tolerance | Row::Method => problem.tolerance,
+        Row::Tolerance | Row::Method => problem.setting(),
     }
 }
 
@@ -132,7 +155,7 @@ pub(super) fn with_number(mut problem: Problem, row: Row, value: f64) -> Problem
     match row {
         Row::Parameter(symbol) => symbol.set(&mut problem.parameters, &mut problem.initial, value),
         Row::Until => problem.until = value,
-        Row::Tolerance => problem.tolerance = value,
+        Row::Tolerance => problem = problem.with_setting(value),
         Row::Method => {}
     }
     problem

@@ -6,7 +6,7 @@ use crate::flow::Problem;
 use crate::oscillator::State;
 use crate::scene::{Exhibit, Point, Span, View, Window};
 use crate::session::message::Effect;
-use crate::session::plot::{Framing, Plot};
+use crate::session::plot::{Framing, Pane, Plot};
 use crate::session::state::Session;
 use crate::session::step::{StepSize, shortest};
 
@@ -32,6 +32,7 @@ fn cursor_origin(session: &Session, plot: &Plot) -> Point {
         View::Diagram => Point { x: session.value(plot.axes.abscissa), y: window.center().y },
         View::TimeSeries => Point { x: 0.0, y: session.problem.initial.q },
         View::EnergyLedger => Point { x: 0.0, y: 0.0 },
+        View::Trade => window.center(),
         View::ReturnMap => Point { x: session.problem.initial.q, y: session.problem.initial.q },
         View::Regimes => {
             Point { x: session.value(plot.axes.abscissa), y: session.value(plot.axes.against) }
@@ -154,6 +155,23 @@ fn cursor(session: &mut Session) -> Option<Point> {
     cursor
 }
 
+/// Takes the method and the accuracy of the row that the cursor is nearest to.
+pub fn use_method(session: &mut Session) -> Vec<Effect> {
+    let Pane::Plot(index) = session.focus else { return Vec::new() };
+    if cursor(session).is_none() {
+        return Vec::new();
+    }
+    match session.row_under_cursor(index).map(|row| row.problem) {
+        Some(row) => {
+            let taken = Problem { method: row.method, ..session.problem };
+            session.effort.measuring = true;
+            change(session, taken.with_setting(row.setting()));
+        }
+        None => refuse(session, "no method is compared here yet"),
+    }
+    Vec::new()
+}
+
 /// Starts the motion where the cursor is: at its state, at the state that the motion has at its time, at
 /// rest at its displacement, or on its cycle.
 pub fn start_here(session: &mut Session) -> Vec<Effect> {
@@ -162,7 +180,9 @@ pub fn start_here(session: &mut Session) -> Vec<Effect> {
         Some(View::TimeSeries) => session.state_at(x),
         Some(View::EnergyLedger) => session.start_of_line(y),
         Some(View::ReturnMap) => Some(State { q: x, v: 0.0 }),
-        Some(View::Phase | View::Diagram | View::Regimes) | None => Some(State { q: x, v: y }),
+        Some(View::Phase | View::Diagram | View::Regimes | View::Trade) | None => {
+            Some(State { q: x, v: y })
+        }
     };
     match initial {
         Some(initial) => {

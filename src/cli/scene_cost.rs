@@ -1,0 +1,72 @@
+//! What scenes require, measured: each is opened and stepped as in the explorer, and its questions timed.
+
+use std::sync::Arc;
+
+use super::failure::Failure;
+use super::timing::timed;
+use crate::export::scene_cost::{Question, SceneCost, StepCost};
+use crate::flow::Limits;
+use crate::scene::answer::answer;
+use crate::scene::{Answered, Request, Scene, library};
+use crate::session::update::parameters;
+use crate::session::{Msg, Row, Session, Size, update};
+
+/// How often each question is answered for the median of its times.
+const TIMES: u32 = 5;
+
+/// Rounds of questions after which a scene is taken to ask for ever: windows are fitted after the first.
+const ROUNDS: usize = 4;
+
+/// Every scene of the program with what it costs.
+pub fn measured() -> Result<Vec<SceneCost>, Failure> {
+    library().iter().map(of).collect()
+}
+
+fn of(scene: &Arc<Scene>) -> Result<SceneCost, Failure> {
+    let mut session = Session::new(Arc::clone(scene), Size { width: 120, height: 40 });
+    let questions = settle(&mut session, scene)?;
+    let rows = session.rows().into_iter().filter(|row| *row != Row::Method);
+    let step = |row: Row| {
+        let mut stepped = session.clone();
+        stepped.selected = row;
+        parameters::step(&mut stepped, 1);
+        update(&mut stepped, Msg::Idle);
+        let recomputed = settle(&mut stepped, scene)?;
+        let is_new = |request: &Request| recomputed.iter().any(|part| part.slot == request.slot());
+        let requirements = stepped.requirements().into_iter();
+        let reused = requirements.map(|part| part.request).filter(|request| !is_new(request));
+        let reused = reused.map(|request| request.slot()).collect();
+        let name = row.name_in(&session.problem);
+        Ok(StepCost { name, recomputed, reused })
+    };
+    Ok(SceneCost {
+        scene: Arc::clone(scene),
+        formulas: session.drawn_by_formulas(),
+        questions,
+        steps: rows.map(step).collect::<Result<_, Failure>>()?,
+    })
+}
+
+/// Answers what a session asks until it asks nothing more.
+fn settle(session: &mut Session, scene: &Scene) -> Result<Vec<Question>, Failure> {
+    let mut answered = Vec::new();
+    for _ in 0..ROUNDS {
+        let open: Vec<Request> =
+            session.wants().into_iter().filter(|request| session.is_open(request)).collect();
+        for request in open {
+            let layers = session.requirements().into_iter();
+            let layers = layers.filter(|part| part.request == request).flat_map(|part| part.layers);
+            let layers = layers.collect();
+            let (result, seconds) = timed(TIMES, || answer(&request, &Limits::PATIENT));
+            let found = result.map_err(|reason| {
+                let (name, slot) = (&scene.name, request.slot().name());
+                Failure::Unanswered(format!("scene {name}: {slot}: {reason}"))
+            })?;
+            let (slot, cost) = (request.slot(), found.cost());
+            answered.push(Question { slot, layers, cost, seconds });
+            let answered = Answered { request, result: Ok(found), seconds };
+            update(session, Msg::Answered(Box::new(answered)));
+        }
+    }
+    Ok(answered)
+}

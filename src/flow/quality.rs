@@ -1,0 +1,195 @@
+//! The dial: one number sets how exactly a method computes, and four stops on it have names.
+//!
+//! Which number that is depends on the method: the error of a step, its length, or the width over which
+//! friction is smoothed. [`Problem::setting`] is that number whatever it is called.
+
+use super::method::{Dial, EPSILON, EPSILON_RANGE, STEP, STEP_RANGE};
+use super::trajectory::Problem;
+
+/// Relative errors of a step that make sense for double precision.
+pub const TOLERANCE_RANGE: (f64, f64) = (1e-15, 1e-2);
+
+/// A named stop of the dial.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quality {
+    /// Its name.
+    pub name: &'static str,
+    /// What it is for, in a few words.
+    pub meaning: &'static str,
+    /// Relative error of a step.
+    pub tolerance: f64,
+    /// Length of a fixed step.
+    pub step: f64,
+    /// Velocity over which friction is smoothed.
+    pub epsilon: f64,
+}
+
+/// The stops, from coarse to fine.
+pub const QUALITIES: [Quality; 4] = [
+    Quality {
+        name: "draft",
+        meaning: "as good as a screen shows, at once",
+        tolerance: 1e-4,
+        step: 0.1,
+        epsilon: 1e-2,
+    },
+    Quality {
+        name: "normal",
+        meaning: "ten digits, at a few percent of the cost of drawing them",
+        tolerance: 1e-10,
+        step: STEP,
+        epsilon: EPSILON,
+    },
+    Quality {
+        name: "fine",
+        meaning: "thirteen digits",
+        tolerance: 1e-13,
+        step: 1e-3,
+        epsilon: 1e-4,
+    },
+    Quality {
+        name: "reference",
+        meaning: "all that doubles hold",
+        tolerance: 1e-15,
+        step: 1e-4,
+        epsilon: 1e-5,
+    },
+];
+
+/// The coarsest stop: what is computed first where the wanted quality takes long.
+pub const DRAFT: Quality = QUALITIES[0];
+
+impl Dial {
+    /// What the number is called.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Dial::Nothing | Dial::Tolerance => "tolerance",
+            Dial::Step => "step",
+            Dial::Epsilon => "epsilon",
+        }
+    }
+
+    /// What the number is, in a few words.
+    #[must_use]
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Dial::Nothing | Dial::Tolerance => "relative error of a step",
+            Dial::Step => "length of a step",
+            Dial::Epsilon => "velocity that smooths",
+        }
+    }
+
+    /// Which numbers make sense.
+    #[must_use]
+    pub fn range(self) -> (f64, f64) {
+        match self {
+            Dial::Nothing | Dial::Tolerance => TOLERANCE_RANGE,
+            Dial::Step => STEP_RANGE,
+            Dial::Epsilon => EPSILON_RANGE,
+        }
+    }
+}
+
+impl Quality {
+    /// The number of this stop on a dial.
+    #[must_use]
+    pub fn setting(&self, dial: Dial) -> f64 {
+        match dial {
+            Dial::Nothing | Dial::Tolerance => self.tolerance,
+            Dial::Step => self.step,
+            Dial::Epsilon => self.epsilon,
+        }
+    }
+}
+
+impl Problem {
+    /// The number that sets the accuracy of the method; of a closed form the tolerance, which it does not
+    /// look at.
+    #[must_use]
+    pub fn setting(&self) -> f64 {
+        match self.method.spec().dial {
+            Dial::Nothing | Dial::Tolerance => self.tolerance,
+            Dial::Step => self.step,
+            Dial::Epsilon => self.epsilon,
+        }
+    }
+
+    /// The same motion by the same method with another such number.
+    #[must_use]
+    pub fn with_setting(mut self, number: f64) -> Self {
+        match self.method.spec().dial {
+            Dial::Nothing | Dial::Tolerance => self.tolerance = number,
+            Dial::Step => self.step = number,
+            Dial::Epsilon => self.epsilon = number,
+        }
+        self
+    }
+
+    /// The same motion at a stop of the dial, whatever method comes to compute it.
+    #[must_use]
+    pub fn at(self, quality: &Quality) -> Self {
+        let Quality { tolerance, step, epsilon, .. } = *quality;
+        Problem { tolerance, step, epsilon, ..self }
+    }
+
+    /// The stop at which the dial stands, if it stands at one.
+    #[must_use]
+    pub fn quality(&self) -> Option<&'static Quality> {
+        let dial = self.method.spec().dial;
+        QUALITIES.iter().find(|quality| quality.setting(dial) == self.setting())
+    }
+
+    /// The next stop on the finer or the coarser side; `None` beyond the last.
+    #[must_use]
+    pub fn next_quality(&self, finer: bool) -> Option<&'static Quality> {
+        let (dial, here) = (self.method.spec().dial, self.setting());
+        if finer {
+            QUALITIES.iter().find(|quality| quality.setting(dial) < here)
+        } else {
+            QUALITIES.iter().rev().find(|quality| quality.setting(dial) > here)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Method;
+    use super::*;
+
+    #[test]
+    fn the_stops_go_from_coarse_to_fine_within_every_range() {
+        for dial in [Dial::Tolerance, Dial::Step, Dial::Epsilon] {
+            let numbers = QUALITIES.map(|quality| quality.setting(dial));
+            let (min, max) = dial.range();
+            assert!(numbers.windows(2).all(|pair| pair[0] > pair[1]), "{numbers:?}");
+            assert!(numbers.iter().all(|number| (min..=max).contains(number)), "{numbers:?}");
+        }
+        assert_eq!(Problem::default().quality().map(|quality| quality.name), Some("normal"));
+    }
+
+    #[test]
+    fn each_method_has_its_number_and_the_stops_set_them_all() {
+        for (method, name) in
+            [(Method::Auto, "tolerance"), (Method::Rk4, "step"), (Method::Smoothed, "epsilon")]
+        {
+            let problem = Problem { method, ..Problem::default() };
+            assert_eq!(method.spec().dial.name(), name);
+            assert_eq!(problem.with_setting(0.003).setting(), 0.003);
+            let fine = problem.at(problem.next_quality(true).unwrap());
+            assert_eq!(fine.quality().unwrap().name, "fine");
+            let other = Problem { method: Method::SignRk4, ..fine };
+            assert_eq!(other.quality().unwrap().name, "fine", "another method, the same quality");
+        }
+    }
+
+    #[test]
+    fn between_stops_the_next_one_is_near() {
+        let typed = Problem { tolerance: 3e-7, ..Problem::default() };
+        assert_eq!(typed.quality(), None);
+        let name = |finer| typed.next_quality(finer).map(|quality| quality.name);
+        assert_eq!((name(true), name(false)), (Some("normal"), Some("draft")));
+        assert_eq!(typed.at(&QUALITIES[3]).next_quality(true), None);
+        assert_eq!(typed.at(&DRAFT).next_quality(false), None);
+    }
+}

@@ -1,0 +1,257 @@
+//! The dial: its stops, what is computed roughly first, and when an error is measured.
+
+use std::sync::Arc;
+
+use super::{COST, Desk, answered};
+use crate::flow::{Limits, Method, Reason};
+use crate::oscillator::Symbol;
+use crate::scene::answer::{Failure, answer};
+use crate::scene::{Answer, Answered, Request, SLOTS, Slot};
+use crate::session::update::parameters;
+use crate::session::{Msg, Row, Session, update};
+
+/// The number behind the dial and the name of its stop.
+fn dial(desk: &Desk) -> (f64, &'static str) {
+    let problem = &desk.session.problem;
+    (problem.setting(), problem.quality().map_or("-", |quality| quality.name))
+}
+
+#[test]
+fn the_dial_goes_through_its_stops_and_ends() {
+    let mut desk = Desk::open("supercritical");
+    assert_eq!(dial(&desk), (1e-10, "normal"));
+    desk.press("}");
+    assert_eq!(dial(&desk), (1e-13, "fine"));
+    assert_eq!(desk.notice(), "fine: tolerance 1e-13; thirteen digits");
+    desk.press("} }");
+    assert_eq!(dial(&desk), (1e-15, "reference"));
+    assert_eq!(desk.notice(), "the dial ends at reference");
+    desk.press("{ { {");
+    assert_eq!(dial(&desk), (1e-4, "draft"));
+    desk.press("u u");
+    assert_eq!(dial(&desk), (1e-13, "fine"), "each turn is undone");
+    // From a typed number to the stops beside it; a stop can be typed by its name.
+    desk.press("<down*7>3e-7<enter>");
+    assert_eq!(dial(&desk), (3e-7, "-"));
+    desk.press("{");
+    assert_eq!(dial(&desk), (1e-4, "draft"));
+    desk.press("<enter><C-u>fine<enter>");
+    assert_eq!(dial(&desk), (1e-13, "fine"));
+}
+
+#[test]
+fn the_dial_is_the_same_whatever_its_number_is_called() {
+    let mut desk = Desk::open("supercritical");
+    desk.press("} <down*6><enter><C-u>rk4<enter>");
+    assert_eq!(dial(&desk), (1e-3, "fine"), "a step as fine as the tolerance was");
+    desk.press("{");
+    assert_eq!(
+        desk.notice(),
+        "normal: step 0.01; ten digits, at a few percent of the cost of drawing them"
+    );
+    assert_eq!(desk.session.problem.tolerance, 1e-10);
+    desk.press("<down>0.05<enter>");
+    assert_eq!((dial(&desk), desk.session.problem.tolerance), ((0.05, "-"), 1e-10));
+    desk.press("<enter><C-u>7<enter>");
+    let said = desk.session.overlay.as_ref().map(|overlay| format!("{overlay:?}"));
+    assert!(said.unwrap().contains("step = 7 is out of range; step takes 1e-7 to 1"));
+}
+
+/// The answer to a question as if it had cost this much.
+fn costly(request: Request, evaluations: u64) -> Answered {
+    let mut found = answered(request);
+    match &mut found.result {
+        Ok(Answer::Trajectory(motion)) => motion.cost.evaluations = evaluations,
+        Ok(Answer::Branch(branch)) => branch.cost.evaluations = evaluations,
+        _ => {}
+    }
+    found
+}
+
+/// The kinds wanted and open, those of drafts marked.
+fn open(desk: &Desk) -> Vec<(Slot, bool)> {
+    let session = &desk.session;
+    let wanted = session.wants().into_iter().filter(|request| session.is_open(request));
+    wanted
+        .map(|request| {
+            let today = session.request(request.slot(), 0).or(session.request(request.slot(), 1));
+            (request.slot(), today.as_ref() != Some(&request))
+        })
+        .collect()
+}
+
+#[test]
+fn what_took_long_is_answered_by_a_draft_first_and_refined_then() {
+    let mut desk = Desk::open("supercritical");
+    update(&mut desk.session, Msg::Key("<right>".parse().unwrap()));
+    assert_eq!(open(&desk), [(Slot::Trajectory, false), (Slot::Cycles, false)], "cheap so far");
+    let request = desk.session.request(Slot::Trajectory, 0).unwrap();
+    update(&mut desk.session, Msg::Answered(Box::new(costly(request, 10_000_000))));
+    desk.settle();
+
+    // The next step of a key: the draft, then what it is a draft of.
+    update(&mut desk.session, Msg::Key("<right>".parse().unwrap()));
+    assert_eq!(
+        open(&desk),
+        [(Slot::Trajectory, true), (Slot::Trajectory, false), (Slot::Cycles, false)]
+    );
+    let draft = desk.session.wants()[0].clone();
+    let Request::Trajectory(problem) = &draft else { panic!("{draft:?}") };
+    assert_eq!(problem.quality().unwrap().name, "draft");
+    update(&mut desk.session, Msg::Answered(Box::new(costly(draft.clone(), 1_000))));
+    assert!(desk.session.has_draft(Slot::Trajectory, 0) && desk.session.is_busy());
+    assert_eq!(open(&desk), [(Slot::Trajectory, false), (Slot::Cycles, false)]);
+    // A draft is no measure of what the full answer takes.
+    let full = desk.session.request(Slot::Trajectory, 0).unwrap();
+    update(&mut desk.session, Msg::Answered(Box::new(costly(full, 10_000_000))));
+    desk.settle();
+    assert!(!desk.session.has_draft(Slot::Trajectory, 0));
+    let slots: Vec<Slot> = desk.session.price.recomputed.iter().map(|part| part.slot).collect();
+    assert_eq!(slots, [Slot::Trajectory, Slot::Trajectory, Slot::Cycles]);
+
+    // The latest wins: a draft that comes late does not replace a newer one.
+    update(&mut desk.session, Msg::Key("<right>".parse().unwrap()));
+    let superseded = desk.session.wants()[0].clone();
+    update(&mut desk.session, Msg::Key("<right>".parse().unwrap()));
+    let newer = desk.session.wants()[0].clone();
+    assert!(superseded != newer);
+    desk.settle();
+    let held = Arc::clone(&desk.session.answers[&Slot::Trajectory]);
+    update(&mut desk.session, Msg::Answered(Box::new(costly(superseded, 1))));
+    assert_eq!(held, desk.session.answers[&Slot::Trajectory]);
+
+    // At draft quality there is nothing to refine.
+    desk.press("{ {");
+    update(&mut desk.session, Msg::Key("<right>".parse().unwrap()));
+    assert_eq!(open(&desk), [(Slot::Trajectory, false), (Slot::Cycles, false)]);
+}
+
+#[test]
+fn a_draft_that_fails_is_not_tried_again() {
+    let mut desk = Desk::open("supercritical");
+    update(&mut desk.session, Msg::Key("<right>".parse().unwrap()));
+    let request = desk.session.request(Slot::Trajectory, 0).unwrap();
+    update(&mut desk.session, Msg::Answered(Box::new(costly(request, 10_000_000))));
+    update(&mut desk.session, Msg::Key("<right>".parse().unwrap()));
+    let draft = desk.session.wants()[0].clone();
+    let failed = Answered {
+        request: draft.clone(),
+        result: Err(Failure::Reason(Reason::OutOfRange)),
+        seconds: 0.0,
+    };
+    update(&mut desk.session, Msg::Answered(Box::new(failed)));
+    assert!(!desk.session.wants().contains(&draft));
+    assert_eq!(desk.notice(), "", "what it is a draft of may still be answered");
+}
+
+#[test]
+fn an_error_is_measured_only_while_the_user_rests_on_the_dial() {
+    let mut desk = Desk::open("supercritical");
+    assert_eq!(
+        desk.press("<right><left> <down*4><right>")
+            .iter()
+            .filter(|slot| **slot == Slot::Reference)
+            .count(),
+        0
+    );
+    assert!(!desk.session.measures());
+    // The last thing to be computed, once.
+    assert_eq!(desk.press("}"), [Slot::Trajectory, Slot::Branch, Slot::Reference]);
+    assert_eq!(SLOTS.last(), Some(&Slot::Reference));
+    // What it is measured against does not depend on the dial, nor on the method.
+    assert_eq!(desk.press("} {"), [Slot::Trajectory, Slot::Branch, Slot::Trajectory, Slot::Branch]);
+    assert_eq!(desk.press("m"), [Slot::Trajectory]);
+    // Another key, and the motion is measured no more; selecting the row, and it is again.
+    desk.press("g");
+    assert!(!desk.session.measures());
+    assert_eq!(desk.press("<down*7>"), [], "known still");
+    assert!(desk.session.measures());
+    assert_eq!(desk.press("<up*3><right><down*3>"), [Slot::Trajectory, Slot::Reference]);
+    desk.press("t");
+    assert!(!desk.session.measures(), "a hidden motion has no error on the screen");
+}
+
+#[test]
+fn the_measured_error_is_that_of_the_motion_on_show() {
+    let mut desk = Desk::open("capture");
+    desk.press("<down*5><enter><C-u>dop853<enter>{");
+    let session = &mut desk.session;
+    for slot in [Slot::Trajectory, Slot::Reference] {
+        let request = session.request(slot, 0).unwrap();
+        let result = Ok(answer(&request, &Limits::PATIENT).unwrap());
+        let answered = Answered { request, result, seconds: 0.0 };
+        // As if it had not been answered by hand before.
+        session.answers.remove(&slot);
+        update(session, Msg::Answered(Box::new(answered)));
+    }
+    assert_eq!(session.problem.method, Method::Dop853);
+    let (deviation, reference) = session.measured().unwrap();
+    assert!(reference.error < 1e-28, "{:e}", reference.error);
+    assert!((1e-10..1e-3).contains(&deviation.error) && deviation.agrees, "{deviation:?}");
+    assert!(desk.session.price.evaluations() > COST);
+}
+
+/// Each number of the motion and each kind of question: which questions contain it.
+#[test]
+fn a_step_of_each_number_asks_exactly_these_questions_anew() {
+    use Slot::{Balance, Branch, Capture, Cycles, Reference, Trajectory};
+    use Symbol::{D, D2, D3, Q0, R, V0};
+    let mut desk = Desk::open("supercritical");
+    desk.press("f N <down*9>");
+    let now = [Trajectory, Cycles, Capture, Branch, Balance, Reference];
+    let columns = |row: Row| {
+        let mut stepped = desk.session.clone();
+        stepped.selected = row;
+        parameters::step(&mut stepped, 1);
+        let plot = |slot| usize::from(slot == Branch);
+        now.map(|slot| {
+            let asked = |session: &Session| session.request(slot, plot(slot));
+            if asked(&stepped) == asked(&desk.session) { '.' } else { 'x' }
+        })
+        .iter()
+        .collect::<String>()
+    };
+    for (row, table) in [
+        //                      motion cycles bands branch harmonics reference
+        (Row::Parameter(D), "xxx.xx"), // the branch runs over it
+        (Row::Parameter(D2), "xxxxxx"),
+        (Row::Parameter(D3), "xxxxxx"),
+        (Row::Parameter(R), "xxxxxx"),
+        (Row::Parameter(Q0), "x....x"),
+        (Row::Parameter(V0), "x....x"),
+        (Row::Until, "x....x"),
+        (Row::Method, "x....."),
+        (Row::Tolerance, "x..x.."),
+    ] {
+        assert_eq!(columns(row), table, "{row:?}");
+    }
+}
+
+/// Evaluations are counted: nothing is looked for at `v = 0` without friction, nothing is integrated
+/// where the closed form serves, nothing is computed for what is hidden.
+#[test]
+fn what_a_scene_does_not_need_costs_nothing() {
+    let cost = |keys: &str, scene: &str| {
+        let mut desk = Desk::open(scene);
+        desk.press(keys);
+        let Some(request) = desk.session.request(Slot::Trajectory, 0) else { panic!("no motion") };
+        let Ok(Answer::Trajectory(found)) = answer(&request, &Limits::PATIENT) else {
+            panic!("no motion")
+        };
+        found
+    };
+    let free = cost("", "hopf");
+    assert!(free.problem.parameters.r == 0.0 && free.crossings.is_empty());
+    let with_friction = cost("x<down*3>1e-9<enter>", "hopf");
+    assert!(with_friction.crossings.len() > 10);
+    assert!(free.cost.steps < with_friction.cost.steps);
+    let linear = cost("", "capture");
+    assert_eq!(linear.method, Method::Exact);
+    assert_eq!(linear.cost.evaluations, linear.crossings.len() as u64, "one for each half swing");
+
+    let mut desk = Desk::open("supercritical");
+    desk.press("t c b n p");
+    assert_eq!(desk.session.wants(), [], "all layers that ask are hidden");
+    assert_eq!(desk.session.requirements(), []);
+    assert_eq!(desk.press("<right> <down><right> } <down*7>"), []);
+}

@@ -1,0 +1,69 @@
+//! The list of costs: what each question of the picture took, and what a step of each number asks anew.
+
+use ratatui::text::Span;
+
+use super::lists::{Content, Entry};
+use super::look::{Look, Role};
+use super::number::{count, duration};
+use crate::scene::{Answered, Layer, Slot};
+use crate::session::requirement::{CostRow, Requirement};
+use crate::session::{List, Session};
+
+/// Columns of what a row is about.
+const NAME: usize = 14;
+
+/// The rows of the list.
+pub(super) fn content(session: &Session, list: &List, look: &Look) -> Content {
+    let mut rows = Vec::new();
+    let mut stepping = false;
+    for row in session.cost_rows(list) {
+        if matches!(row, CostRow::Step(..)) && !stepping {
+            stepping = true;
+            rows.push(Entry::Heading("a step of"));
+        }
+        let (name, text) = match row {
+            CostRow::Asked(requirement) => asked(session, &requirement),
+            CostRow::Formulas(layers) => ("formulas", format!("nothing for {}", names(&layers))),
+            CostRow::Step(row, reused, anew) => {
+                (row.name_in(&session.problem), consequence(&reused, &anew))
+            }
+        };
+        rows.push(Entry::Row(vec![
+            Span::styled(format!("{name:<NAME$}"), look.style(Role::Key)),
+            Span::styled(text, look.style(Role::Text)),
+        ]));
+    }
+    Content { title: "what the picture costs", rows, about: Vec::new() }
+}
+
+fn names(layers: &[Layer]) -> String {
+    layers.iter().map(|layer| layer.spec().name).collect::<Vec<_>>().join(", ")
+}
+
+/// What a question took, and for which layers it is asked.
+fn asked(session: &Session, requirement: &Requirement) -> (&'static str, String) {
+    let slot = requirement.request.slot();
+    let held = session
+        .on_show()
+        .filter_map(|plot| session.answered(slot, plot))
+        .find(|held| held.request == requirement.request);
+    let price = held.map_or_else(|| "not answered".to_owned(), |held| price(held));
+    (slot.name(), format!("{price} for {}", names(&requirement.layers)))
+}
+
+fn price(answered: &Answered) -> String {
+    let cost = answered.result.as_ref().map(crate::scene::Answer::cost).unwrap_or_default();
+    let (evaluations, steps) = (count(cost.evaluations), count(cost.steps));
+    format!("{evaluations:>6} ev {steps:>6} steps {:>8}", duration(answered.seconds))
+}
+
+/// What a step recomputes and what it reuses.
+fn consequence(reused: &[Slot], anew: &[Slot]) -> String {
+    let part = |name: &str, slots: &[Slot]| {
+        let names: Vec<_> = slots.iter().map(|slot| slot.name()).collect();
+        (!names.is_empty()).then(|| format!("{name} {}", names.join(", ")))
+    };
+    let parts = part("recomputes", anew).into_iter().chain(part("reuses", reused));
+    let parts: Vec<_> = parts.collect();
+    if parts.is_empty() { "nothing is asked".to_owned() } else { parts.join("; ") }
+}
