@@ -518,3 +518,33 @@ fn keys_lists_what_the_settings_file_makes_of_them() {
     let missing = run(&["keys", "--config", "/no/such/file"]);
     assert_eq!((missing.code, missing.err.lines().count()), (2, 1));
 }
+
+#[test]
+fn scenes_say_what_they_cost_and_what_a_step_asks_anew() {
+    let document: Value =
+        serde_json::from_str(&run(&["scenes", "--cost", "--format", "json"]).out).unwrap();
+    let scenes = document.as_array().unwrap();
+    let of = |name: &str| scenes.iter().find(|scene| scene["scene"] == name).unwrap();
+    let plain = of("plain");
+    assert_eq!(keys(plain), ["evaluations", "formulas", "questions", "scene", "seconds", "steps"]);
+    let question = |scene: &Value, name: &str| {
+        let questions = scene["questions"].as_array().unwrap();
+        questions.iter().find(|question| question["question"] == name).cloned().unwrap()
+    };
+    // The closed form: one evaluation for each half swing, no integration.
+    let motion = json("trajectory --scene plain");
+    let swings = motion["events"].as_array().unwrap().len();
+    assert!(number(&question(plain, "motion")["evaluations"]) <= swings as f64 + 1.0);
+    assert!(number(&question(of("supercritical"), "motion")["evaluations"]) > 100.0);
+    // A step of the start asks for the motion alone and keeps all else.
+    for scene in scenes {
+        let steps = scene["steps"].as_array().unwrap();
+        let start = steps.iter().find(|step| step["parameter"] == "q0").unwrap();
+        for asked in start["recomputed"].as_array().unwrap() {
+            assert_eq!(asked, "motion", "{}", scene["scene"]);
+        }
+        assert!(!start["reused"].as_array().unwrap().contains(&Value::from("motion")));
+    }
+    let table = run(&["scenes", "--cost"]).out;
+    assert!(table.contains("a step of D") && table.contains("reuses branch"), "{table}");
+}

@@ -24,6 +24,13 @@ pub fn timed<T>(times: u32, mut compute: impl FnMut() -> T) -> (T, f64) {
 /// [`ROUNDS`] times, when no number of repetitions is asked for: the first run of a short one says little.
 const ENOUGH: f64 = 0.02;
 
+/// So many times all are computed, that one disturbed measurement does not count, unless they take
+/// [`LONG`].
+const FEW: usize = 5;
+
+/// See [`FEW`].
+const LONG: f64 = 0.5;
+
 /// What takes less than this is computed once before each measurement, so that it does not pay for
 /// what the one before it left in the caches.
 const SHORT: f64 = 1e-3;
@@ -39,7 +46,8 @@ pub fn in_turn<T>(times: u32, count: usize, mut compute: impl FnMut(usize) -> T)
     let rounds = if times > 1 { times as usize } else { ROUNDS };
     for _ in 0..rounds {
         for (index, seconds) in seconds.iter_mut().enumerate() {
-            if times > 1 || seconds.iter().sum::<f64>() < ENOUGH {
+            let few = seconds.len() < FEW && seconds.iter().sum::<f64>() < LONG;
+            if times > 1 || few || seconds.iter().sum::<f64>() < ENOUGH {
                 if seconds.last().is_none_or(|last| *last < SHORT) {
                     black_box(compute(index));
                 }
