@@ -20,6 +20,9 @@ use crate::session::{self, Pane, Session};
 /// Digits of an energy.
 const DIGITS: usize = 4;
 
+/// Digits of an error.
+const ERROR_DIGITS: usize = 2;
+
 /// Draws the plot with this index.
 pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &mut Buffer) {
     let session::Plot { window, cursor, .. } = session.plots[index];
@@ -39,8 +42,9 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
     let mut plot = Plot::with_ticks(area, window, names, &heading, look, buffer, Some(marks));
     plot.upright(0.0, Role::Axis, Dash::Solid);
     let symbols = look.symbols();
+    let half = half_a_row(area, window);
     for (line, entry) in lines.iter().enumerate() {
-        let y = middle(line);
+        let y = seat(line, half);
         match entry {
             Entry::Title(Owner::Motion) => plot.write(y, "motion", Role::Title),
             Entry::Title(Owner::Cycle(cycle)) => {
@@ -59,10 +63,10 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
             Entry::Work { work, part, .. } => {
                 let role = if *work < 0.0 { Role::Stable } else { Role::Unstable };
                 plot.thick(Point { x: 0.0, y }, Point { x: *part, y }, role);
-                plot.beside_zero(y, *work, *work < 0.0);
+                plot.beside_zero(y, *work, DIGITS, *work < 0.0);
             }
             Entry::Residual(part) => {
-                plot.beside_zero(y, *part, true);
+                plot.beside_zero(y, *part, ERROR_DIGITS, true);
             }
         }
     }
@@ -99,8 +103,9 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
 #[must_use]
 pub fn marks(area: Rect, session: &Session, window: Window) -> (Window, Ticks) {
     let window = Window { y: whole_lines(window.y, rows(area)), ..window };
+    let half = half_a_row(area, window);
     let mark = |(line, entry): (usize, &Entry)| {
-        let fraction = window.y.fraction(middle(line));
+        let fraction = window.y.fraction(seat(line, half));
         let label = label(entry)?.to_owned();
         (0.0..1.0).contains(&fraction).then_some(Tick { fraction, label })
     };
@@ -114,11 +119,23 @@ fn middle(line: usize) -> f64 {
     -(line as f64) - 0.5
 }
 
-/// The same top, and as many heights as leave each line whole rows.
+/// About the same top, and as many heights as leave each line one or two whole rows.
 fn whole_lines(y: Span, rows: u16) -> Span {
     let rows = f64::from(rows.max(1));
     let pitch = (rows / y.width()).floor().clamp(1.0, 2.0);
-    Span::new(y.to() - rows / pitch, y.to()).unwrap_or(y)
+    let top = (y.to() * pitch).round() / pitch;
+    Span::new(top - rows / pitch, top).unwrap_or(y)
+}
+
+/// Half of the height of a row of `area`.
+fn half_a_row(area: Rect, window: Window) -> f64 {
+    0.5 * window.y.width() / f64::from(rows(area).max(1))
+}
+
+/// The height at which a line is drawn: the middle of its first row.
+#[expect(clippy::cast_precision_loss, reason = "a few dozen lines")]
+fn seat(line: usize, half: f64) -> f64 {
+    -(line as f64) - half
 }
 
 /// What stands at the axis.

@@ -145,9 +145,9 @@ fn rows(area: Rect, count: usize) -> Vec<Rect> {
     (0..count).map(row).collect()
 }
 
-/// Two plots beside or above each other. Beside another plot a phase plane gets a square.
+/// Two plots beside or above each other. A view that gains by a square gets one beside one that does not.
 fn pair(area: Rect, first: View, second: View) -> [Rect; 2] {
-    match (is_wide(area), first == View::Phase, second == View::Phase) {
+    match (is_wide(area), square_only(first, second), square_only(second, first)) {
         (false, ..) => above(area),
         (true, true, false) => at_column(area, square(area)),
         (true, false, true) => at_column(area, area.width - 1 - square(area)),
@@ -155,8 +155,14 @@ fn pair(area: Rect, first: View, second: View) -> [Rect; 2] {
     }
 }
 
-/// Columns of a phase plane beside another plot: a square, so that circles look round, if that leaves
-/// the other its share; never less than half.
+/// Whether a view gains by a square, and the other does not.
+fn square_only(view: View, other: View) -> bool {
+    let gains = |view| matches!(view, View::Phase | View::ReturnMap);
+    gains(view) && !gains(other)
+}
+
+/// Columns of a square beside another plot, so that circles look round and a diagonal lies at 45 degrees,
+/// if that leaves the other its share; never less than half.
 fn square(area: Rect) -> u16 {
     /// Columns that the other plot needs to be legible.
     const LEGIBLE: u16 = 36;

@@ -79,6 +79,12 @@ pub fn title(
     let room = usize::from(area.width).saturating_sub(width(&left) + width(&right));
     if room > names.len() + 2 {
         left.push(Span::styled(format!("  {names}"), look.style(Role::Quiet)));
+    } else if heading.reading.is_none()
+        && names.len() > title.len()
+        && room + title.len() >= names.len()
+    {
+        // The axes say more than the title, and two plots of a view differ in them.
+        left = vec![Span::styled(format!("{pointer}{names}"), look.style(role))];
     }
     // What the cursor reads matters more than the end of the title.
     let taken = width(&right).min(usize::from(area.width));

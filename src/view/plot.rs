@@ -367,15 +367,13 @@ impl<'a> Plot<'a> {
         }
     }
 
-    /// Writes a number beside the line `x = 0`, with as many digits as there is room for.
-    pub fn beside_zero(&mut self, y: f64, value: f64, right: bool) {
-        /// Digits at most.
-        const DIGITS: usize = 4;
+    /// Writes a number beside the line `x = 0`, with as many of the digits as there is room for.
+    pub fn beside_zero(&mut self, y: f64, value: f64, digits: usize, right: bool) {
         let Some((column, row)) = self.dots.cell_at(self.place(Point { x: 0.0, y })) else {
             return;
         };
         let room = if right { self.inner.width.saturating_sub(column + 2) } else { column };
-        let texts = (1..=DIGITS).rev().map(|digits| significant(value, digits));
+        let texts = (1..=digits).rev().map(|digits| significant(value, digits));
         let fits = |text: &String| text.len() <= usize::from(room);
         let Some(text) = texts.into_iter().find(fits) else { return };
         let start = if right { column + 2 } else { column.saturating_sub(text.len() as u16 + 1) };
