@@ -14,7 +14,7 @@ use crate::session::line::described;
 use crate::session::{Entry, Input, Notice, Overlay, Pending, Prompt, Row, Session};
 
 /// Hints that are never left out, at the right end of the line.
-const ALWAYS: [&str; 4] = ["help", "accept", "replay", "quit"];
+const ALWAYS: [&str; 5] = ["help", "accept", "replay", "forget", "quit"];
 
 /// The hint that joins them while something is open.
 const CLOSE: &str = "close";

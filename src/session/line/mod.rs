@@ -108,7 +108,7 @@ pub fn line(name: &str) -> Option<&'static LineCommand> {
 }
 
 /// The key that commands run from a line are told: the one that ran it.
-fn enter() -> Key {
+pub(super) fn enter() -> Key {
     Key::plain(Code::Enter)
 }
 

@@ -24,6 +24,7 @@ pub mod walk;
 
 use super::fit;
 use super::key::Key;
+use super::line;
 use super::message::{Effect, Msg};
 use super::overlay::{Caption, Entry, Overlay};
 use super::pending;
@@ -55,7 +56,7 @@ pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
             Vec::new()
         }
         Msg::Run(line) => {
-            session.price = Price { key: None, recomputed: Vec::new() };
+            session.price = Price { key: Some(line::enter()), recomputed: Vec::new() };
             prompt::run(session, &line)
         }
         Msg::Say(caption) => {
