@@ -100,7 +100,7 @@ fn the_trade_is_asked_for_the_motion_and_not_for_the_method_that_computes_it() {
     assert_eq!(desk.press("<S-tab><down*3><right>"), [Slot::Trade]);
     // Enter takes the method and the accuracy of the nearest row.
     desk.press("<tab><enter>");
-    assert_eq!(desk.notice(), "no cursor yet: the arrows show it and move it");
+    assert_eq!(desk.notice(), "no cursor yet: <left>, <up> and so on show it");
     desk.press("<right*200> <down*200> <enter>");
     let problem = desk.session.problem;
     assert_eq!((problem.method, problem.tolerance), (Method::Dop853, 1e-12));
