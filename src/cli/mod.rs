@@ -13,6 +13,7 @@ mod cycles;
 mod explore;
 mod extremes;
 mod failure;
+mod figure;
 mod input;
 mod keys;
 mod look;
@@ -67,6 +68,7 @@ enum Command {
     Belt(belt::Belt),
     Scan(scan::ScanCommand),
     Trade(trade::Trade),
+    Figure(figure::Figure),
     Scenes(scenes::Scenes),
     Keys(keys::Keys),
     Extremes(extremes::Extremes),
@@ -87,6 +89,7 @@ impl Command {
             Command::Paper(command) => command.run(),
             Command::Belt(command) => command.run(),
             Command::Trade(command) => command.run(),
+            Command::Figure(command) => command.run(),
             Command::Scenes(command) => command.run(),
             Command::Keys(command) => command.run(),
             Command::Extremes(command) => command.run(),

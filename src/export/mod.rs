@@ -5,6 +5,7 @@ pub mod belt;
 pub mod claims;
 pub mod csv;
 pub mod extremes;
+pub mod figure;
 pub mod json;
 pub mod scan;
 pub mod scene_cost;

@@ -9,7 +9,7 @@ use crate::study::accuracy::Reference;
 use crate::study::branch::branch;
 use crate::study::capture::bands;
 use crate::study::chart::{Chart, chart};
-use crate::study::cycle::cycles;
+use crate::study::cycle::cycles_drawn;
 use crate::study::harmonic_error::{HarmonicBalance, harmonic_balance};
 use crate::study::return_map::return_map;
 use crate::study::trade::Trade;
@@ -78,25 +78,45 @@ impl std::fmt::Display for Failure {
     }
 }
 
-/// Points drawn on each integration step of a trajectory.
-const SAMPLES_PER_STEP: usize = 16;
+/// How many points curves have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Fineness {
+    /// On each integration step of a trajectory.
+    samples_per_step: usize,
+    /// On each integration step of a cycle or a border.
+    points_per_step: u8,
+    /// On the curve of a harmonic answer.
+    harmonic: usize,
+    /// On a piece of a branch.
+    branch: usize,
+    /// On a side of a return map.
+    map: u16,
+}
 
-/// Points drawn on each integration step of a border.
-const POINTS_PER_STEP: u8 = 12;
+impl Fineness {
+    /// As many as the dots of a terminal can show.
+    pub const SCREEN: Fineness = Fineness {
+        samples_per_step: 16,
+        points_per_step: 12,
+        harmonic: 240,
+        branch: 160,
+        map: 128,
+    };
 
-/// Points of the curve of a harmonic answer.
-const CURVE_POINTS: usize = 240;
-
-/// Points of a branch, a piece.
-const BRANCH_POINTS: usize = 160;
-
-/// Points of a return map, a side.
-const MAP_POINTS: u16 = 128;
+    /// As many as print can show.
+    pub const PRINT: Fineness = Fineness {
+        samples_per_step: 48,
+        points_per_step: 48,
+        harmonic: 960,
+        branch: 640,
+        map: 512,
+    };
+}
 
 /// Lines of a chart of regimes, evenly spaced; borders between them are interpolated.
 const CHART_LINES: usize = 40;
 
-/// The same at draft quality: the picture of them hardly differs.
+/// Points of a piece of a branch at draft quality: the picture of them hardly differs.
 const DRAFT_POINTS: usize = 40;
 
 /// Evaluations that a reference may take in the explorer: beyond, the energy ledger must do.
@@ -110,24 +130,39 @@ const ROW: u64 = 1_000_000;
 /// # Errors
 /// The [`Reason`] why there is no answer.
 pub fn answer(request: &Request, limits: &Limits) -> Result<Answer, Reason> {
+    answer_for(request, Fineness::SCREEN, limits)
+}
+
+/// The same with curves of another fineness.
+///
+/// # Errors
+/// The [`Reason`] why there is no answer.
+pub fn answer_for(
+    request: &Request,
+    fineness: Fineness,
+    limits: &Limits,
+) -> Result<Answer, Reason> {
     match request {
         Request::Trajectory(problem) => {
             // Without friction nothing happens at v = 0, and nobody looks for it.
             let crossings = problem.parameters.r > 0.0;
-            let detail = Detail { crossings, samples_per_step: SAMPLES_PER_STEP, energy: true };
+            let detail =
+                Detail { crossings, samples_per_step: fineness.samples_per_step, energy: true };
             Ok(Answer::Trajectory(trajectory(problem, detail, limits)))
         }
-        Request::Cycles { parameters } => cycles(parameters, true, limits).map(Answer::Cycles),
+        Request::Cycles { parameters } => {
+            cycles_drawn(parameters, fineness.points_per_step, limits).map(Answer::Cycles)
+        }
         Request::Capture { parameters, reach, most } => {
             let found = bands(parameters, *reach, *most, limits)?;
-            let curves = found.curves(POINTS_PER_STEP);
+            let curves = found.curves(fineness.points_per_step);
             Ok(Answer::Capture(Borders { curves, cost: found.cost }))
         }
         Request::Balance { parameters, harmonics } => {
-            harmonic_balance(parameters, *harmonics, CURVE_POINTS, limits).map(Answer::Balance)
+            harmonic_balance(parameters, *harmonics, fineness.harmonic, limits).map(Answer::Balance)
         }
         Request::Branch { parameters, parameter, range, tolerance } => {
-            let points = if *tolerance < DRAFT.tolerance { BRANCH_POINTS } else { DRAFT_POINTS };
+            let points = if *tolerance < DRAFT.tolerance { fineness.branch } else { DRAFT_POINTS };
             branch(parameters, *parameter, *range, points, *tolerance, limits).map(Answer::Branch)
         }
         Request::Trade { parameters, initial, until } => {
@@ -146,13 +181,14 @@ pub fn answer(request: &Request, limits: &Limits) -> Result<Answer, Reason> {
             }
         }
         Request::ReturnMap { parameters, range } => {
-            return_map(parameters, *range, MAP_POINTS, limits).map(Answer::ReturnMap)
+            return_map(parameters, *range, fineness.map, limits).map(Answer::ReturnMap)
         }
         Request::Regimes { parameters, plane } => {
             chart(parameters, *plane, CHART_LINES, limits).map(Answer::Regimes)
         }
         Request::Family(members) => {
-            let answers: Vec<_> = members.iter().map(|member| answer(member, limits)).collect();
+            let answers: Vec<_> =
+                members.iter().map(|member| answer_for(member, fineness, limits)).collect();
             if answers.contains(&Err(Reason::Interrupted)) {
                 return Err(Reason::Interrupted);
             }

@@ -68,6 +68,14 @@ pub enum Layer {
     Rows,
     /// The best choices among them.
     Front,
+    /// The largest velocity of the cycles, beside the ordinate.
+    Extents,
+    /// Eigenvalues of the rest without friction.
+    Eigenvalues,
+    /// Levels of the energy, and where it falls.
+    Levels,
+    /// The spirals that make the cycle.
+    Spirals,
 }
 
 /// One row of [`LAYERS`].
@@ -88,7 +96,7 @@ pub struct LayerSpec {
 }
 
 /// Every layer, in the order in which they are listed.
-pub const LAYERS: [LayerSpec; 28] = [
+pub const LAYERS: [LayerSpec; 32] = [
     LayerSpec {
         layer: Layer::Trajectory,
         name: "trajectory",
@@ -312,6 +320,38 @@ pub const LAYERS: [LayerSpec; 28] = [
         meaning: "the best choices: nothing else is better for less",
         needs: Some(Slot::Trade),
         usual: true,
+    },
+    LayerSpec {
+        layer: Layer::Extents,
+        name: "extents",
+        view: View::Diagram,
+        meaning: "largest velocity of the cycles, beside the ordinate",
+        needs: Some(Slot::Branch),
+        usual: false,
+    },
+    LayerSpec {
+        layer: Layer::Eigenvalues,
+        name: "eigenvalues",
+        view: View::Diagram,
+        meaning: "eigenvalues of the rest at r = 0, real and imaginary parts",
+        needs: None,
+        usual: false,
+    },
+    LayerSpec {
+        layer: Layer::Levels,
+        name: "levels",
+        view: View::Phase,
+        meaning: "levels of the energy, and shaded where it falls",
+        needs: None,
+        usual: false,
+    },
+    LayerSpec {
+        layer: Layer::Spirals,
+        name: "spirals",
+        view: View::Phase,
+        meaning: "the two shifted spirals that make the cycle",
+        needs: None,
+        usual: false,
     },
 ];
 

@@ -17,7 +17,7 @@ macro_rules! scene_file {
 }
 
 /// The files, in the order in which they are listed.
-const FILES: [(&str, &str); 12] = [
+const FILES: [(&str, &str); 31] = [
     scene_file!("plain"),
     scene_file!("capture"),
     scene_file!("linear"),
@@ -30,6 +30,25 @@ const FILES: [(&str, &str); 12] = [
     scene_file!("return-map"),
     scene_file!("regimes"),
     scene_file!("energy"),
+    scene_file!("fig02"),
+    scene_file!("fig03"),
+    scene_file!("fig04"),
+    scene_file!("fig05"),
+    scene_file!("fig06"),
+    scene_file!("fig07"),
+    scene_file!("fig08"),
+    scene_file!("fig09"),
+    scene_file!("fig10"),
+    scene_file!("fig11"),
+    scene_file!("fig12"),
+    scene_file!("fig13"),
+    scene_file!("fig14"),
+    scene_file!("fig15"),
+    scene_file!("fig16"),
+    scene_file!("fig16a"),
+    scene_file!("fig16b"),
+    scene_file!("fig16c"),
+    scene_file!("fig17"),
 ];
 
 /// The scenes that come with the program, in the order in which they are listed.

@@ -116,24 +116,40 @@ const ITERATIONS: usize = 200;
 /// # Errors
 /// The [`Reason`] why the search could not be completed.
 pub fn cycles(parameters: &Parameters, curves: bool, limits: &Limits) -> Result<Cycles, Reason> {
+    found(parameters, curves.then_some(CURVE_POINTS), limits)
+}
+
+/// The same with a picture, of so many points on each integration step of a curve.
+///
+/// # Errors
+/// The [`Reason`] why the search could not be completed.
+pub fn cycles_drawn(
+    parameters: &Parameters,
+    points: u8,
+    limits: &Limits,
+) -> Result<Cycles, Reason> {
+    found(parameters, Some(points), limits)
+}
+
+fn found(parameters: &Parameters, points: Option<u8>, limits: &Limits) -> Result<Cycles, Reason> {
     let mut equation = Equation::new(parameters, STEP);
-    let found = all_closings(&mut equation, limits)?;
+    let closings = all_closings(&mut equation, limits)?;
     let describe = |closing: &Closing| closing.describe(parameters, equation.side);
     let stable: Vec<bool> =
-        found.iter().map(|closing| closing.log_multiplier(parameters) < 0.0).collect();
+        closings.iter().map(|closing| closing.log_multiplier(parameters) < 0.0).collect();
     let mut answer = Cycles {
         parameters: *parameters,
-        cycles: found.iter().map(describe).collect(),
+        cycles: closings.iter().map(describe).collect(),
         harmonic: amplitudes(parameters),
         edge: Edge::around(parameters, &stable),
         picture: None,
         cost: equation.cost(),
     };
-    if curves {
+    if let Some(points) = points {
         let reach = PICTURE_REACH / parameters.d2.abs().max(f64::MIN_POSITIVE);
-        let basin = Basin::around(parameters, &found, reach, limits)?;
+        let basin = Basin::around(parameters, &closings, reach, limits)?;
         answer.cost += basin.cost;
-        answer.picture = Some(Picture::of(&basin));
+        answer.picture = Some(Picture::of(&basin, points));
     }
     Ok(answer)
 }
@@ -180,9 +196,9 @@ impl From<&LinearCycle> for Closing {
 }
 
 impl Picture {
-    fn of(basin: &Basin) -> Self {
+    fn of(basin: &Basin, points: u8) -> Self {
         let mut curves: Vec<Vec<State>> =
-            basin.borders.iter().map(|border| border.curve(CURVE_POINTS)).collect();
+            basin.borders.iter().map(|border| border.curve(points)).collect();
         let works = basin.borders.iter().skip(usize::from(basin.edge == Edge::Separatrix));
         let works = works.filter_map(|border| works_over(border, &basin.parameters)).collect();
         let edge = match basin.edge {

@@ -24,6 +24,8 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     let diagram = &session.plots[index];
     let Axes { abscissa, ordinate, .. } = diagram.axes;
     let (name, label) = (abscissa.spec().name, ordinate.spec().label);
+    let eigen = abscissa == Symbol::D && session.layers.contains(&Layer::Eigenvalues);
+    let label = if eigen { "Re, Im lambda" } else { label };
     let window = diagram.window;
     let mut picture = Picture::new(View::Diagram.spec().title, name, label, window);
     let pointed = held(session, diagram).or(diagram.cursor);
@@ -67,6 +69,16 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         for piece in found.iter().flat_map(|(_, branch)| &branch.pieces) {
             here(&mut picture, piece, ordinate, current);
         }
+    }
+    if shows(Layer::Extents) {
+        for (label, found) in &found {
+            for piece in &found.pieces {
+                extents(&mut picture, piece, label);
+            }
+        }
+    }
+    if eigen {
+        eigenvalues(&mut picture, current);
     }
     if shows(Layer::Special) {
         for special in found.iter().flat_map(|(_, branch)| &branch.special) {
@@ -181,6 +193,30 @@ fn branch(picture: &mut Picture, piece: &[BranchPoint], ordinate: Ordinate, labe
     if let Some(highest) = highest.filter(|_| !label.is_empty()) {
         picture.caption(highest, label.to_owned(), Role::Special);
     }
+}
+
+/// The largest velocities of a piece.
+fn extents(picture: &mut Picture, piece: &[BranchPoint], label: &str) {
+    let points = piece.iter().map(|point| Point { x: point.value, y: point.cycle.v_max });
+    let name = named("largest velocity A_v", label);
+    picture.curve(Line::new(name, Role::Velocity, Dash::Dashed), points);
+}
+
+/// Eigenvalues of the rest of the smooth system, `-D +- sqrt(D^2 - 1)` (9), over D: their real parts,
+/// and dashed their imaginary parts. Below zero the rest is stable.
+fn eigenvalues(picture: &mut Picture, current: f64) {
+    let spread = |d: f64| (d * d - 1.0).max(0.0).sqrt();
+    let height = |d: f64| ((1.0 - d) * (1.0 + d)).max(0.0).sqrt();
+    for sign in [1.0, -1.0] {
+        let line = Line::new("real part", Role::Stable, Dash::Solid);
+        picture.graph(line, move |d| Some(-d + sign * spread(d)));
+        let line = Line::new("imaginary part", Role::Velocity, Dash::Dashed);
+        picture.graph(line, move |d| (d.abs() <= 1.0).then(|| sign * height(d)));
+        let at = Point { x: current, y: -current + sign * spread(current) };
+        let mark = if at.y < 0.0 { Mark::Stable } else { Mark::Unstable };
+        picture.mark(mark, at, Role::Current);
+    }
+    picture.caption(Point { x: 0.0, y: 0.0 }, "H", Role::Special);
 }
 
 /// Marks the cycles of a piece at the present value.

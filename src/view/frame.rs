@@ -39,16 +39,21 @@ fn panes(parts: &Layout, session: &Session, look: &Look, buffer: &mut Buffer) {
     status::title(parts.title, session, look, buffer);
     parameters::draw(parts.parameters, session, look, buffer);
     for (index, area) in parts.plots.iter().enumerate().filter(|(_, area)| !area.is_empty()) {
-        if session.plots[index].view == View::EnergyLedger {
-            // Its lines are whole rows of the screen.
-            energy_ledger::draw(*area, session, index, look, buffer);
-        } else {
-            let heading = Heading::of(session, Pane::Plot(index));
-            paint(*area, picture::of(session, index), heading, look, buffer);
-        }
+        plot(*area, session, index, look, buffer);
     }
     status::draw(parts.status, session, look, buffer);
     footer::draw(parts.footer, session, look, buffer);
+}
+
+/// Draws the plot with this index.
+fn plot(area: Rect, session: &Session, index: usize, look: &Look, buffer: &mut Buffer) {
+    if session.plots[index].view == View::EnergyLedger {
+        // Its lines are whole rows of the screen.
+        energy_ledger::draw(area, session, index, look, buffer);
+    } else {
+        let heading = Heading::of(session, Pane::Plot(index));
+        paint(area, picture::of(session, index), heading, look, buffer);
+    }
 }
 
 /// What a screen too small for everything else shows.
@@ -72,4 +77,16 @@ fn only_letters(buffer: &mut Buffer) {
     for cell in buffer.content.iter_mut().filter(|cell| !cell.symbol().is_ascii()) {
         cell.set_char('?');
     }
+}
+
+/// Every plot of a session for itself, each drawn in this size.
+#[must_use]
+pub fn panels(session: &Session, (width, height): (u16, u16), look: &Look) -> Vec<Buffer> {
+    let area = Rect { x: 0, y: 0, width, height };
+    let panel = |index: usize| {
+        let mut buffer = Buffer::empty(area);
+        plot(area, session, index, look, &mut buffer);
+        buffer
+    };
+    (0..session.plots.len()).map(panel).collect()
 }

@@ -22,7 +22,7 @@ enum Sample {
 }
 
 /// What there is to explain: the layer that shows it, its role, how it is drawn, and what it is.
-const ENTRIES: [(Layer, Role, Sample, &str); 24] = [
+const ENTRIES: [(Layer, Role, Sample, &str); 29] = [
     (Layer::Trajectory, Role::Trajectory, Sample::Line(Dash::Solid), "motion"),
     (Layer::Sticking, Role::Sticking, Sample::Bar, "sticking set, at rest"),
     (Layer::Cycles, Role::Stable, Sample::Line(Dash::Solid), "stable cycle"),
@@ -36,6 +36,11 @@ const ENTRIES: [(Layer, Role, Sample, &str); 24] = [
     (Layer::Harmonic, Role::Harmonic, Sample::Line(Dash::Dotted), "first harmonic"),
     (Layer::Asymptotes, Role::Asymptote, Sample::Line(Dash::Sparse), "its asymptotes"),
     (Layer::Branch, Role::Current, Sample::Line(Dash::Sparse), "present value"),
+    (Layer::Extents, Role::Velocity, Sample::Line(Dash::Dashed), "largest velocity"),
+    (Layer::Eigenvalues, Role::Stable, Sample::Line(Dash::Solid), "Re lambda"),
+    (Layer::Eigenvalues, Role::Velocity, Sample::Line(Dash::Dashed), "Im lambda"),
+    (Layer::Levels, Role::Basin, Sample::Shade, "energy falls"),
+    (Layer::Spirals, Role::Trajectory, Sample::Line(Dash::Solid), "half turns"),
     (Layer::Position, Role::Trajectory, Sample::Line(Dash::Solid), "displacement q"),
     (Layer::Velocity, Role::Velocity, Sample::Line(Dash::Dashed), "velocity v"),
     (Layer::Friction, Role::Sticking, Sample::Line(Dash::Solid), "friction force f"),

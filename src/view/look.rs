@@ -101,6 +101,14 @@ const ROLES: [(Role, &str, char); 27] = [
     (Role::Cursor, "cursor", '+'),
 ];
 
+impl Role {
+    /// The name in theme files and figures.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        ROLES[self as usize].1
+    }
+}
+
 /// The text of a theme that comes with the program.
 fn text_of(theme: Theme) -> &'static str {
     match theme {

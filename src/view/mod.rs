@@ -4,6 +4,7 @@
 //! shows as a [`picture`], which [`paint`] puts into its part with the help of [`plot`] and [`pane`]. How things look is decided in [`look`] alone.
 
 pub mod caption;
+mod construction;
 mod costs;
 pub mod diagram;
 pub mod dots;
@@ -35,6 +36,6 @@ mod walk;
 #[cfg(test)]
 mod tests;
 
-pub use frame::draw;
+pub use frame::{draw, panels};
 pub use look::Look;
 pub use place::place;

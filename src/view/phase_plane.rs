@@ -4,6 +4,7 @@
 //! the point left for a mark, the line `v = 0`, the Lyapunov circle, the motion, cycles, the sticking set, markers, cursor. Formulas show the present
 //! parameters; what had to be computed shows the last answer, and the title says if it is old.
 
+use super::construction;
 use super::dots::Dash;
 use super::look::Role;
 use super::picture::{Item, Line, Mark, Picture, Text};
@@ -32,6 +33,11 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     {
         let parameters = first.problem.parameters;
         picture.items.push(Item::Arrows(Role::Field, Box::new(move |at| flow(&parameters, at))));
+    }
+    if shows(Layer::Levels)
+        && let Some(first) = shown.first()
+    {
+        construction::levels(&mut picture, &first.problem.parameters);
     }
     if shows(Layer::Basin) {
         for (label, answer) in session.found(Slot::Cycles, index) {
@@ -69,6 +75,11 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
             if let Answer::Cycles(found) = answer {
                 cycles(&mut picture, found, &label);
             }
+        }
+    }
+    if shows(Layer::Spirals) {
+        for shown in &shown {
+            construction::spirals(&mut picture, &shown.problem.parameters);
         }
     }
     if shows(Layer::Balance) {

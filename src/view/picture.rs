@@ -220,7 +220,7 @@ impl<'a> Picture<'a> {
 /// What the plot with this index shows.
 #[must_use]
 pub fn of(session: &Session, index: usize) -> Picture<'_> {
-    match session.plots[index].view {
+    let mut picture = match session.plots[index].view {
         View::Phase => phase_plane::picture(session, index),
         View::Diagram => diagram::picture(session, index),
         View::TimeSeries => time_series::picture(session, index),
@@ -228,5 +228,10 @@ pub fn of(session: &Session, index: usize) -> Picture<'_> {
         View::ReturnMap => return_map::picture(session, index),
         View::Regimes => regimes::picture(session, index),
         View::Trade => trade::picture(session, index),
+    };
+    // What all of a plot is held at stands in its title; what tells several apart, at their curves.
+    if let Some([only]) = session.variants(index) {
+        picture.title = format!("{}, {}", picture.title, only.label()).into();
     }
+    picture
 }

@@ -57,7 +57,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
             names_of_regimes(&mut picture, chart);
         }
     }
-    let present = || Line::new("present values", Role::Current, Dash::Sparse);
+    let present = || Line::new("present value", Role::Current, Dash::Sparse);
     picture.upright(present(), today.x);
     let level = [window.x.from(), window.x.to()].map(|x| Point { x, y: today.y });
     picture.curve(present(), level);
