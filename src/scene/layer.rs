@@ -30,6 +30,10 @@ pub enum Layer {
     Balance,
     /// The point left last for a mark: its motion and cycles.
     Ghost,
+    /// The velocity at which the mass sticks to the belt.
+    Belt,
+    /// The mass on its belt.
+    Mass,
     /// Computed cycles along the diagram's parameter.
     Branch,
     /// First-order harmonic amplitudes.
@@ -96,7 +100,7 @@ pub struct LayerSpec {
 }
 
 /// Every layer, in the order in which they are listed.
-pub const LAYERS: [LayerSpec; 32] = [
+pub const LAYERS: [LayerSpec; 34] = [
     LayerSpec {
         layer: Layer::Trajectory,
         name: "trajectory",
@@ -168,6 +172,22 @@ pub const LAYERS: [LayerSpec; 32] = [
         meaning: "the point left for a mark: its motion and cycles, dim",
         needs: None,
         usual: false,
+    },
+    LayerSpec {
+        layer: Layer::Belt,
+        name: "belt",
+        view: View::Phase,
+        meaning: "the belt's speed: there the mass sticks, and the model ends",
+        needs: None,
+        usual: false,
+    },
+    LayerSpec {
+        layer: Layer::Mass,
+        name: "mass",
+        view: View::Belt,
+        meaning: "the mass on its belt, moving with the motion",
+        needs: Some(Slot::Trajectory),
+        usual: true,
     },
     LayerSpec {
         layer: Layer::Branch,

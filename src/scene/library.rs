@@ -17,7 +17,7 @@ macro_rules! scene_file {
 }
 
 /// The files, in the order in which they are listed.
-const FILES: [(&str, &str); 31] = [
+const FILES: [(&str, &str); 32] = [
     scene_file!("plain"),
     scene_file!("capture"),
     scene_file!("linear"),
@@ -30,6 +30,7 @@ const FILES: [(&str, &str); 31] = [
     scene_file!("return-map"),
     scene_file!("regimes"),
     scene_file!("energy"),
+    scene_file!("fig01"),
     scene_file!("fig02"),
     scene_file!("fig03"),
     scene_file!("fig04"),
@@ -139,6 +140,7 @@ mod tests {
                     View::Diagram => {
                         assert!(x.contains(plot.axes.abscissa.get(&parameters, &initial)));
                     }
+                    View::Belt => assert!(x.contains(initial.q)),
                     View::Phase => assert!(x.contains(initial.q) && y.contains(initial.v)),
                     View::TimeSeries => assert!(x.contains(0.0)),
                     View::Regimes => {

@@ -31,6 +31,8 @@ pub enum Context {
     Regimes,
     /// The focus is on the trade of error for cost.
     Trade,
+    /// The focus is on the mass on its belt.
+    Belt,
     /// A point of the branch is held.
     Walk,
     /// The focus is on a plot.
@@ -66,7 +68,7 @@ pub enum Context {
 }
 
 /// Every context with its name in settings files.
-pub const CONTEXTS: [(Context, &str); 24] = [
+pub const CONTEXTS: [(Context, &str); 25] = [
     (Context::Parameters, "parameters"),
     (Context::Phase, "phase"),
     (Context::Diagram, "diagram"),
@@ -75,6 +77,7 @@ pub const CONTEXTS: [(Context, &str); 24] = [
     (Context::ReturnMap, "return-map"),
     (Context::Regimes, "regimes"),
     (Context::Trade, "trade"),
+    (Context::Belt, "belt"),
     (Context::Walk, "walk"),
     (Context::Plots, "plots"),
     (Context::Everywhere, "everywhere"),
@@ -112,6 +115,7 @@ impl Context {
             Context::ReturnMap => "Return map",
             Context::Regimes => "Chart of regimes",
             Context::Trade => "Trade of error for cost",
+            Context::Belt => "Mass on its belt",
             Context::Walk => "Walking along the branch",
             Context::Plots => "Every plot",
             Context::Everywhere => "Everywhere",
@@ -161,6 +165,7 @@ impl Context {
             | Context::ReturnMap
             | Context::Regimes
             | Context::Trade
+            | Context::Belt
             | Context::Walk
             | Context::Plots
             | Context::Everywhere
@@ -179,19 +184,21 @@ impl Context {
             Context::ReturnMap => Some(View::ReturnMap),
             Context::Regimes => Some(View::Regimes),
             Context::Trade => Some(View::Trade),
+            Context::Belt => Some(View::Belt),
             _ => None,
         }
     }
 }
 
 /// Every set of contexts that can hold together, the most specific first.
-pub const CHAINS: [&[Context]; 20] = [
+pub const CHAINS: [&[Context]; 21] = [
     &[Context::Parameters, Context::Everywhere, Context::Always],
     &[Context::Phase, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Diagram, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::TimeSeries, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::EnergyLedger, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::ReturnMap, Context::Plots, Context::Everywhere, Context::Always],
+    &[Context::Belt, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Regimes, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Trade, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Walk, Context::Always],
@@ -225,6 +232,7 @@ impl Session {
                 Some(View::ReturnMap) => Context::ReturnMap,
                 Some(View::Regimes) => Context::Regimes,
                 Some(View::Trade) => Context::Trade,
+                Some(View::Belt) => Context::Belt,
             },
             Some(Overlay::Palette(_)) => Context::Palette,
             Some(overlay) if overlay.list().is_some_and(|list| list.searching) => Context::Search,
