@@ -13,11 +13,11 @@ use std::time::{Duration, Instant};
 use crossbeam_channel::{Receiver, RecvTimeoutError};
 use ratatui::layout::Size;
 
+use super::crew::Crew;
 use super::effects::Files;
 use super::event::{Event, Stop};
 use super::machine::Machine;
-use super::picture;
-use super::worker::Worker;
+use super::{picture, scan_file};
 use crate::export;
 use crate::scene::Request;
 use crate::session::replay::{Action, Player, Recorder};
@@ -33,7 +33,7 @@ const ANSWER_TIME: Duration = Duration::from_millis(8);
 pub struct Pump<M, W: Write> {
     machine: M,
     screen: Screen<W>,
-    worker: Worker,
+    crew: Crew,
     events: Receiver<Event>,
     /// What arrived while something else was waited for.
     missed: VecDeque<Event>,
@@ -60,7 +60,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
     pub fn new(
         machine: M,
         screen: Screen<W>,
-        worker: Worker,
+        crew: Crew,
         events: Receiver<Event>,
         files: Files,
         terminal_size: fn() -> Size,
@@ -68,7 +68,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
         Pump {
             machine,
             screen,
-            worker,
+            crew,
             events,
             missed: VecDeque::new(),
             files,
@@ -185,7 +185,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
 
     fn handle(&mut self, event: Event) -> io::Result<Option<Stop>> {
         match event {
-            Event::Session(Msg::Idle) if !self.worker.is_idle() => Ok(None),
+            Event::Session(Msg::Idle) if !self.crew.is_idle() => Ok(None),
             Event::Session(Msg::Key(Key { code: Code::Esc, .. })) if self.player.is_some() => {
                 self.played(false, "replay stopped".to_owned())
             }
@@ -195,8 +195,10 @@ impl<M: Machine, W: Write> Pump<M, W> {
             }
             Event::Session(msg) => {
                 self.recorder.note(&msg);
-                if let Msg::Answered(answered) = &msg {
-                    self.worker.taken(&answered.request);
+                if let Msg::Answered(answered) = &msg
+                    && answered.complete
+                {
+                    self.crew.taken(&answered.request);
                     self.asked.retain(|request| *request != answered.request);
                 }
                 self.update(msg)
@@ -249,6 +251,10 @@ impl<M: Machine, W: Write> Pump<M, W> {
                 Effect::CopyScreen => {
                     let picture = picture::of(&self.machine, self.screen.size());
                     self.copy(&export::screen::text(&picture))?
+                }
+                Effect::SaveScan { path, scan, rows } => {
+                    let notice = scan_file::save(&path, &scan, &rows);
+                    self.update(Msg::Told(notice))?
                 }
                 Effect::Write { path, text, replace } => {
                     let notice = Files::write(&path, &text, replace);
@@ -332,7 +338,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
     fn ask(&mut self) {
         let wanted = self.machine.wants();
         if wanted != self.asked {
-            self.worker.submit(wanted.clone());
+            self.crew.submit(wanted.clone());
             self.asked = wanted;
         }
     }
@@ -347,7 +353,8 @@ impl<M: Machine, W: Write> Pump<M, W> {
             let beat = self.beat.filter(|_| self.machine.is_moving())?;
             return Some((beat + FRAME_TIME).max(self.screen.next(beat)));
         };
-        let answer = if self.asked.is_empty() { changed } else { changed + ANSWER_TIME };
+        let answer =
+            if self.asked.iter().all(Request::is_long) { changed } else { changed + ANSWER_TIME };
         Some(answer.max(self.screen.next(changed)))
     }
 

@@ -1,6 +1,7 @@
 //! Windows fitted to what is on show.
 
 use super::plot::Framing;
+use super::scan::Scanned;
 use super::state::Session;
 use crate::flow::Outcome;
 use crate::oscillator::energy::energy;
@@ -48,6 +49,7 @@ pub(super) fn resolve(session: &mut Session) {
             View::Regimes => regimes(session, index),
             View::Trade => trade(session),
             View::Belt => belt(session),
+            View::Scan => session.scanned.as_ref().map(Scanned::window),
         };
         let of_scene = session.exhibit_of_scene(index, view);
         let plot = &mut session.plots[index];

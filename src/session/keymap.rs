@@ -33,6 +33,8 @@ pub enum Context {
     Trade,
     /// The focus is on the mass on its belt.
     Belt,
+    /// The focus is on a scan.
+    Scan,
     /// A point of the branch is held.
     Walk,
     /// The focus is on a plot.
@@ -61,6 +63,8 @@ pub enum Context {
     Entry,
     /// A command is being typed.
     Prompt,
+    /// A scan is being typed.
+    Form,
     /// A pasted keystroke file waits for a yes.
     Offer,
     /// Whatever is open.
@@ -68,7 +72,7 @@ pub enum Context {
 }
 
 /// Every context with its name in settings files.
-pub const CONTEXTS: [(Context, &str); 25] = [
+pub const CONTEXTS: [(Context, &str); 27] = [
     (Context::Parameters, "parameters"),
     (Context::Phase, "phase"),
     (Context::Diagram, "diagram"),
@@ -78,6 +82,8 @@ pub const CONTEXTS: [(Context, &str); 25] = [
     (Context::Regimes, "regimes"),
     (Context::Trade, "trade"),
     (Context::Belt, "belt"),
+    (Context::Scan, "scan"),
+    (Context::Form, "form"),
     (Context::Walk, "walk"),
     (Context::Plots, "plots"),
     (Context::Everywhere, "everywhere"),
@@ -116,6 +122,8 @@ impl Context {
             Context::Regimes => "Chart of regimes",
             Context::Trade => "Trade of error for cost",
             Context::Belt => "Mass on its belt",
+            Context::Scan => "Scan",
+            Context::Form => "While typing a scan",
             Context::Walk => "Walking along the branch",
             Context::Plots => "Every plot",
             Context::Everywhere => "Everywhere",
@@ -138,7 +146,10 @@ impl Context {
     /// Whether characters without a command are typed into a line.
     #[must_use]
     pub fn takes_text(self) -> bool {
-        matches!(self, Context::Search | Context::Palette | Context::Entry | Context::Prompt)
+        matches!(
+            self,
+            Context::Search | Context::Palette | Context::Entry | Context::Prompt | Context::Form
+        )
     }
 
     /// Whether this holds only while something is open or waited for.
@@ -156,6 +167,7 @@ impl Context {
             | Context::Search
             | Context::Entry
             | Context::Prompt
+            | Context::Form
             | Context::Offer => true,
             Context::Parameters
             | Context::Phase
@@ -166,6 +178,7 @@ impl Context {
             | Context::Regimes
             | Context::Trade
             | Context::Belt
+            | Context::Scan
             | Context::Walk
             | Context::Plots
             | Context::Everywhere
@@ -185,13 +198,14 @@ impl Context {
             Context::Regimes => Some(View::Regimes),
             Context::Trade => Some(View::Trade),
             Context::Belt => Some(View::Belt),
+            Context::Scan => Some(View::Scan),
             _ => None,
         }
     }
 }
 
 /// Every set of contexts that can hold together, the most specific first.
-pub const CHAINS: [&[Context]; 21] = [
+pub const CHAINS: [&[Context]; 23] = [
     &[Context::Parameters, Context::Everywhere, Context::Always],
     &[Context::Phase, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Diagram, Context::Plots, Context::Everywhere, Context::Always],
@@ -201,6 +215,7 @@ pub const CHAINS: [&[Context]; 21] = [
     &[Context::Belt, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Regimes, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Trade, Context::Plots, Context::Everywhere, Context::Always],
+    &[Context::Scan, Context::Everywhere, Context::Always],
     &[Context::Walk, Context::Always],
     &[Context::Help, Context::Lists, Context::Always],
     &[Context::Scenes, Context::Lists, Context::Always],
@@ -212,6 +227,7 @@ pub const CHAINS: [&[Context]; 21] = [
     &[Context::Search, Context::Always],
     &[Context::Entry, Context::Always],
     &[Context::Prompt, Context::Always],
+    &[Context::Form, Context::Always],
     &[Context::Offer, Context::Always],
 ];
 
@@ -233,6 +249,7 @@ impl Session {
                 Some(View::Regimes) => Context::Regimes,
                 Some(View::Trade) => Context::Trade,
                 Some(View::Belt) => Context::Belt,
+                Some(View::Scan) => Context::Scan,
             },
             Some(Overlay::Palette(_)) => Context::Palette,
             Some(overlay) if overlay.list().is_some_and(|list| list.searching) => Context::Search,
@@ -243,6 +260,7 @@ impl Session {
             Some(Overlay::Views(_)) => Context::Views,
             Some(Overlay::Entry(_)) => Context::Entry,
             Some(Overlay::Prompt(_)) => Context::Prompt,
+            Some(Overlay::Scan(_)) => Context::Form,
             Some(Overlay::Offer(_)) => Context::Offer,
         };
         CHAINS.into_iter().find(|chain| chain[0] == first).unwrap_or(CHAINS[0])

@@ -19,6 +19,7 @@ pub mod parameters;
 pub mod playback;
 pub mod plots;
 pub mod prompt;
+pub mod scan;
 pub mod starts;
 pub mod typing;
 pub mod walk;
