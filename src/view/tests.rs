@@ -287,6 +287,7 @@ fn screens_look_as_they_were_approved() {
         ("trade", (80, 24), "<tab> Q V / t r a d e <enter> <right>", letters()),
         ("costs", (100, 30), "$", letters()),
         ("dial", (100, 24), "}", letters()),
+        ("regimes", (80, 24), "<tab> Q V / r e g <enter> <right>", braille()),
         ("views", (80, 24), "V", letters()),
     ];
     for (name, (width, height), keys, look) in cases {
