@@ -76,6 +76,8 @@ pub enum Request {
         /// The end time.
         until: f64,
     },
+    /// The claims of the paper against computation.
+    Claims,
 }
 
 /// The kind of a request.
@@ -108,6 +110,12 @@ pub enum Slot {
 
 /// Every kind, the most urgent first.
 pub const SLOTS: [Slot; 10] = [
+    /// The claims of the paper.
+    Claims,
+}
+
+/// Every kind, the most urgent first.
+pub const SLOTS: [Slot; 9] = [
     Slot::Trajectory,
     Slot::Cycles,
     Slot::Capture,
@@ -118,6 +126,7 @@ pub const SLOTS: [Slot; 10] = [
     Slot::Family,
     Slot::Trade,
     Slot::Reference,
+    Slot::Claims,
 ];
 
 impl Slot {
@@ -144,6 +153,7 @@ impl Slot {
             Slot::Family => "family",
             Slot::Trade => "trade",
             Slot::Reference => "reference",
+            Slot::Claims => "paper",
         }
     }
 }
@@ -195,6 +205,7 @@ impl Request {
             | Request::Family(_)
             | Request::Trade { .. }
             | Request::Reference { .. } => None,
+            Request::Claims => Slot::Claims,
         }
     }
 

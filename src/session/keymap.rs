@@ -45,6 +45,8 @@ pub enum Context {
     Layers,
     /// The picker of views is open.
     Views,
+    /// The claims of the paper are open.
+    Paper,
     /// The palette is open.
     Palette,
     /// A count is being typed before a key.
@@ -82,6 +84,7 @@ pub const CONTEXTS: [(Context, &str); 24] = [
     (Context::Scenes, "scenes"),
     (Context::Layers, "layers"),
     (Context::Views, "views"),
+    (Context::Paper, "paper"),
     (Context::Palette, "palette"),
     (Context::Count, "count"),
     (Context::Letter, "letter"),
@@ -119,6 +122,7 @@ impl Context {
             Context::Scenes => "In the scene picker",
             Context::Layers => "In the layer list",
             Context::Views => "In the picker of views",
+            Context::Paper => "In the list of claims",
             Context::Palette => "In the palette",
             Context::Count => "After a count",
             Context::Letter => "Before the letter of a register or mark",
@@ -145,6 +149,7 @@ impl Context {
             | Context::Scenes
             | Context::Layers
             | Context::Views
+            | Context::Paper
             | Context::Palette
             | Context::Count
             | Context::Letter
@@ -200,6 +205,8 @@ pub const CHAINS: [&[Context]; 20] = [
     &[Context::Layers, Context::Lists, Context::Always],
     &[Context::Views, Context::Lists, Context::Always],
     &[Context::Palette, Context::Always],
+    &[Context::Paper, Context::Lists, Context::Always],
+    &[Context::Palette, Context::Lists, Context::Always],
     &[Context::Count, Context::Always],
     &[Context::Letter, Context::Always],
     &[Context::Search, Context::Always],
@@ -233,6 +240,8 @@ impl Session {
             Some(Overlay::Scenes(_)) => Context::Scenes,
             Some(Overlay::Layers(_)) => Context::Layers,
             Some(Overlay::Views(_)) => Context::Views,
+            Some(Overlay::Paper(_)) => Context::Paper,
+            Some(Overlay::Palette(_)) => Context::Palette,
             Some(Overlay::Entry(_)) => Context::Entry,
             Some(Overlay::Prompt(_)) => Context::Prompt,
             Some(Overlay::Offer(_)) => Context::Offer,

@@ -90,6 +90,7 @@ fn by_hand(request: &Request) -> Answer {
         }
         Request::Trade { .. } => Answer::Trade(compared()),
         Request::Reference { .. } => Answer::Reference(Err(Reason::OutOfRange)),
+        Request::Claims => Answer::Claims(Vec::new()),
     }
 }
 
@@ -540,6 +541,7 @@ proptest! {
                 }
                 Ok(Answer::Capture(found)) => found.curves = vec![states.clone()],
                 Ok(Answer::Family(_) | Answer::Trade(_) | Answer::Reference(_)) | Err(_) => {}
+                Ok(Answer::Family(_) | Answer::Claims(_)) | Err(_) => {}
             }
         }
         session.plots[0].cursor = Some(Point { x: value, y: low });
