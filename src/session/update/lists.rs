@@ -136,7 +136,7 @@ fn show_claim(session: &mut Session) -> Vec<Effect> {
             inform(session, format!("{}: {}", claim.equation, claim.statement));
         }
         None => {
-            refuse(session, format!("no scene shows {}: it is a formula alone", claim.equation))
+            refuse(session, format!("no scene shows {}: it is a formula alone", claim.equation));
         }
     }
     Vec::new()
