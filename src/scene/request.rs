@@ -106,16 +106,12 @@ pub enum Slot {
     Trade,
     /// What errors are measured against: wanted last of all.
     Reference,
-}
-
-/// Every kind, the most urgent first.
-pub const SLOTS: [Slot; 10] = [
     /// The claims of the paper.
     Claims,
 }
 
 /// Every kind, the most urgent first.
-pub const SLOTS: [Slot; 9] = [
+pub const SLOTS: [Slot; 11] = [
     Slot::Trajectory,
     Slot::Cycles,
     Slot::Capture,
@@ -173,6 +169,7 @@ impl Request {
             Request::Family(_) => Slot::Family,
             Request::Trade { .. } => Slot::Trade,
             Request::Reference { .. } => Slot::Reference,
+            Request::Claims => Slot::Claims,
         }
     }
 
@@ -204,8 +201,8 @@ impl Request {
             | Request::Regimes { .. }
             | Request::Family(_)
             | Request::Trade { .. }
-            | Request::Reference { .. } => None,
-            Request::Claims => Slot::Claims,
+            | Request::Reference { .. }
+            | Request::Claims => None,
         }
     }
 

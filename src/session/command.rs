@@ -6,10 +6,8 @@ use super::input::Input;
 use super::key::Key;
 use super::keymap::Context::{
     self, Always, Count, Diagram, EnergyLedger, Entry, Everywhere, Help, Layers, Letter, Lists,
-    Offer, Palette, Parameters, Phase, Plots, Prompt, Regimes, ReturnMap, Scenes, Search,
-    TimeSeries, Trade, Views, Walk,
     Offer, Palette, Paper, Parameters, Phase, Plots, Prompt, Regimes, ReturnMap, Scenes, Search,
-    TimeSeries, Views, Walk,
+    TimeSeries, Trade, Views, Walk,
 };
 use super::message::Effect;
 use super::pending::{self, Letter as Ask};
@@ -173,7 +171,7 @@ pub const COMMANDS: &[Command] = &[
         "Give the focus to the previous pane", |s, _| general::focus(s, -1)),
     row("enlarge", &[(Everywhere, &["z"])], "",
         "Give one plot the place of all, or share it again", |s, _| general::enlarge(s)),
-    row("paper", &[(Everywhere, &["<f4>"])], "paper",
+    row("paper", &[(Everywhere, &["<f9>"])], "",
         "List the claims of the paper against computation", |s, _| lists::open_paper(s)),
     row("views", &[(Everywhere, &["V"])], "view",
         "Pick what the plot in use shows", |s, _| lists::open_views(s)),
@@ -323,9 +321,7 @@ pub const COMMANDS: &[Command] = &[
         "Drop the cursor; never leaves, never discards", |s, _| plots::drop_cursor(s)),
     row("back", &[(Lists, &["<esc>", "q"]), (Entry, &["<esc>"]), (Prompt, &["<esc>"]), (Palette, &["<esc>"]), (Offer, &["<esc>"])], "close",
         "Close what is open", |s, _| general::back(s)),
-    row("close-again", &[(Help, &["?", "<f1>", "$"]), (Scenes, &["s"]), (Layers, &["v"]), (Views, &["V"])], "",
-    row("close-again", &[(Help, &["?", "<f1>"]), (Scenes, &["s"]), (Layers, &["v"]), (Views, &["V"]), (Paper, &["<f3>"])], "",
-    row("close-again", &[(Help, &["?", "<f1>"]), (Scenes, &["s"]), (Layers, &["v"]), (Views, &["V"]), (Paper, &["<f4>"])], "",
+    row("close-again", &[(Help, &["?", "<f1>", "$"]), (Scenes, &["s"]), (Layers, &["v"]), (Views, &["V"]), (Paper, &["<f9>"])], "",
         "Close with the key that opened", |s, _| general::back(s)),
     row("quit", &[(Everywhere, &["q"]), (Walk, &["q"]), (Always, &["<C-c>"])], "quit",
         "Leave", |s, _| general::quit(s)),

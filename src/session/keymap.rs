@@ -68,7 +68,7 @@ pub enum Context {
 }
 
 /// Every context with its name in settings files.
-pub const CONTEXTS: [(Context, &str); 24] = [
+pub const CONTEXTS: [(Context, &str); 25] = [
     (Context::Parameters, "parameters"),
     (Context::Phase, "phase"),
     (Context::Diagram, "diagram"),
@@ -190,7 +190,7 @@ impl Context {
 }
 
 /// Every set of contexts that can hold together, the most specific first.
-pub const CHAINS: [&[Context]; 20] = [
+pub const CHAINS: [&[Context]; 21] = [
     &[Context::Parameters, Context::Everywhere, Context::Always],
     &[Context::Phase, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Diagram, Context::Plots, Context::Everywhere, Context::Always],
@@ -204,9 +204,8 @@ pub const CHAINS: [&[Context]; 20] = [
     &[Context::Scenes, Context::Lists, Context::Always],
     &[Context::Layers, Context::Lists, Context::Always],
     &[Context::Views, Context::Lists, Context::Always],
-    &[Context::Palette, Context::Always],
     &[Context::Paper, Context::Lists, Context::Always],
-    &[Context::Palette, Context::Lists, Context::Always],
+    &[Context::Palette, Context::Always],
     &[Context::Count, Context::Always],
     &[Context::Letter, Context::Always],
     &[Context::Search, Context::Always],
@@ -241,7 +240,6 @@ impl Session {
             Some(Overlay::Layers(_)) => Context::Layers,
             Some(Overlay::Views(_)) => Context::Views,
             Some(Overlay::Paper(_)) => Context::Paper,
-            Some(Overlay::Palette(_)) => Context::Palette,
             Some(Overlay::Entry(_)) => Context::Entry,
             Some(Overlay::Prompt(_)) => Context::Prompt,
             Some(Overlay::Offer(_)) => Context::Offer,

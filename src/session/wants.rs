@@ -7,11 +7,9 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use super::overlay::Overlay;
 use super::plot::{Framing, Pane};
 use super::state::{Recomputed, Row, Session};
-use super::overlay::Overlay;
-use super::plot::Framing;
-use super::state::{Recomputed, Session};
 use super::variants::MEMBERS;
 use crate::flow::{Problem, Reason, Trajectory};
 use crate::oscillator::Symbol;

@@ -26,7 +26,6 @@ const TEXT: u16 = 8;
 
 /// What is listed.
 pub(super) struct Content {
-    pub title: &'static str,
     /// What is listed.
     pub title: &'static str,
     /// The rows.

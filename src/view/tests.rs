@@ -540,8 +540,10 @@ proptest! {
                     }
                 }
                 Ok(Answer::Capture(found)) => found.curves = vec![states.clone()],
-                Ok(Answer::Family(_) | Answer::Trade(_) | Answer::Reference(_)) | Err(_) => {}
-                Ok(Answer::Family(_) | Answer::Claims(_)) | Err(_) => {}
+                Ok(
+                    Answer::Family(_) | Answer::Trade(_) | Answer::Reference(_) | Answer::Claims(_),
+                )
+                | Err(_) => {}
             }
         }
         session.plots[0].cursor = Some(Point { x: value, y: low });

@@ -5,8 +5,6 @@ use std::sync::Arc;
 use super::desk::show;
 use super::general::{open_scene, toggle};
 use super::palette::PaletteRow;
-use crate::scene::{LAYERS, LayerSpec, Scene, VIEWS, ViewSpec, library};
-use super::palette::{self, PaletteRow};
 use super::{inform, refuse};
 use crate::scene::{LAYERS, LayerSpec, Scene, VIEWS, ViewSpec, find, library};
 use crate::session::command::{COMMANDS, Command};
@@ -118,6 +116,9 @@ pub fn open_views(session: &mut Session) -> Vec<Effect> {
 /// Opens the list of what the picture costs.
 pub fn open_cost(session: &mut Session) -> Vec<Effect> {
     session.overlay = Some(Overlay::Cost(List::default()));
+    Vec::new()
+}
+
 /// Opens the page of the paper: its claims, which are examined when this is first asked for.
 pub fn open_paper(session: &mut Session) -> Vec<Effect> {
     session.overlay = Some(Overlay::Paper(List::default()));
