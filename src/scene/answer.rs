@@ -9,6 +9,7 @@ use crate::study::accuracy::Reference;
 use crate::study::branch::branch;
 use crate::study::capture::bands;
 use crate::study::chart::{Chart, chart};
+use crate::study::claims::{Examined, examine_all};
 use crate::study::cycle::cycles_drawn;
 use crate::study::harmonic_error::{HarmonicBalance, harmonic_balance};
 use crate::study::return_map::return_map;
@@ -39,6 +40,8 @@ pub enum Answer {
     Trade(Box<Trade>),
     /// To [`Request::Reference`]; why there is none, where it would take too long.
     Reference(Result<Box<Reference>, Reason>),
+    /// To [`Request::Claims`].
+    Claims(Vec<Examined>),
     /// To [`Request::Scan`]: some more rows.
     Rows(Rows),
 }
@@ -157,6 +160,7 @@ pub fn answer_for(
     limits: &Limits,
 ) -> Result<Answer, Reason> {
     match request {
+        Request::Claims => examine_all(limits).map(Answer::Claims),
         Request::Trajectory(problem) => {
             // Without friction nothing happens at v = 0, and nobody looks for it.
             let crossings = problem.parameters.r > 0.0;
@@ -240,6 +244,7 @@ impl Answer {
                 sum += row.cost;
                 sum
             }),
+            Answer::Claims(_) => Cost::default(),
         }
     }
 }

@@ -86,6 +86,8 @@ pub enum Request {
         /// Number of the first point wanted.
         from: usize,
     },
+    /// The claims of the paper against computation.
+    Claims,
 }
 
 /// The kind of a request.
@@ -116,10 +118,12 @@ pub enum Slot {
     Reference,
     /// The scan.
     Scan,
+    /// The claims of the paper.
+    Claims,
 }
 
 /// Every kind, the most urgent first.
-pub const SLOTS: [Slot; 11] = [
+pub const SLOTS: [Slot; 12] = [
     Slot::Trajectory,
     Slot::Cycles,
     Slot::Capture,
@@ -131,6 +135,7 @@ pub const SLOTS: [Slot; 11] = [
     Slot::Trade,
     Slot::Reference,
     Slot::Scan,
+    Slot::Claims,
 ];
 
 impl Slot {
@@ -158,6 +163,7 @@ impl Slot {
             Slot::Trade => "trade",
             Slot::Reference => "reference",
             Slot::Scan => "scan",
+            Slot::Claims => "paper",
         }
     }
 }
@@ -178,6 +184,7 @@ impl Request {
             Request::Trade { .. } => Slot::Trade,
             Request::Reference { .. } => Slot::Reference,
             Request::Scan { .. } => Slot::Scan,
+            Request::Claims => Slot::Claims,
         }
     }
 
@@ -210,7 +217,8 @@ impl Request {
             | Request::Family(_)
             | Request::Trade { .. }
             | Request::Scan { .. }
-            | Request::Reference { .. } => None,
+            | Request::Reference { .. }
+            | Request::Claims => None,
         }
     }
 

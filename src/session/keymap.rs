@@ -49,6 +49,8 @@ pub enum Context {
     Layers,
     /// The picker of views is open.
     Views,
+    /// The claims of the paper are open.
+    Paper,
     /// The palette is open.
     Palette,
     /// A count is being typed before a key.
@@ -72,7 +74,7 @@ pub enum Context {
 }
 
 /// Every context with its name in settings files.
-pub const CONTEXTS: [(Context, &str); 27] = [
+pub const CONTEXTS: [(Context, &str); 28] = [
     (Context::Parameters, "parameters"),
     (Context::Phase, "phase"),
     (Context::Diagram, "diagram"),
@@ -91,6 +93,7 @@ pub const CONTEXTS: [(Context, &str); 27] = [
     (Context::Scenes, "scenes"),
     (Context::Layers, "layers"),
     (Context::Views, "views"),
+    (Context::Paper, "paper"),
     (Context::Palette, "palette"),
     (Context::Count, "count"),
     (Context::Letter, "letter"),
@@ -131,6 +134,7 @@ impl Context {
             Context::Scenes => "In the scene picker",
             Context::Layers => "In the layer list",
             Context::Views => "In the picker of views",
+            Context::Paper => "In the list of claims",
             Context::Palette => "In the palette",
             Context::Count => "After a count",
             Context::Letter => "Before the letter of a register or mark",
@@ -160,6 +164,7 @@ impl Context {
             | Context::Scenes
             | Context::Layers
             | Context::Views
+            | Context::Paper
             | Context::Palette
             | Context::Count
             | Context::Letter
@@ -205,7 +210,7 @@ impl Context {
 }
 
 /// Every set of contexts that can hold together, the most specific first.
-pub const CHAINS: [&[Context]; 23] = [
+pub const CHAINS: [&[Context]; 24] = [
     &[Context::Parameters, Context::Everywhere, Context::Always],
     &[Context::Phase, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Diagram, Context::Plots, Context::Everywhere, Context::Always],
@@ -221,6 +226,7 @@ pub const CHAINS: [&[Context]; 23] = [
     &[Context::Scenes, Context::Lists, Context::Always],
     &[Context::Layers, Context::Lists, Context::Always],
     &[Context::Views, Context::Lists, Context::Always],
+    &[Context::Paper, Context::Lists, Context::Always],
     &[Context::Palette, Context::Always],
     &[Context::Count, Context::Always],
     &[Context::Letter, Context::Always],
@@ -258,6 +264,7 @@ impl Session {
             Some(Overlay::Scenes(_)) => Context::Scenes,
             Some(Overlay::Layers(_)) => Context::Layers,
             Some(Overlay::Views(_)) => Context::Views,
+            Some(Overlay::Paper(_)) => Context::Paper,
             Some(Overlay::Entry(_)) => Context::Entry,
             Some(Overlay::Prompt(_)) => Context::Prompt,
             Some(Overlay::Scan(_)) => Context::Form,
