@@ -10,6 +10,7 @@ use std::time::Duration;
 
 use hopfscope::flow::{Cost, Limits, Reason};
 use hopfscope::oscillator::Parameters;
+use hopfscope::runtime::worker::Tell;
 use hopfscope::runtime::{Machine, Options, launch};
 use hopfscope::scene::{Answer, Answered, Request};
 use hopfscope::session::{Code, Effect, Key, Msg};
@@ -35,7 +36,7 @@ fn request(number: u32) -> Request {
 }
 
 /// The worker: panics at 3.
-fn confirm(request: &Request, _: &Limits) -> Result<Answer, Reason> {
+fn confirm(request: &Request, _: &Limits, _: &Tell) -> Result<Answer, Reason> {
     let Request::Cycles { parameters, .. } = *request else { return Err(Reason::OutOfRange) };
     assert!(parameters.d != 3.0, "three is too much");
     Ok(Answer::Cycles(Cycles {

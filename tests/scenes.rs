@@ -33,7 +33,12 @@ impl Stage {
                 let result = Ok(answer(&request, &Limits::PATIENT).unwrap());
                 update(
                     &mut self.0,
-                    Msg::Answered(Box::new(Answered { request, result, seconds: 0.0 })),
+                    Msg::Answered(Box::new(Answered {
+                        request,
+                        result,
+                        seconds: 0.0,
+                        complete: true,
+                    })),
                 );
             }
         }

@@ -58,7 +58,7 @@ impl Explorer {
         for request in self.session.wants() {
             if self.session.is_open(&request) {
                 let result = answer(&request, &Limits::default()).map_err(Failure::Reason);
-                let answered = Answered { request, result, seconds: 0.000_25 };
+                let answered = Answered { request, result, seconds: 0.000_25, complete: true };
                 update(&mut self.session, Msg::Answered(Box::new(answered)));
             }
         }

@@ -200,12 +200,11 @@ impl ScanCommand {
     }
 
     fn form(&self) -> Result<Form, Failure> {
-        let ending = self.output.as_ref().and_then(|path| path.extension());
         let form = match self.format {
             Some(Rows::Json) => Form::Json,
             Some(Rows::Table) => Form::Table,
-            None if ending.is_some_and(|end| end == "json" || end == "jsonl") => Form::Json,
-            Some(Rows::Csv) | None => Form::Csv,
+            Some(Rows::Csv) => Form::Csv,
+            None => self.output.as_deref().map_or(Form::Csv, Form::of_file),
         };
         if form == Form::Table && self.resume {
             let line = "--format table rounds its numbers; --resume needs csv or json";

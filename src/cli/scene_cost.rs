@@ -64,7 +64,7 @@ fn settle(session: &mut Session, scene: &Scene) -> Result<Vec<Question>, Failure
             })?;
             let (slot, cost) = (request.slot(), found.cost());
             answered.push(Question { slot, layers, cost, seconds });
-            let answered = Answered { request, result: Ok(found), seconds };
+            let answered = Answered { request, result: Ok(found), seconds, complete: true };
             update(session, Msg::Answered(Box::new(answered)));
         }
     }

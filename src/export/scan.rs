@@ -24,6 +24,14 @@ pub enum Form {
 const WIDTH: usize = 14;
 
 impl Form {
+    /// The form that the name of a file asks for: JSON where it ends so, else CSV.
+    #[must_use]
+    pub fn of_file(path: &std::path::Path) -> Self {
+        let ending = path.extension();
+        let json = ending.is_some_and(|ending| ending == "json" || ending == "jsonl");
+        if json { Form::Json } else { Form::Csv }
+    }
+
     /// The line before the rows; empty where there is none.
     #[must_use]
     pub fn heading(self, scan: &Scan) -> String {

@@ -9,8 +9,10 @@ use ratatui::layout::{Position, Rect, Size};
 use super::headless::{self, Played};
 use super::launch::{Ended, Options, launch};
 use super::machine::Machine;
-use crate::scene::Request;
-use crate::scene::answer::answer;
+use super::scanning;
+use super::worker::Tell;
+use crate::flow::{Limits, Reason};
+use crate::scene::{Answer, Request, answer as scene_answer};
 use crate::session::replay::Script;
 use crate::session::{Effect, Msg, Place, Session, save, settings, update};
 use crate::terminal::Environment;
@@ -69,6 +71,17 @@ impl Machine for Explorer {
 
     fn draw(&self, frame: &mut Frame) {
         view::draw(frame, &self.session, &self.look);
+    }
+}
+
+/// Answers a request: a scan on all cores, everything else here.
+///
+/// # Errors
+/// The [`Reason`] why there is no answer.
+pub fn answer(request: &Request, limits: &Limits, tell: &Tell) -> Result<Answer, Reason> {
+    match request {
+        Request::Scan { scan, from } => scanning::answer(scan, *from, limits, tell),
+        _ => scene_answer::answer(request, limits),
     }
 }
 

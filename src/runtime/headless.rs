@@ -9,11 +9,12 @@ use crossbeam_channel::unbounded;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
 
+use super::crew::Crew;
 use super::effects::Files;
 use super::machine::Machine;
 use super::panics::Notes;
 use super::picture;
-use super::worker::Worker;
+use super::worker::Tell;
 use crate::export;
 use crate::flow::{Limits, Reason};
 use crate::scene::{Answer, Request};
@@ -43,12 +44,12 @@ pub struct Played<M> {
 /// If the system gives no thread for the worker.
 pub fn play<M: Machine>(
     mut machine: M,
-    answer: impl Fn(&Request, &Limits) -> Result<Answer, Reason> + Send + 'static,
+    answer: impl Fn(&Request, &Limits, &Tell) -> Result<Answer, Reason> + Send + Sync + 'static,
     script: Script,
     size: Size,
 ) -> io::Result<Played<M>> {
     let (send, messages) = unbounded();
-    let worker = Worker::start(answer, Notes::default(), move |msg| drop(send.send(msg)))?;
+    let crew = Crew::start(answer, Notes::default(), move |msg| drop(send.send(msg)))?;
     let mut player = Player::new(script);
     let mut size = size;
     let mut kept = Vec::new();
@@ -59,8 +60,10 @@ pub fn play<M: Machine>(
             if let Msg::Resize { width, height } = msg {
                 size = Size { width, height };
             }
-            if let Msg::Answered(answered) = &msg {
-                worker.taken(&answered.request);
+            if let Msg::Answered(answered) = &msg
+                && answered.complete
+            {
+                crew.taken(&answered.request);
                 asked.retain(|request| *request != answered.request);
             }
             if does(&mut machine, &mut player, msg) {
@@ -69,14 +72,14 @@ pub fn play<M: Machine>(
         }
         let wanted = machine.wants();
         if wanted != asked {
-            worker.submit(wanted.clone());
+            crew.submit(wanted.clone());
             asked.clone_from(&wanted);
         }
         let screen = || export::screen::text(&picture::of(&machine, size));
         match player.next(wanted.is_empty(), screen) {
             Ok(Action::Give(msg)) => given = Some(msg),
             Ok(Action::Keep(name)) => kept.push((name, picture::of(&machine, size))),
-            // The worker lives as long as its handle does, so there is a message.
+            // The crew lives as long as its handle does, so there is a message.
             Ok(Action::Wait) => given = messages.recv().ok(),
             Ok(Action::Done) => break None,
             Err(unmet) => break Some(unmet),
@@ -106,6 +109,7 @@ fn does(machine: &mut impl Machine, player: &mut Player, msg: Msg) -> bool {
             | Effect::Copy(_)
             | Effect::CopyScreen
             | Effect::Mouse(_)
+            | Effect::SaveScan { .. }
             | Effect::Record { .. }
             | Effect::PutAside(_)
             | Effect::Write { .. } => {}
@@ -118,7 +122,7 @@ fn does(machine: &mut impl Machine, player: &mut Player, msg: Msg) -> bool {
 mod tests {
     use super::*;
     use crate::runtime::Explorer;
-    use crate::scene::answer::answer;
+    use crate::runtime::explorer::answer;
     use crate::scene::library::{PLAIN, find};
     use crate::session::Session;
     use crate::session::replay::parse;

@@ -10,12 +10,13 @@ use crossbeam_channel::unbounded;
 use ratatui::layout::Size;
 use rustix::io::Errno;
 
+use super::crew::Crew;
 use super::effects::Files;
 use super::event::{Event, Stop};
 use super::machine::Machine;
 use super::pump::Pump;
 use super::signals::{self, exit_code};
-use super::worker::Worker;
+use super::worker::Tell;
 use super::{input, panics};
 use crate::flow::{Limits, Reason};
 use crate::scene::{Answer, Request};
@@ -59,7 +60,7 @@ pub struct Ended {
 /// If the terminal cannot be used, or goes away while it is written to.
 pub fn launch(
     machine: impl Machine,
-    answer: impl Fn(&Request, &Limits) -> Result<Answer, Reason> + Send + 'static,
+    answer: impl Fn(&Request, &Limits, &Tell) -> Result<Answer, Reason> + Send + Sync + 'static,
     options: Options,
 ) -> io::Result<Ended> {
     let guard = Guard::new()?;
@@ -70,9 +71,9 @@ pub fn launch(
     guard.enter()?;
     input::start(send.clone())?;
     let report = move |msg| drop(send.send(Event::Session(msg)));
-    let worker = Worker::start(answer, notes.clone(), report)?;
+    let crew = Crew::start(answer, notes.clone(), report)?;
     let screen = Screen::new(guard.out(), terminal_size())?;
-    let mut pump = Pump::new(machine, screen, worker, events, options.files, terminal_size)
+    let mut pump = Pump::new(machine, screen, crew, events, options.files, terminal_size)
         .playing(options.replay.map(Player::new))
         .started(options.started);
     pump.repaint()?;

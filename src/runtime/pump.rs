@@ -13,11 +13,11 @@ use std::time::{Duration, Instant};
 use crossbeam_channel::{Receiver, RecvTimeoutError};
 use ratatui::layout::Size;
 
+use super::crew::Crew;
 use super::effects::Files;
 use super::event::{Event, Stop};
 use super::machine::Machine;
-use super::picture;
-use super::worker::Worker;
+use super::{picture, scan_file};
 use crate::export;
 use crate::scene::Request;
 use crate::session::replay::{Action, Player, Recorder};
@@ -32,7 +32,7 @@ const ANSWER_TIME: Duration = Duration::from_millis(8);
 pub struct Pump<M, W: Write> {
     machine: M,
     screen: Screen<W>,
-    worker: Worker,
+    crew: Crew,
     events: Receiver<Event>,
     /// What arrived while something else was waited for.
     missed: VecDeque<Event>,
@@ -57,7 +57,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
     pub fn new(
         machine: M,
         screen: Screen<W>,
-        worker: Worker,
+        crew: Crew,
         events: Receiver<Event>,
         files: Files,
         terminal_size: fn() -> Size,
@@ -65,7 +65,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
         Pump {
             machine,
             screen,
-            worker,
+            crew,
             events,
             missed: VecDeque::new(),
             files,
@@ -180,7 +180,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
 
     fn handle(&mut self, event: Event) -> io::Result<Option<Stop>> {
         match event {
-            Event::Session(Msg::Idle) if !self.worker.is_idle() => Ok(None),
+            Event::Session(Msg::Idle) if !self.crew.is_idle() => Ok(None),
             Event::Session(Msg::Key(Key { code: Code::Esc, .. })) if self.player.is_some() => {
                 self.played(false, "replay stopped".to_owned())
             }
@@ -190,8 +190,10 @@ impl<M: Machine, W: Write> Pump<M, W> {
             }
             Event::Session(msg) => {
                 self.recorder.note(&msg);
-                if let Msg::Answered(answered) = &msg {
-                    self.worker.taken(&answered.request);
+                if let Msg::Answered(answered) = &msg
+                    && answered.complete
+                {
+                    self.crew.taken(&answered.request);
                     self.asked.retain(|request| *request != answered.request);
                 }
                 self.update(msg)
@@ -244,6 +246,10 @@ impl<M: Machine, W: Write> Pump<M, W> {
                 Effect::CopyScreen => {
                     let picture = picture::of(&self.machine, self.screen.size());
                     self.copy(&export::screen::text(&picture))?
+                }
+                Effect::SaveScan { path, scan, rows } => {
+                    let notice = scan_file::save(&path, &scan, &rows);
+                    self.update(Msg::Told(notice))?
                 }
                 Effect::Write { path, text, replace } => {
                     let notice = Files::write(&path, &text, replace);
@@ -327,7 +333,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
     fn ask(&mut self) {
         let wanted = self.machine.wants();
         if wanted != self.asked {
-            self.worker.submit(wanted.clone());
+            self.crew.submit(wanted.clone());
             self.asked = wanted;
         }
     }
@@ -335,7 +341,8 @@ impl<M: Machine, W: Write> Pump<M, W> {
     /// When to draw; `None` if the screen shows everything.
     fn due(&self) -> Option<Instant> {
         let changed = self.changed.filter(|_| !self.held)?;
-        let answer = if self.asked.is_empty() { changed } else { changed + ANSWER_TIME };
+        let answer =
+            if self.asked.iter().all(Request::is_long) { changed } else { changed + ANSWER_TIME };
         Some(answer.max(self.screen.next(changed)))
     }
 

@@ -13,6 +13,7 @@ use std::path::Path;
 
 use crate::export::scan::Form;
 use crate::flow::{Limits, Reason};
+use crate::session::Notice;
 use crate::study::scan::{Row, Scan};
 
 /// A file that takes rows.
@@ -189,6 +190,27 @@ fn opened(path: &Path) -> Result<File, Refusal> {
         Err(TryLockError::WouldBlock) => Err(Refusal::Busy),
         // Where files cannot be locked, that nobody else writes is up to the user.
         Ok(()) | Err(TryLockError::Error(_)) => Ok(file),
+    }
+}
+
+/// Writes rows that are known to a file, in the form that its name ends with, and says how that ended.
+///
+/// A file that holds the beginning of the same scan is gone on with, one of anything else left alone.
+#[must_use]
+pub fn save(path: &Path, scan: &Scan, rows: &[Row]) -> Notice {
+    let form = Form::of_file(path);
+    let points = 0..scan.points();
+    let opened = ScanFile::resume(path, scan, form, true, points, &Limits::PATIENT);
+    let name = path.display();
+    let written = opened.and_then(|(mut file, done)| {
+        for (index, row) in rows.iter().enumerate().skip(done) {
+            file.add(scan, index, row)?;
+        }
+        Ok(rows.len().max(done))
+    });
+    match written {
+        Ok(count) => Notice { error: false, text: format!("{name} has {count} rows") },
+        Err(why) => Notice { error: true, text: format!("{name}: {why}") },
     }
 }
 

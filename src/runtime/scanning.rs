@@ -6,12 +6,16 @@ use std::ops::{ControlFlow, Range};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::available_parallelism;
+use std::time::{Duration, Instant};
 
 use crossbeam_channel::unbounded;
 use rayon::ThreadPoolBuilder;
 
 use super::panics;
-use crate::flow::Limits;
+use super::worker::Tell;
+use crate::flow::{Limits, Reason};
+use crate::scene::Answer;
+use crate::scene::answer::Rows;
 use crate::study::scan::{Row, Scan};
 
 /// Rows that each thread may be ahead of the first one that is not done yet: enough that one slow row
@@ -93,6 +97,29 @@ pub fn rows(
         drop(ticket);
     });
     Ok(())
+}
+
+/// Answers a request for the rows from point number `from` on: pieces as they come, the rest at the end.
+///
+/// # Errors
+/// [`Reason::Interrupted`]; what was told before stays true.
+pub fn answer(scan: &Scan, from: usize, limits: &Limits, tell: &Tell) -> Result<Answer, Reason> {
+    /// How long rows are gathered before they are shown: some frames.
+    const EVERY: Duration = Duration::from_millis(60);
+    let mut piece = Rows { first: from, rows: Vec::new() };
+    let mut told: Option<Instant> = None;
+    let effort = Effort { polite: true, ..Effort::whole() };
+    rows(scan, from..scan.points(), effort, limits.interrupted, |index, row| {
+        piece.rows.push(row);
+        if told.is_none_or(|told| told.elapsed() >= EVERY) {
+            told = Some(Instant::now());
+            let next = Rows { first: index + 1, rows: Vec::new() };
+            tell(Answer::Rows(std::mem::replace(&mut piece, next)));
+        }
+        ControlFlow::Continue(())
+    })
+    .map_err(|_| Reason::NotApplicable { needs: "threads, and the system gives none" })?;
+    if (limits.interrupted)() { Err(Reason::Interrupted) } else { Ok(Answer::Rows(piece)) }
 }
 
 /// A row, or nothing if the scan is over.

@@ -2,7 +2,8 @@
 //!
 //! [`Worker::submit`] replaces the set of wanted requests. The running job goes on if it is among them;
 //! else one atomic counter moves on, the job sees that at its next step, and what it found is thrown
-//! away. An answer that is on its way is not computed again: the worker remembers what it has reported
+//! away. A long job tells what it has so far: each piece is reported at once, with `complete: false`, and
+//! the request is answered only when its last piece is there. An answer that is on its way is not computed again: the worker remembers what it has reported
 //! until [`Worker::taken`] says that the session knows. A request that panics becomes a [`Failure::Panic`]; the thread lives on.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -16,6 +17,9 @@ use crate::flow::{Limits, Reason};
 use crate::scene::answer::Failure;
 use crate::scene::{Answer, Answered, Request};
 use crate::session::Msg;
+
+/// What a job calls with what it has so far; its answer is the last piece.
+pub type Tell<'a> = dyn Fn(Answer) + 'a;
 
 /// The handle of the worker thread; dropping it ends the thread at the job's next step.
 #[derive(Debug)]
@@ -73,7 +77,7 @@ impl Worker {
     /// # Errors
     /// If the system gives no thread.
     pub fn start(
-        answer: impl Fn(&Request, &Limits) -> Result<Answer, Reason> + Send + 'static,
+        answer: impl Fn(&Request, &Limits, &Tell) -> Result<Answer, Reason> + Send + 'static,
         notes: Notes,
         report: impl Fn(Msg) + Send + 'static,
     ) -> std::io::Result<Worker> {
@@ -84,7 +88,17 @@ impl Worker {
                 let superseded = || theirs.generation.load(Ordering::Relaxed) != generation;
                 let limits = Limits { interrupted: &superseded, ..Limits::PATIENT };
                 let started = Instant::now();
-                let result = match catch_unwind(AssertUnwindSafe(|| answer(&request, &limits))) {
+                let tell = |piece: Answer| {
+                    let desk = theirs.desk();
+                    if desk.running.is_some() && !superseded() {
+                        let seconds = started.elapsed().as_secs_f64();
+                        let (request, result) = (request.clone(), Ok(piece));
+                        let piece = Answered { request, result, seconds, complete: false };
+                        report(Msg::Answered(Box::new(piece)));
+                    }
+                };
+                let computed = catch_unwind(AssertUnwindSafe(|| answer(&request, &limits, &tell)));
+                let result = match computed {
                     Ok(result) => result.map_err(Failure::Reason),
                     Err(panic) => {
                         let told = notes.take();
@@ -96,7 +110,8 @@ impl Worker {
                 desk.busy = false;
                 if desk.running.take().is_some() {
                     desk.reported.push(request.clone());
-                    report(Msg::Answered(Box::new(Answered { request, result, seconds })));
+                    let answered = Answered { request, result, seconds, complete: true };
+                    report(Msg::Answered(Box::new(answered)));
                 }
                 if desk.waiting.is_empty() && !desk.closed {
                     report(Msg::Idle);
@@ -187,24 +202,35 @@ mod tests {
         })
     }
 
+    /// What a job is told to do.
+    #[derive(Debug)]
+    enum Step {
+        /// To report a piece.
+        Tell,
+        /// To end with an answer.
+        Finish,
+    }
+
     /// A worker whose jobs tell that they have started, and end when they are told to or superseded.
     struct Bench {
         worker: Worker,
         started: Receiver<f64>,
-        finish: Sender<()>,
+        finish: Sender<Step>,
         messages: Receiver<Msg>,
     }
 
     fn bench() -> Bench {
         let (start, started) = unbounded();
-        let (finish, finished) = bounded::<()>(0);
+        let (finish, finished) = bounded::<Step>(0);
         let (message, messages) = unbounded();
-        let job = move |request: &Request, limits: &Limits| {
+        let job = move |request: &Request, limits: &Limits, tell: &Tell| {
             let _ = start.send(number(request));
             assert!(number(request) >= 0.0, "a negative number");
             while !(limits.interrupted)() {
-                if finished.try_recv().is_ok() {
-                    return Ok(nothing(request));
+                match finished.try_recv() {
+                    Ok(Step::Finish) => return Ok(nothing(request)),
+                    Ok(Step::Tell) => tell(nothing(request)),
+                    Err(_) => {}
                 }
                 thread::yield_now();
             }
@@ -238,7 +264,7 @@ mod tests {
         bench.worker.submit(vec![request(1.0), request(2.0)]);
         for wanted in [1.0, 2.0] {
             assert_eq!(bench.started.recv(), Ok(wanted));
-            bench.finish.send(()).unwrap();
+            bench.finish.send(Step::Finish).unwrap();
             assert_eq!(bench.answered(), (wanted, Ok(())));
         }
         bench.idle();
@@ -251,7 +277,7 @@ mod tests {
         assert_eq!(bench.started.recv(), Ok(1.0));
         bench.worker.submit(vec![request(2.0)]);
         assert_eq!(bench.started.recv(), Ok(2.0));
-        bench.finish.send(()).unwrap();
+        bench.finish.send(Step::Finish).unwrap();
         assert_eq!(bench.answered(), (2.0, Ok(())));
         bench.idle();
     }
@@ -262,10 +288,10 @@ mod tests {
         bench.worker.submit(vec![request(1.0), request(2.0)]);
         assert_eq!(bench.started.recv(), Ok(1.0));
         bench.worker.submit(vec![request(1.0), request(3.0)]);
-        bench.finish.send(()).unwrap();
+        bench.finish.send(Step::Finish).unwrap();
         assert_eq!(bench.answered(), (1.0, Ok(())));
         assert_eq!(bench.started.recv(), Ok(3.0));
-        bench.finish.send(()).unwrap();
+        bench.finish.send(Step::Finish).unwrap();
         assert_eq!(bench.answered(), (3.0, Ok(())));
         bench.idle();
     }
@@ -278,7 +304,7 @@ mod tests {
         bench.worker.submit(vec![]);
         bench.worker.submit(vec![request(1.0)]);
         assert_eq!(bench.started.recv(), Ok(1.0));
-        bench.finish.send(()).unwrap();
+        bench.finish.send(Step::Finish).unwrap();
         // The first run may have ended before the second was submitted; then it said so.
         let answered = bench.messages.iter().find(|message| !matches!(message, Msg::Idle));
         assert!(matches!(answered, Some(Msg::Answered(answered)) if answered.result.is_ok()));
@@ -289,21 +315,71 @@ mod tests {
     fn an_answer_on_its_way_is_not_computed_again() {
         let bench = bench();
         bench.worker.submit(vec![request(1.0)]);
-        bench.finish.send(()).unwrap();
+        bench.finish.send(Step::Finish).unwrap();
         assert_eq!(bench.answered(), (1.0, Ok(())));
         bench.idle();
         // Not taken yet: a session that wants something else beside it still wants it.
         bench.worker.submit(vec![request(1.0), request(2.0)]);
-        bench.finish.send(()).unwrap();
+        bench.finish.send(Step::Finish).unwrap();
         assert_eq!(bench.answered(), (2.0, Ok(())));
         bench.idle();
         // Taken and wanted nevertheless, as after a failure that is tried again.
         bench.worker.taken(&request(1.0));
         bench.worker.submit(vec![request(1.0), request(2.0)]);
-        bench.finish.send(()).unwrap();
+        bench.finish.send(Step::Finish).unwrap();
         assert_eq!(bench.answered(), (1.0, Ok(())));
         bench.idle();
         assert_eq!(bench.started.try_iter().collect::<Vec<_>>(), [1.0, 2.0, 1.0]);
+    }
+
+    #[test]
+    fn pieces_are_reported_at_once_and_the_job_goes_on() {
+        let bench = bench();
+        bench.worker.submit(vec![request(1.0)]);
+        for _ in 0..2 {
+            bench.finish.send(Step::Tell).unwrap();
+            let Msg::Answered(piece) = bench.messages.recv().unwrap() else { panic!("no piece") };
+            assert!(!piece.complete && piece.result.is_ok());
+            assert!(!bench.worker.is_idle());
+            // Still wanted, and not begun again.
+            bench.worker.submit(vec![request(1.0)]);
+        }
+        bench.finish.send(Step::Finish).unwrap();
+        let Msg::Answered(last) = bench.messages.recv().unwrap() else { panic!("no answer") };
+        assert!(last.complete);
+        bench.idle();
+        assert_eq!(bench.started.try_iter().count(), 1);
+    }
+
+    #[test]
+    fn a_superseded_job_reports_no_more_pieces() {
+        let (start, started) = unbounded();
+        let (go, gone) = bounded::<()>(0);
+        let (message, messages) = unbounded();
+        let job = move |request: &Request, _: &Limits, tell: &Tell| {
+            start.send(number(request)).unwrap();
+            gone.recv().unwrap();
+            // It has not noticed yet that nobody wants it.
+            tell(nothing(request));
+            Ok(nothing(request))
+        };
+        let worker =
+            Worker::start(job, Notes::default(), move |msg| drop(message.send(msg))).unwrap();
+        worker.submit(vec![request(1.0)]);
+        assert_eq!(started.recv(), Ok(1.0));
+        worker.submit(vec![request(2.0)]);
+        go.send(()).unwrap();
+        assert_eq!(started.recv(), Ok(2.0));
+        go.send(()).unwrap();
+        let answered: Vec<f64> = messages
+            .iter()
+            .take(2)
+            .map(|message| match message {
+                Msg::Answered(answered) => number(&answered.request),
+                other => panic!("{other:?}"),
+            })
+            .collect();
+        assert_eq!(answered, [2.0, 2.0]);
     }
 
     #[test]
@@ -312,7 +388,7 @@ mod tests {
         bench.worker.submit(vec![request(-1.0), request(1.0)]);
         let panic = Failure::Panic("a negative number".to_owned());
         assert_eq!(bench.answered(), (-1.0, Err(panic)));
-        bench.finish.send(()).unwrap();
+        bench.finish.send(Step::Finish).unwrap();
         assert_eq!(bench.answered(), (1.0, Ok(())));
         bench.idle();
     }

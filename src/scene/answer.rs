@@ -12,6 +12,7 @@ use crate::study::chart::{Chart, chart};
 use crate::study::cycle::cycles;
 use crate::study::harmonic_error::{HarmonicBalance, harmonic_balance};
 use crate::study::return_map::return_map;
+use crate::study::scan::Row;
 use crate::study::trade::Trade;
 use crate::study::{Branch, Cycles, ReturnMap};
 
@@ -38,6 +39,17 @@ pub enum Answer {
     Trade(Box<Trade>),
     /// To [`Request::Reference`]; why there is none, where it would take too long.
     Reference(Result<Box<Reference>, Reason>),
+    /// To [`Request::Scan`]: some more rows.
+    Rows(Rows),
+}
+
+/// Rows of a scan that follow each other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rows {
+    /// Number of the first one's point.
+    pub first: usize,
+    /// The rows.
+    pub rows: Vec<Row>,
 }
 
 /// The borders between bands of capture, to be drawn.
@@ -56,8 +68,10 @@ pub struct Answered {
     pub request: Request,
     /// The answer, or why there is none.
     pub result: Result<Answer, Failure>,
-    /// Wall-clock seconds that it took.
+    /// Wall-clock seconds that it took so far.
     pub seconds: f64,
+    /// Whether this is all; a long question is answered in pieces.
+    pub complete: bool,
 }
 
 /// Why a request has no answer.
@@ -158,6 +172,10 @@ pub fn answer(request: &Request, limits: &Limits) -> Result<Answer, Reason> {
             }
             Ok(Answer::Family(answers))
         }
+        Request::Scan { scan, from } => {
+            let rows = (*from..scan.points()).map(|index| scan.row(index, limits));
+            Ok(Answer::Rows(Rows { first: *from, rows: rows.collect::<Result<_, _>>()? }))
+        }
     }
 }
 
@@ -182,6 +200,10 @@ impl Answer {
             Answer::Reference(answer) => {
                 answer.as_ref().map_or(Cost::default(), |found| found.cost)
             }
+            Answer::Rows(answer) => answer.rows.iter().fold(Cost::default(), |mut sum, row| {
+                sum += row.cost;
+                sum
+            }),
         }
     }
 }

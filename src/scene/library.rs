@@ -127,7 +127,7 @@ mod tests {
                         let Axes { abscissa, against, .. } = plot.axes;
                         assert!(x.contains(value(abscissa)) && y.contains(value(against)));
                     }
-                    View::EnergyLedger | View::ReturnMap | View::Trade => {}
+                    View::EnergyLedger | View::ReturnMap | View::Trade | View::Scan => {}
                 }
             }
         }

@@ -1,9 +1,12 @@
 //! Requests: exactly the inputs that a layer depends on, so that equal requests need no new answer.
 
+use std::sync::Arc;
+
 use crate::flow::quality::DRAFT;
 use crate::flow::{Method, Problem};
 use crate::oscillator::{Parameters, State, Symbol};
 use crate::study::chart::Plane;
+use crate::study::scan::Scan;
 
 /// A question to the worker. Two equal requests have the same answer.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,6 +79,13 @@ pub enum Request {
         /// The end time.
         until: f64,
     },
+    /// The rows of a scan that are not there yet.
+    Scan {
+        /// The scan.
+        scan: Arc<Scan>,
+        /// Number of the first point wanted.
+        from: usize,
+    },
 }
 
 /// The kind of a request.
@@ -102,12 +112,14 @@ pub enum Slot {
     Family,
     /// What accuracy costs.
     Trade,
+    /// The scan.
+    Scan,
     /// What errors are measured against: wanted last of all.
     Reference,
 }
 
 /// Every kind, the most urgent first.
-pub const SLOTS: [Slot; 10] = [
+pub const SLOTS: [Slot; 11] = [
     Slot::Trajectory,
     Slot::Cycles,
     Slot::Capture,
@@ -117,6 +129,7 @@ pub const SLOTS: [Slot; 10] = [
     Slot::Regimes,
     Slot::Family,
     Slot::Trade,
+    Slot::Scan,
     Slot::Reference,
 ];
 
@@ -144,6 +157,7 @@ impl Slot {
             Slot::Family => "family",
             Slot::Trade => "trade",
             Slot::Reference => "reference",
+            Slot::Scan => "scan",
         }
     }
 }
@@ -163,6 +177,7 @@ impl Request {
             Request::Family(_) => Slot::Family,
             Request::Trade { .. } => Slot::Trade,
             Request::Reference { .. } => Slot::Reference,
+            Request::Scan { .. } => Slot::Scan,
         }
     }
 
@@ -194,8 +209,15 @@ impl Request {
             | Request::Regimes { .. }
             | Request::Family(_)
             | Request::Trade { .. }
+            | Request::Scan { .. }
             | Request::Reference { .. } => None,
         }
+    }
+
+    /// Whether it may take long, is answered in pieces, and must not keep others waiting.
+    #[must_use]
+    pub fn is_long(&self) -> bool {
+        matches!(self, Request::Scan { .. })
     }
 
     /// Whether the answer to this may stand in for that to `wanted` until that is there.

@@ -30,6 +30,8 @@ pub enum View {
     Regimes,
     /// The error of every method over its cost.
     Trade,
+    /// What was measured at each point of a scan.
+    Scan,
 }
 
 /// One row of [`VIEWS`].
@@ -48,7 +50,7 @@ pub struct ViewSpec {
 }
 
 /// Every view, in the order in which they are listed and the keys visit them.
-pub const VIEWS: [ViewSpec; 7] = [
+pub const VIEWS: [ViewSpec; 8] = [
     ViewSpec {
         view: View::Phase,
         name: "phase",
@@ -97,6 +99,13 @@ pub const VIEWS: [ViewSpec; 7] = [
         title: "trade",
         meaning: "error over cost: what accuracy costs, by every method",
         window: Window { x: Span::known(1.0, 6.0), y: Span::known(-17.0, 1.0) },
+    },
+    ViewSpec {
+        view: View::Scan,
+        name: "scan",
+        title: "scan",
+        meaning: "what was measured at each point of a line or grid",
+        window: Window { x: Span::known(0.0, 1.0), y: Span::known(0.0, 1.0) },
     },
 ];
 

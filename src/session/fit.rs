@@ -1,6 +1,7 @@
 //! Windows fitted to what is on show.
 
 use super::plot::Framing;
+use super::scan::Scanned;
 use super::state::Session;
 use crate::flow::Outcome;
 use crate::oscillator::energy::energy;
@@ -44,6 +45,7 @@ pub(super) fn resolve(session: &mut Session) {
             View::ReturnMap => return_map(session),
             View::Regimes => regimes(session, index),
             View::Trade => trade(session),
+            View::Scan => session.scanned.as_ref().map(Scanned::window),
         };
         let of_scene = session.exhibit_of_scene(index, view);
         let plot = &mut session.plots[index];

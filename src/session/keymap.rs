@@ -31,6 +31,8 @@ pub enum Context {
     Regimes,
     /// The focus is on the trade of error for cost.
     Trade,
+    /// The focus is on a scan.
+    Scan,
     /// A point of the branch is held.
     Walk,
     /// The focus is on a plot.
@@ -59,6 +61,8 @@ pub enum Context {
     Entry,
     /// A command is being typed.
     Prompt,
+    /// A scan is being typed.
+    Form,
     /// A pasted keystroke file waits for a yes.
     Offer,
     /// Whatever is open.
@@ -66,7 +70,7 @@ pub enum Context {
 }
 
 /// Every context with its name in settings files.
-pub const CONTEXTS: [(Context, &str); 24] = [
+pub const CONTEXTS: [(Context, &str); 26] = [
     (Context::Parameters, "parameters"),
     (Context::Phase, "phase"),
     (Context::Diagram, "diagram"),
@@ -75,6 +79,8 @@ pub const CONTEXTS: [(Context, &str); 24] = [
     (Context::ReturnMap, "return-map"),
     (Context::Regimes, "regimes"),
     (Context::Trade, "trade"),
+    (Context::Scan, "scan"),
+    (Context::Form, "form"),
     (Context::Walk, "walk"),
     (Context::Plots, "plots"),
     (Context::Everywhere, "everywhere"),
@@ -112,6 +118,8 @@ impl Context {
             Context::ReturnMap => "Return map",
             Context::Regimes => "Chart of regimes",
             Context::Trade => "Trade of error for cost",
+            Context::Scan => "Scan",
+            Context::Form => "While typing a scan",
             Context::Walk => "Walking along the branch",
             Context::Plots => "Every plot",
             Context::Everywhere => "Everywhere",
@@ -134,7 +142,10 @@ impl Context {
     /// Whether characters without a command are typed into a line.
     #[must_use]
     pub fn takes_text(self) -> bool {
-        matches!(self, Context::Search | Context::Palette | Context::Entry | Context::Prompt)
+        matches!(
+            self,
+            Context::Search | Context::Palette | Context::Entry | Context::Prompt | Context::Form
+        )
     }
 
     /// Whether this holds only while something is open or waited for.
@@ -152,6 +163,7 @@ impl Context {
             | Context::Search
             | Context::Entry
             | Context::Prompt
+            | Context::Form
             | Context::Offer => true,
             Context::Parameters
             | Context::Phase
@@ -161,6 +173,7 @@ impl Context {
             | Context::ReturnMap
             | Context::Regimes
             | Context::Trade
+            | Context::Scan
             | Context::Walk
             | Context::Plots
             | Context::Everywhere
@@ -179,13 +192,14 @@ impl Context {
             Context::ReturnMap => Some(View::ReturnMap),
             Context::Regimes => Some(View::Regimes),
             Context::Trade => Some(View::Trade),
+            Context::Scan => Some(View::Scan),
             _ => None,
         }
     }
 }
 
 /// Every set of contexts that can hold together, the most specific first.
-pub const CHAINS: [&[Context]; 20] = [
+pub const CHAINS: [&[Context]; 22] = [
     &[Context::Parameters, Context::Everywhere, Context::Always],
     &[Context::Phase, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Diagram, Context::Plots, Context::Everywhere, Context::Always],
@@ -194,6 +208,7 @@ pub const CHAINS: [&[Context]; 20] = [
     &[Context::ReturnMap, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Regimes, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Trade, Context::Plots, Context::Everywhere, Context::Always],
+    &[Context::Scan, Context::Everywhere, Context::Always],
     &[Context::Walk, Context::Always],
     &[Context::Help, Context::Lists, Context::Always],
     &[Context::Scenes, Context::Lists, Context::Always],
@@ -205,6 +220,7 @@ pub const CHAINS: [&[Context]; 20] = [
     &[Context::Search, Context::Always],
     &[Context::Entry, Context::Always],
     &[Context::Prompt, Context::Always],
+    &[Context::Form, Context::Always],
     &[Context::Offer, Context::Always],
 ];
 
@@ -225,6 +241,7 @@ impl Session {
                 Some(View::ReturnMap) => Context::ReturnMap,
                 Some(View::Regimes) => Context::Regimes,
                 Some(View::Trade) => Context::Trade,
+                Some(View::Scan) => Context::Scan,
             },
             Some(Overlay::Palette(_)) => Context::Palette,
             Some(overlay) if overlay.list().is_some_and(|list| list.searching) => Context::Search,
@@ -235,6 +252,7 @@ impl Session {
             Some(Overlay::Views(_)) => Context::Views,
             Some(Overlay::Entry(_)) => Context::Entry,
             Some(Overlay::Prompt(_)) => Context::Prompt,
+            Some(Overlay::Scan(_)) => Context::Form,
             Some(Overlay::Offer(_)) => Context::Offer,
         };
         CHAINS.into_iter().find(|chain| chain[0] == first).unwrap_or(CHAINS[0])

@@ -130,4 +130,14 @@ pub enum Effect {
     },
     /// Put the kept file of an interrupted session aside, so that it is not offered again.
     PutAside(PathBuf),
+    /// Write the rows of a scan to a file, in the form that its name ends with; a file of another scan
+    /// is left alone. The outcome comes back as a message line.
+    SaveScan {
+        /// Where.
+        path: std::path::PathBuf,
+        /// The scan.
+        scan: std::sync::Arc<crate::study::scan::Scan>,
+        /// Its rows, from the first point on.
+        rows: Vec<crate::study::scan::Row>,
+    },
 }

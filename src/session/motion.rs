@@ -141,7 +141,12 @@ mod tests {
         session.problem = Problem { parameters: BRAKED, initial: START, ..session.problem };
         let request = session.request(crate::scene::Slot::Trajectory, 0).unwrap();
         let answer = crate::scene::answer::answer(&request, &Limits::PATIENT).unwrap();
-        session.take(crate::scene::Answered { request, result: Ok(answer), seconds: 0.0 });
+        session.take(crate::scene::Answered {
+            request,
+            result: Ok(answer),
+            seconds: 0.0,
+            complete: true,
+        });
         assert_eq!(session.state_at(0.0), Some(START));
         let found = session.trajectory().unwrap();
         let sample = found.samples[40];

@@ -2,6 +2,7 @@
 
 use super::input::Input;
 use super::replay::Script;
+use super::scan::Form;
 use super::state::Row;
 
 /// Something over the panes.
@@ -23,6 +24,8 @@ pub enum Overlay {
     Entry(Entry),
     /// The line in which commands are typed by name.
     Prompt(Prompt),
+    /// The form in which a scan is typed.
+    Scan(Form),
     /// A pasted keystroke file, waiting for a yes.
     Offer(Script),
 }
@@ -38,7 +41,7 @@ impl Overlay {
             | Overlay::Views(list)
             | Overlay::Cost(list)
             | Overlay::Palette(list) => Some(list),
-            Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Offer(_) => None,
+            Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Scan(_) | Overlay::Offer(_) => None,
         }
     }
 
@@ -51,7 +54,7 @@ impl Overlay {
             | Overlay::Views(list)
             | Overlay::Cost(list)
             | Overlay::Palette(list) => Some(list),
-            Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Offer(_) => None,
+            Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Scan(_) | Overlay::Offer(_) => None,
         }
     }
 }

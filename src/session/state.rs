@@ -16,6 +16,7 @@ use super::keymap::Keymap;
 use super::overlay::{Caption, Overlay};
 use super::pending::Pending;
 use super::plot::{Pane, Plot};
+use super::scan::{Form, Scanned};
 use super::settings::Look;
 use super::step::StepSize;
 use super::update::macros::Macros;
@@ -239,6 +240,10 @@ pub struct Session {
     pub answers: BTreeMap<Slot, Arc<Answered>>,
     /// Questions of today that have no answer, and why.
     pub failures: Vec<(Request, Failure)>,
+    /// The scan, once there is one.
+    pub scanned: Option<Scanned>,
+    /// The form as it was when the last scan was started.
+    pub scan_form: Option<Form>,
     /// What the last key press cost.
     pub price: Price,
     /// What answers take, and whether their error is looked at.
@@ -282,6 +287,8 @@ impl Session {
             lines: Vec::new(),
             answers: BTreeMap::new(),
             failures: Vec::new(),
+            scanned: None,
+            scan_form: None,
             price: Price::default(),
             effort: Effort::default(),
             notice: None,

@@ -48,7 +48,7 @@ impl Session {
         let drafts: Vec<Request> =
             wanted.iter().filter_map(|request| self.draft(request)).collect();
         let last = self.measures().then(|| self.request(Slot::Reference, self.plot)).flatten();
-        drafts.into_iter().chain(wanted).chain(last).collect()
+        drafts.into_iter().chain(wanted).chain(last).chain(self.scan_request()).collect()
     }
 
     /// The draft of a question, if it is worth having first.
@@ -99,6 +99,7 @@ impl Session {
         let own = |view: View| self.plots.get(plot).filter(|plot| plot.view == view);
         Some(match slot {
             Slot::Trajectory => Request::Trajectory(problem),
+            Slot::Scan => return self.scan_request(),
             Slot::Cycles => Request::Cycles { parameters },
             Slot::Balance => Request::Balance { parameters, harmonics: self.harmonics },
             Slot::Trade => {
@@ -190,6 +191,9 @@ impl Session {
     #[must_use]
     pub fn is_open(&self, request: &Request) -> bool {
         let slot = request.slot();
+        if slot == Slot::Scan {
+            return self.scan_request().as_ref() == Some(request);
+        }
         let answered =
             |plot| self.answered(slot, plot).is_some_and(|held| held.request == *request);
         let failed = self.failures.iter().any(|(failed, _)| failed == request);
@@ -300,6 +304,9 @@ impl Session {
     /// unless that is the answer to today's question.
     pub(super) fn take(&mut self, answered: Answered) -> bool {
         let slot = answered.request.slot();
+        if slot == Slot::Scan {
+            return self.take_rows(&answered);
+        }
         let wanted: Vec<_> = (0..self.plots.len()).map(|plot| self.request(slot, plot)).collect();
         let asked = wanted.iter().flatten().any(|wanted| *wanted == answered.request);
         match &answered.result {

@@ -87,10 +87,15 @@ impl Sweep {
         }
         #[expect(clippy::cast_precision_loss, reason = "at most a million values")]
         let [done, left, all] = [index, last - index, last].map(|count| count as f64);
-        // The mean with whole weights: where the ends have few digits, so do the values between.
         let mean = |from: f64, to: f64| (from * left + to * done) / all;
         match self.spacing {
-            Spacing::Even => mean(self.from, self.to),
+            Spacing::Even => {
+                let value = mean(self.from, self.to);
+                let rounding = 4.0 * f64::EPSILON * self.from.abs().max(self.to.abs());
+                // Where the ends have few digits the values between have few: -0.4, not -0.39999999999999997.
+                let short = format!("{value:.14e}").parse().unwrap_or(value);
+                if (short - value).abs() <= rounding { short } else { value }
+            }
             Spacing::Logarithmic => {
                 let exponent = mean(self.from.abs().log10(), self.to.abs().log10());
                 10_f64.powf(exponent).copysign(self.from)
@@ -307,6 +312,9 @@ mod tests {
         let down = sweep("D=0:-0.5:6").unwrap();
         let values: Vec<f64> = (0..6).map(|index| down.value(index)).collect();
         assert_eq!(values, [0.0, -0.1, -0.2, -0.3, -0.4, -0.5]);
+        let up = sweep("D=-0.6:-0.1:6").unwrap();
+        let values: Vec<f64> = (0..6).map(|index| up.value(index)).collect();
+        assert_eq!(values, [-0.6, -0.5, -0.4, -0.3, -0.2, -0.1]);
         let decades = sweep("r=log:1e-3:1:4").unwrap();
         let values: Vec<f64> = (0..4).map(|index| decades.value(index)).collect();
         assert_eq!(values, [0.001, 0.01, 0.1, 1.0]);

@@ -134,7 +134,7 @@ fn prompt(prompt: &Prompt, look: &Look) -> Vec<Span<'static>> {
 }
 
 /// Text being typed, with its caret.
-fn typed(input: &Input, look: &Look) -> [Span<'static>; 3] {
+pub(super) fn typed(input: &Input, look: &Look) -> [Span<'static>; 3] {
     let (before, after) = input.halves();
     let mut rest = after.chars();
     let under = rest.next().unwrap_or(' ');

@@ -8,7 +8,7 @@ use super::layout::{Layout, SMALLEST, layout};
 use super::look::{Look, Role};
 use super::paint::paint;
 use super::pane::Heading;
-use super::{caption, energy_ledger, footer, lists, parameters, picture, status};
+use super::{caption, energy_ledger, footer, lists, parameters, picture, scan, scan_form, status};
 use crate::scene::View;
 use crate::session::settings::Glyphs;
 use crate::session::{Pane, Session};
@@ -28,6 +28,7 @@ pub fn render(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer)
             let body = Rect { height: parts.status.y.saturating_sub(screen.y), ..screen };
             caption::draw(body, session, look, buffer);
             lists::draw(screen, session, look, buffer);
+            scan_form::draw(screen, session, look, buffer);
         }
     }
     if look.glyphs == Glyphs::Ascii {
@@ -39,9 +40,13 @@ fn panes(parts: &Layout, session: &Session, look: &Look, buffer: &mut Buffer) {
     status::title(parts.title, session, look, buffer);
     parameters::draw(parts.parameters, session, look, buffer);
     for (index, area) in parts.plots.iter().enumerate().filter(|(_, area)| !area.is_empty()) {
-        if session.plots[index].view == View::EnergyLedger {
+        let view = session.plots[index].view;
+        if view == View::EnergyLedger {
             // Its lines are whole rows of the screen.
             energy_ledger::draw(*area, session, index, look, buffer);
+        } else if view == View::Scan {
+            // Its shades fill cells, and its table is text.
+            scan::draw(*area, session, index, look, buffer);
         } else {
             let heading = Heading::of(session, Pane::Plot(index));
             paint(*area, picture::of(session, index), heading, look, buffer);

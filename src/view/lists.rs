@@ -50,7 +50,8 @@ pub fn draw(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         Some(Overlay::Views(list)) => (list, views(session, list, look)),
         Some(Overlay::Cost(list)) => (list, costs::content(session, list, look)),
         Some(Overlay::Palette(list)) => (list, palette(session, list, look)),
-        Some(Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Offer(_)) | None => return,
+        Some(Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Scan(_) | Overlay::Offer(_))
+        | None => return,
     };
     let below = if content.about.is_empty() { 0 } else { TEXT + 1 };
     let wanted = u16::try_from(content.rows.len()).unwrap_or(u16::MAX).saturating_add(2 + below);

@@ -10,7 +10,7 @@ use std::fmt;
 
 use super::dots::Dash;
 use super::look::Role;
-use super::{diagram, energy_ledger, phase_plane, regimes, return_map, time_series, trade};
+use super::{diagram, energy_ledger, phase_plane, regimes, return_map, scan, time_series, trade};
 use crate::scene::{Point, View, Window};
 use crate::session::Session;
 
@@ -228,5 +228,6 @@ pub fn of(session: &Session, index: usize) -> Picture<'_> {
         View::ReturnMap => return_map::picture(session, index),
         View::Regimes => regimes::picture(session, index),
         View::Trade => trade::picture(session, index),
+        View::Scan => scan::picture(session, index),
     }
 }

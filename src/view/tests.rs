@@ -14,7 +14,7 @@ use super::look::Look;
 use crate::export::screen::text;
 use crate::flow::{Cost, Crossing, Limits, Method, Outcome, Problem, Reason, Sample, Trajectory};
 use crate::oscillator::{Ledger, Parameters, State, Symbol};
-use crate::scene::answer::{Borders, Failure};
+use crate::scene::answer::{Borders, Failure, Rows};
 use crate::scene::library::{find, library};
 use crate::scene::{
     Answer, Answered, Axes, Exhibit, LAYERS, Layer, Point, Request, Scene, Slot, Span, View, Window,
@@ -23,7 +23,9 @@ use crate::session::settings::{self, Colors, GLYPHS, Glyphs, THEMES};
 use crate::session::{Key, Msg, Notice, Session, Size, update};
 use crate::study::chart::{Band, Chart, Line, Plane};
 use crate::study::harmonic_error::HarmonicBalance;
+use crate::study::measure::Value;
 use crate::study::regime::Regime;
+use crate::study::scan::Row;
 use crate::study::trade::Trade;
 use crate::study::{
     Branch, BranchPoint, Cycle, Cycles, Edge, Margin, Picture, Return, ReturnMap, Special,
@@ -42,7 +44,12 @@ fn settle(session: &mut Session) {
             let result = Ok(by_hand(&request));
             update(
                 session,
-                Msg::Answered(Box::new(Answered { request, result, seconds: 0.000_25 })),
+                Msg::Answered(Box::new(Answered {
+                    request,
+                    result,
+                    seconds: 0.000_25,
+                    complete: true,
+                })),
             );
         }
     }
@@ -70,6 +77,22 @@ fn by_hand(request: &Request) -> Answer {
                 cycles,
                 picture: Some(picture(curves[0].clone(), curves)),
             })
+        }
+        Request::Scan { scan, from } => {
+            let measured = scan.measured().len();
+            let row = |index: usize| Row {
+                // A slope with a hole in it.
+                values: (0..measured)
+                    .map(|column| match index % 7 {
+                        3 => Value::Nothing,
+                        _ => Value::Count(index * (column + 1)),
+                    })
+                    .collect(),
+                reason: (index == 17).then(|| "edge: budget of 40 evaluations spent".to_owned()),
+                cost: Cost::default(),
+            };
+            let rows = (*from..scan.points()).map(row).collect();
+            Answer::Rows(Rows { first: *from, rows })
         }
         Request::Capture { .. } => Answer::Capture(Borders {
             curves: vec![circle(0.2), circle(0.35)],
@@ -288,6 +311,21 @@ fn screens_look_as_they_were_approved() {
         ("costs", (100, 30), "$", letters()),
         ("dial", (100, 24), "}", letters()),
         ("views", (80, 24), "V", letters()),
+        ("scan", (80, 24), "% <enter> z <right> <right>", braille()),
+        ("scan-form", (80, 24), "% <down> x <enter>", letters()),
+        ("scan-table", (80, 24), "% <enter> z G <down> <down>", braille()),
+        (
+            "scan-map",
+            (100, 30),
+            "% <up> <up> <up> <up> <up> <right> <right> <tab> 0 <tab> 1 <enter> z",
+            braille(),
+        ),
+        (
+            "scan-map-letters",
+            (80, 24),
+            "% <up> <up> <up> <up> <up> <right> <right> <tab> 0 <tab> 1 <enter>",
+            letters(),
+        ),
     ];
     for (name, (width, height), keys, look) in cases {
         let mut session = Session::new(Arc::new(approved()), Size { width, height });
@@ -362,7 +400,7 @@ fn a_question_without_an_answer_says_why() {
     let mut session = open("plain", 80, 24);
     for request in session.wants() {
         let result = Err(Failure::Reason(Reason::Budget { evaluations: 5 }));
-        let answered = Answered { request, result, seconds: 0.1 };
+        let answered = Answered { request, result, seconds: 0.1, complete: true };
         update(&mut session, Msg::Answered(Box::new(answered)));
     }
     let screen = text(&draw(&session, braille()));
@@ -538,7 +576,10 @@ proptest! {
                     }
                 }
                 Ok(Answer::Capture(found)) => found.curves = vec![states.clone()],
-                Ok(Answer::Family(_) | Answer::Trade(_) | Answer::Reference(_)) | Err(_) => {}
+                Ok(
+                    Answer::Family(_) | Answer::Trade(_) | Answer::Reference(_) | Answer::Rows(_),
+                )
+                | Err(_) => {}
             }
         }
         session.plots[0].cursor = Some(Point { x: value, y: low });

@@ -6,6 +6,7 @@ use ratatui::Frame;
 use super::*;
 use crate::flow::Reason;
 use crate::runtime::panics::Notes;
+use crate::runtime::worker::Tell;
 use crate::session::replay;
 use crate::terminal::pacing::{FRAME_TIME, Pacing};
 
@@ -70,10 +71,10 @@ fn bench() -> Bench {
     let (write, written) = unbounded();
     let (events, received) = unbounded();
     let screen = Screen::new(Line(write), size()).unwrap();
-    let job = |_: &Request, _: &crate::flow::Limits| Err(Reason::OutOfRange);
-    let worker = Worker::start(job, Notes::default(), |_| ()).unwrap();
+    let job = |_: &Request, _: &crate::flow::Limits, _: &Tell| Err(Reason::OutOfRange);
+    let crew = Crew::start(job, Notes::default(), |_| ()).unwrap();
     let machine = Counter::default();
-    let pump = Pump::new(machine, screen, worker, received, Files::default(), size);
+    let pump = Pump::new(machine, screen, crew, received, Files::default(), size);
     Bench { pump, events, written }
 }
 

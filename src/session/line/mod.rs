@@ -4,6 +4,7 @@
 //! the palette and the help. Every command of [`COMMANDS`] can be typed by its name too. A line is run as
 //! a whole or not at all, and a line that is refused says what is allowed.
 
+mod scan;
 mod values;
 
 pub(super) use values::letter;
@@ -69,6 +70,10 @@ pub const LINES: &[LineCommand] = &[
         values::windows, values::window),
     row("axes", "PARAMETER [PROPERTY]", "Draw the diagram in use over a parameter: axes r period",
         values::axis_words, values::axes),
+    row("scan", "NAME=FROM:TO:COUNT .. MEASURE,..", "Scan: scan D=-0.9:0:100 r=log:0.01:1:20 margin",
+        scan::words, scan::scan),
+    row("save-scan", "FILE", "Write the rows of the scan to a file, .csv or .json",
+        |_, _| Vec::new(), scan::save),
     row("harmonics", "N", "Show the cycles of N harmonics",
         |_, _| Vec::new(), values::harmonics),
     row("mark", "LETTER", "Mark this point by a letter",

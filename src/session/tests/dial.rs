@@ -138,6 +138,7 @@ fn a_draft_that_fails_is_not_tried_again() {
         request: draft.clone(),
         result: Err(Failure::Reason(Reason::OutOfRange)),
         seconds: 0.0,
+        complete: true,
     };
     update(&mut desk.session, Msg::Answered(Box::new(failed)));
     assert!(!desk.session.wants().contains(&draft));
@@ -179,7 +180,7 @@ fn the_measured_error_is_that_of_the_motion_on_show() {
     for slot in [Slot::Trajectory, Slot::Reference] {
         let request = session.request(slot, 0).unwrap();
         let result = Ok(answer(&request, &Limits::PATIENT).unwrap());
-        let answered = Answered { request, result, seconds: 0.0 };
+        let answered = Answered { request, result, seconds: 0.0, complete: true };
         // As if it had not been answered by hand before.
         session.answers.remove(&slot);
         update(session, Msg::Answered(Box::new(answered)));

@@ -10,6 +10,7 @@ mod names;
 mod plots;
 mod requests;
 mod saved;
+mod scan;
 mod strange;
 mod table;
 mod undo;
@@ -23,7 +24,7 @@ use super::{Effect, Msg, Session, Size, update};
 use crate::closed_form::twofold::Twofold;
 use crate::flow::{Cost, Method, Outcome, Problem, Reason, Sample, Trajectory};
 use crate::oscillator::{Ledger, State};
-use crate::scene::answer::Borders;
+use crate::scene::answer::{Borders, Rows};
 use crate::scene::{Answer, Answered, Request, Slot, find};
 use crate::study::accuracy::{Deviation, Ending, Reference, Source};
 use crate::study::chart::Chart;
@@ -197,6 +198,9 @@ fn answered(request: Request) -> Answered {
             let along = plane.along();
             Answer::Regimes(Chart { plane: *plane, along, lines: Vec::new(), cost })
         }
+        Request::Scan { scan, from } => {
+            Answer::Rows(Rows { first: *from, rows: scan::rows(scan, *from..scan.points()) })
+        }
         Request::Branch { parameter, range: (from, to), parameters, .. } => {
             let fold = Cycle { q_max: 1.5, log_multiplier: 0.0, ..cycle(false, parameters.r) };
             let point = |stable| BranchPoint { value: *from, cycle: cycle(stable, parameters.r) };
@@ -215,5 +219,5 @@ fn answered(request: Request) -> Answered {
             Answer::Family(members.iter().map(by_hand).collect())
         }
     };
-    Answered { request, result: Ok(answer), seconds: 0.001 }
+    Answered { request, result: Ok(answer), seconds: 0.001, complete: true }
 }

@@ -100,6 +100,7 @@ fn terms_that_a_scene_does_not_declare_are_zero_until_the_user_unfolds_them() {
             | Request::Trade { parameters, .. }
             | Request::Reference { parameters, .. } => parameters,
             Request::Family(_) => unreachable!("capture has no variants"),
+            Request::Scan { .. } => unreachable!("nobody asked for a scan"),
         };
         assert!(parameters.is_piecewise_linear());
     }
@@ -182,7 +183,12 @@ fn a_failure_is_told_once_and_not_tried_again() {
     let request = desk.session.request(Slot::Cycles, 1).unwrap();
     let failed = |failure| {
         let result = Err(failure);
-        Msg::Answered(Box::new(Answered { request: request.clone(), result, seconds: 0.0 }))
+        Msg::Answered(Box::new(Answered {
+            request: request.clone(),
+            result,
+            seconds: 0.0,
+            complete: true,
+        }))
     };
     update(&mut desk.session, failed(Failure::Reason(Reason::Interrupted)));
     assert!(desk.session.is_open(&request), "an interrupted question is still a question");

@@ -47,7 +47,8 @@ fn views_of_the_same_answers_cost_nothing() {
 
 #[test]
 fn every_view_has_its_keys_and_can_be_looked_around_in() {
-    for row in &VIEWS {
+    // In a scan one walks over its points instead.
+    for row in VIEWS.iter().filter(|row| row.view != View::Scan) {
         let mut desk = turned_to(row.name);
         assert_eq!(desk.session.focus, Pane::Plot(0));
         assert_eq!(desk.session.contexts()[1], Context::Plots);
@@ -79,7 +80,8 @@ fn enter_takes_the_point_under_the_cursor_into_the_phase_plane() {
 
 #[test]
 fn a_view_that_the_scene_does_not_know_opens_with_its_usual_layers() {
-    for row in &VIEWS {
+    // A scan is asked for by its form, not by layers.
+    for row in VIEWS.iter().filter(|row| row.view != View::Scan) {
         let desk = turned_to(row.name);
         assert!(!desk.session.needs(0).is_empty(), "{}", row.name);
     }

@@ -59,7 +59,8 @@ impl Session {
             Some(Overlay::Views(list)) => self.view_rows(list).len(),
             Some(Overlay::Palette(list)) => self.palette_rows(list).len(),
             Some(Overlay::Cost(list)) => self.cost_rows(list).len(),
-            Some(Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Offer(_)) | None => 0,
+            Some(Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Scan(_) | Overlay::Offer(_))
+            | None => 0,
         }
     }
 

@@ -18,6 +18,7 @@ pub mod palette;
 pub mod parameters;
 pub mod plots;
 pub mod prompt;
+pub mod scan;
 pub mod starts;
 pub mod typing;
 pub mod walk;

@@ -32,7 +32,7 @@ fn cursor_origin(session: &Session, plot: &Plot) -> Point {
         View::Diagram => Point { x: session.value(plot.axes.abscissa), y: window.center().y },
         View::TimeSeries => Point { x: 0.0, y: session.problem.initial.q },
         View::EnergyLedger => Point { x: 0.0, y: 0.0 },
-        View::Trade => window.center(),
+        View::Trade | View::Scan => window.center(),
         View::ReturnMap => Point { x: session.problem.initial.q, y: session.problem.initial.q },
         View::Regimes => {
             Point { x: session.value(plot.axes.abscissa), y: session.value(plot.axes.against) }
@@ -78,6 +78,9 @@ pub fn point_at(session: &mut Session, point: Point) -> Vec<Effect> {
 
 /// Drops the cursor of the plot in focus.
 pub fn drop_cursor(session: &mut Session) -> Vec<Effect> {
+    if session.focuses_scan() {
+        return super::scan::stop(session);
+    }
     if let Some(plot) = session.focused_mut() {
         plot.cursor = None;
     }
@@ -180,6 +183,7 @@ pub fn start_here(session: &mut Session) -> Vec<Effect> {
         Some(View::TimeSeries) => session.state_at(x),
         Some(View::EnergyLedger) => session.start_of_line(y),
         Some(View::ReturnMap) => Some(State { q: x, v: 0.0 }),
+        Some(View::Scan) => return Vec::new(),
         Some(View::Phase | View::Diagram | View::Regimes | View::Trade) | None => {
             Some(State { q: x, v: y })
         }

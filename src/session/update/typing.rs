@@ -16,6 +16,10 @@ pub fn with(session: &mut Session, act: impl FnOnce(&mut Input)) -> Vec<Effect> 
             (prompt.refused, prompt.completion) = (None, None);
             act(&mut prompt.input);
         }
+        Some(Overlay::Scan(form)) => {
+            form.refused = None;
+            act(form.input_mut());
+        }
         _ => {}
     }
     Vec::new()

@@ -1,0 +1,64 @@
+//! Two workers: one for what the next picture needs, one for what takes long.
+//!
+//! A scan of minutes must not stand between a key and its picture. So long requests have a worker of
+//! their own, which goes on while the other one answers.
+
+use std::sync::Arc;
+
+use super::panics::Notes;
+use super::worker::{Tell, Worker};
+use crate::flow::{Limits, Reason};
+use crate::scene::{Answer, Request};
+use crate::session::Msg;
+
+/// Both workers, used as one.
+#[derive(Debug)]
+pub struct Crew {
+    quick: Worker,
+    long: Worker,
+}
+
+impl Crew {
+    /// Starts both; see [`Worker::start`]. Each says [`Msg::Idle`] for itself; ask [`Crew::is_idle`].
+    ///
+    /// # Errors
+    /// If the system gives no threads.
+    pub fn start(
+        answer: impl Fn(&Request, &Limits, &Tell) -> Result<Answer, Reason> + Send + Sync + 'static,
+        notes: Notes,
+        report: impl Fn(Msg) + Clone + Send + 'static,
+    ) -> std::io::Result<Crew> {
+        let answer = Arc::new(answer);
+        let other = Arc::clone(&answer);
+        let quick =
+            move |request: &Request, limits: &Limits, tell: &Tell| answer(request, limits, tell);
+        let long =
+            move |request: &Request, limits: &Limits, tell: &Tell| other(request, limits, tell);
+        Ok(Crew {
+            quick: Worker::start(quick, notes.clone(), report.clone())?,
+            long: Worker::start(long, notes, report)?,
+        })
+    }
+
+    fn of(&self, request: &Request) -> &Worker {
+        if request.is_long() { &self.long } else { &self.quick }
+    }
+
+    /// Says which requests are wanted now and not answered yet, the most urgent first.
+    pub fn submit(&self, wanted: Vec<Request>) {
+        let (long, quick) = wanted.into_iter().partition(Request::is_long);
+        self.quick.submit(quick);
+        self.long.submit(long);
+    }
+
+    /// Says that the answer to a request has arrived where it was wanted.
+    pub fn taken(&self, request: &Request) {
+        self.of(request).taken(request);
+    }
+
+    /// Whether nothing is in work and nothing waits.
+    #[must_use]
+    pub fn is_idle(&self) -> bool {
+        self.quick.is_idle() && self.long.is_idle()
+    }
+}

@@ -1,0 +1,220 @@
+//! Scans: the form, rows in pieces, stopping and going on, walking over points.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::Desk;
+use crate::flow::Cost;
+use crate::oscillator::Symbol;
+use crate::scene::answer::Rows;
+use crate::scene::{Answer, Answered, Request, Slot, View};
+use crate::session::scan::Progress;
+use crate::session::{Effect, Msg, Overlay, Pane, Scanned, Session, update};
+use crate::study::measure::Value;
+use crate::study::scan::{Row, Scan};
+
+/// Rows by hand: the number of the point in each column.
+pub fn rows(scan: &Scan, points: Range<usize>) -> Vec<Row> {
+    let row = |index: usize| Row {
+        values: vec![Value::Count(index); scan.measured().len()],
+        reason: None,
+        cost: Cost::default(),
+    };
+    points.map(row).collect()
+}
+
+fn scanned(session: &Session) -> &Scanned {
+    session.scanned.as_ref().expect("a scan")
+}
+
+/// Gives some rows to the session as the worker does.
+fn piece(session: &mut Session, request: &Request, points: Range<usize>) {
+    let Request::Scan { scan, .. } = request else { panic!("{request:?}") };
+    let complete = points.end == scan.points();
+    let rows = Rows { first: points.start, rows: rows(scan, points) };
+    let (request, result) = (request.clone(), Ok(Answer::Rows(rows)));
+    let answered = Answered { request, result, seconds: 1.0, complete };
+    update(session, Msg::Answered(Box::new(answered)));
+}
+
+/// Types a text into the field that is open, in place of what stands there.
+fn field(desk: &mut Desk, text: &str) {
+    desk.press("<C-u>");
+    for char in text.chars() {
+        desk.press(&char.to_string());
+    }
+}
+
+/// A session that scans D over 6 values, with no row yet.
+fn begun() -> (Session, Request) {
+    let mut session = Desk::open("plain").session;
+    crate::session::line::run(&mut session, "scan D=-0.6:-0.1:6 margin").unwrap();
+    let request = session.scan_request().expect("a question");
+    (session, request)
+}
+
+#[test]
+fn the_form_starts_a_scan_with_keys_alone_and_shows_it() {
+    let mut desk = Desk::open("plain");
+    desk.press("%");
+    field(&mut desk, "D");
+    for text in ["-0.6", "-0.1", "6"] {
+        desk.press("<tab>");
+        field(&mut desk, text);
+    }
+    // The second parameter is chosen with the arrows.
+    desk.press("<down> <right*2>");
+    for text in ["0.1", "0.3", "2"] {
+        desk.press("<down>");
+        field(&mut desk, text);
+    }
+    desk.press("<up*3> <left*2> <S-tab*5> <right>");
+    assert_eq!(desk.press("<enter>"), [Slot::Scan]);
+    let session = &desk.session;
+    assert!(session.overlay.is_none() && session.focuses_scan());
+    let found = scanned(session);
+    assert_eq!(found.scan.measures()[0].spec().name, "stability");
+    assert_eq!(found.scan.over()[0].to_string(), "D=-0.6:-0.1:6");
+    assert_eq!(found.scan.points(), 6);
+    assert_eq!(found.progress, Progress::Done);
+}
+
+#[test]
+fn a_form_that_makes_no_sense_stays_open_and_says_why_until_it_changes() {
+    let mut desk = Desk::open("plain");
+    let refusal = |desk: &Desk| match &desk.session.overlay {
+        Some(Overlay::Scan(form)) => form.refused.clone(),
+        other => panic!("{other:?}"),
+    };
+    desk.press("%");
+    for (keys, text, expected) in [
+        ("", "x", "there is no parameter \"x\""),
+        ("", "q0", "margin does not depend on q0"),
+        ("", "D", ""),
+        ("<tab>", "one", "\"one\" is not a number"),
+        ("", "-1e9", "D = -1000000000 is outside its range"),
+        ("", "", "from of D is empty"),
+        ("", "-0.5", ""),
+        ("<tab*2>", "1", "COUNT = 1 is not a whole number in 2 .. 1000000"),
+        ("", "5", ""),
+        ("<S-tab*4>", "margin,much", "there is no measure \"much\""),
+    ] {
+        desk.press(keys);
+        field(&mut desk, text);
+        assert_eq!(refusal(&desk), None);
+        if !expected.is_empty() {
+            desk.press("<enter>");
+            let why = refusal(&desk).expect("a refusal");
+            assert!(why.contains(expected) && !why.contains('\n'), "{text}: {why}");
+        }
+    }
+    desk.press("<esc>");
+    assert!(desk.session.overlay.is_none() && desk.session.scanned.is_none());
+}
+
+#[test]
+fn rows_are_there_as_soon_as_their_piece_and_the_scan_counts_as_work_until_its_end() {
+    let (mut session, request) = begun();
+    assert!(session.is_open(&request) && session.wants().contains(&request));
+    piece(&mut session, &request, 0..2);
+    assert_eq!(scanned(&session).rows.len(), 2);
+    assert_eq!(session.scan_request().as_ref(), Some(&request), "the same question goes on");
+    assert!(session.is_busy());
+    piece(&mut session, &request, 2..6);
+    assert_eq!((scanned(&session).rows.len(), session.is_busy()), (6, false));
+    assert_eq!(scanned(&session).progress, Progress::Done);
+}
+
+#[test]
+fn escape_stops_a_scan_and_keeps_what_is_done_and_a_key_goes_on() {
+    let (mut session, request) = begun();
+    piece(&mut session, &request, 0..4);
+    let press = |session: &mut Session, key: &str| {
+        update(session, Msg::Key(key.parse().unwrap()));
+    };
+    press(&mut session, "<esc>");
+    assert_eq!(scanned(&session).progress, Progress::Stopped);
+    assert!(session.scan_request().is_none() && !session.is_open(&request));
+    // A piece that was on its way when it was stopped is nobody's.
+    piece(&mut session, &request, 4..6);
+    assert_eq!(scanned(&session).rows.len(), 4);
+    press(&mut session, "P");
+    let again = session.scan_request().expect("a question");
+    assert_eq!(again, Request::Scan { scan: Arc::clone(&scanned(&session).scan), from: 4 });
+    piece(&mut session, &again, 4..6);
+    assert_eq!(scanned(&session).progress, Progress::Done);
+    assert_eq!(scanned(&session).rows, rows(&scanned(&session).scan, 0..6));
+}
+
+#[test]
+fn a_scan_goes_on_while_something_else_is_on_show_and_asks_nothing_when_it_is_done() {
+    let (mut session, request) = begun();
+    update(&mut session, Msg::Key(",".parse().unwrap()));
+    assert!(session.plots.iter().all(|plot| plot.view != View::Scan));
+    assert!(session.wants().contains(&request));
+    let mut desk = Desk { session, asked: Vec::new(), effects: Vec::new() };
+    assert_eq!(desk.press("<right>").iter().filter(|slot| **slot == Slot::Scan).count(), 1);
+    assert!(!desk.press("<right>").contains(&Slot::Scan));
+}
+
+#[test]
+fn enter_takes_the_point_into_the_phase_plane_and_undo_gives_it_back() {
+    let mut desk = Desk::open("plain");
+    desk.press(": s c a n <space>");
+    for char in "D=-0.6:-0.1:6 r=0.1:0.3:3 area".chars() {
+        desk.press(&if char == ' ' { "<space>".to_owned() } else { char.to_string() });
+    }
+    desk.press("<enter>");
+    let before = desk.session.problem;
+    desk.press("<right*2> <up> <enter>");
+    let session = &desk.session;
+    assert_eq!(scanned(session).at, 7);
+    assert_eq!((session.value(Symbol::D), session.value(Symbol::R)), (-0.4, 0.2));
+    desk.press("u");
+    assert_eq!(desk.session.problem, before);
+}
+
+#[test]
+fn points_are_walked_over_as_they_stand() {
+    let mut session = Desk::open("plain").session;
+    crate::session::line::run(&mut session, "scan D=-0.6:-0.1:6 r=0.1:0.3:3 area").unwrap();
+    let mut desk = Desk { session, asked: Vec::new(), effects: Vec::new() };
+    desk.settle();
+    for (keys, at) in [
+        ("<up>", 1),
+        ("<right>", 4),
+        ("<up*5>", 5),
+        ("<left*9>", 2),
+        ("<end>", 17),
+        ("<home>", 2),
+        // In the table the arrows go from row to row.
+        ("G <down*2>", 4),
+        ("<up> <pgdn>", 13),
+        ("<end>", 17),
+        ("<home>", 0),
+    ] {
+        desk.press(keys);
+        assert_eq!(scanned(&desk.session).at, at, "{keys}");
+    }
+}
+
+#[test]
+fn a_key_saves_what_is_there() {
+    let (mut session, request) = begun();
+    piece(&mut session, &request, 0..3);
+    let effects = update(&mut session, Msg::Key("F".parse().unwrap()));
+    let scan = Arc::clone(&scanned(&session).scan);
+    let rows = rows(&scan, 0..3);
+    assert_eq!(effects, [Effect::SaveScan { path: "scan.csv".into(), scan, rows }]);
+}
+
+#[test]
+fn keys_for_a_scan_that_is_not_there_say_so_and_do_nothing() {
+    let mut desk = Desk::open("plain");
+    desk.press("V <end> <enter>");
+    assert!(desk.session.focuses_scan(), "{:?}", desk.session.focus);
+    for key in ["<right>", "<up>", "<enter>", "Y", "G", "P", "F", "<esc>"] {
+        desk.press(key);
+        assert!(desk.session.scanned.is_none() && desk.session.focus != Pane::Parameters, "{key}");
+    }
+}

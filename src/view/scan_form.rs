@@ -1,0 +1,69 @@
+//! The form in which a scan is typed: one line a field, and why it was refused.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::text::Span;
+use ratatui::widgets::{Clear, Widget};
+
+use super::footer::typed;
+use super::lists::frame;
+use super::look::{Look, Role};
+use super::pane;
+use crate::session::scan::{FIELDS, Field, Form};
+use crate::session::{Overlay, Session};
+use crate::study::measure::MEASURES;
+
+/// Columns of the form.
+const WIDTH: u16 = 74;
+
+/// Rows below the fields: about the field, and why the form was refused.
+const BELOW: u16 = 3;
+
+/// Draws the form, if it is open, into the middle of the screen.
+pub fn draw(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
+    let Some(Overlay::Scan(form)) = &session.overlay else { return };
+    let rows = u16::try_from(FIELDS.len()).unwrap_or(u16::MAX) + BELOW;
+    let width = WIDTH.min(screen.width);
+    let height = (rows + 2).min(screen.height.saturating_sub(1));
+    let area = Rect {
+        x: screen.x + (screen.width - width) / 2,
+        y: screen.y + (screen.height.saturating_sub(1) - height) / 2,
+        width,
+        height,
+    };
+    if area.width < 20 || area.height < 6 {
+        return;
+    }
+    Clear.render(area, buffer);
+    let inner = Rect { x: area.x + 2, y: area.y + 1, width: width - 4, height: height - 2 };
+    for (row, (index, spec)) in (0..inner.height).zip(FIELDS.iter().enumerate()) {
+        let active = index == form.at;
+        let pointer = if active { look.symbols().pointer } else { " " };
+        let name = format!("{pointer} {:<9}", spec.name);
+        let role = if active { Role::Focus } else { Role::Quiet };
+        let mut line = vec![Span::styled(name, look.style(role))];
+        let input = &form.inputs[index];
+        if active {
+            line.extend(typed(input, look));
+        } else {
+            line.push(Span::styled(input.text().to_owned(), look.style(Role::Text)));
+        }
+        pane::line(inner, row, line, "", buffer);
+    }
+    let below = inner.height.saturating_sub(2);
+    let quiet = |text: String| Span::styled(text, look.style(Role::Quiet));
+    pane::line(inner, below, quiet(about(form)), "", buffer);
+    if let Some(why) = &form.refused {
+        let text = pane::cut(why, inner.width.into(), look);
+        pane::line(inner, below + 1, Span::styled(text, look.style(Role::Failure)), "", buffer);
+    }
+    frame(area, " scan ", "", look, buffer);
+}
+
+/// What the field takes, or what the measure in it means.
+fn about(form: &Form) -> String {
+    let spec = FIELDS[form.at];
+    let text = form.inputs[form.at].text();
+    let measure = MEASURES.iter().find(|row| spec.field == Field::Measure && row.name == text);
+    measure.map_or(spec.help, |row| row.meaning).to_owned()
+}
