@@ -114,6 +114,8 @@ pub enum Slot {
     Family,
     /// What accuracy costs.
     Trade,
+    /// The scan.
+    Scan,
     /// What errors are measured against: wanted last of all.
     Reference,
     /// The scan.
@@ -133,6 +135,7 @@ pub const SLOTS: [Slot; 12] = [
     Slot::Regimes,
     Slot::Family,
     Slot::Trade,
+    Slot::Scan,
     Slot::Reference,
     Slot::Scan,
     Slot::Claims,
