@@ -110,6 +110,9 @@ const MAP_POINTS: u16 = 128;
 /// Lines of a chart of regimes, evenly spaced; borders between them are interpolated.
 const CHART_LINES: usize = 40;
 
+/// The same in a draft.
+const DRAFT_LINES: usize = 6;
+
 /// The same at draft quality: the picture of them hardly differs.
 const DRAFT_POINTS: usize = 40;
 
@@ -162,8 +165,9 @@ pub fn answer(request: &Request, limits: &Limits) -> Result<Answer, Reason> {
         Request::ReturnMap { parameters, range } => {
             return_map(parameters, *range, MAP_POINTS, limits).map(Answer::ReturnMap)
         }
-        Request::Regimes { parameters, plane } => {
-            chart(parameters, *plane, CHART_LINES, limits).map(Answer::Regimes)
+        Request::Regimes { parameters, plane, rough } => {
+            let lines = if *rough { DRAFT_LINES } else { CHART_LINES };
+            chart(parameters, *plane, lines, limits).map(Answer::Regimes)
         }
         Request::Family(members) => {
             let answers: Vec<_> = members.iter().map(|member| answer(member, limits)).collect();
