@@ -133,6 +133,9 @@ impl Fineness {
 /// Lines of a chart of regimes, evenly spaced; borders between them are interpolated.
 const CHART_LINES: usize = 40;
 
+/// The same in a draft.
+const DRAFT_LINES: usize = 6;
+
 /// Points of a piece of a branch at draft quality: the picture of them hardly differs.
 const DRAFT_POINTS: usize = 40;
 
@@ -201,8 +204,9 @@ pub fn answer_for(
         Request::ReturnMap { parameters, range } => {
             return_map(parameters, *range, fineness.map, limits).map(Answer::ReturnMap)
         }
-        Request::Regimes { parameters, plane } => {
-            chart(parameters, *plane, CHART_LINES, limits).map(Answer::Regimes)
+        Request::Regimes { parameters, plane, rough } => {
+            let lines = if *rough { DRAFT_LINES } else { CHART_LINES };
+            chart(parameters, *plane, lines, limits).map(Answer::Regimes)
         }
         Request::Family(members) => {
             let answers: Vec<_> =

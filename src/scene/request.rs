@@ -58,6 +58,8 @@ pub enum Request {
         parameters: Parameters,
         /// The two that vary, and their ranges.
         plane: Plane,
+        /// Whether few lines are enough for now.
+        rough: bool,
     },
     /// All of these, for a plot that shows several variants.
     Family(Vec<Request>),
@@ -212,11 +214,14 @@ impl Request {
                     tolerance: DRAFT.tolerance,
                 })
             }
+            Request::Regimes { parameters, plane, rough } => {
+                let (parameters, plane) = (*parameters, *plane);
+                (!rough).then_some(Request::Regimes { parameters, plane, rough: true })
+            }
             Request::Cycles { .. }
             | Request::Capture { .. }
             | Request::Balance { .. }
             | Request::ReturnMap { .. }
-            | Request::Regimes { .. }
             | Request::Family(_)
             | Request::Trade { .. }
             | Request::Scan { .. }

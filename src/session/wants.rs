@@ -158,7 +158,7 @@ impl Session {
                 for symbol in [abscissa, against] {
                     symbol.set(&mut others, &mut { self.problem.initial }, 0.0);
                 }
-                Request::Regimes { parameters: others, plane }
+                Request::Regimes { parameters: others, plane, rough: false }
             }
             Slot::Family => return None,
         })

@@ -30,6 +30,9 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
                 picture.mark(Mark::Stable, at, Role::Stable);
             }
         }
+        if session.layers.contains(&Layer::Rows) {
+            names(&mut picture, found);
+        }
         if let Some(at) = found.nearest_to(&session.problem).and_then(place) {
             picture.mark(Mark::Head, at, Role::Cursor);
             picture.caption(at, "now", Role::Cursor);
@@ -48,11 +51,18 @@ fn curves(picture: &mut Picture, found: &Trade) {
         };
         let own = found.rows.iter().filter(|row| row.problem.method == spec.method);
         let points: Vec<Point> = own.filter_map(place).collect();
-        let Some(finest) = points.last().copied() else { continue };
         picture.curve(Line::new(spec.name, role, dash), points.iter().copied());
         picture.items.extend(points.into_iter().map(|at| Item::Mark(Mark::Turn, at, role)));
-        // Where auto does as another method, that one's curve lies over its own.
-        if spec.method != Method::Auto {
+    }
+}
+
+/// The names of the methods at their finest rows, over everything else.
+fn names(picture: &mut Picture, found: &Trade) {
+    // Where auto does as another method, that one's curve lies over its own.
+    for spec in METHODS.iter().filter(|spec| spec.method != Method::Auto) {
+        let role = if spec.events { Role::Trajectory } else { Role::Unstable };
+        let own = found.rows.iter().filter(|row| row.problem.method == spec.method);
+        if let Some(finest) = own.filter_map(place).next_back() {
             picture.caption(finest, spec.name, role);
         }
     }

@@ -3,12 +3,13 @@
 use std::sync::Arc;
 
 use super::{COST, Desk, answered};
+use crate::flow::quality::DRAFT;
 use crate::flow::{Limits, Method, Reason};
 use crate::oscillator::Symbol;
 use crate::scene::answer::{Failure, answer};
-use crate::scene::{Answer, Answered, Request, SLOTS, Slot};
+use crate::scene::{Answer, Answered, Request, SLOTS, Slot, library};
 use crate::session::update::parameters;
-use crate::session::{Msg, Row, Session, update};
+use crate::session::{Msg, Row, Session, Size, update};
 
 /// The number behind the dial and the name of its stop.
 fn dial(desk: &Desk) -> (f64, &'static str) {
@@ -190,6 +191,50 @@ fn the_measured_error_is_that_of_the_motion_on_show() {
     assert!(reference.error < 1e-28, "{:e}", reference.error);
     assert!((1e-10..1e-3).contains(&deviation.error) && deviation.agrees, "{deviation:?}");
     assert!(desk.session.price.evaluations() > COST);
+}
+
+/// Evaluations that fit in a frame of 16 ms; one takes 20 to 30 ns, drawing and all else some milliseconds.
+const FRAME: u64 = 400_000;
+
+/// Counted for every scene: what the first picture after a key takes, nothing by hand.
+#[test]
+fn at_draft_quality_a_step_of_any_number_fits_in_a_frame() {
+    let give = |session: &mut Session, request: Request| {
+        let found = answer(&request, &Limits::PATIENT).unwrap();
+        let evaluations = found.cost().evaluations;
+        let answered = Answered { request, result: Ok(found), seconds: 0.0 };
+        update(session, Msg::Answered(Box::new(answered)));
+        evaluations
+    };
+    for scene in library() {
+        let mut session = Session::new(Arc::clone(scene), Size { width: 120, height: 40 });
+        session.problem = session.problem.at(&DRAFT);
+        // Windows are fitted after the first answers; the second key knows what the first one took.
+        for _ in 0..3 {
+            for request in session.wants() {
+                if session.is_open(&request) {
+                    give(&mut session, request);
+                }
+            }
+        }
+        for row in session.rows() {
+            let mut stepped = session.clone();
+            stepped.selected = row;
+            parameters::step(&mut stepped, 1);
+            stepped.selected = Row::Until;
+            stepped.effort.measuring = false;
+            // The first answer of each kind is what the first picture needs: drafts come before the rest.
+            let mut evaluations = 0;
+            let mut answered = Vec::new();
+            for request in stepped.wants().into_iter().filter(|request| session.is_open(request)) {
+                if !answered.contains(&request.slot()) {
+                    answered.push(request.slot());
+                    evaluations += give(&mut stepped, request);
+                }
+            }
+            assert!(evaluations < FRAME, "{}, a step of {}: {evaluations}", scene.name, row.name());
+        }
+    }
 }
 
 /// Each number of the motion and each kind of question: which questions contain it.
