@@ -107,6 +107,7 @@ fn does(machine: &mut impl Machine, player: &mut Player, msg: Msg) -> bool {
             | Effect::CopyScreen
             | Effect::Mouse(_)
             | Effect::Record { .. }
+            | Effect::Figure { .. }
             | Effect::PutAside(_)
             | Effect::Write { .. } => {}
         }
