@@ -1,6 +1,7 @@
 //! The explorer: a session, drawn for the terminal at hand.
 
 use std::io;
+use std::path::Path;
 
 use ratatui::Frame;
 use ratatui::buffer::Buffer;
@@ -11,6 +12,7 @@ use super::launch::{Ended, Options, launch};
 use super::machine::Machine;
 use super::scanning;
 use super::worker::Tell;
+use crate::export::figure::{self, Figure};
 use crate::flow::{Limits, Reason};
 use crate::scene::{Answer, Request, answer as scene_answer};
 use crate::session::replay::Script;
@@ -67,6 +69,18 @@ impl Machine for Explorer {
     fn place(&self, size: Size, column: u16, row: u16) -> Option<Place> {
         let screen = Rect::from((Position::ORIGIN, size));
         view::place(screen, &self.session, Position { x: column, y: row })
+    }
+
+    fn figure(&self, path: &Path) -> Option<String> {
+        let ending = path.extension()?.to_str()?.to_ascii_lowercase();
+        let plots = self.session.on_show();
+        let drawn = Figure::of(&self.session, plots);
+        match ending.as_str() {
+            "svg" => Some(figure::svg(&drawn)),
+            "csv" => Some(figure::csv(&drawn)),
+            "json" => Some(figure::json(&drawn)),
+            _ => None,
+        }
     }
 
     fn keepsake(&self) -> Option<String> {

@@ -111,6 +111,7 @@ fn does(machine: &mut impl Machine, player: &mut Player, msg: Msg) -> bool {
             | Effect::Mouse(_)
             | Effect::SaveScan { .. }
             | Effect::Record { .. }
+            | Effect::Figure { .. }
             | Effect::PutAside(_)
             | Effect::Write { .. } => {}
         }

@@ -1,5 +1,7 @@
 //! What the loop runs.
 
+use std::path::Path;
+
 use ratatui::Frame;
 use ratatui::layout::Size;
 
@@ -26,6 +28,11 @@ pub trait Machine {
 
     /// What to keep of it if it is interrupted, as the text of a file; `None`: nothing would be missed.
     fn keepsake(&self) -> Option<String> {
+        None
+    }
+
+    /// What it shows, as a figure in the form that the ending of a file asks for.
+    fn figure(&self, _path: &Path) -> Option<String> {
         None
     }
 

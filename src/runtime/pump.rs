@@ -260,6 +260,13 @@ impl<M: Machine, W: Write> Pump<M, W> {
                     let notice = Files::write(&path, &text, replace);
                     self.update(Msg::Told(notice))?
                 }
+                Effect::Figure { path, replace } => {
+                    let notice = match self.machine.figure(&path) {
+                        Some(text) => Files::write(&path, &text, replace),
+                        None => Notice { error: true, text: "nothing to write".to_owned() },
+                    };
+                    self.update(Msg::Told(notice))?
+                }
                 Effect::Record { path, forget, replace } => {
                     let mut recorder = self.recorder.clone();
                     recorder.forget(if self.player.is_none() { forget } else { 0 });

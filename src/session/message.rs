@@ -126,6 +126,13 @@ pub enum Effect {
         /// Whether a file that is there may be replaced.
         replace: bool,
     },
+    /// Write what the plots show as a figure; the ending of the file says in which form.
+    Figure {
+        /// Where.
+        path: PathBuf,
+        /// Whether a file that is there may be replaced.
+        replace: bool,
+    },
     /// Read a file; it comes back as [`Msg::Read`].
     Read {
         /// The file.

@@ -102,6 +102,10 @@ fn lines_write_open_and_play_files_without_touching_any() {
     assert!(essence(&other.session) == essence(&desk.session));
     other.press(":write!<space>a.toml<enter>");
     assert!(matches!(other.effects.last(), Some(Effect::Write { replace: true, .. })));
+    other.press(":figure<space>a.SVG<enter>");
+    assert!(matches!(other.effects.last(), Some(Effect::Figure { replace: false, .. })));
+    other.press(":figure<space>a.pdf<enter> <esc>");
+    assert!(matches!(other.effects.last(), Some(Effect::Figure { .. })), "and no other file");
     other.press("<right> :record<space>a.keys<enter>");
     assert!(matches!(other.effects.last(), Some(Effect::Record { forget: 15, .. })));
     let path = PathBuf::from("a.keys");

@@ -34,6 +34,20 @@ pub(in crate::session) fn ask(path: &str, purpose: Purpose) -> Vec<Effect> {
     vec![Effect::Read { path: PathBuf::from(path), purpose }]
 }
 
+/// Endings of the files of figures.
+const FIGURES: [&str; 3] = ["svg", "csv", "json"];
+
+/// Writes what the plots show.
+pub(in crate::session) fn figure(path: &str, replace: bool) -> Done {
+    let path = PathBuf::from(path);
+    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+    if FIGURES.iter().any(|known| known.eq_ignore_ascii_case(ending)) {
+        Ok(vec![Effect::Figure { path, replace }])
+    } else {
+        Err(format!("a figure ends in .svg, .csv or .json, not {:?}", path.display().to_string()))
+    }
+}
+
 /// A register and a file.
 fn register(rest: &str) -> Result<(char, &str), String> {
     let (name, path) = rest
