@@ -11,6 +11,7 @@ use super::balance::weighed_residual;
 use super::basin::Basin;
 use super::closing::{Closing, Equation, Route};
 use super::half_map::Length;
+use super::lift::lifted;
 use super::margin::Margin;
 use super::search::{Bracket, Node, search};
 use super::works::works as works_over;
@@ -116,6 +117,9 @@ const ITERATIONS: usize = 200;
 /// # Errors
 /// The [`Reason`] why the search could not be completed.
 pub fn cycles(parameters: &Parameters, curves: bool, limits: &Limits) -> Result<Cycles, Reason> {
+    if let Some((lifted, unit)) = lifted(parameters) {
+        return Ok(cycles(&lifted, curves, limits)?.times_power(-unit));
+    }
     let mut equation = Equation::new(parameters, STEP);
     let found = all_closings(&mut equation, limits)?;
     let describe = |closing: &Closing| closing.describe(parameters, equation.side);
