@@ -7,6 +7,8 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use super::scaling::times_power;
+
 /// The parameters of equation (4): damping, asymmetry, cubic damping, friction. All dimensionless.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Parameters {
@@ -45,6 +47,17 @@ impl Parameters {
     #[must_use]
     pub fn mirrored(self) -> Self {
         Parameters { d2: -self.d2, ..self }
+    }
+
+    /// The parameters for which motions `2^k` times as large are motions (scaling symmetry of equation 4).
+    #[must_use]
+    pub fn times_power(self, k: i32) -> Self {
+        Parameters {
+            d: self.d,
+            d2: times_power(self.d2, -k),
+            d3: times_power(times_power(self.d3, -k), -k),
+            r: times_power(self.r, k),
+        }
     }
 
     /// Whether the motion is linear on each side of `v = 0`, so that closed forms hold.

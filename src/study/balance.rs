@@ -11,7 +11,7 @@
 
 use super::closing::{Equation, Route};
 use super::half_map::{HalfMap, Length, NoEnd};
-use crate::flow::scaling::times_power;
+use crate::flow::scaling::{exponent, field_in_units, times_power};
 use crate::flow::step::Stepper;
 use crate::flow::tableau::GAUSS;
 use crate::flow::{Limits, Reason};
@@ -30,41 +30,47 @@ pub fn weighed_residual(
 ) -> Result<Option<f64>, Reason> {
     let gap = 2.0 * equation.parameters.r;
     let start = Length::from_log(u);
+    // Squares of lengths leave the range of numbers long before lengths do: all in units of the start.
+    let unit = exponent(start.value);
     let [forward, backward] = equation.maps(Route::Mixed);
-    let Some((_, gained_first)) = weigh(forward, start, 1.0, limits)? else { return Ok(None) };
+    let Some((_, gained_first)) = weigh(forward, start, unit, limits)? else { return Ok(None) };
     // Run backward, positions and damping change their signs; the work is that of the motion forward.
-    let Some((second, gained_second)) = weigh(backward, start.plus(gap), -1.0, limits)? else {
+    let Some((second, lost_second)) = weigh(backward, start.plus(gap), unit, limits)? else {
         return Ok(None);
     };
-    let d2 = forward.field().d2;
-    let taken = friction(second.value, gap, d2) + friction(start.value, gap, -d2);
-    let target = second.value + gap;
+    let d2 = times_power(forward.field().d2, unit);
+    let [start, second, gap] =
+        [start.value, second.value, gap].map(|length| times_power(length, -unit));
+    let taken = friction(second, gap, d2) + friction(start, gap, -d2);
+    let target = second + gap;
+    let gained_second = -lost_second;
     let excess = (gained_first + gained_second - taken) / (target * (2.0 * d2 * target).exp());
     Ok(Some((excess / target).ln_1p()))
 }
 
-/// Swings and integrates `-exp(2 D2 x) (2 D v^2 + D3 v^4)` along the motion in forward time.
+/// Swings and integrates `-exp(2 D2 x) (2 D v^2 + D3 v^4)`, lengths measured in units of `2^measure`.
 fn weigh(
     map: &mut HalfMap,
     start: Length,
-    direction: f64,
+    measure: i32,
     limits: &Limits,
 ) -> Result<Option<(Length, f64)>, Reason> {
-    let HalfPlane { d, d2, d3 } = *map.field();
+    let HalfPlane { d, d2, d3 } = field_in_units(map.field(), measure);
     let mut gained = 0.0;
     // Every part of the swing counts: none may be skipped by a closed form.
     let skipped = map.set_linear_below(0.0);
     let swing = map.swing_watched(start, limits, |taylor, unit, duration| {
         for &(node, weight) in &GAUSS {
             let point = taylor.at(node * duration);
-            let (x, v) = (times_power(point.x, unit), times_power(point.v, unit));
+            let (x, v) =
+                (times_power(point.x, unit - measure), times_power(point.v, unit - measure));
             let square = v * v;
             gained -= weight * duration * (2.0 * d2 * x).exp() * square * (2.0 * d + d3 * square);
         }
     });
     map.set_linear_below(skipped);
     match swing {
-        Ok(swing) => Ok(Some((swing.end, direction * gained))),
+        Ok(swing) => Ok(Some((swing.end, gained))),
         Err(NoEnd::Failed(reason)) => Err(reason),
         Err(NoEnd::Escapes | NoEnd::Never) => Ok(None),
     }

@@ -11,6 +11,7 @@ use super::balance::weighed_residual;
 use super::basin::Basin;
 use super::closing::{Closing, Equation, Route};
 use super::half_map::Length;
+use super::lift::lifted;
 use super::margin::Margin;
 use super::search::{Bracket, Node, search};
 use super::works::works as works_over;
@@ -132,6 +133,9 @@ pub fn cycles_drawn(
 }
 
 fn found(parameters: &Parameters, points: Option<u8>, limits: &Limits) -> Result<Cycles, Reason> {
+    if let Some((lifted, unit)) = lifted(parameters) {
+        return Ok(found(&lifted, points, limits)?.times_power(-unit));
+    }
     let mut equation = Equation::new(parameters, STEP);
     let closings = all_closings(&mut equation, limits)?;
     let describe = |closing: &Closing| closing.describe(parameters, equation.side);

@@ -18,6 +18,7 @@ pub mod extremes;
 pub mod fold;
 pub mod half_map;
 pub mod harmonic_error;
+pub mod lift;
 pub mod margin;
 pub mod measure;
 pub mod regime;

@@ -184,12 +184,7 @@ fn scaled_and_mirrored(method: Method, limits: &Limits) -> Named {
     let mut different = 0.0;
     for k in -400..=400 {
         let scaled = Problem {
-            parameters: Parameters {
-                d2: times_power(parameters.d2, -k),
-                d3: times_power(parameters.d3, -2 * k),
-                r: times_power(parameters.r, k),
-                ..parameters
-            },
+            parameters: parameters.times_power(k),
             initial: State { q: times_power(2.0, k), v: times_power(-1.0, k) },
             ..plain
         };
