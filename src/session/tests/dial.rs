@@ -202,7 +202,7 @@ fn at_draft_quality_a_step_of_any_number_fits_in_a_frame() {
     let give = |session: &mut Session, request: Request| {
         let found = answer(&request, &Limits::PATIENT).unwrap();
         let evaluations = found.cost().evaluations;
-        let answered = Answered { request, result: Ok(found), seconds: 0.0 };
+        let answered = Answered { request, result: Ok(found), seconds: 0.0, complete: true };
         update(session, Msg::Answered(Box::new(answered)));
         evaluations
     };
