@@ -95,7 +95,7 @@ fn answered(mut session: Session) -> Result<Session, Failure> {
         let found = answer_for(&request, Fineness::PRINT, &Limits::PATIENT).map_err(|reason| {
             Failure::Unanswered(format!("{} not computed: {reason}", slot.name()))
         })?;
-        let answered = Answered { request, result: Ok(found), seconds: 0.0 };
+        let answered = Answered { request, result: Ok(found), seconds: 0.0, complete: true };
         update(&mut session, Msg::Answered(Box::new(answered)));
     }
 }

@@ -120,8 +120,6 @@ pub enum Slot {
     Scan,
     /// What errors are measured against: wanted last of all.
     Reference,
-    /// The scan.
-    Scan,
     /// The claims of the paper.
     Claims,
 }
@@ -139,7 +137,6 @@ pub const SLOTS: [Slot; 12] = [
     Slot::Trade,
     Slot::Scan,
     Slot::Reference,
-    Slot::Scan,
     Slot::Claims,
 ];
 

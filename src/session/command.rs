@@ -5,9 +5,9 @@
 use super::input::Input;
 use super::key::Key;
 use super::keymap::Context::{
-    self, Always, Belt, Count, Diagram, EnergyLedger, Entry, Everywhere, Form, Help, Layers, Letter,
-    Lists, Offer, Palette, Paper, Parameters, Phase, Plots, Prompt, Regimes, ReturnMap, Scan, Scenes, Search,
-    TimeSeries, Trade, Views, Walk,
+    self, Always, Belt, Count, Diagram, EnergyLedger, Entry, Everywhere, Form, Help, Layers,
+    Letter, Lists, Offer, Palette, Paper, Parameters, Phase, Plots, Prompt, Regimes, ReturnMap,
+    Scan, Scenes, Search, TimeSeries, Trade, Views, Walk,
 };
 use super::message::Effect;
 use super::pending::{self, Letter as Ask};
