@@ -6,8 +6,8 @@ use super::failure::Failure;
 use super::output::{Format, Output, print};
 use super::timing::timed;
 use crate::export::claims;
-use crate::flow::{Limits, Reason};
-use crate::study::claims::{Examined, claims as all, examine};
+use crate::flow::Limits;
+use crate::study::claims::examine_all;
 
 /// Puts every equation and claim of the paper that can be tested to the test
 #[derive(Debug, Args)]
@@ -19,11 +19,8 @@ pub struct Paper {
 impl Paper {
     /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
-        let examine_all = || {
-            all().map(|claim| examine(claim, &Limits::PATIENT)).collect::<Result<Vec<_>, Reason>>()
-        };
-        let (examined, seconds): (_, f64) = timed(self.output.repeat, examine_all);
-        let examined: Vec<Examined> = examined
+        let (examined, seconds) = timed(self.output.repeat, || examine_all(&Limits::PATIENT));
+        let examined = examined
             .map_err(|reason| Failure::Unanswered(format!("the examination gave up: {reason}")))?;
         print(&match self.output.format {
             Format::Table => claims::table(&examined, seconds),

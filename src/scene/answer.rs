@@ -9,6 +9,7 @@ use crate::study::accuracy::Reference;
 use crate::study::branch::branch;
 use crate::study::capture::bands;
 use crate::study::chart::{Chart, chart};
+use crate::study::claims::{Examined, examine_all};
 use crate::study::cycle::cycles;
 use crate::study::harmonic_error::{HarmonicBalance, harmonic_balance};
 use crate::study::return_map::return_map;
@@ -41,6 +42,8 @@ pub enum Answer {
     Reference(Result<Box<Reference>, Reason>),
     /// To [`Request::Scan`]: some more rows.
     Rows(Rows),
+    /// To [`Request::Claims`].
+    Claims(Vec<Examined>),
 }
 
 /// Rows of a scan that follow each other.
@@ -128,6 +131,7 @@ const ROW: u64 = 1_000_000;
 /// The [`Reason`] why there is no answer.
 pub fn answer(request: &Request, limits: &Limits) -> Result<Answer, Reason> {
     match request {
+        Request::Claims => examine_all(limits).map(Answer::Claims),
         Request::Trajectory(problem) => {
             // Without friction nothing happens at v = 0, and nobody looks for it.
             let crossings = problem.parameters.r > 0.0;
@@ -208,6 +212,7 @@ impl Answer {
                 sum += row.cost;
                 sum
             }),
+            Answer::Claims(_) => Cost::default(),
         }
     }
 }

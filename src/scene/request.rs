@@ -88,6 +88,8 @@ pub enum Request {
         /// Number of the first point wanted.
         from: usize,
     },
+    /// The claims of the paper against computation.
+    Claims,
 }
 
 /// The kind of a request.
@@ -118,10 +120,12 @@ pub enum Slot {
     Scan,
     /// What errors are measured against: wanted last of all.
     Reference,
+    /// The claims of the paper.
+    Claims,
 }
 
 /// Every kind, the most urgent first.
-pub const SLOTS: [Slot; 11] = [
+pub const SLOTS: [Slot; 12] = [
     Slot::Trajectory,
     Slot::Cycles,
     Slot::Capture,
@@ -133,6 +137,7 @@ pub const SLOTS: [Slot; 11] = [
     Slot::Trade,
     Slot::Scan,
     Slot::Reference,
+    Slot::Claims,
 ];
 
 impl Slot {
@@ -160,6 +165,7 @@ impl Slot {
             Slot::Trade => "trade",
             Slot::Reference => "reference",
             Slot::Scan => "scan",
+            Slot::Claims => "paper",
         }
     }
 }
@@ -180,6 +186,7 @@ impl Request {
             Request::Trade { .. } => Slot::Trade,
             Request::Reference { .. } => Slot::Reference,
             Request::Scan { .. } => Slot::Scan,
+            Request::Claims => Slot::Claims,
         }
     }
 
@@ -215,7 +222,8 @@ impl Request {
             | Request::Family(_)
             | Request::Trade { .. }
             | Request::Scan { .. }
-            | Request::Reference { .. } => None,
+            | Request::Reference { .. }
+            | Request::Claims => None,
         }
     }
 

@@ -6,8 +6,8 @@ use super::input::Input;
 use super::key::Key;
 use super::keymap::Context::{
     self, Always, Count, Diagram, EnergyLedger, Entry, Everywhere, Form, Help, Layers, Letter,
-    Lists, Offer, Palette, Parameters, Phase, Plots, Prompt, Regimes, ReturnMap, Scan, Scenes,
-    Search, TimeSeries, Trade, Views, Walk,
+    Lists, Offer, Palette, Paper, Parameters, Phase, Plots, Prompt, Regimes, ReturnMap, Scan,
+    Scenes, Search, TimeSeries, Trade, Views, Walk,
 };
 use super::message::Effect;
 use super::pending::{self, Letter as Ask};
@@ -202,6 +202,8 @@ pub const COMMANDS: &[Command] = &[
         "Give the focus to the previous pane", |s, _| general::focus(s, -1)),
     row("enlarge", &[(Everywhere, &["z"])], "",
         "Give one plot the place of all, or share it again", |s, _| general::enlarge(s)),
+    row("paper", &[(Everywhere, &["<f9>"])], "",
+        "List the claims of the paper against computation", |s, _| lists::open_paper(s)),
     row("views", &[(Everywhere, &["V"])], "view",
         "Pick what the plot in use shows", |s, _| lists::open_views(s)),
     row("next-view", &[(Everywhere, &[";"])], "",
@@ -350,7 +352,7 @@ pub const COMMANDS: &[Command] = &[
         "Drop the cursor, stop a scan; never leaves, never discards", |s, _| plots::drop_cursor(s)),
     row("back", &[(Lists, &["<esc>", "q"]), (Entry, &["<esc>"]), (Prompt, &["<esc>"]), (Palette, &["<esc>"]), (Form, &["<esc>"]), (Offer, &["<esc>"])], "close",
         "Close what is open", |s, _| general::back(s)),
-    row("close-again", &[(Help, &["?", "<f1>", "$"]), (Scenes, &["s"]), (Layers, &["v"]), (Views, &["V"])], "",
+    row("close-again", &[(Help, &["?", "<f1>", "$"]), (Scenes, &["s"]), (Layers, &["v"]), (Views, &["V"]), (Paper, &["<f9>"])], "",
         "Close with the key that opened", |s, _| general::back(s)),
     row("quit", &[(Everywhere, &["q"]), (Walk, &["q"]), (Always, &["<C-c>"])], "quit",
         "Leave", |s, _| general::quit(s)),
@@ -373,6 +375,8 @@ pub const COMMANDS: &[Command] = &[
         "Open the selected scene", |s, _| lists::choose(s)),
     row("toggle-layer", &[(Layers, &["<enter>", "<space>"])], "on/off",
         "Switch the selected layer on or off", |s, _| lists::choose(s)),
+    row("show-claim", &[(Paper, &["<enter>"])], "its scene",
+        "Open the scene that shows the selected claim", |s, _| lists::choose(s)),
     row("show-view", &[(Views, &["<enter>", "<space>"])], "show",
         "Show the selected view", |s, _| lists::choose(s)),
     row("run-command", &[(Palette, &["<enter>"])], "run",

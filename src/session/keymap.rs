@@ -47,6 +47,8 @@ pub enum Context {
     Layers,
     /// The picker of views is open.
     Views,
+    /// The claims of the paper are open.
+    Paper,
     /// The palette is open.
     Palette,
     /// A count is being typed before a key.
@@ -70,7 +72,7 @@ pub enum Context {
 }
 
 /// Every context with its name in settings files.
-pub const CONTEXTS: [(Context, &str); 26] = [
+pub const CONTEXTS: [(Context, &str); 27] = [
     (Context::Parameters, "parameters"),
     (Context::Phase, "phase"),
     (Context::Diagram, "diagram"),
@@ -88,6 +90,7 @@ pub const CONTEXTS: [(Context, &str); 26] = [
     (Context::Scenes, "scenes"),
     (Context::Layers, "layers"),
     (Context::Views, "views"),
+    (Context::Paper, "paper"),
     (Context::Palette, "palette"),
     (Context::Count, "count"),
     (Context::Letter, "letter"),
@@ -127,6 +130,7 @@ impl Context {
             Context::Scenes => "In the scene picker",
             Context::Layers => "In the layer list",
             Context::Views => "In the picker of views",
+            Context::Paper => "In the list of claims",
             Context::Palette => "In the palette",
             Context::Count => "After a count",
             Context::Letter => "Before the letter of a register or mark",
@@ -156,6 +160,7 @@ impl Context {
             | Context::Scenes
             | Context::Layers
             | Context::Views
+            | Context::Paper
             | Context::Palette
             | Context::Count
             | Context::Letter
@@ -199,7 +204,7 @@ impl Context {
 }
 
 /// Every set of contexts that can hold together, the most specific first.
-pub const CHAINS: [&[Context]; 22] = [
+pub const CHAINS: [&[Context]; 23] = [
     &[Context::Parameters, Context::Everywhere, Context::Always],
     &[Context::Phase, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Diagram, Context::Plots, Context::Everywhere, Context::Always],
@@ -214,6 +219,7 @@ pub const CHAINS: [&[Context]; 22] = [
     &[Context::Scenes, Context::Lists, Context::Always],
     &[Context::Layers, Context::Lists, Context::Always],
     &[Context::Views, Context::Lists, Context::Always],
+    &[Context::Paper, Context::Lists, Context::Always],
     &[Context::Palette, Context::Always],
     &[Context::Count, Context::Always],
     &[Context::Letter, Context::Always],
@@ -250,6 +256,7 @@ impl Session {
             Some(Overlay::Scenes(_)) => Context::Scenes,
             Some(Overlay::Layers(_)) => Context::Layers,
             Some(Overlay::Views(_)) => Context::Views,
+            Some(Overlay::Paper(_)) => Context::Paper,
             Some(Overlay::Entry(_)) => Context::Entry,
             Some(Overlay::Prompt(_)) => Context::Prompt,
             Some(Overlay::Scan(_)) => Context::Form,

@@ -16,6 +16,8 @@ pub enum Overlay {
     Layers(List),
     /// The views, to pick what a plot shows.
     Views(List),
+    /// The claims of the paper, to be scrolled and searched.
+    Paper(List),
     /// All commands, to search one and run it.
     Palette(List),
     /// What the picture costs, question by question.
@@ -40,6 +42,7 @@ impl Overlay {
             | Overlay::Layers(list)
             | Overlay::Views(list)
             | Overlay::Cost(list)
+            | Overlay::Paper(list)
             | Overlay::Palette(list) => Some(list),
             Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Scan(_) | Overlay::Offer(_) => None,
         }
@@ -53,6 +56,7 @@ impl Overlay {
             | Overlay::Layers(list)
             | Overlay::Views(list)
             | Overlay::Cost(list)
+            | Overlay::Paper(list)
             | Overlay::Palette(list) => Some(list),
             Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Scan(_) | Overlay::Offer(_) => None,
         }

@@ -7,6 +7,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use super::overlay::Overlay;
 use super::plot::{Framing, Pane};
 use super::state::{Recomputed, Row, Session};
 use super::variants::MEMBERS;
@@ -16,6 +17,7 @@ use crate::scene::answer::{Borders, Failure};
 use crate::scene::{Answer, Answered, Axes, Layer, Request, SLOTS, Slot, Span, View, Window};
 use crate::study::accuracy::{Deviation, Reference};
 use crate::study::chart::{Chart, Plane};
+use crate::study::claims::Examined;
 use crate::study::harmonic_error::HarmonicBalance;
 use crate::study::{Branch, Cycles, ReturnMap};
 
@@ -40,6 +42,9 @@ impl Session {
             .flat_map(|plot| self.needs(plot).into_iter().map(move |slot| (slot, plot)))
             .collect();
         let mut wanted = Vec::new();
+        if matches!(self.overlay, Some(Overlay::Paper(_))) {
+            wanted.push(Request::Claims);
+        }
         for request in needed.into_iter().filter_map(|(slot, plot)| self.request(slot, plot)) {
             if !wanted.contains(&request) {
                 wanted.push(request);
@@ -98,6 +103,7 @@ impl Session {
         let Problem { parameters, tolerance, initial, .. } = problem;
         let own = |view: View| self.plots.get(plot).filter(|plot| plot.view == view);
         Some(match slot {
+            Slot::Claims => Request::Claims,
             Slot::Trajectory => Request::Trajectory(problem),
             Slot::Scan => return self.scan_request(),
             Slot::Cycles => Request::Cycles { parameters },
@@ -272,6 +278,15 @@ impl Session {
                 Some(found)
             }
             _ => None,
+        }
+    }
+
+    /// The claims of the paper, examined; none until they are.
+    #[must_use]
+    pub fn examined(&self) -> &[Examined] {
+        match self.answer(Slot::Claims, self.plot) {
+            Some(Answer::Claims(examined)) => examined,
+            _ => &[],
         }
     }
 

@@ -10,6 +10,7 @@ use ratatui::widgets::{Clear, Paragraph, Widget, Wrap};
 use super::costs;
 use super::keys;
 use super::look::{Look, Role};
+use super::paper;
 use crate::scene::ViewSpec;
 use crate::session::update::palette::PaletteRow;
 use crate::session::{Context, Key, List, Overlay, Session};
@@ -25,7 +26,9 @@ const TEXT: u16 = 8;
 
 /// What is listed.
 pub(super) struct Content {
+    /// What is listed.
     pub title: &'static str,
+    /// The rows.
     pub rows: Vec<Entry>,
     /// About the selected row, below the list.
     pub about: Vec<Line<'static>>,
@@ -49,6 +52,7 @@ pub fn draw(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         Some(Overlay::Layers(list)) => (list, layers(session, list, look)),
         Some(Overlay::Views(list)) => (list, views(session, list, look)),
         Some(Overlay::Cost(list)) => (list, costs::content(session, list, look)),
+        Some(Overlay::Paper(list)) => (list, paper::content(session, list, look)),
         Some(Overlay::Palette(list)) => (list, palette(session, list, look)),
         Some(Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Scan(_) | Overlay::Offer(_))
         | None => return,

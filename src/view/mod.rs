@@ -18,6 +18,7 @@ pub mod look;
 pub mod number;
 pub mod paint;
 pub mod pane;
+pub mod paper;
 pub mod parameters;
 pub mod phase_plane;
 pub mod picture;

@@ -96,31 +96,36 @@ fn signs(picture: &mut Picture, right: Symbol, up: Symbol) {
     }
 }
 
-/// Writes each name where its regime has most room on a line, near the middle of the window.
+/// Cells of a lattice across the window, to find room for names.
+const LATTICE: u8 = 16;
+
+/// Width and height of a name, as parts of a window.
+const NAME: (f64, f64) = (0.2, 0.1);
+
+/// Writes each name where its regime has most room around it.
 fn names_of_regimes(picture: &mut Picture, chart: &Chart) {
     let window = picture.window;
+    let middle = |index: u8| (f64::from(index) + 0.5) / f64::from(LATTICE);
+    let cells: Vec<(f64, f64, Option<Regime>)> = (0..LATTICE)
+        .flat_map(|row| (0..LATTICE).map(move |column| (middle(column), middle(row))))
+        .map(|(x, y)| (x, y, chart.regime_at(window.x.at(x), window.y.at(y))))
+        .collect();
     for (regime, name, _) in REGIMES {
-        let mut best: Option<(f64, Point)> = None;
-        for line in &chart.lines {
-            for band in line.bands.iter().filter(|band| band.regime == Some(regime)) {
-                let (x, y) = chart.point(line.at, 0.5 * (band.from + band.to));
-                if !(window.x.contains(x) && window.y.contains(y)) {
-                    continue;
-                }
-                let across = if chart.along == chart.plane.right {
-                    window.y.fraction(y)
-                } else {
-                    window.x.fraction(x)
-                };
-                let along = if chart.along == chart.plane.right { window.x } else { window.y };
-                let room = (band.to - band.from) / along.width() * (1.0 - (across - 0.5).abs());
-                if best.is_none_or(|(most, _)| room > most) {
-                    best = Some((room, Point { x, y }));
-                }
-            }
-        }
-        if let Some((_, place)) = best {
-            picture.caption(place, name, Role::Text);
+        let room = |x: f64, y: f64| {
+            let others = cells.iter().filter(|cell| cell.2 != Some(regime));
+            let far = |cell: &(f64, f64, Option<Regime>)| {
+                ((cell.0 - x).abs() / NAME.0).max((cell.1 - y).abs() / NAME.1)
+            };
+            // The ends of the window are borders like the others.
+            let ends = (x.min(1.0 - x) / NAME.0).min(y.min(1.0 - y) / NAME.1);
+            others.map(far).fold(ends, f64::min)
+        };
+        let own = cells.iter().filter(|cell| cell.2 == Some(regime));
+        let best = own.map(|&(x, y, _)| (room(x, y), x, y)).max_by(|a, b| a.0.total_cmp(&b.0));
+        if let Some((_, x, y)) = best {
+            // A caption stands beside its point, the name should stand around it.
+            let left = Point { x: window.x.at(x - 0.5 * NAME.0), y: window.y.at(y) };
+            picture.caption(left, name, Role::Text);
         }
     }
 }

@@ -113,6 +113,7 @@ fn by_hand(request: &Request) -> Answer {
         }
         Request::Trade { .. } => Answer::Trade(compared()),
         Request::Reference { .. } => Answer::Reference(Err(Reason::OutOfRange)),
+        Request::Claims => Answer::Claims(Vec::new()),
     }
 }
 
@@ -310,6 +311,7 @@ fn screens_look_as_they_were_approved() {
         ("trade", (80, 24), "<tab> Q V / t r a d e <enter> <right>", letters()),
         ("costs", (100, 30), "$", letters()),
         ("dial", (100, 24), "}", letters()),
+        ("regimes", (80, 24), "<tab> Q V / r e g <enter> <right>", braille()),
         ("views", (80, 24), "V", letters()),
         ("scan", (80, 24), "% <enter> z <right> <right>", braille()),
         ("scan-form", (80, 24), "% <down> x <enter>", letters()),
@@ -577,7 +579,7 @@ proptest! {
                 }
                 Ok(Answer::Capture(found)) => found.curves = vec![states.clone()],
                 Ok(
-                    Answer::Family(_) | Answer::Trade(_) | Answer::Reference(_) | Answer::Rows(_),
+                    Answer::Family(_) | Answer::Trade(_) | Answer::Reference(_) | Answer::Rows(_) | Answer::Claims(_),
                 )
                 | Err(_) => {}
             }

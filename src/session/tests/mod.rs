@@ -194,6 +194,7 @@ fn answered(request: Request) -> Answered {
             sides: [Vec::new(), Vec::new()],
             cost,
         }),
+        Request::Claims => Answer::Claims(Vec::new()),
         Request::Regimes { plane, .. } => {
             let along = plane.along();
             Answer::Regimes(Chart { plane: *plane, along, lines: Vec::new(), cost })

@@ -90,6 +90,7 @@ fn terms_that_a_scene_does_not_declare_are_zero_until_the_user_unfolds_them() {
     assert_eq!((d2, d3), (0.0, 0.0));
     for request in desk.session.wants() {
         let parameters = match request {
+            Request::Claims => continue,
             Request::Trajectory(problem) => problem.parameters,
             Request::Cycles { parameters }
             | Request::Capture { parameters, .. }

@@ -2,9 +2,10 @@
 
 use super::Desk;
 use crate::flow::Method;
-use crate::oscillator::State;
+use crate::oscillator::{State, Symbol};
 use crate::scene::{Request, Slot, VIEWS, View};
 use crate::session::{Context, Pane};
+use crate::study::claims::claims;
 
 /// A scene with one plot, turned to a view.
 fn turned_to(view: &str) -> Desk {
@@ -31,6 +32,32 @@ fn a_view_asks_what_its_layers_need_and_a_step_asks_that_again() {
         assert_eq!(desk.press("<S-tab><down*3><right>"), on_q0, "q0 in {view}");
         assert_eq!(desk.press("<up><right>"), needs, "r in {view}");
     }
+}
+
+#[test]
+fn the_parameters_of_a_chart_move_its_point_and_nothing_else() {
+    let mut desk = turned_to("regimes");
+    desk.press("<S-tab>");
+    assert_eq!(desk.press("<right*3>"), [], "D");
+    assert_eq!(desk.press("<down><right>"), [], "D3");
+    assert_eq!(desk.press("<down><right>"), [Slot::Regimes], "r");
+    assert_eq!(desk.press("<tab>Y"), [Slot::Regimes], "D over r");
+    let axes = desk.session.plots[0].axes;
+    assert_eq!((axes.abscissa, axes.against), (Symbol::D, Symbol::R));
+    assert_eq!(desk.press("X"), [Slot::Regimes]);
+    assert_eq!(desk.session.plots[0].axes.abscissa, Symbol::D2, "r stands upwards already");
+}
+
+#[test]
+fn enter_on_a_chart_takes_both_parameters_as_one_change() {
+    let mut desk = turned_to("regimes");
+    let before = desk.session.problem.parameters;
+    desk.press("<left*5><up*3><enter>");
+    let (after, cursor) = (desk.session.problem.parameters, desk.session.plots[0].cursor.unwrap());
+    assert_eq!((after.d, after.d3), (cursor.x, cursor.y));
+    assert!(after.d < before.d && after.d3 > before.d3);
+    desk.press("u");
+    assert_eq!(desk.session.problem.parameters, before);
 }
 
 #[test]
@@ -109,4 +136,16 @@ fn the_trade_is_asked_for_the_motion_and_not_for_the_method_that_computes_it() {
     desk.press("<left*200> <up*200> <enter>");
     let problem = desk.session.problem;
     assert_eq!((problem.method, problem.tolerance), (Method::Taylor, 1e-4));
+}
+
+#[test]
+fn the_claims_of_the_paper_are_examined_once_when_they_are_first_looked_at() {
+    let mut desk = Desk::open("plain");
+    assert_eq!(desk.press("<f9>"), [Slot::Claims]);
+    assert_eq!(desk.press("<esc><f9>"), [], "they do not change");
+    desk.press("/(33)<enter><enter>");
+    assert_eq!(desk.session.overlay, None);
+    let claim = claims().find(|claim| claim.equation == "(33)").unwrap();
+    assert_eq!(Some(desk.session.scene.name.as_str()), claim.scene);
+    assert!(!desk.press("<right>").contains(&Slot::Claims), "hidden they cost nothing");
 }

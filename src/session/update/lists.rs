@@ -5,12 +5,14 @@ use std::sync::Arc;
 use super::desk::show;
 use super::general::{open_scene, toggle};
 use super::palette::PaletteRow;
-use crate::scene::{LAYERS, LayerSpec, Scene, VIEWS, ViewSpec, library};
+use super::{inform, refuse};
+use crate::scene::{LAYERS, LayerSpec, Scene, VIEWS, ViewSpec, find, library};
 use crate::session::command::{COMMANDS, Command};
 use crate::session::line::LINES;
 use crate::session::message::Effect;
 use crate::session::overlay::{List, Overlay};
 use crate::session::state::Session;
+use crate::study::claims::{Claim, Examined, Verdict, claims};
 
 /// Rows that the page keys move.
 pub const PAGE: isize = 10;
@@ -50,6 +52,18 @@ impl Session {
         VIEWS.iter().filter(|row| list.matches(&[row.name, row.title, row.meaning])).collect()
     }
 
+    /// The claims that the page of the paper lists, each with what became of it, if that is known.
+    #[must_use]
+    pub fn claim_rows(&self, list: &List) -> Vec<(&'static Claim, Option<&Examined>)> {
+        let examined = self.examined();
+        let rows = claims().enumerate().map(|(index, claim)| (claim, examined.get(index)));
+        let matches = |(claim, examined): &(&'static Claim, Option<&Examined>)| {
+            let verdict = examined.and_then(Examined::verdict).map_or("", Verdict::name);
+            list.matches(&[claim.equation, claim.section, claim.statement, verdict])
+        };
+        rows.filter(matches).collect()
+    }
+
     /// How many rows the open list has.
     fn list_length(&self) -> usize {
         match &self.overlay {
@@ -57,6 +71,7 @@ impl Session {
             Some(Overlay::Scenes(list)) => self.scene_rows(list).len(),
             Some(Overlay::Layers(list)) => self.layer_rows(list).len(),
             Some(Overlay::Views(list)) => self.view_rows(list).len(),
+            Some(Overlay::Paper(list)) => self.claim_rows(list).len(),
             Some(Overlay::Palette(list)) => self.palette_rows(list).len(),
             Some(Overlay::Cost(list)) => self.cost_rows(list).len(),
             Some(Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Scan(_) | Overlay::Offer(_))
@@ -102,6 +117,30 @@ pub fn open_views(session: &mut Session) -> Vec<Effect> {
 /// Opens the list of what the picture costs.
 pub fn open_cost(session: &mut Session) -> Vec<Effect> {
     session.overlay = Some(Overlay::Cost(List::default()));
+    Vec::new()
+}
+
+/// Opens the page of the paper: its claims, which are examined when this is first asked for.
+pub fn open_paper(session: &mut Session) -> Vec<Effect> {
+    session.overlay = Some(Overlay::Paper(List::default()));
+    Vec::new()
+}
+
+/// Opens the scene that shows the selected claim.
+fn show_claim(session: &mut Session) -> Vec<Effect> {
+    let Some(Overlay::Paper(list)) = &session.overlay else { return Vec::new() };
+    let selected = session.claim_rows(list).get(list.selected).map(|(claim, _)| *claim);
+    let Some(claim) = selected else { return Vec::new() };
+    session.overlay = None;
+    match claim.scene.and_then(|name| find(name).ok()) {
+        Some(scene) => {
+            open_scene(session, scene);
+            inform(session, format!("{}: {}", claim.equation, claim.statement));
+        }
+        None => {
+            refuse(session, format!("no scene shows {}: it is a formula alone", claim.equation));
+        }
+    }
     Vec::new()
 }
 
@@ -179,6 +218,7 @@ pub fn choose(session: &mut Session) -> Vec<Effect> {
                 return show(session, row.view);
             }
         }
+        Some(Overlay::Paper(_)) => return show_claim(session),
         _ => {}
     }
     Vec::new()

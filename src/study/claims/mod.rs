@@ -40,12 +40,18 @@ pub struct Claim {
 pub const UNSAID: &str = "-";
 
 /// A claim and what became of it.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Examined {
     /// The claim.
     pub claim: &'static Claim,
     /// The numbers, or why there are none.
     pub finding: Result<Finding, Reason>,
+}
+
+impl PartialEq for Examined {
+    fn eq(&self, other: &Self) -> bool {
+        std::ptr::eq(self.claim, other.claim) && self.finding == other.finding
+    }
 }
 
 impl Examined {
@@ -71,6 +77,14 @@ pub const SECTIONS: [&[Claim]; 8] = [
 /// Every claim, in the order of the paper.
 pub fn claims() -> impl Iterator<Item = &'static Claim> {
     SECTIONS.iter().copied().flatten()
+}
+
+/// Puts all claims to the test.
+///
+/// # Errors
+/// [`Reason::Interrupted`] and no other.
+pub fn examine_all(limits: &Limits) -> Result<Vec<Examined>, Reason> {
+    claims().map(|claim| examine(claim, limits)).collect()
 }
 
 /// Puts one claim to the test.

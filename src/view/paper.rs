@@ -1,0 +1,98 @@
+//! The page of the paper: its claims with their verdicts, and the numbers of the selected one.
+
+use ratatui::text::{Line, Span};
+
+use super::lists::{Content, Entry};
+use super::look::{Look, Role};
+use super::number::significant;
+use crate::export::claims::{summary, words};
+use crate::session::{List, Session};
+use crate::study::claims::{Claim, Examined, UNSAID, Verdict};
+
+/// The list, section by section.
+pub(super) fn content(session: &Session, list: &List, look: &Look) -> Content {
+    let found = session.claim_rows(list);
+    let mut rows = Vec::new();
+    let mut section = None;
+    for (claim, examined) in &found {
+        if section != Some(claim.section) {
+            section = Some(claim.section);
+            rows.push(Entry::Heading(heading(claim.section)));
+        }
+        let (verdict, role) = match examined {
+            Some(examined) => (words(examined), role(examined)),
+            None => ("computing".to_owned(), Role::Quiet),
+        };
+        rows.push(Entry::Row(vec![
+            Span::styled(format!("{:<14} ", claim.equation), look.style(Role::Key)),
+            Span::styled(format!("{verdict:<17} "), look.style(role)),
+            Span::styled(claim.statement, look.style(Role::Text)),
+        ]));
+    }
+    let about = found.get(list.selected).map(|(claim, examined)| about(claim, *examined, look));
+    let mut about = about.unwrap_or_default();
+    if !session.examined().is_empty() {
+        about.push(Line::styled(summary(session.examined()), look.style(Role::Quiet)));
+    }
+    Content { title: "the paper against computation", rows, about }
+}
+
+/// What stands above the claims of a section.
+fn heading(section: &'static str) -> &'static str {
+    match section {
+        UNSAID => "not in the paper",
+        "2" => "2  the model",
+        "3" => "3  the smooth steady state",
+        "4" | "4.1" => "4.1  the set of equilibria",
+        "4.2" => "4.2  Lyapunov's method",
+        "5" => "5  basins and periodic solutions",
+        "5.1" => "5.1  the piecewise linear system",
+        "5.2" => "5.2  the harmonic approximation",
+        "6.1" => "6.1  basins",
+        "6.2" => "6.2  limit cycles",
+        "6.2.1" => "6.2.1  characteristic points and asymptotes",
+        "6.2.2" => "6.2.2  stationary amplitudes",
+        "6.3" => "6.3  mean shift",
+        "6.4" => "6.4  bifurcation",
+        "7" => "7  conclusion",
+        other => other,
+    }
+}
+
+/// What holds is quiet, what does not is loud.
+fn role(examined: &Examined) -> Role {
+    match examined.verdict() {
+        Some(Verdict::Agrees | Verdict::Approximates { .. }) => Role::Stable,
+        Some(Verdict::Corrected { .. } | Verdict::InPart) => Role::Warning,
+        Some(Verdict::False) => Role::Failure,
+        None => Role::Quiet,
+    }
+}
+
+/// The claim in full, its numbers, and the scene that shows it.
+fn about(claim: &Claim, examined: Option<&Examined>, look: &Look) -> Vec<Line<'static>> {
+    let text = |text: String| Line::styled(text, look.style(Role::Text));
+    let mut lines = vec![text(format!("{}: {}", claim.equation, claim.statement))];
+    match examined.map(|examined| &examined.finding) {
+        None => {}
+        Some(Err(reason)) => lines.push(text(format!("not computed: {reason}"))),
+        Some(Ok(finding)) => {
+            let number = |name: &str, value: Option<f64>| {
+                value.map(|value| format!("{name} {}", significant(value, 10)))
+            };
+            let error = Some(finding.computed.error).filter(|error| *error > 0.0);
+            let parts = [
+                number("paper", finding.paper),
+                number("corrected", finding.corrected),
+                number("computed", Some(finding.computed.value)),
+                error.map(|error| format!("known to {}", significant(error, 1))),
+            ];
+            lines.push(text(parts.into_iter().flatten().collect::<Vec<_>>().join(", ")));
+            lines.push(Line::styled(finding.place.clone(), look.style(Role::Quiet)));
+        }
+    }
+    if let Some(scene) = claim.scene {
+        lines.push(Line::styled(format!("scene {scene}"), look.style(Role::Quiet)));
+    }
+    lines
+}
