@@ -44,6 +44,8 @@ pub enum Answer {
     Claims(Vec<Examined>),
     /// To [`Request::Scan`]: some more rows.
     Rows(Rows),
+    /// To [`Request::Claims`].
+    Claims(Vec<Examined>),
 }
 
 /// Rows of a scan that follow each other.
