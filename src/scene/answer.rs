@@ -44,8 +44,6 @@ pub enum Answer {
     Claims(Vec<Examined>),
     /// To [`Request::Scan`]: some more rows.
     Rows(Rows),
-    /// To [`Request::Claims`].
-    Claims(Vec<Examined>),
 }
 
 /// Rows of a scan that follow each other.
