@@ -1,6 +1,7 @@
 //! `hopfscope belt`: a machine in physical units.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use clap::Args;
 
@@ -10,10 +11,10 @@ use super::timing::timed;
 use crate::export::belt::{self, Answer, Designed, Sweep};
 use crate::flow::{Limits, Reason};
 use crate::oscillator::belt::{Dimension, QUANTITIES, Quantity, Reduced};
-use crate::scene::Machine;
 use crate::scene::machine::file::{FARTHEST_START, parse, value_of};
 use crate::scene::machine::library::{TEXTBOOK, find, machines};
 use crate::scene::machine::unit::measured;
+use crate::scene::{Machine, Rig, Scene};
 use crate::study::belt::{survey, sweep};
 use crate::study::design::{Kick, friction_for};
 
@@ -166,6 +167,13 @@ pub fn machine(name: &str) -> Result<Machine, Failure> {
         std::fs::read_to_string(&beside).map_err(|error| format!("{}: {error}", beside.display()))
     };
     parse(&title, name, &text, fetch).map_err(|error| Failure::Usage(error.to_string()))
+}
+
+/// The machine of a file, or of the program, to be looked at.
+pub fn scene(name: &str) -> Result<Arc<Scene>, Failure> {
+    let rig =
+        Rig::new(machine(name)?).map_err(|error| Failure::Usage(format!("{name}: {error}")))?;
+    Ok(Arc::new(rig.scene()))
 }
 
 impl Belt {

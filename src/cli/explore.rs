@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use clap::Args;
 
+use super::belt;
 use super::config::Settings;
 use super::failure::Failure;
 use super::look::Looks;
@@ -25,6 +26,9 @@ pub struct Explore {
     /// Scene to open; `hopfscope scenes` lists them
     #[arg(value_name = "SCENE", conflicts_with = "scene")]
     named: Option<String>,
+    /// Opens a machine in physical units: a file of one, or its name; see `hopfscope belt`
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["named", "scene"])]
+    belt: Option<String>,
     #[command(flatten)]
     start: Start,
     #[command(flatten)]
@@ -48,7 +52,10 @@ impl Explore {
         let config = self.settings.read()?;
         let named = self.named.as_ref().or(self.start.scene.as_ref()).or(config.scene.as_ref());
         let name = named.map_or(PLAIN, String::as_str);
-        let scene = self.start.scene_named(name).map_err(|missing| or_command(name, missing))?;
+        let scene = match &self.belt {
+            Some(file) => self.start.applied(belt::scene(file)?),
+            None => self.start.scene_named(name).map_err(|missing| or_command(name, missing))?,
+        };
         let replay = self.play.as_deref().map(script).transpose()?;
         // The terminal says its size before the first picture.
         let mut session = Session::new(scene, Size { width: 80, height: 24 });

@@ -70,10 +70,15 @@ impl Start {
 
     /// The same with another scene.
     pub fn scene_named(&self, name: &str) -> Result<Arc<Scene>, Failure> {
-        let mut scene = find(name).map_err(|missing| Failure::Usage(missing.to_string()))?;
+        let scene = find(name).map_err(|missing| Failure::Usage(missing.to_string()))?;
+        Ok(self.applied(scene))
+    }
+
+    /// A scene with what was set on the command line.
+    pub fn applied(&self, mut scene: Arc<Scene>) -> Arc<Scene> {
         let dials = [self.tol, self.step, self.epsilon];
         if self.set.is_empty() && self.method.is_none() && dials.iter().all(Option::is_none) {
-            return Ok(scene);
+            return scene;
         }
         let changed = Arc::make_mut(&mut scene);
         let Problem { parameters, initial, .. } = &mut changed.problem;
@@ -87,7 +92,7 @@ impl Start {
         changed.problem.tolerance = self.tol.unwrap_or(changed.problem.tolerance);
         changed.problem.step = self.step.unwrap_or(changed.problem.step);
         changed.problem.epsilon = self.epsilon.unwrap_or(changed.problem.epsilon);
-        Ok(scene)
+        scene
     }
 
     /// The motion of the scene with what was set on the command line.

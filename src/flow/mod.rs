@@ -5,6 +5,7 @@
 //! its start. No step ever crosses the switching line, so no method sees the discontinuity.
 
 pub mod auto;
+mod between;
 pub mod exact;
 pub mod explicit;
 pub mod limits;

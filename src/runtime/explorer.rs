@@ -54,6 +54,10 @@ impl Machine for Explorer {
         effects
     }
 
+    fn is_moving(&self) -> bool {
+        self.session.is_playing()
+    }
+
     fn wants(&self) -> Vec<Request> {
         let mut wants = self.session.wants();
         wants.retain(|request| self.session.is_open(request));

@@ -14,6 +14,11 @@ pub trait Machine {
     /// The requests to be computed now: wanted, and neither answered nor failed.
     fn wants(&self) -> Vec<Request>;
 
+    /// Whether the passing of time changes the state, so that it wants to be told of it.
+    fn is_moving(&self) -> bool {
+        false
+    }
+
     /// What a cell of a screen of this size stands for, if anything.
     fn place(&self, _size: Size, _column: u16, _row: u16) -> Option<Place> {
         None

@@ -23,6 +23,7 @@ use crate::scene::Request;
 use crate::session::replay::{Action, Player, Recorder};
 use crate::session::{Code, Effect, Key, Msg, Notice, Pointed};
 use crate::terminal::Screen;
+use crate::terminal::pacing::FRAME_TIME;
 
 /// How long a frame waits for the worker before it shows what is there, marked as old.
 const ANSWER_TIME: Duration = Duration::from_millis(8);
@@ -41,6 +42,8 @@ pub struct Pump<M, W: Write> {
     asked: Vec<Request>,
     /// Since when the state differs from the screen.
     changed: Option<Instant>,
+    /// When the session was last told how much time has passed, while something in it moves.
+    beat: Option<Instant>,
     /// No frames are drawn while the terminal is not ours.
     held: bool,
     player: Option<Player>,
@@ -71,6 +74,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
             files,
             asked: Vec::new(),
             changed: Some(Instant::now()),
+            beat: None,
             held: false,
             player: None,
             paused: false,
@@ -152,6 +156,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
     /// The terminal is not ours until [`Pump::repaint`].
     pub fn hold(&mut self) {
         self.held = true;
+        self.beat = None;
     }
 
     /// The terminal is ours again, in an unknown state.
@@ -338,15 +343,36 @@ impl<M: Machine, W: Write> Pump<M, W> {
         }
     }
 
-    /// When to draw; `None` if the screen shows everything.
+    /// When to draw; `None` if the screen shows everything and nothing moves.
     fn due(&self) -> Option<Instant> {
-        let changed = self.changed.filter(|_| !self.held)?;
+        if self.held {
+            return None;
+        }
+        let Some(changed) = self.changed else {
+            // What moves does so as often as frames may be sent, and over a slow line no oftener.
+            let beat = self.beat.filter(|_| self.machine.is_moving())?;
+            return Some((beat + FRAME_TIME).max(self.screen.next(beat)));
+        };
         let answer =
             if self.asked.iter().all(Request::is_long) { changed } else { changed + ANSWER_TIME };
         Some(answer.max(self.screen.next(changed)))
     }
 
+    /// Tells the session how much time has passed since it was told last, while something in it moves.
+    fn pass_time(&mut self) {
+        let now = Instant::now();
+        let last = self.beat.replace(now);
+        if let Some(last) = last.filter(|_| self.machine.is_moving()) {
+            let msg = Msg::Elapsed { seconds: (now - last).as_secs_f64() };
+            self.recorder.note(&msg);
+            // The passing of time asks for nothing outside.
+            drop(self.machine.update(msg));
+        }
+        self.beat = self.beat.filter(|_| self.machine.is_moving());
+    }
+
     fn draw(&mut self) -> io::Result<()> {
+        self.pass_time();
         let machine = &self.machine;
         self.screen.draw(Instant::now(), |frame| machine.draw(frame))?;
         self.changed = None;

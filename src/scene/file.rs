@@ -6,6 +6,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::layer::Layer;
+use super::machine::{self, Rig};
 use super::misread::{self, Complaint, Misread};
 use super::ordinate::{ABSCISSAE, Ordinate};
 use super::scene::{Scene, TOLERANCE, UNTIL, Variant};
@@ -26,7 +27,8 @@ struct File {
     title: String,
     look: String,
     press: String,
-    terms: BTreeSet<Symbol>,
+    terms: Option<BTreeSet<Symbol>>,
+    machine: Option<Spanned<String>>,
     #[serde(default)]
     values: BTreeMap<Symbol, Spanned<f64>>,
     #[serde(default)]
@@ -72,7 +74,17 @@ pub fn parse(name: &str, file: &str, text: &str) -> Result<Scene, Misread> {
 }
 
 fn scene(name: &str, read: File) -> Result<Scene, Complaint> {
-    let problem = problem(&read)?;
+    let rig = read.machine.as_ref().map(rig).transpose()?;
+    let terms = match (&read.terms, &rig) {
+        (Some(terms), None) => terms.clone(),
+        (None, Some(rig)) => rig.terms(),
+        (Some(_), Some(_)) => return Err(either("terms and a machine")),
+        (None, None) => return Err(either("neither terms nor a machine")),
+    };
+    let problem = match &rig {
+        Some(rig) => of_machine(rig, &read)?,
+        None => problem(&read, &terms)?,
+    };
     let mut families = Vec::new();
     let exhibits = read.plot.iter().map(|plot| exhibit(plot, &mut families));
     let plots = exhibits.collect::<Result<Vec<_>, _>>()?;
@@ -91,11 +103,45 @@ fn scene(name: &str, read: File) -> Result<Scene, Complaint> {
         press: read.press,
         problem,
         steps: steps(&read.steps)?,
-        terms: read.terms,
+        terms,
         layers: read.layers,
         plots,
         families,
         arrangement: read.arrange,
+        machine: rig,
+    })
+}
+
+/// A scene that says twice or not at all what its numbers are.
+fn either(given: &str) -> Complaint {
+    let message =
+        format!("a scene has {given}; it takes one of them: terms = [..] or machine = \"..\"");
+    Complaint { at: 0..0, message }
+}
+
+/// The machine of the program with this name.
+fn rig(name: &Spanned<String>) -> Result<Box<Rig>, Complaint> {
+    let complain = |message| Complaint { at: name.span(), message };
+    let machine = machine::library::find(name.get_ref()).ok_or_else(|| {
+        let known = machine::library::machines().iter().map(|machine| machine.name.as_str());
+        let known: Vec<&str> = known.collect();
+        complain(format!("no machine {:?}; there are {}", name.get_ref(), known.join(", ")))
+    })?;
+    Rig::new(machine.clone()).map(Box::new).map_err(|error| complain(error.to_string()))
+}
+
+/// The motion of a machine, to the accuracy that the file says.
+fn of_machine(rig: &Rig, read: &File) -> Result<Problem, Complaint> {
+    if let Some((symbol, given)) = read.values.iter().next() {
+        let message = format!("{symbol} comes from the machine; leave its value out");
+        return Err(Complaint { at: given.span(), message });
+    }
+    let problem = rig.problem();
+    Ok(Problem {
+        until: within("until", read.until.as_ref(), UNTIL_RANGE, problem.until)?,
+        method: read.method,
+        tolerance: within("tolerance", read.tolerance.as_ref(), TOLERANCE_RANGE, TOLERANCE)?,
+        ..problem
     })
 }
 
@@ -164,12 +210,11 @@ fn variant(read: &BTreeMap<Symbol, Spanned<f64>>) -> Result<Variant, Complaint> 
 }
 
 /// The motion of a scene: declared terms have the values of the file or of the table, others are zero.
-fn problem(read: &File) -> Result<Problem, Complaint> {
+fn problem(read: &File, terms: &BTreeSet<Symbol>) -> Result<Problem, Complaint> {
     let mut parameters = Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 0.0 };
     let mut initial = State { q: 0.0, v: 0.0 };
     for row in &PARAMETERS {
-        let declared =
-            matches!(row.symbol, Symbol::Q0 | Symbol::V0) || read.terms.contains(&row.symbol);
+        let declared = matches!(row.symbol, Symbol::Q0 | Symbol::V0) || terms.contains(&row.symbol);
         let value = match read.values.get(&row.symbol) {
             Some(given) if !declared => {
                 return Err(Complaint {
@@ -290,7 +335,7 @@ plot = [
             ("[-3, 3]", "[3, -3]", "8:25", "the second larger"),
             ("over = \"D\"", "over = \"q0\"", "9:30", "D, D2, D3 and r are allowed"),
             ("over", "ordinate = \"size\", over", "9:34", "expected one of `q_max`, `q_min`"),
-            ("\"phase\"", "\"plane\"", "8:12", "expected one of `phase`, `diagram`"),
+            ("\"phase\"", "\"plane\"", "8:12", "unknown variant `plane`"),
             ("\"diagram\"", "\"phase\"", "9:28", "has no such axis"),
             (
                 "view = \"diagram\", over",

@@ -30,6 +30,10 @@ pub enum Layer {
     Balance,
     /// The point left last for a mark: its motion and cycles.
     Ghost,
+    /// The velocity at which the mass sticks to the belt.
+    Belt,
+    /// The mass on its belt.
+    Mass,
     /// Computed cycles along the diagram's parameter.
     Branch,
     /// First-order harmonic amplitudes.
@@ -88,7 +92,7 @@ pub struct LayerSpec {
 }
 
 /// Every layer, in the order in which they are listed.
-pub const LAYERS: [LayerSpec; 28] = [
+pub const LAYERS: [LayerSpec; 30] = [
     LayerSpec {
         layer: Layer::Trajectory,
         name: "trajectory",
@@ -160,6 +164,22 @@ pub const LAYERS: [LayerSpec; 28] = [
         meaning: "the point left for a mark: its motion and cycles, dim",
         needs: None,
         usual: false,
+    },
+    LayerSpec {
+        layer: Layer::Belt,
+        name: "belt",
+        view: View::Phase,
+        meaning: "the belt's speed: there the mass sticks, and the model ends",
+        needs: None,
+        usual: false,
+    },
+    LayerSpec {
+        layer: Layer::Mass,
+        name: "mass",
+        view: View::Belt,
+        meaning: "the mass on its belt, moving with the motion",
+        needs: Some(Slot::Trajectory),
+        usual: true,
     },
     LayerSpec {
         layer: Layer::Branch,

@@ -17,7 +17,7 @@ macro_rules! scene_file {
 }
 
 /// The files, in the order in which they are listed.
-const FILES: [(&str, &str); 12] = [
+const FILES: [(&str, &str); 13] = [
     scene_file!("plain"),
     scene_file!("capture"),
     scene_file!("linear"),
@@ -30,6 +30,7 @@ const FILES: [(&str, &str); 12] = [
     scene_file!("return-map"),
     scene_file!("regimes"),
     scene_file!("energy"),
+    scene_file!("fig01"),
 ];
 
 /// The scenes that come with the program, in the order in which they are listed.
@@ -120,6 +121,7 @@ mod tests {
                     View::Diagram => {
                         assert!(x.contains(plot.axes.abscissa.get(&parameters, &initial)));
                     }
+                    View::Belt => assert!(x.contains(initial.q)),
                     View::Phase => assert!(x.contains(initial.q) && y.contains(initial.v)),
                     View::TimeSeries => assert!(x.contains(0.0)),
                     View::Regimes => {

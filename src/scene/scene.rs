@@ -9,6 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::{Deserialize, Serialize};
 
 use super::layer::Layer;
+use super::machine::Rig;
 use super::views::{Arrangement, Exhibit};
 use crate::flow::Problem;
 use crate::oscillator::Symbol;
@@ -47,6 +48,8 @@ pub struct Scene {
     pub families: Vec<Vec<Variant>>,
     /// How they share the screen.
     pub arrangement: Arrangement,
+    /// The machine that the numbers stand for, if they stand for one.
+    pub machine: Option<Box<Rig>>,
 }
 
 /// Values that are held while the others follow the keys.

@@ -32,6 +32,8 @@ pub enum View {
     Trade,
     /// What was measured at each point of a scan.
     Scan,
+    /// The mass on its belt.
+    Belt,
 }
 
 /// One row of [`VIEWS`].
@@ -50,7 +52,7 @@ pub struct ViewSpec {
 }
 
 /// Every view, in the order in which they are listed and the keys visit them.
-pub const VIEWS: [ViewSpec; 8] = [
+pub const VIEWS: [ViewSpec; 9] = [
     ViewSpec {
         view: View::Phase,
         name: "phase",
@@ -106,6 +108,13 @@ pub const VIEWS: [ViewSpec; 8] = [
         title: "scan",
         meaning: "what was measured at each point of a line or grid",
         window: Window { x: Span::known(0.0, 1.0), y: Span::known(0.0, 1.0) },
+    },
+    ViewSpec {
+        view: View::Belt,
+        name: "belt",
+        title: "mass on belt",
+        meaning: "the machine, moving with the motion",
+        window: Window { x: Span::known(-2.0, 2.0), y: Span::known(0.0, 1.0) },
     },
 ];
 

@@ -5,16 +5,16 @@
 use super::input::Input;
 use super::key::Key;
 use super::keymap::Context::{
-    self, Always, Count, Diagram, EnergyLedger, Entry, Everywhere, Form, Help, Layers, Letter,
-    Lists, Offer, Palette, Paper, Parameters, Phase, Plots, Prompt, Regimes, ReturnMap, Scan,
-    Scenes, Search, TimeSeries, Trade, Views, Walk,
+    self, Always, Belt, Count, Diagram, EnergyLedger, Entry, Everywhere, Form, Help, Layers,
+    Letter, Lists, Offer, Palette, Paper, Parameters, Phase, Plots, Prompt, Regimes, ReturnMap,
+    Scan, Scenes, Search, TimeSeries, Trade, Views, Walk,
 };
 use super::message::Effect;
 use super::pending::{self, Letter as Ask};
 use super::state::Session;
 use super::update::{
-    axes, copy, desk, entry, files, general, lists, macros, mouse, palette, parameters, plots,
-    prompt, scan, starts, typing, walk,
+    axes, copy, desk, entry, files, general, lists, macros, mouse, palette, parameters, playback,
+    plots, prompt, scan, starts, typing, walk,
 };
 use crate::scene::Layer;
 
@@ -89,7 +89,7 @@ pub const COMMANDS: &[Command] = &[
     row("reset-value", &[(Parameters, &["r", "<backspace>", "<del>"])], "reset",
         "Give the selected row the scene's value and step", |s, _| parameters::reset_row(s)),
 
-    row("start-here", &[(Phase, &["<enter>"]), (TimeSeries, &["<enter>"]), (ReturnMap, &["<enter>"])], "start here",
+    row("start-here", &[(Phase, &["<enter>"]), (TimeSeries, &["<enter>"]), (ReturnMap, &["<enter>"]), (Belt, &["<enter>"])], "start here",
         "Start the motion at the cursor", |s, _| plots::start_here(s)),
     row("start-on-cycle", &[(EnergyLedger, &["<enter>"])], "start there",
         "Start the motion on the cycle that the cursor is at", |s, _| plots::start_here(s)),
@@ -236,6 +236,14 @@ pub const COMMANDS: &[Command] = &[
         "Start just inside the edge of the basin", |s, _| starts::beside_edge(s, starts::INSIDE)),
     row("start-outside", &[(Everywhere, &["o"])], "in/outside",
         "Start just outside the edge of the basin", |s, _| starts::beside_edge(s, starts::OUTSIDE)),
+    row("play-motion", &[(Everywhere, &["<f8>"])], "play",
+        "Play the motion in time, or hold it", |s, _| playback::play(s)),
+    row("motion-on", &[(Everywhere, &["<f7>"])], "",
+        "Move a little on along the motion", |s, _| playback::step(s, 1.0)),
+    row("motion-back", &[(Everywhere, &["<f6>"])], "",
+        "Move a little back along the motion", |s, _| playback::step(s, -1.0)),
+    row("motion-pace", &[(Everywhere, &["<C-t>"])], "",
+        "Play at the next pace: slower, faster, a machine in real time", |s, _| playback::pace(s)),
     row("unfold", &[(Everywhere, &["x"])], "unfold",
         "Show the parameters that the scene does not need, or hide them", |s, _| parameters::unfold(s)),
     row("reset-scene", &[(Everywhere, &["R"])], "",
@@ -269,6 +277,10 @@ pub const COMMANDS: &[Command] = &[
         "Fewer harmonics", |s, _| general::harmonics(s, false)),
     row("more-harmonics", &[(Everywhere, &[")"])], "",
         "More harmonics", |s, _| general::harmonics(s, true)),
+    row("toggle-belt", &[(Phase, &["F"])], "",
+        "Show or hide the velocity at which the mass sticks to the belt", |s, _| general::toggle(s, Layer::Belt)),
+    row("toggle-mass", &[(Belt, &["F"])], "",
+        "Show or hide the mass on its belt", |s, _| general::toggle(s, Layer::Mass)),
     row("toggle-branch", &[(Everywhere, &["n"])], "",
         "Show or hide the computed cycles in the diagram", |s, _| general::toggle(s, Layer::Branch)),
     row("toggle-harmonic", &[(Everywhere, &["a"])], "",

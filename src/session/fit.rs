@@ -25,6 +25,9 @@ const FARTHER: f64 = 1.25;
 /// Room beyond the sticking set, as a part of that.
 const MARGIN: f64 = 0.2;
 
+/// How far above all else the velocity of the belt may be and is fitted in, in extents of all else.
+const BELT: f64 = 2.0;
+
 /// The part of a branch that must fit, from above and from below: where it goes to infinity, its end
 /// need not.
 const QUANTILE: f64 = 0.9;
@@ -46,6 +49,7 @@ pub(super) fn resolve(session: &mut Session) {
             View::Regimes => regimes(session, index),
             View::Trade => trade(session),
             View::Scan => session.scanned.as_ref().map(Scanned::window),
+            View::Belt => belt(session),
         };
         let of_scene = session.exhibit_of_scene(index, view);
         let plot = &mut session.plots[index];
@@ -87,13 +91,24 @@ fn phase(session: &Session, plot: usize) -> Option<Window> {
     if session.shows_in(Layer::Trajectory, plot)
         && let Some(found) = session.trajectory()
     {
-        let samples = found.samples.iter().map(|sample| Point { x: sample.q, y: sample.v });
+        let last = session.contact().map_or(f64::INFINITY, |(tau, _)| tau);
+        let samples = found.samples.iter().take_while(|sample| sample.tau <= last);
+        let samples = samples.map(|sample| Point { x: sample.q, y: sample.v });
         if let Outcome::Escaped { .. } = found.outcome {
             let extent = points.iter().map(|point| point.x.hypot(point.y)).fold(0.0, f64::max);
             let near = |point: &Point| point.x.hypot(point.y) <= ESCAPE * extent;
             points.extend(samples.filter(near));
         } else {
             points.extend(samples);
+        }
+    }
+    if let Some(rig) =
+        session.scene.machine.as_ref().filter(|_| session.shows_in(Layer::Belt, plot))
+    {
+        let fastest = points.iter().map(|point| point.y.abs()).fold(0.0, f64::max);
+        let belt = rig.reduced.sticking_velocity;
+        if belt <= BELT * fastest {
+            points.push(Point { x: start.q, y: belt });
         }
     }
     let x = Span::covering(points.iter().map(|point| point.x))?;
@@ -105,6 +120,15 @@ fn phase(session: &Session, plot: usize) -> Option<Window> {
         y
     };
     Some(Window { x: x.scaled(x.center(), ROOM), y: y.scaled(y.center(), ROOM) })
+}
+
+/// As far as the mass moves.
+fn belt(session: &Session) -> Option<Window> {
+    let samples = session.trajectory()?.samples.iter();
+    let last = session.last_moment();
+    let places = samples.take_while(|sample| sample.tau <= last).map(|sample| sample.q);
+    let x = Span::covering(places.chain([session.problem.initial.q, 0.0]))?;
+    Some(Window { x: x.scaled(x.center(), 1.5 * ROOM), y: View::Belt.spec().window.y })
 }
 
 /// The same values of the parameter, and the heights that its branch has there.

@@ -33,6 +33,8 @@ pub enum Context {
     Trade,
     /// The focus is on a scan.
     Scan,
+    /// The focus is on the mass on its belt.
+    Belt,
     /// A point of the branch is held.
     Walk,
     /// The focus is on a plot.
@@ -83,6 +85,7 @@ pub const CONTEXTS: [(Context, &str); 27] = [
     (Context::Trade, "trade"),
     (Context::Scan, "scan"),
     (Context::Form, "form"),
+    (Context::Belt, "belt"),
     (Context::Walk, "walk"),
     (Context::Plots, "plots"),
     (Context::Everywhere, "everywhere"),
@@ -123,6 +126,7 @@ impl Context {
             Context::Trade => "Trade of error for cost",
             Context::Scan => "Scan",
             Context::Form => "While typing a scan",
+            Context::Belt => "Mass on its belt",
             Context::Walk => "Walking along the branch",
             Context::Plots => "Every plot",
             Context::Everywhere => "Everywhere",
@@ -179,6 +183,7 @@ impl Context {
             | Context::Regimes
             | Context::Trade
             | Context::Scan
+            | Context::Belt
             | Context::Walk
             | Context::Plots
             | Context::Everywhere
@@ -198,6 +203,7 @@ impl Context {
             Context::Regimes => Some(View::Regimes),
             Context::Trade => Some(View::Trade),
             Context::Scan => Some(View::Scan),
+            Context::Belt => Some(View::Belt),
             _ => None,
         }
     }
@@ -211,6 +217,7 @@ pub const CHAINS: [&[Context]; 23] = [
     &[Context::TimeSeries, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::EnergyLedger, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::ReturnMap, Context::Plots, Context::Everywhere, Context::Always],
+    &[Context::Belt, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Regimes, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Trade, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Scan, Context::Everywhere, Context::Always],
@@ -248,6 +255,7 @@ impl Session {
                 Some(View::Regimes) => Context::Regimes,
                 Some(View::Trade) => Context::Trade,
                 Some(View::Scan) => Context::Scan,
+                Some(View::Belt) => Context::Belt,
             },
             Some(Overlay::Palette(_)) => Context::Palette,
             Some(overlay) if overlay.list().is_some_and(|list| list.searching) => Context::Search,

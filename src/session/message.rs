@@ -40,6 +40,11 @@ pub enum Msg {
         /// Its text, or one line.
         result: Result<String, String>,
     },
+    /// So much time has passed since the last such message, or since the motion is played.
+    Elapsed {
+        /// Seconds.
+        seconds: f64,
+    },
     /// The outer rings tell how an effect ended, such as a file written or not, or a replay.
     Told(Notice),
 }

@@ -13,6 +13,7 @@ pub mod message;
 pub mod motion;
 pub mod overlay;
 pub mod pending;
+pub mod playback;
 pub mod plot;
 pub mod replay;
 pub mod requirement;

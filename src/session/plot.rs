@@ -126,6 +126,9 @@ impl Session {
         if layer == Layer::Ghost {
             return self.marks.left.is_none().then_some("not drawn: no mark has been gone to yet");
         }
+        if layer == Layer::Belt {
+            return self.scene.machine.is_none().then_some("not drawn: the scene is of no machine");
+        }
         let harmonic = matches!(layer, Layer::Harmonic | Layer::Asymptotes);
         let drawn = |index: usize| {
             self.shows_in(layer, index) && self.plots[index].axes.ordinate.spec().harmonic.is_some()

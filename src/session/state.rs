@@ -15,6 +15,7 @@ use super::key::Key;
 use super::keymap::Keymap;
 use super::overlay::{Caption, Overlay};
 use super::pending::Pending;
+use super::playback::Playback;
 use super::plot::{Pane, Plot};
 use super::scan::{Form, Scanned};
 use super::settings::Look;
@@ -214,6 +215,8 @@ pub struct Session {
     pub enlarged: bool,
     /// How the plots share the screen.
     pub arrangement: Arrangement,
+    /// The motion in time.
+    pub playback: Playback,
     /// The point of the branch in focus that is held, while the user walks along it.
     pub held: Option<Stop>,
     /// Number N of harmonics of the layer `balance`.
@@ -274,6 +277,7 @@ impl Session {
             plot: 0,
             enlarged: false,
             arrangement: scene.arrangement,
+            playback: Playback::default(),
             held: None,
             harmonics: HARMONICS,
             layers: scene.layers.clone(),

@@ -66,7 +66,8 @@ impl Survey {
     }
 }
 
-/// A place where the mass would overtake the belt: the model does not hold there, because the mass sticks.
+/// A place where the model does not hold: where the mass would overtake the belt, because it sticks there,
+/// and where the friction law promises a pull backward.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case", tag = "kind")]
 pub enum Alarm {
@@ -83,6 +84,11 @@ pub enum Alarm {
         /// Its largest velocity, in m/s.
         v_max: f64,
     },
+    /// The friction law falls below 0 at velocities that occur.
+    Law {
+        /// The smallest coefficient of friction that occurs.
+        mu: f64,
+    },
     /// The smallest kick that is not survived is as fast as the belt, or faster.
     Kick {
         /// Its velocity, in m/s.
@@ -91,7 +97,7 @@ pub enum Alarm {
 }
 
 impl Survey {
-    /// Everything that overtakes the belt.
+    /// Everything that overtakes the belt, and friction that is none.
     #[must_use]
     pub fn alarms(&self) -> Vec<Alarm> {
         let motion = self.reach.sticks.map(|at| Alarm::Motion { at });
@@ -102,7 +108,10 @@ impl Survey {
         let margin = PhysicalMargin::new(&self.margin(), &self.reduced.units);
         let kick = margin.velocity.filter(|velocity| *velocity >= self.belt.belt_speed);
         let kick = kick.map(|velocity| Alarm::Kick { velocity });
-        motion.into_iter().chain(cycles).chain(kick).collect()
+        let reaches = self.reaches.iter().chain([&self.reach]);
+        let least = reaches.filter_map(|reach| reach.taylor).map(|taylor| taylor.least_mu);
+        let law = least.reduce(f64::min).filter(|mu| *mu < 0.0).map(|mu| Alarm::Law { mu });
+        motion.into_iter().chain(cycles).chain(kick).chain(law).collect()
     }
 }
 

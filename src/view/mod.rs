@@ -3,6 +3,7 @@
 //! [`frame::draw`] is the only way in. It divides the screen ([`layout`]), and each view says what it
 //! shows as a [`picture`], which [`paint`] puts into its part with the help of [`plot`] and [`pane`]. How things look is decided in [`look`] alone.
 
+pub mod belt;
 pub mod caption;
 mod costs;
 pub mod diagram;

@@ -10,10 +10,12 @@ use super::legend;
 use super::look::{Look, Role};
 use super::number::{exact, significant};
 use super::pane::{self, Heading};
+use super::quantity::with_unit;
 use crate::flow::Problem;
 use crate::oscillator::Symbol;
 use crate::scene::Layer;
 use crate::session::{Pane, Row, Session};
+use crate::study::belt::PhysicalMargin;
 use crate::study::harmonic_error::Balanced;
 use crate::study::{Cycle, Cycles, Edge};
 
@@ -109,13 +111,32 @@ fn row_line(
         Span::styled(value, value_style),
     ];
     let step = step.unwrap_or_default();
-    let meaning = meaning(&session.problem, row);
+    let physical = physical(session, row);
+    let meaning = match &physical {
+        Some((name, value)) => format!("{name} {value}"),
+        None => meaning(&session.problem, row).to_owned(),
+    };
     if usize::from(width) >= VALUES + STEP + 3 + meaning.len() {
         line.push(Span::styled(format!("{step:<STEP$}  {meaning}"), look.style(Role::Quiet)));
     } else {
-        line.push(Span::styled(step, look.style(Role::Quiet)));
+        // On a narrow pane what the number means on the machine takes what the step leaves.
+        let room = usize::from(width).saturating_sub(VALUES + step.chars().count() + 2);
+        let physical = physical.map(|(_, value)| value).filter(|value| value.len() <= room);
+        let physical = physical.map_or_else(String::new, |value| format!("  {value}"));
+        line.push(Span::styled(step + &physical, look.style(Role::Quiet)));
     }
     line
+}
+
+/// What a row means on the machine: the quantity and its value.
+fn physical(session: &Session, row: Row) -> Option<(&'static str, String)> {
+    let rig = session.scene.machine.as_ref()?;
+    let (name, value, unit) = match row {
+        Row::Parameter(symbol) => rig.meaning(symbol, session.value(symbol))?,
+        Row::Until => ("t", session.problem.until * rig.reduced.units.time, "s"),
+        Row::Method | Row::Tolerance => return None,
+    };
+    Some((name, with_unit(value, 4, unit)))
 }
 
 fn value(problem: &Problem, row: Row, width: usize) -> String {
@@ -210,7 +231,7 @@ fn cycles(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) -> u1
         pane::line(area, y, " none", "", buffer);
         y += 1;
     }
-    let words = basin(found, usize::from(area.width))
+    let words = basin(session, found, usize::from(area.width))
         .into_iter()
         .chain(balance(session, usize::from(area.width)));
     for text in words {
@@ -221,7 +242,7 @@ fn cycles(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) -> u1
 }
 
 /// What borders the basin of the sticking set, and which kicks it survives.
-fn basin(found: &Cycles, width: usize) -> Vec<String> {
+fn basin(session: &Session, found: &Cycles, width: usize) -> Vec<String> {
     let edge = match found.edge {
         Edge::None if found.parameters.r == 0.0 => "no sticking set",
         Edge::None => "all motions captured",
@@ -235,7 +256,24 @@ fn basin(found: &Cycles, width: usize) -> Vec<String> {
         // Rather fewer digits than a number cut short.
         (1..=5).rev().map(text).find(|text| text.len() < width)
     });
-    std::iter::once(edge.to_owned()).chain(kicks).chain(sizes(found)).collect()
+    let physical = on_the_machine(session, found);
+    std::iter::once(edge.to_owned()).chain(kicks).chain(physical).chain(sizes(found)).collect()
+}
+
+/// The margin on the machine, and which cycles overtake its belt.
+fn on_the_machine(session: &Session, found: &Cycles) -> Vec<String> {
+    let Some(rig) = &session.scene.machine else { return Vec::new() };
+    let margin = found.picture.as_ref().map(|picture| picture.margin);
+    let margin = margin.map(|margin| PhysicalMargin::new(&margin, &rig.reduced.units));
+    let kick = margin.and_then(|margin| {
+        let (x, impulse) = (margin.displacement?, margin.impulse?);
+        Some(format!("= {}, {}", with_unit(x, 3, "m"), with_unit(impulse, 3, "N s")))
+    });
+    let fast = |cycle: &&Cycle| cycle.v_max >= rig.reduced.sticking_velocity;
+    let alarms = found.cycles.iter().filter(fast).map(|cycle| {
+        format!("! {} > belt", if cycle.stable { "stable cycle" } else { "unstable cycle" })
+    });
+    kick.into_iter().chain(alarms).collect()
 }
 
 /// What the cycles of N harmonics are worth: the errors of amplitude and frequency of each.

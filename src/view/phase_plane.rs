@@ -9,7 +9,7 @@ use super::look::Role;
 use super::picture::{Item, Line, Mark, Picture, Text};
 use super::plot::reading;
 use crate::closed_form::lyapunov;
-use crate::flow::{Outcome, Trajectory};
+use crate::flow::{Outcome, Sample, Trajectory};
 use crate::oscillator::{HalfPlane, Parameters, Side, State};
 use crate::scene::{Answer, Layer, Point, Slot, View};
 use crate::session::{self, Session};
@@ -26,6 +26,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     });
     let shows = |layer| session.layers.contains(&layer);
     let shown = session.shown(index);
+    let contact = session.contact();
 
     if shows(Layer::Field)
         && let Some(first) = shown.first()
@@ -59,7 +60,9 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         for (label, answer) in session.found(Slot::Trajectory, index) {
             if let Answer::Trajectory(found) = answer {
                 let line = Line::new(named("motion", &label), Role::Trajectory, Dash::Solid);
-                let samples = found.samples.iter();
+                // Where the mass sticks to its belt the model ends, and the curve with it.
+                let last = contact.map_or(f64::INFINITY, |(tau, _)| tau);
+                let samples = found.samples.iter().take_while(|sample| sample.tau <= last);
                 picture.curve(line, samples.map(|sample| Point { x: sample.q, y: sample.v }));
             }
         }
@@ -84,9 +87,14 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
             picture.bar(named("sticking set", &shown.label), Role::Sticking, from, to);
         }
     }
+    if shows(Layer::Belt) {
+        belt(&mut picture, session);
+    }
     if shows(Layer::Trajectory) {
         for (_, answer) in session.found(Slot::Trajectory, index) {
-            if let Answer::Trajectory(found) = answer {
+            if let Answer::Trajectory(found) = answer
+                && contact.is_none()
+            {
                 end(&mut picture, found);
             }
         }
@@ -94,8 +102,23 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
             picture.mark(Mark::Start, point(&shown.problem.initial), Role::Trajectory);
         }
     }
+    if let Some(Sample { q, v, .. }) = session.head() {
+        picture.mark(Mark::Head, Point { x: q, y: v }, Role::Cursor);
+    }
     picture.cross(cursor);
     picture
+}
+
+/// The velocity at which the mass sticks to its belt, and where the motion reaches it.
+fn belt(picture: &mut Picture, session: &Session) {
+    let Some(rig) = &session.scene.machine else { return };
+    let y = rig.reduced.sticking_velocity;
+    let left = picture.window.x.from();
+    picture.level(Line::new("speed of the belt", Role::Current, Dash::Dashed), y);
+    picture.caption(Point { x: left, y }, "belt", Role::Current);
+    if let Some((_, q)) = session.contact() {
+        picture.caption(Point { x: q, y }, "sticks to the belt", Role::Warning);
+    }
 }
 
 /// A name, and which of several it is.

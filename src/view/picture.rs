@@ -10,7 +10,9 @@ use std::fmt;
 
 use super::dots::Dash;
 use super::look::Role;
-use super::{diagram, energy_ledger, phase_plane, regimes, return_map, scan, time_series, trade};
+use super::{
+    belt, diagram, energy_ledger, phase_plane, regimes, return_map, scan, time_series, trade,
+};
 use crate::scene::{Point, View, Window};
 use crate::session::Session;
 
@@ -229,5 +231,6 @@ pub fn of(session: &Session, index: usize) -> Picture<'_> {
         View::Regimes => regimes::picture(session, index),
         View::Trade => trade::picture(session, index),
         View::Scan => scan::picture(session, index),
+        View::Belt => belt::picture(session, index),
     }
 }

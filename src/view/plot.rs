@@ -34,7 +34,7 @@ pub struct Names<'a> {
     pub title: &'a str,
     /// Its horizontal axis.
     pub x: &'a str,
-    /// Its vertical axis.
+    /// Its vertical axis; empty where heights mean nothing.
     pub y: &'a str,
 }
 
@@ -147,9 +147,16 @@ impl<'a> Plot<'a> {
         buffer: &mut Buffer,
         upward: Option<Ticks>,
     ) -> Self {
-        let Geometry { inner, roomy, rightward, upward } = Geometry::of(area, window, upward);
+        let Geometry { inner, roomy, rightward, mut upward } = Geometry::of(area, window, upward);
         let (x, y) = (named(names.x, &rightward), named(names.y, &upward));
-        pane::title(area, names.title, &format!("{y} over {x}"), heading, look, buffer);
+        let axes = if names.y.is_empty() {
+            // Heights without meaning have no scale.
+            upward.ticks.clear();
+            x
+        } else {
+            format!("{y} over {x}")
+        };
+        pane::title(area, names.title, &axes, heading, look, buffer);
         let dots = Dots::new(inner, look.glyphs);
         let mut plot = Plot { look, window, inner, dots, inside: None };
         if roomy {

@@ -8,6 +8,7 @@ use super::keys;
 use super::look::{Look, Role};
 use super::number::{count, duration, significant};
 use super::pane;
+use super::quantity::with_unit;
 use super::walk;
 use crate::flow::trajectory::choice;
 use crate::flow::{Outcome, Trajectory};
@@ -105,14 +106,28 @@ fn outcome(session: &Session) -> (String, Role) {
     }
     match session.trajectory() {
         None => ("computing the motion".into(), Role::Quiet),
-        Some(found) => (sentence(found), Role::Text),
+        Some(found) => alarm(session).unwrap_or_else(|| (sentence(found), Role::Text)),
     }
+}
+
+/// What is said in place of the outcome where the mass would overtake its belt before.
+fn alarm(session: &Session) -> Option<(String, Role)> {
+    let (tau, q) = session.contact()?;
+    let units = session.scene.machine.as_ref()?.reduced.units;
+    let text = format!(
+        "sticks to the belt at tau = {} ({}), q = {}: the model ends there",
+        significant(tau, 3),
+        with_unit(tau * units.time, 3, "s"),
+        significant(q, 3)
+    );
+    Some((text, Role::Warning))
 }
 
 /// The mark at the end of the motion in the phase plane, so that the eye connects the two.
 fn symbol(session: &Session, look: &Look) -> String {
     let symbols = look.symbols();
     match session.trajectory().map(|found| found.outcome) {
+        _ if session.contact().is_some() => String::new(),
         Some(Outcome::Captured { .. }) => format!("{} ", symbols.rest),
         Some(Outcome::Moving { .. }) => format!("{} ", symbols.head),
         _ => String::new(),

@@ -477,7 +477,7 @@ fn the_footer_and_the_help_name_the_keys_that_do_it() {
     assert!(footer("").contains("left right step") && footer("").contains("q quit"));
     assert!(footer("<tab>").contains("enter start here"));
     assert!(footer("<enter>").contains("enter accept"));
-    let help = settled("plain", 100, 400, "?");
+    let help = settled("plain", 100, 500, "?");
     let screen = text(&draw(&help, letters()));
     for command in crate::session::COMMANDS {
         assert!(screen.contains(command.doc), "{}", command.name);

@@ -14,6 +14,7 @@ use crate::oscillator::belt::Units;
 use crate::scene::Machine;
 use crate::study::belt::{Alarm, Survey};
 use crate::study::design::{Design, Kick, Needed};
+use crate::view::number::significant;
 use crate::view::quantity::with_unit;
 
 /// Everything that is said about a machine.
@@ -97,6 +98,10 @@ pub fn alarm(alarm: &Alarm, belt: &Belt) -> String {
             "the {} cycle reaches {}, the belt's speed is {speed}; the mass would stick to the belt",
             if *stable { "stable" } else { "unstable" },
             with_unit(*v_max, PLACES, "m/s")
+        ),
+        Alarm::Law { mu } => format!(
+            "the friction law falls to mu = {} at velocities that occur: friction does not push",
+            significant(*mu, 3)
         ),
         Alarm::Kick { velocity } => format!(
             "the smallest kick that is not survived has {}, the belt's speed is {speed}: it is beyond the model",

@@ -4,6 +4,8 @@
 //! derivatives at the belt speed (equation 3); how well these represent it is measured against the law
 //! itself ([`super::taylor`]).
 
+use serde::{Deserialize, Serialize};
+
 use super::spline::SmoothingSpline;
 
 /// A function of velocity and its first three derivatives at one velocity.
@@ -36,7 +38,8 @@ impl Derivatives {
 }
 
 /// The coefficient of friction `mu` over the relative velocity `v >= 0`, in m/s.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum FrictionLaw {
     /// The same at every velocity.
     Constant {

@@ -17,7 +17,7 @@ pub mod taylor;
 
 use std::fmt;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::parameters::{OutOfRange, Parameters, Symbol};
 pub use friction::{Derivatives, FrictionLaw};
@@ -25,7 +25,7 @@ pub use quantity::{Dimension, QUANTITIES, Quantity};
 pub use taylor::TaylorError;
 
 /// A mass on a moving belt.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Belt {
     /// Mass m, in kg.
     pub mass: f64,

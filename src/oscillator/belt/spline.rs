@@ -15,14 +15,26 @@
 
 use std::fmt;
 
+use serde::{Deserialize, Serialize};
+
 use super::friction::Derivatives;
 
 /// Fewest points that have a third derivative.
 pub const FEWEST: usize = 4;
 
+/// What a curve is laid near.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct Points {
+    points: Vec<(f64, f64)>,
+    scatter: f64,
+}
+
 /// A curve near points.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Points", into = "Points")]
 pub struct SmoothingSpline {
+    /// What it is laid near, to be written down.
+    given: Points,
     /// Abscissae, increasing.
     x: Vec<f64>,
     /// Values of the curve there.
@@ -65,6 +77,20 @@ impl fmt::Display for PointsError {
 
 impl std::error::Error for PointsError {}
 
+impl TryFrom<Points> for SmoothingSpline {
+    type Error = PointsError;
+
+    fn try_from(given: Points) -> Result<Self, PointsError> {
+        SmoothingSpline::new(&given.points, given.scatter)
+    }
+}
+
+impl From<SmoothingSpline> for Points {
+    fn from(spline: SmoothingSpline) -> Self {
+        spline.given
+    }
+}
+
 impl SmoothingSpline {
     /// The smoothest curve that misses `points` by `scatter` (at most) in the quadratic mean.
     ///
@@ -88,7 +114,8 @@ impl SmoothingSpline {
         let missed = quadratic_mean(&y, &g);
         let third = third_derivatives(&x, &c);
         let slopes = slopes(&x, &g, &third);
-        Ok(SmoothingSpline { x, g, slopes, third, missed })
+        let given = Points { points: points.to_vec(), scatter };
+        Ok(SmoothingSpline { given, x, g, slopes, third, missed })
     }
 
     /// First and last abscissa.

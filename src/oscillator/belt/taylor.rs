@@ -13,6 +13,8 @@ pub struct TaylorError {
     pub range: (f64, f64),
     /// Whether that is all that was asked for.
     pub complete: bool,
+    /// The smallest coefficient of friction there; one below 0 is no friction.
+    pub least_mu: f64,
     /// The largest difference, in N.
     pub force: f64,
     /// The velocity of the mass at which it occurs, in m/s.
@@ -64,10 +66,12 @@ impl Belt {
         let polished = maximum(&difference, inside(worst - step), inside(worst + step));
         let at = if difference(polished) > difference(worst) { polished } else { worst };
         let force = self.normal_force * difference(at);
+        let least_mu = places.clone().map(law).fold(mu.value, f64::min);
         let largest = places.map(change).fold(0.0, f64::max);
         Some(TaylorError {
             range,
             complete: range == (low, high),
+            least_mu,
             force,
             at,
             of_friction: difference(at) / mu.value,

@@ -10,13 +10,21 @@ use crate::runtime::worker::Tell;
 use crate::session::replay;
 use crate::terminal::pacing::{FRAME_TIME, Pacing};
 
-/// A machine that counts right-arrows, shows the last notice, and leaves at `q`.
+/// A machine that counts right-arrows, shows the last notice, moves for a while after `p`, and leaves at
+/// `q`.
 #[derive(Debug, Default)]
 struct Counter {
     count: u32,
     notice: String,
     /// What it asks for at the next enter.
     asks: Option<Effect>,
+    moving: bool,
+    elapsed: u32,
+}
+
+impl Counter {
+    /// After so many tellings of the time it stands still.
+    const MOVES: u32 = 3;
 }
 
 impl Machine for Counter {
@@ -27,6 +35,11 @@ impl Machine for Counter {
             Msg::Key(Key { code: Code::Enter, .. }) => {
                 return self.asks.take().into_iter().collect();
             }
+            Msg::Key(Key { code: Code::Char('p'), .. }) => self.moving = true,
+            Msg::Elapsed { .. } => {
+                self.elapsed += 1;
+                self.moving = self.elapsed < Self::MOVES;
+            }
             Msg::Told(notice) => self.notice = notice.text,
             Msg::Say(caption) => self.notice = caption,
             _ => {}
@@ -36,6 +49,10 @@ impl Machine for Counter {
 
     fn wants(&self) -> Vec<Request> {
         vec![]
+    }
+
+    fn is_moving(&self) -> bool {
+        self.moving
     }
 
     fn draw(&self, frame: &mut Frame) {
@@ -105,6 +122,23 @@ fn when_the_screen_shows_everything_there_is_nothing_to_wait_for() {
     assert!(pump.due().is_some());
     pump.hold();
     assert_eq!(pump.due(), None);
+}
+
+#[test]
+fn what_moves_is_told_the_time_and_what_stands_still_costs_nothing() {
+    let Bench { mut pump, .. } = bench();
+    pump.draw().unwrap();
+    assert_eq!(pump.due(), None);
+    pump.handle(key("p")).unwrap();
+    pump.draw().unwrap();
+    assert_eq!(pump.machine.elapsed, 0, "no time has passed when it begins");
+    for told in 1..=Counter::MOVES {
+        let (beat, due) = (pump.beat.unwrap(), pump.due().unwrap());
+        assert!(due >= beat + FRAME_TIME);
+        pump.draw().unwrap();
+        assert_eq!(pump.machine.elapsed, told);
+    }
+    assert_eq!((pump.due(), pump.beat), (None, None));
 }
 
 #[test]

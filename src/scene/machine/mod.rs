@@ -4,11 +4,17 @@ pub mod file;
 pub mod library;
 pub mod unit;
 
+mod rig;
+
+pub use rig::Rig;
+
+use serde::{Deserialize, Serialize};
+
 use crate::oscillator::Belt;
 use crate::oscillator::belt::{BeltError, Reduced};
 
 /// A machine: a mass on a belt, and the motion of it that is looked at.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Machine {
     /// The name by which it is opened.
     pub name: String,

@@ -30,6 +30,8 @@ pub enum Step {
     Pointed(Pointed),
     /// Text pasted at once: `<paste "text">`.
     Paste(String),
+    /// So many seconds pass: `<elapse 0.25>`.
+    Elapse(f64),
     /// Go on when no computation is pending: `<wait>`.
     Wait,
     /// From here on, do not wait after each key: `<async>`.
@@ -104,6 +106,7 @@ impl std::fmt::Display for Step {
             }
             Step::Pointed(pointed) => write!(out, "{}", mouse::text(pointed)),
             Step::Paste(text) => write!(out, "<paste {}>", quoted(text)),
+            Step::Elapse(seconds) => write!(out, "<elapse {seconds}>"),
             Step::Wait => write!(out, "<wait>"),
             Step::Async => write!(out, "<async>"),
             Step::Resize { width, height } => write!(out, "<resize {width}x{height}>"),

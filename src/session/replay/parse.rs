@@ -40,9 +40,10 @@ pub(super) const ESCAPES: [(char, char); 5] =
 type Reading = fn(&str) -> Result<Step, String>;
 
 /// What stands between angle brackets and is no key: its first word, and how the rest is read.
-const DIRECTIVES: [(&str, Reading); 11] = [
+const DIRECTIVES: [(&str, Reading); 12] = [
     ("wait", |rest| alone(rest, "wait", Step::Wait)),
     ("async", |rest| alone(rest, "async", Step::Async)),
+    ("elapse", elapse),
     ("resize", resize),
     ("expect", |rest| text(rest, "expect").map(Step::Expect)),
     ("paste", |rest| text(rest, "paste").map(Step::Paste)),
@@ -111,6 +112,15 @@ fn step(token: &str) -> Result<Step, String> {
         Some((_, read)) => read(rest.trim()),
         None => keys(name),
     }
+}
+
+/// Seconds that pass, up to an hour.
+fn elapse(text: &str) -> Result<Step, String> {
+    const LONGEST: f64 = 3600.0;
+    let seconds = text.parse().ok().filter(|seconds| (0.0..=LONGEST).contains(seconds));
+    seconds
+        .map(Step::Elapse)
+        .ok_or_else(|| format!("elapse takes seconds, 0 .. {LONGEST}, such as <elapse 0.25>"))
 }
 
 /// A key, perhaps with a count: `right`, `right*5`, `*`, `**5`.

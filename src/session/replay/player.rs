@@ -96,6 +96,7 @@ impl Player {
                 Step::Wait => {}
                 Step::Async => self.asynchronous = true,
                 Step::Key { key, .. } => return Ok(Action::Give(Msg::Key(key))),
+                Step::Elapse(seconds) => return Ok(Action::Give(Msg::Elapsed { seconds })),
                 Step::Pointed(pointed) => return Ok(Action::Give(Msg::Pointed(pointed))),
                 Step::Run(line) => return Ok(Action::Give(Msg::Run(line))),
                 Step::Say(text) => return Ok(Action::Give(Msg::Say(text))),

@@ -33,6 +33,10 @@ impl Recorder {
                 }
             }
             Msg::Pointed(pointed) => self.steps.push(Step::Pointed(*pointed)),
+            Msg::Elapsed { seconds } => match self.steps.last_mut() {
+                Some(Step::Elapse(passed)) => *passed += seconds,
+                _ => self.steps.push(Step::Elapse(*seconds)),
+            },
             Msg::Run(line) => self.steps.push(Step::Run(line.clone())),
             Msg::Paste(_)
             | Msg::Say(_)

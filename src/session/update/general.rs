@@ -9,6 +9,7 @@ use crate::scene::{Layer, Scene};
 use crate::session::history::{Before, Desk, Snapshot};
 use crate::session::message::Effect;
 use crate::session::overlay::{Caption, Overlay};
+use crate::session::playback::Playback;
 use crate::session::plot::Pane;
 use crate::session::settings::{GLYPHS, THEMES, next_of};
 use crate::session::state::{ROWS, Row, Session, Steps};
@@ -163,6 +164,7 @@ fn restore(session: &mut Session, snapshot: Snapshot) {
     session.steps = snapshot.steps;
     session.layers = snapshot.layers;
     set_up(session, &snapshot.desk);
+    session.playback = Playback { pace: session.playback.pace, ..Playback::default() };
     session.held = None;
 }
 

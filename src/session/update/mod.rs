@@ -16,6 +16,7 @@ pub mod marks;
 pub mod mouse;
 pub mod palette;
 pub mod parameters;
+pub mod playback;
 pub mod plots;
 pub mod prompt;
 pub mod scan;
@@ -68,6 +69,10 @@ pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
         Msg::Read { path, purpose, result } => files::read(session, &path, purpose, result),
         Msg::Told(notice) => {
             session.notice = Some(notice);
+            Vec::new()
+        }
+        Msg::Elapsed { seconds } => {
+            session.elapse(seconds);
             Vec::new()
         }
         Msg::Idle => Vec::new(),

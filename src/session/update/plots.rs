@@ -29,6 +29,7 @@ fn cursor_origin(session: &Session, plot: &Plot) -> Point {
     let window = plot.window;
     window.clamp(match plot.view {
         View::Phase => Point { x: session.problem.initial.q, y: session.problem.initial.v },
+        View::Belt => Point { x: session.problem.initial.q, y: window.center().y },
         View::Diagram => Point { x: session.value(plot.axes.abscissa), y: window.center().y },
         View::TimeSeries => Point { x: 0.0, y: session.problem.initial.q },
         View::EnergyLedger => Point { x: 0.0, y: 0.0 },
@@ -182,7 +183,7 @@ pub fn start_here(session: &mut Session) -> Vec<Effect> {
     let initial = match session.focused().map(|plot| plot.view) {
         Some(View::TimeSeries) => session.state_at(x),
         Some(View::EnergyLedger) => session.start_of_line(y),
-        Some(View::ReturnMap) => Some(State { q: x, v: 0.0 }),
+        Some(View::ReturnMap | View::Belt) => Some(State { q: x, v: 0.0 }),
         Some(View::Scan) => return Vec::new(),
         Some(View::Phase | View::Diagram | View::Regimes | View::Trade) | None => {
             Some(State { q: x, v: y })
