@@ -203,7 +203,7 @@ fn a_played_motion_moves_with_the_time_it_is_told_and_then_stands_still() {
     assert!(head.q < -0.1 && head.v.abs() < 0.01, "{head:?}");
     assert_ne!(start, half);
     // Held, time does not count; stepped, it goes on by a fortieth of a period.
-    let (held, _) = screen(figure(), "<f8> <elapse 2> <f8> <elapse 5> <f7> <f7> <f6>");
+    let (held, _) = screen(figure(), "<f8> <elapse 2> <f8> <elapse 5> <f9> <f9> <f7>");
     let step = std::f64::consts::TAU / 40.0;
     assert!((held.head().unwrap().tau - std::f64::consts::PI - step).abs() < 1e-12);
     // Captured: it rests where the motion ended, and nothing moves any more.
@@ -226,7 +226,7 @@ fn a_played_motion_moves_with_the_time_it_is_told_and_then_stands_still() {
 #[test]
 fn playing_computes_nothing() {
     let (before, _) = screen(figure(), "<f8>");
-    let (after, _) = screen(figure(), "<f8> <elapse 0.3> <f7> <elapse 0.2> <C-t>");
+    let (after, _) = screen(figure(), "<f8> <elapse 0.3> <f9> <elapse 0.2> <C-t>");
     assert!(after.price.recomputed.is_empty());
     assert_eq!(before.wants(), after.wants());
 }

@@ -49,7 +49,7 @@ fn a_count_ends_where_the_key_is_refused_or_opens_something() {
     desk.press("<S-tab> <right> <right> *50u");
     assert_eq!(desk.notice(), "nothing to undo");
     assert_eq!(desk.session.history.depth(), (0, 2));
-    desk.press("<tab> 7<f9>");
+    desk.press("<tab> 7<f12>");
     assert!(desk.notice().contains("no meaning here"), "{}", desk.notice());
 }
 
