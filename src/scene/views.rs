@@ -34,8 +34,6 @@ pub enum View {
     Belt,
     /// What was measured at each point of a scan.
     Scan,
-    /// The mass on its belt.
-    Belt,
 }
 
 /// One row of [`VIEWS`].
@@ -117,13 +115,6 @@ pub const VIEWS: [ViewSpec; 9] = [
         title: "scan",
         meaning: "what was measured at each point of a line or grid",
         window: Window { x: Span::known(0.0, 1.0), y: Span::known(0.0, 1.0) },
-    },
-    ViewSpec {
-        view: View::Belt,
-        name: "belt",
-        title: "mass on belt",
-        meaning: "the machine, moving with the motion",
-        window: Window { x: Span::known(-2.0, 2.0), y: Span::known(0.0, 1.0) },
     },
 ];
 

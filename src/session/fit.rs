@@ -50,7 +50,6 @@ pub(super) fn resolve(session: &mut Session) {
             View::Trade => trade(session),
             View::Belt => belt(session),
             View::Scan => session.scanned.as_ref().map(Scanned::window),
-            View::Belt => belt(session),
         };
         let of_scene = session.exhibit_of_scene(index, view);
         let plot = &mut session.plots[index];

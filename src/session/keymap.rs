@@ -35,8 +35,6 @@ pub enum Context {
     Belt,
     /// The focus is on a scan.
     Scan,
-    /// The focus is on the mass on its belt.
-    Belt,
     /// A point of the branch is held.
     Walk,
     /// The focus is on a plot.
@@ -88,7 +86,6 @@ pub const CONTEXTS: [(Context, &str); 28] = [
     (Context::Belt, "belt"),
     (Context::Scan, "scan"),
     (Context::Form, "form"),
-    (Context::Belt, "belt"),
     (Context::Walk, "walk"),
     (Context::Plots, "plots"),
     (Context::Everywhere, "everywhere"),
@@ -130,7 +127,6 @@ impl Context {
             Context::Belt => "Mass on its belt",
             Context::Scan => "Scan",
             Context::Form => "While typing a scan",
-            Context::Belt => "Mass on its belt",
             Context::Walk => "Walking along the branch",
             Context::Plots => "Every plot",
             Context::Everywhere => "Everywhere",
@@ -188,7 +184,6 @@ impl Context {
             | Context::Trade
             | Context::Belt
             | Context::Scan
-            | Context::Belt
             | Context::Walk
             | Context::Plots
             | Context::Everywhere
@@ -209,7 +204,6 @@ impl Context {
             Context::Trade => Some(View::Trade),
             Context::Belt => Some(View::Belt),
             Context::Scan => Some(View::Scan),
-            Context::Belt => Some(View::Belt),
             _ => None,
         }
     }
@@ -262,7 +256,6 @@ impl Session {
                 Some(View::Trade) => Context::Trade,
                 Some(View::Belt) => Context::Belt,
                 Some(View::Scan) => Context::Scan,
-                Some(View::Belt) => Context::Belt,
             },
             Some(Overlay::Palette(_)) => Context::Palette,
             Some(overlay) if overlay.list().is_some_and(|list| list.searching) => Context::Search,
