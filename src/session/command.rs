@@ -321,7 +321,7 @@ pub const COMMANDS: &[Command] = &[
         "Show or hide the eigenvalues of the rest at r = 0", |s, _| general::toggle(s, Layer::Eigenvalues)),
     row("toggle-levels", &[(Phase, &["E"])], "",
         "Show or hide levels of the energy and where it falls", |s, _| general::toggle(s, Layer::Levels)),
-    row("toggle-spirals", &[(Phase, &["F"])], "",
+    row("toggle-spirals", &[(Phase, &["I"])], "",
         "Show or hide the two spirals that make the cycle", |s, _| general::toggle(s, Layer::Spirals)),
     row("toggle-rows", &[(Trade, &["E"])], "",
         "Show or hide the error of every method over its cost", |s, _| general::toggle(s, Layer::Rows)),
