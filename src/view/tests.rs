@@ -63,6 +63,11 @@ fn press(session: &mut Session, keys: &str) {
     }
 }
 
+/// Whether a layer belongs to single figures and would be drawn over the others.
+fn drawn_over(layer: Layer) -> bool {
+    matches!(layer, Layer::Extents | Layer::Eigenvalues | Layer::Levels | Layer::Spirals)
+}
+
 fn by_hand(request: &Request) -> Answer {
     match request {
         Request::Trajectory(problem) => Answer::Trajectory(spiral(*problem)),
@@ -278,7 +283,7 @@ fn approved() -> Scene {
         press: "Right on D, past the fold. ".repeat(3),
         terms: [Symbol::D, Symbol::D3, Symbol::R].into(),
         problem,
-        layers: LAYERS.iter().map(|row| row.layer).collect(),
+        layers: LAYERS.iter().map(|row| row.layer).filter(|layer| !drawn_over(*layer)).collect(),
         plots: vec![
             exhibit(View::Phase, Window { x: span(-1.6, 1.6), y: span(-1.6, 1.6) }),
             exhibit(View::Diagram, Window { x: span(-0.8, 0.1), y: span(0.0, 2.0) }),
