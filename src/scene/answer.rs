@@ -134,7 +134,7 @@ impl Fineness {
 const CHART_LINES: usize = 40;
 
 /// The same in a draft.
-const DRAFT_LINES: usize = 6;
+const DRAFT_LINES: usize = 4;
 
 /// Points of a piece of a branch at draft quality: the picture of them hardly differs.
 const DRAFT_POINTS: usize = 40;

@@ -118,10 +118,10 @@ pub enum Slot {
     Trade,
     /// The scan.
     Scan,
-    /// What errors are measured against: wanted last of all.
-    Reference,
     /// The claims of the paper.
     Claims,
+    /// What errors are measured against: wanted last of all.
+    Reference,
 }
 
 /// Every kind, the most urgent first.
@@ -136,8 +136,8 @@ pub const SLOTS: [Slot; 12] = [
     Slot::Family,
     Slot::Trade,
     Slot::Scan,
-    Slot::Reference,
     Slot::Claims,
+    Slot::Reference,
 ];
 
 impl Slot {

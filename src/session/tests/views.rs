@@ -46,7 +46,7 @@ fn the_parameters_of_a_chart_move_its_point_and_nothing_else() {
     assert_eq!((axes.abscissa, axes.against), (Symbol::D, Symbol::R));
     assert_eq!(desk.press("X"), [Slot::Regimes]);
     assert_eq!(desk.session.plots[0].axes.abscissa, Symbol::D2, "r stands upwards already");
-    assert_eq!(desk.press("F G P"), []);
+    assert_eq!(desk.press("F G"), []);
     assert_eq!(desk.press("L"), [], "a chart that is not shown is not computed");
 }
 
@@ -143,8 +143,8 @@ fn the_trade_is_asked_for_the_motion_and_not_for_the_method_that_computes_it() {
 #[test]
 fn the_claims_of_the_paper_are_examined_once_when_they_are_first_looked_at() {
     let mut desk = Desk::open("plain");
-    assert_eq!(desk.press("<f9>"), [Slot::Claims]);
-    assert_eq!(desk.press("<esc><f9>"), [], "they do not change");
+    assert_eq!(desk.press("<f10>"), [Slot::Claims]);
+    assert_eq!(desk.press("<esc><f10>"), [], "they do not change");
     desk.press("/(33)<enter><enter>");
     assert_eq!(desk.session.overlay, None);
     let claim = claims().find(|claim| claim.equation == "(33)").unwrap();
