@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use super::strange::any_key;
 use super::{Desk, answered};
 use crate::flow::Problem;
-use crate::scene::library;
+use crate::scene::{Request, Slot, library};
 use crate::session::replay::Recorder;
 use crate::session::{Effect, Msg, Purpose, Session, save, update};
 
@@ -20,12 +20,16 @@ fn essence(session: &Session) -> impl PartialEq + std::fmt::Debug {
         .iter()
         .map(|plot| (plot.view, plot.axes, plot.window, plot.framing, plot.cursor))
         .collect();
+    // Overlays and the rest on the dial are passing; what they ask for is no part of a session.
+    let passing = |request: &Request| matches!(request.slot(), Slot::Claims | Slot::Reference);
+    let wants: Vec<Request> =
+        session.wants().into_iter().filter(|request| !passing(request)).collect();
     (
         (session.scene.clone(), session.problem, session.steps, session.selected, session.focus),
         (plots, session.plot, session.enlarged, session.arrangement, session.unfolded),
         (session.harmonics, session.layers.clone(), session.history.clone()),
         (session.lines.clone(), marks, session.macros.registers.clone()),
-        session.wants(),
+        wants,
     )
 }
 
