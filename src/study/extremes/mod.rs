@@ -4,7 +4,7 @@
 //! [`lattice`] lists them: every combination of a few extreme values of each parameter with a few extreme
 //! starts. [`verdict`] follows each by every event-driven method and says what it answered, how many of
 //! the digits asked for it lost, and at what cost. Nothing is left out for being answered badly. A few more
-//! have names and known answers ([`named`]).
+//! have names and known answers ([`mod@named`]).
 
 pub mod lattice;
 pub mod named;
