@@ -542,8 +542,7 @@ fn scenes_say_what_they_cost_and_what_a_step_asks_anew() {
         let steps = scene["steps"].as_array().unwrap();
         let start = steps.iter().find(|step| step["parameter"] == "q0").unwrap();
         for asked in start["recomputed"].as_array().unwrap() {
-            // A family of variants is one question: with its motions, all of it is asked again.
-            assert!(asked == "motion" || asked == "family", "{}: {asked}", scene["scene"]);
+            assert!(asked == "motion" || asked == "motions", "{}: {asked}", scene["scene"]);
         }
         assert!(!start["reused"].as_array().unwrap().contains(&Value::from("motion")));
     }

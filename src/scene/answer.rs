@@ -208,7 +208,7 @@ pub fn answer_for(
             let lines = if *rough { DRAFT_LINES } else { CHART_LINES };
             chart(parameters, *plane, lines, limits).map(Answer::Regimes)
         }
-        Request::Family(members) => {
+        Request::Family { members, .. } => {
             let answers: Vec<_> =
                 members.iter().map(|member| answer_for(member, fineness, limits)).collect();
             if answers.contains(&Err(Reason::Interrupted)) {

@@ -61,8 +61,13 @@ pub enum Request {
         /// Whether few lines are enough for now.
         rough: bool,
     },
-    /// All of these, for a plot that shows several variants.
-    Family(Vec<Request>),
+    /// The same question for each of several variants that a plot shows.
+    Family {
+        /// Which kind: one of the three of variants.
+        slot: Slot,
+        /// The question for each variant.
+        members: Vec<Request>,
+    },
     /// What accuracy costs on this motion: every method over its tolerances.
     Trade {
         /// The parameters.
@@ -112,8 +117,12 @@ pub enum Slot {
     ReturnMap,
     /// The chart of regimes.
     Regimes,
-    /// Several questions, one for each variant that a plot shows.
-    Family,
+    /// The motion of each variant that a plot shows.
+    VariantMotions,
+    /// Cycles and basin edge of each.
+    VariantCycles,
+    /// The diagram of each.
+    VariantBranches,
     /// What accuracy costs.
     Trade,
     /// The scan.
@@ -125,19 +134,28 @@ pub enum Slot {
 }
 
 /// Every kind, the most urgent first.
-pub const SLOTS: [Slot; 12] = [
+pub const SLOTS: [Slot; 14] = [
     Slot::Trajectory,
+    Slot::VariantMotions,
     Slot::Cycles,
+    Slot::VariantCycles,
     Slot::Capture,
     Slot::Branch,
+    Slot::VariantBranches,
     Slot::Balance,
     Slot::ReturnMap,
     Slot::Regimes,
-    Slot::Family,
     Slot::Trade,
     Slot::Scan,
     Slot::Claims,
     Slot::Reference,
+];
+
+/// What can be asked of each variant, and the kind of the question that does.
+const OF_VARIANTS: [(Slot, Slot); 3] = [
+    (Slot::Trajectory, Slot::VariantMotions),
+    (Slot::Cycles, Slot::VariantCycles),
+    (Slot::Branch, Slot::VariantBranches),
 ];
 
 impl Slot {
@@ -146,8 +164,28 @@ impl Slot {
     pub fn is_own(self) -> bool {
         matches!(
             self,
-            Slot::Capture | Slot::Branch | Slot::ReturnMap | Slot::Regimes | Slot::Family
+            Slot::Capture
+                | Slot::Branch
+                | Slot::ReturnMap
+                | Slot::Regimes
+                | Slot::VariantMotions
+                | Slot::VariantCycles
+                | Slot::VariantBranches
         )
+    }
+
+    /// The kind that asks this of each variant; `None` where variants have no such answer.
+    #[must_use]
+    pub fn of_variants(self) -> Option<Slot> {
+        let (_, of_variants) = OF_VARIANTS.iter().find(|(one, _)| *one == self)?;
+        Some(*of_variants)
+    }
+
+    /// The kind that this asks of each variant; `None` where it is not of variants.
+    #[must_use]
+    pub fn of_one(self) -> Option<Slot> {
+        let (one, _) = OF_VARIANTS.iter().find(|(_, of_variants)| *of_variants == self)?;
+        Some(*one)
     }
 
     /// The name on the screen.
@@ -161,7 +199,9 @@ impl Slot {
             Slot::Balance => "harmonics",
             Slot::ReturnMap => "return map",
             Slot::Regimes => "regimes",
-            Slot::Family => "family",
+            Slot::VariantMotions => "motions",
+            Slot::VariantCycles => "cycles each",
+            Slot::VariantBranches => "branches",
             Slot::Trade => "trade",
             Slot::Reference => "reference",
             Slot::Scan => "scan",
@@ -182,7 +222,7 @@ impl Request {
             Request::Branch { .. } => Slot::Branch,
             Request::ReturnMap { .. } => Slot::ReturnMap,
             Request::Regimes { .. } => Slot::Regimes,
-            Request::Family(_) => Slot::Family,
+            Request::Family { slot, .. } => *slot,
             Request::Trade { .. } => Slot::Trade,
             Request::Reference { .. } => Slot::Reference,
             Request::Scan { .. } => Slot::Scan,
@@ -215,11 +255,20 @@ impl Request {
                 let (parameters, plane) = (*parameters, *plane);
                 (!rough).then_some(Request::Regimes { parameters, plane, rough: true })
             }
+            Request::Family { slot, members } => {
+                let drafts: Vec<_> = members.iter().map(Request::draft).collect();
+                let rough = |(draft, member): (Option<Request>, &Request)| {
+                    draft.unwrap_or_else(|| member.clone())
+                };
+                drafts.iter().any(Option::is_some).then(|| Request::Family {
+                    slot: *slot,
+                    members: drafts.into_iter().zip(members).map(rough).collect(),
+                })
+            }
             Request::Cycles { .. }
             | Request::Capture { .. }
             | Request::Balance { .. }
             | Request::ReturnMap { .. }
-            | Request::Family(_)
             | Request::Trade { .. }
             | Request::Scan { .. }
             | Request::Reference { .. }
@@ -243,7 +292,7 @@ impl Request {
             (Request::Regimes { plane: mine, .. }, Request::Regimes { plane, .. }) => {
                 (mine.right, mine.up) == (plane.right, plane.up)
             }
-            (Request::Family(mine), Request::Family(wanted)) => {
+            (Request::Family { members: mine, .. }, Request::Family { members: wanted, .. }) => {
                 let mut pairs = mine.iter().zip(wanted);
                 mine.len() == wanted.len() && pairs.all(|(mine, wanted)| mine.resembles(wanted))
             }

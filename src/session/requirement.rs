@@ -3,7 +3,6 @@
 use super::overlay::List;
 use super::state::{Row, Session};
 use super::update::parameters;
-use super::variants::MEMBERS;
 use crate::scene::{Layer, Request, Slot};
 
 /// One question of what is on show, and the layers for which it is asked.
@@ -53,9 +52,7 @@ impl Session {
         for plot in self.on_show() {
             let layers = self.layers.iter().filter(|layer| self.shows_in(**layer, plot));
             for layer in layers {
-                let family = |slot: Slot| self.variants(plot).is_some() && MEMBERS.contains(&slot);
-                let slot = layer.spec().needs;
-                let slot = slot.map(|slot| if family(slot) { Slot::Family } else { slot });
+                let slot = layer.spec().needs.map(|slot| self.slot_in(slot, plot));
                 let Some(request) = slot.and_then(|slot| self.request(slot, plot)) else {
                     continue;
                 };

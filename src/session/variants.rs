@@ -1,14 +1,11 @@
 //! Plots that show several variants of the present problem, one picture over another.
 //!
 //! A variant holds some values, the others follow the keys. What a plot of this kind needs is one
-//! question with a member for each variant and each kind of answer that its layers draw.
+//! question for each kind of answer that its layers draw, with a member for each variant.
 
 use super::state::Session;
 use crate::flow::Problem;
-use crate::scene::{Answer, Layer, Request, Slot, Variant};
-
-/// The kinds of answers that can be had of each variant.
-pub(super) const MEMBERS: [Slot; 3] = [Slot::Trajectory, Slot::Cycles, Slot::Branch];
+use crate::scene::{Answer, Request, Slot, Variant};
 
 /// A motion that a plot shows, and what tells it from the others there.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,31 +43,27 @@ impl Session {
                 .into_iter()
                 .collect();
         };
-        let Some(answered) = self.answered(Slot::Family, plot) else { return Vec::new() };
-        let (Request::Family(members), Ok(Answer::Family(answers))) =
-            (&answered.request, &answered.result)
+        let Some(Answer::Family(answers)) =
+            slot.of_variants().and_then(|slot| self.answer(slot, plot))
         else {
             return Vec::new();
         };
-        let of_slot = members.iter().zip(answers).filter(|(member, _)| member.slot() == slot);
-        let labelled = variants.iter().zip(of_slot);
+        let labelled = variants.iter().zip(answers);
         labelled
-            .filter_map(|(variant, (_, answer))| Some((variant.label(), answer.as_ref().ok()?)))
+            .filter_map(|(variant, answer)| Some((variant.label(), answer.as_ref().ok()?)))
             .collect()
     }
 
-    /// The questions of a plot with variants.
-    pub(super) fn members(&self, plot: usize) -> Option<Vec<Request>> {
-        let variants = self.variants(plot)?;
-        let needed = |slot: &&Slot| {
-            let draws = |layer: &Layer| layer.spec().needs == Some(**slot);
-            self.layers.iter().any(|layer| draws(layer) && self.shows_in(*layer, plot))
-        };
-        let questions = MEMBERS.iter().filter(needed).flat_map(|slot| {
-            variants
-                .iter()
-                .filter_map(|variant| self.request_for(*slot, plot, variant.of(self.problem)))
-        });
-        Some(questions.collect::<Vec<_>>()).filter(|members| !members.is_empty())
+    /// The kind of question that a plot asks where a layer needs answers of this kind.
+    pub(super) fn slot_in(&self, slot: Slot, plot: usize) -> Slot {
+        let of_variants = self.variants(plot).and_then(|_| slot.of_variants());
+        of_variants.unwrap_or(slot)
+    }
+
+    /// The question of a kind for each variant of a plot.
+    pub(super) fn request_for_each(&self, slot: Slot, one: Slot, plot: usize) -> Option<Request> {
+        let variants = self.variants(plot)?.iter();
+        let members = variants.map(|variant| self.request_for(one, plot, variant.of(self.problem)));
+        Some(Request::Family { slot, members: members.collect::<Option<_>>()? })
     }
 }

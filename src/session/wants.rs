@@ -10,7 +10,6 @@ use std::sync::Arc;
 use super::overlay::Overlay;
 use super::plot::{Framing, Pane};
 use super::state::{Recomputed, Row, Session};
-use super::variants::MEMBERS;
 use crate::flow::{Problem, Reason, Trajectory};
 use crate::oscillator::Symbol;
 use crate::scene::answer::{Borders, Failure};
@@ -78,11 +77,7 @@ impl Session {
     pub fn needs(&self, plot: usize) -> BTreeSet<Slot> {
         let shown = |layer: &&Layer| self.shows_in(**layer, plot);
         let needed = self.layers.iter().filter(shown).filter_map(|layer| layer.spec().needs);
-        let own = |slot: Slot| match self.variants(plot) {
-            Some(_) if MEMBERS.contains(&slot) => Slot::Family,
-            _ => slot,
-        };
-        needed.map(own).collect()
+        needed.map(|slot| self.slot_in(slot, plot)).collect()
     }
 
     /// The question of a kind, with exactly the inputs that its answer depends on. The plot matters to
@@ -92,9 +87,9 @@ impl Session {
     /// diagram lies outside the range of its parameter, none of the own questions of another view.
     #[must_use]
     pub fn request(&self, slot: Slot, plot: usize) -> Option<Request> {
-        match slot {
-            Slot::Family => self.members(plot).map(Request::Family),
-            slot => self.request_for(slot, plot, self.problem),
+        match slot.of_one() {
+            Some(one) => self.request_for_each(slot, one, plot),
+            None => self.request_for(slot, plot, self.problem),
         }
     }
 
@@ -160,7 +155,7 @@ impl Session {
                 }
                 Request::Regimes { parameters: others, plane, rough: false }
             }
-            Slot::Family => return None,
+            Slot::VariantMotions | Slot::VariantCycles | Slot::VariantBranches => return None,
         })
     }
 

@@ -113,7 +113,7 @@ fn by_hand(request: &Request) -> Answer {
         Request::Branch { parameter, .. } => Answer::Branch(folded(*parameter)),
         Request::ReturnMap { parameters, .. } => Answer::ReturnMap(halving(*parameters)),
         Request::Regimes { plane, .. } => Answer::Regimes(parted(*plane)),
-        Request::Family(members) => {
+        Request::Family { members, .. } => {
             Answer::Family(members.iter().map(|member| Ok(by_hand(member))).collect())
         }
         Request::Trade { .. } => Answer::Trade(compared()),

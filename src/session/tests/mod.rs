@@ -212,7 +212,7 @@ fn answered(request: Request) -> Answered {
                 cost,
             })
         }
-        Request::Family(members) => {
+        Request::Family { members, .. } => {
             let by_hand = |member: &Request| match answered(member.clone()).result {
                 Ok(answer) => Ok(answer),
                 Err(failure) => unreachable!("{failure}"),

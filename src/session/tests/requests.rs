@@ -100,7 +100,7 @@ fn terms_that_a_scene_does_not_declare_are_zero_until_the_user_unfolds_them() {
             | Request::Branch { parameters, .. }
             | Request::Trade { parameters, .. }
             | Request::Reference { parameters, .. } => parameters,
-            Request::Family(_) => unreachable!("capture has no variants"),
+            Request::Family { .. } => unreachable!("capture has no variants"),
             Request::Scan { .. } => unreachable!("nobody asked for a scan"),
         };
         assert!(parameters.is_piecewise_linear());
