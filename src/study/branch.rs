@@ -190,7 +190,7 @@ impl Tracer<'_> {
     /// All cycles at one value, as points of curves.
     fn seeds(&mut self, p: f64) -> Result<Vec<CurvePoint>, Reason> {
         let parameters = self.curve.parameters_at(p);
-        let mut equation = Equation::on_side(&parameters, self.curve.side, f64::EPSILON);
+        let mut equation = Equation::on_side(&parameters, self.curve.side, self.curve.fineness());
         let closings = closings(&mut equation, self.curve.limits())?;
         self.curve.cost += equation.cost();
         Ok(closings

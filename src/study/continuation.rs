@@ -19,8 +19,11 @@ const UNIT_OF_U: f64 = 4.0;
 /// Most evaluations of one swing, a hundred times the usual: beyond, a curve is not followed.
 const SWING_BUDGET: u64 = 60_000;
 
-/// Relative error of the clearance at a fold.
+/// Least relative error of the clearance at a fold.
 const FOLD_TOLERANCE: f64 = 1e-13;
+
+/// Least logarithm of the multiplier that counts as zero at a fold.
+const LEAST_LOG: f64 = 1e-10;
 
 /// Newton steps of a correction before it counts as failed.
 const CORRECTIONS: usize = 8;
@@ -104,6 +107,13 @@ impl<'a> Curve<'a> {
         let mut parameters = self.parameters;
         self.symbol.set(&mut parameters, &mut State { q: 0.0, v: 0.0 }, p);
         parameters
+    }
+
+    /// Relative error of a swing that tells cycles apart which differ by the tolerance: where two are
+    /// about to meet, the residual between them is as small as the square of their distance.
+    #[must_use]
+    pub fn fineness(&self) -> f64 {
+        (self.tolerance * self.tolerance).max(f64::EPSILON)
     }
 
     /// The limits under which it computes.
@@ -257,8 +267,8 @@ impl<'a> Curve<'a> {
         direction: f64,
         leaves: &dyn Fn(&CurvePoint) -> bool,
     ) -> Result<Vec<CurvePoint>, Reason> {
-        /// First, smallest and largest stride, in parts of the range.
-        const STRIDES: (f64, f64, f64) = (2e-3, 1e-9, 0.06);
+        /// First and smallest stride, in parts of the range.
+        const STRIDES: (f64, f64) = (2e-3, 1e-9);
         /// Most points of a curve; a closed or endless one stops here.
         const MOST: usize = 4000;
         let mut points = vec![start];
@@ -288,7 +298,7 @@ impl<'a> Curve<'a> {
                     } else {
                         0.8
                     };
-                    stride = stride.min(STRIDES.2);
+                    stride = stride.min(self.longest_stride(&next, tangent));
                 }
                 _ => {
                     stride *= 0.4;
@@ -300,6 +310,19 @@ impl<'a> Curve<'a> {
             }
         }
         Ok(points)
+    }
+
+    /// The longest stride from a point in the direction of `tangent`.
+    ///
+    /// Swings that begin next to the sticking set are those of the linearised field, whose closing
+    /// depends on u almost linearly: there u may change by a part of how far it is below `ln r`. This is
+    /// where cycles go as D goes to -1, and u to minus infinity.
+    fn longest_stride(&self, point: &CurvePoint, tangent: Tangent) -> f64 {
+        /// In parts of the range, and of the unit of u or the depth.
+        const LONGEST: f64 = 0.06;
+        let friction = self.parameters_at(point.p).r;
+        let depth = if friction > 0.0 { (friction.ln() - point.u) / UNIT_OF_U } else { 0.0 };
+        LONGEST / tangent.p.abs().max(tangent.u.abs() / depth.max(1.0))
     }
 
     /// Spreads `count` points evenly over a followed curve, both ends included, and corrects each.
@@ -331,11 +354,19 @@ impl<'a> Curve<'a> {
             let s = total * index as f64 / (count - 1) as f64;
             let after = arc.partition_point(|&length| length <= s).clamp(1, points.len() - 1);
             let base = after.saturating_sub(window / 2).min(points.len() - window);
-            let near = interpolate(&points[base..base + window], &arc[base..base + window], s);
             let (one, other) = (&points[after - 1], &points[after]);
+            let smooth = interpolate(&points[base..base + window], &arc[base..base + window], s);
             let tangent = Tangent::between(one, other, self.scale);
             let route = Route::contracting(0.5 * (one.log_multiplier + other.log_multiplier));
-            spread.extend(self.correct(near, tangent, route)?);
+            let mut found = self.correct(smooth, tangent, route)?;
+            if found.is_none() {
+                // A polynomial may pass beyond where there are cycles; the chord of a bend does not.
+                let fraction = (s - arc[after - 1]) / (arc[after] - arc[after - 1]);
+                let between = |from: f64, to: f64| from + fraction * (to - from);
+                let straight = (between(one.u, other.u), between(one.p, other.p));
+                found = self.correct(straight, tangent, route)?;
+            }
+            spread.extend(found);
         }
         spread.push(*last);
         Ok(spread)
@@ -382,9 +413,11 @@ impl<'a> Curve<'a> {
         let tangent = Tangent::between(one, other, self.scale);
         let chord = ((other.u - one.u) / UNIT_OF_U).hypot((other.p - one.p) / self.scale);
         self.slope_in_p = None;
-        let tolerance = std::mem::replace(&mut self.tolerance, FOLD_TOLERANCE);
-        let fold =
-            self.multiplier_one(one, tangent, chord, [one, other].map(|end| end.log_multiplier));
+        let tolerance = self.tolerance;
+        self.tolerance = self.fineness().max(FOLD_TOLERANCE);
+        let zero = tolerance.max(LEAST_LOG);
+        let ends = [one, other].map(|end| end.log_multiplier);
+        let fold = self.multiplier_one(one, tangent, chord, ends, zero);
         self.tolerance = tolerance;
         fold
     }
@@ -395,6 +428,7 @@ impl<'a> Curve<'a> {
         tangent: Tangent,
         chord: f64,
         ends: [f64; 2],
+        zero: f64,
     ) -> Result<Option<CurvePoint>, Reason> {
         let (mut low, mut high) = ((0.0, ends[0]), (chord, ends[1]));
         let mut best = None;
@@ -406,7 +440,7 @@ impl<'a> Curve<'a> {
             };
             best = Some(point);
             let here = (s, point.log_multiplier);
-            if here.1.abs() < 1e-10 || (high.0 - low.0).abs() < 1e-13 {
+            if here.1.abs() < zero || (high.0 - low.0).abs() < 1e-13 {
                 break;
             }
             if (here.1 > 0.0) == (low.1 > 0.0) {
