@@ -8,7 +8,7 @@ use crate::oscillator::State;
 use crate::study::accuracy::Reference;
 use crate::study::branch::branch;
 use crate::study::capture::bands;
-use crate::study::chart::{Chart, chart};
+use crate::study::chart::{Chart, Density, chart};
 use crate::study::claims::{Examined, examine_all};
 use crate::study::cycle::cycles_drawn;
 use crate::study::harmonic_error::{HarmonicBalance, harmonic_balance};
@@ -96,7 +96,7 @@ impl std::fmt::Display for Failure {
 }
 
 /// How many points curves have.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fineness {
     /// On each integration step of a trajectory.
     samples_per_step: usize,
@@ -108,6 +108,8 @@ pub struct Fineness {
     branch: usize,
     /// On a side of a return map.
     map: u16,
+    /// Largest distance of the borders of a chart from their chords, as a part of the range.
+    chord: f64,
 }
 
 impl Fineness {
@@ -118,16 +120,33 @@ impl Fineness {
         harmonic: 240,
         branch: 160,
         map: 128,
+        chord: f64::INFINITY,
     };
 
-    /// As many as print can show.
+    /// As many as print can show: chords miss their curves by less than a twentieth of a pixel of a
+    /// figure.
     pub const PRINT: Fineness = Fineness {
-        samples_per_step: 48,
-        points_per_step: 48,
+        samples_per_step: 64,
+        points_per_step: 64,
         harmonic: 960,
         branch: 640,
         map: 512,
+        chord: 1e-4,
     };
+
+    /// More points on each curve, to measure what others leave out.
+    #[must_use]
+    pub fn finer(self, times: u8) -> Fineness {
+        let several = usize::from(times);
+        Fineness {
+            samples_per_step: self.samples_per_step * several,
+            points_per_step: self.points_per_step.saturating_mul(times),
+            harmonic: self.harmonic * several,
+            branch: self.branch * several,
+            map: self.map.saturating_mul(u16::from(times)),
+            chord: self.chord / f64::from(times),
+        }
+    }
 }
 
 /// Lines of a chart of regimes, evenly spaced; borders between them are interpolated.
@@ -206,7 +225,9 @@ pub fn answer_for(
         }
         Request::Regimes { parameters, plane, rough } => {
             let lines = if *rough { DRAFT_LINES } else { CHART_LINES };
-            chart(parameters, *plane, lines, limits).map(Answer::Regimes)
+            let chord = if *rough { f64::INFINITY } else { fineness.chord };
+            let density = Density { lines, chord };
+            chart(parameters, *plane, density, limits).map(Answer::Regimes)
         }
         Request::Family { members, .. } => {
             let answers: Vec<_> =

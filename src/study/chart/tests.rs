@@ -1,7 +1,12 @@
 //! Charts against known borders and against the search for cycles.
 
 use super::*;
+use crate::oscillator::State;
+use crate::study::fold::fold;
 use crate::study::regime::regime;
+
+/// Few lines, and none between them.
+const COARSE: Density = Density { lines: 4, chord: f64::INFINITY };
 
 const PLAIN: Parameters = Parameters { d: -0.2, d2: 0.0, d3: 0.5, r: 0.1 };
 
@@ -10,7 +15,8 @@ fn plane(right: Symbol, right_range: (f64, f64), up: Symbol, up_range: (f64, f64
 }
 
 fn drawn(parameters: &Parameters, plane: Plane, count: usize) -> Chart {
-    chart(parameters, plane, count, &Limits::PATIENT).unwrap()
+    let density = Density { lines: count, ..COARSE };
+    chart(parameters, plane, density, &Limits::PATIENT).unwrap()
 }
 
 /// Every band of every line against the regime computed at its middle.
@@ -102,7 +108,7 @@ fn what_is_no_plane_is_refused() {
         plane(Symbol::D, (-1.0, 0.0), Symbol::D, (0.0, 1.0)),
         plane(Symbol::Q0, (-1.0, 0.0), Symbol::D, (0.0, 1.0)),
     ] {
-        let refused = chart(&PLAIN, plane, 4, &Limits::PATIENT).unwrap_err();
+        let refused = chart(&PLAIN, plane, COARSE, &Limits::PATIENT).unwrap_err();
         assert!(matches!(refused, Reason::NotApplicable { .. }));
     }
 }
@@ -114,4 +120,32 @@ fn lines_stand_closer_where_a_sign_changes() {
     assert!(at.iter().all(|value| value.abs() >= 1e-6));
     assert_eq!((at[0], at[at.len() - 1]), (-1.0, 3.0));
     assert!(values(Symbol::R, (-1.0, 1.0), 8).iter().all(|&value| value > 0.0));
+}
+
+#[test]
+fn between_lines_borders_are_followed_as_closely_as_asked() {
+    // With friction to the right the fold is hyperbolic: r^2 D3 is the same all along.
+    let over_r = plane(Symbol::R, (0.0, 0.5), Symbol::D3, (0.02, 2.0));
+    let chord = 1e-4;
+    let density = Density { lines: 8, chord };
+    let close = chart(&PLAIN, over_r, density, &Limits::PATIENT).unwrap();
+    let [run] = &close.border(Border::Fold)[..] else { panic!("one run") };
+    let kappa = run[0].0.powi(2) * run[0].1;
+    let mut farthest: f64 = 0.0;
+    for pair in run.windows(2) {
+        let middle = (f64::midpoint(pair[0].0, pair[1].0), f64::midpoint(pair[0].1, pair[1].1));
+        // The distance to the chord, both sides of the chart as long as each other.
+        let slope = ((pair[1].0 - pair[0].0) / 0.5) / ((pair[1].1 - pair[0].1) / 1.98);
+        let aside = (middle.0 - (kappa / middle.1).sqrt()) / 0.5;
+        farthest = farthest.max(aside.abs() / 1.0_f64.hypot(slope));
+    }
+    assert!(farthest < chord, "{farthest}");
+    // Where the border comes into the range, just below D3 = kappa / 0.25, nothing is left blank.
+    let enters = kappa / 0.25;
+    for part in [0.7, 0.9, 0.99, 1.01, 1.1] {
+        let expected = if part < 1.0 { Regime::Coexisting } else { Regime::Global };
+        assert_eq!(close.regime_at(0.4999, enters * part), Some(expected), "{part}");
+    }
+    assert!(close.lines.windows(2).all(|pair| pair[0].at < pair[1].at));
+    assert!(close.lines.len() < 80, "{}", close.lines.len());
 }

@@ -1,0 +1,325 @@
+//! Drawing the lines of a chart: the borders on each, the bands between them, and further lines where a
+//! border is bent.
+
+use super::{Band, Line};
+use crate::closed_form::harmonic;
+use crate::flow::{Cost, Limits, Reason};
+use crate::oscillator::{Parameters, State, Symbol};
+use crate::study::cycle::cycles;
+use crate::study::escape::escape_point;
+use crate::study::fold::fold;
+use crate::study::regime::Regime;
+
+/// How often the way from one line to the next is halved at most, to come close to a border.
+pub(super) const HALVINGS: u32 = 8;
+
+/// Values of a parameter at which lines are drawn: evenly spaced, and denser towards zero, where a sign
+/// changes; zero itself is replaced by its two sides.
+pub(super) fn values(symbol: Symbol, range: (f64, f64), count: usize) -> Vec<f64> {
+    /// What stands for zero, as a part of the range.
+    const SIDE: f64 = 1e-6;
+    let span = range.1 - range.0;
+    #[expect(clippy::cast_precision_loss, reason = "a number of lines")]
+    let part = |index: usize, of: usize| index as f64 / of as f64;
+    let mut values: Vec<f64> =
+        (0..=count).map(|index| range.0 + span * part(index, count)).collect();
+    if range.0 <= 0.0 && range.1 >= 0.0 {
+        let dense = count / 4;
+        for index in 1..dense {
+            let cube = part(index, dense).powi(3);
+            values.extend([range.0, range.1].map(|end| 0.5 * end * cube));
+        }
+        values.extend([-SIDE * span, SIDE * span]);
+        values.retain(|value| value.abs() >= SIDE * span);
+    }
+    values.retain(|&value| {
+        value >= range.0 && value <= range.1 && symbol.spec().check(value).is_ok()
+    });
+    values.sort_by(f64::total_cmp);
+    values.dedup();
+    values
+}
+
+/// Draws lines one after the other; each helps to find the fold on the next.
+pub(super) struct Tracer<'a> {
+    pub parameters: Parameters,
+    pub along: Symbol,
+    pub across: Symbol,
+    pub range: (f64, f64),
+    pub across_range: (f64, f64),
+    pub limits: &'a Limits<'a>,
+    pub cost: Cost,
+    /// The fold in units of the harmonic one, on the line before.
+    pub ratio: f64,
+}
+
+impl Tracer<'_> {
+    /// Adds the lines that are needed between two, so that chords lie close to the borders.
+    pub fn between(
+        &mut self,
+        before: &Line,
+        after: &Line,
+        chord: f64,
+        halvings: u32,
+        lines: &mut Vec<Line>,
+    ) -> Result<(), Reason> {
+        let through_zero = before.at < 0.0 && after.at > 0.0;
+        let failed = before.failure.is_some() || after.failure.is_some();
+        if halvings == 0 || chord.is_infinite() || through_zero || failed {
+            return Ok(());
+        }
+        let middle = self.line(f64::midpoint(before.at, after.at))?;
+        let (width, height) =
+            (self.range.1 - self.range.0, self.across_range.1 - self.across_range.0);
+        let bent = [|line: &Line| line.fold, |line: &Line| line.escape].into_iter().any(|border| {
+            let [Some(from), Some(middle), Some(to)] = [before, &middle, after].map(border) else {
+                return false;
+            };
+            let slope = (to - from) / width / ((after.at - before.at) / height);
+            (middle - f64::midpoint(from, to)).abs() / width > chord * 1.0_f64.hypot(slope)
+        });
+        if bent || !before.alike(after) {
+            self.between(before, &middle, chord, halvings - 1, lines)?;
+            lines.push(middle.clone());
+            self.between(&middle, after, chord, halvings - 1, lines)?;
+        }
+        Ok(())
+    }
+
+    /// The line at this value of the other parameter.
+    pub fn line(&mut self, at: f64) -> Result<Line, Reason> {
+        let mut here = self.parameters;
+        self.across.set(&mut here, &mut State { q: 0.0, v: 0.0 }, at);
+        let harmonic = self.harmonic(&here);
+        let borders = if self.along == Symbol::D {
+            self.borders_in_d(&here)
+        } else {
+            self.borders_at_d(&here)
+        };
+        let (borders, failure) = match borders {
+            Err(Reason::Interrupted) => return Err(Reason::Interrupted),
+            Err(reason) => (Borders::default(), Some(reason)),
+            Ok(borders) => (borders, None),
+        };
+        if let (Some(fold), Some(harmonic)) = (borders.fold, harmonic)
+            && fold.is_finite()
+            && fold != 0.0
+        {
+            self.ratio = fold / harmonic;
+        }
+        let bands = self.bands(&here, &borders, failure.is_some());
+        let shown = |border: Option<f64>| border.filter(|border| border.is_finite());
+        let (fold, escape) = (shown(borders.fold), shown(borders.escape));
+        Ok(Line { at, bands, fold, harmonic, escape, failure })
+    }
+
+    /// The parameters with the one along the line at `value`.
+    fn with(&self, here: &Parameters, value: f64) -> Parameters {
+        let mut parameters = *here;
+        self.along.set(&mut parameters, &mut State { q: 0.0, v: 0.0 }, value);
+        parameters
+    }
+
+    fn fold(&mut self, parameters: &Parameters) -> Result<f64, Reason> {
+        let (found, cost) = fold(parameters, self.limits)?;
+        self.cost += cost;
+        found
+            .map(|found| found.d)
+            .ok_or(Reason::NoConvergence { sought: "the fold", change: f64::NAN })
+    }
+
+    /// `D_F` and `D_c` on a line along D.
+    fn borders_in_d(&mut self, here: &Parameters) -> Result<Borders, Reason> {
+        /// Beyond critical damping folds take long; whether the range has any can be asked at its end.
+        const CRITICAL: f64 = -1.0 + 1e-6;
+        const DOUBTFUL: f64 = -0.75;
+        if here.r == 0.0 || here.d3 < 0.0 {
+            return Ok(Borders::default());
+        }
+        if here.d3 == 0.0 {
+            let escape = escape_point(here, self.limits)?;
+            return Ok(Borders { fold: None, escape: escape.or(Some(f64::NEG_INFINITY)) });
+        }
+        let strong = harmonic::fold(here.d3, here.r).is_none_or(|fold| fold.d < DOUBTFUL)
+            || here.r * here.d2.abs() > -DOUBTFUL;
+        if strong && self.range.0 >= -1.0 {
+            let end = Parameters { d: self.range.0.max(CRITICAL), ..*here };
+            let found = cycles(&end, false, self.limits)?;
+            self.cost += found.cost;
+            if found.cycles.is_empty() {
+                return Ok(Borders { fold: Some(f64::NEG_INFINITY), escape: None });
+            }
+        }
+        Ok(Borders { fold: Some(self.fold(here)?), escape: None })
+    }
+
+    /// Where on a line along D3 or r the fold or the escape point comes to the given D.
+    fn borders_at_d(&mut self, here: &Parameters) -> Result<Borders, Reason> {
+        let Parameters { d, d2, d3, r } = *here;
+        let nowhere = Ok(Borders::default());
+        if d >= 0.0 {
+            return nowhere;
+        }
+        if self.along == Symbol::D3 {
+            if r == 0.0 {
+                return nowhere;
+            }
+            // As D3 goes to 0 the fold goes to D_c: if that lies below D, so do all folds.
+            let least = escape_point(&Parameters { d3: 0.0, ..*here }, self.limits)?;
+            let none = d2 != 0.0 && least.is_none_or(|least| d >= least);
+            let fold = if none { Some(0.0) } else { self.seek(here)? };
+            return Ok(Borders { fold, escape: None });
+        }
+        if d3 > 0.0 {
+            return Ok(Borders { fold: self.seek(here)?, escape: None });
+        }
+        if d3 == 0.0 && d2 != 0.0 && d > -1.0 {
+            // D_c depends on r D2 alone.
+            return Ok(Borders { fold: None, escape: Some(self.product_of_escape(d)? / d2.abs()) });
+        }
+        nowhere
+    }
+
+    /// The product `r abs(D2)` whose escape point is `d`.
+    fn product_of_escape(&mut self, d: f64) -> Result<f64, Reason> {
+        let excess = |product: f64| -> Result<f64, Reason> {
+            let unit = Parameters { d: 0.0, d2: 1.0, d3: 0.0, r: product };
+            Ok((-escape_point(&unit, self.limits)?.unwrap_or(-2.0) / -d).ln())
+        };
+        root((-1.25 * d).ln(), 0.1, |z| excess(z.exp())).map(f64::exp)
+    }
+
+    /// The value along the line at which the fold is at the line's D; infinite where none is.
+    fn seek(&mut self, here: &Parameters) -> Result<Option<f64>, Reason> {
+        /// First stride in the logarithm: the guess is better than this on all lines but the first.
+        const STRIDE: f64 = 0.1;
+        let d = here.d;
+        let Some(guess) = self.harmonic(here) else { return Ok(None) };
+        let guess = guess * self.ratio;
+        let excess = |tracer: &mut Self, z: f64| -> Result<f64, Reason> {
+            let found = tracer.fold(&tracer.with(here, z.exp()))?;
+            Ok((found / d).ln())
+        };
+        root(guess.ln(), STRIDE, |z| excess(self, z)).map(|z| Some(z.exp()))
+    }
+
+    /// The fold of one harmonic (48) on the line.
+    fn harmonic(&self, here: &Parameters) -> Option<f64> {
+        let Parameters { d, d3, r, .. } = *here;
+        if self.along == Symbol::D {
+            return harmonic::fold(d3, r).map(|fold| fold.d);
+        }
+        // (48) solved for r^2 D3.
+        let product = 8.0 * (-d).powi(3) * (std::f64::consts::PI / 9.0).powi(2);
+        let value = match self.along {
+            Symbol::D3 => product / (r * r),
+            _ => (product / d3).sqrt(),
+        };
+        (d < 0.0 && value.is_finite() && value > 0.0).then_some(value)
+    }
+
+    /// The bands between the borders within the range.
+    fn bands(&self, here: &Parameters, borders: &Borders, failed: bool) -> Vec<Band> {
+        let (from, to) = self.range;
+        let inside = |value: &f64| *value > from && *value < to;
+        let fixed = match self.along {
+            Symbol::D => vec![-1.0, 0.0],
+            _ => vec![0.0],
+        };
+        let borders_there = [borders.fold, borders.escape].into_iter().flatten();
+        let mut ends: Vec<f64> = fixed.into_iter().chain(borders_there).filter(inside).collect();
+        ends.extend([from, to]);
+        ends.sort_by(f64::total_cmp);
+        ends.dedup();
+        let mut bands: Vec<Band> = Vec::new();
+        for pair in ends.windows(2) {
+            let regime = self.regime(here, 0.5 * (pair[0] + pair[1]), borders, failed);
+            match bands.last_mut() {
+                Some(last) if last.regime == regime => last.to = pair[1],
+                _ => bands.push(Band { from: pair[0], to: pair[1], regime }),
+            }
+        }
+        bands
+    }
+
+    fn regime(
+        &self,
+        here: &Parameters,
+        value: f64,
+        borders: &Borders,
+        failed: bool,
+    ) -> Option<Regime> {
+        let parameters = self.with(here, value);
+        let Parameters { d, d3, r, .. } = parameters;
+        if failed && d < 0.0 && d3 >= 0.0 && r > 0.0 {
+            return None;
+        }
+        if self.along == Symbol::D {
+            return Some(Regime::of(&parameters, borders.fold, borders.escape));
+        }
+        // A line that crosses a border at the given D lies below the border in D before it.
+        let border = |border: Option<f64>| {
+            let beyond = border.is_some_and(|border| value >= border);
+            Some(if beyond { f64::NEG_INFINITY } else { 0.0 })
+        };
+        Some(Regime::of(&parameters, border(borders.fold), border(borders.escape)))
+    }
+}
+
+/// The borders on a line.
+#[derive(Clone, Copy, Debug, Default)]
+struct Borders {
+    fold: Option<f64>,
+    escape: Option<f64>,
+}
+
+/// The zero of an increasing function, near `start`: strides until it lies between, then the Illinois
+/// rule.
+fn root(
+    start: f64,
+    stride: f64,
+    mut function: impl FnMut(f64) -> Result<f64, Reason>,
+) -> Result<f64, Reason> {
+    /// Accepted value of the function, which is a relative error.
+    const SMALL: f64 = 1e-11;
+    const MOST: usize = 60;
+    let mut low = (start, function(start)?);
+    let mut high = low;
+    let mut stride = stride;
+    let mut steps = 0;
+    while low.1 > 0.0 || high.1 < 0.0 {
+        if low.1 > 0.0 {
+            high = low;
+            low.0 -= stride;
+            low.1 = function(low.0)?;
+        } else {
+            low = high;
+            high.0 += stride;
+            high.1 = function(high.0)?;
+        }
+        stride *= 1.6;
+        steps += 1;
+        if steps > MOST {
+            return Err(Reason::NoConvergence { sought: "a border", change: stride });
+        }
+    }
+    for _ in 0..MOST {
+        if low.1.abs() <= SMALL {
+            return Ok(low.0);
+        }
+        if high.1.abs() <= SMALL {
+            return Ok(high.0);
+        }
+        let between = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
+        let here = (between, function(between)?);
+        if here.1.abs() <= SMALL || high.0 - low.0 <= SMALL {
+            return Ok(between);
+        }
+        if here.1 < 0.0 {
+            (low, high.1) = (here, 0.5 * high.1);
+        } else {
+            (high, low.1) = (here, 0.5 * low.1);
+        }
+    }
+    Err(Reason::NoConvergence { sought: "a border", change: high.0 - low.0 })
+}
