@@ -8,7 +8,7 @@ use crate::oscillator::State;
 use crate::study::accuracy::Reference;
 use crate::study::branch::branch;
 use crate::study::capture::bands;
-use crate::study::chart::{Chart, Density, chart};
+use crate::study::chart::{Chart, Resolution, chart};
 use crate::study::claims::{Examined, examine_all};
 use crate::study::cycle::cycles_drawn;
 use crate::study::harmonic_error::{HarmonicBalance, harmonic_balance};
@@ -155,6 +155,12 @@ const CHART_LINES: usize = 40;
 /// The same in a draft.
 const DRAFT_LINES: usize = 4;
 
+/// Relative error of clearances at the borders of a chart.
+const BORDER_TOLERANCE: f64 = 1e-13;
+
+/// The same in a draft.
+const DRAFT_BORDER_TOLERANCE: f64 = 1e-6;
+
 /// Points of a piece of a branch at draft quality: the picture of them hardly differs.
 const DRAFT_POINTS: usize = 40;
 
@@ -226,8 +232,9 @@ pub fn answer_for(
         Request::Regimes { parameters, plane, rough } => {
             let lines = if *rough { DRAFT_LINES } else { CHART_LINES };
             let chord = if *rough { f64::INFINITY } else { fineness.chord };
-            let density = Density { lines, chord };
-            chart(parameters, *plane, density, limits).map(Answer::Regimes)
+            let tolerance = if *rough { DRAFT_BORDER_TOLERANCE } else { BORDER_TOLERANCE };
+            let resolution = Resolution { lines, chord, tolerance };
+            chart(parameters, *plane, resolution, limits).map(Answer::Regimes)
         }
         Request::Family { members, .. } => {
             let answers: Vec<_> =

@@ -96,14 +96,16 @@ impl Plane {
     }
 }
 
-/// How many lines a chart has.
+/// How finely a chart is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Density {
+pub struct Resolution {
     /// Lines that it has in any case, about.
     pub lines: usize,
     /// Largest distance between a border and its chord from line to line, as a part of the range; where
     /// it is more, further lines are drawn between. Infinite: none are.
     pub chord: f64,
+    /// Relative error of the clearance at a fold; that of the borders is at most a hundred times this.
+    pub tolerance: f64,
 }
 
 /// Draws a chart; the two parameters of the plane do not matter.
@@ -114,7 +116,7 @@ pub struct Density {
 pub fn chart(
     parameters: &Parameters,
     plane: Plane,
-    density: Density,
+    resolution: Resolution,
     limits: &Limits,
 ) -> Result<Chart, Reason> {
     let charted = |symbol| matches!(symbol, Symbol::D | Symbol::D2 | Symbol::D3 | Symbol::R);
@@ -131,13 +133,14 @@ pub fn chart(
         across_range: plane.range(across),
         limits,
         cost: Cost::default(),
+        tolerance: resolution.tolerance,
         ratio: 1.0,
     };
     let mut lines: Vec<Line> = Vec::new();
-    for at in values(across, plane.range(across), density.lines) {
+    for at in values(across, plane.range(across), resolution.lines) {
         let line = tracer.line(at)?;
         if let Some(before) = lines.last().cloned() {
-            tracer.between(&before, &line, density.chord, HALVINGS, &mut lines)?;
+            tracer.between(&before, &line, resolution.chord, HALVINGS, &mut lines)?;
         }
         lines.push(line);
     }

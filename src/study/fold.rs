@@ -26,7 +26,7 @@ pub struct FoldPoint {
     pub period: f64,
 }
 
-/// Relative error of the clearance at the fold; that of `D_F` is its square.
+/// Least relative error of the clearance at the fold; that of `D_F` is its square.
 const TOLERANCE: f64 = 1e-13;
 
 /// Finds the fold in D, or `None` where cycles have none (`D3 <= 0` or `r = 0`).
@@ -34,11 +34,23 @@ const TOLERANCE: f64 = 1e-13;
 /// # Errors
 /// The [`Reason`] why a swing failed, or [`Reason::NoConvergence`].
 pub fn fold(parameters: &Parameters, limits: &Limits) -> Result<(Option<FoldPoint>, Cost), Reason> {
+    fold_within(parameters, TOLERANCE, limits)
+}
+
+/// The same with another relative error of the clearance; that of `D_F` is its square, to rounding.
+///
+/// # Errors
+/// As [`fold`].
+pub fn fold_within(
+    parameters: &Parameters,
+    tolerance: f64,
+    limits: &Limits,
+) -> Result<(Option<FoldPoint>, Cost), Reason> {
     let Some(start) = start(parameters) else { return Ok((None, Cost::default())) };
     let side = first_side(parameters);
     let limits =
         Limits { evaluations: limits.evaluations.min(BUDGET), interrupted: limits.interrupted };
-    let curve = Curve::new(parameters, Symbol::D, side, 1.0, TOLERANCE, &limits);
+    let curve = Curve::new(parameters, Symbol::D, side, 1.0, tolerance, &limits);
     let mut graph = Graph { curve, parameters: *parameters, d: start.d };
     let fold = match graph.around_fold(start)? {
         Around::Plateau(point) => point,
@@ -134,6 +146,7 @@ impl Graph<'_> {
         let mut stride = start.stride;
         let here = self.at(start.u)?.ok_or(LOST)?;
         let (mut low, mut high) = (here, here);
+        let mut flat = false;
         for _ in 0..STRIDES {
             // Where the second swing begins at the very end of the sticking set there is no multiplier:
             // next to it it is infinite.
@@ -150,11 +163,14 @@ impl Graph<'_> {
                         low = next;
                     }
                     let rise = (next.p - high.p).abs();
-                    if rise <= 4.0 * f64::EPSILON * next.p.abs() && stride >= LENGTHS.1 {
+                    flat = rise <= 4.0 * self.curve.fineness() * next.p.abs();
+                    if flat && stride >= LENGTHS.1 {
                         return Ok(Around::Plateau(next));
                     }
                     high = next;
                 }
+                // Nor can it be followed to its end.
+                None if flat => return Ok(Around::Plateau(high)),
                 None => stride *= 0.25,
             }
             stride = (1.5 * stride).min(LENGTHS.1);
@@ -312,6 +328,20 @@ mod tests {
             let escape = escape_point(&without, &Limits::PATIENT).unwrap().unwrap();
             let [near, far] = [1e-6, 1e-4].map(|d3| (found(d2, d3, 1.0).d - escape).abs());
             assert!(near < 5e-5 && near < 0.02 * far, "D2 = {d2}: {near} {far}");
+        }
+    }
+
+    #[test]
+    fn with_strong_friction_and_d2_the_largest_damping_of_any_cycle_is_found() {
+        for r in [2.0, 4.0] {
+            let d = found(0.6, 0.125, r).d;
+            assert!(d < -1.0, "r = {r}: {d}");
+            for tolerance in [1e-4, 1e-6, 1e-8, 1e-10] {
+                let limits = Limits::PATIENT;
+                let parameters = Parameters { d: 0.0, d2: 0.6, d3: 0.125, r };
+                let rough = fold_within(&parameters, tolerance, &limits).unwrap().0.unwrap().d;
+                assert!((rough / d - 1.0).abs() < tolerance, "{rough} {d}");
+            }
         }
     }
 

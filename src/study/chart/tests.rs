@@ -6,7 +6,7 @@ use crate::study::fold::fold;
 use crate::study::regime::regime;
 
 /// Few lines, and none between them.
-const COARSE: Density = Density { lines: 4, chord: f64::INFINITY };
+const COARSE: Resolution = Resolution { lines: 4, chord: f64::INFINITY, tolerance: 1e-13 };
 
 const PLAIN: Parameters = Parameters { d: -0.2, d2: 0.0, d3: 0.5, r: 0.1 };
 
@@ -15,8 +15,8 @@ fn plane(right: Symbol, right_range: (f64, f64), up: Symbol, up_range: (f64, f64
 }
 
 fn drawn(parameters: &Parameters, plane: Plane, count: usize) -> Chart {
-    let density = Density { lines: count, ..COARSE };
-    chart(parameters, plane, density, &Limits::PATIENT).unwrap()
+    let resolution = Resolution { lines: count, ..COARSE };
+    chart(parameters, plane, resolution, &Limits::PATIENT).unwrap()
 }
 
 /// Every band of every line against the regime computed at its middle.
@@ -127,8 +127,8 @@ fn between_lines_borders_are_followed_as_closely_as_asked() {
     // With friction to the right the fold is hyperbolic: r^2 D3 is the same all along.
     let over_r = plane(Symbol::R, (0.0, 0.5), Symbol::D3, (0.02, 2.0));
     let chord = 1e-4;
-    let density = Density { lines: 8, chord };
-    let close = chart(&PLAIN, over_r, density, &Limits::PATIENT).unwrap();
+    let resolution = Resolution { lines: 8, chord, ..COARSE };
+    let close = chart(&PLAIN, over_r, resolution, &Limits::PATIENT).unwrap();
     let [run] = &close.border(Border::Fold)[..] else { panic!("one run") };
     let kappa = run[0].0.powi(2) * run[0].1;
     let mut farthest: f64 = 0.0;

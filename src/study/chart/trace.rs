@@ -7,11 +7,14 @@ use crate::flow::{Cost, Limits, Reason};
 use crate::oscillator::{Parameters, State, Symbol};
 use crate::study::cycle::cycles;
 use crate::study::escape::escape_point;
-use crate::study::fold::fold;
+use crate::study::fold::fold_within;
 use crate::study::regime::Regime;
 
 /// How often the way from one line to the next is halved at most, to come close to a border.
 pub(super) const HALVINGS: u32 = 8;
+
+/// Relative error of a border that is sought, in units of that of the clearance at a fold.
+const SLACK: f64 = 100.0;
 
 /// Values of a parameter at which lines are drawn: evenly spaced, and denser towards zero, where a sign
 /// changes; zero itself is replaced by its two sides.
@@ -49,6 +52,8 @@ pub(super) struct Tracer<'a> {
     pub across_range: (f64, f64),
     pub limits: &'a Limits<'a>,
     pub cost: Cost,
+    /// Relative error of the clearance at a fold.
+    pub tolerance: f64,
     /// The fold in units of the harmonic one, on the line before.
     pub ratio: f64,
 }
@@ -121,7 +126,7 @@ impl Tracer<'_> {
     }
 
     fn fold(&mut self, parameters: &Parameters) -> Result<f64, Reason> {
-        let (found, cost) = fold(parameters, self.limits)?;
+        let (found, cost) = fold_within(parameters, self.tolerance, self.limits)?;
         self.cost += cost;
         found
             .map(|found| found.d)
@@ -186,7 +191,7 @@ impl Tracer<'_> {
             let unit = Parameters { d: 0.0, d2: 1.0, d3: 0.0, r: product };
             Ok((-escape_point(&unit, self.limits)?.unwrap_or(-2.0) / -d).ln())
         };
-        root((-1.25 * d).ln(), 0.1, |z| excess(z.exp())).map(f64::exp)
+        root((-1.25 * d).ln(), 0.1, SLACK * self.tolerance, |z| excess(z.exp())).map(f64::exp)
     }
 
     /// The value along the line at which the fold is at the line's D; infinite where none is.
@@ -200,7 +205,7 @@ impl Tracer<'_> {
             let found = tracer.fold(&tracer.with(here, z.exp()))?;
             Ok((found / d).ln())
         };
-        root(guess.ln(), STRIDE, |z| excess(self, z)).map(|z| Some(z.exp()))
+        root(guess.ln(), STRIDE, SLACK * self.tolerance, |z| excess(self, z)).map(|z| Some(z.exp()))
     }
 
     /// The fold of one harmonic (48) on the line.
@@ -273,15 +278,14 @@ struct Borders {
     escape: Option<f64>,
 }
 
-/// The zero of an increasing function, near `start`: strides until it lies between, then the Illinois
-/// rule.
+/// Where an increasing function is at most `small`, near `start`: strides until its zero lies between,
+/// then the Illinois rule.
 fn root(
     start: f64,
     stride: f64,
+    small: f64,
     mut function: impl FnMut(f64) -> Result<f64, Reason>,
 ) -> Result<f64, Reason> {
-    /// Accepted value of the function, which is a relative error.
-    const SMALL: f64 = 1e-11;
     const MOST: usize = 60;
     let mut low = (start, function(start)?);
     let mut high = low;
@@ -304,15 +308,15 @@ fn root(
         }
     }
     for _ in 0..MOST {
-        if low.1.abs() <= SMALL {
+        if low.1.abs() <= small {
             return Ok(low.0);
         }
-        if high.1.abs() <= SMALL {
+        if high.1.abs() <= small {
             return Ok(high.0);
         }
         let between = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
         let here = (between, function(between)?);
-        if here.1.abs() <= SMALL || high.0 - low.0 <= SMALL {
+        if here.1.abs() <= small || high.0 - low.0 <= small {
             return Ok(between);
         }
         if here.1 < 0.0 {
