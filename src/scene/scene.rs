@@ -68,13 +68,6 @@ impl Variant {
         }
         problem
     }
-
-    /// The values that are held, as text.
-    #[must_use]
-    pub fn label(&self) -> String {
-        let value = |(symbol, value): (&Symbol, &f64)| format!("{symbol} = {value}");
-        self.held.iter().map(value).collect::<Vec<_>>().join(", ")
-    }
 }
 
 impl Scene {

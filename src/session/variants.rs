@@ -5,6 +5,7 @@
 
 use super::state::Session;
 use crate::flow::Problem;
+use crate::oscillator::Symbol;
 use crate::scene::{Answer, Request, Slot, Variant};
 
 /// A motion that a plot shows, and what tells it from the others there.
@@ -28,9 +29,21 @@ impl Session {
     #[must_use]
     pub fn shown(&self, plot: usize) -> Vec<Shown> {
         let present = || vec![Shown { label: String::new(), problem: self.problem }];
-        let variant =
-            |variant: &Variant| Shown { label: variant.label(), problem: variant.of(self.problem) };
-        self.variants(plot).map_or_else(present, |all| all.iter().map(variant).collect())
+        let variant = |(variant, label): (&Variant, String)| Shown {
+            label,
+            problem: variant.of(self.problem),
+        };
+        let labelled =
+            |all: &[Variant]| all.iter().zip(labels(all, false)).map(variant).collect::<Vec<_>>();
+        self.variants(plot).map_or_else(present, labelled)
+    }
+
+    /// The parameters that all variants of a plot hold alike, as text: what can be said of it once.
+    #[must_use]
+    pub fn held_alike(&self, plot: usize) -> String {
+        let Some(all) = self.variants(plot) else { return String::new() };
+        let held = all.iter().take(1).flat_map(|variant| &variant.held);
+        text(held.filter(|(symbol, value)| is_parameter(**symbol) && alike(all, **symbol, **value)))
     }
 
     /// The last answers of a kind, as a plot has them, stale or not; each with the values that are held.
@@ -48,10 +61,9 @@ impl Session {
         else {
             return Vec::new();
         };
-        let labelled = variants.iter().zip(answers);
-        labelled
-            .filter_map(|(variant, answer)| Some((variant.label(), answer.as_ref().ok()?)))
-            .collect()
+        let labels = labels(variants, slot == Slot::Trajectory).into_iter();
+        let labelled = labels.zip(answers);
+        labelled.filter_map(|(label, answer)| Some((label, answer.as_ref().ok()?))).collect()
     }
 
     /// The kind of question that a plot asks where a layer needs answers of this kind.
@@ -66,4 +78,28 @@ impl Session {
         let members = variants.map(|variant| self.request_for(one, plot, variant.of(self.problem)));
         Some(Request::Family { slot, members: members.collect::<Option<_>>()? })
     }
+}
+
+/// What tells each of some variants from the others: the parameters that they do not hold alike, and
+/// where motions are meant, from where they start.
+fn labels(all: &[Variant], starts: bool) -> Vec<String> {
+    let tells =
+        |symbol: Symbol, value: f64| (starts || is_parameter(symbol)) && !alike(all, symbol, value);
+    let label = |variant: &Variant| {
+        text(variant.held.iter().filter(|(symbol, value)| tells(**symbol, **value)))
+    };
+    all.iter().map(label).collect()
+}
+
+/// Whether all of some variants hold this value.
+fn alike(all: &[Variant], symbol: Symbol, value: f64) -> bool {
+    all.iter().all(|variant| variant.held.get(&symbol) == Some(&value))
+}
+
+fn is_parameter(symbol: Symbol) -> bool {
+    !matches!(symbol, Symbol::Q0 | Symbol::V0)
+}
+
+fn text<'a>(held: impl Iterator<Item = (&'a Symbol, &'a f64)>) -> String {
+    held.map(|(symbol, value)| format!("{symbol} = {value}")).collect::<Vec<_>>().join(", ")
 }

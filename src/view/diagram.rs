@@ -187,12 +187,8 @@ fn branch(picture: &mut Picture, piece: &[BranchPoint], ordinate: Ordinate, labe
         picture.curve(line, rest.iter().take(run + 1).map(place));
         rest = &rest[run..];
     }
-    let window = picture.window;
-    let seen = piece.iter().map(place).filter(|point| window.contains(*point));
-    let highest = seen.max_by(|a, b| a.y.total_cmp(&b.y));
-    if let Some(highest) = highest.filter(|_| !label.is_empty()) {
-        picture.caption(highest, label.to_owned(), Role::Special);
-    }
+    let points: Vec<Point> = piece.iter().map(place).collect();
+    picture.name_curve(&points, label, Role::Special);
 }
 
 /// The largest velocities of a piece.
@@ -249,6 +245,7 @@ fn caption(picture: &mut Picture, special: &Special, ordinate: Ordinate, top: f6
     let height = special.cycle.map_or(top, |cycle| ordinate.of(&cycle));
     picture.items.push(Item::Caption {
         at: Point { x: special.value, y: height },
+        or_at: Vec::new(),
         long: format!("{letter} {}", significant(special.value, 4)).into(),
         short: letter.into(),
         role: Role::Special,

@@ -55,6 +55,21 @@ enum Content {
     Symbol(char, Role),
 }
 
+/// What a cell shows, as far as a text that would stand there is concerned; each hides less than the next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Covering {
+    /// Nothing or texture.
+    Texture,
+    /// A guide.
+    Guide,
+    /// A curve.
+    Curve,
+    /// A letter or a mark.
+    Symbol,
+    /// The cell is not on the raster.
+    Outside,
+}
+
 /// The raster of one plot.
 #[derive(Clone, Debug)]
 pub struct Dots {
@@ -188,12 +203,17 @@ impl Dots {
         }
     }
 
-    /// Whether a cell shows nothing but texture.
+    /// What a cell shows.
     #[must_use]
-    pub fn is_free(&self, column: u16, row: u16) -> bool {
+    pub fn covering(&self, column: u16, row: u16) -> Covering {
         let index = usize::from(row) * usize::from(self.area.width) + usize::from(column);
-        column < self.area.width
-            && matches!(self.cells.get(index), Some(Content::Empty | Content::Texture(..)))
+        match self.cells.get(index).filter(|_| column < self.area.width) {
+            Some(Content::Empty | Content::Texture(..)) => Covering::Texture,
+            Some(Content::Guide(..)) => Covering::Guide,
+            Some(Content::Ink(..)) => Covering::Curve,
+            Some(Content::Symbol(..)) => Covering::Symbol,
+            None => Covering::Outside,
+        }
     }
 
     fn at(&mut self, column: u16, row: u16) -> Option<&mut Content> {
@@ -360,7 +380,9 @@ mod tests {
         dots.stroke([(1.0, 0.0), (2.9, 0.0)], SOLID);
         dots.texture(1, 0, '.', Role::Basin);
         assert_eq!(painted(&dots), [".*F"]);
-        assert!(dots.is_free(0, 0) && !dots.is_free(1, 0) && !dots.is_free(3, 0));
+        let covered = [0, 1, 2, 3].map(|column| dots.covering(column, 0));
+        let expected = [Covering::Texture, Covering::Curve, Covering::Symbol, Covering::Outside];
+        assert_eq!(covered, expected);
     }
 
     #[test]

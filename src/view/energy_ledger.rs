@@ -62,7 +62,7 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
             }
             Entry::Work { work, part, .. } => {
                 let role = if *work < 0.0 { Role::Stable } else { Role::Unstable };
-                plot.thick(Point { x: 0.0, y }, Point { x: *part, y }, role);
+                plot.bar(Point { x: 0.0, y }, Point { x: *part, y }, role);
                 plot.beside_zero(y, *work, DIGITS, *work < 0.0);
             }
             Entry::Residual(part) => {

@@ -6,7 +6,7 @@ use ratatui::layout::Rect;
 use super::look::{Look, Symbols};
 use super::pane::Heading;
 use super::picture::{Item, Mark, Pattern, Picture};
-use super::plot::{Names, Plot};
+use super::plot::{Name, Names, Plot};
 
 /// Plots at least this wide have the long form of captions.
 const WIDE: u16 = 44;
@@ -20,10 +20,28 @@ pub fn paint(area: Rect, picture: Picture, mut heading: Heading, look: &Look, bu
     heading.reading = reading;
     let names = Names { title: &title, x: &x, y: &y };
     let mut plot = Plot::new(area, window, names, &heading, look, buffer);
-    for item in &items {
+    // Texts find their places when all else is there; names of curves last, since they have many places
+    // to go to.
+    let is_text = |item: &Item| matches!(item, Item::Caption { .. } | Item::Cross(_));
+    let (texts, rest): (Vec<&Item>, Vec<&Item>) = items.iter().partition(|item| is_text(item));
+    let names = texts.iter().copied().filter_map(name).collect::<Vec<_>>();
+    let beside_points = texts.iter().copied().filter(|item| name(item).is_none());
+    for item in rest.into_iter().chain(beside_points) {
         put(&mut plot, item, look);
     }
+    plot.names(&names);
     plot.finish(buffer);
+}
+
+/// The name of a curve: a caption that may stand beside several points.
+fn name<'a>(item: &'a Item) -> Option<Name<'a>> {
+    match item {
+        Item::Caption { at, or_at, short, role, .. } if !or_at.is_empty() => {
+            let points = std::iter::once(at).chain(or_at).copied().collect();
+            Some(Name { text: short, points, role: *role })
+        }
+        _ => None,
+    }
 }
 
 fn put(plot: &mut Plot, item: &Item, look: &Look) {
@@ -52,9 +70,10 @@ fn put(plot: &mut Plot, item: &Item, look: &Look) {
                 }
             }
         }
-        Item::Caption { at, long, short, role } => {
-            let text = if plot.inner().width >= WIDE { long } else { short };
-            plot.caption(*at, text, *role);
+        Item::Caption { at, long, short, role, .. } => {
+            let texts: [&str; 2] = [long, short];
+            let texts = if plot.inner().width >= WIDE { &texts[..] } else { &texts[1..] };
+            plot.caption(*at, texts, *role);
         }
         Item::Cross(at) => plot.cross(*at),
     }

@@ -75,6 +75,13 @@ pub fn title(
     if let Some(reading) = &heading.reading {
         right.push(Span::styled(format!(" {reading}"), look.style(Role::Cursor)));
     }
+    // Where there is no room for the whole title, what is held tells more than what is drawn.
+    if let Some((_, held)) = title.split_once(", ") {
+        let taken: usize = right.iter().map(Span::width).sum();
+        if title.len() + 1 + taken > usize::from(area.width) {
+            left = vec![Span::styled(format!("{pointer}{held}"), look.style(role))];
+        }
+    }
     let width = |spans: &[Span]| spans.iter().map(Span::width).sum::<usize>();
     let room = usize::from(area.width).saturating_sub(width(&left) + width(&right));
     if room > names.len() + 2 {

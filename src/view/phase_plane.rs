@@ -14,7 +14,7 @@ use crate::flow::{Outcome, Sample, Trajectory};
 use crate::oscillator::{HalfPlane, Parameters, Side, State};
 use crate::scene::{Answer, Layer, Point, Slot, View};
 use crate::session::{self, Session};
-use crate::study::Cycles;
+use crate::study::{Cycles, Edge};
 
 /// What the plot with this index shows.
 #[must_use]
@@ -43,7 +43,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     if shows(Layer::Basin) {
         for (label, answer) in session.found(Slot::Cycles, index) {
             if let Answer::Cycles(found) = answer {
-                basin(&mut picture, found, &label);
+                basin(&mut picture, found, &label, shows(Layer::Cycles));
             }
         }
     }
@@ -150,12 +150,16 @@ fn flow(parameters: &Parameters, Point { x: q, y: v }: Point) -> Point {
     Point { x: v, y: side.sign() * field.acceleration(position, speed) }
 }
 
-/// The shaded basin of the sticking set, if it has an edge.
-fn basin(picture: &mut Picture, found: &Cycles, label: &str) {
+/// The shaded basin of the sticking set, if it has an edge; an edge that is one of the cycles is drawn
+/// with these, where they are, so that its dashes are those of one curve.
+fn basin(picture: &mut Picture, found: &Cycles, label: &str, with_cycles: bool) {
     let Some(drawn) = found.picture.as_ref().filter(|drawn| !drawn.edge.is_empty()) else { return };
     let edge: Vec<Point> = drawn.edge.iter().map(point).collect();
     let area = Line::new(named("basin of the sticking set", label), Role::Basin, Dash::Solid);
     picture.items.push(Item::Shade(area, edge.clone()));
+    if with_cycles && found.edge == Edge::Cycle {
+        return;
+    }
     picture.curve(Line::new(named("edge of the basin", label), Role::Unstable, Dash::Dashed), edge);
 }
 
@@ -178,11 +182,9 @@ fn cycles(picture: &mut Picture, found: &Cycles, label: &str) {
     for (cycle, curve) in found.cycles.iter().zip(curves) {
         let name = if cycle.stable { "stable cycle" } else { "unstable cycle" };
         let (role, dash) = stability(cycle.stable);
-        picture.curve(Line::new(named(name, label), role, dash), curve.iter().map(point));
-        let top = curve.iter().max_by(|a, b| a.v.total_cmp(&b.v));
-        if let Some(top) = top.filter(|_| !label.is_empty()) {
-            picture.caption(point(top), label.to_owned(), role);
-        }
+        let points: Vec<Point> = curve.iter().map(point).collect();
+        picture.name_curve(&points, label, role);
+        picture.curve(Line::new(named(name, label), role, dash), points);
     }
 }
 

@@ -125,6 +125,9 @@ pub enum Item<'a> {
     Caption {
         /// The point.
         at: Point,
+        /// Points beside which it says the same, for where there is no room beside the first; the best
+        /// first.
+        or_at: Vec<Point>,
         /// The text.
         long: Text,
         /// The text for small plots.
@@ -210,7 +213,24 @@ impl<'a> Picture<'a> {
     /// Adds a text.
     pub fn caption(&mut self, at: Point, text: impl Into<Text>, role: Role) {
         let long = text.into();
-        self.items.push(Item::Caption { at, short: long.clone(), long, role });
+        let or_at = Vec::new();
+        self.items.push(Item::Caption { at, or_at, short: long.clone(), long, role });
+    }
+
+    /// Adds the name of a curve, beside the highest of its points in the window that has room.
+    pub fn name_curve(&mut self, curve: &[Point], name: &str, role: Role) {
+        /// Points that are tried: more than a screen has rows.
+        const PLACES: usize = 60;
+        let mut points: Vec<Point> =
+            curve.iter().copied().filter(|point| self.window.contains(*point)).collect();
+        points.sort_by(|a, b| b.y.total_cmp(&a.y));
+        let step = points.len().div_ceil(PLACES).max(1);
+        let mut places = points.into_iter().step_by(step);
+        if let Some(at) = places.next().filter(|_| !name.is_empty()) {
+            let long: Text = name.to_owned().into();
+            let or_at = places.collect();
+            self.items.push(Item::Caption { at, or_at, short: long.clone(), long, role });
+        }
     }
 
     /// Adds the cross of the cursor, if there is one.
@@ -234,8 +254,9 @@ pub fn of(session: &Session, index: usize) -> Picture<'_> {
         View::Belt => belt::picture(session, index),
     };
     // What all of a plot is held at stands in its title; what tells several apart, at their curves.
-    if let Some([only]) = session.variants(index) {
-        picture.title = format!("{}, {}", picture.title, only.label()).into();
+    let held = session.held_alike(index);
+    if !held.is_empty() {
+        picture.title = format!("{}, {held}", picture.title).into();
     }
     picture
 }

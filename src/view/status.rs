@@ -12,7 +12,7 @@ use super::quantity::with_unit;
 use super::walk;
 use crate::flow::trajectory::choice;
 use crate::flow::{Outcome, Trajectory};
-use crate::scene::{Layer, Slot};
+use crate::scene::{Answer, Layer, Slot};
 use crate::session::Session;
 
 /// Draws the title line: what the scene is, and its name.
@@ -98,6 +98,10 @@ const WORDS: [Words; 4] = [
 
 /// What became of the motion, in a sentence.
 fn outcome(session: &Session) -> (String, Role) {
+    let asked = session.on_show().any(|plot| session.needs(plot).contains(&Slot::Trajectory));
+    if let Some(text) = held_motions(session).filter(|_| !asked) {
+        return (text, Role::Quiet);
+    }
     if !session.layers.contains(&Layer::Trajectory) {
         return ("the motion is not shown".into(), Role::Quiet);
     }
@@ -108,6 +112,30 @@ fn outcome(session: &Session) -> (String, Role) {
         None => ("computing the motion".into(), Role::Quiet),
         Some(found) => alarm(session).unwrap_or_else(|| (sentence(found), Role::Text)),
     }
+}
+
+/// What became of the motions that plots hold, where there are any and all are known.
+fn held_motions(session: &Session) -> Option<String> {
+    let plots = session.on_show().filter(|plot| session.variants(*plot).is_some());
+    let found = plots.flat_map(|plot| session.found(Slot::Trajectory, plot));
+    let outcomes: Vec<Outcome> = found
+        .filter_map(|(_, answer)| match answer {
+            Answer::Trajectory(found) => Some(found.outcome),
+            _ => None,
+        })
+        .collect();
+    let word = |end: &Outcome| match end {
+        Outcome::Captured { .. } => "captured",
+        Outcome::Moving { .. } => "moving",
+        Outcome::Escaped { .. } => "escaped",
+        Outcome::GaveUp { .. } => "given up",
+    };
+    let parts = ["captured", "moving", "escaped", "given up"].into_iter().filter_map(|name| {
+        let number = outcomes.iter().filter(|end| word(end) == name).count();
+        (number > 0).then(|| format!("{number} {name}"))
+    });
+    let parts: Vec<String> = parts.collect();
+    (!parts.is_empty()).then(|| format!("{} motions: {}", outcomes.len(), parts.join(", ")))
 }
 
 /// What is said in place of the outcome where the mass would overtake its belt before.

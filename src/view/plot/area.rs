@@ -1,0 +1,101 @@
+//! Parts of the world filled with textures, and directions on a lattice.
+
+#![expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "an eighth of a turn is an index"
+)]
+
+use ratatui::layout::Rect;
+
+use super::Plot;
+use crate::scene::Point;
+use crate::view::look::Role;
+
+impl Plot<'_> {
+    /// Shades the cells that `curve` does not separate from the origin.
+    ///
+    /// The curve may be closed, or open with ends outside the window.
+    pub fn shade(&mut self, curve: &[Point], role: Role) {
+        let symbol = self.look.symbols().shade;
+        let Rect { width, height, .. } = self.inner;
+        let climbed = crossings(curve, |point| point.x, |point| point.y);
+        for row in 0..height {
+            let y = self.world(0, row).y;
+            let walls = crossings(curve, |point| point.y - y, |point| point.x);
+            let between = |a: f64, b: f64, value: f64| a.min(b) < value && value < a.max(b);
+            let climbs = climbed.iter().filter(|wall| between(0.0, y, **wall)).count();
+            for column in 0..width {
+                let x = self.world(column, row).x;
+                let walks = walls.iter().filter(|wall| between(0.0, x, **wall)).count();
+                if (climbs + walks) % 2 == 0 {
+                    // The blanks belong to the texture: to write them is shorter than to skip them.
+                    let symbol = if (column + row) % 2 == 0 { symbol } else { ' ' };
+                    self.dots.texture(column, row, symbol, role);
+                }
+            }
+        }
+    }
+
+    /// Shades the cells whose middle lies in a part of the world.
+    pub fn shade_where(&mut self, role: Role, inside: impl Fn(Point) -> bool) {
+        let symbol = self.look.symbols().shade;
+        let Rect { width, height, .. } = self.inner;
+        for (row, column) in (0..height).flat_map(|row| (0..width).map(move |column| (row, column)))
+        {
+            if inside(self.world(column, row)) {
+                let symbol = if (column + row) % 2 == 0 { symbol } else { ' ' };
+                self.dots.texture(column, row, symbol, role);
+            }
+        }
+    }
+
+    /// Puts a texture on the cells of parts of the world; blanks leave what is there.
+    pub fn texture_where(&mut self, texture: impl Fn(Point) -> Option<(char, Role)>) {
+        let Rect { width, height, .. } = self.inner;
+        for (row, column) in (0..height).flat_map(|row| (0..width).map(move |column| (row, column)))
+        {
+            // Every other cell of every other line, so that borders and names can be read.
+            if (column + 2 * row) % 4 == 0
+                && let Some((symbol, role)) = texture(self.world(column, row))
+            {
+                self.dots.texture(column, row, symbol, role);
+            }
+        }
+    }
+
+    /// Puts arrows on a sparse lattice of cells, in the direction that `flow` gives there.
+    pub fn arrows(&mut self, role: Role, flow: impl Fn(Point) -> Point) {
+        let arrows = self.look.symbols().arrows;
+        let Rect { width, height, .. } = self.inner;
+        let (dots_across, dots_down) = self.dots.size();
+        let (across, down) =
+            (dots_across / self.window.x.width(), dots_down / self.window.y.width());
+        for row in (1..height).step_by(3) {
+            for column in (3..width).step_by(6) {
+                let direction = flow(self.world(column, row));
+                let angle = (direction.y * down).atan2(direction.x * across);
+                if angle.is_finite() {
+                    let eighth = (angle / std::f64::consts::FRAC_PI_4).round().rem_euclid(8.0);
+                    self.dots.texture(column, row, arrows[eighth as usize % 8], role);
+                }
+            }
+        }
+    }
+}
+
+/// Where a polyline crosses the line `height = 0`, measured by `place`.
+fn crossings(
+    curve: &[Point],
+    height: impl Fn(Point) -> f64,
+    place: impl Fn(Point) -> f64,
+) -> Vec<f64> {
+    let crossing = |pair: &[Point]| {
+        let (before, after) = (height(pair[0]), height(pair[1]));
+        ((before < 0.0) != (after < 0.0)).then(|| {
+            let along = before / (before - after);
+            place(pair[0]) + (place(pair[1]) - place(pair[0])) * along
+        })
+    };
+    curve.windows(2).filter_map(crossing).collect()
+}

@@ -1,0 +1,109 @@
+//! Where the parts of a plot stand on the screen, and which point a cell stands for.
+
+#![expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "fractions of the screen count cells"
+)]
+
+use ratatui::layout::{Position, Rect};
+
+use crate::scene::{Point, Span, Window};
+use crate::view::number::resolved;
+use crate::view::ticks::{Tick, Ticks};
+
+/// Smallest area in which axes stand outside the picture; below it labels lie inside.
+const ROOMY: (u16, u16) = (22, 9);
+
+/// Fewest columns of the labels at the left, so that the picture does not jump when they change.
+const GUTTER: u16 = 5;
+
+/// Where the parts of a plot stand, and the ticks that there is room for.
+pub(super) struct Geometry {
+    /// The cells between the axes.
+    pub inner: Rect,
+    /// Whether the axes stand outside of them.
+    pub roomy: bool,
+    /// Ticks below.
+    pub rightward: Ticks,
+    /// Ticks at the left.
+    pub upward: Ticks,
+}
+
+impl Geometry {
+    pub fn of(area: Rect, window: Window, upward: Option<Ticks>) -> Self {
+        let body = Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area };
+        let roomy = body.width >= ROOMY.0 && body.height >= ROOMY.1;
+        let rows = rows(area);
+        let most = usize::from(rows / 3).clamp(2, 9);
+        let upward =
+            upward.unwrap_or_else(|| Ticks::fitting(window.y, |ticks| ticks.len() <= most));
+        let widest = upward.ticks.iter().map(|tick| tick.label.len()).max().unwrap_or(0) as u16;
+        let gutter = if roomy { (widest + 1).max(GUTTER) } else { 0 };
+        let inner = Rect {
+            x: body.x + gutter,
+            width: body.width.saturating_sub(gutter),
+            height: rows,
+            ..body
+        };
+        let spaced = |gap| Ticks::fitting(window.x, |ticks| apart(ticks, inner.width, gap));
+        // Two ticks make a scale: rather closer together than only one.
+        let rightward = Some(spaced(3)).filter(|ticks| ticks.ticks.len() > 1).unwrap_or(spaced(1));
+        Geometry { inner, roomy, rightward, upward }
+    }
+}
+
+/// Rows of the raster of a plot in `area`.
+#[must_use]
+pub fn rows(area: Rect) -> u16 {
+    let height = area.height.saturating_sub(1);
+    let roomy = area.width >= ROOMY.0 && height >= ROOMY.1;
+    if roomy { height - 2 } else { height }
+}
+
+/// The point of a plot in `area` that a cell stands for, to the digits that cells tell apart; `None`
+/// for the cells outside of its axes. `upward` are the marks of its vertical axis if those are no round
+/// numbers.
+#[must_use]
+pub fn point_at(
+    area: Rect,
+    window: Window,
+    upward: Option<Ticks>,
+    cell: Position,
+) -> Option<Point> {
+    let Geometry { inner, .. } = Geometry::of(area, window, upward);
+    if !inner.contains(cell) {
+        return None;
+    }
+    let fraction = |cell: u16, cells: u16| (f64::from(cell) + 0.5) / f64::from(cells);
+    let right = fraction(cell.x - inner.x, inner.width);
+    let down = fraction(cell.y - inner.y, inner.height);
+    let rounded = |span: Span, fraction, cells: u16| {
+        resolved(span.at(fraction), span.width() / f64::from(cells)).parse().ok()
+    };
+    Some(Point {
+        x: rounded(window.x, right, inner.width)?,
+        y: rounded(window.y, 1.0 - down, inner.height)?,
+    })
+}
+
+/// The cell in which a fraction of the axis lies.
+pub(super) fn column(fraction: f64, cells: u16) -> u16 {
+    ((fraction * f64::from(cells)) as u16).min(cells.saturating_sub(1))
+}
+
+/// Where the label of a tick begins, so that it is centred below its tick and inside the axis.
+pub(super) fn centred(tick: &Tick, cells: u16) -> u16 {
+    let length = tick.label.len() as u16;
+    column(tick.fraction, cells).saturating_sub(length / 2).min(cells.saturating_sub(length))
+}
+
+/// Whether the labels of a horizontal axis fit on it with a gap between them.
+fn apart(ticks: &[Tick], cells: u16, gap: u16) -> bool {
+    let places = || ticks.iter().map(|tick| (centred(tick, cells), tick.label.len() as u16));
+    let fits = places().all(|(start, length)| start + length <= cells);
+    let clear = places()
+        .zip(places().skip(1))
+        .all(|((start, length), (next, _))| start + length + gap <= next);
+    fits && clear
+}

@@ -1,0 +1,230 @@
+//! A plot: title line, axes with ticks, and a raster that takes points of the world.
+//!
+//! This is the one gate between numbers and cells. World coordinates may be anything, also infinite
+//! or not a number; what cannot be shown is left out.
+
+#![expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "fractions of the screen count cells"
+)]
+
+mod area;
+mod geometry;
+mod text;
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+
+use geometry::{Geometry, centred, column};
+pub use geometry::{point_at, rows};
+pub use text::Name;
+
+use super::dots::{Dash, Dots, Pen};
+use super::look::{Look, Role};
+use super::number::resolved;
+use super::pane;
+use super::ticks::{Tick, Ticks};
+use crate::scene::{Point, Window};
+use crate::session::settings::Glyphs;
+
+/// What a plot is called.
+#[derive(Clone, Copy, Debug)]
+pub struct Names<'a> {
+    /// The plot.
+    pub title: &'a str,
+    /// Its horizontal axis.
+    pub x: &'a str,
+    /// Its vertical axis; empty where heights mean nothing.
+    pub y: &'a str,
+}
+
+/// The coordinates of a point, to the digits that can be told apart in a window.
+#[must_use]
+pub fn reading(point: Point, window: Window) -> (String, String) {
+    (resolved(point.x, window.x.width() / CELLS), resolved(point.y, window.y.width() / CELLS))
+}
+
+/// Cells of a large plot: what a cursor can tell apart.
+pub(super) const CELLS: f64 = 200.0;
+
+/// A plot being drawn.
+#[derive(Debug)]
+pub struct Plot<'a> {
+    look: &'a Look,
+    window: Window,
+    inner: Rect,
+    dots: Dots,
+    inside: Option<(Ticks, Ticks)>,
+}
+
+impl<'a> Plot<'a> {
+    /// Writes title and axes into `area`, and gives the raster between them.
+    pub fn new(
+        area: Rect,
+        window: Window,
+        names: Names,
+        heading: &pane::Heading,
+        look: &'a Look,
+        buffer: &mut Buffer,
+    ) -> Self {
+        Self::with_ticks(area, window, names, heading, look, buffer, None)
+    }
+
+    /// The same with these marks on the vertical axis in place of round numbers.
+    pub fn with_ticks(
+        area: Rect,
+        window: Window,
+        names: Names,
+        heading: &pane::Heading,
+        look: &'a Look,
+        buffer: &mut Buffer,
+        upward: Option<Ticks>,
+    ) -> Self {
+        let Geometry { inner, roomy, rightward, mut upward } = Geometry::of(area, window, upward);
+        let (x, y) = (named(names.x, &rightward), named(names.y, &upward));
+        let axes = if names.y.is_empty() {
+            // Heights without meaning have no scale.
+            upward.ticks.clear();
+            x
+        } else {
+            format!("{y} over {x}")
+        };
+        pane::title(area, names.title, &axes, heading, look, buffer);
+        let dots = Dots::new(inner, look.glyphs);
+        let mut plot = Plot { look, window, inner, dots, inside: None };
+        if roomy {
+            plot.axes(&rightward, &upward, buffer);
+        } else {
+            plot.inside = Some((rightward, upward));
+        }
+        plot
+    }
+
+    /// The cells between the axes.
+    #[must_use]
+    pub fn inner(&self) -> Rect {
+        self.inner
+    }
+
+    fn axes(&self, rightward: &Ticks, upward: &Ticks, buffer: &mut Buffer) {
+        let style = self.look.style(Role::Axis);
+        let [line, notch, corner, rule, stub] = self.look.symbols().axis;
+        let Rect { x, y, width, height } = self.inner;
+        let (left, bottom) = (x - 1, y + height);
+        for row in y..bottom {
+            buffer.set_string(left, row, line, style);
+        }
+        buffer.set_string(left, bottom, corner, style);
+        buffer.set_string(x, bottom, rule.repeat(width.into()), style);
+        for tick in &upward.ticks {
+            let row = y + self.row(tick.fraction);
+            let start = left.saturating_sub(tick.label.len() as u16);
+            buffer.set_string(start, row, &tick.label, style);
+            buffer.set_string(left, row, notch, style);
+        }
+        for tick in &rightward.ticks {
+            let column = column(tick.fraction, width);
+            buffer.set_string(x + column, bottom, stub, style);
+            buffer.set_string(x + centred(tick, width), bottom + 1, &tick.label, style);
+        }
+    }
+
+    /// Labels over the edge of the picture, where there is no room beside it.
+    fn labels_inside(&self, rightward: &Ticks, upward: &Ticks, buffer: &mut Buffer) {
+        let style = self.look.style(Role::Axis);
+        let Rect { x, y, width, height } = self.inner;
+        let Some(last) = height.checked_sub(1) else { return };
+        let fits = |tick: &&Tick| tick.label.len() < usize::from(width);
+        for tick in upward.ticks.iter().filter(fits) {
+            let row = self.row(tick.fraction);
+            if row < last {
+                buffer.set_string(x, y + row, &tick.label, style);
+            }
+        }
+        for tick in rightward.ticks.iter().filter(fits) {
+            buffer.set_string(x + centred(tick, width), y + last, &tick.label, style);
+        }
+    }
+
+    fn row(&self, fraction: f64) -> u16 {
+        column(1.0 - fraction, self.inner.height)
+    }
+
+    fn place(&self, point: Point) -> (f64, f64) {
+        let (width, height) = self.dots.size();
+        let Window { x, y } = self.window;
+        (x.fraction(point.x) * width, (1.0 - y.fraction(point.y)) * height)
+    }
+
+    /// The world at the middle of a cell.
+    #[must_use]
+    pub fn world(&self, column: u16, row: u16) -> Point {
+        let fraction = |cell: u16, cells: u16| (f64::from(cell) + 0.5) / f64::from(cells.max(1));
+        Point {
+            x: self.window.x.at(fraction(column, self.inner.width)),
+            y: self.window.y.at(1.0 - fraction(row, self.inner.height)),
+        }
+    }
+
+    /// Draws a polyline.
+    pub fn curve(&mut self, points: impl IntoIterator<Item = Point>, role: Role, dash: Dash) {
+        let placed: Vec<_> = points.into_iter().map(|point| self.place(point)).collect();
+        self.dots.stroke(placed, Pen { role, dash });
+    }
+
+    /// Draws `y(x)`, sampled once for each dot across; where there is no value there is no line.
+    pub fn function(&mut self, role: Role, dash: Dash, value: impl Fn(f64) -> Option<f64>) {
+        let across = self.dots.size().0 as u32;
+        let x = self.window.x;
+        let points: Vec<Point> = (0..=across)
+            .map(|dot| x.at(f64::from(dot) / f64::from(across.max(1))))
+            .map(|x| Point { x, y: value(x).unwrap_or(f64::NAN) })
+            .collect();
+        self.curve(points, role, dash);
+    }
+
+    /// Draws an upright through the whole window.
+    pub fn upright(&mut self, x: f64, role: Role, dash: Dash) {
+        let Window { y, .. } = self.window;
+        self.curve([y.from(), y.to()].map(|y| Point { x, y }), role, dash);
+    }
+
+    /// Draws a straight line two dots thick, or one letter.
+    pub fn bar(&mut self, from: Point, to: Point, role: Role) {
+        let offsets: &[f64] = if self.look.glyphs == Glyphs::Ascii { &[0.0] } else { &[-0.5, 0.5] };
+        for offset in offsets {
+            let ends = [from, to].map(|end| {
+                let (x, y) = self.place(end);
+                (x, y + offset)
+            });
+            self.dots.stroke(ends, Pen { role, dash: Dash::Solid });
+        }
+    }
+
+    /// Puts a symbol on a point, if it is in the window.
+    pub fn mark(&mut self, point: Point, symbol: char, role: Role) {
+        if let Some((column, row)) = self.dots.cell_at(self.place(point)) {
+            self.dots.symbol(column, row, symbol, role);
+        }
+    }
+
+    /// Puts the picture on the screen.
+    pub fn finish(self, buffer: &mut Buffer) {
+        self.dots.paint(buffer, self.look);
+        if let Some((rightward, upward)) = &self.inside {
+            self.labels_inside(rightward, upward, buffer);
+        }
+    }
+}
+
+/// The name of an axis whose labels may count from a base.
+fn named(name: &str, ticks: &Ticks) -> String {
+    match ticks.base.as_deref() {
+        None => name.into(),
+        Some(base) => match base.strip_prefix('-') {
+            Some(positive) => format!("{name}+{positive}"),
+            None => format!("{name}-{base}"),
+        },
+    }
+}
