@@ -27,12 +27,11 @@ fn parameter_sets(count: usize) -> Vec<Parameters> {
     (0..count).map(|_| set()).collect()
 }
 
-/// Sign changes of "the next turn is larger" over a dense scan of start clearances, each turn computed
-/// forward by two half maps: what a search without any cleverness finds.
-fn scanned_cycles(parameters: &Parameters, scan: usize) -> usize {
-    let mut maps =
-        [Side::Upper, Side::Lower].map(|side| HalfMap::new(HalfPlane::new(parameters, side), 1e-9));
-    let mut grows = |clearance: f64| {
+/// Whether a motion that starts with a clearance from the sticking set, first on one side, then on the other,
+/// comes back with a larger one: each turn computed forward by two half maps.
+fn turn_is_larger(parameters: Parameters, sides: [Side; 2], step: f64) -> impl FnMut(f64) -> bool {
+    let mut maps = sides.map(|side| HalfMap::new(HalfPlane::new(&parameters, side), step));
+    move |clearance: f64| {
         let mut length = Length::new(clearance);
         for map in &mut maps {
             match map.swing(length, &Limits { evaluations: u64::MAX, ..LIMITS }) {
@@ -44,7 +43,13 @@ fn scanned_cycles(parameters: &Parameters, scan: usize) -> usize {
             }
         }
         length.value > clearance
-    };
+    }
+}
+
+/// Sign changes of "the next turn is larger" over a dense scan of start clearances: what a search without
+/// any cleverness finds.
+fn scanned_cycles(parameters: &Parameters, scan: usize) -> usize {
+    let mut grows = turn_is_larger(*parameters, [Side::Upper, Side::Lower], 1e-9);
     let (low, high) = (1e-9_f64.ln(), 60_f64.ln());
     let at = |index: usize| (low + (high - low) * index as f64 / scan as f64).exp();
     let signs: Vec<bool> = (0..=scan).map(|index| grows(at(index))).collect();
@@ -214,6 +219,38 @@ fn turn_grows(parameters: &Parameters, q0: f64) -> bool {
     };
     let motion = trajectory(&problem, Detail::default(), &LIMITS);
     motion.crossings.get(1).is_some_and(|crossing| crossing.q > q0)
+}
+
+/// A cycle between a capture and an escape that are less than rounding apart on its left: a turn multiplies
+/// distances by 1e479.
+const STEEP: Parameters = Parameters {
+    d: 0.292_034_178_266_773_2,
+    d2: 0.871_353_162_855_809,
+    d3: -0.017_019_423_100_261_534,
+    r: 0.260_314_952_809_726_05,
+};
+
+#[test]
+fn every_cycle_lies_between_motions_that_come_closer_and_motions_that_go_further() {
+    /// Part of the clearance by which motions start beside the cycle, and the multipliers that leave a
+    /// difference of such motions larger than their error.
+    const BESIDE: f64 = 1e-4;
+    const CLEAR: f64 = 1e-3;
+    let wrong = |parameters: &Parameters| -> Vec<hopfscope::study::Cycle> {
+        let found = cycles(parameters, false, &LIMITS).expect("a search within the budget");
+        let mut grows = turn_is_larger(*parameters, [Side::Lower, Side::Upper], 1e-13);
+        let clear = found.cycles.into_iter().filter(|cycle| cycle.log_multiplier.abs() > CLEAR);
+        clear
+            .filter(|cycle| {
+                let beside = [-BESIDE, BESIDE].map(|part| grows(cycle.clearance * (1.0 + part)));
+                beside != [cycle.stable, !cycle.stable]
+            })
+            .collect()
+    };
+    let sets: Vec<_> = parameter_sets(1000).into_iter().chain([STEEP]).collect();
+    let all: Vec<_> = sets.par_iter().map(|set| (set, wrong(set))).collect();
+    let failed: Vec<_> = all.iter().filter(|(_, wrong)| !wrong.is_empty()).collect();
+    assert!(failed.is_empty(), "{failed:?}");
 }
 
 #[test]

@@ -401,12 +401,38 @@ pub fn polish(
         // Where rounding of the swings is larger than that, Newton's method stops making progress.
         let stalled = change >= 0.5 * last && change <= 16.0 * rounding;
         let settled = change <= rounding || stalled || (blurred && (!flat || change >= 0.5 * last));
-        if settled || high - low <= f64::EPSILON * u.abs() {
+        if settled {
             return Ok(closing);
+        }
+        if high - low <= f64::EPSILON * u.abs() {
+            return closest(equation, u, limits);
         }
         u = if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
     }
     Err(Reason::NoConvergence { sought: "a limit cycle", change })
+}
+
+/// The closing at an unknown known to rounding, by the route on which it closes best.
+///
+/// A swing that magnifies rounding beyond its own size, such as one along the border of escape, is of no
+/// use forward: backward it contracts.
+///
+/// # Errors
+/// The [`Reason`] why a swing failed, or [`Reason::NoConvergence`] where no route closes.
+fn closest(equation: &mut Equation, u: f64, limits: &Limits) -> Result<Closing, Reason> {
+    /// Residual, relative to the clearance, that is rounding seen through a steep map.
+    const CLOSED: f64 = 1e-6;
+    let mut best: Option<Closing> = None;
+    for route in [Route::Mixed, Route::Backward, Route::Forward] {
+        let closing = equation.at(route, u, limits)?;
+        let residual = |closing: &Closing| closing.node.value().abs();
+        if residual(&closing) < best.as_ref().map_or(f64::INFINITY, residual) {
+            best = Some(closing);
+        }
+    }
+    let change = best.as_ref().map_or(f64::INFINITY, |best| best.node.value().abs());
+    best.filter(|_| change <= CLOSED)
+        .ok_or(Reason::NoConvergence { sought: "a limit cycle", change })
 }
 
 /// The cycle with its right turning point near `q_max`, without a search for others; `None` where no
