@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use super::closing::{Equation, Route, first_side};
 use super::continuation::{Curve, CurvePoint};
-use super::cycle::{Cycle, closings};
+use super::cycle::{Cycle, other_closings};
 use super::escape::escape_point;
 use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::{Cost, Limits, Reason};
@@ -163,7 +163,7 @@ impl Tracer<'_> {
         self.curve.side = first_side(&self.curve.parameters_at(0.5 * (from + to)));
         for fraction in PROBES {
             let p = if fraction == 1.0 { to } else { from + fraction * (to - from) };
-            for seed in self.seeds(p)? {
+            for seed in self.seeds(p, &self.known(&curves))? {
                 if curves.iter().any(|curve| passes(curve, &seed)) {
                     continue;
                 }
@@ -187,11 +187,24 @@ impl Tracer<'_> {
         Ok(())
     }
 
-    /// All cycles at one value, as points of curves.
-    fn seeds(&mut self, p: f64) -> Result<Vec<CurvePoint>, Reason> {
+    /// The intervals of u over which all cycles are known: those of the curves, where a curve is a graph
+    /// over the amplitude.
+    fn known(&self, curves: &[Vec<CurvePoint>]) -> Vec<(f64, f64)> {
+        if self.parameter == Symbol::D2 {
+            return Vec::new();
+        }
+        let ends = |curve: &Vec<CurvePoint>| {
+            let (low, high) = (f64::INFINITY, f64::NEG_INFINITY);
+            curve.iter().fold((low, high), |(low, high), it| (low.min(it.u), high.max(it.u)))
+        };
+        curves.iter().map(ends).collect()
+    }
+
+    /// All cycles at one value outside of known intervals of u, as points of curves.
+    fn seeds(&mut self, p: f64, known: &[(f64, f64)]) -> Result<Vec<CurvePoint>, Reason> {
         let parameters = self.curve.parameters_at(p);
         let mut equation = Equation::on_side(&parameters, self.curve.side, self.curve.fineness());
-        let closings = closings(&mut equation, self.curve.limits())?;
+        let closings = other_closings(&mut equation, known, self.curve.limits())?;
         self.curve.cost += equation.cost();
         Ok(closings
             .into_iter()
@@ -287,7 +300,7 @@ impl Tracer<'_> {
         let parameters = self.curve.parameters_at(0.0);
         self.hopf(parameters.r, from, to);
         if self.parameter == Symbol::D && parameters.r > 0.0 && (from..=to).contains(&0.0) {
-            for seed in self.seeds(0.0)? {
+            for seed in self.seeds(0.0, &[])? {
                 let cycle = Some(self.describe(&seed));
                 self.found.special.push(Special::new(SpecialKind::ZeroCrossing, 0.0, cycle));
             }

@@ -189,7 +189,7 @@ fn some_closings(
         let cycle = LinearCycle::new(parameters.d, parameters.r).ok();
         return Ok(cycle.iter().map(Closing::from).collect());
     }
-    searched(equation, most, limits)
+    searched(equation, most, &[], limits)
 }
 
 impl From<&LinearCycle> for Closing {
@@ -264,11 +264,28 @@ impl Edge {
 /// # Errors
 /// The [`Reason`] why a swing failed.
 pub fn closings(equation: &mut Equation, limits: &Limits) -> Result<Vec<Closing>, Reason> {
-    searched(equation, usize::MAX, limits)
+    searched(equation, usize::MAX, &[], limits)
 }
 
-/// As many closings as are wanted, by amplitude, from the search.
-fn searched(equation: &mut Equation, most: usize, limits: &Limits) -> Result<Vec<Closing>, Reason> {
+/// All closings outside of the intervals of `ln c0` in which all are known, by amplitude.
+///
+/// # Errors
+/// The [`Reason`] why a swing failed.
+pub fn other_closings(
+    equation: &mut Equation,
+    known: &[(f64, f64)],
+    limits: &Limits,
+) -> Result<Vec<Closing>, Reason> {
+    searched(equation, usize::MAX, known, limits)
+}
+
+/// As many closings as are wanted, by amplitude, from the search outside of the `known` intervals.
+fn searched(
+    equation: &mut Equation,
+    most: usize,
+    known: &[(f64, f64)],
+    limits: &Limits,
+) -> Result<Vec<Closing>, Reason> {
     /// A search takes some tens of thousands of evaluations; where it takes this many on one half map,
     /// the flow is too stiff for it.
     const BUDGET: u64 = 40_000_000;
@@ -280,7 +297,7 @@ fn searched(equation: &mut Equation, most: usize, limits: &Limits) -> Result<Vec
         return Ok(Vec::new());
     }
     let Some(low) = lower_end(equation, limits)? else { return Ok(Vec::new()) };
-    let brackets = brackets(equation, low, most, limits)?;
+    let brackets = brackets(equation, low, most, known, limits)?;
     equation.want_fastest(true);
     brackets.into_iter().take(most).map(|bracket| polish(equation, bracket, limits)).collect()
 }
@@ -321,12 +338,13 @@ fn upper_end(parameters: &Parameters) -> f64 {
     }
 }
 
-/// Marches outwards in `ln c0` until the end of the domain, collecting brackets of roots until there are
-/// as many as are wanted.
+/// Marches outwards in `ln c0` until the end of the domain, leaving out the `known` intervals, and collects
+/// brackets of roots until there are as many as are wanted.
 fn brackets(
     equation: &mut Equation,
     low: f64,
     most: usize,
+    known: &[(f64, f64)],
     limits: &Limits,
 ) -> Result<Vec<Bracket>, Reason> {
     /// Tolerance of the steps of the search, and the blur of a residual that comes of it; weak damping
@@ -344,14 +362,23 @@ fn brackets(
         Ok(equation.at(Route::Mixed, u, limits)?.node)
     };
     let mut found = Vec::new();
-    let (mut here, mut stride) = (function(low, false)?, STRIDES.0);
+    // Where the next unknown interval begins, at or beyond a place.
+    let unknown = |mut at: f64| {
+        while let Some(&(_, to)) = known.iter().find(|(from, to)| *from <= at && at < *to) {
+            at = to;
+        }
+        at
+    };
+    let (mut here, mut stride) = (function(unknown(low), false)?, STRIDES.0);
     while here.at < high {
-        let next: Node = function((here.at + stride).min(high), false)?;
+        let ahead = known.iter().map(|(from, _)| *from).filter(|from| *from > here.at);
+        let next = function(ahead.fold((here.at + stride).min(high), f64::min), false)?;
         search(here, next, blur, &mut function, &mut found)?;
-        if found.len() >= most || !next.value().is_finite() {
+        let beyond = unknown(next.at);
+        here = if beyond > next.at { function(beyond, false)? } else { next };
+        if found.len() >= most || !here.value().is_finite() {
             break;
         }
-        here = next;
         stride = (1.5 * stride).min(STRIDES.1);
     }
     equation.charge(rough.cost());
