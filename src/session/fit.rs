@@ -7,7 +7,7 @@ use crate::flow::Outcome;
 use crate::oscillator::energy::energy;
 use crate::oscillator::{State, Symbol};
 use crate::scene::ordinate::usual_values;
-use crate::scene::{Axes, Layer, Point, Span, View, Window};
+use crate::scene::{Answer, Axes, Layer, Point, Slot, Span, View, Window};
 use crate::study::trade::Row;
 
 /// Room around what is fitted, as a factor of its width.
@@ -74,23 +74,28 @@ fn trade(session: &Session) -> Option<Window> {
     Some(Window { x: x.scaled(x.center(), ROOM), y: y.scaled(y.center(), ROOM) })
 }
 
-/// Around the motion, the cycles and the sticking set.
+/// Around the motions, the cycles and the sticking sets.
 fn phase(session: &Session, plot: usize) -> Option<Window> {
-    let r = session.problem.parameters.r;
     let start = session.problem.initial;
-    let mut points = vec![Point { x: start.q, y: start.v }];
-    points.extend([Point { x: -r, y: 0.0 }, Point { x: r, y: 0.0 }]);
-    if session.shows_in(Layer::Cycles, plot)
-        && let Some(found) = session.cycles()
-    {
+    let mut points = Vec::new();
+    for shown in session.shown(plot) {
+        let (start, r) = (shown.problem.initial, shown.problem.parameters.r);
+        let at = |x, y| Point { x, y };
+        points.extend([at(start.q, start.v), at(-r, 0.0), at(r, 0.0)]);
+    }
+    let answers = |layer, slot| {
+        let shown = session.shows_in(layer, plot).then(|| session.found(slot, plot));
+        shown.unwrap_or_default().into_iter().map(|(_, answer)| answer)
+    };
+    for answer in answers(Layer::Cycles, Slot::Cycles) {
+        let Answer::Cycles(found) = answer else { continue };
         for cycle in &found.cycles {
             points.push(Point { x: cycle.q_min, y: cycle.v_min });
             points.push(Point { x: cycle.q_max, y: cycle.v_max });
         }
     }
-    if session.shows_in(Layer::Trajectory, plot)
-        && let Some(found) = session.trajectory()
-    {
+    for answer in answers(Layer::Trajectory, Slot::Trajectory) {
+        let Answer::Trajectory(found) = answer else { continue };
         let last = session.contact().map_or(f64::INFINITY, |(tau, _)| tau);
         let samples = found.samples.iter().take_while(|sample| sample.tau <= last);
         let samples = samples.map(|sample| Point { x: sample.q, y: sample.v });
@@ -134,12 +139,14 @@ fn belt(session: &Session) -> Option<Window> {
 /// The same values of the parameter, and the heights that its branch has there.
 fn diagram(session: &Session, plot: usize) -> Option<Window> {
     let x = session.plots[plot].window.x;
-    let (found, ordinate) = (session.branch(plot)?, session.plots[plot].axes.ordinate);
-    let points = found.pieces.iter().flatten().filter(|point| x.contains(point.value));
+    let (found, ordinate) = (session.branches(plot), session.plots[plot].axes.ordinate);
+    let pieces = found.iter().flat_map(|(_, branch)| &branch.pieces);
+    let points = pieces.flatten().filter(|point| x.contains(point.value));
     let mut heights: Vec<f64> = points.map(|point| ordinate.of(&point.cycle)).collect();
     heights.retain(|height| height.is_finite());
     heights.sort_by(f64::total_cmp);
-    let special = found.special.iter().filter(|point| x.contains(point.value));
+    let special = found.iter().flat_map(|(_, branch)| &branch.special);
+    let special = special.filter(|point| x.contains(point.value));
     let special = special.filter_map(|point| point.cycle.map(|cycle| ordinate.of(&cycle)));
     let zero = ordinate.spec().from_zero.then_some(0.0);
     let ends = [1.0 - QUANTILE, QUANTILE].map(|part| quantile(&heights, part));

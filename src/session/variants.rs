@@ -7,6 +7,7 @@ use super::state::Session;
 use crate::flow::Problem;
 use crate::oscillator::Symbol;
 use crate::scene::{Answer, Request, Slot, Variant};
+use crate::study::Branch;
 
 /// A motion that a plot shows, and what tells it from the others there.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,21 +50,40 @@ impl Session {
     /// The last answers of a kind, as a plot has them, stale or not; each with the values that are held.
     #[must_use]
     pub fn found(&self, slot: Slot, plot: usize) -> Vec<(String, &Answer)> {
-        let Some(variants) = self.variants(plot) else {
-            return self
-                .answer(slot, plot)
-                .map(|answer| (String::new(), answer))
-                .into_iter()
-                .collect();
+        let labels = self.variants(plot).map(|all| labels(all, slot == Slot::Trajectory));
+        let label = |index: usize| match &labels {
+            Some(labels) => labels.get(index).cloned(),
+            None => Some(String::new()),
         };
-        let Some(Answer::Family(answers)) =
-            slot.of_variants().and_then(|slot| self.answer(slot, plot))
-        else {
-            return Vec::new();
-        };
-        let labels = labels(variants, slot == Slot::Trajectory).into_iter();
-        let labelled = labels.zip(answers);
-        labelled.filter_map(|(label, answer)| Some((label, answer.as_ref().ok()?))).collect()
+        let numbered = self.numbered(slot, plot).into_iter();
+        numbered.filter_map(|(index, answer)| Some((label(index)?, answer))).collect()
+    }
+
+    /// The same, each with its place among what the plot shows.
+    fn numbered(&self, slot: Slot, plot: usize) -> Vec<(usize, &Answer)> {
+        match self.answer(self.slot_in(slot, plot), plot) {
+            Some(Answer::Family(answers)) => {
+                let numbered = answers.iter().enumerate();
+                numbered
+                    .filter_map(|(index, answer)| Some((index, answer.as_ref().ok()?)))
+                    .collect()
+            }
+            answer => answer.map(|answer| (0, answer)).into_iter().collect(),
+        }
+    }
+
+    /// The last branches computed over the parameter of a diagram, stale or not; each with its place
+    /// among what the plot shows.
+    #[must_use]
+    pub fn branches(&self, plot: usize) -> Vec<(usize, &Branch)> {
+        let over = self.plots.get(plot).map(|plot| plot.axes.abscissa);
+        let found = self.numbered(Slot::Branch, plot).into_iter();
+        found
+            .filter_map(|(index, answer)| match answer {
+                Answer::Branch(found) if Some(found.parameter) == over => Some((index, found)),
+                _ => None,
+            })
+            .collect()
     }
 
     /// The kind of question that a plot asks where a layer needs answers of this kind.

@@ -1,6 +1,6 @@
-//! A computed branch as a way to walk: its points and its special points in the order along the curve.
+//! Computed branches as a way to walk: their points and special points in the order along the curves.
 //!
-//! Everything here is a function of the branch. What is held is the point itself and not its place in
+//! Everything here is a function of the branches, of which a diagram with variants has several. What is held is the point itself and not its place in
 //! the list, so that it stays the same point when the branch is computed anew.
 
 use crate::study::{Branch, BranchPoint, Cycle, Special, SpecialKind};
@@ -8,6 +8,8 @@ use crate::study::{Branch, BranchPoint, Cycle, Special, SpecialKind};
 /// A point of a branch where a walk can stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stop {
+    /// Whose branch it is, of several that a diagram shows.
+    pub variant: usize,
     /// Value of the branch's parameter.
     pub value: f64,
     /// The cycle there; `None` where it has gone to infinity.
@@ -16,19 +18,21 @@ pub struct Stop {
     pub special: Option<SpecialKind>,
 }
 
-impl From<&BranchPoint> for Stop {
-    fn from(point: &BranchPoint) -> Self {
-        Stop { value: point.value, cycle: Some(point.cycle), special: None }
+impl Stop {
+    /// A point of the branch of a variant.
+    #[must_use]
+    pub fn on(variant: usize, point: &BranchPoint) -> Self {
+        Stop { variant, value: point.value, cycle: Some(point.cycle), special: None }
+    }
+
+    /// A special point of the branch of a variant.
+    #[must_use]
+    pub fn at(variant: usize, point: &Special) -> Self {
+        Stop { variant, value: point.value, cycle: point.cycle, special: Some(point.kind) }
     }
 }
 
-impl From<&Special> for Stop {
-    fn from(special: &Special) -> Self {
-        Stop { value: special.value, cycle: special.cycle, special: Some(special.kind) }
-    }
-}
-
-/// The connected pieces of a branch, each as the stops along it.
+/// The connected pieces of branches, each as the stops along it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Way {
     pieces: Vec<Vec<Stop>>,
@@ -40,22 +44,27 @@ pub struct Way {
 type Place = (usize, usize);
 
 impl Way {
-    /// The way along a branch; right is onward, from the end with the smaller value.
+    /// The way along branches, each that of a variant; right is onward, from the end with the smaller
+    /// value.
     #[must_use]
-    pub fn along(branch: &Branch) -> Self {
-        let values = || branch.pieces.iter().flatten().map(|point| point.value);
+    pub fn along(branches: &[(usize, &Branch)]) -> Self {
+        let all = || branches.iter().flat_map(|(_, branch)| &branch.pieces).flatten();
+        let values = || all().map(|point| point.value);
         let (low, high) =
             (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
         let mut way = Way { pieces: Vec::new(), extent: if high > low { high - low } else { 1.0 } };
-        for piece in branch.pieces.iter().filter(|piece| !piece.is_empty()) {
-            let mut stops: Vec<Stop> = piece.iter().map(Stop::from).collect();
-            if stops[0].value > stops[stops.len() - 1].value {
-                stops.reverse();
+        for (variant, branch) in branches {
+            for piece in branch.pieces.iter().filter(|piece| !piece.is_empty()) {
+                let mut stops: Vec<Stop> =
+                    piece.iter().map(|point| Stop::on(*variant, point)).collect();
+                if stops[0].value > stops[stops.len() - 1].value {
+                    stops.reverse();
+                }
+                way.pieces.push(stops);
             }
-            way.pieces.push(stops);
-        }
-        for special in &branch.special {
-            way.insert(Stop::from(special));
+            for special in &branch.special {
+                way.insert(Stop::at(*variant, special));
+            }
         }
         way
     }
@@ -63,7 +72,9 @@ impl Way {
     /// Puts a special point where the detour over it is shortest.
     fn insert(&mut self, special: Stop) {
         let mut best: Option<(f64, Place)> = None;
-        for (index, piece) in self.pieces.iter().enumerate() {
+        let numbered = self.pieces.iter().enumerate();
+        let same = |piece: &[Stop]| piece.first().is_some_and(|it| it.variant == special.variant);
+        for (index, piece) in numbered.filter(|(_, piece)| same(piece)) {
             for gap in 0..=piece.len() {
                 let around = (gap.checked_sub(1).map(|last| &piece[last]), piece.get(gap));
                 if !admits(special.special, around) {
@@ -88,8 +99,11 @@ impl Way {
     }
 
     /// How far apart two points are: in parts of all values, and in the logarithm of the size. A cycle
-    /// at infinity is as far as its value is.
+    /// at infinity is as far as its value is. From one branch to another no way leads.
     fn apart(&self, one: &Stop, other: &Stop) -> f64 {
+        if one.variant != other.variant {
+            return f64::INFINITY;
+        }
         let size = |stop: &Stop| stop.cycle.map(|cycle| cycle.q_max.max(f64::MIN_POSITIVE).ln());
         let values = (one.value - other.value) / self.extent;
         match (size(one), size(other)) {
@@ -195,7 +209,8 @@ mod tests {
     const FOLDED: Parameters = Parameters { d: 0.0, d2: 0.2, d3: 0.5, r: 0.1 };
 
     fn over(parameters: &Parameters, symbol: Symbol, range: (f64, f64)) -> Way {
-        Way::along(&branch(parameters, symbol, range, 60, 1e-8, &Limits::PATIENT).unwrap())
+        let found = branch(parameters, symbol, range, 60, 1e-8, &Limits::PATIENT).unwrap();
+        Way::along(&[(0, &found)])
     }
 
     /// Walks over all landmarks, from the first stop of the first piece back to it.
@@ -228,6 +243,27 @@ mod tests {
         assert_eq!(way.further(&stops[fold], -1), Some(stops[fold - 1]));
         assert_eq!(way.further(&stops[0], isize::MIN), Some(stops[0]));
         assert_eq!(way.further(&stops[0], isize::MAX).as_ref(), stops.last());
+    }
+
+    #[test]
+    fn of_several_branches_each_is_walked_by_itself() {
+        let frictions = [0.05, 0.2];
+        let found = frictions.map(|r| {
+            let parameters = Parameters { r, ..FOLDED };
+            branch(&parameters, Symbol::D, (-0.9, 0.1), 60, 1e-8, &Limits::PATIENT).unwrap()
+        });
+        let way = Way::along(&[(0, &found[0]), (1, &found[1])]);
+        let marks: Vec<_> =
+            landmarks(&way).iter().map(|stop| (stop.variant, stop.special)).collect();
+        let fold = Some(SpecialKind::Fold);
+        let ends = [(0, None), (0, fold), (0, None), (1, None), (1, fold), (1, None)];
+        assert_eq!(marks, ends, "from one branch on to the other, and around");
+        for (index, found) in found.iter().enumerate() {
+            let alone = Way::along(&[(index, found)]);
+            assert_eq!(way.pieces[index], alone.pieces[0]);
+            let held = alone.start(-0.6).unwrap();
+            assert_eq!(way.again(&held), Some(held));
+        }
     }
 
     #[test]

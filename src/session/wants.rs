@@ -18,7 +18,7 @@ use crate::study::accuracy::{Deviation, Reference};
 use crate::study::chart::{Chart, Plane};
 use crate::study::claims::Examined;
 use crate::study::harmonic_error::HarmonicBalance;
-use crate::study::{Branch, Cycles, ReturnMap};
+use crate::study::{Cycles, ReturnMap};
 
 /// Evaluations beyond which an answer may take longer than a quarter of a frame: the next question of its
 /// kind is answered by a draft first.
@@ -256,22 +256,23 @@ impl Session {
         Some((reference.compare(self.trajectory()?).ok()?, reference))
     }
 
+    /// Why the error of the motion on show could not be measured; `None` as long as it may be.
+    #[must_use]
+    pub fn unmeasured(&self) -> Option<Reason> {
+        if !self.measures() || self.is_stale(Slot::Reference, self.plot) {
+            return None;
+        }
+        match self.answer(Slot::Reference, self.plot)? {
+            Answer::Reference(found) => found.as_ref().err().copied(),
+            _ => None,
+        }
+    }
+
     /// The last borders of capture bands computed for a phase plane, stale or not.
     #[must_use]
     pub fn borders(&self, plot: usize) -> Option<&Borders> {
         match self.answer(Slot::Capture, plot)? {
             Answer::Capture(found) => Some(found),
-            _ => None,
-        }
-    }
-
-    /// The last branch computed over the parameter of a diagram, stale or not.
-    #[must_use]
-    pub fn branch(&self, plot: usize) -> Option<&Branch> {
-        match self.answer(Slot::Branch, plot)? {
-            Answer::Branch(found) if found.parameter == self.plots[plot].axes.abscissa => {
-                Some(found)
-            }
             _ => None,
         }
     }

@@ -53,7 +53,11 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
 struct Words {
     evaluations: &'static str,
     error: &'static str,
+    /// The same beside a dial at which another error would be measured.
+    energy: &'static str,
     measured: &'static str,
+    /// Why that is not the measured error.
+    gave_up: &'static str,
     recomputed: &'static str,
     duration: bool,
     /// Whether the choice of `auto` is explained.
@@ -65,7 +69,9 @@ const WORDS: [Words; 4] = [
     Words {
         evaluations: "evaluations",
         error: "energy error",
+        energy: "energy error",
         measured: "measured error",
+        gave_up: " (the tighter run gave up)",
         recomputed: "recomputed ",
         duration: true,
         choice: true,
@@ -73,7 +79,9 @@ const WORDS: [Words; 4] = [
     Words {
         evaluations: "ev",
         error: "error",
+        energy: "energy error",
         measured: "measured",
+        gave_up: " (the tighter run gave up)",
         recomputed: "",
         duration: true,
         choice: true,
@@ -81,7 +89,9 @@ const WORDS: [Words; 4] = [
     Words {
         evaluations: "ev",
         error: "error",
+        energy: "energy error",
         measured: "measured",
+        gave_up: " (tighter run gave up)",
         recomputed: "",
         duration: true,
         choice: false,
@@ -89,7 +99,9 @@ const WORDS: [Words; 4] = [
     Words {
         evaluations: "ev",
         error: "error",
+        energy: "energy error",
         measured: "measured",
+        gave_up: " (gave up)",
         recomputed: "",
         duration: false,
         choice: false,
@@ -209,14 +221,15 @@ fn work(session: &Session, look: &Look, words: &Words) -> String {
             session.problem.quality().map_or("typed", |quality| quality.name).to_owned(),
         );
     }
-    let measured = session.measured();
-    if let Some((deviation, reference)) = measured {
+    if let Some((deviation, reference)) = session.measured() {
         let least = deviation.error.max(reference.error);
         parts.push(format!("{} {}", words.measured, significant(least, 2)));
     } else if let Some(ledger) = motion.ledger {
         let largest = ledger.start.max(ledger.end);
         let error = if largest > 0.0 { (ledger.residual / largest).abs() } else { 0.0 };
-        parts.push(format!("{} {}", words.error, significant(error, 1)));
+        let name = if session.measures() { words.energy } else { words.error };
+        let gave_up = session.unmeasured().map_or("", |_| words.gave_up);
+        parts.push(format!("{name} {}{gave_up}", significant(error, 1)));
     }
     parts.join(&format!(" {} ", look.symbols().dot))
 }

@@ -20,7 +20,7 @@ use crate::scene::{
     Answer, Answered, Axes, Exhibit, LAYERS, Layer, Point, Request, Scene, Slot, Span, View, Window,
 };
 use crate::session::settings::{self, Colors, GLYPHS, Glyphs, THEMES};
-use crate::session::{Key, Msg, Notice, Session, Size, update};
+use crate::session::{Key, Msg, Notice, Session, Size, Stop, update};
 use crate::study::chart::{Band, Chart, Line, Plane};
 use crate::study::harmonic_error::HarmonicBalance;
 use crate::study::measure::Value;
@@ -570,7 +570,7 @@ proptest! {
                         BranchPoint { value: *value, cycle: cycle(*q_max, *q_max > 0.0) }
                     }).collect()];
                     found.special[0].cycle = Some(cycle(value, true));
-                    session.held = Some((&found.special[0]).into());
+                    session.held = Some(Stop::at(0, &found.special[0]));
                 }
                 Ok(Answer::Balance(found)) => found.balanced.clear(),
                 Ok(Answer::ReturnMap(found)) => {
@@ -600,5 +600,25 @@ proptest! {
         for (glyphs, _) in GLYPHS {
             draw(&session, settings::Look { glyphs, ..braille() });
         }
+    }
+}
+
+#[test]
+fn an_error_that_could_not_be_measured_is_not_taken_for_the_measured_one() {
+    for (width, expected) in [
+        (200, "energy error 4e-14 (the tighter run gave up)"),
+        (100, "energy error 4e-14 ("),
+        (80, "energy error 4e-14"),
+    ] {
+        // By hand no reference is known.
+        let mut session = open("supercritical", width, 24);
+        press(&mut session, "}");
+        settle(&mut session);
+        assert!(session.measures() && session.unmeasured().is_some());
+        let drawn = draw(&session, braille());
+        let screen = text(&drawn);
+        assert!(screen.contains(expected), "{width}: {screen}");
+        press(&mut session, "g");
+        assert!(!text(&draw(&session, braille())).contains("gave up"));
     }
 }

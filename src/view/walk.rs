@@ -13,14 +13,18 @@ const DIGITS: [usize; 5] = [10, 8, 6, 5, 4];
 pub fn reading(session: &Session, look: &Look, width: u16) -> Option<String> {
     let held = session.held?;
     let name = session.plots[session.plot].axes.abscissa.spec().name;
-    let line = |digits: &usize| sentence(name, &held, *digits, look.symbols().dot);
+    let shown = session.shown(session.plot);
+    let label = shown.get(held.variant).map_or("", |shown| shown.label.as_str());
+    let line = |digits: &usize| sentence(name, label, &held, *digits, look.symbols().dot);
     // The status line begins with a blank and a symbol.
     let fits = |text: &String| text.chars().count() + 4 <= usize::from(width);
     DIGITS.iter().map(line).find(fits).or_else(|| DIGITS.last().map(line))
 }
 
-fn sentence(name: &str, held: &Stop, digits: usize, dot: &str) -> String {
+fn sentence(name: &str, label: &str, held: &Stop, digits: usize, dot: &str) -> String {
     let mut parts = vec![format!("{name} {}", significant(held.value, digits))];
+    // The values that the variant holds, where the diagram shows several.
+    parts.extend(Some(label.to_owned()).filter(|label| !label.is_empty()));
     if let Some(kind) = held.special {
         parts.insert(0, word(kind).to_owned());
     }

@@ -13,7 +13,7 @@ fn every_parameter_comes_below_the_diagram_and_the_scene_s_own_comes_back() {
     let mut seen = Vec::new();
     for _ in 0..4 {
         assert_eq!(desk.press("X"), [Slot::Branch]);
-        assert_eq!(desk.session.branch(1).unwrap().parameter, desk.session.plots[1].axes.abscissa);
+        assert_eq!(desk.branch(1).parameter, desk.session.plots[1].axes.abscissa);
         let today = desk.session.value(desk.session.plots[1].axes.abscissa);
         assert!(desk.session.plots[1].window.x.contains(today));
         seen.push((desk.session.plots[1].axes.abscissa, desk.session.plots[1].framing));
@@ -48,7 +48,7 @@ fn every_ordinate_is_fitted_to_the_cycles_that_are_there() {
         assert_eq!(desk.press("Y"), [], "{}", row.name);
         assert_eq!(desk.session.plots[1].axes.ordinate, row.ordinate);
         let window = desk.session.plots[1].window;
-        for point in desk.session.branch(1).unwrap().pieces.iter().flatten() {
+        for point in desk.branch(1).pieces.iter().flatten() {
             let height = row.ordinate.of(&point.cycle);
             // The scene's own window is not fitted.
             let shown = window.y.contains(height) || row.ordinate == Ordinate::QMax;

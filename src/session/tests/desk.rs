@@ -72,7 +72,7 @@ fn two_diagrams_over_different_axes_stand_side_by_side() {
     desk.press("<tab>;");
     assert_eq!(desk.press("X"), [Slot::Branch]);
     let over = |desk: &Desk, plot: usize| {
-        (desk.session.plots[plot].axes.abscissa, desk.session.branch(plot).unwrap().parameter)
+        (desk.session.plots[plot].axes.abscissa, desk.branch(plot).parameter)
     };
     assert_eq!(over(&desk, 0), (Symbol::D2, Symbol::D2));
     assert_eq!(over(&desk, 1), (Symbol::D, Symbol::D));

@@ -2,6 +2,7 @@
 //! questions answered by hand.
 
 mod axes;
+mod dependence;
 mod desk;
 mod dial;
 mod entries;
@@ -94,6 +95,11 @@ impl Desk {
             }
         }
         assert!(!self.session.is_busy());
+    }
+
+    /// The first branch of a diagram.
+    fn branch(&self, plot: usize) -> &Branch {
+        self.session.branches(plot)[0].1
     }
 
     /// The line for the user.

@@ -79,8 +79,30 @@ fn there_must_be_a_branch_to_hold() {
     // Zooming computes the branch anew; the hold stays on it.
     desk.press("+");
     let held = held(&desk);
-    let branch = desk.session.branch(1).unwrap();
-    assert!(branch.pieces.iter().flatten().any(|point| Stop::from(point) == held));
+    assert!(desk.branch(1).pieces.iter().flatten().any(|point| Stop::on(0, point) == held));
+}
+
+#[test]
+fn of_variants_the_present_one_is_walked_first_and_each_brings_its_values() {
+    // Three frictions, of which the second is the present one.
+    let mut desk = Desk::open("fig16b");
+    desk.press("<tab>w");
+    assert_eq!(held(&desk).variant, 1);
+    let mut seen = Vec::new();
+    for _ in 0..9 {
+        desk.press("<tab>");
+        seen.push(held(&desk).variant);
+    }
+    assert!([0, 1, 2].iter().all(|variant| seen.contains(variant)), "{seen:?}");
+    while held(&desk).variant != 2 {
+        desk.press("<tab>");
+    }
+    desk.press("<enter>");
+    let taken = desk.session.problem;
+    assert_eq!((taken.parameters.r, taken.parameters.d), (0.3, held(&desk).value));
+    assert_eq!(taken.initial.q, q_max(&desk));
+    assert!(desk.notice().contains(", r = 0.3, and the motion starts on its cycle"));
+    assert_eq!(desk.session.history.depth(), (1, 0));
 }
 
 #[test]

@@ -27,17 +27,26 @@ fn first(session: &Session) -> Result<Stop, &'static str> {
     if !session.shows_in(Layer::Branch, index) {
         return Err("the branch is not shown: n shows it");
     }
-    let branch = session.branch(index).filter(|_| !session.is_stale(Slot::Branch, index));
-    let branch = branch.ok_or("the branch is not computed yet")?;
-    let way = Way::along(branch);
+    let branches = session.branches(index);
+    if branches.is_empty() || is_stale(session, index) {
+        return Err("the branch is not computed yet");
+    }
+    let way = Way::along(&branches);
     let Plot { axes: Axes { abscissa, ordinate, .. }, window, cursor, .. } = &session.plots[index];
-    let found = match cursor {
-        Some(cursor) => way.nearest(|stop| {
+    let found = if let Some(cursor) = cursor {
+        way.nearest(|stop| {
             let height = stop.cycle.map_or(window.y.to(), |cycle| ordinate.of(&cycle));
             let across = window.x.fraction(stop.value) - window.x.fraction(cursor.x);
             across.hypot(window.y.fraction(height) - window.y.fraction(cursor.y))
-        }),
-        None => way.start(session.value(*abscissa)),
+        })
+    } else {
+        // The branch of the present motion, where the plot shows that too.
+        let shown = session.shown(index);
+        let present = shown.iter().position(|shown| shown.problem == session.problem);
+        let own = branches.into_iter().filter(|(variant, _)| Some(*variant) == present);
+        let own = Way::along(&own.collect::<Vec<_>>());
+        let value = session.value(*abscissa);
+        own.start(value).or_else(|| way.start(value))
     };
     found.ok_or("there is no cycle in this diagram to take hold of")
 }
@@ -60,13 +69,19 @@ pub fn go_to_landmark(session: &mut Session, onward: bool) -> Vec<Effect> {
 
 /// Holds another point; returns whether it is another.
 fn moved(session: &mut Session, choose: impl Fn(&Way, &Stop) -> Option<Stop>) -> bool {
-    let Some((branch, held)) = session.branch(session.plot).zip(session.held) else { return false };
-    let found = choose(&Way::along(branch), &held).unwrap_or(held);
+    let Some(held) = session.held else { return false };
+    let found = choose(&Way::along(&session.branches(session.plot)), &held).unwrap_or(held);
     session.held = Some(found);
     found != held
 }
 
-/// Gives the parameter the value of the point, and starts the motion on its cycle, as one change.
+/// Whether the branches on show are not those of today's values.
+fn is_stale(session: &Session, plot: usize) -> bool {
+    session.is_stale(session.slot_in(Slot::Branch, plot), plot)
+}
+
+/// Gives the parameter the value of the point, and starts the motion on its cycle, as one change. On the
+/// branch of a variant the values that it holds come along.
 pub fn take(session: &mut Session) -> Vec<Effect> {
     let Some(held) = session.held else { return Vec::new() };
     let abscissa = session.plots[session.plot].axes.abscissa;
@@ -78,7 +93,9 @@ pub fn take(session: &mut Session) -> Vec<Effect> {
             return Vec::new();
         }
     };
-    let mut problem = session.problem;
+    let shown = session.shown(session.plot);
+    let Some(variant) = shown.get(held.variant) else { return Vec::new() };
+    let mut problem = variant.problem;
     abscissa.set(&mut problem.parameters, &mut problem.initial, value);
     // Where the cycle has gone to infinity there is no start on it: the old one stays.
     if let Some(cycle) = held.cycle {
@@ -86,7 +103,9 @@ pub fn take(session: &mut Session) -> Vec<Effect> {
     }
     change(session, problem);
     let start = held.cycle.map(|_| ", and the motion starts on its cycle").unwrap_or_default();
-    inform(session, format!("{} = {}{start}", spec.name, shortest(value)));
+    let also = if variant.label.is_empty() { "" } else { ", " };
+    let label = &variant.label;
+    inform(session, format!("{} = {}{also}{label}{start}", spec.name, shortest(value)));
     Vec::new()
 }
 
@@ -102,11 +121,12 @@ pub(super) fn keep_hold(session: &mut Session) {
     let Some(held) = session.held else { return };
     let index = session.plot;
     let on_show = session.focus == Pane::Plot(index) && session.shows_in(Layer::Branch, index);
-    session.held = match session.branch(index) {
-        Some(branch) if on_show && session.is_stale(Slot::Branch, index) => {
-            Some(held).filter(|_| !branch.pieces.is_empty())
-        }
-        Some(branch) if on_show => Way::along(branch).again(&held),
-        _ => None,
+    let branches = session.branches(index);
+    session.held = if !on_show {
+        None
+    } else if is_stale(session, index) {
+        Some(held).filter(|_| branches.iter().any(|(_, branch)| !branch.pieces.is_empty()))
+    } else {
+        Way::along(&branches).again(&held)
     };
 }
