@@ -206,6 +206,7 @@ fn at_draft_quality_a_step_of_any_number_fits_in_a_frame() {
         update(session, Msg::Answered(Box::new(answered)));
         evaluations
     };
+    let (mut dearest, mut missed) = ((0, String::new()), Vec::new());
     for scene in library() {
         let mut session = Session::new(Arc::clone(scene), Size { width: 120, height: 40 });
         session.problem = session.problem.at(&DRAFT);
@@ -217,10 +218,13 @@ fn at_draft_quality_a_step_of_any_number_fits_in_a_frame() {
                 }
             }
         }
-        for row in session.rows() {
+        // The other way on the dial leads to a finer quality, whose draft is on show already.
+        let back = session.rows().into_iter().filter(|row| *row != Row::Tolerance);
+        let back = back.map(|row| (row, -1));
+        for (row, count) in session.rows().into_iter().map(|row| (row, 1)).chain(back) {
             let mut stepped = session.clone();
             stepped.selected = row;
-            parameters::step(&mut stepped, 1);
+            parameters::step(&mut stepped, count);
             stepped.selected = Row::Until;
             stepped.effort.measuring = false;
             // The first answer of each kind is what the first picture needs: drafts come before the rest.
@@ -232,7 +236,39 @@ fn at_draft_quality_a_step_of_any_number_fits_in_a_frame() {
                     evaluations += give(&mut stepped, request);
                 }
             }
-            assert!(evaluations < FRAME, "{}, a step of {}: {evaluations}", scene.name, row.name());
+            let step = format!("{}, {count} step of {}", scene.name, row.name());
+            if evaluations >= FRAME {
+                missed.push(format!("{step}: {evaluations}"));
+            }
+            dearest = dearest.max((evaluations, step));
+        }
+    }
+    println!("the dearest key at draft quality: {} evaluations, {}", dearest.0, dearest.1);
+    assert!(missed.is_empty(), "{missed:#?}");
+}
+
+/// Cycles, bands of capture, harmonics and return maps are asked without drafts, because their answers
+/// are cheap: counted on every scene after a step of each of its numbers, shown there or not.
+#[test]
+fn what_has_no_draft_needs_none() {
+    const UNDRAFTED: [Slot; 4] = [Slot::Cycles, Slot::Capture, Slot::Balance, Slot::ReturnMap];
+    for scene in library() {
+        let session = Session::new(Arc::clone(scene), Size { width: 120, height: 40 });
+        let rows = session.rows().into_iter().filter(|row| matches!(row, Row::Parameter(_)));
+        for (row, count) in rows.flat_map(|row| [(row, 1), (row, -1), (row, 10)]) {
+            let mut stepped = session.clone();
+            stepped.selected = row;
+            parameters::step(&mut stepped, count);
+            let plots = 0..stepped.plots.len();
+            let asked =
+                UNDRAFTED.iter().flat_map(|slot| plots.clone().map(move |plot| (slot, plot)));
+            for request in asked.filter_map(|(slot, plot)| stepped.request(*slot, plot)) {
+                assert_eq!(request.draft(), None);
+                let found = answer(&request, &Limits::PATIENT).unwrap();
+                let evaluations = found.cost().evaluations;
+                let step = format!("{}, {count} steps of {}", scene.name, row.name());
+                assert!(evaluations < FRAME / 2, "{step}: {request:?} takes {evaluations}");
+            }
         }
     }
 }
