@@ -1,22 +1,22 @@
 //! `hopfscope figure`: what a scene shows, for papers and for other programs.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
 use super::failure::Failure;
-use super::output::print;
+use super::output::{print, write};
 use super::start::Start;
-use crate::export::figure::{Figure as Drawn, csv, json, svg};
+use crate::export::figure::{self, Figure as Drawn, Form};
 use crate::export::screen;
 use crate::flow::Limits;
-use crate::scene::Answered;
-use crate::scene::answer::{Fineness, answer_for};
+use crate::runtime::print::complete;
+use crate::scene::answer::Fineness;
 use crate::scene::library::library;
-use crate::session::{Msg, Session, Size, update};
+use crate::session::{Session, Size};
 use crate::view::{self, Look};
 
-/// Writes what a scene shows as SVG, CSV or JSON, or draws it here
+/// Writes what a scene shows as SVG, PNG, CSV or JSON, or draws it here
 #[derive(Debug, Args)]
 pub struct Figure {
     /// Scene to show; a scene with several plots gives as many panels
@@ -24,17 +24,21 @@ pub struct Figure {
     named: Option<String>,
     #[command(flatten)]
     start: Start,
-    /// File to write; its ending says in which form: .svg, .csv or .json
+    /// File to write; its ending says in which form: .svg, .png, .csv or .json
     #[arg(long, value_name = "FILE", value_parser = file)]
     output: Option<(PathBuf, Form)>,
+    /// Replaces what FILE holds
+    #[arg(long, requires = "output")]
+    force: bool,
     /// Form of what is written to standard output without --output
-    #[arg(long, value_enum, default_value_t = Form::Text, value_name = "FORM", conflicts_with = "output")]
-    format: Form,
+    #[arg(long, value_enum, default_value_t = Printed::Text, value_name = "FORM",
+          conflicts_with = "output")]
+    format: Printed,
 }
 
-/// The form of a figure.
+/// The form of a figure on standard output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Form {
+pub enum Printed {
     /// Drawn with characters.
     Text,
     /// One JSON document, all digits.
@@ -45,16 +49,10 @@ pub enum Form {
     Svg,
 }
 
-/// The endings of files, and the forms that they ask for.
-const ENDINGS: [(&str, Form); 3] = [("svg", Form::Svg), ("csv", Form::Csv), ("json", Form::Json)];
-
 /// A file with one of the known endings.
 fn file(text: &str) -> Result<(PathBuf, Form), String> {
-    let path = Path::new(text);
-    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-    let form = ENDINGS.iter().find(|(known, _)| known.eq_ignore_ascii_case(ending));
-    form.map(|(_, form)| (path.to_owned(), *form))
-        .ok_or_else(|| "a figure ends in .svg, .csv or .json".to_owned())
+    let path = PathBuf::from(text);
+    Form::of_file(&path).map(|form| (path, form))
 }
 
 /// The size of a panel that is drawn with characters.
@@ -68,40 +66,26 @@ impl Figure {
             return Err(Failure::Usage(format!("which figure? There are {}", names.join(", "))));
         };
         let scene = self.start.scene_named(name)?;
-        let session = answered(Session::new(scene, Size { width: PANEL.0, height: PANEL.1 }))?;
-        let form = self.output.as_ref().map_or(self.format, |(_, form)| *form);
-        let plots = 0..session.plots.len();
-        let text = match form {
-            Form::Text => drawn(&session),
-            Form::Json => json(&Drawn::of(&session, plots)),
-            Form::Csv => csv(&Drawn::of(&session, plots)),
-            Form::Svg => svg(&Drawn::of(&session, plots)),
-        };
-        match &self.output {
-            None => print(&text),
-            Some((path, _)) => std::fs::write(path, text).map_err(|error| {
-                Failure::Unanswered(format!("{} not written: {error}", path.display()))
-            }),
-        }
-    }
-}
-
-/// A session with everything on show computed, as finely as print needs.
-fn answered(mut session: Session) -> Result<Session, Failure> {
-    loop {
-        let open = session.wants().into_iter().find(|request| session.is_open(request));
-        let Some(request) = open else { return Ok(session) };
-        let slot = request.slot();
-        let found = answer_for(&request, Fineness::PRINT, &Limits::PATIENT).map_err(|reason| {
+        let mut session = Session::new(scene, Size { width: PANEL.0, height: PANEL.1 });
+        complete(&mut session, Fineness::PRINT, &Limits::PATIENT).map_err(|(slot, reason)| {
             Failure::Unanswered(format!("{} not computed: {reason}", slot.name()))
         })?;
-        let answered = Answered { request, result: Ok(found), seconds: 0.0, complete: true };
-        update(&mut session, Msg::Answered(Box::new(answered)));
+        let drawn = || Drawn::of(&session, 0..session.plots.len());
+        if let Some((path, form)) = &self.output {
+            let content = figure::file(&drawn(), *form).map_err(Failure::Unanswered)?;
+            return write(path, &content, self.force);
+        }
+        print(&match self.format {
+            Printed::Text => in_letters(&session),
+            Printed::Json => figure::json(&drawn()),
+            Printed::Csv => figure::csv(&drawn()),
+            Printed::Svg => figure::svg(&drawn()),
+        })
     }
 }
 
 /// Every plot, one above the other.
-fn drawn(session: &Session) -> String {
+fn in_letters(session: &Session) -> String {
     let look = Look::new(session.look);
     let panels = view::panels(session, PANEL, &look);
     let parts: Vec<String> = panels.iter().map(screen::text).collect();
@@ -116,6 +100,7 @@ mod tests {
     fn the_ending_of_a_file_says_in_which_form() {
         assert_eq!(file("a/fig.SVG").unwrap().1, Form::Svg);
         assert_eq!(file("fig.json").unwrap().1, Form::Json);
+        assert_eq!(file("fig.png").unwrap().1, Form::Png);
         for wrong in ["fig", "fig.pdf", ".svg", ""] {
             assert!(file(wrong).is_err(), "{wrong}");
         }

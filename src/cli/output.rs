@@ -1,6 +1,7 @@
 //! The options that say how an answer is printed, and the printing.
 
 use std::io::{self, Write};
+use std::path::Path;
 
 use clap::{Args, ValueEnum};
 
@@ -39,4 +40,19 @@ pub fn print(text: &str) -> Result<(), Failure> {
         }
         _ => Ok(()),
     }
+}
+
+/// Writes a file as a whole. One that holds something else is left alone, unless `force` says otherwise.
+pub fn write(path: &Path, content: &[u8], force: bool) -> Result<(), Failure> {
+    if !force && holds_something(path) && std::fs::read(path).ok().as_deref() != Some(content) {
+        let name = path.display();
+        return Err(Failure::Usage(format!("{name} holds something else; --force replaces it")));
+    }
+    std::fs::write(path, content)
+        .map_err(|error| Failure::Unanswered(format!("{} not written: {error}", path.display())))
+}
+
+/// Whether there is a file with something in it; a device or a pipe has nothing to lose.
+pub fn holds_something(path: &Path) -> bool {
+    std::fs::metadata(path).is_ok_and(|file| file.is_file() && file.len() > 0)
 }

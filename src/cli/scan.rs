@@ -13,6 +13,7 @@ use signal_hook::flag;
 
 use super::failure::Failure;
 use super::input;
+use super::output::holds_something;
 use super::progress::Progress;
 use super::start::Start;
 use crate::export::scan::Form;
@@ -56,6 +57,9 @@ pub struct ScanCommand {
     /// Goes on where an earlier scan to the same FILE has ended
     #[arg(long, requires = "output")]
     resume: bool,
+    /// Begins anew where FILE holds something
+    #[arg(long, requires = "output", conflicts_with = "resume")]
+    force: bool,
     /// Computes part K of N only; the parts, put together in their order, are the whole
     #[arg(long, value_name = "K/N", value_parser = shard)]
     shard: Option<Shard>,
@@ -186,6 +190,12 @@ impl ScanCommand {
             super::output::print(&if headed { form.heading(scan) } else { String::new() })?;
             return Ok((Sink::Standard(form), 0));
         };
+        if !self.resume && !self.force && holds_something(path) {
+            let name = path.display();
+            let line =
+                format!("{name} holds something; --resume goes on with it, --force begins anew");
+            return Err(Failure::Usage(line));
+        }
         let limits = Limits { interrupted, ..Limits::PATIENT };
         let opened = if self.resume {
             ScanFile::resume(path, scan, form, headed, points, &limits)

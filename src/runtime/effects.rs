@@ -40,14 +40,14 @@ impl Files {
     /// Writes a file, and says how that ended. Whatever happens, the file is there as a whole or as it
     /// was; one that is there already is replaced only on demand.
     #[must_use]
-    pub fn write(path: &Path, text: &str, replace: bool) -> Notice {
+    pub fn write(path: &Path, content: impl AsRef<[u8]>, replace: bool) -> Notice {
         let path = at_home(path);
         let name = path.display();
         if !replace && path.exists() {
             let text = format!("{name} is there already; with ! behind the command it is replaced");
             return Notice { error: true, text };
         }
-        match write_whole(&path, text) {
+        match write_whole(&path, content.as_ref()) {
             Ok(()) => Notice { error: false, text: format!("written to {name}") },
             Err(why) => Notice { error: true, text: format!("{name} not written: {why}") },
         }
@@ -86,14 +86,14 @@ fn at_home(path: &Path) -> PathBuf {
 }
 
 /// Writes a file beside its place and moves it there.
-fn write_whole(path: &Path, text: &str) -> std::io::Result<()> {
+fn write_whole(path: &Path, content: &[u8]) -> std::io::Result<()> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     let name = path.file_name().ok_or(std::io::ErrorKind::InvalidFilename)?;
     let mut beside = std::ffi::OsString::from(".");
     beside.push(name);
     beside.push(format!(".{}.new", std::process::id()));
     let beside = folder.unwrap_or(Path::new(".")).join(beside);
-    let written = std::fs::write(&beside, text).and_then(|()| std::fs::rename(&beside, path));
+    let written = std::fs::write(&beside, content).and_then(|()| std::fs::rename(&beside, path));
     written.inspect_err(|_| drop(std::fs::remove_file(&beside)))
 }
 

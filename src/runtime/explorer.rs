@@ -10,9 +10,9 @@ use ratatui::layout::{Position, Rect, Size};
 use super::headless::{self, Played};
 use super::launch::{Ended, Options, launch};
 use super::machine::Machine;
-use super::scanning;
 use super::worker::Tell;
-use crate::export::figure::{self, Figure};
+use super::{print, scanning};
+use crate::export::figure::{self, Figure, Form};
 use crate::flow::{Limits, Reason};
 use crate::scene::{Answer, Request, answer as scene_answer};
 use crate::session::replay::Script;
@@ -71,16 +71,15 @@ impl Machine for Explorer {
         view::place(screen, &self.session, Position { x: column, y: row })
     }
 
-    fn figure(&self, path: &Path) -> Option<String> {
-        let ending = path.extension()?.to_str()?.to_ascii_lowercase();
-        let plots = self.session.on_show();
-        let drawn = Figure::of(&self.session, plots);
-        match ending.as_str() {
-            "svg" => Some(figure::svg(&drawn)),
-            "csv" => Some(figure::csv(&drawn)),
-            "json" => Some(figure::json(&drawn)),
-            _ => None,
-        }
+    fn figure(&self, path: &Path, plot: Option<usize>) -> Result<Vec<u8>, String> {
+        let form = Form::of_file(path)?;
+        let mut session = self.session.clone();
+        print::refine(&mut session);
+        let plots: Vec<usize> = match plot {
+            Some(plot) => vec![plot],
+            None => session.on_show().collect(),
+        };
+        figure::file(&Figure::of(&session, plots), form)
     }
 
     fn keepsake(&self) -> Option<String> {

@@ -31,9 +31,12 @@ pub trait Machine {
         None
     }
 
-    /// What it shows, as a figure in the form that the ending of a file asks for.
-    fn figure(&self, _path: &Path) -> Option<String> {
-        None
+    /// What it shows, or one plot of it, as a figure in the form that the ending of a file asks for.
+    ///
+    /// # Errors
+    /// One line that says why there is none.
+    fn figure(&self, _path: &Path, _plot: Option<usize>) -> Result<Vec<u8>, String> {
+        Err("nothing to write".to_owned())
     }
 
     /// Draws the state.

@@ -15,6 +15,7 @@ pub mod launch;
 pub mod machine;
 pub mod panics;
 pub mod picture;
+pub mod print;
 pub mod pump;
 pub mod scan_file;
 pub mod scanning;

@@ -260,17 +260,17 @@ impl<M: Machine, W: Write> Pump<M, W> {
                     let notice = Files::write(&path, &text, replace);
                     self.update(Msg::Told(notice))?
                 }
-                Effect::Figure { path, replace } => {
-                    let notice = match self.machine.figure(&path) {
-                        Some(text) => Files::write(&path, &text, replace),
-                        None => Notice { error: true, text: "nothing to write".to_owned() },
+                Effect::Figure { path, plot, replace } => {
+                    let notice = match self.machine.figure(&path, plot) {
+                        Ok(content) => Files::write(&path, &content, replace),
+                        Err(text) => Notice { error: true, text },
                     };
                     self.update(Msg::Told(notice))?
                 }
                 Effect::Record { path, forget, replace } => {
                     let mut recorder = self.recorder.clone();
                     recorder.forget(if self.player.is_none() { forget } else { 0 });
-                    let notice = Files::write(&path, &recorder.text(&self.started), replace);
+                    let notice = Files::write(&path, recorder.text(&self.started), replace);
                     self.update(Msg::Told(notice))?
                 }
                 Effect::Read { path, purpose } => {

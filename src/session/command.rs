@@ -358,6 +358,8 @@ pub const COMMANDS: &[Command] = &[
         "List what the picture costs, and what each step asks anew", |s, _| lists::open_cost(s)),
     row("retry", &[(Everywhere, &["<f5>"])], "",
         "Compute again what has failed", |s, _| general::retry(s)),
+    row("save-figure", &[(Everywhere, &["<A-f>"]), (Walk, &["<A-f>"])], "",
+        "Write the plot in use to a file, whose name can be changed", |s, _| files::offer_figure(s)),
     row("copy-command", &[(Always, &["<C-y>"])], "",
         "Copy the command line that gives the numbers of this pane", |s, _| copy::command(s)),
     row("copy-screen", &[(Always, &["<A-y>"])], "",

@@ -126,10 +126,12 @@ pub enum Effect {
         /// Whether a file that is there may be replaced.
         replace: bool,
     },
-    /// Write what the plots show as a figure; the ending of the file says in which form.
+    /// Write what plots show as a figure; the ending of the file says in which form.
     Figure {
         /// Where.
         path: PathBuf,
+        /// The plot; `None`: all that are on show.
+        plot: Option<usize>,
         /// Whether a file that is there may be replaced.
         replace: bool,
     },

@@ -63,7 +63,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     if shows(Layer::Branch) {
         for (label, found) in &found {
             for piece in &found.pieces {
-                branch(&mut picture, piece, ordinate, label);
+                branch(&mut picture, piece, &found.special, ordinate, label);
             }
         }
         for piece in found.iter().flat_map(|(_, branch)| &branch.pieces) {
@@ -174,21 +174,47 @@ fn largest_amplitude(diagram: &session::Plot, found: &[(String, &Branch)]) -> f6
     }
 }
 
-/// Adds a piece, run by run of equal stability; neighbouring runs share their border point. One of
+/// Adds a piece, run by run of equal stability; neighbouring runs meet at the fold between them. One of
 /// several branches has its label where it is highest in the window.
-fn branch(picture: &mut Picture, piece: &[BranchPoint], ordinate: Ordinate, label: &str) {
+fn branch(
+    picture: &mut Picture,
+    piece: &[BranchPoint],
+    special: &[Special],
+    ordinate: Ordinate,
+    label: &str,
+) {
     let place = |point: &BranchPoint| Point { x: point.value, y: ordinate.of(&point.cycle) };
-    let mut rest = piece;
-    while let Some(first) = rest.first() {
+    let mut start = None;
+    for run in piece.chunk_by(|one, other| one.cycle.stable == other.cycle.stable) {
+        let (first, last) = (&run[0], &run[run.len() - 1]);
+        let next = piece.iter().skip_while(|point| *point != last).nth(1);
+        let end =
+            next.map(|next| fold_between(last, next, special, ordinate).unwrap_or(place(next)));
         let (role, dash) = stability(first.cycle.stable);
         let name = if first.cycle.stable { "stable cycles" } else { "unstable cycles" };
-        let run = rest.iter().take_while(|point| point.cycle.stable == first.cycle.stable).count();
         let line = Line::new(named(name, label), role, dash);
-        picture.curve(line, rest.iter().take(run + 1).map(place));
-        rest = &rest[run..];
+        picture.curve(line, start.into_iter().chain(run.iter().map(place)).chain(end));
+        // Without a fold the runs share a point, which this one has as its last.
+        start = end.filter(|end| next.is_none_or(|next| *end != place(next)));
     }
     let points: Vec<Point> = piece.iter().map(place).collect();
     picture.name_curve(&points, label, Role::Special);
+}
+
+/// Where the fold between two neighbours stands.
+fn fold_between(
+    one: &BranchPoint,
+    other: &BranchPoint,
+    special: &[Special],
+    ordinate: Ordinate,
+) -> Option<Point> {
+    let (low, high) =
+        (one.cycle.q_max.min(other.cycle.q_max), one.cycle.q_max.max(other.cycle.q_max));
+    let folds = special.iter().filter(|special| special.kind == SpecialKind::Fold);
+    let mut cycles = folds.filter_map(|fold| Some((fold.value, fold.cycle?)));
+    cycles
+        .find(|(_, cycle)| (low..=high).contains(&cycle.q_max))
+        .map(|(value, cycle)| Point { x: value, y: ordinate.of(&cycle) })
 }
 
 /// The largest velocities of a piece.
@@ -217,16 +243,45 @@ fn eigenvalues(picture: &mut Picture, current: f64) {
 
 /// Marks the cycles of a piece at the present value.
 fn here(picture: &mut Picture, piece: &[BranchPoint], ordinate: Ordinate, value: f64) {
-    for pair in piece.windows(2) {
+    for (index, pair) in piece.windows(2).enumerate() {
         let (a, b) = (&pair[0], &pair[1]);
         if (a.value < value) != (b.value < value) {
-            let along = (value - a.value) / (b.value - a.value);
-            let (from, to) = (ordinate.of(&a.cycle), ordinate.of(&b.cycle));
-            let height = from + along * (to - from);
+            let places: Vec<[f64; 2]> =
+                piece.iter().map(|point| [point.value, ordinate.of(&point.cycle)]).collect();
+            let height = between(&places, index, value);
             let mark = if a.cycle.stable { Mark::Stable } else { Mark::Unstable };
             picture.mark(mark, Point { x: value, y: height }, Role::Current);
         }
     }
+}
+
+/// The height of a curve at `value`, which lies between its points number `index` and `index + 1`: on the
+/// polynomials through six points over their numbers, which also lead around a fold.
+///
+/// Points of a branch are spread evenly, so both coordinates are smooth in the number; the error falls
+/// with the sixth power of their distance.
+fn between(places: &[[f64; 2]], index: usize, value: f64) -> f64 {
+    /// Points that a polynomial goes through.
+    const THROUGH: usize = 6;
+    /// Halvings of a step: as many as a number has digits.
+    const HALVINGS: u32 = 53;
+    let first = (index + 1).saturating_sub(THROUGH / 2).min(places.len().saturating_sub(THROUGH));
+    let near = &places[first..places.len().min(first + THROUGH)];
+    let nodes: Vec<f64> = (0_u8..).take(near.len()).map(f64::from).collect();
+    let at = |number: f64, axis: usize| -> f64 {
+        let weight = |own: f64| -> f64 {
+            let others = nodes.iter().filter(|node| **node != own);
+            others.map(|node| (number - node) / (own - node)).product()
+        };
+        nodes.iter().zip(near).map(|(own, place)| weight(*own) * place[axis]).sum()
+    };
+    let (mut low, mut high) = (nodes[index - first], nodes[index + 1 - first]);
+    let rising = places[index][0] < value;
+    for _ in 0..HALVINGS {
+        let middle = f64::midpoint(low, high);
+        if (at(middle, 0) < value) == rising { low = middle } else { high = middle }
+    }
+    at(low, 1)
 }
 
 /// Adds the letter of a special point, and its value where there is room.
@@ -250,4 +305,32 @@ fn caption(picture: &mut Picture, special: &Special, ordinate: Ordinate, top: f6
         short: letter.into(),
         role: Role::Special,
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn between_points_a_curve_is_followed_around_its_fold() {
+        // An arc of a circle that turns back at x = 1, and its ends, where one neighbour is missing.
+        let places: Vec<[f64; 2]> = (0..=128_u32)
+            .map(|step| {
+                let (sin, cos) = (f64::from(step) / 128.0 * 3.0 - 1.5).sin_cos();
+                [cos, sin]
+            })
+            .collect();
+        let mut checked = 0;
+        for (index, pair) in places.windows(2).enumerate() {
+            let value = f64::midpoint(pair[0][0], pair[1][0]);
+            let angle = f64::midpoint(pair[0][1], pair[1][1]);
+            if (pair[0][0] < value) != (pair[1][0] < value) {
+                let expected = (1.0 - value * value).sqrt() * angle.signum();
+                let found = between(&places, index, value);
+                assert!((found - expected).abs() < 1e-10, "{index}: {found} {expected}");
+                checked += 1;
+            }
+        }
+        assert!(checked > 120, "{checked}");
+    }
 }

@@ -59,7 +59,7 @@ fn put(plot: &mut Plot, item: &Item, look: &Look) {
             plot.shade_where(line.role, |point| (*from..=*to).contains(&point.y));
         }
         Item::Texture(at) => plot.texture_where(|point| {
-            at(point).map(|(pattern, role)| (filling(pattern, symbols), role))
+            at(point).map(|fill| (filling(fill.pattern, symbols), fill.role))
         }),
         Item::Arrows(role, flow) => plot.arrows(*role, flow),
         Item::Mark(mark, at, role) => plot.mark(*at, symbol(*mark, symbols), *role),

@@ -88,8 +88,19 @@ pub enum Pattern {
     Unstable,
 }
 
+/// What a part of the world is filled with, and what it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Fill {
+    /// How it is filled.
+    pub pattern: Pattern,
+    /// What it is, as far as its colour goes.
+    pub role: Role,
+    /// What it is called.
+    pub name: &'static str,
+}
+
 /// What fills the world at a point, if anything does.
-pub type Texture<'a> = Box<dyn Fn(Point) -> Option<(Pattern, Role)> + 'a>;
+pub type Texture<'a> = Box<dyn Fn(Point) -> Option<Fill> + 'a>;
 
 /// `y(x)`, or nothing where it has no value.
 pub type Function<'a> = Box<dyn Fn(f64) -> Option<f64> + 'a>;

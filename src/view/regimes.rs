@@ -6,7 +6,7 @@
 
 use super::dots::Dash;
 use super::look::Role;
-use super::picture::{Item, Line, Mark, Pattern, Picture};
+use super::picture::{Fill, Item, Line, Mark, Pattern, Picture};
 use super::plot::reading;
 use crate::oscillator::Symbol;
 use crate::scene::{Axes, Layer, Point, View};
@@ -67,15 +67,16 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
 }
 
 /// What a regime looks like; nothing where every kick is survived.
-fn texture(regime: Regime) -> Option<(Pattern, Role)> {
-    match regime {
-        Regime::Global | Regime::Neutral => None,
-        Regime::Finite => Some((Pattern::Shade, Role::Unstable)),
-        Regime::Coexisting => Some((Pattern::Shade, Role::Stable)),
-        Regime::Escape => Some((Pattern::Arrows, Role::Field)),
-        Regime::Cycle => Some((Pattern::Stable, Role::Stable)),
-        Regime::Repelling => Some((Pattern::Unstable, Role::Unstable)),
-    }
+fn texture(regime: Regime) -> Option<Fill> {
+    let (pattern, role) = match regime {
+        Regime::Global | Regime::Neutral => return None,
+        Regime::Finite => (Pattern::Shade, Role::Unstable),
+        Regime::Coexisting => (Pattern::Shade, Role::Stable),
+        Regime::Escape => (Pattern::Arrows, Role::Field),
+        Regime::Cycle => (Pattern::Stable, Role::Stable),
+        Regime::Repelling => (Pattern::Unstable, Role::Unstable),
+    };
+    Some(Fill { pattern, role, name: regime.name() })
 }
 
 /// Where a parameter changes its sign; D = 0 is the Hopf point of the system without friction.

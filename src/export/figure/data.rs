@@ -58,6 +58,7 @@ pub(super) fn remarks(figure: &Figure) -> Vec<String> {
         format!("D = {:?}, D2 = {:?}, D3 = {:?}, r = {:?}", p.d, p.d2, p.d3, p.r),
         format!("q0 = {:?}, v0 = {:?}, until = {:?}", start.q, start.v, figure.until),
         format!("method {}, tolerance {:?}, {}", figure.method, figure.tolerance, figure.program),
+        figure.units.to_owned(),
     ];
     for (number, panel) in (1..).zip(&figure.panels) {
         remarks.push(format!(

@@ -3,10 +3,15 @@
 //! A [`Figure`] is what the plots of a session show, with every function sampled and every line a list
 //! of points; each form writes the same data, and with it the parameters, method, tolerance and version
 //! that it was computed with. The SVG is written here: the plotting libraries at hand round coordinates
-//! to whole pixels and have no dashed curves, and a picture of lines and letters needs neither.
+//! to whole pixels and have no dashed curves, and a picture of lines and letters needs neither. The PNG is
+//! that SVG, painted.
 
 mod data;
+mod filled;
 mod layout;
+mod panel;
+#[cfg(feature = "png")]
+mod png;
 mod region;
 mod sample;
 mod svg;
@@ -14,15 +19,72 @@ mod svg;
 pub use data::{csv, json};
 pub use svg::svg;
 
+use std::collections::BTreeMap;
+use std::path::Path;
+
 use serde::Serialize;
 
 use crate::flow::Problem;
 use crate::oscillator::{Parameters, State};
 use crate::scene::{Point, Window};
 use crate::session::Session;
-use crate::view::dots::Dash;
 use crate::view::look::Role;
-use crate::view::picture::{self, Item, Line, Picture};
+use crate::view::picture;
+
+/// The form in which a figure is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// A vector picture.
+    Svg,
+    /// The same picture as dots, [`SCALE`] to a pixel of it.
+    Png,
+    /// One row a point, all digits.
+    Csv,
+    /// One JSON document, all digits.
+    Json,
+}
+
+/// The endings of files, and the forms that they ask for.
+const ENDINGS: [(&str, Form); 4] =
+    [("svg", Form::Svg), ("png", Form::Png), ("csv", Form::Csv), ("json", Form::Json)];
+
+/// Dots of a PNG along a pixel of the vector picture, which is a 96th of an inch: 288 to the inch.
+pub const SCALE: f32 = 3.0;
+
+impl Form {
+    /// The form that the ending of a file asks for.
+    ///
+    /// # Errors
+    /// One line with the endings that there are.
+    pub fn of_file(path: &Path) -> Result<Form, String> {
+        let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+        let form = ENDINGS.iter().find(|(known, _)| known.eq_ignore_ascii_case(ending));
+        form.map(|(_, form)| *form)
+            .ok_or_else(|| "a figure ends in .svg, .png, .csv or .json".to_owned())
+    }
+}
+
+/// A figure as the content of a file.
+///
+/// # Errors
+/// One line if the picture cannot be painted; only for [`Form::Png`].
+pub fn file(figure: &Figure, form: Form) -> Result<Vec<u8>, String> {
+    match form {
+        Form::Svg => Ok(svg(figure).into_bytes()),
+        Form::Csv => Ok(csv(figure).into_bytes()),
+        Form::Json => Ok(json(figure).into_bytes()),
+        #[cfg(feature = "png")]
+        Form::Png => png::png(&svg(figure)),
+        #[cfg(not(feature = "png"))]
+        Form::Png => {
+            Err("this program was built without .png; .svg, .csv and .json are there".into())
+        }
+    }
+}
+
+/// What all numbers of a figure are measured in.
+const UNITS: &str =
+    "dimensionless, as in equation (4): time tau in 1/omega_0, q in x0, v in omega_0 x0";
 
 /// What plots show, as data.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -33,7 +95,9 @@ pub struct Figure {
     pub title: String,
     /// Name and version of the program.
     pub program: String,
-    /// Parameters of the present motion; curves with others name them.
+    /// What the numbers are measured in.
+    pub units: &'static str,
+    /// Parameters of the present motion; curves have their own.
     pub parameters: Parameters,
     /// Where the motion starts.
     pub initial: State,
@@ -71,9 +135,6 @@ pub struct Panel {
     /// Lines to be read against.
     #[serde(skip)]
     pub guides: Vec<Vec<Point>>,
-    /// Rectangles that are filled: two corners, and what they stand for.
-    #[serde(skip)]
-    pub fills: Vec<(Point, Point, Role)>,
     /// Directions: where, and which way in the world.
     #[serde(skip)]
     pub arrows: Vec<(Point, Point)>,
@@ -99,6 +160,8 @@ pub struct Curve {
     pub role: &'static str,
     /// How it is drawn: solid, dashed, dotted, sparse or thick.
     pub style: &'static str,
+    /// The parameters that hold all along it; those on an axis of the panel are left out.
+    pub parameters: BTreeMap<&'static str, f64>,
     /// Its points; `null` interrupts it.
     pub points: Vec<[f64; 2]>,
     /// What it stands for.
@@ -113,6 +176,8 @@ pub struct Area {
     pub name: String,
     /// What it stands for.
     pub role: &'static str,
+    /// The parameters that hold all over it; those on an axis of the panel are left out.
+    pub parameters: BTreeMap<&'static str, f64>,
     /// Its edge. Where this is not closed, the area is the side of it that holds the origin.
     pub edge: Vec<[f64; 2]>,
     /// What it stands for.
@@ -146,119 +211,13 @@ impl Figure {
             figure: session.scene.name.clone(),
             title: session.scene.title.clone(),
             program: format!("hopfscope {}", env!("CARGO_PKG_VERSION")),
+            units: UNITS,
             parameters,
             initial,
             until,
             method: method.to_string(),
             tolerance,
-            panels: plots.into_iter().map(|plot| Panel::of(&picture::of(session, plot))).collect(),
+            panels: plots.into_iter().map(|plot| Panel::of(session, plot)).collect(),
         }
     }
-}
-
-impl Panel {
-    /// A picture with every function sampled.
-    #[must_use]
-    pub fn of(picture: &Picture) -> Self {
-        let Picture { title, x, y, window, .. } = picture;
-        let axis = |name: &str, span: crate::scene::Span| Axis {
-            name: name.to_owned(),
-            from: span.from(),
-            to: span.to(),
-        };
-        let mut panel = Panel {
-            title: title.to_string(),
-            x: axis(x, window.x),
-            y: axis(y, window.y),
-            curves: Vec::new(),
-            areas: Vec::new(),
-            marks: Vec::new(),
-            window: *window,
-            captions: Vec::new(),
-            guides: Vec::new(),
-            fills: Vec::new(),
-            arrows: Vec::new(),
-        };
-        for item in &picture.items {
-            panel.add(item);
-        }
-        panel
-    }
-
-    fn add(&mut self, item: &Item) {
-        let Window { x, y } = self.window;
-        match item {
-            Item::Curve(line, points) => self.line(line, points.clone()),
-            Item::Graph(line, value) => self.line(line, sample::graph(value, self.window)),
-            Item::Upright(line, at) => {
-                self.line(line, [y.from(), y.to()].map(|y| Point { x: *at, y }).to_vec());
-            }
-            Item::Bar(line, from, to) => {
-                self.curves.push(Curve { style: "thick", ..curve(line, &[*from, *to]) });
-            }
-            Item::Shade(line, edge) => self.area(line, edge),
-            Item::Columns(line, from, to) => {
-                self.area(line, &rectangle([*from, *to], [y.from(), y.to()]));
-            }
-            Item::Rows(line, from, to) => {
-                self.area(line, &rectangle([x.from(), x.to()], [*from, *to]));
-            }
-            Item::Arrows(_, flow) => {
-                self.arrows.extend(sample::lattice(self.window).map(|at| (at, flow(at))));
-            }
-            Item::Mark(mark, at, role) => self.mark(*mark, *at, *role),
-            Item::Marks(mark, points, role) => {
-                for at in points {
-                    self.mark(*mark, *at, *role);
-                }
-            }
-            Item::Caption { at, long, role, .. } => {
-                self.captions.push((*at, long.to_string(), *role));
-            }
-            Item::Texture(at) => self.fills.extend(sample::fills(at, self.window)),
-            Item::Cross(_) => {}
-        }
-    }
-
-    /// A line with a name is data, one without is there to be read against.
-    fn line(&mut self, line: &Line, points: Vec<Point>) {
-        if line.name.is_empty() {
-            self.guides.push(points);
-        } else {
-            self.curves.push(curve(line, &points));
-        }
-    }
-
-    fn area(&mut self, line: &Line, edge: &[Point]) {
-        self.areas.push(Area {
-            name: line.name.to_string(),
-            role: line.role.name(),
-            edge: pairs(edge),
-            pen: line.role,
-        });
-    }
-
-    fn mark(&mut self, mark: picture::Mark, at: Point, pen: Role) {
-        self.marks.push(Mark { name: mark.name(), x: at.x, y: at.y, mark, pen });
-    }
-}
-
-fn curve(line: &Line, points: &[Point]) -> Curve {
-    let style = match line.dash {
-        Dash::Solid => "solid",
-        Dash::Dashed => "dashed",
-        Dash::Dotted => "dotted",
-        Dash::Sparse => "sparse",
-    };
-    let name = line.name.to_string();
-    Curve { name, role: line.role.name(), style, points: pairs(points), pen: line.role }
-}
-
-fn pairs(points: &[Point]) -> Vec<[f64; 2]> {
-    points.iter().map(|point| [point.x, point.y]).collect()
-}
-
-fn rectangle([left, right]: [f64; 2], [bottom, top]: [f64; 2]) -> Vec<Point> {
-    let corners = [(left, bottom), (right, bottom), (right, top), (left, top), (left, bottom)];
-    corners.map(|(x, y)| Point { x, y }).to_vec()
 }

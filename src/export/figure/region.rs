@@ -7,14 +7,15 @@ type Pair = [f64; 2];
 /// How far around the window an open curve is closed, in sizes of the window.
 const AROUND: f64 = 4.0;
 
-/// The loops whose even-odd filling is the area: the curve, closed around the window where it is open,
-/// and a rectangle around all where the origin lies outside of that.
+/// The loops whose even-odd filling is the area: the curve where it is closed, else the curve closed
+/// around the window, and a rectangle around all where the origin lies outside of that.
 pub(super) fn loops(edge: &[Pair], window: Window) -> Vec<Vec<Pair>> {
     let (Some(first), Some(last)) = (edge.first(), edge.last()) else { return Vec::new() };
-    let mut closed = edge.to_vec();
-    if first != last {
-        closed.extend(detour(*last, *first, window));
+    if first == last {
+        return vec![edge.to_vec()];
     }
+    let mut closed = edge.to_vec();
+    closed.extend(detour(*last, *first, window));
     if contains(&closed, [0.0, 0.0]) { vec![closed] } else { vec![rectangle(window), closed] }
 }
 

@@ -1,8 +1,6 @@
 //! Functions as points, as finely as print can show.
 
 use crate::scene::{Point, Window};
-use crate::view::look::Role;
-use crate::view::picture::Texture;
 
 /// Intervals that are looked at in any case, so that no narrow feature hides between two points.
 const INTERVALS: u32 = 256;
@@ -49,33 +47,6 @@ fn halve(
         }
     }
     points.push(to);
-}
-
-/// What fills the window, as rectangles that are one row of a fine raster high.
-pub(super) fn fills(at: &Texture, window: Window) -> Vec<(Point, Point, Role)> {
-    const COLUMNS: u32 = 190;
-    const ROWS: u32 = 150;
-    let edge = |index: u32, count: u32| f64::from(index) / f64::from(count);
-    let mut runs: Vec<(Point, Point, Role)> = Vec::new();
-    for row in 0..ROWS {
-        let (low, high) = (window.y.at(edge(row, ROWS)), window.y.at(edge(row + 1, ROWS)));
-        let mut previous = None;
-        for column in 0..COLUMNS {
-            let left = window.x.at(edge(column, COLUMNS));
-            let right = window.x.at(edge(column + 1, COLUMNS));
-            let middle = Point { x: f64::midpoint(left, right), y: f64::midpoint(low, high) };
-            let role = at(middle).map(|(_, role)| role);
-            match (role, runs.last_mut()) {
-                (Some(role), Some(run)) if previous == Some(role) => run.1.x = right,
-                (Some(role), _) => {
-                    runs.push((Point { x: left, y: low }, Point { x: right, y: high }, role));
-                }
-                (None, _) => {}
-            }
-            previous = role;
-        }
-    }
-    runs
 }
 
 /// Points on a lattice of the window.

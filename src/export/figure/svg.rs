@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::data::remarks;
 use super::layout::{self, ENTRY, Frame, HEAD, MARGIN, PLOT};
+use super::panel::common;
 use super::region::loops;
 use super::{Area, Curve, Figure, Mark, Panel};
 use crate::scene::Point;
@@ -38,9 +39,6 @@ fn dashes(style: &str) -> &'static str {
         _ => "",
     }
 }
-
-/// Colour of shaded areas.
-const SHADE: &str = "#dbe7f3";
 
 /// The figure as an SVG document.
 #[must_use]
@@ -87,19 +85,10 @@ fn draw(out: &mut String, number: u32, panel: &Panel, frame: Frame) {
          height=\"{height}\"/></clipPath>\n<g clip-path=\"url(#{clip})\" fill=\"none\" \
          stroke-linejoin=\"round\">\n"
     );
-    for (from, to, role) in &panel.fills {
-        let (x, y) = frame.spot(Point { x: from.x, y: to.y });
-        let (right, bottom) = frame.spot(Point { x: to.x, y: from.y });
-        let (_, color) = ink(*role);
-        let (width, height) = (right - x, bottom - y);
-        let _ = writeln!(
-            out,
-            "<rect x=\"{x:.2}\" y=\"{y:.2}\" width=\"{width:.2}\" height=\"{height:.2}\" \
-             fill=\"{color}\" fill-opacity=\"0.12\"/>"
-        );
-    }
-    for area in &panel.areas {
-        shade(out, area, frame);
+    // Parts of the same area are one path: between two paths a hair of paper would show.
+    for same in panel.areas.chunk_by(|one, other| (&one.name, one.pen) == (&other.name, other.pen))
+    {
+        shade(out, same, frame);
     }
     for (at, way) in &panel.arrows {
         arrow(out, *at, *way, frame);
@@ -168,24 +157,30 @@ fn near(x: f64, y: f64, frame: Frame) -> bool {
     (-3.0..=4.0).contains(&window.x.fraction(x)) && (-3.0..=4.0).contains(&window.y.fraction(y))
 }
 
-fn shade(out: &mut String, area: &Area, frame: Frame) {
-    let path: String = loops(&area.edge, frame.window)
-        .iter()
-        .map(|polygon| {
-            let mut path = String::new();
-            for (index, [x, y]) in polygon.iter().enumerate() {
-                let (across, along) = frame.spot(Point { x: *x, y: *y });
-                let (across, along) = (across.clamp(-1e5, 1e5), along.clamp(-1e5, 1e5));
-                let _ =
-                    write!(path, "{}{across:.3} {along:.3}", if index == 0 { 'M' } else { 'L' });
-            }
-            path + "Z"
-        })
-        .collect();
+fn shade(out: &mut String, areas: &[Area], frame: Frame) {
+    let Some(Area { pen, .. }) = areas.first() else { return };
+    let mut path = String::new();
+    for polygon in areas.iter().flat_map(|area| loops(&area.edge, frame.window)) {
+        for (index, [x, y]) in polygon.iter().enumerate() {
+            let (across, along) = frame.spot(Point { x: *x, y: *y });
+            let (across, along) = (across.clamp(-1e5, 1e5), along.clamp(-1e5, 1e5));
+            let _ = write!(path, "{}{across:.3} {along:.3}", if index == 0 { 'M' } else { 'L' });
+        }
+        path.push('Z');
+    }
+    let (color, opacity) = shading(*pen);
     let _ = writeln!(
         out,
-        "<path d=\"{path}\" fill=\"{SHADE}\" fill-opacity=\"0.75\" fill-rule=\"evenodd\"/>"
+        "<path d=\"{path}\" fill=\"{color}\" fill-opacity=\"{opacity}\" fill-rule=\"evenodd\"/>"
     );
+}
+
+/// Colour and opacity of shaded areas.
+fn shading(role: Role) -> (&'static str, f64) {
+    match role {
+        Role::Stable | Role::Unstable | Role::Field => (ink(role).1, 0.12),
+        _ => ("#dbe7f3", 0.75),
+    }
 }
 
 fn arrow(out: &mut String, at: Point, way: Point, frame: Frame) {
@@ -327,12 +322,12 @@ fn captions(out: &mut String, panel: &Panel, frame: Frame) {
 #[derive(Clone, PartialEq)]
 enum Entry {
     Line(String, Role, &'static str),
-    Area(String),
+    Area(String, Role),
 }
 
 /// Everything with a name, once; which of several variants a curve is stands beside it.
 fn legend(figure: &Figure) -> Vec<Entry> {
-    let common = |name: &str| name.split(", ").next().unwrap_or(name).to_owned();
+    let common = |name: &str| common(name).to_owned();
     let mut entries = Vec::new();
     let mut add = |entry: Entry| {
         if !entries.contains(&entry) {
@@ -345,7 +340,7 @@ fn legend(figure: &Figure) -> Vec<Entry> {
                 add(Entry::Line(common(name), *pen, style));
             }
         }
-        panel.areas.iter().for_each(|area| add(Entry::Area(common(&area.name))));
+        panel.areas.iter().for_each(|area| add(Entry::Area(common(&area.name), area.pen)));
     }
     entries
 }
@@ -362,10 +357,12 @@ fn sample(out: &mut String, entry: &Entry, (x, y): (f64, f64)) {
             );
             name
         }
-        Entry::Area(name) => {
+        Entry::Area(name, role) => {
+            let (color, opacity) = shading(*role);
             let _ = writeln!(
                 out,
-                "<rect x=\"{x:.1}\" y=\"{:.1}\" width=\"30\" height=\"10\" fill=\"{SHADE}\"/>",
+                "<rect x=\"{x:.1}\" y=\"{:.1}\" width=\"30\" height=\"10\" fill=\"{color}\" \
+                 fill-opacity=\"{opacity}\"/>",
                 y - 5.0
             );
             name

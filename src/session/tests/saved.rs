@@ -110,6 +110,19 @@ fn lines_write_open_and_play_files_without_touching_any() {
     assert!(matches!(other.effects.last(), Some(Effect::Figure { replace: false, .. })));
     other.press(":figure<space>a.pdf<enter> <esc>");
     assert!(matches!(other.effects.last(), Some(Effect::Figure { .. })), "and no other file");
+    other.press("<A-f><enter>");
+    let offered =
+        Effect::Figure { path: "supercritical-2.svg".into(), plot: Some(1), replace: false };
+    assert_eq!(other.effects.last(), Some(&offered));
+    other.press("W <A-f> <backspace*3>png<enter>");
+    let offered =
+        Effect::Figure { path: "supercritical-3.png".into(), plot: Some(2), replace: false };
+    assert_eq!(other.effects.last(), Some(&offered));
+    other.press("Q :figure-pane!<space>a.csv<enter>");
+    assert!(matches!(
+        other.effects.last(),
+        Some(Effect::Figure { plot: Some(1), replace: true, .. })
+    ));
     other.press("<right> :record<space>a.keys<enter>");
     assert!(matches!(other.effects.last(), Some(Effect::Record { forget: 15, .. })));
     let path = PathBuf::from("a.keys");

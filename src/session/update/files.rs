@@ -3,8 +3,8 @@
 
 use std::path::{Path, PathBuf};
 
-use super::macros;
 use super::{inform, refuse};
+use super::{macros, prompt};
 use crate::session::line::letter;
 use crate::session::message::{Effect, Purpose};
 use crate::session::replay::{self, Script};
@@ -35,17 +35,25 @@ pub(in crate::session) fn ask(path: &str, purpose: Purpose) -> Vec<Effect> {
 }
 
 /// Endings of the files of figures.
-const FIGURES: [&str; 3] = ["svg", "csv", "json"];
+const FIGURES: [&str; 4] = ["svg", "png", "csv", "json"];
 
-/// Writes what the plots show.
-pub(in crate::session) fn figure(path: &str, replace: bool) -> Done {
+/// Writes what one plot shows, or all of them.
+pub(in crate::session) fn figure(path: &str, plot: Option<usize>, replace: bool) -> Done {
     let path = PathBuf::from(path);
     let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
     if FIGURES.iter().any(|known| known.eq_ignore_ascii_case(ending)) {
-        Ok(vec![Effect::Figure { path, replace }])
+        Ok(vec![Effect::Figure { path, plot, replace }])
     } else {
-        Err(format!("a figure ends in .svg, .csv or .json, not {:?}", path.display().to_string()))
+        let given = path.display().to_string();
+        Err(format!("a figure ends in .svg, .png, .csv or .json, not {given:?}"))
     }
+}
+
+/// Offers to write the plot in use: the line is there, with a name for the file, to be changed or taken.
+pub fn offer_figure(session: &mut Session) -> Vec<Effect> {
+    let plain = |letter: char| if letter.is_ascii_alphanumeric() { letter } else { '-' };
+    let scene: String = session.scene.name.chars().map(plain).collect();
+    prompt::open_with(session, format!("figure-pane {scene}-{}.svg", session.plot + 1))
 }
 
 /// A register and a file.

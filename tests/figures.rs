@@ -1,0 +1,358 @@
+//! Figures: one data set in every form, curves that are right, and polylines that nobody sees as such.
+
+mod program;
+
+use std::collections::BTreeSet;
+use std::f64::consts::PI;
+use std::fs;
+
+use hopfscope::export::figure::{Curve, Figure, Form, file};
+use hopfscope::flow::Limits;
+use hopfscope::runtime::print::complete;
+use hopfscope::scene::answer::Fineness;
+use hopfscope::scene::library::{find, library};
+use hopfscope::session::{Session, Size};
+use program::run;
+use roxmltree::Document;
+use serde_json::Value;
+
+/// A figure of a scene.
+fn figure(scene: &str, fineness: Fineness) -> Figure {
+    let scene = find(scene).expect("a scene");
+    let mut session = Session::new(scene, Size { width: 100, height: 30 });
+    complete(&mut session, fineness, &Limits::PATIENT).expect("every scene can be computed");
+    let plots = 0..session.plots.len();
+    Figure::of(&session, plots)
+}
+
+fn text(figure: &Figure, form: Form) -> String {
+    String::from_utf8(file(figure, form).unwrap()).unwrap()
+}
+
+fn scenes() -> impl Iterator<Item = &'static str> {
+    library().iter().map(|scene| scene.name.as_str())
+}
+
+/// The curves of a panel, from 0, whose name begins so.
+fn curves<'a>(figure: &'a Figure, panel: usize, name: &str) -> Vec<&'a Curve> {
+    let all = figure.panels[panel].curves.iter();
+    let found: Vec<_> = all.filter(|curve| curve.name.starts_with(name)).collect();
+    assert!(!found.is_empty(), "{} has no {name}", figure.figure);
+    found
+}
+
+#[test]
+fn every_scene_is_the_same_figure_in_every_form() {
+    for scene in scenes() {
+        let drawn = figure(scene, Fineness::PRINT);
+        let json: Value = serde_json::from_str(&text(&drawn, Form::Json)).unwrap();
+        for field in ["figure", "title", "program", "units", "parameters", "method", "tolerance"] {
+            assert!(!json[field].is_null(), "{scene}: {field}");
+        }
+        assert_eq!(json["figure"], scene);
+        same_numbers(scene, &json, &text(&drawn, Form::Csv));
+        vector_picture(&drawn, &text(&drawn, Form::Svg));
+    }
+}
+
+/// Every point of the JSON stands in the CSV, and nothing else does.
+fn same_numbers(scene: &str, json: &Value, csv: &str) {
+    let value =
+        |value: &Value| value.as_f64().map_or_else(String::new, |value| format!("{value:?}"));
+    let mut expected = Vec::new();
+    for (panel, shown) in (1..).zip(json["panels"].as_array().unwrap()) {
+        for (kind, list, points) in [("curve", "curves", "points"), ("area", "areas", "edge")] {
+            for (number, one) in (1..).zip(shown[list].as_array().unwrap()) {
+                assert!(one["parameters"].is_object(), "{scene}: {one:?}");
+                for point in one[points].as_array().unwrap() {
+                    let (x, y) = (value(&point[0]), value(&point[1]));
+                    expected.push(format!("{panel},{kind},{number};{x},{y}"));
+                }
+            }
+        }
+        for (number, mark) in (1..).zip(shown["marks"].as_array().unwrap()) {
+            expected.push(format!(
+                "{panel},mark,{number};{},{}",
+                value(&mark["x"]),
+                value(&mark["y"])
+            ));
+        }
+    }
+    let rows = csv.lines().filter(|line| !line.starts_with('#')).skip(1).map(|line| {
+        let first: Vec<&str> = line.splitn(4, ',').take(3).collect();
+        let last: Vec<&str> = line.rsplitn(3, ',').take(2).collect();
+        let number =
+            |text: &str| text.parse::<f64>().map_or_else(|_| String::new(), |x| format!("{x:?}"));
+        format!("{};{},{}", first.join(","), number(last[1]), number(last[0]))
+    });
+    assert!(rows.eq(expected), "{scene}");
+    let head: Vec<&str> = csv.lines().take_while(|line| line.starts_with('#')).collect();
+    for word in
+        ["D = ", "q0 = ", "method ", "tolerance ", "hopfscope 0.", "dimensionless", "panel 1: "]
+    {
+        assert!(head.iter().any(|line| line.contains(word)), "{scene}: {word}");
+    }
+}
+
+/// A well-formed SVG with axes, a legend, and lines that are solid where something is stable and dashed
+/// where it is not.
+fn vector_picture(figure: &Figure, svg: &str) {
+    let scene = &figure.figure;
+    let picture = Document::parse(svg).unwrap_or_else(|error| panic!("{scene}: {error}"));
+    let letters: BTreeSet<&str> = picture
+        .descendants()
+        .filter(|node| node.has_tag_name("text"))
+        .filter_map(|node| node.text())
+        .collect();
+    let dashed = picture.descendants().any(|node| node.has_attribute("stroke-dasharray"));
+    assert!(letters.contains(figure.title.as_str()), "{scene}");
+    for panel in &figure.panels {
+        assert!(
+            letters.iter().any(|text| text.starts_with(&panel.x.name)),
+            "{scene}: {:?}",
+            panel.x
+        );
+        assert!(
+            letters.iter().any(|text| text.starts_with(&panel.y.name)),
+            "{scene}: {:?}",
+            panel.y
+        );
+        for curve in &panel.curves {
+            let name = curve.name.split(", ").next().unwrap();
+            assert!(letters.contains(name), "{scene}: {name} is not in the legend");
+            assert!(curve.style != "dashed" || dashed, "{scene}: {name}");
+            let expected = match curve.name.split(' ').next() {
+                Some("stable") => "solid",
+                Some("unstable") => "dashed",
+                _ => curve.style,
+            };
+            assert_eq!(curve.style, expected, "{scene}: {name}");
+        }
+    }
+    assert!(!svg.contains("NaN") && !svg.contains("inf"), "{scene}");
+}
+
+/// Width and height of a panel, in pixels.
+const PANEL: (f64, f64) = (380.0, 300.0);
+
+/// A curve within its panel, in pixels.
+fn on_paper(figure: &Figure, panel: usize, curve: &Curve) -> Vec<(f64, f64)> {
+    let window = figure.panels[panel].window;
+    let place =
+        |[x, y]: &[f64; 2]| (PANEL.0 * window.x.fraction(*x), PANEL.1 * window.y.fraction(*y));
+    curve.points.iter().map(place).collect()
+}
+
+/// How far a point is from a polyline; the chords around number `near` are looked at first.
+fn aside(point: (f64, f64), line: &[(f64, f64)], near: usize) -> f64 {
+    let distance = |pair: &[(f64, f64)]| -> f64 {
+        let (along, up) = (pair[1].0 - pair[0].0, pair[1].1 - pair[0].1);
+        let (right, above) = (point.0 - pair[0].0, point.1 - pair[0].1);
+        let part = (right * along + above * up) / along.hypot(up).powi(2);
+        let part = if part.is_nan() { 0.0 } else { part.clamp(0.0, 1.0) };
+        (right - part * along).hypot(above - part * up)
+    };
+    let least = |line: &[(f64, f64)]| line.windows(2).map(distance).fold(f64::INFINITY, f64::min);
+    let around = &line[near.saturating_sub(8).min(line.len())..(near + 8).min(line.len())];
+    let close = least(around);
+    if close < FAINT { close } else { least(line) }
+}
+
+/// What nobody sees, in pixels.
+const FAINT: f64 = 0.05;
+
+#[test]
+fn no_chord_misses_its_curve_by_more_than_a_twentieth_of_a_pixel() {
+    for scene in scenes().filter(|scene| scene.starts_with("fig")) {
+        let (print, truth) =
+            (figure(scene, Fineness::PRINT), figure(scene, Fineness::PRINT.finer(3)));
+        for (panel, (shown, finer)) in print.panels.iter().zip(&truth.panels).enumerate() {
+            assert_eq!(shown.curves.len(), finer.curves.len(), "{scene}");
+            for (curve, truth) in shown.curves.iter().zip(&finer.curves) {
+                let line = on_paper(&print, panel, curve);
+                let dense = on_paper(&print, panel, truth);
+                for (index, point) in dense.iter().enumerate() {
+                    let inside =
+                        (0.0..=PANEL.0).contains(&point.0) && (0.0..=PANEL.1).contains(&point.1);
+                    if inside {
+                        let missed = aside(*point, &line, index * line.len() / dense.len());
+                        assert!(missed < FAINT, "{scene}, {}, {point:?}: {missed} px", curve.name);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The fold of the cycles for D2 = 0 over kappa = r^2 D3, from reference computations.
+fn reference_folds() -> Vec<(f64, f64)> {
+    let document: Value = serde_json::from_str(include_str!("data/folds.json")).unwrap();
+    let rows = document["folds"].as_array().unwrap().iter();
+    rows.map(|row| (row["kappa"].as_f64().unwrap(), row["D_F"].as_f64().unwrap())).collect()
+}
+
+/// The extents of the cycle of the piecewise linear oscillator, (32) and (33) as corrected.
+fn linear_extents(d: f64, r: f64) -> (f64, f64) {
+    let omega = (1.0 - d * d).sqrt();
+    let x = -PI * d / omega;
+    let clearance = 2.0 * r / x.exp_m1();
+    (r + clearance, clearance * (-(d / omega) * omega.atan2(d)).exp())
+}
+
+#[test]
+fn extents_of_the_basin_are_those_of_the_formulas() {
+    for (scene, r) in [("fig08", 1.0), ("fig09", 0.1), ("fig16a", 0.02)] {
+        let drawn = figure(scene, Fineness::PRINT);
+        for (panel, shown) in
+            drawn.panels.iter().enumerate().filter(|(_, shown)| shown.x.name == "D")
+        {
+            let of_velocity = shown.y.name == "v_max";
+            let mut checked = 0;
+            for curve in curves(&drawn, panel, "unstable cycles") {
+                if curve.parameters["r"] != r {
+                    continue;
+                }
+                // Within 1e-3 of -1 the formula as written here loses its digits.
+                for [d, height] in curve.points.iter().filter(|[d, _]| *d > -0.999) {
+                    let (q, v) = linear_extents(*d, r);
+                    let expected = if of_velocity { v } else { q };
+                    assert!((height / expected - 1.0).abs() < 1e-12, "{scene}: D = {d}, {height}");
+                    checked += 1;
+                }
+            }
+            assert!(checked > 500, "{scene}: {checked}");
+        }
+    }
+    let drawn = figure("fig09", Fineness::PRINT);
+    for [d, v] in &curves(&drawn, 0, "largest velocity A_v")[0].points[1..] {
+        assert!((v / linear_extents(*d, 0.1).1 - 1.0).abs() < 1e-12);
+    }
+    // The mark at the present value is no chord either: A_q at D = -0.4.
+    let mark = drawn.panels[0].marks.iter().find(|mark| mark.x == -0.4).unwrap();
+    assert!((mark.y / linear_extents(-0.4, 0.1).0 - 1.0).abs() < 1e-9, "{}", mark.y);
+}
+
+#[test]
+fn the_borders_of_the_basins_are_the_cycles_of_the_formulas() {
+    let drawn = figure("fig07", Fineness::PRINT);
+    for (panel, d) in [(1, -0.4), (2, -0.7), (3, -0.999)] {
+        let (q, v) = linear_extents(d, 1.0);
+        for name in ["unstable cycle", "edge of the basin"] {
+            let [cycle] = &curves(&drawn, panel, name)[..] else { panic!("one {name}") };
+            assert_eq!(cycle.parameters["D"], d);
+            let farthest = |axis: usize| cycle.points.iter().map(|at| at[axis]).fold(0.0, f64::max);
+            assert!((farthest(0) / q - 1.0).abs() < 1e-9, "{d}: {}", farthest(0));
+            assert!((farthest(1) / v - 1.0).abs() < 1e-4, "{d}: {}", farthest(1));
+        }
+        let radius = -1.0 / (2.0 * d);
+        for [q, v] in &curves(&drawn, panel, "Lyapunov circle")[0].points {
+            assert!((q.hypot(*v) / radius - 1.0).abs() < 1e-14);
+        }
+    }
+}
+
+#[test]
+fn harmonic_curves_obey_the_amplitude_equation() {
+    for (scene, panels) in [("fig09", 0..1), ("fig10", 1..2), ("fig12", 0..2), ("fig14", 0..1)] {
+        let drawn = figure(scene, Fineness::PRINT);
+        for panel in panels {
+            for curve in curves(&drawn, panel, "first harmonic") {
+                let own = &curve.parameters;
+                let (d2, d3, r) = (own["D2"], own["D3"], own["r"]);
+                for [d, height] in &curve.points {
+                    // (40) and (42).
+                    let shift = drawn.panels[panel].y.name == "mean";
+                    let a = if shift { (-2.0 * height / d2).sqrt() } else { *height };
+                    let terms = [4.0 * r / PI, 2.0 * d * a, 0.75 * d3 * a.powi(3)];
+                    let size: f64 = terms.iter().map(|term| term.abs()).sum();
+                    assert!(
+                        terms.iter().sum::<f64>().abs() < 1e-13 * size,
+                        "{scene}: {d} {height}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn computed_and_harmonic_folds_stand_where_they_are_known_to() {
+    // Over (D, D3) at r = 0.1, (r, D3) at D = -0.2: each point has its kappa = r^2 D3 and its D_F.
+    let mut known = 0;
+    for (scene, d) in [("fig10", None), ("fig11", Some(-0.2))] {
+        let drawn = figure(scene, Fineness::PRINT);
+        let kappa_and_d = |[x, y]: &[f64; 2]| match d {
+            None => (0.01 * y, *x),
+            Some(d) => (x * x * y, d),
+        };
+        for point in &curves(&drawn, 0, "fold of the first harmonic")[0].points {
+            let (kappa, d) = kappa_and_d(point);
+            let formula = -0.5 * (kappa * (9.0 / PI).powi(2)).cbrt();
+            assert!((d / formula - 1.0).abs() < 1e-9, "{scene}: {point:?}");
+        }
+        let all = curves(&drawn, 0, "fold");
+        let fold = all.iter().find(|curve| curve.name == "fold").unwrap();
+        let points: Vec<(f64, f64)> = fold.points.iter().map(kappa_and_d).collect();
+        for (kappa, d) in reference_folds() {
+            for point in points.iter().filter(|point| (point.0 / kappa - 1.0).abs() < 1e-12) {
+                assert!((point.1 / d - 1.0).abs() < 1e-7, "{scene}: {point:?}");
+                known += 1;
+            }
+        }
+        // At D = -0.2 the fold has one kappa, wherever r and D3 stand.
+        if d.is_some() {
+            assert!(points.iter().all(|point| (point.0 / points[0].0 - 1.0).abs() < 1e-9));
+        }
+    }
+    assert!(known >= 2, "{known}");
+}
+
+#[test]
+fn amplitudes_are_those_of_the_reference_cycles() {
+    // fig16 and fig10 mark the cycles at the present D: those of r = 0.1 are in the reference.
+    let document: Value = serde_json::from_str(include_str!("data/cycles.json")).unwrap();
+    let drawn = figure("supercritical", Fineness::PRINT);
+    let mut checked = 0;
+    for cycle in document.as_array().unwrap() {
+        let is = |name: &str, value: f64| cycle[name] == value;
+        if is("D", -0.3) && is("D2", 0.0) && is("D3", 0.5) && is("r", 0.1) {
+            let q_max = cycle["q_max"].as_f64().unwrap();
+            let found = |mark: f64| (mark / q_max - 1.0).abs() < 1e-8;
+            assert!(drawn.panels[1].marks.iter().any(|mark| found(mark.y)), "{q_max}");
+            checked += 1;
+        }
+    }
+    assert!(checked > 0);
+}
+
+#[test]
+fn files_of_every_form_are_written_and_nothing_is_lost() {
+    let folder = tempfile::tempdir().unwrap();
+    let name = |name: &str| folder.path().join(name).display().to_string();
+    for ending in ["svg", "png", "csv", "json"] {
+        let path = name(&format!("a.{ending}"));
+        let ran = run(&["figure", "fig08", "--output", &path]);
+        assert_eq!((ran.code, ran.out.as_str(), ran.err.as_str()), (0, "", ""), "{ending}");
+        let content = fs::read(&path).unwrap();
+        assert!(content.len() > 1000, "{ending}");
+        // The same once more loses nothing.
+        assert_eq!(run(&["figure", "fig08", "--output", &path]).code, 0);
+        let ran = run(&["figure", "fig09", "--output", &path]);
+        assert_eq!((ran.code, ran.err.lines().count()), (2, 1), "{}", ran.err);
+        assert!(ran.err.contains(&path) && ran.err.contains("--force"), "{}", ran.err);
+        assert_eq!(fs::read(&path).unwrap(), content);
+        assert_eq!(run(&["figure", "fig09", "--output", &path, "--force"]).code, 0);
+        assert_ne!(fs::read(&path).unwrap(), content);
+    }
+    // A picture of two panels, three dots to a pixel; its beginning says so.
+    let dots = fs::read(name("a.png")).unwrap();
+    assert_eq!(dots[..8], *b"\x89PNG\r\n\x1a\n");
+    let size = |at: usize| u32::from_be_bytes(dots[at..at + 4].try_into().unwrap());
+    assert_eq!((size(16), size(20)), (3 * 920, 3 * 456));
+    // What is printed is what is written.
+    let printed = run(&["figure", "fig09", "--format", "csv"]);
+    assert_eq!(printed.out, fs::read_to_string(name("a.csv")).unwrap());
+    let ran = run(&["figure", "fig08", "--output", &name("a.pdf")]);
+    assert_eq!((ran.code, ran.err.lines().count()), (2, 1), "{}", ran.err);
+    assert!(ran.err.contains(".svg, .png, .csv or .json"), "{}", ran.err);
+}
