@@ -10,7 +10,7 @@ use hopfscope::flow::Limits;
 use hopfscope::flow::quality::DRAFT;
 use hopfscope::scene::answer::{Failure, answer};
 use hopfscope::scene::{Answered, Request, Slot, library};
-use hopfscope::session::{Msg, Session, Size, update};
+use hopfscope::session::{Msg, Row, Session, Size, update};
 use hopfscope::view::frame::render;
 use hopfscope::view::look::Look;
 use ratatui::buffer::Buffer;
@@ -39,7 +39,9 @@ fn main() {
         }
         let mut dearest = (Duration::ZERO, String::new());
         for row in session.rows() {
-            for key in ["<right>", "<left>"] {
+            // The other way on the dial leads to a finer quality, whose draft is on show already.
+            let keys = ["<right>", "<left>"].into_iter();
+            for key in keys.take(if row == Row::Tolerance { 1 } else { 2 }) {
                 let mut times: Vec<Duration> = (0..TIMES)
                     .map(|_| {
                         let mut stepped = session.clone();
