@@ -45,7 +45,9 @@ const LOOSEST: f64 = 1e-3;
 pub struct Auto {
     field: HalfPlane,
     taylor: Taylor,
-    stiff: Stiff,
+    tolerance: f64,
+    /// Made when it is first needed: most motions never are stiff.
+    stiff: Option<Box<Stiff>>,
     /// Whether the last step was implicit, and whether the next one is to be.
     was_implicit: bool,
     implicit: bool,
@@ -63,6 +65,35 @@ pub struct Auto {
     implicit_steps: u64,
 }
 
+/// One step of a motion, kept to be looked at again.
+#[derive(Clone, Debug)]
+pub enum LastStep {
+    /// A Taylor polynomial.
+    Series(Box<Taylor>),
+    /// A polynomial of collocation.
+    Implicit(Box<Stiff>),
+}
+
+impl LastStep {
+    /// The point at `time` after the start of the step.
+    #[must_use]
+    pub fn at(&self, time: f64) -> Point {
+        match self {
+            LastStep::Series(step) => step.at(time),
+            LastStep::Implicit(step) => step.at(time),
+        }
+    }
+
+    /// The integrals of powers of `v` over the step.
+    #[must_use]
+    pub fn powers(&self) -> Powers {
+        match self {
+            LastStep::Series(step) => step.powers(),
+            LastStep::Implicit(step) => step.powers(),
+        }
+    }
+}
+
 impl Auto {
     /// A stepper whose relative error a step is about `tolerance`.
     #[must_use]
@@ -71,7 +102,8 @@ impl Auto {
         Auto {
             field,
             taylor: Taylor::new(tolerance.min(LOOSEST)),
-            stiff: Stiff::new(field, tolerance),
+            tolerance,
+            stiff: None,
             was_implicit: false,
             implicit: false,
             reached: 0.0,
@@ -91,6 +123,34 @@ impl Auto {
         self.implicit_steps
     }
 
+    /// The implicit method, if it took the last step.
+    fn implicit(&self) -> Option<&Stiff> {
+        self.stiff.as_deref().filter(|_| self.was_implicit)
+    }
+
+    /// A copy of the last step alone, to be kept.
+    #[must_use]
+    pub fn last_step(&mut self) -> LastStep {
+        self.prepare_dense();
+        match self.implicit() {
+            Some(stiff) => LastStep::Implicit(Box::new(stiff.clone())),
+            None => LastStep::Series(Box::new(self.taylor.clone())),
+        }
+    }
+
+    /// The integral of `v^2` over the last step; nonlinear fields only.
+    #[must_use]
+    pub fn square_integral(&self) -> f64 {
+        self.implicit().map_or_else(|| self.taylor.square_integral(), |stiff| stiff.powers().second)
+    }
+
+    /// The largest v in the last step, if the acceleration changes its sign there.
+    #[must_use]
+    pub fn fastest(&mut self) -> Option<f64> {
+        self.prepare_dense();
+        self.implicit().map_or_else(|| self.taylor.fastest(), Stiff::fastest)
+    }
+
     /// Takes a step by the method of the hour, then decides on the next one.
     fn step(
         &mut self,
@@ -98,7 +158,8 @@ impl Auto {
         implicit: impl FnOnce(&mut Stiff) -> Result<Step, Reason>,
     ) -> Result<Step, Reason> {
         if self.implicit
-            && let Ok(step) = implicit(&mut self.stiff)
+            && let Some(stiff) = &mut self.stiff
+            && let Ok(step) = implicit(stiff)
         {
             self.was_implicit = true;
             self.implicit_steps += 1;
@@ -126,7 +187,9 @@ impl Auto {
         if self.limited >= self.patience || self.series_steps >= self.many {
             (self.limited, self.series_steps, self.reached) = (0, 0, 0.0);
             (self.implicit, self.worthwhile, self.stalled) = (true, false, 0);
-            self.stiff.expect_length(FIRST * step.duration);
+            let (field, tolerance) = (self.field, self.tolerance);
+            let stiff = self.stiff.get_or_insert_with(|| Box::new(Stiff::new(field, tolerance)));
+            stiff.expect_length(FIRST * step.duration);
         }
         Ok(step)
     }
@@ -141,7 +204,9 @@ impl Stepper for Auto {
     fn begin(&mut self, field: &HalfPlane) {
         (self.field, self.series_steps) = (*field, 0);
         self.taylor.begin(field);
-        self.stiff.begin(field);
+        if let Some(stiff) = &mut self.stiff {
+            stiff.begin(field);
+        }
     }
 
     fn advance(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {
@@ -153,25 +218,27 @@ impl Stepper for Auto {
     }
 
     fn prepare_dense(&mut self) {
-        if self.was_implicit {
-            self.stiff.prepare_dense();
+        if self.was_implicit
+            && let Some(stiff) = &mut self.stiff
+        {
+            stiff.prepare_dense();
         }
     }
 
     fn at(&self, time: f64) -> Point {
-        if self.was_implicit { self.stiff.at(time) } else { self.taylor.at(time) }
+        self.implicit().map_or_else(|| self.taylor.at(time), |stiff| stiff.at(time))
     }
 
     fn powers(&self) -> Powers {
-        if self.was_implicit { self.stiff.powers() } else { self.taylor.powers() }
+        self.implicit().map_or_else(|| self.taylor.powers(), Stepper::powers)
     }
 
     fn evaluations(&self) -> u64 {
-        self.taylor.evaluations() + self.stiff.evaluations()
+        self.taylor.evaluations() + self.stiff.as_ref().map_or(0, |stiff| stiff.evaluations())
     }
 
     fn rejected(&self) -> u64 {
-        self.taylor.rejected() + self.stiff.rejected()
+        self.taylor.rejected() + self.stiff.as_ref().map_or(0, |stiff| stiff.rejected())
     }
 }
 

@@ -94,6 +94,34 @@ impl<F: Field> Stiff<F> {
         self.next = length;
     }
 
+    /// The largest v in the last step, if the acceleration changes its sign there; after
+    /// [`Stepper::prepare_dense`].
+    ///
+    /// Bisection on the acceleration along the polynomial: v is flat there, an error e of the time costs
+    /// e^2 of v.
+    #[must_use]
+    pub fn fastest(&self) -> Option<f64> {
+        /// Halvings to half the digits of the time.
+        const HALVINGS: usize = 30;
+        let falls = |time: f64| {
+            let point = self.at(time);
+            self.field.acceleration(point.x, point.v) <= 0.0
+        };
+        if falls(0.0) || !falls(self.duration) {
+            return None;
+        }
+        let (mut low, mut high) = (0.0, self.duration);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if falls(middle) {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        Some(self.at(high).v)
+    }
+
     fn start_at(&mut self, from: Point) {
         self.slope = self.field.acceleration(from.x, from.v);
         self.evaluations += 1;

@@ -2,14 +2,14 @@
 //!
 //! Above `v = 0` displacement only grows, below it only falls, so within its half plane every motion is
 //! a graph over q. That is what makes basins cheap: whether a start lies inside a closed orbit is one
-//! comparison with the graph at its q. The graph is kept as the Taylor polynomials of the integration
-//! steps and evaluated to rounding by Newton's method in time.
+//! comparison with the graph at its q. The graph is kept as the polynomials of the
+//! integration steps and evaluated to rounding by Newton's method in time.
 
 use super::half_map::{HalfMap, HalfSwing, Length, NoEnd};
+use crate::flow::auto::LastStep;
 use crate::flow::scaling::times_power;
-use crate::flow::step::{Powers, Stepper};
+use crate::flow::step::Powers;
 use crate::flow::tableau::GAUSS;
-use crate::flow::taylor::Taylor;
 use crate::flow::{Cost, Limits, Reason};
 use crate::oscillator::{HalfPlane, Parameters, Side, State};
 
@@ -34,7 +34,7 @@ pub enum Direction {
 /// One integration step of an arc.
 #[derive(Clone, Debug)]
 struct Piece {
-    series: Taylor,
+    step: LastStep,
     unit: i32,
     duration: f64,
     /// Position at its end, in the direction of the computation.
@@ -79,9 +79,10 @@ impl Arc {
         let mut pieces: Vec<Piece> = Vec::new();
         let limits =
             Limits { evaluations: limits.evaluations.min(BUDGET), interrupted: limits.interrupted };
-        let swing = map.swing_watched(length, &limits, |series, unit, duration| {
-            let end = times_power(series.at(duration).x, unit);
-            pieces.push(Piece { series: series.clone(), unit, duration, end });
+        let swing = map.swing_watched(length, &limits, |stepper, unit, duration| {
+            let step = stepper.last_step();
+            let end = times_power(step.at(duration).x, unit);
+            pieces.push(Piece { step, unit, duration, end });
         });
         if let Err(NoEnd::Failed(reason)) = swing {
             return Err(reason);
@@ -123,7 +124,7 @@ impl Arc {
     #[must_use]
     pub fn area(&self) -> f64 {
         let piece_area = |piece: &Piece| {
-            let second = piece.series.powers().second;
+            let second = piece.step.powers().second;
             times_power(times_power(second, piece.unit), piece.unit)
         };
         self.pieces.iter().map(piece_area).sum()
@@ -133,8 +134,8 @@ impl Arc {
     #[must_use]
     pub fn powers(&self) -> Powers {
         let mut sum = Powers::default();
-        for Piece { series, unit, .. } in &self.pieces {
-            let powers = series.powers();
+        for Piece { step, unit, .. } in &self.pieces {
+            let powers = step.powers();
             let square = times_power(times_power(1.0, *unit), *unit);
             sum.second += square * powers.second;
             sum.third += times_power(square * powers.third, *unit);
@@ -148,7 +149,7 @@ impl Arc {
     pub fn time_integral(&self) -> f64 {
         let piece_integral = |piece: &Piece| {
             let displacement = |time: f64| {
-                let x = self.sense * times_power(piece.series.at(time).x, piece.unit);
+                let x = self.sense * times_power(piece.step.at(time).x, piece.unit);
                 self.side.displacement(x, self.r)
             };
             let node = |(node, weight): &(f64, f64)| weight * displacement(node * piece.duration);
@@ -164,7 +165,7 @@ impl Arc {
         for piece in &self.pieces {
             let first = u8::from(!points.is_empty());
             for index in first..=count {
-                let point = piece.series.at(piece.duration * f64::from(index) / f64::from(count));
+                let point = piece.step.at(piece.duration * f64::from(index) / f64::from(count));
                 let x = self.sense * times_power(point.x, piece.unit);
                 let v = self.side.sign() * times_power(point.v, piece.unit);
                 points.push(State { q: self.side.displacement(x, self.r), v });
@@ -186,7 +187,7 @@ impl Piece {
         let (mut low, mut high) = (0.0, self.duration);
         let mut time = 0.5 * self.duration;
         for _ in 0..STEPS {
-            let point = self.series.at(time);
+            let point = self.step.at(time);
             let newton = time - (point.x - target) / point.v;
             if (newton - time).abs() <= 1e-12 * self.duration {
                 break;
@@ -198,6 +199,6 @@ impl Piece {
             }
             time = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
         }
-        times_power(self.series.at(time).v, self.unit).max(0.0)
+        times_power(self.step.at(time).v, self.unit).max(0.0)
     }
 }

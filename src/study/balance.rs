@@ -59,9 +59,10 @@ fn weigh(
     let mut gained = 0.0;
     // Every part of the swing counts: none may be skipped by a closed form.
     let skipped = map.set_linear_below(0.0);
-    let swing = map.swing_watched(start, limits, |taylor, unit, duration| {
+    let swing = map.swing_watched(start, limits, |stepper, unit, duration| {
+        stepper.prepare_dense();
         for &(node, weight) in &GAUSS {
-            let point = taylor.at(node * duration);
+            let point = stepper.at(node * duration);
             let (x, v) =
                 (times_power(point.x, unit - measure), times_power(point.v, unit - measure));
             let square = v * v;

@@ -376,7 +376,9 @@ fn brackets(
         search(here, next, blur, &mut function, &mut found)?;
         let beyond = unknown(next.at);
         here = if beyond > next.at { function(beyond, false)? } else { next };
-        if found.len() >= most || !here.value().is_finite() {
+        // A swing that never starts out, or never ends, is no end of the domain: from further out it may.
+        let escapes = here.rise == f64::INFINITY || here.fall == f64::INFINITY;
+        if found.len() >= most || escapes {
             break;
         }
         stride = (1.5 * stride).min(STRIDES.1);
@@ -404,6 +406,16 @@ pub fn polish(
         let closing = equation.at(route, u, limits)?;
         let mut node = closing.node;
         let contracting = Route::contracting(closing.log_multiplier(&equation.parameters));
+        // Beyond the domain of one swing a route that runs it the other way has a value.
+        if !node.value().is_finite() && !switched {
+            if route == Route::Mixed {
+                let first = node.rise == f64::INFINITY;
+                route = if first { Route::Backward } else { Route::Forward };
+                switched = true;
+                continue;
+            }
+            route = Route::Mixed;
+        }
         // Where two routes contract alike each may say that the other is better: move on regardless.
         if node.value().is_finite() && contracting != route && !switched {
             (route, switched) = (contracting, true);
@@ -428,7 +440,7 @@ pub fn polish(
         // Where rounding of the swings is larger than that, Newton's method stops making progress.
         let stalled = change >= 0.5 * last && change <= 16.0 * rounding;
         let settled = change <= rounding || stalled || (blurred && (!flat || change >= 0.5 * last));
-        if settled {
+        if settled && node.value().is_finite() {
             return Ok(closing);
         }
         if high - low <= f64::EPSILON * u.abs() {

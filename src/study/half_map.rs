@@ -12,18 +12,18 @@
 use std::ops::ControlFlow;
 
 use crate::closed_form::linear::first_standstill;
+use crate::flow::auto::Auto;
 use crate::flow::scaling::times_power;
 use crate::flow::step::{Point, Step, Stepper};
 use crate::flow::swing::{End, Failed, swing};
-use crate::flow::taylor::Taylor;
 use crate::flow::{Cost, Limits, Reason};
 use crate::oscillator::HalfPlane;
 
 /// Below this part of its natural scale the damping is linear to far below rounding.
 const LINEAR_BELOW: f64 = 1e-21;
 
-/// A half swing longer than this is taken to never arrive.
-const LONGEST: f64 = 1e7;
+/// A half swing longer than this is taken to never arrive; slow ones of 1e24 do (D2 = 1e6, D3 = 1e-12).
+const LONGEST: f64 = 1e100;
 
 /// A positive length with its logarithm, which exists even where the length underflows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,7 +89,7 @@ pub enum NoEnd {
 #[derive(Clone, Debug)]
 pub struct HalfMap {
     field: HalfPlane,
-    taylor: Taylor,
+    stepper: Auto,
     /// States smaller than this move linearly.
     linear_below: f64,
     /// Whether to find the largest velocity of each swing.
@@ -107,13 +107,13 @@ impl HalfMap {
         Self::integrating_above(LINEAR_BELOW * natural, field, tolerance)
     }
 
-    /// The same map, integrated by series wherever the state is larger than `linear_below`.
+    /// The same map, integrated step by step wherever the state is larger than `linear_below`.
     #[must_use]
     pub fn integrating_above(linear_below: f64, field: HalfPlane, tolerance: f64) -> Self {
-        let taylor = Taylor::new(tolerance);
+        let stepper = Auto::new(tolerance);
         // A node that repels has no part worth skipping.
         let linear_below = if field.d > -1.0 { linear_below } else { 0.0 };
-        HalfMap { field, taylor, linear_below, fastest: false, steps: 0, swings: 0 }
+        HalfMap { field, stepper, linear_below, fastest: false, steps: 0, swings: 0 }
     }
 
     /// Changes the size below which the motion is taken to be linear; returns the former one.
@@ -131,9 +131,9 @@ impl HalfMap {
     #[must_use]
     pub fn cost(&self) -> Cost {
         Cost {
-            evaluations: self.taylor.evaluations(),
+            evaluations: self.stepper.evaluations(),
             steps: self.steps,
-            rejected: self.taylor.rejected(),
+            rejected: self.stepper.rejected(),
         }
     }
 
@@ -145,14 +145,14 @@ impl HalfMap {
         &mut self,
         start: Length,
         limits: &Limits,
-        mut watch: impl FnMut(&Taylor, i32, f64),
+        mut watch: impl FnMut(&mut Auto, i32, f64),
     ) -> Result<HalfSwing, NoEnd> {
         self.swings += 1;
         // A swing in closed form takes no steps, but thousands of them take time.
         if (limits.interrupted)() {
             return Err(NoEnd::Failed(Reason::Interrupted));
         }
-        let spent = self.taylor.evaluations() + self.swings;
+        let spent = self.stepper.evaluations() + self.swings;
         if spent > limits.evaluations {
             return Err(NoEnd::Failed(Reason::Budget { evaluations: spent }));
         }
@@ -171,20 +171,20 @@ impl HalfMap {
         // Once small, a decaying motion stays small and is linear to its end.
         let tail = if self.field.d >= 0.0 { self.linear_below } else { 0.0 };
         let wants_fastest = self.fastest;
-        let mut see = |taylor: &mut Taylor, _: f64, unit: i32, step: &Step| {
+        let mut see = |stepper: &mut Auto, _: f64, unit: i32, step: &Step| {
             if nonlinear {
-                square += times_power(times_power(taylor.square_integral(), unit), unit);
+                square += times_power(times_power(stepper.square_integral(), unit), unit);
             }
-            if wants_fastest && let Some(v) = taylor.fastest() {
+            if wants_fastest && let Some(v) = stepper.fastest() {
                 fastest = fastest.max(times_power(v, unit));
             }
-            watch(taylor, unit, step.duration);
+            watch(stepper, unit, step.duration);
             if !step.crossed && times_power(step.end.size(), unit) < tail {
                 return ControlFlow::Break(());
             }
             ControlFlow::Continue(())
         };
-        let done = match swing(&mut self.taylor, &self.field, leg.point, LONGEST, limits, &mut see)
+        let done = match swing(&mut self.stepper, &self.field, leg.point, LONGEST, limits, &mut see)
         {
             Ok(done) => done,
             Err(Failed { reason, steps, .. }) => {

@@ -15,6 +15,7 @@
 //! - [`fourier`]: finite series and their products; [`mod@sign_changes`]: their roots, none missed.
 //! - [`galerkin`]: the equations and their Jacobian; [`newton`]: their solution.
 
+pub mod elimination;
 pub mod fourier;
 pub mod galerkin;
 pub mod newton;

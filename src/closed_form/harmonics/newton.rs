@@ -1,7 +1,8 @@
 //! Newton's method on the Galerkin equations, damped so that it cannot overshoot unnoticed.
 
-use nalgebra::{DVector, Dyn, LU};
+use nalgebra::DVector;
 
+use super::elimination::Elimination;
 use super::galerkin::{Ansatz, Basis, Residual};
 use crate::oscillator::Parameters;
 
@@ -56,10 +57,8 @@ pub fn solve(
     let mut part: f64 = 1.0;
     let mut change = f64::INFINITY;
     for _ in 0..ITERATIONS {
-        if interrupted() {
-            return Err(Failure::Interrupted);
-        }
-        let jacobian = residual.jacobian().lu();
+        let jacobian = Elimination::of(residual.jacobian(), interrupted);
+        let jacobian = jacobian.ok_or(Failure::Interrupted)?;
         let step = newton_step(&jacobian, &residual)?;
         change = relative(&step, &ansatz);
         part = (4.0 * part).min(1.0);
@@ -78,7 +77,8 @@ pub fn solve(
             }
         }
         if change < SETTLED {
-            let unstable = positive_determinant(&residual.jacobian().lu());
+            let jacobian = Elimination::of(residual.jacobian(), interrupted);
+            let unstable = jacobian.ok_or(Failure::Interrupted)?.is_positive();
             return Ok(Solution { ansatz, residual, unstable });
         }
     }
@@ -86,23 +86,20 @@ pub fn solve(
 }
 
 /// The change of the unknowns that makes the linearised equations vanish.
-fn newton_step(jacobian: &LU<f64, Dyn, Dyn>, residual: &Residual) -> Result<DVector<f64>, Failure> {
+fn newton_step(jacobian: &Elimination, residual: &Residual) -> Result<DVector<f64>, Failure> {
     let values = -residual.values();
     if !values.amax().is_finite() {
         return Err(Failure::OutOfRange);
     }
-    let step = jacobian.solve(&values).filter(|step| step.iter().all(|change| change.is_finite()));
-    step.ok_or(Failure::Unsettled(f64::INFINITY))
+    let step = jacobian.solve(&values);
+    if step.iter().all(|change| change.is_finite()) {
+        Ok(step)
+    } else {
+        Err(Failure::Unsettled(f64::INFINITY))
+    }
 }
 
 /// The largest change, relative to the amplitude (or to the frequency, about 1 and smaller).
 fn relative(step: &DVector<f64>, ansatz: &Ansatz) -> f64 {
     step.amax() / ansatz.q.cosine(1).abs().max(1.0)
-}
-
-/// Whether the determinant of the decomposed matrix is positive; its size may well overflow.
-fn positive_determinant(jacobian: &LU<f64, Dyn, Dyn>) -> bool {
-    let permutation: f64 = jacobian.p().determinant();
-    let negative = jacobian.u().diagonal().iter().filter(|pivot| **pivot < 0.0).count();
-    (permutation > 0.0) == negative.is_multiple_of(2)
 }
