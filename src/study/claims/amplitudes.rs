@@ -18,7 +18,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(42)",
         section: "6.2",
         statement: "the stationary amplitudes are those of the cycles: the unstable one",
-        scene: Some("supercritical"),
+        scene: Some("fig12"),
         check: |limits| {
             let cycle = smallest(&TWO_CYCLES, limits)?;
             let formula = amplitudes(&TWO_CYCLES)[0].amplitude;
@@ -29,7 +29,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(42)",
         section: "6.2",
         statement: "the stationary amplitudes are those of the cycles: the stable one",
-        scene: Some("supercritical"),
+        scene: Some("fig12"),
         check: |limits| {
             let cycle = largest(&TWO_CYCLES, limits)?;
             let formula = largest_amplitude(&TWO_CYCLES)?;
@@ -40,7 +40,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(43, 47)",
         section: "6.2.1",
         statement: "discriminant of (42): (47) is (43) written out",
-        scene: None,
+        scene: Some("fig10"),
         check: |_| {
             Finding::worst(dampings().map(|(d, d3)| {
                 let r = 0.1;
@@ -59,7 +59,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(44-46)",
         section: "6.2.1",
         statement: "its sign tells the number of real roots of (42): three or one",
-        scene: None,
+        scene: Some("fig10"),
         check: |_| {
             let cases = dampings().map(|(d, d3)| {
                 let parameters = oscillator(d, 0.0, d3, 0.1);
@@ -74,7 +74,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "Fig. 10",
         section: "6.2.1",
         statement: "for D3 > 0 there are two cycles for D < D_F and none for D > D_F, by (48)",
-        scene: Some("supercritical"),
+        scene: Some("fig10"),
         check: |limits| {
             let parts = [0.2, 0.8, 0.95, 1.05, 1.3, 2.0, 3.0];
             counted(limits, &[0.1, 0.5, 2.0], &parts, |part| if part > 1.0 { 2 } else { 0 })
@@ -84,7 +84,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "Fig. 10",
         section: "6.2.1",
         statement: "for D3 < 0 there is one cycle for all D",
-        scene: Some("subcritical"),
+        scene: Some("fig10"),
         check: |limits| {
             let parts = [-3.0, -0.8, -0.1, 0.0, 0.1, 0.8, 3.0];
             counted(limits, &[-0.1, -0.5, -2.0], &parts, |_| 1)
@@ -94,7 +94,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "Fig. 10",
         section: "6.2.1",
         statement: "for D3 = 0 there is one cycle for D <= 0, and none for D > 0",
-        scene: Some("marginal"),
+        scene: Some("fig10"),
         check: |limits| {
             let mut cases = Vec::new();
             for d in [-0.9, -0.5, -0.1, -1e-3, 0.0, 0.1, 0.5] {
@@ -110,7 +110,7 @@ pub const CLAIMS: &[Claim] = &[
         section: "6.2.1",
         statement: "fold at D_F = -(1/2) cbrt((9/pi)^2 r^2 D3), for D2 = 0: the worst of r^2 D3 = 1e-4 .. \
                     0.25",
-        scene: Some("supercritical"),
+        scene: Some("fig11"),
         check: |limits| {
             Finding::worst(
                 [1e-4, 1e-3, 0.01, 0.05, 0.1, 0.25].map(|d3| fold_against(limits, 0.0, d3, 1.0)),
@@ -135,7 +135,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "Fig. 11",
         section: "6.2.1",
         statement: "beyond (48) the rest attracts from everywhere, below it the basin is finite, whatever D2",
-        scene: Some("asymmetry"),
+        scene: Some("fig11"),
         check: |limits| {
             let mut cases = Vec::new();
             for d2 in [0.0, 0.2, 0.5, 1.0] {
@@ -154,7 +154,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(49)",
         section: "6.2.1",
         statement: "amplitude at the fold, A_F = cbrt(8 r/(3 pi D3)): its half extent",
-        scene: Some("supercritical"),
+        scene: Some("fig12"),
         check: |limits| {
             let parameters = oscillator(0.0, 0.0, 0.5, 0.1);
             let found = found_fold(&parameters, limits)?;
@@ -168,7 +168,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(50)",
         section: "6.2.1",
         statement: "for D3 < 0 the cycle at D = 0 has the amplitude A_Z = cbrt(-16 r/(3 pi D3))",
-        scene: Some("subcritical"),
+        scene: Some("fig12"),
         check: |limits| {
             Finding::worst([-0.01, -0.1, -0.5].map(|d3| {
                 let parameters = oscillator(0.0, 0.0, d3, 0.1);
@@ -182,7 +182,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(51)",
         section: "6.2.1",
         statement: "A_1 = -2 r/(pi D) is the exact solution of (42) for D3 = 0",
-        scene: Some("marginal"),
+        scene: Some("fig09"),
         check: |_| {
             Finding::worst([-0.9, -0.4, -0.01].map(|d| {
                 let parameters = oscillator(d, 0.0, 0.0, 0.1);
@@ -197,21 +197,21 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(51)",
         section: "6.2.1",
         statement: "for D3 = 0 that is the exact amplitude for any D: of the cycle at D = -0.4",
-        scene: Some("marginal"),
+        scene: Some("fig09"),
         check: |limits| exact_amplitude(limits, -0.4),
     },
     Claim {
         equation: "(51)",
         section: "6.2.1",
         statement: "for D3 = 0 that is the exact amplitude for any D: of the cycle at D = -0.7",
-        scene: Some("marginal"),
+        scene: Some("fig09"),
         check: |limits| exact_amplitude(limits, -0.7),
     },
     Claim {
         equation: "(51)",
         section: "6.2.1",
         statement: "A_1 approximates the small amplitude where D3 acts",
-        scene: Some("supercritical"),
+        scene: Some("fig12"),
         check: |limits| {
             let cycle = smallest(&TWO_CYCLES, limits)?;
             Ok(Finding::near(small(&TWO_CYCLES), amplitude(&cycle)).at(place(&TWO_CYCLES)))
@@ -221,7 +221,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "after (51)",
         section: "6.2.1",
         statement: "A_1 is about -0.6 r/D",
-        scene: None,
+        scene: Some("fig12"),
         check: |_| {
             let parameters = oscillator(-1.0, 0.0, 0.0, 1.0);
             Ok(Finding::near(0.6, Known::relative(largest_amplitude(&parameters)?, 1e-15)))
@@ -231,7 +231,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "before (52)",
         section: "6.2.1",
         statement: "(42) divided by 2 D reads 2 r/(pi D) + A + 8 D3/(3 D) A^3 = 0: the last two terms",
-        scene: None,
+        scene: Some("fig12"),
         check: |_| {
             let Parameters { d, d3, r, .. } = TWO_CYCLES;
             let root = largest_amplitude(&TWO_CYCLES)?;
@@ -245,7 +245,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(52)",
         section: "6.2.1",
         statement: "A_2 = sqrt(-8 D/(3 D3)) approximates the large amplitude",
-        scene: Some("supercritical"),
+        scene: Some("fig12"),
         check: |limits| {
             let cycle = largest(&TWO_CYCLES, limits)?;
             let Parameters { d, d3, .. } = TWO_CYCLES;
@@ -257,7 +257,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "Fig. 12a",
         section: "6.2.2",
         statement: "as D goes to -1 the lower branch approaches A_1: the cycle",
-        scene: Some("supercritical"),
+        scene: Some("fig12"),
         check: |limits| {
             let at = |d: f64| {
                 let parameters = Parameters { d, ..TWO_CYCLES };
@@ -272,7 +272,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "Fig. 12a",
         section: "6.2.2",
         statement: "for D3 > 0 the lower branch is unstable and the upper one stable",
-        scene: Some("supercritical"),
+        scene: Some("fig12"),
         check: |limits| {
             let mut cases = Vec::new();
             for d in [-0.9, -0.5, -0.3, -0.2] {
@@ -288,7 +288,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "Fig. 12b",
         section: "6.2.2",
         statement: "for D3 < 0 all cycles are unstable",
-        scene: Some("subcritical"),
+        scene: Some("fig12"),
         check: |limits| {
             let mut cases = Vec::new();
             for d in [-0.8, -0.3, 0.0, 0.3, 0.8] {
@@ -303,7 +303,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "Fig. 12b",
         section: "6.2.2",
         statement: "for D3 < 0, D < 0 the amplitude is approximately A_1",
-        scene: Some("subcritical"),
+        scene: Some("fig12"),
         check: |limits| {
             let parameters = oscillator(-0.4, 0.0, -0.5, 0.1);
             let cycle = smallest(&parameters, limits)?;
@@ -314,7 +314,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "Fig. 12b",
         section: "6.2.2",
         statement: "for D3 < 0, D > 0 the amplitude is approximately A_2",
-        scene: Some("subcritical"),
+        scene: Some("fig12"),
         check: |limits| {
             let parameters = oscillator(0.4, 0.0, -0.5, 0.1);
             let cycle = smallest(&parameters, limits)?;

@@ -20,7 +20,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "6.3",
         section: "6.3",
         statement: "the mean displacement goes as the square of the amplitude: exponent",
-        scene: Some("asymmetry"),
+        scene: Some("fig14"),
         check: |limits| {
             let at = |d: f64| {
                 let parameters = oscillator(d, 0.2, 0.0, 0.01);
@@ -38,7 +38,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(53)",
         section: "6.3",
         statement: "mean displacement of small cycles, A_01 = (2 r^2/pi) D2/D",
-        scene: Some("asymmetry"),
+        scene: Some("fig14"),
         check: |limits| {
             let parameters = oscillator(-0.1, 0.2, 0.0, 0.01);
             let Parameters { d, d2, r, .. } = parameters;
@@ -53,7 +53,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(54)",
         section: "6.3",
         statement: "mean displacement of large cycles, A_02 = 4 D2 D/(3 D3), in the example of Fig. 14",
-        scene: Some("asymmetry"),
+        scene: Some("fig14"),
         check: |limits| {
             let parameters = oscillator(-0.1, 0.2, 0.5, 0.01);
             let Parameters { d, d2, d3, .. } = parameters;
@@ -66,14 +66,14 @@ pub const CLAIMS: &[Claim] = &[
         equation: "Fig. 13",
         section: "6.4",
         statement: "D2 merely distorts the phase portrait: number of cycles, as for D2 = 0, at small amplitude",
-        scene: Some("asymmetry"),
+        scene: Some("fig13"),
         check: |limits| distortion(limits, &oscillator(-0.7, 0.2, 0.0, 0.5)),
     },
     Claim {
         equation: "Fig. 13",
         section: "6.4",
         statement: "D2 merely distorts the phase portrait: number of cycles, as for D2 = 0, at large amplitude",
-        scene: Some("asymmetry"),
+        scene: Some("fig13"),
         check: |limits| distortion(limits, &oscillator(-0.07, 0.2, 0.0, 0.5)),
     },
     Claim {
@@ -131,7 +131,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "Fig. 16",
         section: "6.4",
         statement: "the new unstable cycle at D < 0 borders the basin: for D2 = 0",
-        scene: Some("supercritical"),
+        scene: Some("fig16"),
         check: |limits| bordered(limits, 0.0),
     },
     Claim {
@@ -145,7 +145,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "Fig. 15",
         section: "6.4",
         statement: "as r goes to 0 the basin shrinks to nothing: its extent",
-        scene: Some("supercritical"),
+        scene: Some("fig15"),
         check: |limits| {
             let extent = |r: f64| {
                 let cycle = smallest(&oscillator(-0.3, 0.0, 0.5, r), limits)?;
@@ -159,7 +159,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "Fig. 17",
         section: "6.4",
         statement: "as r goes to 0 the fold goes to (0, 0) as r^(2/3): exponent of D_F",
-        scene: Some("supercritical"),
+        scene: Some("fig17"),
         check: |limits| {
             let lost = Reason::NoConvergence { sought: "the fold", change: f64::NAN };
             let place = |r: f64| fold(&oscillator(0.0, 0.0, 0.5, r), limits)?.0.ok_or(lost);
@@ -173,7 +173,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "Fig. 17",
         section: "6.4",
         statement: "as r goes to 0 the crossing Z goes to (0, 0) as r^(1/3): exponent of A_Z",
-        scene: Some("subcritical"),
+        scene: Some("fig17"),
         check: |limits| {
             let size = |r: f64| {
                 let cycle = smallest(&oscillator(0.0, 0.0, -0.5, r), limits)?;

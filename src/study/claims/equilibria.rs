@@ -17,7 +17,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(10)",
         section: "4",
         statement: "rest is possible where abs(q) <= r, and nowhere else",
-        scene: Some("capture"),
+        scene: Some("fig03"),
         check: |limits| {
             let mut cases = Vec::new();
             for q in displacements() {
@@ -31,7 +31,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(11)",
         section: "4",
         statement: "motions cross v = 0 where (n f+)(n f+) > 0: the number of places that cross",
-        scene: Some("capture"),
+        scene: Some("fig03"),
         check: |limits| {
             crossings(limits, |upper, lower| (upper * upper > 0.0, upper * lower > 0.0), true)
         },
@@ -40,7 +40,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(12)",
         section: "4",
         statement: "motions stop where (n f+)(n f+) < 0: the number of places that stop",
-        scene: Some("capture"),
+        scene: Some("fig03"),
         check: |limits| {
             crossings(limits, |upper, lower| (upper * upper < 0.0, upper * lower < 0.0), false)
         },
@@ -49,7 +49,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(13)",
         section: "4.1",
         statement: "next to the set the terms of higher order may be left out: where a short swing ends",
-        scene: None,
+        scene: Some("fig03"),
         check: |limits| {
             let parameters = oscillator(-0.3, 0.5, 0.5, 0.1);
             let linear = oscillator(-0.3, 0.0, 0.0, 0.1);
@@ -104,21 +104,21 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(18)",
         section: "4.2",
         statement: "V' = -2 D v^2 - v f_R, with f_R of (5): the energy after a motion",
-        scene: None,
+        scene: Some("fig04"),
         check: |limits| energy(limits, -1.0),
     },
     Claim {
         equation: "(19)",
         section: "4.2",
         statement: "V' = -2 D v^2 - r abs(v): the energy after a motion",
-        scene: None,
+        scene: Some("fig04"),
         check: |limits| energy(limits, 1.0),
     },
     Claim {
         equation: "(17-19)",
         section: "4.2",
         statement: "for small v the terms of higher order are negligible in V'",
-        scene: None,
+        scene: Some("fig04"),
         check: |_| {
             let parameters = oscillator(-0.3, 0.2, 0.5, 0.1);
             let linear = oscillator(-0.3, 0.0, 0.0, 0.1);
@@ -133,7 +133,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(20-23)",
         section: "4.2",
         statement: "the energy of the linearised system falls for abs(v) < -r/(2 D) and grows beyond",
-        scene: Some("linear"),
+        scene: Some("fig04"),
         check: |_| {
             let cases = [-0.9, -0.5, -0.1, -0.01].into_iter().flat_map(|d| {
                 [0.5, 0.999, 1.001, 2.0, -0.5, -0.999, -1.001, -2.0].map(|part: f64| {
@@ -150,7 +150,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(24)",
         section: "4.2",
         statement: "the circle of radius l = -r/(2 D) belongs to the basin: the smallest kick out of it",
-        scene: Some("linear"),
+        scene: Some("fig04"),
         check: |limits| {
             Finding::worst([-0.95, -0.7, -0.4, -0.1, -0.01].map(|d| {
                 let parameters = oscillator(d, 0.0, 0.0, 0.1);
@@ -163,7 +163,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(24)",
         section: "4.2",
         statement: "that circle is a quite good conservative estimate of the basin",
-        scene: Some("linear"),
+        scene: Some("fig04"),
         check: |limits| {
             let parameters = oscillator(-0.1, 0.0, 0.0, 0.1);
             let least = least_kick(&parameters, limits)?;

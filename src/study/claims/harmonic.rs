@@ -47,14 +47,14 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(39)",
         section: "5.2",
         statement: "cycles have the frequency 1: where damping is weak",
-        scene: Some("marginal"),
+        scene: Some("fig09"),
         check: |limits| frequency(limits, -0.1),
     },
     Claim {
         equation: "(39)",
         section: "5.2",
         statement: "cycles have the frequency 1: where damping is strong",
-        scene: Some("marginal"),
+        scene: Some("fig09"),
         check: |limits| frequency(limits, -0.7),
     },
     Claim {
@@ -75,7 +75,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(40)",
         section: "5.2",
         statement: "mean displacement A0 = -(D2/2) A^2 of a cycle: the stable one",
-        scene: Some("supercritical"),
+        scene: Some("fig14"),
         check: |limits| {
             let parameters = oscillator(-0.1, 0.2, 0.2, 0.01);
             let cycle = largest(&parameters, limits)?;
@@ -88,7 +88,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(41)",
         section: "5.2",
         statement: "A' = -4 r/pi - 2 D A - (3/4) D3 A^3: change of the amplitude in a turn",
-        scene: None,
+        scene: Some("fig09"),
         check: |limits| {
             let parameters = oscillator(-1e-3, 0.0, 2e-3, 1e-3);
             let [left, _] = half_swing(&parameters, at_rest(1.0), limits)?;
@@ -104,7 +104,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(41)",
         section: "6.1",
         statement: "the amplitude A of (41) may be used for the size of the basin: of large cycles",
-        scene: Some("marginal"),
+        scene: Some("fig09"),
         check: |limits| {
             let parameters = oscillator(-0.1, 0.0, 0.0, 0.1);
             let computed = amplitude(&smallest(&parameters, limits)?);
@@ -116,7 +116,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "Fig. 8",
         section: "6.1",
         statement: "as D goes to -1 the extent A_q shrinks to that of the sticking set",
-        scene: Some("linear"),
+        scene: Some("fig08"),
         check: |limits| {
             let extent = |d: f64| {
                 let cycle = smallest(&oscillator(d, 0.0, 0.0, 1.0), limits)?;
@@ -129,7 +129,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "Fig. 9",
         section: "6.1",
         statement: "as D goes to 0 the extents A_q and A_v tend to the same value",
-        scene: Some("marginal"),
+        scene: Some("fig09"),
         check: |limits| {
             let extents = |d: f64| {
                 let cycle = smallest(&oscillator(d, 0.0, 0.0, 0.1), limits)?;
@@ -142,21 +142,21 @@ pub const CLAIMS: &[Claim] = &[
         equation: "Fig. 9",
         section: "6.1",
         statement: "the harmonic amplitude A lies between A_q and A_v",
-        scene: Some("marginal"),
+        scene: Some("fig09"),
         check: |limits| harmonic_against_extents(limits, |a, low, high| low <= a && a <= high),
     },
     Claim {
         equation: "Fig. 9",
         section: UNSAID,
         statement: "the harmonic amplitude A lies below both A_q and A_v",
-        scene: Some("marginal"),
+        scene: Some("fig09"),
         check: |limits| harmonic_against_extents(limits, |a, low, _| a < low),
     },
     Claim {
         equation: "Fig. 8",
         section: UNSAID,
         statement: "as D goes to -1 the extent A_v shrinks to 2 r/e, less than the sticking set",
-        scene: Some("linear"),
+        scene: Some("fig08"),
         check: |limits| {
             let extent = |d: f64| {
                 let cycle = smallest(&oscillator(d, 0.0, 0.0, 1.0), limits)?;

@@ -61,21 +61,21 @@ pub const CLAIMS: &[Claim] = &[
         equation: "after (27)",
         section: "5.1",
         statement: "a half swing takes pi/omega_d",
-        scene: None,
+        scene: Some("fig06"),
         check: |limits| over_swings(limits, |swing| PI / swing.omega, |[_, tau]| tau),
     },
     Claim {
         equation: "(25)",
         section: "5.1",
         statement: "above v = 0 the motion is linear in q - r: where a half swing ends",
-        scene: Some("linear"),
+        scene: Some("fig06"),
         check: |limits| shifted(limits, 1.0),
     },
     Claim {
         equation: "(25-28)",
         section: "5.1",
         statement: "with A = -c, B = -c D/omega_d the velocity on the way is (26, 27)",
-        scene: None,
+        scene: Some("fig06"),
         check: |limits| {
             Finding::worst(DAMPINGS.map(|d| {
                 let (parameters, swing) = (units_of_friction(d), Swing::new(d));
@@ -95,7 +95,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(29)",
         section: "5.1",
         statement: "a half swing that starts with clearance c ends at c e^(-pi D/omega_d), counted from -r",
-        scene: None,
+        scene: Some("fig06"),
         check: |limits| {
             over_swings(
                 limits,
@@ -108,7 +108,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(30)",
         section: "5.1",
         statement: "clearance c of the cycle: how far it passes the sticking set",
-        scene: Some("linear"),
+        scene: Some("fig07"),
         check: |limits| {
             over_cycles(limits, |swing| (swing.clearance(), None), |cycle| cycle.clearance)
         },
@@ -117,7 +117,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(30)",
         section: "5.1",
         statement: "the same at D = -0.999, the smallest basin of Fig. 7",
-        scene: Some("linear"),
+        scene: Some("fig07"),
         check: |limits| {
             let parameters = units_of_friction(-0.999);
             let cycle = smallest(&parameters, limits)?;
@@ -130,21 +130,21 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(31)",
         section: "5.1",
         statement: "the border as a curve over the angle phi: its velocity at phi = 2",
-        scene: Some("linear"),
+        scene: Some("fig07"),
         check: |limits| on_the_curve(limits, |point| point.v, |[_, v]| v),
     },
     Claim {
         equation: "(31)",
         section: "5.1",
         statement: "the border as a curve over the angle phi: its displacement at phi = 2",
-        scene: Some("linear"),
+        scene: Some("fig07"),
         check: |limits| on_the_curve(limits, |point| point.q, |[q, _]| q),
     },
     Claim {
         equation: "(32)",
         section: "5.1",
         statement: "largest displacement A_q of the cycle",
-        scene: Some("linear"),
+        scene: Some("fig08"),
         check: |limits| {
             over_cycles(
                 limits,
@@ -157,7 +157,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(33)",
         section: "5.1",
         statement: "largest velocity A_v of the cycle",
-        scene: Some("linear"),
+        scene: Some("fig08"),
         check: |limits| {
             over_cycles(
                 limits,
@@ -170,7 +170,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "Fig. 7",
         section: "6.1",
         statement: "the cycle scales with r: its extent for r = 3 in terms of that for r = 1",
-        scene: Some("linear"),
+        scene: Some("fig07"),
         check: |limits| {
             let cycle = |r: f64| smallest(&oscillator(-0.4, 0.0, 0.0, r), limits);
             let (one, three) = (cycle(1.0)?, cycle(3.0)?);

@@ -100,14 +100,14 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(9)",
         section: "3",
         statement: "without friction small motions grow as e^(-D tau)",
-        scene: Some("hopf"),
+        scene: Some("fig02"),
         check: |limits| over_damping(limits, |d, growth, _| Finding::equal(-d, growth)),
     },
     Claim {
         equation: "(9)",
         section: "3",
         statement: "without friction small motions have the frequency 1",
-        scene: Some("hopf"),
+        scene: Some("fig02"),
         check: |limits| {
             over_damping(limits, |d, _, frequency| {
                 Finding::equal(1.0, frequency).corrected((1.0 - d * d).sqrt())
@@ -118,7 +118,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "Fig. 2",
         section: "3",
         statement: "without friction the steady state is unstable for D < 0 and attracts for D > 0",
-        scene: Some("hopf"),
+        scene: Some("fig02"),
         check: |limits| {
             let mut cases = Vec::new();
             for d in [-0.9, -0.1, -1e-3, 1e-3, 0.1, 0.9] {
@@ -133,7 +133,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "Fig. 2",
         section: "3",
         statement: "with friction, however little, the same rest attracts",
-        scene: Some("plain"),
+        scene: Some("fig02"),
         check: |limits| {
             let mut cases = Vec::new();
             for d in [-0.9, -0.1, -1e-3, 1e-3, 0.1, 0.9] {
