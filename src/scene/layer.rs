@@ -80,6 +80,10 @@ pub enum Layer {
     Levels,
     /// The spirals that make the cycle.
     Spirals,
+    /// The rate of the energy over the velocity.
+    Rate,
+    /// The eigenvalues, and their way over D.
+    Locus,
 }
 
 /// One row of [`LAYERS`].
@@ -100,7 +104,7 @@ pub struct LayerSpec {
 }
 
 /// Every layer, in the order in which they are listed.
-pub const LAYERS: [LayerSpec; 34] = [
+pub const LAYERS: [LayerSpec; 36] = [
     LayerSpec {
         layer: Layer::Trajectory,
         name: "trajectory",
@@ -372,6 +376,22 @@ pub const LAYERS: [LayerSpec; 34] = [
         meaning: "the two shifted spirals that make the cycle",
         needs: None,
         usual: false,
+    },
+    LayerSpec {
+        layer: Layer::Rate,
+        name: "rate",
+        view: View::EnergyRate,
+        meaning: "V', what damping feeds and what friction takes",
+        needs: None,
+        usual: true,
+    },
+    LayerSpec {
+        layer: Layer::Locus,
+        name: "locus",
+        view: View::Eigenvalues,
+        meaning: "the eigenvalues, and their way over D",
+        needs: None,
+        usual: true,
     },
 ];
 

@@ -148,7 +148,12 @@ mod tests {
                         let Axes { abscissa, against, .. } = plot.axes;
                         assert!(x.contains(value(abscissa)) && y.contains(value(against)));
                     }
-                    View::EnergyLedger | View::ReturnMap | View::Trade | View::Scan => {}
+                    View::EnergyRate => assert!(x.contains(initial.v)),
+                    View::EnergyLedger
+                    | View::ReturnMap
+                    | View::Trade
+                    | View::Eigenvalues
+                    | View::Scan => {}
                 }
             }
         }

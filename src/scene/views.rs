@@ -32,6 +32,10 @@ pub enum View {
     Trade,
     /// The mass on its belt.
     Belt,
+    /// The rate of the energy over the velocity.
+    EnergyRate,
+    /// The eigenvalues of the rest without friction in the complex plane.
+    Eigenvalues,
     /// What was measured at each point of a scan.
     Scan,
 }
@@ -52,7 +56,7 @@ pub struct ViewSpec {
 }
 
 /// Every view, in the order in which they are listed and the keys visit them.
-pub const VIEWS: [ViewSpec; 9] = [
+pub const VIEWS: [ViewSpec; 11] = [
     ViewSpec {
         view: View::Phase,
         name: "phase",
@@ -108,6 +112,20 @@ pub const VIEWS: [ViewSpec; 9] = [
         title: "mass on belt",
         meaning: "the machine, moving with the motion",
         window: Window { x: Span::known(-2.0, 2.0), y: Span::known(0.0, 1.0) },
+    },
+    ViewSpec {
+        view: View::EnergyRate,
+        name: "energy-rate",
+        title: "energy rate",
+        meaning: "V' over velocity: what damping feeds and friction takes",
+        window: Window { x: Span::known(-2.0, 2.0), y: Span::known(-2.0, 2.0) },
+    },
+    ViewSpec {
+        view: View::Eigenvalues,
+        name: "eigenvalues",
+        title: "eigenvalues",
+        meaning: "of the rest without friction, in the complex plane",
+        window: Window { x: Span::known(-1.5, 1.5), y: Span::known(-1.5, 1.5) },
     },
     ViewSpec {
         view: View::Scan,

@@ -5,9 +5,9 @@
 use super::input::Input;
 use super::key::Key;
 use super::keymap::Context::{
-    self, Always, Belt, Count, Diagram, EnergyLedger, Entry, Everywhere, Form, Help, Layers,
-    Letter, Lists, Offer, Palette, Paper, Parameters, Phase, Plots, Prompt, Regimes, ReturnMap,
-    Scan, Scenes, Search, TimeSeries, Trade, Views, Walk,
+    self, Always, Belt, Count, Diagram, EnergyLedger, EnergyRate, Entry, Everywhere, Form, Help,
+    Layers, Letter, Lists, Offer, Palette, Paper, Parameters, Phase, Plots, Prompt, Regimes,
+    ReturnMap, Scan, Scenes, Search, TimeSeries, Trade, Views, Walk,
 };
 use super::message::Effect;
 use super::pending::{self, Letter as Ask};
@@ -89,7 +89,7 @@ pub const COMMANDS: &[Command] = &[
     row("reset-value", &[(Parameters, &["r", "<backspace>", "<del>"])], "reset",
         "Give the selected row the scene's value and step", |s, _| parameters::reset_row(s)),
 
-    row("start-here", &[(Phase, &["<enter>"]), (TimeSeries, &["<enter>"]), (ReturnMap, &["<enter>"]), (Belt, &["<enter>"])], "start here",
+    row("start-here", &[(Phase, &["<enter>"]), (TimeSeries, &["<enter>"]), (ReturnMap, &["<enter>"]), (Belt, &["<enter>"]), (EnergyRate, &["<enter>"])], "start here",
         "Start the motion at the cursor", |s, _| plots::start_here(s)),
     row("start-on-cycle", &[(EnergyLedger, &["<enter>"])], "start there",
         "Start the motion on the cycle that the cursor is at", |s, _| plots::start_here(s)),
@@ -323,6 +323,10 @@ pub const COMMANDS: &[Command] = &[
         "Show or hide levels of the energy and where it falls", |s, _| general::toggle(s, Layer::Levels)),
     row("toggle-spirals", &[(Phase, &["I"])], "",
         "Show or hide the two spirals that make the cycle", |s, _| general::toggle(s, Layer::Spirals)),
+    row("toggle-rate", &[(EnergyRate, &["F"])], "",
+        "Show or hide the rate of the energy and its parts", |s, _| general::toggle(s, Layer::Rate)),
+    row("toggle-locus", &[(Context::Eigenvalues, &["F"])], "",
+        "Show or hide the eigenvalues and their way", |s, _| general::toggle(s, Layer::Locus)),
     row("toggle-rows", &[(Trade, &["E"])], "",
         "Show or hide the error of every method over its cost", |s, _| general::toggle(s, Layer::Rows)),
     row("toggle-front", &[(Trade, &["F"])], "",

@@ -3,6 +3,7 @@
 use super::plot::Framing;
 use super::scan::Scanned;
 use super::state::Session;
+use crate::closed_form::lyapunov;
 use crate::flow::Outcome;
 use crate::oscillator::energy::energy;
 use crate::oscillator::{State, Symbol};
@@ -21,6 +22,12 @@ const REST: f64 = 1.2;
 
 /// How far beyond the largest cycle a return map goes.
 const FARTHER: f64 = 1.25;
+
+/// How far beyond the Lyapunov circle the rate of the energy is looked at.
+const FASTER: f64 = 1.6;
+
+/// Velocities at which the rate of the energy is looked at to fit it.
+const RATES: u8 = 64;
 
 /// Room beyond the sticking set, as a part of that.
 const MARGIN: f64 = 0.2;
@@ -49,6 +56,8 @@ pub(super) fn resolve(session: &mut Session) {
             View::Regimes => regimes(session, index),
             View::Trade => trade(session),
             View::Belt => belt(session),
+            View::EnergyRate => energy_rate(session),
+            View::Eigenvalues => eigenvalues(session),
             View::Scan => session.scanned.as_ref().map(Scanned::window),
         };
         let of_scene = session.exhibit_of_scene(index, view);
@@ -203,6 +212,27 @@ fn return_map(session: &Session) -> Option<Window> {
     let far = if largest > r { largest } else { 10.0 * r };
     let span = Span::new(-(1.0 + MARGIN) * r, FARTHER * far).ok()?;
     Some(Window { x: span, y: span })
+}
+
+/// Velocities around the Lyapunov circle and the start, and how the energy changes there.
+fn energy_rate(session: &Session) -> Option<Window> {
+    let parameters = session.problem.parameters;
+    let radius = lyapunov::radius(&parameters).unwrap_or(0.0);
+    let fastest = radius.max(session.problem.initial.v.abs()).max(parameters.r);
+    let fastest = if fastest > 0.0 { fastest } else { 1.0 };
+    let x = Span::new(-FASTER * fastest, FASTER * fastest).ok()?;
+    let rate = |v: f64| lyapunov::energy_rate(&parameters, State { q: 0.0, v });
+    let parts = (0..=RATES).map(|part| rate(x.at(f64::from(part) / f64::from(RATES))));
+    let y = Span::covering(parts.chain([0.0]))?;
+    Some(Window { x, y: y.scaled(y.center(), ROOM) })
+}
+
+/// The circle and both eigenvalues.
+fn eigenvalues(session: &Session) -> Option<Window> {
+    let usual = View::Eigenvalues.spec().window;
+    let d = session.problem.parameters.d.abs();
+    let far = usual.x.to().max(2.0 * ROOM * d);
+    Some(Window { x: Span::new(-far, far).ok()?, ..usual })
 }
 
 /// The values of both parameters first looked at, and today's.

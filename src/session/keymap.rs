@@ -33,6 +33,10 @@ pub enum Context {
     Trade,
     /// The focus is on the mass on its belt.
     Belt,
+    /// The focus is on the rate of the energy.
+    EnergyRate,
+    /// The focus is on the eigenvalues.
+    Eigenvalues,
     /// The focus is on a scan.
     Scan,
     /// A point of the branch is held.
@@ -74,7 +78,7 @@ pub enum Context {
 }
 
 /// Every context with its name in settings files.
-pub const CONTEXTS: [(Context, &str); 28] = [
+pub const CONTEXTS: [(Context, &str); 30] = [
     (Context::Parameters, "parameters"),
     (Context::Phase, "phase"),
     (Context::Diagram, "diagram"),
@@ -84,6 +88,8 @@ pub const CONTEXTS: [(Context, &str); 28] = [
     (Context::Regimes, "regimes"),
     (Context::Trade, "trade"),
     (Context::Belt, "belt"),
+    (Context::EnergyRate, "energy-rate"),
+    (Context::Eigenvalues, "eigenvalues"),
     (Context::Scan, "scan"),
     (Context::Form, "form"),
     (Context::Walk, "walk"),
@@ -125,6 +131,8 @@ impl Context {
             Context::Regimes => "Chart of regimes",
             Context::Trade => "Trade of error for cost",
             Context::Belt => "Mass on its belt",
+            Context::EnergyRate => "Rate of the energy",
+            Context::Eigenvalues => "Eigenvalues",
             Context::Scan => "Scan",
             Context::Form => "While typing a scan",
             Context::Walk => "Walking along the branch",
@@ -183,6 +191,8 @@ impl Context {
             | Context::Regimes
             | Context::Trade
             | Context::Belt
+            | Context::EnergyRate
+            | Context::Eigenvalues
             | Context::Scan
             | Context::Walk
             | Context::Plots
@@ -203,6 +213,8 @@ impl Context {
             Context::Regimes => Some(View::Regimes),
             Context::Trade => Some(View::Trade),
             Context::Belt => Some(View::Belt),
+            Context::EnergyRate => Some(View::EnergyRate),
+            Context::Eigenvalues => Some(View::Eigenvalues),
             Context::Scan => Some(View::Scan),
             _ => None,
         }
@@ -210,7 +222,7 @@ impl Context {
 }
 
 /// Every set of contexts that can hold together, the most specific first.
-pub const CHAINS: [&[Context]; 24] = [
+pub const CHAINS: [&[Context]; 26] = [
     &[Context::Parameters, Context::Everywhere, Context::Always],
     &[Context::Phase, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Diagram, Context::Plots, Context::Everywhere, Context::Always],
@@ -220,6 +232,8 @@ pub const CHAINS: [&[Context]; 24] = [
     &[Context::Belt, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Regimes, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Trade, Context::Plots, Context::Everywhere, Context::Always],
+    &[Context::EnergyRate, Context::Plots, Context::Everywhere, Context::Always],
+    &[Context::Eigenvalues, Context::Plots, Context::Everywhere, Context::Always],
     &[Context::Scan, Context::Everywhere, Context::Always],
     &[Context::Walk, Context::Always],
     &[Context::Help, Context::Lists, Context::Always],
@@ -255,6 +269,8 @@ impl Session {
                 Some(View::Regimes) => Context::Regimes,
                 Some(View::Trade) => Context::Trade,
                 Some(View::Belt) => Context::Belt,
+                Some(View::EnergyRate) => Context::EnergyRate,
+                Some(View::Eigenvalues) => Context::Eigenvalues,
                 Some(View::Scan) => Context::Scan,
             },
             Some(Overlay::Palette(_)) => Context::Palette,

@@ -7,43 +7,17 @@ use crate::closed_form::linear::linear_flow;
 use crate::closed_form::lyapunov::energy_rate;
 use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::oscillator::{Parameters, State};
-use crate::scene::Point;
+use crate::scene::{Point, Span};
 
-/// Circles on which the energy V is the same, and shaded the velocities at which it falls: V' depends on
-/// nothing else (17-19).
+/// Circles on which the energy V is the same, and shaded the velocities at which it falls.
 pub(super) fn levels(picture: &mut Picture, parameters: &Parameters) {
     /// Circles in the window.
-    const LEVELS: u8 = 6;
-    /// Velocities whose sign of V' is looked at; borders between them are bisected.
-    const VELOCITIES: u16 = 400;
-    /// Halvings of a border: to rounding.
-    const HALVINGS: u8 = 60;
+    const LEVELS: u8 = 2;
     const CORNERS: u16 = 240;
     let y = picture.window.y;
-    let falls = |v: f64| energy_rate(parameters, State { q: 0.0, v }) <= 0.0;
-    let border = |inside: f64, outside: f64| {
-        let halve = |(inside, outside): (f64, f64), _| {
-            let middle = f64::midpoint(inside, outside);
-            if falls(middle) { (middle, outside) } else { (inside, middle) }
-        };
-        (0..HALVINGS).fold((inside, outside), halve).0
-    };
-    let mut from = falls(y.from()).then_some(y.from());
-    let mut last = y.from();
-    for index in 1..=VELOCITIES {
-        let v = y.at(f64::from(index) / f64::from(VELOCITIES));
-        match (from, falls(v)) {
-            (None, true) => from = Some(border(v, last)),
-            (Some(start), false) => {
-                strip(picture, start, border(last, v));
-                from = None;
-            }
-            _ => {}
-        }
-        last = v;
-    }
-    if let Some(start) = from {
-        strip(picture, start, y.to());
+    for (from, to) in falling(parameters, y) {
+        let line = Line::new("energy falls", Role::Basin, Dash::Solid);
+        picture.items.push(Item::Rows(line, from, to));
     }
     for level in 1..=LEVELS {
         let radius = 0.5 * y.width() * f64::from(level) / f64::from(LEVELS);
@@ -55,9 +29,38 @@ pub(super) fn levels(picture: &mut Picture, parameters: &Parameters) {
     }
 }
 
-fn strip(picture: &mut Picture, from: f64, to: f64) {
-    let line = Line::new("energy falls", Role::Basin, Dash::Solid);
-    picture.items.push(Item::Rows(line, from, to));
+/// The intervals of velocities, within some, at which the energy falls: V' depends on nothing else
+/// (17 to 19). Their ends are exact to rounding.
+fn falling(parameters: &Parameters, among: Span) -> Vec<(f64, f64)> {
+    /// Velocities whose sign of V' is looked at; borders between them are bisected.
+    const VELOCITIES: u16 = 400;
+    /// Halvings of a border: to rounding.
+    const HALVINGS: u8 = 60;
+    let falls = |v: f64| energy_rate(parameters, State { q: 0.0, v }) <= 0.0;
+    let border = |inside: f64, outside: f64| {
+        let halve = |(inside, outside): (f64, f64), _| {
+            let middle = f64::midpoint(inside, outside);
+            if falls(middle) { (middle, outside) } else { (inside, middle) }
+        };
+        (0..HALVINGS).fold((inside, outside), halve).0
+    };
+    let mut found = Vec::new();
+    let mut from = falls(among.from()).then_some(among.from());
+    let mut last = among.from();
+    for index in 1..=VELOCITIES {
+        let v = among.at(f64::from(index) / f64::from(VELOCITIES));
+        match (from, falls(v)) {
+            (None, true) => from = Some(border(v, last)),
+            (Some(start), false) => {
+                found.push((start, border(last, v)));
+                from = None;
+            }
+            _ => {}
+        }
+        last = v;
+    }
+    found.extend(from.map(|start| (start, among.to())));
+    found
 }
 
 /// The half turns of two spirals, one shifted to the left by r and one to the right, whose ends meet
@@ -98,7 +101,7 @@ pub(super) fn spirals(picture: &mut Picture, parameters: &Parameters) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Span, Window};
+    use crate::scene::Window;
 
     fn picture() -> Picture<'static> {
         let span = Span::known(-3.0, 3.0);

@@ -22,7 +22,7 @@ enum Sample {
 }
 
 /// What there is to explain: the layer that shows it, its role, how it is drawn, and what it is.
-const ENTRIES: [(Layer, Role, Sample, &str); 30] = [
+const ENTRIES: [(Layer, Role, Sample, &str); 35] = [
     (Layer::Trajectory, Role::Trajectory, Sample::Line(Dash::Solid), "motion"),
     (Layer::Sticking, Role::Sticking, Sample::Bar, "sticking set, at rest"),
     (Layer::Cycles, Role::Stable, Sample::Line(Dash::Solid), "stable cycle"),
@@ -53,6 +53,11 @@ const ENTRIES: [(Layer, Role, Sample, &str); 30] = [
     (Layer::Rows, Role::Trajectory, Sample::Line(Dash::Solid), "methods with events"),
     (Layer::Rows, Role::Unstable, Sample::Line(Dash::Dotted), "and without"),
     (Layer::Front, Role::Stable, Sample::Point, "best choices"),
+    (Layer::Rate, Role::Energy, Sample::Line(Dash::Solid), "rate V' of the energy"),
+    (Layer::Rate, Role::Velocity, Sample::Line(Dash::Dashed), "fed by damping"),
+    (Layer::Rate, Role::Sticking, Sample::Line(Dash::Dotted), "taken by friction"),
+    (Layer::Locus, Role::Basin, Sample::Shade, "the rest is stable"),
+    (Layer::Locus, Role::Asymptote, Sample::Line(Dash::Dotted), "eigenvalues over D"),
 ];
 
 /// Draws the legend of the layers that are on at the bottom of `area`, if it fits there.

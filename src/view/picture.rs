@@ -11,7 +11,8 @@ use std::fmt;
 use super::dots::Dash;
 use super::look::Role;
 use super::{
-    belt, diagram, energy_ledger, phase_plane, regimes, return_map, scan, time_series, trade,
+    belt, diagram, eigenvalues, energy_ledger, energy_rate, phase_plane, regimes, return_map, scan,
+    time_series, trade,
 };
 use crate::scene::{Point, View, Window};
 use crate::session::Session;
@@ -261,6 +262,8 @@ pub fn of(session: &Session, index: usize) -> Picture<'_> {
         View::ReturnMap => return_map::picture(session, index),
         View::Regimes => regimes::picture(session, index),
         View::Trade => trade::picture(session, index),
+        View::EnergyRate => energy_rate::picture(session, index),
+        View::Eigenvalues => eigenvalues::picture(session, index),
         View::Scan => scan::picture(session, index),
         View::Belt => belt::picture(session, index),
     };

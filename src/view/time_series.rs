@@ -66,6 +66,13 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
             events(&mut picture, motion);
         }
     }
+    if let Some(head) = session.head() {
+        picture.upright(Line::new("", Role::Cursor, Dash::Sparse), head.tau);
+        for (.., read) in QUANTITIES.iter().filter(|(layer, ..)| shows(*layer)) {
+            let y = read(State { q: head.q, v: head.v });
+            picture.mark(Mark::Head, Point { x: head.tau, y }, Role::Cursor);
+        }
+    }
     picture.cross(cursor);
     picture
 }

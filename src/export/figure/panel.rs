@@ -162,6 +162,7 @@ fn varied(session: &Session, plot: usize) -> Vec<Symbol> {
     let Plot { view, axes, .. } = &session.plots[plot];
     match view {
         View::Diagram => vec![axes.abscissa],
+        View::Eigenvalues => vec![Symbol::D],
         View::Regimes => vec![axes.abscissa, axes.against],
         View::Scan => {
             let scanned = session.scanned.iter().flat_map(|scanned| scanned.scan.over());
@@ -172,7 +173,8 @@ fn varied(session: &Session, plot: usize) -> Vec<Symbol> {
         | View::EnergyLedger
         | View::ReturnMap
         | View::Trade
-        | View::Belt => Vec::new(),
+        | View::Belt
+        | View::EnergyRate => Vec::new(),
     }
 }
 

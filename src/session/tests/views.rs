@@ -109,10 +109,13 @@ fn enter_takes_the_point_under_the_cursor_into_the_phase_plane() {
 
 #[test]
 fn a_view_that_the_scene_does_not_know_opens_with_its_usual_layers() {
-    // A scan is asked for by its form, not by layers.
+    // A scan is asked for by its form, not by layers; two views draw formulas and ask nothing.
+    let formulas = [View::EnergyRate, View::Eigenvalues];
     for row in VIEWS.iter().filter(|row| row.view != View::Scan) {
         let desk = turned_to(row.name);
-        assert!(!desk.session.needs(0).is_empty(), "{}", row.name);
+        let shown = desk.session.layers.iter().any(|layer| desk.session.shows_in(*layer, 0));
+        assert!(shown, "{}", row.name);
+        assert_eq!(desk.session.needs(0).is_empty(), formulas.contains(&row.view), "{}", row.name);
     }
     // What is on stays as it is.
     let mut desk = turned_to("time-series");

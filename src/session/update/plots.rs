@@ -33,7 +33,8 @@ fn cursor_origin(session: &Session, plot: &Plot) -> Point {
         View::Diagram => Point { x: session.value(plot.axes.abscissa), y: window.center().y },
         View::TimeSeries => Point { x: 0.0, y: session.problem.initial.q },
         View::EnergyLedger => Point { x: 0.0, y: 0.0 },
-        View::Trade | View::Scan => window.center(),
+        View::EnergyRate => Point { x: session.problem.initial.v, y: 0.0 },
+        View::Eigenvalues | View::Trade | View::Scan => window.center(),
         View::ReturnMap => Point { x: session.problem.initial.q, y: session.problem.initial.q },
         View::Regimes => {
             Point { x: session.value(plot.axes.abscissa), y: session.value(plot.axes.against) }
@@ -184,7 +185,8 @@ pub fn start_here(session: &mut Session) -> Vec<Effect> {
         Some(View::TimeSeries) => session.state_at(x),
         Some(View::EnergyLedger) => session.start_of_line(y),
         Some(View::ReturnMap | View::Belt) => Some(State { q: x, v: 0.0 }),
-        Some(View::Scan) => return Vec::new(),
+        Some(View::EnergyRate) => Some(State { v: x, ..session.problem.initial }),
+        Some(View::Scan | View::Eigenvalues) => return Vec::new(),
         Some(View::Phase | View::Diagram | View::Regimes | View::Trade) | None => {
             Some(State { q: x, v: y })
         }
