@@ -81,9 +81,7 @@ mod tests {
 
     fn matrix(size: usize) -> DMatrix<f64> {
         #[expect(clippy::cast_precision_loss, reason = "small")]
-        DMatrix::from_fn(size, size, |row, column| {
-            ((1 + 7 * row + 3 * column * column) as f64).sin()
-        })
+        DMatrix::from_fn(size, size, |row, column| (((1 + row) * (2 + 3 * column)) as f64).sin())
     }
 
     #[test]
