@@ -37,9 +37,6 @@ const MANY: (u64, u64) = (100, 4);
 /// most. A motion that is stiff for a dozen steps only is over before implicit ones pay.
 const PATIENCE: (u32, u32) = (12, 320);
 
-/// The loosest tolerance of the series: with looser ones it loses digits and saves no time.
-const LOOSEST: f64 = 1e-3;
-
 /// The stepper.
 #[derive(Clone, Debug)]
 pub struct Auto {
@@ -101,7 +98,7 @@ impl Auto {
         let field = HalfPlane { d: 0.0, d2: 0.0, d3: 0.0 };
         Auto {
             field,
-            taylor: Taylor::new(tolerance.min(LOOSEST)),
+            taylor: Taylor::new(tolerance),
             tolerance,
             stiff: None,
             was_implicit: false,

@@ -334,10 +334,16 @@ impl Session {
                 self.price.recomputed.push(Recomputed { slot, cost, seconds });
                 self.failures.retain(|(request, _)| *request != answered.request);
                 let answered = Arc::new(answered);
+                let draft_of =
+                    |wanted: &Request| wanted.draft().as_ref() == Some(&answered.request);
+                let of_today = asked || wanted.iter().flatten().any(draft_of);
                 for (plot, wanted) in wanted.iter().enumerate() {
                     let Some(wanted) = wanted else { continue };
-                    let late = answered.request.resembles(wanted) && self.is_stale(slot, plot);
-                    if answered.request == *wanted || late {
+                    // What another plot asks today is no late answer to this one.
+                    let late = !of_today && answered.request.resembles(wanted);
+                    let newer = (draft_of(wanted) || late && !self.has_draft(slot, plot))
+                        && self.is_stale(slot, plot);
+                    if answered.request == *wanted || newer {
                         self.hold(plot, Arc::clone(&answered));
                     }
                 }

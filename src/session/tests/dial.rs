@@ -127,6 +127,29 @@ fn what_took_long_is_answered_by_a_draft_first_and_refined_then() {
     assert_eq!(open(&desk), [(Slot::Trajectory, false), (Slot::Cycles, false)]);
 }
 
+/// Four diagrams over the same range, each of its own variants: none takes the draft of another for its
+/// own, and all come to rest.
+#[test]
+fn plots_with_like_questions_keep_their_drafts_apart() {
+    let mut session = Desk::open("fig17").session;
+    for slot in SLOTS {
+        session.effort.burdens.insert(slot, 10_000_000);
+    }
+    update(&mut session, Msg::Key("<right>".parse().unwrap()));
+    session.problem.tolerance = 1e-12;
+    let plots = 0..session.plots.len();
+    let mut asked: Vec<Request> = Vec::new();
+    while let Some(request) = session.wants().into_iter().find(|request| session.is_open(request)) {
+        assert!(!asked.contains(&request), "asked again: {request:?}");
+        asked.push(request.clone());
+        update(&mut session, Msg::Answered(Box::new(answered(request))));
+    }
+    assert_eq!(asked.len(), 2 * plots.len(), "a draft and an answer for each");
+    for plot in plots {
+        assert!(!session.is_stale(Slot::VariantBranches, plot));
+    }
+}
+
 #[test]
 fn a_draft_that_fails_is_not_tried_again() {
     let mut desk = Desk::open("supercritical");
