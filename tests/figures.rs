@@ -237,10 +237,14 @@ fn the_borders_of_the_basins_are_the_cycles_of_the_formulas() {
     let drawn = figure("fig07", Fineness::PRINT);
     for (panel, d) in [(1, -0.4), (2, -0.7), (3, -0.999)] {
         let (q, v) = linear_extents(d, 1.0);
-        for name in ["unstable cycle", "edge of the basin"] {
-            let [cycle] = &curves(&drawn, panel, name)[..] else { panic!("one {name}") };
-            assert_eq!(cycle.parameters["D"], d);
-            let farthest = |axis: usize| cycle.points.iter().map(|at| at[axis]).fold(0.0, f64::max);
+        let [cycle] = &curves(&drawn, panel, "unstable cycle")[..] else { panic!("one cycle") };
+        let areas = &drawn.panels[panel].areas;
+        let basin = areas.iter().find(|area| area.name == "basin of the sticking set").unwrap();
+        for (points, parameters) in
+            [(&cycle.points, &cycle.parameters), (&basin.edge, &basin.parameters)]
+        {
+            assert_eq!(parameters["D"], d);
+            let farthest = |axis: usize| points.iter().map(|at| at[axis]).fold(0.0, f64::max);
             assert!((farthest(0) / q - 1.0).abs() < 1e-9, "{d}: {}", farthest(0));
             assert!((farthest(1) / v - 1.0).abs() < 1e-4, "{d}: {}", farthest(1));
         }
