@@ -240,7 +240,18 @@ fn price(session: &Session, look: &Look, words: &Words) -> String {
     if price.recomputed.is_empty() {
         return String::new();
     }
-    let names: Vec<&str> = price.recomputed.iter().map(|part| part.slot.name()).collect();
+    let mut times: Vec<(&str, usize)> = Vec::new();
+    for name in price.recomputed.iter().map(|part| part.slot.name()) {
+        match times.iter_mut().find(|(known, _)| *known == name) {
+            Some((_, times)) => *times += 1,
+            None => times.push((name, 1)),
+        }
+    }
+    let several = |(name, times): &(&str, usize)| match times {
+        1 => (*name).to_owned(),
+        _ => format!("{name} x{times}"),
+    };
+    let names: Vec<String> = times.iter().map(several).collect();
     let key = price.key.map_or_else(|| "open".into(), |key| keys::name(key, look));
     let (recomputed, evaluations) = (words.recomputed, count(price.evaluations()));
     let names = names.join("+");
