@@ -14,7 +14,7 @@
 //! - [`study`] asks questions of the flow. Everything rests on the half-swing map
 //!   ([`study::half_map`]), which contains no friction, is increasing, and is inverted by itself with
 //!   the damping reversed. Cycles close two of them ([`study::closing`]); a search that excludes what
-//!   cannot hold a cycle finds all ([`study::search`], [`study::cycle`]), energy decides where differences
+//!   cannot hold a cycle finds all ([`study::search`], [`study::closings`], [`study::cycle`]), energy decides where differences
 //!   lose their digits ([`study::balance`]), continuation follows them ([`study::continuation`],
 //!   [`study::branch`], [`study::fold`], [`study::escape`]). Within a half plane every motion is a graph
 //!   over q ([`study::arc`]), so basins, margins and bands of capture are comparisons

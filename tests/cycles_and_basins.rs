@@ -8,7 +8,8 @@ use hopfscope::oscillator::{HalfPlane, Parameters, Side, State, Symbol};
 use hopfscope::study::basin::{Basin, Counts, Fate, Window, basin};
 use hopfscope::study::branch::{SpecialKind, branch};
 use hopfscope::study::closing::{Equation, Route};
-use hopfscope::study::cycle::{closings, cycle_near, cycles};
+use hopfscope::study::closings::{closings, polish};
+use hopfscope::study::cycle::{cycle_near, cycles};
 use hopfscope::study::half_map::{HalfMap, Length, NoEnd};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
@@ -312,7 +313,7 @@ fn one_cycle_costs_at_most_forty_half_swings() {
     let mut at = |u: f64| equation.at(Route::Mixed, u, &LIMITS).unwrap().node;
     let near = found[0].node.at;
     let bracket = (at(near - 0.3), at(near + 0.3));
-    let closing = hopfscope::study::cycle::polish(&mut equation, bracket, &LIMITS).unwrap();
+    let closing = polish(&mut equation, bracket, &LIMITS).unwrap();
     assert!((closing.node.at - near).abs() < 1e-14);
     assert!(equation.swings() <= 40, "{} half swings", equation.swings());
 }

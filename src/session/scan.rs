@@ -200,24 +200,24 @@ pub struct FieldSpec {
     pub help: &'static str,
 }
 
+const FROM: FieldSpec = FieldSpec {
+    field: Field::From,
+    name: "from",
+    help: "first value; log: before it for equal ratios",
+};
+const TO: FieldSpec = FieldSpec { field: Field::To, name: "to", help: "last value" };
+const COUNT: FieldSpec = FieldSpec { field: Field::Count, name: "count", help: "how many values" };
+
 /// Every field of the form, in the order in which they stand.
 pub const FIELDS: [FieldSpec; 9] = [
     FieldSpec { field: Field::Parameter, name: "over", help: "D, D2, D3, r, q0 or v0" },
-    FieldSpec {
-        field: Field::From,
-        name: "from",
-        help: "first value; log: before it for equal ratios",
-    },
-    FieldSpec { field: Field::To, name: "to", help: "last value" },
-    FieldSpec { field: Field::Count, name: "count", help: "how many values" },
+    FROM,
+    TO,
+    COUNT,
     FieldSpec { field: Field::Parameter, name: "and over", help: "a second parameter, or nothing" },
-    FieldSpec {
-        field: Field::From,
-        name: "from",
-        help: "first value; log: before it for equal ratios",
-    },
-    FieldSpec { field: Field::To, name: "to", help: "last value" },
-    FieldSpec { field: Field::Count, name: "count", help: "how many values" },
+    FROM,
+    TO,
+    COUNT,
     FieldSpec { field: Field::Measure, name: "measure", help: "one or more, with commas between" },
 ];
 

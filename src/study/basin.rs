@@ -8,7 +8,8 @@ use serde::Serialize;
 
 use super::arc::{Arc, Direction};
 use super::closing::{Closing, Equation, first_side};
-use super::cycle::{Edge, all_closings};
+use super::closings::all_closings;
+use super::cycle::Edge;
 use super::half_map::{Length, NoEnd};
 use super::margin::Margin;
 use crate::flow::{Cost, Limits, Reason};

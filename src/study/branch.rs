@@ -8,8 +8,9 @@
 use serde::Serialize;
 
 use super::closing::{Equation, Route, first_side};
+use super::closings::other_closings;
 use super::continuation::{Curve, CurvePoint};
-use super::cycle::{Cycle, other_closings};
+use super::cycle::Cycle;
 use super::escape::escape_point;
 use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::{Cost, Limits, Reason};

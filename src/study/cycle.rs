@@ -1,19 +1,13 @@
-//! Every limit cycle at given parameters.
-//!
-//! The roots of the closing equation ([`super::closing`]) are searched for between the smallest
-//! clearance that a swing past the sticking set can have and the edge of escape ([`super::search`]),
-//! then polished by Newton's method in the logarithm of the clearance along the route that contracts,
-//! and weighed as energy ([`super::balance`]) where the multiplier is close to 1.
+//! Every limit cycle at given parameters, described: extremes, period, multiplier, and what borders the
+//! basin. The closed pairs of half swings behind them are found in [`super::closings`].
 
 use serde::Serialize;
 
-use super::balance::weighed_residual;
 use super::basin::Basin;
 use super::closing::{Closing, Equation, Route};
-use super::half_map::Length;
+use super::closings::{STEP, all_closings, polish};
 use super::lift::lifted;
 use super::margin::Margin;
-use super::search::{Bracket, Node, search};
 use super::works::works as works_over;
 use crate::closed_form::harmonic::{Harmonic, amplitudes};
 use crate::closed_form::piecewise_linear::LinearCycle;
@@ -94,20 +88,11 @@ pub struct Cycles {
     pub cost: Cost,
 }
 
-/// Tolerance of the integration steps of the search and the polish: rounding.
-pub(super) const STEP: f64 = 1e-16;
-
 /// Points drawn on each integration step of a curve.
 const CURVE_POINTS: u8 = 12;
 
 /// How far a separatrix is followed for a picture, in units of `1/abs(D2)`.
 const PICTURE_REACH: f64 = 20.0;
-
-/// Slope of the residual below which it is weighed as energy.
-const FLAT: f64 = 0.3;
-
-/// Newton steps before giving up; bisection alone needs 60.
-const ITERATIONS: usize = 200;
 
 /// Finds all limit cycles at these parameters; `curves` asks for a picture too.
 ///
@@ -156,47 +141,6 @@ fn found(parameters: &Parameters, points: Option<u8>, limits: &Limits) -> Result
         answer.picture = Some(Picture::of(&basin, points));
     }
     Ok(answer)
-}
-
-/// All closings, from the closed form where there is one.
-///
-/// # Errors
-/// The [`Reason`] why a swing failed.
-pub fn all_closings(equation: &mut Equation, limits: &Limits) -> Result<Vec<Closing>, Reason> {
-    some_closings(equation, usize::MAX, limits)
-}
-
-/// The closing of the smallest amplitude, from the closed form where there is one: half the work of
-/// finding all.
-///
-/// # Errors
-/// The [`Reason`] why a swing failed.
-pub fn innermost_closing(
-    equation: &mut Equation,
-    limits: &Limits,
-) -> Result<Option<Closing>, Reason> {
-    Ok(some_closings(equation, 1, limits)?.pop())
-}
-
-/// As many closings as are wanted, by amplitude, from the closed form where there is one.
-fn some_closings(
-    equation: &mut Equation,
-    most: usize,
-    limits: &Limits,
-) -> Result<Vec<Closing>, Reason> {
-    let parameters = equation.parameters;
-    if parameters.is_piecewise_linear() {
-        let cycle = LinearCycle::new(parameters.d, parameters.r).ok();
-        return Ok(cycle.iter().map(Closing::from).collect());
-    }
-    searched(equation, most, &[], limits)
-}
-
-impl From<&LinearCycle> for Closing {
-    fn from(cycle: &LinearCycle) -> Self {
-        let clearance = Length { value: cycle.clearance, log: cycle.log_clearance };
-        Closing::symmetric(clearance, cycle.period, cycle.v_max)
-    }
 }
 
 impl Picture {
@@ -259,221 +203,6 @@ impl Edge {
     }
 }
 
-/// All closings, by amplitude.
-///
-/// # Errors
-/// The [`Reason`] why a swing failed.
-pub fn closings(equation: &mut Equation, limits: &Limits) -> Result<Vec<Closing>, Reason> {
-    searched(equation, usize::MAX, &[], limits)
-}
-
-/// All closings outside of the intervals of `ln c0` in which all are known, by amplitude.
-///
-/// # Errors
-/// The [`Reason`] why a swing failed.
-pub fn other_closings(
-    equation: &mut Equation,
-    known: &[(f64, f64)],
-    limits: &Limits,
-) -> Result<Vec<Closing>, Reason> {
-    searched(equation, usize::MAX, known, limits)
-}
-
-/// As many closings as are wanted, by amplitude, from the search outside of the `known` intervals.
-fn searched(
-    equation: &mut Equation,
-    most: usize,
-    known: &[(f64, f64)],
-    limits: &Limits,
-) -> Result<Vec<Closing>, Reason> {
-    /// A search takes some tens of thousands of evaluations; where it takes this many on one half map,
-    /// the flow is too stiff for it.
-    const BUDGET: u64 = 40_000_000;
-    let budget = limits.evaluations.min(BUDGET);
-    let limits = &Limits { evaluations: budget, interrupted: limits.interrupted };
-    let Parameters { d, d3, r, .. } = equation.parameters;
-    // The first integral of D2 decreases along every motion (`K` of [`super::balance`]), or increases.
-    if d >= 0.0 && d3 >= 0.0 || r == 0.0 && d <= 0.0 && d3 <= 0.0 {
-        return Ok(Vec::new());
-    }
-    let Some(low) = lower_end(equation, limits)? else { return Ok(Vec::new()) };
-    let brackets = brackets(equation, low, most, known, limits)?;
-    equation.want_fastest(true);
-    brackets.into_iter().take(most).map(|bracket| polish(equation, bracket, limits)).collect()
-}
-
-/// Where the search begins, or `None` where no swing passes the sticking set.
-fn lower_end(equation: &mut Equation, limits: &Limits) -> Result<Option<f64>, Reason> {
-    /// Without friction the linear terms alone decide about amplitudes this much below balance.
-    const SMALL: f64 = 1e-4;
-    /// A step down in the logarithm that no rounding bridges.
-    const CLEARLY: f64 = 0.125;
-    let Parameters { d, d2, d3, r } = equation.parameters;
-    let smallest = equation.smallest_clearance(limits)?;
-    Ok(smallest.map(|smallest| {
-        if smallest.log.is_finite() {
-            // A cycle of large multiplier lies within rounding of it: begin clearly below.
-            smallest.log - CLEARLY
-        } else if r > 0.0 {
-            // Beyond critical damping a swing passes from any clearance, however small.
-            (SMALL * f64::EPSILON * r).ln()
-        } else {
-            let natural = (1.0 / d2.abs()).min(1.0 / d3.abs().sqrt());
-            (SMALL * d.abs().sqrt().min(1.0) * natural).ln()
-        }
-    }))
-}
-
-/// Where the search ends if no escape ends it before.
-fn upper_end(parameters: &Parameters) -> f64 {
-    let Parameters { d, d2, d3, r } = *parameters;
-    if d3 != 0.0 {
-        f64::INFINITY
-    } else if d2 != 0.0 {
-        // A swing from far out forgets where it began as exp(-2 D2 c): beyond this all are one.
-        (60.0 / d2.abs() + 2.0 * r).ln()
-    } else {
-        // The piecewise linear cycle is near 2 r/(pi abs(D)).
-        (2.0 * r / d.abs()).ln() + 3.0
-    }
-}
-
-/// Marches outwards in `ln c0` until the end of the domain, leaving out the `known` intervals, and collects
-/// brackets of roots until there are as many as are wanted.
-fn brackets(
-    equation: &mut Equation,
-    low: f64,
-    most: usize,
-    known: &[(f64, f64)],
-    limits: &Limits,
-) -> Result<Vec<Bracket>, Reason> {
-    /// Tolerance of the steps of the search, and the blur of a residual that comes of it; weak damping
-    /// makes residuals that small and needs steps to rounding from the beginning.
-    const ROUGH: (f64, f64) = (1e-10, 1e-7);
-    const WEAK: f64 = 0.01;
-    /// First stride and longest stride, in `ln c0`.
-    const STRIDES: (f64, f64) = (0.5, 2.0);
-    let high = upper_end(&equation.parameters);
-    let (parameters, side) = (equation.parameters, equation.side);
-    let (step, blur) = if parameters.d.abs() < WEAK { (STEP, 0.0) } else { ROUGH };
-    let mut rough = Equation::on_side(&parameters, side, step);
-    let mut function = |u: f64, fine: bool| {
-        let equation = if fine { &mut *equation } else { &mut rough };
-        Ok(equation.at(Route::Mixed, u, limits)?.node)
-    };
-    let mut found = Vec::new();
-    // Where the next unknown interval begins, at or beyond a place.
-    let unknown = |mut at: f64| {
-        while let Some(&(_, to)) = known.iter().find(|(from, to)| *from <= at && at < *to) {
-            at = to;
-        }
-        at
-    };
-    let (mut here, mut stride) = (function(unknown(low), false)?, STRIDES.0);
-    while here.at < high {
-        let ahead = known.iter().map(|(from, _)| *from).filter(|from| *from > here.at);
-        let next = function(ahead.fold((here.at + stride).min(high), f64::min), false)?;
-        search(here, next, blur, &mut function, &mut found)?;
-        let beyond = unknown(next.at);
-        here = if beyond > next.at { function(beyond, false)? } else { next };
-        // A swing that never starts out, or never ends, is no end of the domain: from further out it may.
-        let escapes = here.rise == f64::INFINITY || here.fall == f64::INFINITY;
-        if found.len() >= most || escapes {
-            break;
-        }
-        stride = (1.5 * stride).min(STRIDES.1);
-    }
-    equation.charge(rough.cost());
-    Ok(found)
-}
-
-/// Newton's method on the contracting route, inside the bracket.
-///
-/// # Errors
-/// The [`Reason`] why a swing failed, or [`Reason::NoConvergence`].
-pub fn polish(
-    equation: &mut Equation,
-    bracket: Bracket,
-    limits: &Limits,
-) -> Result<Closing, Reason> {
-    let rising = bracket.1.value() > bracket.0.value();
-    let (mut low, mut high) = (bracket.0.at, bracket.1.at);
-    let mut route = Route::Mixed;
-    let mut switched = false;
-    let mut u = secant(&bracket);
-    let mut change = f64::INFINITY;
-    for _ in 0..ITERATIONS {
-        let closing = equation.at(route, u, limits)?;
-        let mut node = closing.node;
-        let contracting = Route::contracting(closing.log_multiplier(&equation.parameters));
-        // Beyond the domain of one swing a route that runs it the other way has a value.
-        if !node.value().is_finite() && !switched {
-            if route == Route::Mixed {
-                let first = node.rise == f64::INFINITY;
-                route = if first { Route::Backward } else { Route::Forward };
-                switched = true;
-                continue;
-            }
-            route = Route::Mixed;
-        }
-        // Where two routes contract alike each may say that the other is better: move on regardless.
-        if node.value().is_finite() && contracting != route && !switched {
-            (route, switched) = (contracting, true);
-            continue;
-        }
-        switched = false;
-        let flat = route == Route::Mixed && node.slope.abs() < FLAT;
-        if flat && let Some(weighed) = weighed_residual(equation, u, limits)? {
-            node = Node { rise: weighed, fall: 0.0, ..node };
-        }
-        if (node.value() > 0.0) == rising {
-            high = u;
-        } else {
-            low = u;
-        }
-        let newton = u - node.value() / node.slope;
-        let last = std::mem::replace(&mut change, (newton - u).abs());
-        // Rounding moves the root by an ulp, divided by the slope where the residual is a plain
-        // difference. A weighed one does better: it goes on while it does.
-        let rounding = 4.0 * f64::EPSILON * u.abs().max(1.0);
-        let blurred = change <= rounding / node.slope.abs().min(1.0);
-        // Where rounding of the swings is larger than that, Newton's method stops making progress.
-        let stalled = change >= 0.5 * last && change <= 16.0 * rounding;
-        let settled = change <= rounding || stalled || (blurred && (!flat || change >= 0.5 * last));
-        if settled && node.value().is_finite() {
-            return Ok(closing);
-        }
-        if high - low <= f64::EPSILON * u.abs() {
-            return closest(equation, u, limits);
-        }
-        u = if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
-    }
-    Err(Reason::NoConvergence { sought: "a limit cycle", change })
-}
-
-/// The closing at an unknown known to rounding, by the route on which it closes best.
-///
-/// A swing that magnifies rounding beyond its own size, such as one along the border of escape, is of no
-/// use forward: backward it contracts.
-///
-/// # Errors
-/// The [`Reason`] why a swing failed, or [`Reason::NoConvergence`] where no route closes.
-fn closest(equation: &mut Equation, u: f64, limits: &Limits) -> Result<Closing, Reason> {
-    /// Residual, relative to the clearance, that is rounding seen through a steep map.
-    const CLOSED: f64 = 1e-6;
-    let mut best: Option<Closing> = None;
-    for route in [Route::Mixed, Route::Backward, Route::Forward] {
-        let closing = equation.at(route, u, limits)?;
-        let residual = |closing: &Closing| closing.node.value().abs();
-        if residual(&closing) < best.as_ref().map_or(f64::INFINITY, residual) {
-            best = Some(closing);
-        }
-    }
-    let change = best.as_ref().map_or(f64::INFINITY, |best| best.node.value().abs());
-    best.filter(|_| change <= CLOSED)
-        .ok_or(Reason::NoConvergence { sought: "a limit cycle", change })
-}
-
 /// The cycle with its right turning point near `q_max`, without a search for others; `None` where no
 /// cycle is that near.
 ///
@@ -496,13 +225,6 @@ pub fn cycle_near(
     equation.want_fastest(true);
     let closing = polish(&mut equation, bracket, limits)?;
     Ok(Some(closing.describe(parameters, equation.side)))
-}
-
-/// Where the line through both ends of a bracket vanishes; its middle where an end is infinite.
-fn secant((low, high): &Bracket) -> f64 {
-    let middle = 0.5 * (low.at + high.at);
-    let secant = low.at - low.value() * (high.at - low.at) / (high.value() - low.value());
-    if secant > low.at && secant < high.at { secant } else { middle }
 }
 
 impl Closing {

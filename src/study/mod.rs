@@ -10,6 +10,7 @@ pub mod capture;
 pub mod chart;
 pub mod claims;
 pub mod closing;
+pub mod closings;
 pub mod continuation;
 pub mod cycle;
 pub mod design;

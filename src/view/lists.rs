@@ -10,6 +10,7 @@ use ratatui::widgets::{Clear, Paragraph, Widget, Wrap};
 use super::costs;
 use super::keys;
 use super::look::{Look, Role};
+use super::pane;
 use super::paper;
 use crate::scene::ViewSpec;
 use crate::session::update::palette::PaletteRow;
@@ -62,12 +63,7 @@ pub fn draw(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     // No slivers of panes beside the list; the footer stays in sight.
     let width = if screen.width < WIDTH + 10 { screen.width } else { WIDTH };
     let height = screen.height.saturating_sub(1).min(wanted.max(4));
-    let area = Rect {
-        x: screen.x + (screen.width - width) / 2,
-        y: screen.y + (screen.height.saturating_sub(1) - height) / 2,
-        width,
-        height,
-    };
+    let area = pane::centred(screen, width, height);
     if area.width < 4 || area.height < 4 {
         return;
     }

@@ -9,6 +9,14 @@ use super::look::{Look, Role};
 use crate::scene::Slot;
 use crate::session::{Pane, Session};
 
+/// The middle of the screen above the footer, for what stands over the panes.
+#[must_use]
+pub fn centred(screen: Rect, width: u16, height: u16) -> Rect {
+    let x = screen.x + (screen.width - width) / 2;
+    let y = screen.y + (screen.height.saturating_sub(1) - height) / 2;
+    Rect { x, y, width, height }
+}
+
 /// What stands in a title line besides the title.
 #[derive(Clone, Debug, Default)]
 pub struct Heading {

@@ -25,12 +25,7 @@ pub fn draw(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let rows = u16::try_from(FIELDS.len()).unwrap_or(u16::MAX) + BELOW;
     let width = WIDTH.min(screen.width);
     let height = (rows + 2).min(screen.height.saturating_sub(1));
-    let area = Rect {
-        x: screen.x + (screen.width - width) / 2,
-        y: screen.y + (screen.height.saturating_sub(1) - height) / 2,
-        width,
-        height,
-    };
+    let area = pane::centred(screen, width, height);
     if area.width < 20 || area.height < 6 {
         return;
     }

@@ -8,7 +8,8 @@ use crate::flow::{Detail, Limits, Method, Outcome, Problem, Reason};
 use crate::oscillator::{Parameters, Side, State};
 use crate::study::arc::{Arc, Direction};
 use crate::study::closing::Equation;
-use crate::study::cycle::{Cycle, closings};
+use crate::study::closings::closings;
+use crate::study::cycle::Cycle;
 use crate::study::half_map::Length;
 
 /// A number and how far it may be off.

@@ -5,7 +5,8 @@ use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Detail, Limits, Outcome, Problem, Reason, Trajectory};
 use crate::study::basin::{Basin, Window};
 use crate::study::closing::Equation;
-use crate::study::cycle::{Cycle, Cycles, STEP, cycles, innermost_closing};
+use crate::study::closings::{STEP, innermost_closing};
+use crate::study::cycle::{Cycle, Cycles, cycles};
 use crate::study::escape::escape_point;
 use crate::study::fold::{FoldPoint, fold};
 
