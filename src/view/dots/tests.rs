@@ -1,0 +1,138 @@
+//! Dots, cell by cell.
+
+use proptest::prelude::*;
+use ratatui::style::Color;
+
+use super::*;
+use crate::session::settings;
+
+const SOLID: Pen = Pen { role: Role::Trajectory, dash: Dash::Solid };
+
+fn painted(dots: &Dots) -> Vec<String> {
+    let look = Look::new(settings::Look { glyphs: dots.glyphs, ..settings::Look::default() });
+    let mut buffer = Buffer::empty(dots.area);
+    dots.paint(&mut buffer, &look);
+    let rows = buffer.content.chunks(usize::from(dots.area.width.max(1)));
+    rows.map(|row| row.iter().map(ratatui::buffer::Cell::symbol).collect()).collect()
+}
+
+#[test]
+fn a_diagonal_is_one_dot_wide() {
+    let mut dots = Dots::new(Rect::new(0, 0, 2, 1), Glyphs::Braille);
+    dots.stroke([(0.0, 0.0), (3.9, 3.9)], SOLID);
+    assert_eq!(painted(&dots), ["⠑⢄"]);
+}
+
+#[test]
+fn corners_of_a_curve_in_small_steps_are_cut() {
+    let mut dots = Dots::new(Rect::new(0, 0, 2, 1), Glyphs::Braille);
+    dots.stroke([(0.5, 0.5), (1.5, 0.5), (1.5, 1.5), (2.5, 1.5), (2.5, 2.5), (3.5, 3.5)], SOLID);
+    assert_eq!(painted(&dots), ["⠑⢄"]);
+}
+
+#[test]
+fn dashes_differ_in_their_dots() {
+    let drawn = |dash| {
+        let mut dots = Dots::new(Rect::new(0, 0, 8, 1), Glyphs::Braille);
+        dots.stroke([(0.0, 0.0), (15.9, 0.0)], Pen { role: Role::Stable, dash });
+        painted(&dots).remove(0)
+    };
+    assert_eq!(drawn(Dash::Solid), "⠉⠉⠉⠉⠉⠉⠉⠉");
+    assert_eq!(drawn(Dash::Dashed), "⠉⠉ ⠉⠉ ⠉⠉");
+    assert_eq!(drawn(Dash::Dotted), "⠁⠁⠁⠁⠁⠁⠁⠁");
+    assert_eq!(drawn(Dash::Sparse), "⠁ ⠁ ⠁ ⠁ ");
+}
+
+#[test]
+fn each_set_of_glyphs_draws_the_same_cross() {
+    let drawn = |glyphs| {
+        let mut dots = Dots::new(Rect::new(0, 0, 3, 3), glyphs);
+        let (width, height) = dots.size();
+        dots.stroke([(0.0, height / 2.0), (width, height / 2.0)], SOLID);
+        dots.stroke([(width / 2.0, 0.0), (width / 2.0, height)], SOLID);
+        painted(&dots)
+    };
+    assert_eq!(drawn(Glyphs::Ascii), [" * ", "***", " * "]);
+    assert_eq!(drawn(Glyphs::Block), [" ▐ ", "▄▟▄", " ▐ "]);
+    assert_eq!(drawn(Glyphs::Braille), [" ⢸ ", "⠤⢼⠤", " ⢸ "]);
+}
+
+#[test]
+fn strokes_hide_texture_and_symbols_hide_strokes() {
+    let mut dots = Dots::new(Rect::new(0, 0, 3, 1), Glyphs::Ascii);
+    (0..3).for_each(|column| dots.texture(column, 0, '.', Role::Basin));
+    dots.symbol(2, 0, 'F', Role::Special);
+    dots.stroke([(1.0, 0.0), (2.9, 0.0)], SOLID);
+    dots.texture(1, 0, '.', Role::Basin);
+    assert_eq!(painted(&dots), [".*F"]);
+    let covered = [0, 1, 2, 3].map(|column| dots.covering(column, 0));
+    let expected = [Covering::Texture, Covering::Curve, Covering::Symbol, Covering::Outside];
+    assert_eq!(covered, expected);
+}
+
+#[test]
+fn curves_hide_guides_even_in_the_gaps_of_their_dashes() {
+    let mut dots = Dots::new(Rect::new(0, 0, 6, 1), Glyphs::Ascii);
+    let line = [(0.0, 0.0), (4.9, 0.0)];
+    dots.stroke([(0.0, 0.0), (5.9, 0.0)], Pen { role: Role::Harmonic, dash: Dash::Dotted });
+    assert_eq!(painted(&dots), ["~ ~ ~ "]);
+    dots.stroke(line, Pen { role: Role::Unstable, dash: Dash::Dashed });
+    dots.stroke(line, Pen { role: Role::Axis, dash: Dash::Sparse });
+    assert_eq!(painted(&dots), ["oo oo "]);
+}
+
+#[test]
+fn a_later_stroke_takes_the_colour_of_a_shared_cell() {
+    let look = Look::new(settings::Look::default());
+    let mut dots = Dots::new(Rect::new(0, 0, 1, 1), Glyphs::Braille);
+    dots.stroke([(0.0, 0.0)], SOLID);
+    dots.stroke([(1.0, 3.0)], Pen { role: Role::Stable, dash: Dash::Solid });
+    let mut buffer = Buffer::empty(dots.area);
+    dots.paint(&mut buffer, &look);
+    assert_eq!((buffer[(0, 0)].symbol(), buffer[(0, 0)].fg), ("⢁", Color::Green));
+}
+
+#[test]
+fn a_line_from_far_out_enters_where_it_should() {
+    let mut dots = Dots::new(Rect::new(0, 0, 4, 4), Glyphs::Ascii);
+    dots.stroke([(-1e300, -1e300), (1e300, 1e300)], SOLID);
+    assert_eq!(painted(&dots)[0], "*   ");
+    let mut dots = Dots::new(Rect::new(0, 0, 3, 1), Glyphs::Ascii);
+    dots.stroke([(-1e9, 0.5), (1.5, 0.5), (1.5, f64::NAN), (2.5, 0.5)], SOLID);
+    assert_eq!(painted(&dots), ["***"]);
+}
+
+proptest! {
+    #[test]
+    fn whatever_is_drawn_nothing_breaks(
+        width in 0_u16..40, height in 0_u16..20,
+        points in proptest::collection::vec((any::<f64>(), any::<f64>()), 0..20),
+        near in proptest::collection::vec((-50.0..150.0, -50.0..150.0), 0..20),
+    ) {
+        for glyphs in [Glyphs::Braille, Glyphs::Octant, Glyphs::Block, Glyphs::Ascii] {
+            let mut dots = Dots::new(Rect::new(3, 5, width, height), glyphs);
+            for dash in [Dash::Solid, Dash::Dashed, Dash::Dotted, Dash::Sparse] {
+                dots.stroke(points.iter().chain(&near).copied(), Pen { role: Role::Stable, dash });
+            }
+            prop_assert!(near.iter().all(|point| dots.cell_at(*point).is_none_or(|(column, row)| column < width && row < height)));
+            painted(&dots);
+        }
+    }
+
+    #[test]
+    fn a_clipped_line_is_the_visible_part_of_the_whole(
+        start in (-200.0..200.0, -200.0..200.0), end in (-200.0..200.0, -200.0..200.0),
+    ) {
+        let size = (40.0, 30.0);
+        let on = |(x, y): Point| (0.0..=size.0).contains(&x) && (0.0..=size.1).contains(&y);
+        let samples = (0..=1000).map(|index| f64::from(index) / 1000.0)
+            .map(|t| (start.0 + (end.0 - start.0) * t, start.1 + (end.1 - start.1) * t));
+        let visible = samples.clone().any(|(x, y)| {
+            (0.1..39.9).contains(&x) && (0.1..29.9).contains(&y)
+        });
+        match clip(start, end, size) {
+            None => prop_assert!(!visible),
+            Some((from, to, _)) => prop_assert!(on(from) && on(to)),
+        }
+    }
+}
