@@ -8,7 +8,7 @@ use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, Method, Outcome, Problem};
 use hopfscope::oscillator::{Parameters, State, Symbol};
 use hopfscope::study::basin::{Survey, Window};
-use hopfscope::study::branch::branch;
+use hopfscope::study::branch::{Points, branch};
 use hopfscope::study::cycle::{cycle_near, cycles};
 
 fn main() {
@@ -166,6 +166,13 @@ fn basin_by_brute_force_one_start_in_a_hundred(bencher: Bencher) {
 fn branch_through_the_fold(bencher: Bencher) {
     let parameters = Parameters { d: 0.0, d2: 0.2, d3: 0.5, r: 0.1 };
     bencher.bench(|| {
-        branch(black_box(&parameters), Symbol::D, (-0.95, 0.0), 400, 1e-10, &Limits::PATIENT)
+        branch(
+            black_box(&parameters),
+            Symbol::D,
+            (-0.95, 0.0),
+            Points::Even(400),
+            1e-10,
+            &Limits::PATIENT,
+        )
     });
 }

@@ -6,7 +6,7 @@ use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, Method, Outcome, Problem};
 use hopfscope::oscillator::{HalfPlane, Parameters, Side, State, Symbol};
 use hopfscope::study::basin::{Basin, Counts, Fate, Window, basin};
-use hopfscope::study::branch::{SpecialKind, branch};
+use hopfscope::study::branch::{Points, SpecialKind, branch};
 use hopfscope::study::closing::{Equation, Route};
 use hopfscope::study::closings::{closings, polish};
 use hopfscope::study::cycle::{cycle_near, cycles};
@@ -181,7 +181,8 @@ fn folds_lie_where_they_were_computed_elsewhere() {
     let number = |value: &serde_json::Value| value.as_f64().expect("a number");
     let fold = |d2: f64, d3: f64, r: f64| {
         let parameters = Parameters { d: 0.0, d2, d3, r };
-        let found = branch(&parameters, Symbol::D, (-0.95, 0.1), 40, 1e-10, &LIMITS).unwrap();
+        let found =
+            branch(&parameters, Symbol::D, (-0.95, 0.1), Points::Even(40), 1e-10, &LIMITS).unwrap();
         *found.special.iter().find(|special| special.kind == SpecialKind::Fold).expect("a fold")
     };
     for row in table["folds"].as_array().expect("rows") {
@@ -257,7 +258,8 @@ fn every_cycle_lies_between_motions_that_come_closer_and_motions_that_go_further
 #[test]
 fn a_fold_and_the_escape_point_end_the_branches_that_lead_to_them() {
     let parameters = Parameters { d: 0.0, d2: 0.3, d3: 0.0, r: 0.5 };
-    let found = branch(&parameters, Symbol::D, (-0.95, 0.2), 60, 1e-10, &LIMITS).unwrap();
+    let found =
+        branch(&parameters, Symbol::D, (-0.95, 0.2), Points::Even(60), 1e-10, &LIMITS).unwrap();
     let escape = found.special.iter().find(|special| special.kind == SpecialKind::Escape).unwrap();
     let largest = found.pieces[0].iter().map(|point| point.value).fold(f64::MIN, f64::max);
     assert!(largest < escape.value && escape.value - largest < 1e-3);
@@ -272,7 +274,8 @@ fn a_fold_and_the_escape_point_end_the_branches_that_lead_to_them() {
 #[test]
 fn over_cubic_damping_the_branch_ends_before_its_cycles_are_known_no_more() {
     let parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.0, r: 0.1 };
-    let found = branch(&parameters, Symbol::D3, (-1.0, 1.0), 60, 1e-10, &LIMITS).unwrap();
+    let found =
+        branch(&parameters, Symbol::D3, (-1.0, 1.0), Points::Even(60), 1e-10, &LIMITS).unwrap();
     let points = || found.pieces.iter().flatten();
     for point in points() {
         let there = Parameters { d3: point.value, ..parameters };

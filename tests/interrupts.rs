@@ -9,7 +9,7 @@ use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Cost, Detail, Limits, METHODS, Outcome, Problem, Reason};
 use hopfscope::oscillator::{Parameters, State, Symbol};
 use hopfscope::study::basin::{Survey, Window};
-use hopfscope::study::branch::branch;
+use hopfscope::study::branch::{Points, branch};
 use hopfscope::study::capture::bands;
 use hopfscope::study::cycle::cycles;
 use hopfscope::study::fold::{border, fold};
@@ -110,7 +110,7 @@ fn cycles_stop() {
 fn branches_and_borders_stop() {
     for parameters in [parameters()[0], parameters()[2]] {
         check("branch", |limits| {
-            match branch(&parameters, Symbol::D, (-0.5, -0.05), 20, 1e-6, limits) {
+            match branch(&parameters, Symbol::D, (-0.5, -0.05), Points::Even(20), 1e-6, limits) {
                 Ok(found) => (None, Some(found.cost)),
                 Err(reason) => (Some(reason), None),
             }

@@ -10,7 +10,7 @@ use super::timing::timed;
 use crate::export::{csv, json, table};
 use crate::flow::Limits;
 use crate::oscillator::Symbol;
-use crate::study::branch::branch;
+use crate::study::branch::{Points, branch};
 
 /// Follows the limit cycles along a parameter, with folds and other special points
 #[derive(Debug, Args)]
@@ -40,7 +40,8 @@ impl Branch {
         let problem = self.start.problem()?;
         let (base, tolerance) = (&problem.parameters, problem.tolerance);
         let Over { symbol, range, count } = self.over;
-        let follow = || branch(base, symbol, range, count, tolerance, &Limits::PATIENT);
+        let follow =
+            || branch(base, symbol, range, Points::Even(count), tolerance, &Limits::PATIENT);
         let (found, seconds) = timed(self.output.repeat, follow);
         let found = found.map_err(|reason| {
             Failure::Unanswered(format!("the branch could not be completed: {reason}"))

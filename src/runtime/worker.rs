@@ -3,15 +3,18 @@
 //! [`Worker::submit`] replaces the set of wanted requests. The running job goes on if it is among them;
 //! else one atomic counter moves on, the job sees that at its next step, and what it found is thrown
 //! away. A long job tells what it has so far: each piece is reported at once, with `complete: false`, and
-//! the request is answered only when its last piece is there. An answer that is on its way is not computed again: the worker remembers what it has reported
-//! until [`Worker::taken`] says that the session knows. A request that panics becomes a [`Failure::Panic`]; the thread lives on.
+//! the request is answered only when its last piece is there. A job whose turn is over while others wait is
+//! put aside and begins anew after them ([`super::desk`]). An answer that is on its way is not computed
+//! again: the worker remembers what it has reported until [`Worker::taken`] says that the session knows. A
+//! request that panics becomes a [`Failure::Panic`]; the thread lives on.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
+use super::desk::{self, Desk};
 use super::panics::{self, Notes};
 use crate::flow::{Limits, Reason};
 use crate::scene::answer::Failure;
@@ -33,20 +36,16 @@ struct Shared {
     changed: Condvar,
     /// Moves on when the running job is to stop.
     generation: AtomicU64,
+    /// Whether others wait whose turn it is when that of the running job is over.
+    contested: AtomicBool,
 }
 
-/// What there is to do.
-#[derive(Debug, Default)]
-struct Desk {
-    /// Requests that wait, the most urgent first.
-    waiting: Vec<Request>,
-    /// The request in work, unless nobody wants it any more.
-    running: Option<Request>,
-    /// Requests whose answers have been reported and not been taken yet.
-    reported: Vec<Request>,
-    /// Whether the thread works on something, wanted or not.
-    busy: bool,
-    closed: bool,
+/// A request in work.
+struct Job {
+    request: Request,
+    generation: u64,
+    /// When its turn is over.
+    until: Instant,
 }
 
 impl Shared {
@@ -55,18 +54,20 @@ impl Shared {
     }
 
     /// Waits for the next request; `None` when the worker was dropped.
-    fn next(&self) -> Option<(Request, u64)> {
+    fn next(&self, turn: Duration) -> Option<Job> {
         let mut desk = self.desk();
-        while desk.waiting.is_empty() && !desk.closed {
+        loop {
+            if desk.is_closed() {
+                return None;
+            }
+            if let Some((request, length)) = desk.begin() {
+                self.contested.store(desk.is_contested(), Ordering::Relaxed);
+                let until = Instant::now() + turn.saturating_mul(length);
+                let generation = self.generation.load(Ordering::Relaxed);
+                return Some(Job { request, generation, until });
+            }
             desk = self.changed.wait(desk).unwrap_or_else(PoisonError::into_inner);
         }
-        if desk.closed {
-            return None;
-        }
-        let request = desk.waiting.remove(0);
-        desk.running = Some(request.clone());
-        desk.busy = true;
-        Some((request, self.generation.load(Ordering::Relaxed)))
     }
 }
 
@@ -81,16 +82,33 @@ impl Worker {
         notes: Notes,
         report: impl Fn(Msg) + Send + 'static,
     ) -> std::io::Result<Worker> {
+        Worker::start_with(desk::TURN, answer, notes, report)
+    }
+
+    /// The same with another length of the first turn of a request.
+    fn start_with(
+        turn: Duration,
+        answer: impl Fn(&Request, &Limits, &Tell) -> Result<Answer, Reason> + Send + 'static,
+        notes: Notes,
+        report: impl Fn(Msg) + Send + 'static,
+    ) -> std::io::Result<Worker> {
         let shared = Arc::new(Shared::default());
         let theirs = Arc::clone(&shared);
         thread::Builder::new().name("worker".to_owned()).spawn(move || {
-            while let Some((request, generation)) = theirs.next() {
+            while let Some(Job { request, generation, until }) = theirs.next(turn) {
                 let superseded = || theirs.generation.load(Ordering::Relaxed) != generation;
-                let limits = Limits { interrupted: &superseded, ..Limits::PATIENT };
+                let aside = AtomicBool::new(false);
+                let stops = || {
+                    if theirs.contested.load(Ordering::Relaxed) && Instant::now() >= until {
+                        aside.store(true, Ordering::Relaxed);
+                    }
+                    superseded() || aside.load(Ordering::Relaxed)
+                };
+                let limits = Limits { interrupted: &stops, ..Limits::PATIENT };
                 let started = Instant::now();
                 let tell = |piece: Answer| {
                     let desk = theirs.desk();
-                    if desk.running.is_some() && !superseded() {
+                    if desk.is_wanted() && !superseded() {
                         let seconds = started.elapsed().as_secs_f64();
                         let (request, result) = (request.clone(), Ok(piece));
                         let piece = Answered { request, result, seconds, complete: false };
@@ -107,13 +125,14 @@ impl Worker {
                 };
                 let seconds = started.elapsed().as_secs_f64();
                 let mut desk = theirs.desk();
-                desk.busy = false;
-                if desk.running.take().is_some() {
-                    desk.reported.push(request.clone());
+                let panicked = matches!(result, Err(Failure::Panic(_)));
+                if aside.into_inner() && !panicked {
+                    desk.put_aside();
+                } else if let Some(request) = desk.finish() {
                     let answered = Answered { request, result, seconds, complete: true };
                     report(Msg::Answered(Box::new(answered)));
                 }
-                if desk.waiting.is_empty() && !desk.closed {
+                if desk.is_idle() && !desk.is_closed() {
                     report(Msg::Idle);
                 }
             }
@@ -124,19 +143,10 @@ impl Worker {
     /// Says which requests are wanted now and not answered yet, the most urgent first.
     pub fn submit(&self, wanted: Vec<Request>) {
         let mut desk = self.shared.desk();
-        desk.waiting = wanted;
-        let Desk { waiting, reported, .. } = &mut *desk;
-        waiting.retain(|request| !reported.contains(request));
-        match desk.running.clone() {
-            Some(running) if desk.waiting.contains(&running) => {
-                desk.waiting.retain(|request| *request != running);
-            }
-            Some(_) => {
-                desk.running = None;
-                self.shared.generation.fetch_add(1, Ordering::Relaxed);
-            }
-            None => {}
+        if desk.want(wanted) {
+            self.shared.generation.fetch_add(1, Ordering::Relaxed);
         }
+        self.shared.contested.store(desk.is_contested(), Ordering::Relaxed);
         drop(desk);
         self.shared.changed.notify_one();
     }
@@ -144,26 +154,19 @@ impl Worker {
     /// Says that the answer to a request has arrived where it was wanted. From now on to want it is to
     /// want it computed again.
     pub fn taken(&self, request: &Request) {
-        let mut desk = self.shared.desk();
-        if let Some(index) = desk.reported.iter().position(|reported| reported == request) {
-            desk.reported.remove(index);
-        }
+        self.shared.desk().taken(request);
     }
 
     /// Whether nothing is in work and nothing waits.
     #[must_use]
     pub fn is_idle(&self) -> bool {
-        let desk = self.shared.desk();
-        !desk.busy && desk.waiting.is_empty()
+        self.shared.desk().is_idle()
     }
 }
 
 impl Drop for Worker {
     fn drop(&mut self) {
-        let mut desk = self.shared.desk();
-        desk.closed = true;
-        desk.running = None;
-        drop(desk);
+        self.shared.desk().close();
         self.shared.generation.fetch_add(1, Ordering::Relaxed);
         self.shared.changed.notify_one();
     }
@@ -219,7 +222,12 @@ mod tests {
         messages: Receiver<Msg>,
     }
 
+    /// One whose requests are never put aside.
     fn bench() -> Bench {
+        bench_with(Duration::from_secs(1_000_000))
+    }
+
+    fn bench_with(turn: Duration) -> Bench {
         let (start, started) = unbounded();
         let (finish, finished) = bounded::<Step>(0);
         let (message, messages) = unbounded();
@@ -237,7 +245,7 @@ mod tests {
             Err(Reason::Interrupted)
         };
         let report = move |msg| drop(message.send(msg));
-        let worker = Worker::start(job, Notes::default(), report).unwrap();
+        let worker = Worker::start_with(turn, job, Notes::default(), report).unwrap();
         Bench { worker, started, finish, messages }
     }
 
@@ -268,6 +276,20 @@ mod tests {
             assert_eq!(bench.answered(), (wanted, Ok(())));
         }
         bench.idle();
+    }
+
+    /// By order of events: with turns of no length, whatever has had fewer turns goes first.
+    #[test]
+    fn a_request_that_takes_long_does_not_hold_up_the_others() {
+        let bench = bench_with(Duration::ZERO);
+        bench.worker.submit(vec![request(1.0), request(2.0), request(3.0)]);
+        for number in [3.0, 2.0, 1.0] {
+            bench.finish.send(Step::Finish).unwrap();
+            assert_eq!(bench.answered(), (number, Ok(())));
+        }
+        bench.idle();
+        let started: Vec<f64> = bench.started.try_iter().collect();
+        assert_eq!(started, [1.0, 2.0, 3.0, 1.0, 2.0, 1.0]);
     }
 
     #[test]

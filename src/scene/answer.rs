@@ -6,7 +6,7 @@ use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Detail, Limits, Problem, Reason, Trajectory};
 use crate::oscillator::State;
 use crate::study::accuracy::Reference;
-use crate::study::branch::branch;
+use crate::study::branch::{Points, branch};
 use crate::study::capture::bands;
 use crate::study::chart::{Chart, Resolution, chart};
 use crate::study::claims::{Examined, examine_all};
@@ -159,10 +159,7 @@ const DRAFT_LINES: usize = 4;
 const BORDER_TOLERANCE: f64 = 1e-13;
 
 /// The same in a draft.
-const DRAFT_BORDER_TOLERANCE: f64 = 1e-6;
-
-/// Points of a piece of a branch at draft quality: the picture of them hardly differs.
-const DRAFT_POINTS: usize = 40;
+const DRAFT_BORDER_TOLERANCE: f64 = 1e-3;
 
 /// Evaluations that a reference may take in the explorer: beyond, the energy ledger must do.
 const REFERENCE: u64 = 4_000_000;
@@ -208,7 +205,8 @@ pub fn answer_for(
             harmonic_balance(parameters, *harmonics, fineness.harmonic, limits).map(Answer::Balance)
         }
         Request::Branch { parameters, parameter, range, tolerance } => {
-            let points = if *tolerance < DRAFT.tolerance { fineness.branch } else { DRAFT_POINTS };
+            let rough = *tolerance >= DRAFT.tolerance;
+            let points = if rough { Points::Followed } else { Points::Even(fineness.branch) };
             branch(parameters, *parameter, *range, points, *tolerance, limits).map(Answer::Branch)
         }
         Request::Trade { parameters, initial, until } => {

@@ -204,12 +204,13 @@ mod tests {
     use super::*;
     use crate::flow::Limits;
     use crate::oscillator::{Parameters, Symbol};
-    use crate::study::branch::branch;
+    use crate::study::branch::{Points, branch};
 
     const FOLDED: Parameters = Parameters { d: 0.0, d2: 0.2, d3: 0.5, r: 0.1 };
 
     fn over(parameters: &Parameters, symbol: Symbol, range: (f64, f64)) -> Way {
-        let found = branch(parameters, symbol, range, 60, 1e-8, &Limits::PATIENT).unwrap();
+        let found =
+            branch(parameters, symbol, range, Points::Even(60), 1e-8, &Limits::PATIENT).unwrap();
         Way::along(&[(0, &found)])
     }
 
@@ -250,7 +251,8 @@ mod tests {
         let frictions = [0.05, 0.2];
         let found = frictions.map(|r| {
             let parameters = Parameters { r, ..FOLDED };
-            branch(&parameters, Symbol::D, (-0.9, 0.1), 60, 1e-8, &Limits::PATIENT).unwrap()
+            branch(&parameters, Symbol::D, (-0.9, 0.1), Points::Even(60), 1e-8, &Limits::PATIENT)
+                .unwrap()
         });
         let way = Way::along(&[(0, &found[0]), (1, &found[1])]);
         let marks: Vec<_> =

@@ -75,7 +75,17 @@ pub struct Branch {
     pub cost: Cost,
 }
 
-/// Follows the cycles while `parameter` runs over `range`, at `count` points a connected piece.
+/// How many points a connected piece of a branch has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Points {
+    /// So many, evenly spaced.
+    Even(usize),
+    /// Those that were needed to follow it, in long strides, and not to where its cycles cannot be told
+    /// from the sticking set: a picture on a screen shows no difference.
+    Followed,
+}
+
+/// Follows the cycles while `parameter` runs over `range`.
 ///
 /// Each point is a cycle whose clearance has a relative error of at most `tolerance`.
 ///
@@ -85,7 +95,7 @@ pub fn branch(
     parameters: &Parameters,
     parameter: Symbol,
     range: (f64, f64),
-    count: usize,
+    points: Points,
     tolerance: f64,
     limits: &Limits,
 ) -> Result<Branch, Reason> {
@@ -97,14 +107,18 @@ pub fn branch(
         // Without friction the innermost cycle has shrunk to the steady state: begin just above.
         from = from.max(LEAST_FRICTION * to);
     }
+    let mut curve = Curve::new(parameters, parameter, Side::Upper, to - from, tolerance, limits);
+    if points == Points::Followed {
+        (curve.strides, curve.budget) = (LONG_STRIDES, BUDGET);
+    }
     let mut tracer = Tracer {
-        curve: Curve::new(parameters, parameter, Side::Upper, to - from, tolerance, limits),
+        curve,
         parameter,
-        count: count.max(2),
+        points,
         found: Branch { parameter, pieces: Vec::new(), special: Vec::new(), cost: Cost::default() },
     };
     if parameter == Symbol::D && parameters.is_piecewise_linear() {
-        tracer.found.pieces.extend(linear_branch(parameters.r, from, to, tracer.count));
+        tracer.found.pieces.extend(linear_branch(parameters.r, from, to, points));
         tracer.hopf(parameters.r, from, to);
         return Ok(tracer.found);
     }
@@ -128,6 +142,24 @@ const NEAREST: f64 = 1e-4;
 /// A branch over r begins at this part of the largest r.
 const LEAST_FRICTION: f64 = 1e-6;
 
+/// Longest stride of [`Points::Followed`], in units of the usual one.
+const LONG_STRIDES: f64 = 2.0;
+
+/// Evaluations of a half map in a search for cycles of [`Points::Followed`]: where it takes more, the
+/// other values have to do.
+const SEED_BUDGET: u64 = 40_000;
+
+/// Evaluations after which [`Points::Followed`] follows no further.
+const BUDGET: u64 = 200_000;
+
+/// Points of the closed form where as many are taken as are needed.
+const LINEAR_POINTS: usize = 40;
+
+/// Smallest `ln c0` that is followed, and how far below `ln r` [`Points::Followed`] ends: a millionth of a
+/// millionth.
+const DEEPEST: f64 = -600.0;
+const SHALLOW: f64 = 28.0;
+
 /// The cycle at the Hopf point: the steady state, about to swing at the undamped frequency.
 const VANISHING: Cycle = Cycle {
     stable: false,
@@ -147,7 +179,7 @@ const VANISHING: Cycle = Cycle {
 struct Tracer<'a> {
     curve: Curve<'a>,
     parameter: Symbol,
-    count: usize,
+    points: Points,
     found: Branch,
 }
 
@@ -182,10 +214,10 @@ impl Tracer<'_> {
                 curves.push(points);
             }
         }
-        for points in curves {
-            self.keep(&points)?;
+        for points in &curves {
+            self.keep(points)?;
         }
-        Ok(())
+        self.zero_crossings(&curves, from, to)
     }
 
     /// The intervals of u over which all cycles are known: those of the curves, where a curve is a graph
@@ -205,8 +237,16 @@ impl Tracer<'_> {
     fn seeds(&mut self, p: f64, known: &[(f64, f64)]) -> Result<Vec<CurvePoint>, Reason> {
         let parameters = self.curve.parameters_at(p);
         let mut equation = Equation::on_side(&parameters, self.curve.side, self.curve.fineness());
-        let closings = other_closings(&mut equation, known, self.curve.limits())?;
+        let rough = self.points == Points::Followed;
+        let Limits { evaluations, interrupted } = *self.curve.limits();
+        let evaluations = if rough { evaluations.min(SEED_BUDGET) } else { evaluations };
+        let limits = Limits { evaluations, interrupted };
+        let closings = other_closings(&mut equation, known, &limits);
         self.curve.cost += equation.cost();
+        let closings = match closings {
+            Err(Reason::Budget { .. } | Reason::NoConvergence { .. }) if rough => Vec::new(),
+            closings => closings?,
+        };
         Ok(closings
             .into_iter()
             .map(|closing| CurvePoint {
@@ -253,11 +293,15 @@ impl Tracer<'_> {
         let Parameters { d, d2, d3, r } = self.curve.parameters_at(self.curve.scale);
         let natural = (1.0 / d2.abs()).min(1.0 / d3.abs().sqrt());
         let natural = if natural.is_finite() { natural } else { r };
+        let deepest = match self.points {
+            Points::Followed if r > 0.0 => r.ln() - SHALLOW,
+            _ => DEEPEST,
+        };
         if d3 == 0.0 && d2 != 0.0 {
             // Beyond, swings from any start are one (see the search for cycles).
-            (-600.0, (60.0 / d2.abs() + 2.0 * r).ln())
+            (deepest, (60.0 / d2.abs() + 2.0 * r).ln())
         } else {
-            let smallest = if r > 0.0 { -600.0 } else { natural.ln() - LOG_FAR };
+            let smallest = if r > 0.0 { deepest } else { natural.ln() - LOG_FAR };
             if self.parameter == Symbol::D3 && d2 == 0.0 && d < 0.0 {
                 let farthest = (8.0 * d.abs() / (3.0 * NEAREST * self.curve.scale)).sqrt();
                 // The cycle that friction alone borders goes through D3 = 0.
@@ -267,7 +311,34 @@ impl Tracer<'_> {
         }
     }
 
-    /// Spreads `count` points evenly over a curve, corrects and describes each; notes its folds.
+    /// Notes the cycles at `D = 0`: where the curves pass it, and what else there may be.
+    fn zero_crossings(
+        &mut self,
+        curves: &[Vec<CurvePoint>],
+        from: f64,
+        to: f64,
+    ) -> Result<(), Reason> {
+        let friction = self.curve.parameters_at(0.0).r > 0.0;
+        if self.parameter != Symbol::D || !friction || !(from..=to).contains(&0.0) {
+            return Ok(());
+        }
+        let mut found = self.seeds(0.0, &self.known(curves))?;
+        for pair in curves.iter().flat_map(|points| points.windows(2)) {
+            let [one, other] = pair else { continue };
+            if (one.p < 0.0) != (other.p < 0.0) {
+                let u = one.u - one.p * (other.u - one.u) / (other.p - one.p);
+                let route = Route::contracting(0.5 * (one.log_multiplier + other.log_multiplier));
+                found.extend(self.curve.at_parameter(0.0, u, route)?);
+            }
+        }
+        for point in found {
+            let cycle = Some(self.describe(&point));
+            self.found.special.push(Special::new(SpecialKind::ZeroCrossing, 0.0, cycle));
+        }
+        Ok(())
+    }
+
+    /// Spreads points over a curve and describes each; notes its folds.
     fn keep(&mut self, points: &[CurvePoint]) -> Result<(), Reason> {
         for pair in points.windows(2) {
             let [one, other] = pair else { continue };
@@ -278,7 +349,10 @@ impl Tracer<'_> {
                 self.found.special.push(Special::new(SpecialKind::Fold, fold.p, cycle));
             }
         }
-        let spread = self.curve.spread(points, self.count)?;
+        let spread = match self.points {
+            Points::Even(count) => &self.curve.spread(points, count.max(2))?,
+            Points::Followed => points,
+        };
         let describe =
             |point: &CurvePoint| BranchPoint { value: point.p, cycle: self.describe(point) };
         self.found.pieces.push(spread.iter().map(describe).collect());
@@ -300,12 +374,6 @@ impl Tracer<'_> {
     fn special_points(&mut self, from: f64, to: f64) -> Result<(), Reason> {
         let parameters = self.curve.parameters_at(0.0);
         self.hopf(parameters.r, from, to);
-        if self.parameter == Symbol::D && parameters.r > 0.0 && (from..=to).contains(&0.0) {
-            for seed in self.seeds(0.0, &[])? {
-                let cycle = Some(self.describe(&seed));
-                self.found.special.push(Special::new(SpecialKind::ZeroCrossing, 0.0, cycle));
-            }
-        }
         if self.parameter == Symbol::D
             && let Some(value) = escape_point(&parameters, self.curve.limits())?
             && (from..=to).contains(&value)
@@ -320,12 +388,16 @@ impl Tracer<'_> {
 ///
 /// Its amplitude grows as `2 r/(pi abs(D))` towards `D = 0`; it is followed to a ten-thousandth of the
 /// range from there, with points evenly spaced in the logarithm of D.
-fn linear_branch(r: f64, from: f64, to: f64, count: usize) -> Option<Vec<BranchPoint>> {
+fn linear_branch(r: f64, from: f64, to: f64, points: Points) -> Option<Vec<BranchPoint>> {
     let from = from.max((-1.0_f64).next_up());
     let to = to.min(NEAREST * from);
     if !(r > 0.0 && from < to) {
         return None;
     }
+    let count = match points {
+        Points::Even(count) => count.max(2),
+        Points::Followed => LINEAR_POINTS,
+    };
     let point = |index: usize| {
         #[expect(clippy::cast_precision_loss, reason = "counts of points are small")]
         let fraction = index as f64 / (count - 1) as f64;

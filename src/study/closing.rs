@@ -123,6 +123,12 @@ impl Equation {
         }
     }
 
+    /// Relative error of an integration step.
+    #[must_use]
+    pub fn tolerance(&self) -> f64 {
+        self.forward[0].tolerance()
+    }
+
     /// What all swings so far cost.
     #[must_use]
     pub fn cost(&self) -> Cost {

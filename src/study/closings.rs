@@ -151,15 +151,19 @@ fn brackets(
     known: &[(f64, f64)],
     limits: &Limits,
 ) -> Result<Vec<Bracket>, Reason> {
-    /// Tolerance of the steps of the search, and the blur of a residual that comes of it; weak damping
-    /// makes residuals that small and needs steps to rounding from the beginning.
-    const ROUGH: (f64, f64) = (1e-10, 1e-7);
+    /// Tolerance of the steps of the search where the polish needs no coarser ones, and the blur of a
+    /// residual that comes of it, in units of the tolerance; weak damping makes residuals that small and
+    /// needs the steps of the polish from the beginning.
+    const ROUGH: f64 = 1e-10;
+    const BLUR: f64 = 1e3;
     const WEAK: f64 = 0.01;
     /// First stride and longest stride, in `ln c0`.
     const STRIDES: (f64, f64) = (0.5, 2.0);
     let high = upper_end(&equation.parameters);
     let (parameters, side) = (equation.parameters, equation.side);
-    let (step, blur) = if parameters.d.abs() < WEAK { (STEP, 0.0) } else { ROUGH };
+    let fine = equation.tolerance();
+    let rough = fine.max(ROUGH);
+    let (step, blur) = if parameters.d.abs() < WEAK { (fine, 0.0) } else { (rough, BLUR * rough) };
     let mut rough = Equation::on_side(&parameters, side, step);
     let mut function = |u: f64, fine: bool| {
         let equation = if fine { &mut *equation } else { &mut rough };

@@ -79,6 +79,10 @@ pub struct Curve<'a> {
     pub scale: f64,
     /// Relative error accepted in the clearance.
     tolerance: f64,
+    /// Length of the longest stride of [`Curve::follow`], in units of the usual one.
+    pub strides: f64,
+    /// Evaluations after which [`Curve::follow`] stops where it is.
+    pub budget: u64,
     limits: &'a Limits<'a>,
     /// Difference quotient in p of the residual of a route, kept from point to point.
     slope_in_p: Option<(Route, f64)>,
@@ -98,7 +102,19 @@ impl<'a> Curve<'a> {
         limits: &'a Limits<'a>,
     ) -> Self {
         let (parameters, cost) = (*parameters, Cost::default());
-        Curve { parameters, symbol, side, scale, tolerance, limits, slope_in_p: None, cost }
+        let (slope_in_p, strides, budget) = (None, 1.0, u64::MAX);
+        Curve {
+            parameters,
+            symbol,
+            side,
+            scale,
+            tolerance,
+            strides,
+            budget,
+            limits,
+            slope_in_p,
+            cost,
+        }
     }
 
     /// The parameters with the varying one at `p`.
@@ -276,7 +292,7 @@ impl<'a> Curve<'a> {
             return Ok(points);
         };
         let mut stride = STRIDES.0;
-        while points.len() < MOST {
+        while points.len() < MOST && self.cost.evaluations < self.budget {
             let here = points[points.len() - 1];
             let near = self.ahead(&here, tangent, stride);
             let route = Route::contracting(here.log_multiplier);
@@ -322,7 +338,7 @@ impl<'a> Curve<'a> {
         const LONGEST: f64 = 0.06;
         let friction = self.parameters_at(point.p).r;
         let depth = if friction > 0.0 { (friction.ln() - point.u) / UNIT_OF_U } else { 0.0 };
-        LONGEST / tangent.p.abs().max(tangent.u.abs() / depth.max(1.0))
+        LONGEST * self.strides / tangent.p.abs().max(tangent.u.abs() / depth.max(1.0))
     }
 
     /// Spreads `count` points evenly over a followed curve, both ends included, and corrects each.

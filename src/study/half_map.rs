@@ -19,8 +19,12 @@ use crate::flow::swing::{End, Failed, swing};
 use crate::flow::{Cost, Limits, Reason};
 use crate::oscillator::HalfPlane;
 
-/// Below this part of its natural scale the damping is linear to far below rounding.
-const LINEAR_BELOW: f64 = 1e-21;
+/// Below this part of its natural scale, in units of the tolerance of a step, the damping is linear to far
+/// below that tolerance.
+const LINEAR_BELOW: f64 = 1e-5;
+
+/// The least tolerance that counts there: rounding.
+const ROUNDING: f64 = 1e-16;
 
 /// A half swing longer than this is taken to never arrive; slow ones of 1e24 do (D2 = 1e6, D3 = 1e-12).
 const LONGEST: f64 = 1e100;
@@ -90,6 +94,8 @@ pub enum NoEnd {
 pub struct HalfMap {
     field: HalfPlane,
     stepper: Auto,
+    /// Relative error of a step.
+    tolerance: f64,
     /// States smaller than this move linearly.
     linear_below: f64,
     /// Whether to find the largest velocity of each swing.
@@ -104,7 +110,8 @@ impl HalfMap {
     #[must_use]
     pub fn new(field: HalfPlane, tolerance: f64) -> Self {
         let natural = (1.0 / field.d2.abs()).min(1.0 / field.d3.abs().sqrt());
-        Self::integrating_above(LINEAR_BELOW * natural, field, tolerance)
+        let linear_below = LINEAR_BELOW * tolerance.max(ROUNDING) * natural;
+        Self::integrating_above(linear_below, field, tolerance)
     }
 
     /// The same map, integrated step by step wherever the state is larger than `linear_below`.
@@ -113,12 +120,18 @@ impl HalfMap {
         let stepper = Auto::new(tolerance);
         // A node that repels has no part worth skipping.
         let linear_below = if field.d > -1.0 { linear_below } else { 0.0 };
-        HalfMap { field, stepper, linear_below, fastest: false, steps: 0, swings: 0 }
+        HalfMap { field, stepper, tolerance, linear_below, fastest: false, steps: 0, swings: 0 }
     }
 
     /// Changes the size below which the motion is taken to be linear; returns the former one.
     pub fn set_linear_below(&mut self, bound: f64) -> f64 {
         std::mem::replace(&mut self.linear_below, bound)
+    }
+
+    /// Relative error of a step.
+    #[must_use]
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
     }
 
     /// The field.

@@ -3,13 +3,12 @@
 use std::sync::Arc;
 
 use super::{COST, Desk, answered};
-use crate::flow::quality::DRAFT;
 use crate::flow::{Limits, Method, Reason};
 use crate::oscillator::Symbol;
 use crate::scene::answer::{Failure, answer};
-use crate::scene::{Answer, Answered, Request, SLOTS, Slot, library};
+use crate::scene::{Answer, Answered, Request, SLOTS, Slot};
 use crate::session::update::parameters;
-use crate::session::{Msg, Row, Session, Size, update};
+use crate::session::{Msg, Row, Session, update};
 
 /// The number behind the dial and the name of its stop.
 fn dial(desk: &Desk) -> (f64, &'static str) {
@@ -214,86 +213,6 @@ fn the_measured_error_is_that_of_the_motion_on_show() {
     assert!(reference.error < 1e-28, "{:e}", reference.error);
     assert!((1e-10..1e-3).contains(&deviation.error) && deviation.agrees, "{deviation:?}");
     assert!(desk.session.price.evaluations() > COST);
-}
-
-/// Evaluations that fit in a frame of 16 ms; one takes 20 to 30 ns, drawing and all else some milliseconds.
-const FRAME: u64 = 400_000;
-
-/// Counted for every scene: what the first picture after a key takes, nothing by hand.
-#[test]
-fn at_draft_quality_a_step_of_any_number_fits_in_a_frame() {
-    let give = |session: &mut Session, request: Request| {
-        let found = answer(&request, &Limits::PATIENT).unwrap();
-        let evaluations = found.cost().evaluations;
-        let answered = Answered { request, result: Ok(found), seconds: 0.0, complete: true };
-        update(session, Msg::Answered(Box::new(answered)));
-        evaluations
-    };
-    let (mut dearest, mut missed) = ((0, String::new()), Vec::new());
-    for scene in library() {
-        let mut session = Session::new(Arc::clone(scene), Size { width: 120, height: 40 });
-        session.problem = session.problem.at(&DRAFT);
-        // Windows are fitted after the first answers; the second key knows what the first one took.
-        for _ in 0..3 {
-            for request in session.wants() {
-                if session.is_open(&request) {
-                    give(&mut session, request);
-                }
-            }
-        }
-        // The other way on the dial leads to a finer quality, whose draft is on show already.
-        let back = session.rows().into_iter().filter(|row| *row != Row::Tolerance);
-        let back = back.map(|row| (row, -1));
-        for (row, count) in session.rows().into_iter().map(|row| (row, 1)).chain(back) {
-            let mut stepped = session.clone();
-            stepped.selected = row;
-            parameters::step(&mut stepped, count);
-            stepped.selected = Row::Until;
-            stepped.effort.measuring = false;
-            // The first answer of each kind is what the first picture needs: drafts come before the rest.
-            let mut evaluations = 0;
-            let mut answered = Vec::new();
-            for request in stepped.wants().into_iter().filter(|request| session.is_open(request)) {
-                if !answered.contains(&request.slot()) {
-                    answered.push(request.slot());
-                    evaluations += give(&mut stepped, request);
-                }
-            }
-            let step = format!("{}, {count} step of {}", scene.name, row.name());
-            if evaluations >= FRAME {
-                missed.push(format!("{step}: {evaluations}"));
-            }
-            dearest = dearest.max((evaluations, step));
-        }
-    }
-    println!("the dearest key at draft quality: {} evaluations, {}", dearest.0, dearest.1);
-    assert!(missed.is_empty(), "{missed:#?}");
-}
-
-/// Cycles, bands of capture, harmonics and return maps are asked without drafts, because their answers
-/// are cheap: counted on every scene after a step of each of its numbers, shown there or not.
-#[test]
-fn what_has_no_draft_needs_none() {
-    const UNDRAFTED: [Slot; 4] = [Slot::Cycles, Slot::Capture, Slot::Balance, Slot::ReturnMap];
-    for scene in library() {
-        let session = Session::new(Arc::clone(scene), Size { width: 120, height: 40 });
-        let rows = session.rows().into_iter().filter(|row| matches!(row, Row::Parameter(_)));
-        for (row, count) in rows.flat_map(|row| [(row, 1), (row, -1), (row, 10)]) {
-            let mut stepped = session.clone();
-            stepped.selected = row;
-            parameters::step(&mut stepped, count);
-            let plots = 0..stepped.plots.len();
-            let asked =
-                UNDRAFTED.iter().flat_map(|slot| plots.clone().map(move |plot| (slot, plot)));
-            for request in asked.filter_map(|(slot, plot)| stepped.request(*slot, plot)) {
-                assert_eq!(request.draft(), None);
-                let found = answer(&request, &Limits::PATIENT).unwrap();
-                let evaluations = found.cost().evaluations;
-                let step = format!("{}, {count} steps of {}", scene.name, row.name());
-                assert!(evaluations < FRAME / 2, "{step}: {request:?} takes {evaluations}");
-            }
-        }
-    }
 }
 
 /// Each number of the motion and each kind of question: which questions contain it.

@@ -5,6 +5,7 @@ mod axes;
 mod dependence;
 mod desk;
 mod dial;
+mod drafts;
 mod entries;
 mod language;
 mod names;

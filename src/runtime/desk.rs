@@ -1,0 +1,205 @@
+//! What there is to do for a worker, and in which order.
+//!
+//! The most urgent request comes first. One that takes long must not hold up the others, though, and how
+//! long it takes nobody knows beforehand. So each request has turns: when its turn is over and others wait
+//! that have had no more turns, it is put aside, and begins anew when they have had theirs. Each turn is
+//! four times as long as the last one, so that at most a third of the work is done in vain. What merely
+//! refines a draft begins with a later turn, because there is a picture already.
+
+use std::time::Duration;
+
+use crate::scene::Request;
+
+/// The first turn: half a frame.
+pub const TURN: Duration = Duration::from_millis(8);
+
+/// How many times longer the next turn is.
+const LONGER: u32 = 4;
+
+/// The turn with which a request begins whose draft is wanted too.
+const REFINEMENT: u32 = 2;
+
+/// What there is to do.
+#[derive(Debug, Default)]
+pub struct Desk {
+    /// What is wanted, the most urgent first; the request in work is among it.
+    wanted: Vec<Wanted>,
+    /// The request in work, unless nobody wants it any more.
+    running: Option<Request>,
+    /// Requests whose answers have been reported and not been taken yet.
+    reported: Vec<Request>,
+    /// Whether the thread works on something, wanted or not.
+    busy: bool,
+    closed: bool,
+}
+
+/// A request that waits or is in work.
+#[derive(Debug)]
+struct Wanted {
+    request: Request,
+    /// Turns that it has had.
+    turns: u32,
+}
+
+impl Desk {
+    /// Replaces what is wanted; `true` if the request in work is not among it.
+    pub fn want(&mut self, wanted: Vec<Request>) -> bool {
+        let before = std::mem::take(&mut self.wanted);
+        let turns = |request: &Request| {
+            let known = before.iter().find(|known| known.request == *request);
+            let refines = || request.draft().is_some_and(|draft| wanted.contains(&draft));
+            known.map_or_else(|| if refines() { REFINEMENT } else { 0 }, |known| known.turns)
+        };
+        let turns: Vec<u32> = wanted.iter().map(turns).collect();
+        let all = wanted.into_iter().zip(turns);
+        self.wanted = all
+            .filter(|(request, _)| !self.reported.contains(request))
+            .map(|(request, turns)| Wanted { request, turns })
+            .collect();
+        let wanted = &self.wanted;
+        let is_wanted = |running: &Request| wanted.iter().any(|it| it.request == *running);
+        self.running.take_if(|running| !is_wanted(running)).is_some()
+    }
+
+    fn waiting(&self) -> impl Iterator<Item = &Wanted> {
+        self.wanted.iter().filter(|wanted| self.running.as_ref() != Some(&wanted.request))
+    }
+
+    /// Takes the next request into work: of those with the fewest turns the most urgent. With it comes how
+    /// long its turn is, in units of the first one.
+    pub fn begin(&mut self) -> Option<(Request, u32)> {
+        let next = self.waiting().min_by_key(|wanted| wanted.turns)?;
+        let (request, turns) = (next.request.clone(), next.turns);
+        self.running = Some(request.clone());
+        self.busy = true;
+        Some((request, LONGER.saturating_pow(turns)))
+    }
+
+    /// Whether another request waits that has had no more turns than the one in work.
+    #[must_use]
+    pub fn is_contested(&self) -> bool {
+        let running = self.wanted.iter().find(|it| self.running.as_ref() == Some(&it.request));
+        running.is_some_and(|running| self.waiting().any(|other| other.turns <= running.turns))
+    }
+
+    /// Ends the turn of the request in work, which is not done.
+    pub fn put_aside(&mut self) {
+        self.busy = false;
+        let running = self.running.take();
+        let running = self.wanted.iter_mut().find(|it| running.as_ref() == Some(&it.request));
+        if let Some(running) = running {
+            running.turns += 1;
+        }
+    }
+
+    /// Ends the work; the request, if its answer is still wanted and so to be reported.
+    pub fn finish(&mut self) -> Option<Request> {
+        self.busy = false;
+        let request = self.running.take()?;
+        self.wanted.retain(|wanted| wanted.request != request);
+        self.reported.push(request.clone());
+        Some(request)
+    }
+
+    /// Whether the answer of the request in work is still wanted.
+    #[must_use]
+    pub fn is_wanted(&self) -> bool {
+        self.running.is_some()
+    }
+
+    /// Forgets that the answer to a request has been reported.
+    pub fn taken(&mut self, request: &Request) {
+        if let Some(index) = self.reported.iter().position(|reported| reported == request) {
+            self.reported.remove(index);
+        }
+    }
+
+    /// Nothing is to be done any more.
+    pub fn close(&mut self) {
+        self.closed = true;
+        self.running = None;
+        self.wanted.clear();
+    }
+
+    /// Whether nothing is to be done any more.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        self.closed
+    }
+
+    /// Whether nothing is in work and nothing waits.
+    #[must_use]
+    pub fn is_idle(&self) -> bool {
+        !self.busy && self.waiting().next().is_none()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::flow::Problem;
+    use crate::oscillator::Parameters;
+
+    fn cycles(d: f64) -> Request {
+        Request::Cycles { parameters: Parameters { d, d2: 0.0, d3: 0.0, r: 0.1 } }
+    }
+
+    #[test]
+    fn what_is_put_aside_comes_after_all_others_and_then_has_a_longer_turn() {
+        let mut desk = Desk::default();
+        let [slow, quick, last] = [1.0, 2.0, 3.0].map(cycles);
+        assert!(!desk.want(vec![slow.clone(), quick.clone(), last.clone()]));
+        assert_eq!(desk.begin(), Some((slow.clone(), 1)));
+        assert!(desk.is_contested());
+        desk.put_aside();
+        for other in [&quick, &last] {
+            assert_eq!(desk.begin(), Some((other.clone(), 1)));
+            assert_eq!(desk.finish().as_ref(), Some(other));
+            desk.taken(other);
+            // What is wanted still has had its turns.
+            assert!(!desk.want(vec![slow.clone(), last.clone()]));
+            if other == &last {
+                desk.want(vec![slow.clone()]);
+            }
+        }
+        assert_eq!(desk.begin(), Some((slow.clone(), 4)));
+        assert!(!desk.is_contested(), "alone it may take as long as it likes");
+        // A new key asks something new, which has had no turn yet.
+        desk.want(vec![slow, cycles(4.0)]);
+        assert!(desk.is_contested());
+    }
+
+    #[test]
+    fn a_refinement_waits_for_whatever_has_no_picture_yet() {
+        let mut desk = Desk::default();
+        let parameters = Parameters { d: -0.1, d2: 0.0, d3: 0.5, r: 0.1 };
+        let full = Request::Trajectory(Problem { parameters, ..Problem::default() });
+        let draft = full.draft().unwrap();
+        desk.want(vec![draft.clone(), full.clone(), cycles(1.0)]);
+        assert_eq!(desk.begin(), Some((draft.clone(), 1)));
+        assert!(desk.is_contested());
+        desk.finish();
+        desk.taken(&draft);
+        desk.want(vec![full.clone(), cycles(1.0)]);
+        for length in [1, 4] {
+            assert_eq!(desk.begin(), Some((cycles(1.0), length)));
+            assert!(!desk.is_contested(), "a refinement has its turn later");
+            desk.put_aside();
+        }
+        assert_eq!(desk.begin(), Some((full.clone(), 16)), "the more urgent of the two");
+        assert!(desk.is_contested());
+    }
+
+    #[test]
+    fn what_nobody_wants_any_more_is_superseded_and_forgotten() {
+        let mut desk = Desk::default();
+        desk.want(vec![cycles(1.0)]);
+        desk.begin();
+        assert!(desk.want(vec![cycles(2.0)]));
+        assert!(!desk.is_contested() && !desk.is_idle());
+        assert_eq!(desk.finish(), None, "nobody wants that answer");
+        assert_eq!(desk.begin(), Some((cycles(2.0), 1)));
+        assert_eq!(desk.finish(), Some(cycles(2.0)));
+        assert!(desk.is_idle());
+    }
+}

@@ -1,0 +1,202 @@
+//! Drafts: what the first picture after a key takes, counted, and how near it comes to the last one.
+
+use std::sync::Arc;
+
+use crate::flow::Limits;
+use crate::flow::quality::DRAFT;
+use crate::oscillator::Symbol;
+use crate::scene::answer::{Failure, answer};
+use crate::scene::{Answer, Answered, Request, SLOTS, Slot, library};
+use crate::session::update::parameters;
+use crate::session::{Msg, Row, Session, Size, update};
+use crate::study::Branch;
+
+const SIZE: Size = Size { width: 120, height: 40 };
+
+/// Evaluations that take half of a frame of 16 ms at most: one takes 20 to 30 ns.
+const HALF_FRAME: u64 = 200_000;
+
+/// Answers a question; what it took.
+fn give(session: &mut Session, request: Request) -> u64 {
+    let found = answer(&request, &Limits::PATIENT);
+    let evaluations = found.as_ref().map_or(0, |found| found.cost().evaluations);
+    let result = found.map_err(Failure::Reason);
+    let answered = Answered { request, result, seconds: 0.0, complete: true };
+    update(session, Msg::Answered(Box::new(answered)));
+    evaluations
+}
+
+fn open(session: &Session) -> Vec<Request> {
+    session.wants().into_iter().filter(|request| session.is_open(request)).collect()
+}
+
+/// Whether every plot that asks this has a draft of it.
+fn is_drafted(session: &Session, request: &Request) -> bool {
+    let slot = request.slot();
+    let mut asking = (0..session.plots.len())
+        .filter(|plot| session.request(slot, *plot).as_ref() == Some(request));
+    asking.all(|plot| session.has_draft(slot, plot))
+}
+
+/// Counted for every scene and every number of its pane both ways, the dial included: what is computed
+/// until each layer on show has an answer of today, draft or not.
+#[test]
+fn at_draft_quality_every_key_takes_half_a_frame_at_most() {
+    let (mut dearest, mut missed) = ((0, String::new()), Vec::new());
+    for scene in library() {
+        let mut session = Session::new(Arc::clone(scene), SIZE);
+        session.problem = session.problem.at(&DRAFT);
+        // Windows are fitted after the first answers; the second key knows what the first one took.
+        for _ in 0..3 {
+            for request in open(&session) {
+                give(&mut session, request);
+            }
+        }
+        for (row, count) in session.rows().into_iter().flat_map(|row| [(row, 1), (row, -1)]) {
+            let mut stepped = session.clone();
+            stepped.selected = row;
+            parameters::step(&mut stepped, count);
+            stepped.selected = Row::Until;
+            stepped.effort.measuring = false;
+            let mut evaluations = 0;
+            let wanted = open(&stepped);
+            for request in wanted.iter().cloned() {
+                let refines = request.draft().is_some_and(|draft| wanted.contains(&draft));
+                if !refines && !is_drafted(&stepped, &request) {
+                    evaluations += give(&mut stepped, request);
+                }
+            }
+            let step = format!("{}, {count} step of {}", scene.name, row.name());
+            if evaluations >= HALF_FRAME {
+                missed.push(format!("{step}: {evaluations}"));
+            }
+            dearest = dearest.max((evaluations, step));
+        }
+    }
+    println!("the dearest key at draft quality: {} evaluations, {}", dearest.0, dearest.1);
+    assert!(missed.is_empty(), "{missed:#?}");
+}
+
+/// Cycles, bands of capture, harmonics and return maps are asked without drafts, because their answers
+/// are cheap: counted on every scene after a step of each of its numbers, shown there or not.
+#[test]
+fn what_has_no_draft_needs_none() {
+    const UNDRAFTED: [Slot; 4] = [Slot::Cycles, Slot::Capture, Slot::Balance, Slot::ReturnMap];
+    for scene in library() {
+        let session = Session::new(Arc::clone(scene), SIZE);
+        let rows = session.rows().into_iter().filter(|row| matches!(row, Row::Parameter(_)));
+        for (row, count) in rows.flat_map(|row| [(row, 1), (row, -1), (row, 10)]) {
+            let mut stepped = session.clone();
+            stepped.selected = row;
+            parameters::step(&mut stepped, count);
+            let plots = 0..stepped.plots.len();
+            let asked =
+                UNDRAFTED.iter().flat_map(|slot| plots.clone().map(move |plot| (slot, plot)));
+            let asked = asked.filter_map(|(slot, plot)| stepped.request(*slot, plot));
+            for request in asked.collect::<Vec<_>>() {
+                assert_eq!(request.draft(), None);
+                let evaluations = give(&mut stepped, request.clone());
+                let step = format!("{}, {count} steps of {}", scene.name, row.name());
+                assert!(evaluations < HALF_FRAME, "{step}: {request:?} takes {evaluations}");
+            }
+        }
+    }
+}
+
+/// Numbers that users type to see what happens.
+const UGLY: [&[(Symbol, f64)]; 11] = [
+    &[(Symbol::D, -0.999)],
+    &[(Symbol::D, -1.5)],
+    &[(Symbol::D, -1e-12)],
+    &[(Symbol::R, 1e-6)],
+    &[(Symbol::R, 100.0)],
+    &[(Symbol::D2, 5.0)],
+    &[(Symbol::D2, -1e3)],
+    &[(Symbol::D3, -1.0)],
+    &[(Symbol::D3, 1e-9)],
+    &[(Symbol::D2, 5.0), (Symbol::D3, -1.0)],
+    &[(Symbol::D, 0.5), (Symbol::D2, 2.0), (Symbol::D3, -1e-3)],
+];
+
+/// Counted for every scene: no first answer takes more than a few frames, wherever the numbers are. Those
+/// that take more than one do not hold up the others: the worker puts them aside.
+#[test]
+fn wherever_the_numbers_are_no_first_answer_takes_more_than_a_few_frames() {
+    let kinds = || SLOTS.into_iter().filter(|slot| *slot < Slot::Trade);
+    let mut dearest = (0, String::new());
+    let mut answered: Vec<Request> = Vec::new();
+    for (scene, numbers) in library().iter().flat_map(|scene| UGLY.map(|ugly| (scene, ugly))) {
+        let mut session = Session::new(Arc::clone(scene), SIZE);
+        session.problem = session.problem.at(&DRAFT);
+        for (symbol, value) in numbers {
+            let problem = &mut session.problem;
+            symbol.set(&mut problem.parameters, &mut problem.initial, *value);
+        }
+        let plots = 0..session.plots.len();
+        let asked = plots.flat_map(|plot| kinds().map(move |slot| (slot, plot)));
+        let asked = asked.filter_map(|(slot, plot)| session.request(slot, plot));
+        for request in asked.collect::<Vec<_>>() {
+            let request = request.draft().unwrap_or(request);
+            if !answered.contains(&request) {
+                answered.push(request.clone());
+                let kind = request.slot().name();
+                dearest = dearest.max((
+                    give(&mut session, request),
+                    format!("{} {kind} {numbers:?}", scene.name),
+                ));
+            }
+        }
+    }
+    println!("the dearest first answer: {} evaluations, {}", dearest.0, dearest.1);
+    assert!(dearest.0 < 6 * HALF_FRAME, "{dearest:?}");
+}
+
+/// The branch that a request asks for, with the parameter in units of its range and displacements in
+/// units of the largest.
+fn diagram(request: &Request, extent: Option<f64>) -> (Vec<Vec<(f64, f64)>>, f64) {
+    let Request::Branch { range, .. } = request else { panic!("{request:?}") };
+    let Ok(Answer::Branch(Branch { pieces, .. })) = answer(request, &Limits::PATIENT) else {
+        panic!("no branch")
+    };
+    let largest = pieces.iter().flatten().fold(0.0, |most: f64, point| most.max(point.cycle.q_max));
+    let extent = extent.unwrap_or(largest);
+    let place = |value: f64, q: f64| ((value - range.0) / (range.1 - range.0), q / extent);
+    let pieces = pieces
+        .iter()
+        .map(|piece| piece.iter().map(|point| place(point.value, point.cycle.q_max)).collect());
+    (pieces.collect(), extent)
+}
+
+fn distance((x, y): (f64, f64), from: (f64, f64), to: (f64, f64)) -> f64 {
+    let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+    let square = dx * dx + dy * dy;
+    let part = if square > 0.0 { ((x - from.0) * dx + (y - from.1) * dy) / square } else { 0.0 };
+    let part = part.clamp(0.0, 1.0);
+    (x - from.0 - part * dx).hypot(y - from.1 - part * dy)
+}
+
+/// A branch at draft quality has the points that its continuation needed, not more: the curve through
+/// them is where the full one is, to a dot of a large plot.
+#[test]
+fn a_drafted_branch_is_the_branch_to_the_eye() {
+    /// Half a row of an 80x24 screen.
+    const DOT: f64 = 1.0 / 100.0;
+    let mut compared = 0;
+    for scene in library() {
+        let session = Session::new(Arc::clone(scene), SIZE);
+        for plot in 0..session.plots.len() {
+            let Some(full) = session.request(Slot::Branch, plot) else { continue };
+            let (pieces, extent) = diagram(&full, None);
+            let (drafted, _) = diagram(&full.draft().unwrap(), Some(extent));
+            for point in pieces.iter().flatten() {
+                let chords = drafted.iter().flat_map(|piece| piece.windows(2));
+                let nearest = chords
+                    .map(|chord| distance(*point, chord[0], chord[1]))
+                    .fold(f64::INFINITY, f64::min);
+                assert!(nearest < DOT, "{}: {point:?} is {nearest} from the draft", scene.name);
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 1000);
+}
