@@ -17,7 +17,7 @@ pub mod window;
 pub use answer::{Answer, Answered};
 pub use layer::{LAYERS, Layer, LayerSpec};
 pub use library::{NoScene, find, library, plain};
-pub use machine::{Machine, Rig};
+pub use machine::{Machine, Rig, Running};
 pub use misread::Misread;
 pub use ordinate::{ABSCISSAE, ORDINATES, Ordinate};
 pub use request::{Request, SLOTS, Slot};

@@ -116,11 +116,9 @@ fn phase(session: &Session, plot: usize) -> Option<Window> {
             points.extend(samples);
         }
     }
-    if let Some(rig) =
-        session.scene.machine.as_ref().filter(|_| session.shows_in(Layer::Belt, plot))
-    {
+    if let Some(running) = session.running().filter(|_| session.shows_in(Layer::Belt, plot)) {
         let fastest = points.iter().map(|point| point.y.abs()).fold(0.0, f64::max);
-        let belt = rig.reduced.sticking_velocity;
+        let belt = running.reduced.sticking_velocity;
         if belt <= BELT * fastest {
             points.push(Point { x: start.q, y: belt });
         }

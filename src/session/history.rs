@@ -4,15 +4,15 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use super::belt::Stand;
 use super::state::Steps;
-use crate::flow::Problem;
 use crate::scene::{Arrangement, Exhibit, Layer, Scene};
 
 /// The state before a change, as far as the change reached.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Before {
-    /// A parameter was changed. Undoing it leaves zoom and layers alone.
-    Problem(Problem),
+    /// A number was changed. Undoing it leaves zoom and layers alone.
+    Stand(Stand),
     /// A plot was added, removed or moved, or shows another view.
     Desk(Desk),
     /// A scene was opened or reset, and everything that a scene sets with it.
@@ -24,8 +24,8 @@ pub enum Before {
 pub struct Snapshot {
     /// The scene.
     pub scene: Arc<Scene>,
-    /// Parameters, start, end time, method and tolerance.
-    pub problem: Problem,
+    /// The motion, and the speed of its belt.
+    pub stand: Stand,
     /// Step sizes.
     pub steps: Steps,
     /// Layers that are on.

@@ -1,5 +1,6 @@
 //! The session: a pure machine of state, commands and keys.
 
+pub mod belt;
 pub mod command;
 pub mod config;
 pub mod fit;
@@ -30,6 +31,7 @@ pub mod variants;
 pub mod walk;
 pub mod wants;
 
+pub use belt::Stand;
 pub use command::{COMMANDS, Command};
 pub use input::Input;
 pub use key::{Code, Key};

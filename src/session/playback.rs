@@ -67,14 +67,14 @@ impl Session {
     /// there is none.
     #[must_use]
     pub fn contact(&self) -> Option<(f64, f64)> {
-        let sticking = self.scene.machine.as_ref()?.reduced.sticking_velocity;
+        let sticking = self.running()?.reduced.sticking_velocity;
         Followed::of(self.trajectory()?, sticking).sticks
     }
 
     /// Dimensionless time that passes in a second.
     #[must_use]
     pub fn rate(&self) -> f64 {
-        match (self.playback.pace, &self.scene.machine) {
+        match (self.playback.pace, self.running()) {
             (Pace::Period(seconds), _) => TAU / seconds,
             (Pace::Real, Some(machine)) => machine.reduced.units.omega_0,
             (Pace::Real, None) => TAU,
@@ -84,7 +84,7 @@ impl Session {
     /// The pace in words.
     #[must_use]
     pub fn pace(&self) -> String {
-        match (self.playback.pace, &self.scene.machine) {
+        match (self.playback.pace, self.running()) {
             (Pace::Period(seconds), None) => format!("a period in {seconds} s"),
             (Pace::Period(seconds), Some(machine)) => {
                 let slower = machine.reduced.units.omega_0 * seconds / TAU;

@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::belt::Stand;
 use super::history::{Before, Desk, History, Snapshot};
 use super::overlay::Overlay;
 use super::plot::{Framing, Pane, Plot};
@@ -19,6 +20,7 @@ use super::update::marks::{Mark, Marks};
 use crate::flow::Problem;
 use crate::flow::method::{EPSILON_RANGE, STEP_RANGE};
 use crate::oscillator::PARAMETERS;
+use crate::oscillator::belt::Quantity;
 use crate::scene::file::{TOLERANCE_RANGE, UNTIL_RANGE};
 use crate::scene::{
     Arrangement, Axes, Exhibit, Layer, MOST_PLOTS, Point, Scene, View, Window, find,
@@ -48,8 +50,13 @@ struct File {
     plots: Vec<Look>,
     #[serde(default)]
     marks: BTreeMap<char, Problem>,
+    /// The speeds of the belt at marks on machines.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    belts: BTreeMap<char, f64>,
     /// The point left last for a mark.
     left: Option<Problem>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    left_belt: Option<f64>,
     /// Recorded keys, as keystroke files.
     #[serde(default)]
     registers: BTreeMap<char, String>,
@@ -75,6 +82,8 @@ struct Show {
     layers: BTreeSet<Layer>,
     steps: Steps,
     motion: Problem,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    belt: Option<f64>,
     scene: Named,
 }
 
@@ -96,6 +105,7 @@ struct Look {
 #[serde(rename_all = "kebab-case")]
 enum Change {
     Motion(Problem),
+    MotionOnBelt { motion: Problem, belt: f64 },
     Plots { arrangement: Arrangement, plots: Vec<Exhibit> },
     Scene { plots: Vec<Exhibit>, show: Box<Show> },
 }
@@ -123,11 +133,24 @@ pub fn text(session: &Session) -> Result<String, String> {
             layers: session.layers.clone(),
             steps: session.steps,
             motion: session.problem,
+            belt: session.belt_speed,
             scene: named(&session.scene),
         },
         plots: session.plots.iter().map(look).collect(),
-        marks: session.marks.places.iter().map(|(name, mark)| (*name, mark.problem)).collect(),
-        left: session.marks.left.as_ref().map(|mark| mark.problem),
+        marks: session
+            .marks
+            .places
+            .iter()
+            .map(|(name, mark)| (*name, mark.stand.problem))
+            .collect(),
+        belts: session
+            .marks
+            .places
+            .iter()
+            .filter_map(|(name, mark)| Some((*name, mark.stand.belt_speed?)))
+            .collect(),
+        left: session.marks.left.as_ref().map(|mark| mark.stand.problem),
+        left_belt: session.marks.left.as_ref().and_then(|mark| mark.stand.belt_speed),
         registers: session
             .macros
             .registers
@@ -155,7 +178,10 @@ fn look(plot: &Plot) -> Look {
 
 fn change(before: &Before) -> Change {
     match before {
-        Before::Problem(problem) => Change::Motion(*problem),
+        Before::Stand(Stand { problem, belt_speed: None }) => Change::Motion(*problem),
+        Before::Stand(Stand { problem, belt_speed: Some(belt) }) => {
+            Change::MotionOnBelt { motion: *problem, belt: *belt }
+        }
         Before::Desk(Desk { plots, arrangement }) => {
             Change::Plots { arrangement: *arrangement, plots: plots.clone() }
         }
@@ -165,7 +191,8 @@ fn change(before: &Before) -> Change {
                 arrangement: snapshot.desk.arrangement,
                 layers: snapshot.layers.clone(),
                 steps: snapshot.steps,
-                motion: snapshot.problem,
+                motion: snapshot.stand.problem,
+                belt: snapshot.stand.belt_speed,
                 scene: named(&snapshot.scene),
             }),
         },
@@ -179,7 +206,7 @@ fn change(before: &Before) -> Change {
 pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     let file = read(text)?;
     let scene = scene(file.present.scene)?;
-    let motion = checked(file.present.motion)?;
+    let stand = checked(file.present.motion, file.present.belt)?;
     let plots = checked_plots(file.plots, |look| opened(&look))?;
     let in_range = |index: usize| index < plots.len();
     let focus = match file.focus.checked_sub(1) {
@@ -199,10 +226,12 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     if !(1..=most).contains(&file.harmonics) {
         return Err(format!("harmonics = {}, not 1 to {most}", file.harmonics));
     }
-    let mark = |problem| checked(problem).map(Mark::new);
-    let places = file.marks.into_iter().map(|(name, problem)| Ok((name, mark(problem)?)));
+    let mark = |problem, belt| checked(problem, belt).map(Mark::new);
+    let belt = |name: &char| file.belts.get(name).copied();
+    let places = file.marks.into_iter();
+    let places = places.map(|(name, problem)| Ok((name, mark(problem, belt(&name))?)));
     let places = places.collect::<Result<BTreeMap<_, _>, String>>()?;
-    let left = file.left.map(mark).transpose()?;
+    let left = file.left.map(|left| mark(left, file.left_belt)).transpose()?;
     let register = |(name, keys): (char, String)| Ok((name, steps(name, &keys)?));
     let registers = file.registers.into_iter().map(register);
     let registers = registers.collect::<Result<BTreeMap<_, _>, String>>()?;
@@ -210,7 +239,7 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     let history = History::of(changes(file.past)?, changes(file.future)?);
 
     let mut opened = Session::new(scene, session.size);
-    opened.problem = motion;
+    opened.set_stand(stand);
     opened.steps = file.present.steps;
     opened.layers = file.present.layers;
     opened.arrangement = file.present.arrangement;
@@ -254,7 +283,7 @@ fn scene(named: Named) -> Result<Arc<Scene>, String> {
     match named {
         Named::Library(name) => find(&name).map_err(|missing| missing.to_string()),
         Named::Whole(scene) => {
-            checked(scene.problem)?;
+            checked(scene.problem, None)?;
             if scene.plots.is_empty() || scene.plots.len() > MOST_PLOTS {
                 return Err(format!("a scene with {} plots", scene.plots.len()));
             }
@@ -263,8 +292,8 @@ fn scene(named: Named) -> Result<Arc<Scene>, String> {
     }
 }
 
-/// A motion whose numbers are all within their ranges.
-fn checked(problem: Problem) -> Result<Problem, String> {
+/// A motion, and a speed of the belt, whose numbers are all within their ranges.
+fn checked(problem: Problem, belt_speed: Option<f64>) -> Result<Stand, String> {
     for row in &PARAMETERS {
         let value = row.symbol.get(&problem.parameters, &problem.initial);
         row.check(value).map_err(|refused| refused.to_string())?;
@@ -279,7 +308,10 @@ fn checked(problem: Problem) -> Result<Problem, String> {
             return Err(format!("{name} = {value:?} is outside its range {min:?} .. {max:?}"));
         }
     }
-    Ok(problem)
+    if let Some(speed) = belt_speed {
+        Quantity::BeltSpeed.check(speed).map_err(|refused| refused.to_string())?;
+    }
+    Ok(Stand { problem, belt_speed })
 }
 
 /// As many plots as a screen can have.
@@ -307,15 +339,16 @@ fn steps(name: char, keys: &str) -> Result<Vec<Step>, String> {
 
 fn before(change: Change) -> Result<Before, String> {
     Ok(match change {
-        Change::Motion(problem) => Before::Problem(checked(problem)?),
+        Change::Motion(problem) => Before::Stand(checked(problem, None)?),
+        Change::MotionOnBelt { motion, belt } => Before::Stand(checked(motion, Some(belt))?),
         Change::Plots { arrangement, plots } => {
             Before::Desk(Desk { plots: checked_plots(plots, |plot| plot)?, arrangement })
         }
         Change::Scene { plots, show } => {
-            let Show { arrangement, layers, steps, motion, scene } = *show;
+            let Show { arrangement, layers, steps, motion, belt, scene } = *show;
             Before::Scene(Box::new(Snapshot {
                 scene: self::scene(scene)?,
-                problem: checked(motion)?,
+                stand: checked(motion, belt)?,
                 steps,
                 layers,
                 desk: Desk { plots: checked_plots(plots, |plot| plot)?, arrangement },

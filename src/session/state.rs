@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::belt::Stand;
 use super::history::History;
 use super::key::Key;
 use super::keymap::Keymap;
@@ -31,6 +32,8 @@ use crate::scene::{Answered, Arrangement, Layer, Request, Scene, Slot};
 /// A row of the parameter pane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Row {
+    /// Speed of the belt of a machine, which moves D, D2, D3 and r together.
+    Belt,
     /// One of the six numbers that define a motion.
     Parameter(Symbol),
     /// Time at which the motion stops.
@@ -42,7 +45,8 @@ pub enum Row {
 }
 
 /// Every row, in the order in which they stand.
-pub const ROWS: [Row; 9] = [
+pub const ROWS: [Row; 10] = [
+    Row::Belt,
     Row::Parameter(Symbol::D),
     Row::Parameter(Symbol::D2),
     Row::Parameter(Symbol::D3),
@@ -55,10 +59,14 @@ pub const ROWS: [Row; 9] = [
 ];
 
 impl Row {
+    /// The row that is selected at first.
+    pub const FIRST: Self = Row::Parameter(Symbol::D);
+
     /// The name on the screen.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
+            Row::Belt => "belt",
             Row::Parameter(symbol) => symbol.spec().name,
             Row::Until => "until",
             Row::Method => "method",
@@ -76,13 +84,23 @@ impl Row {
     }
 }
 
-/// The step sizes of the six numbers and of the end time.
+/// The step sizes of the six numbers, of the end time, and of the belt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Steps {
     /// Step of each parameter, in the order of the table.
     pub parameters: [StepSize; 6],
     /// Step of the end time.
     pub until: StepSize,
+    /// Step of the speed of the belt, in m/s.
+    #[serde(default = "usual_belt_step")]
+    pub belt: StepSize,
+}
+
+/// Part of the speed of a belt by which it is stepped at first.
+const BELT_STEP: f64 = 1.0 / 30.0;
+
+fn usual_belt_step() -> StepSize {
+    StepSize::near(BELT_STEP)
 }
 
 impl Steps {
@@ -90,6 +108,7 @@ impl Steps {
     #[must_use]
     pub fn of(&self, row: Row) -> Option<StepSize> {
         match row {
+            Row::Belt => Some(self.belt),
             Row::Parameter(symbol) => Some(self.parameters[symbol as usize]),
             Row::Until => Some(self.until),
             Row::Method | Row::Tolerance => None,
@@ -99,6 +118,7 @@ impl Steps {
     /// The step of a row, to be changed.
     pub fn of_mut(&mut self, row: Row) -> Option<&mut StepSize> {
         match row {
+            Row::Belt => Some(&mut self.belt),
             Row::Parameter(symbol) => Some(&mut self.parameters[symbol as usize]),
             Row::Until => Some(&mut self.until),
             Row::Method | Row::Tolerance => None,
@@ -121,6 +141,9 @@ impl Steps {
                 step(Symbol::V0),
             ],
             until: StepSize::near(UNTIL_STEP),
+            belt: scene.machine.as_ref().map_or_else(usual_belt_step, |rig| {
+                StepSize::near(BELT_STEP * rig.machine.belt.belt_speed)
+            }),
         }
     }
 }
@@ -199,6 +222,8 @@ pub struct Session {
     pub scene: Arc<Scene>,
     /// The motion on show: parameters, start, end time, method and tolerance.
     pub problem: Problem,
+    /// Speed of the belt, in m/s; `None` where the scene is of no machine.
+    pub belt_speed: Option<f64>,
     /// Step sizes of the parameter pane.
     pub steps: Steps,
     /// The selected row of the parameter pane, always one of [`Session::rows`].
@@ -269,8 +294,9 @@ impl Session {
     pub fn new(scene: Arc<Scene>, size: Size) -> Self {
         Session {
             problem: scene.problem,
+            belt_speed: Stand::of_scene(&scene).belt_speed,
             steps: Steps::of_scene(&scene),
-            selected: ROWS[0],
+            selected: Row::FIRST,
             unfolded: false,
             focus: Pane::Parameters,
             plots: scene.plots.iter().map(Plot::opened).collect(),
@@ -314,6 +340,7 @@ impl Session {
     #[must_use]
     pub fn rows(&self) -> Vec<Row> {
         let stands = |row: &Row| match *row {
+            Row::Belt => self.scene.machine.is_some(),
             Row::Parameter(symbol) => {
                 self.unfolded || self.scene.declares(symbol) || self.value(symbol) != 0.0
             }

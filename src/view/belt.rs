@@ -76,11 +76,11 @@ fn moment(session: &Session) -> Option<Sample> {
 /// The moment in numbers, physical ones where the scene is of a machine.
 fn reading(session: &Session, moment: &Sample) -> String {
     let Sample { tau, q, v } = *moment;
-    let Some(rig) = &session.scene.machine else {
+    let Some(running) = session.running() else {
         let three = |value| significant(value, 3);
         return format!("tau {}  q {}  v {}", three(tau), three(q), three(v));
     };
-    let units = &rig.reduced.units;
+    let units = &running.reduced.units;
     format!(
         "t {}  x {}  v {}",
         with_unit(tau * units.time, 3, "s"),
@@ -89,17 +89,9 @@ fn reading(session: &Session, moment: &Sample) -> String {
     )
 }
 
-/// Friction of the belt, as a part of that at rest; `None` where the friction law does not reach.
-fn pull(session: &Session, v: f64) -> Option<f64> {
-    let rig = session.scene.machine.as_ref()?;
-    let belt = &rig.machine.belt;
-    let relative = belt.belt_speed - v * rig.reduced.units.velocity;
-    Some(belt.law.mu(relative)? / rig.reduced.mu.value)
-}
-
 fn machine(picture: &mut Picture, session: &Session, across: Span, moment: &Sample) {
     let (wall, width) = (across.from(), across.width());
-    let sticking = session.scene.machine.as_ref().map(|rig| rig.reduced.sticking_velocity);
+    let sticking = session.running().map(|running| running.reduced.sticking_velocity);
     belt(picture, across, sticking.unwrap_or(0.0) * moment.tau);
     let (left, right) = (moment.q - 0.5 * WIDTH * width, moment.q + 0.5 * WIDTH * width);
     let r = session.problem.parameters.r;
@@ -119,14 +111,15 @@ fn machine(picture: &mut Picture, session: &Session, across: Span, moment: &Samp
 
 /// The pull of the belt on the mass, whose right side is at `from`.
 fn arrow(picture: &mut Picture, session: &Session, from: f64, width: f64, v: f64) {
-    let (Some(pull), Some(rig)) = (pull(session, v), &session.scene.machine) else { return };
+    let Some(running) = session.running() else { return };
+    let Some(pull) = running.pull(v) else { return };
     let y = MASS.0 + HALF;
     let tip = from + pull * ARROW * width;
     let barb = tip - (0.15 * ARROW * width).copysign(pull);
     let points = [(from, y), (tip, y), (barb, y + 0.5 * HALF), (tip, y), (barb, y - 0.5 * HALF)];
     let line = Line::new("friction of the belt", Role::Special, Dash::Solid);
     picture.curve(line, points.map(|(x, y)| Point { x, y }));
-    let text = with_unit(pull * rig.reduced.units.force, 3, "N");
+    let text = with_unit(pull * running.reduced.units.force, 3, "N");
     picture.caption(Point { x: tip, y }, format!(" {text}"), Role::Special);
 }
 

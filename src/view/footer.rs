@@ -99,6 +99,10 @@ fn entry(entry: &Entry, session: &Session, look: &Look) -> Vec<Span<'static>> {
             let names = QUALITIES.map(|quality| quality.name).join(", ");
             Span::styled(format!("  {min:e} .. {max}, or {names}"), look.style(Role::Quiet))
         }
+        (None, Row::Belt) => {
+            let text = "  speed of the belt, such as 0.3 m/s or 30 cm/s";
+            Span::styled(text, look.style(Role::Quiet))
+        }
         (None, Row::Until | Row::Method) => Span::raw(""),
     };
     let lead = Span::styled(

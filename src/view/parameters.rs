@@ -13,8 +13,9 @@ use super::pane::{self, Heading};
 use super::quantity::with_unit;
 use crate::flow::Problem;
 use crate::oscillator::Symbol;
+use crate::oscillator::belt::Quantity;
 use crate::scene::Layer;
-use crate::session::{Pane, Row, Session};
+use crate::session::{Pane, Row, Session, Stand};
 use crate::study::belt::PhysicalMargin;
 use crate::study::harmonic_error::Balanced;
 use crate::study::{Cycle, Cycles, Edge};
@@ -101,11 +102,20 @@ fn row_line(
     let role = if selected { Role::Selected } else { Role::Text };
     let name = row.name_in(&session.problem);
     let room = VALUES - name.len() - 2;
-    let value = value(&session.problem, row, room);
-    let changed = value != self::value(&session.scene.problem, row, room);
+    let (value, of_scene) = (value(&session.stand(), row, room), Stand::of_scene(&session.scene));
+    let changed = value != self::value(&of_scene, row, room);
+    // Numbers changed by hand are those of no belt speed: its row is out of use until it is set again.
+    let off = row == Row::Belt && session.is_on_the_belt() == Some(false);
+    let value = if off { format!("({value})") } else { value };
     let gap = VALUES.saturating_sub(name.len() + value.len() + 1);
     let style = look.style(role);
-    let value_style = if changed { style.patch(look.style(Role::Changed)) } else { style };
+    let value_style = if off && !selected {
+        look.style(Role::Quiet)
+    } else if changed {
+        style.patch(look.style(Role::Changed))
+    } else {
+        style
+    };
     let mut line = vec![
         Span::styled(format!("{pointer}{name}{:gap$}", ""), style),
         Span::styled(value, value_style),
@@ -130,17 +140,23 @@ fn row_line(
 
 /// What a row means on the machine: the quantity and its value.
 fn physical(session: &Session, row: Row) -> Option<(&'static str, String)> {
-    let rig = session.scene.machine.as_ref()?;
+    let running = session.running()?;
     let (name, value, unit) = match row {
-        Row::Parameter(symbol) => rig.meaning(symbol, session.value(symbol))?,
-        Row::Until => ("t", session.problem.until * rig.reduced.units.time, "s"),
+        Row::Belt if session.is_on_the_belt() == Some(false) => {
+            return Some(("is of", "another machine".to_owned()));
+        }
+        Row::Belt => ("v0", running.speed, "m/s"),
+        Row::Parameter(symbol) => running.meaning(symbol, session.value(symbol))?,
+        Row::Until => ("t", session.problem.until * running.reduced.units.time, "s"),
         Row::Method | Row::Tolerance => return None,
     };
     Some((name, with_unit(value, 4, unit)))
 }
 
-fn value(problem: &Problem, row: Row, width: usize) -> String {
+fn value(stand: &Stand, row: Row, width: usize) -> String {
+    let Stand { problem, belt_speed } = stand;
     match row {
+        Row::Belt => belt_speed.map_or_else(String::new, |speed| exact(speed, width)),
         Row::Parameter(symbol) => exact(symbol.get(&problem.parameters, &problem.initial), width),
         Row::Until => exact(problem.until, width),
         Row::Method => problem.method.to_string(),
@@ -160,6 +176,7 @@ fn step(session: &Session, row: Row, look: &Look) -> Option<String> {
 
 fn meaning(problem: &Problem, row: Row) -> &'static str {
     match row {
+        Row::Belt => Quantity::BeltSpeed.spec().meaning,
         Row::Parameter(symbol) => symbol.spec().meaning,
         Row::Until => "end time",
         Row::Method => "integrator of half swings",
@@ -262,14 +279,14 @@ fn basin(session: &Session, found: &Cycles, width: usize) -> Vec<String> {
 
 /// The margin on the machine, and which cycles overtake its belt.
 fn on_the_machine(session: &Session, found: &Cycles) -> Vec<String> {
-    let Some(rig) = &session.scene.machine else { return Vec::new() };
+    let Some(running) = session.running() else { return Vec::new() };
     let margin = found.picture.as_ref().map(|picture| picture.margin);
-    let margin = margin.map(|margin| PhysicalMargin::new(&margin, &rig.reduced.units));
+    let margin = margin.map(|margin| PhysicalMargin::new(&margin, &running.reduced.units));
     let kick = margin.and_then(|margin| {
         let (x, impulse) = (margin.displacement?, margin.impulse?);
         Some(format!("= {}, {}", with_unit(x, 3, "m"), with_unit(impulse, 3, "N s")))
     });
-    let fast = |cycle: &&Cycle| cycle.v_max >= rig.reduced.sticking_velocity;
+    let fast = |cycle: &&Cycle| cycle.v_max >= running.reduced.sticking_velocity;
     let alarms = found.cycles.iter().filter(fast).map(|cycle| {
         format!("! {} > belt", if cycle.stable { "stable cycle" } else { "unstable cycle" })
     });

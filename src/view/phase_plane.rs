@@ -122,8 +122,8 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
 
 /// The velocity at which the mass sticks to its belt, and where the motion reaches it.
 fn belt(picture: &mut Picture, session: &Session) {
-    let Some(rig) = &session.scene.machine else { return };
-    let y = rig.reduced.sticking_velocity;
+    let Some(running) = session.running() else { return };
+    let y = running.reduced.sticking_velocity;
     let left = picture.window.x.from();
     picture.level(Line::new("speed of the belt", Role::Current, Dash::Dashed), y);
     picture.caption(Point { x: left, y }, "belt", Role::Current);

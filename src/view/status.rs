@@ -153,7 +153,7 @@ fn held_motions(session: &Session) -> Option<String> {
 /// What is said in place of the outcome where the mass would overtake its belt before.
 fn alarm(session: &Session) -> Option<(String, Role)> {
     let (tau, q) = session.contact()?;
-    let units = session.scene.machine.as_ref()?.reduced.units;
+    let units = session.running()?.reduced.units;
     let text = format!(
         "sticks to the belt at tau = {} ({}), q = {}: the model ends there",
         significant(tau, 3),

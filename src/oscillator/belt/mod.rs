@@ -160,7 +160,15 @@ impl Belt {
     /// [`BeltError`] where the law does not reach, where it has no derivatives, where friction does not
     /// pull, or where a parameter is beyond the range of numbers.
     pub fn reduce(&self) -> Result<Reduced, BeltError> {
-        let Belt { mass, stiffness, normal_force, belt_speed: v0, .. } = *self;
+        self.reduce_at(self.belt_speed)
+    }
+
+    /// The same with the belt running at `v0` m/s, all else as it is.
+    ///
+    /// # Errors
+    /// Those of [`Self::reduce`].
+    pub fn reduce_at(&self, v0: f64) -> Result<Reduced, BeltError> {
+        let Belt { mass, stiffness, normal_force, .. } = *self;
         let mu = self.law.at(v0);
         let mu = mu.ok_or(BeltError::OutsideLaw { v0, range: self.law.range() })?;
         if !(mu.is_finite() && mu.value > 0.0) {

@@ -5,8 +5,10 @@ pub mod library;
 pub mod unit;
 
 mod rig;
+mod running;
 
 pub use rig::Rig;
+pub use running::Running;
 
 use serde::{Deserialize, Serialize};
 

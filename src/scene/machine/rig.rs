@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
-use super::Machine;
+use super::{Machine, Running};
 use crate::flow::Problem;
 use crate::oscillator::belt::{BeltError, Reduced};
 use crate::oscillator::{State, Symbol};
@@ -48,12 +48,10 @@ impl Rig {
     /// The motion of the machine.
     #[must_use]
     pub fn problem(&self) -> Problem {
-        let units = &self.reduced.units;
-        let Machine { displacement, velocity, until, .. } = self.machine;
         Problem {
             parameters: self.reduced.parameters,
-            initial: State { q: displacement / units.displacement, v: velocity / units.velocity },
-            until: until / units.time,
+            initial: self.running().start(),
+            until: self.machine.until / self.reduced.units.time,
             tolerance: TOLERANCE,
             ..Problem::default()
         }
@@ -68,28 +66,11 @@ impl Rig {
         [Symbol::D, Symbol::R].into_iter().chain(varied).collect()
     }
 
-    /// What a number of the motion means on the machine, all else as it is: the quantity, its value in SI
-    /// units and the unit. D stands for the damper d1, D3 for d3, r for R.
-    ///
-    /// `None` for D2, which no part of the machine sets by itself.
+    /// The machine at its own speed of the belt.
     #[must_use]
-    pub fn meaning(&self, symbol: Symbol, value: f64) -> Option<(&'static str, f64, &'static str)> {
-        let (units, mu) = (&self.reduced.units, &self.reduced.mu);
-        let belt = &self.machine.belt;
-        Some(match symbol {
-            Symbol::D => {
-                let whole = 2.0 * value * belt.mass * units.omega_0;
-                ("d1", whole - belt.normal_force * mu.first, "N s/m")
-            }
-            Symbol::D2 => return None,
-            Symbol::D3 => {
-                let whole = value * belt.mass / (units.omega_0 * units.displacement.powi(2));
-                ("d3", whole - belt.normal_force * mu.third / 6.0, "N s^3/m^3")
-            }
-            Symbol::R => ("R", value * units.force, "N"),
-            Symbol::Q0 => ("x", value * units.displacement, "m"),
-            Symbol::V0 => ("v", value * units.velocity, "m/s"),
-        })
+    pub fn running(&self) -> Running<'_> {
+        let Rig { machine, reduced } = self;
+        Running { machine, speed: machine.belt.belt_speed, reduced: *reduced }
     }
 
     /// A scene of the machine: the mass on its belt beside the phase plane, and the cycles over D below.
@@ -127,7 +108,6 @@ impl Rig {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::oscillator::belt::Quantity;
     use crate::scene::machine::library::machines;
 
     #[test]
@@ -138,35 +118,6 @@ mod tests {
             assert_eq!(serde_json::from_str::<Rig>(&text).unwrap(), rig, "{}", machine.name);
             let broken = text.replacen("\"mass\":", "\"mass\":-", 1);
             assert!(serde_json::from_str::<Rig>(&broken).is_err());
-        }
-    }
-
-    #[test]
-    fn numbers_mean_the_quantities_of_the_machine() {
-        for machine in machines() {
-            let rig = Rig::new(machine.clone()).unwrap();
-            let problem = rig.problem();
-            for (symbol, expected) in [
-                (Symbol::D, machine.belt.get(Quantity::Damping)),
-                (Symbol::D3, machine.belt.get(Quantity::CubicDamping)),
-                (Symbol::R, machine.belt.get(Quantity::Friction)),
-                (Symbol::Q0, machine.displacement),
-                (Symbol::V0, machine.velocity),
-            ] {
-                let value = symbol.get(&problem.parameters, &problem.initial);
-                let (name, found, _) = rig.meaning(symbol, value).unwrap();
-                let size = match symbol {
-                    Symbol::D => machine.belt.normal_force * rig.reduced.mu.first,
-                    Symbol::D3 => machine.belt.normal_force * rig.reduced.mu.third,
-                    _ => 0.0,
-                };
-                let scale = expected.abs() + size.abs();
-                assert!(
-                    (found - expected).abs() <= 1e-12 * scale,
-                    "{}: {name} {found}",
-                    machine.name
-                );
-            }
         }
     }
 }

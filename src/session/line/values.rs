@@ -22,30 +22,43 @@ fn listed<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     names.into_iter().collect::<Vec<_>>().join(", ")
 }
 
-/// The row of the parameter pane with this name.
-fn row_named(name: &str) -> Result<Row, String> {
-    ROWS.into_iter()
-        .find(|row| row.name() == name)
-        .ok_or_else(|| format!("no value {name:?}; there are {}", listed(ROWS.map(Row::name))))
+/// The rows that a line can give a value: no belt where there is none.
+fn rows(session: &Session) -> impl Iterator<Item = Row> + use<> {
+    let belt = session.running().is_some();
+    ROWS.into_iter().filter(move |row| belt || *row != Row::Belt)
 }
 
-/// `NAME=VALUE ..`, as one change.
+/// The row of the parameter pane with this name.
+fn row_named(session: &Session, name: &str) -> Result<Row, String> {
+    let all = || listed(rows(session).map(Row::name));
+    let found = rows(session).find(|row| row.name() == name);
+    found.ok_or_else(|| format!("no value {name:?}; there are {}", all()))
+}
+
+/// `NAME=VALUE ..`, as one change. What stands behind a blank without a name is the unit of the value
+/// before it.
 pub fn set(session: &mut Session, rest: &str) -> Done {
-    let mut problem = session.problem;
+    let mut given: Vec<(&str, String)> = Vec::new();
     for word in rest.split_whitespace() {
-        let (name, value) = word
-            .split_once('=')
-            .ok_or_else(|| format!("{word:?} is no NAME=VALUE, such as D=-0.3"))?;
-        problem = entry::read(problem, row_named(name)?, value)?;
+        match (word.split_once('='), given.last_mut()) {
+            (Some((name, value)), _) => given.push((name, value.to_owned())),
+            (None, Some(("belt", value))) => *value = format!("{value} {word}"),
+            (None, _) => return Err(format!("{word:?} is no NAME=VALUE, such as D=-0.3")),
+        }
     }
-    parameters::change(session, problem);
+    let mut stand = session.stand();
+    for (name, value) in given {
+        stand = entry::read(session, stand, row_named(session, name)?, &value)?;
+    }
+    parameters::put(session, stand);
     Ok(Vec::new())
 }
 
 /// A single value.
 pub fn set_row(session: &mut Session, row: &str, value: &str) -> Done {
-    let problem = entry::read(session.problem, row_named(row)?, value)?;
-    parameters::change(session, problem);
+    let row = row_named(session, row)?;
+    let stand = entry::read(session, session.stand(), row, value)?;
+    parameters::put(session, stand);
     Ok(Vec::new())
 }
 
@@ -55,11 +68,11 @@ pub fn assignments(session: &Session, words: &[&str]) -> Vec<String> {
     match word.split_once('=') {
         Some(("method", _)) => methods().iter().map(|name| format!("method={name}")).collect(),
         Some((name, "")) => {
-            let row = ROWS.into_iter().find(|row| row.name() == name);
+            let row = rows(session).find(|row| row.name() == name);
             row.map(|row| format!("{name}={}", today(session, row))).into_iter().collect()
         }
         Some(_) => Vec::new(),
-        None => ROWS.map(|row| format!("{}=", row.name())).to_vec(),
+        None => rows(session).map(|row| format!("{}=", row.name())).collect(),
     }
 }
 
@@ -67,7 +80,7 @@ pub fn assignments(session: &Session, words: &[&str]) -> Vec<String> {
 fn today(session: &Session, row: Row) -> String {
     match row {
         Row::Method => session.problem.method.to_string(),
-        row => shortest(parameters::number(&session.problem, row)),
+        row => shortest(parameters::number(&session.stand(), row)),
     }
 }
 

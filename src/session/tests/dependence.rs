@@ -29,9 +29,15 @@ const DEPENDS: [(Slot, &str); 9] = [
 
 fn depends(slot: Slot, row: Row) -> bool {
     let (_, letters) = DEPENDS.iter().find(|(of, _)| *of == slot).unwrap();
-    let column = ROWS.iter().position(|other| *other == row).unwrap();
+    let mut letters = letters.chars().filter(|letter| *letter != ' ');
+    if row == Row::Belt {
+        // Its speed moves the equation, and the start with the unit of length.
+        return letters.take(6).any(|letter| letter == 'x');
+    }
     // The rows are D, D2, D3, r, q0, v0, until, method, tolerance.
-    letters.chars().filter(|letter| *letter != ' ').nth(column).unwrap() == 'x'
+    let mut rows = ROWS.iter().filter(|row| **row != Row::Belt);
+    let column = rows.position(|other| *other == row).unwrap();
+    letters.nth(column).unwrap() == 'x'
 }
 
 /// Whether a plot looks along this number, or holds it for all of its variants: then it does not matter.

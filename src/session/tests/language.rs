@@ -113,14 +113,14 @@ fn between_two_marks_nothing_is_computed_twice_and_the_other_one_is_a_ghost() {
     assert_eq!(d(&desk), -0.1);
     assert!(desk.session.layers.contains(&Layer::Ghost));
     let ghost = desk.session.marks.left.as_ref().expect("a ghost");
-    assert_eq!(ghost.problem, there);
+    assert_eq!(ghost.stand.problem, there);
     assert_eq!(ghost.trajectory().expect("its motion").problem, there);
     assert!(ghost.cycles().is_some());
     for keys in ["'b", "''", "''", "'b"] {
         assert_eq!(desk.press(keys), [], "{keys}");
     }
     assert_eq!(desk.session.problem, there);
-    let parameters = desk.session.marks.left.as_ref().map(|ghost| ghost.problem.parameters.d);
+    let parameters = desk.session.marks.left.as_ref().map(|ghost| ghost.stand.problem.parameters.d);
     assert_eq!(parameters, Some(-0.1));
     desk.press("'b");
     assert_eq!(desk.notice(), "here already");

@@ -2,6 +2,7 @@
 //! questions answered by hand.
 
 mod axes;
+mod belt;
 mod dependence;
 mod desk;
 mod dial;

@@ -14,7 +14,7 @@ use crate::session::{Effect, Msg, Purpose, Session, save, update};
 /// Everything of a session that a file holds.
 fn essence(session: &Session) -> impl PartialEq + std::fmt::Debug {
     let marks: Vec<(char, Problem)> =
-        session.marks.places.iter().map(|(name, mark)| (*name, mark.problem)).collect();
+        session.marks.places.iter().map(|(name, mark)| (*name, mark.stand.problem)).collect();
     let plots: Vec<_> = session
         .plots
         .iter()

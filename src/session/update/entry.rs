@@ -1,7 +1,11 @@
 //! Typing a value: the line opens, takes characters, and is accepted or refused.
 
-use super::parameters::{change, number, range, with_number};
+use super::parameters::{number, put, range, with_number};
 use crate::flow::{METHODS, Method, Problem, QUALITIES};
+use crate::oscillator::belt::Quantity;
+use crate::scene::machine::file::value_of;
+use crate::scene::machine::unit::measured;
+use crate::session::belt::Stand;
 use crate::session::key::Key;
 use crate::session::message::Effect;
 use crate::session::overlay::{Entry, Overlay};
@@ -13,7 +17,8 @@ pub fn edit(session: &mut Session) -> Vec<Effect> {
     let row = session.selected;
     let text = match row {
         Row::Method => session.problem.method.to_string(),
-        Row::Parameter(_) | Row::Until | Row::Tolerance => shortest(number(&session.problem, row)),
+        Row::Belt => format!("{} m/s", shortest(number(&session.stand(), row))),
+        Row::Parameter(_) | Row::Until | Row::Tolerance => shortest(number(&session.stand(), row)),
     };
     session.overlay = Some(Overlay::Entry(Entry::new(row, text)));
     Vec::new()
@@ -28,19 +33,44 @@ pub fn begin(session: &mut Session, key: Key) -> Vec<Effect> {
 
 /// Takes the typed value, or says in the line why not.
 pub fn accept(session: &mut Session) -> Vec<Effect> {
-    let Some(Overlay::Entry(entry)) = &mut session.overlay else { return Vec::new() };
-    match read(session.problem, entry.row, entry.input.text()) {
-        Ok(problem) => {
+    let Some(Overlay::Entry(entry)) = &session.overlay else { return Vec::new() };
+    match read(session, session.stand(), entry.row, entry.input.text()) {
+        Ok(stand) => {
             session.overlay = None;
-            change(session, problem);
+            put(session, stand);
         }
-        Err(why) => entry.refused = Some(why),
+        Err(why) => {
+            if let Some(Overlay::Entry(entry)) = &mut session.overlay {
+                entry.refused = Some(why);
+            }
+        }
     }
     Vec::new()
 }
 
-/// The motion with the typed value in a row, or one line that says what is allowed.
-pub(in crate::session) fn read(problem: Problem, row: Row, text: &str) -> Result<Problem, String> {
+/// What stands there with the typed value in a row, or one line that says what is allowed.
+pub(in crate::session) fn read(
+    session: &Session,
+    stand: Stand,
+    row: Row,
+    text: &str,
+) -> Result<Stand, String> {
+    if row == Row::Belt {
+        let text = plain_minus(text);
+        let speed = value_of(Quantity::BeltSpeed, &measured(&text)?)?;
+        return session.at_belt_speed(stand.problem, speed);
+    }
+    let problem = read_number(stand.problem, row, text)?;
+    Ok(Stand { problem, ..stand })
+}
+
+/// Documents print the minus sign as a character of its own.
+fn plain_minus(text: &str) -> String {
+    text.trim().replace('\u{2212}', "-")
+}
+
+/// The motion with the typed value in a row.
+fn read_number(problem: Problem, row: Row, text: &str) -> Result<Problem, String> {
     let text = text.trim();
     if row == Row::Method {
         let method = Method::named(text).ok_or_else(|| {
@@ -57,11 +87,8 @@ pub(in crate::session) fn read(problem: Problem, row: Row, text: &str) -> Result
     let name = row.name_in(&problem);
     let (min, max) = range(&problem, row);
     let takes = format!("{name} takes {} to {}", shortest(min), shortest(max));
-    // Documents print the minus sign as a character of its own.
-    let value: f64 = text
-        .replace('\u{2212}', "-")
-        .parse()
-        .map_err(|_| format!("{text:?} is no number; {takes}"))?;
+    let value: f64 =
+        plain_minus(text).parse().map_err(|_| format!("{text:?} is no number; {takes}"))?;
     if !value.is_finite() {
         return Err(format!("{text} is no finite number; {takes}"));
     }

@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use super::desk::{desk, set_up};
+use super::parameters::number;
 use super::{inform, macros, refuse};
-use crate::flow::Problem;
 use crate::scene::{Layer, Scene};
+use crate::session::belt::Stand;
 use crate::session::history::{Before, Desk, Snapshot};
 use crate::session::message::Effect;
 use crate::session::overlay::{Caption, Overlay};
@@ -96,7 +97,7 @@ pub fn redo(session: &mut Session) -> Vec<Effect> {
 /// Today's state, as far as `other` reaches.
 fn present(session: &Session, other: &Before) -> Before {
     match other {
-        Before::Problem(_) => Before::Problem(session.problem),
+        Before::Stand(_) => Before::Stand(session.stand()),
         Before::Desk(_) => Before::Desk(desk(session)),
         Before::Scene(_) => Before::Scene(Box::new(snapshot(session))),
     }
@@ -106,7 +107,7 @@ fn present(session: &Session, other: &Before) -> Before {
 fn snapshot(session: &Session) -> Snapshot {
     Snapshot {
         scene: Arc::clone(&session.scene),
-        problem: session.problem,
+        stand: session.stand(),
         steps: session.steps,
         layers: session.layers.clone(),
         desk: desk(session),
@@ -116,7 +117,7 @@ fn snapshot(session: &Session) -> Snapshot {
 /// Everything that a scene sets, as it opens.
 fn opening(scene: Arc<Scene>) -> Snapshot {
     Snapshot {
-        problem: scene.problem,
+        stand: Stand::of_scene(&scene),
         steps: Steps::of_scene(&scene),
         layers: scene.layers.clone(),
         desk: Desk { plots: scene.plots.clone(), arrangement: scene.arrangement },
@@ -127,9 +128,9 @@ fn opening(scene: Arc<Scene>) -> Snapshot {
 fn bring_back(session: &mut Session, found: Option<Before>, name: &str) -> Vec<Effect> {
     match found {
         None => refuse(session, format!("nothing to {name}")),
-        Some(Before::Problem(problem)) => {
-            inform(session, format!("{name}: {}", difference(&session.problem, &problem)));
-            session.problem = problem;
+        Some(Before::Stand(stand)) => {
+            inform(session, format!("{name}: {}", difference(&session.stand(), &stand)));
+            session.set_stand(stand);
         }
         Some(Before::Desk(desk)) => {
             let titles: Vec<_> = desk.plots.iter().map(|plot| plot.view.spec().title).collect();
@@ -144,23 +145,28 @@ fn bring_back(session: &mut Session, found: Option<Before>, name: &str) -> Vec<E
     Vec::new()
 }
 
-/// What is different in `new`, as `name = value`.
-pub(super) fn difference(old: &Problem, new: &Problem) -> String {
-    let value = |problem: &Problem, row: Row| match row {
-        Row::Parameter(symbol) => shortest(symbol.get(&problem.parameters, &problem.initial)),
-        Row::Until => shortest(problem.until),
-        Row::Method => problem.method.to_string(),
-        Row::Tolerance => shortest(problem.setting()),
+/// What is different in `new`, as `name = value`; of a belt at another speed that alone, because the
+/// parameters follow from it.
+pub(super) fn difference(old: &Stand, new: &Stand) -> String {
+    let value = |stand: &Stand, row: Row| match row {
+        Row::Method => stand.problem.method.to_string(),
+        Row::Belt => stand.belt_speed.map(shortest).unwrap_or_default(),
+        row => shortest(number(stand, row)),
     };
-    let changed = ROWS.into_iter().filter(|row| value(old, *row) != value(new, *row));
-    let said: Vec<_> =
-        changed.map(|row| format!("{} = {}", row.name_in(new), value(new, row))).collect();
-    said.join(", ")
+    let belt = new.belt_speed.is_some() && old.belt_speed != new.belt_speed;
+    let follows = |row: &Row| belt && matches!(row, Row::Parameter(_));
+    let rows = ROWS.into_iter().filter(|row| !follows(row));
+    let changed = rows.filter(|row| value(old, *row) != value(new, *row));
+    let said = changed.map(|row| {
+        let unit = if row == Row::Belt { " m/s" } else { "" };
+        format!("{} = {}{unit}", row.name_in(&new.problem), value(new, row))
+    });
+    said.collect::<Vec<_>>().join(", ")
 }
 
 fn restore(session: &mut Session, snapshot: Snapshot) {
     session.scene = snapshot.scene;
-    session.problem = snapshot.problem;
+    session.set_stand(snapshot.stand);
     session.steps = snapshot.steps;
     session.layers = snapshot.layers;
     set_up(session, &snapshot.desk);
@@ -177,7 +183,7 @@ pub(in crate::session) fn open_scene(session: &mut Session, scene: Arc<Scene>) {
     }
     restore(session, opened);
     session.unfolded = false;
-    session.selected = ROWS[0];
+    session.selected = Row::FIRST;
     // Where the sentences of a scene begin.
     session.focus = Pane::Parameters;
 }

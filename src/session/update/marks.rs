@@ -7,10 +7,11 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::general::difference;
-use super::parameters::change;
+use super::parameters::put;
 use super::{inform, refuse};
-use crate::flow::{Problem, Trajectory};
+use crate::flow::Trajectory;
 use crate::scene::{Answer, Answered, Layer, Slot};
+use crate::session::belt::Stand;
 use crate::session::message::Effect;
 use crate::session::state::Session;
 use crate::study::Cycles;
@@ -27,8 +28,8 @@ pub struct Marks {
 /// A point of the parameters, and what was known about it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mark {
-    /// Parameters, start, end time, method and tolerance.
-    pub problem: Problem,
+    /// The motion, and the speed of its belt.
+    pub stand: Stand,
     /// The answers to its questions, as far as they were there.
     pub answers: BTreeMap<Slot, Arc<Answered>>,
 }
@@ -36,8 +37,8 @@ pub struct Mark {
 impl Mark {
     /// A point about which nothing is known yet.
     #[must_use]
-    pub fn new(problem: Problem) -> Self {
-        Mark { problem, answers: BTreeMap::new() }
+    pub fn new(stand: Stand) -> Self {
+        Mark { stand, answers: BTreeMap::new() }
     }
 
     /// The present point.
@@ -45,7 +46,7 @@ impl Mark {
         let todays = |slot: &Slot| !session.is_stale(*slot, session.plot);
         let answers = session.answers.iter().filter(|(slot, _)| todays(slot));
         let answers = answers.map(|(slot, answered)| (*slot, Arc::clone(answered))).collect();
-        Mark { problem: session.problem, answers }
+        Mark { stand: session.stand(), answers }
     }
 
     /// Its motion, if that was computed.
@@ -97,15 +98,15 @@ pub(in crate::session) fn go_back(session: &mut Session) -> Vec<Effect> {
 /// Goes to a point, as a change that can be undone, and keeps what is known about the one that is left.
 fn go(session: &mut Session, mark: &Mark) {
     let here = Mark::present(session);
-    for known in session.marks.places.values_mut().filter(|known| known.problem == here.problem) {
+    for known in session.marks.places.values_mut().filter(|known| known.stand == here.stand) {
         known.answers.clone_from(&here.answers);
     }
-    if mark.problem == here.problem {
+    if mark.stand == here.stand {
         inform(session, "here already");
         return;
     }
-    inform(session, difference(&here.problem, &mark.problem));
-    change(session, mark.problem);
+    inform(session, difference(&here.stand, &mark.stand));
+    put(session, mark.stand);
     for (slot, answered) in &mark.answers {
         if session.request(*slot, session.plot).as_ref() == Some(&answered.request) {
             session.answers.insert(*slot, Arc::clone(answered));

@@ -2,18 +2,28 @@
 
 use super::{inform, refuse};
 use crate::flow::{METHODS, Problem, QUALITIES};
+use crate::oscillator::belt::Quantity;
 use crate::scene::file::UNTIL_RANGE;
+use crate::session::belt::Stand;
 use crate::session::history::Before;
 use crate::session::message::Effect;
 use crate::session::state::{Row, Session, Steps};
 use crate::session::step::shortest;
 
-/// Makes another motion the one on show, as one change that can be undone. Returns whether it differs.
+/// Makes another motion the one on show, as one change that can be undone; the belt keeps its speed.
+/// Returns whether it differs.
 pub(in crate::session) fn change(session: &mut Session, problem: Problem) -> bool {
-    let differs = problem != session.problem;
+    put(session, Stand { problem, ..session.stand() })
+}
+
+/// Makes another motion, with a speed of the belt, the one on show, as one change that can be undone.
+/// Returns whether it differs.
+pub(in crate::session) fn put(session: &mut Session, stand: Stand) -> bool {
+    let before = session.stand();
+    let differs = stand != before;
     if differs {
-        session.history.record(Before::Problem(session.problem));
-        session.problem = problem;
+        session.history.record(Before::Stand(before));
+        session.set_stand(stand);
     }
     differs
 }
@@ -31,12 +41,13 @@ pub fn step(session: &mut Session, count: i32) -> Vec<Effect> {
     match session.selected {
         Row::Method => return next_method(session, count.signum() as isize),
         Row::Tolerance => return turn(session, count.signum()),
+        Row::Belt => return step_belt(session, count),
         Row::Parameter(_) | Row::Until => {}
     }
     let row = session.selected;
     let Some(size) = session.steps.of(row) else { return Vec::new() };
     let (min, max) = range(&session.problem, row);
-    let value = number(&session.problem, row);
+    let value = number(&session.stand(), row);
     let stepped = size.from(value, count).clamp(min, max);
     let changed = with_number(session.problem, row, stepped);
     if !change(session, changed) {
@@ -47,6 +58,21 @@ pub fn step(session: &mut Session, count: i32) -> Vec<Effect> {
             format!("{name} ends at {}", shortest(stepped))
         };
         refuse(session, why);
+    }
+    Vec::new()
+}
+
+/// Steps the speed of the belt; from off the belt, back onto it. What is no speed is refused: an end of
+/// the range, far below any belt, would be no place to stop at.
+fn step_belt(session: &mut Session, count: i32) -> Vec<Effect> {
+    let speed = session.steps.belt.from(number(&session.stand(), Row::Belt), count);
+    match session.at_belt_speed(session.problem, speed) {
+        Ok(stand) => {
+            if !put(session, stand) {
+                refuse(session, format!("the step is too small to change {} m/s", shortest(speed)));
+            }
+        }
+        Err(why) => refuse(session, why),
     }
     Vec::new()
 }
@@ -63,18 +89,26 @@ pub fn step_size(session: &mut Session, larger: bool) -> Vec<Effect> {
 /// Gives the selected row the scene's value and step size.
 pub fn reset_row(session: &mut Session) -> Vec<Effect> {
     let row = session.selected;
-    let scene = session.scene.problem;
+    let (scene, present) = (session.scene.problem, session.stand());
     let steps = Steps::of_scene(&session.scene);
     if let (Some(size), Some(wanted)) = (session.steps.of_mut(row), steps.of(row)) {
         *size = wanted;
     }
     let reset = match row {
-        Row::Method => Problem { method: scene.method, ..session.problem },
+        Row::Belt => session.scene.machine.as_ref().map_or_else(
+            || Ok(present),
+            |rig| session.at_belt_speed(session.problem, rig.machine.belt.belt_speed),
+        ),
+        Row::Method => {
+            Ok(Stand { problem: Problem { method: scene.method, ..session.problem }, ..present })
+        }
         Row::Parameter(_) | Row::Until | Row::Tolerance => {
-            with_number(session.problem, row, number(&scene, row))
+            let value = number(&Stand::alone(scene), row);
+            Ok(Stand { problem: with_number(session.problem, row, value), ..present })
         }
     };
-    if !change(session, reset) {
+    let reset = reset.unwrap_or(present);
+    if !put(session, reset) {
         inform(session, format!("{} has the scene's value", row.name_in(&session.problem)));
     }
     Vec::new()
@@ -135,28 +169,31 @@ pub fn next_method(session: &mut Session, by: isize) -> Vec<Effect> {
 /// The range of a row that is a number.
 pub(super) fn range(problem: &Problem, row: Row) -> (f64, f64) {
     match row {
+        Row::Belt => (Quantity::BeltSpeed.spec().min, Quantity::BeltSpeed.spec().max),
         Row::Parameter(symbol) => (symbol.spec().min, symbol.spec().max),
         Row::Until => UNTIL_RANGE,
         Row::Tolerance | Row::Method => problem.method.spec().dial.range(),
     }
 }
 
-/// The value of a row that is a number.
-pub(in crate::session) fn number(problem: &Problem, row: Row) -> f64 {
+/// The value of a row that is a number; 0 for a belt where there is none.
+pub(in crate::session) fn number(stand: &Stand, row: Row) -> f64 {
+    let Stand { problem, belt_speed } = stand;
     match row {
+        Row::Belt => belt_speed.unwrap_or(0.0),
         Row::Parameter(symbol) => symbol.get(&problem.parameters, &problem.initial),
         Row::Until => problem.until,
         Row::Tolerance | Row::Method => problem.setting(),
     }
 }
 
-/// The same motion with another value of a row that is a number.
+/// The same motion with another value of a row that is a number of the motion.
 pub(super) fn with_number(mut problem: Problem, row: Row, value: f64) -> Problem {
     match row {
         Row::Parameter(symbol) => symbol.set(&mut problem.parameters, &mut problem.initial, value),
         Row::Until => problem.until = value,
         Row::Tolerance => problem = problem.with_setting(value),
-        Row::Method => {}
+        Row::Method | Row::Belt => {}
     }
     problem
 }

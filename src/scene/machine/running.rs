@@ -1,0 +1,173 @@
+//! A machine whose belt runs at some speed: what the numbers of its motion mean there.
+//!
+//! The speed of the belt moves D, D2, D3 and r together, along a path that the friction law lays through
+//! the parameters, and the units of length, velocity and force with them. What one has set up on the
+//! machine, the start in metres and metres per second, stays.
+
+use super::Machine;
+use crate::flow::Problem;
+use crate::oscillator::belt::{Quantity, Reduced};
+use crate::oscillator::{Parameters, State, Symbol};
+
+/// A machine with its belt at a speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Running<'a> {
+    /// The machine.
+    pub machine: &'a Machine,
+    /// Speed v0 of the belt, in m/s.
+    pub speed: f64,
+    /// Its dimensionless form at that speed.
+    pub reduced: Reduced,
+}
+
+impl<'a> Running<'a> {
+    /// The machine with its belt at `speed` m/s, whatever speed it has of its own.
+    ///
+    /// # Errors
+    /// One line that says what is allowed: the range of speeds, or what the friction law lacks there.
+    pub fn at(machine: &'a Machine, speed: f64) -> Result<Self, String> {
+        let speed = Quantity::BeltSpeed.check(speed).map_err(|refused| refused.to_string())?;
+        let reduced = machine.belt.reduce_at(speed).map_err(|refused| refused.to_string())?;
+        Ok(Running { machine, speed, reduced })
+    }
+
+    /// Whether these parameters are those of the machine at this speed, to the last bit.
+    #[must_use]
+    pub fn carries(&self, parameters: &Parameters) -> bool {
+        self.reduced.parameters == *parameters
+    }
+
+    /// The start of the machine's motion, in the units of this speed.
+    #[must_use]
+    pub fn start(&self) -> State {
+        let units = &self.reduced.units;
+        let Machine { displacement, velocity, .. } = self.machine;
+        State { q: displacement / units.displacement, v: velocity / units.velocity }
+    }
+
+    /// A motion at this speed as one at another: with the parameters of the machine there, and from the
+    /// same place in metres with the same velocity in metres per second.
+    #[must_use]
+    pub fn brought_to(&self, other: &Running, problem: Problem) -> Problem {
+        let (own, others) = (self.start(), other.start());
+        let (from, to) = (&self.reduced.units, &other.reduced.units);
+        // The machine's own start is known in its units: no rounding adds up from speed to speed.
+        let moved = |value: f64, own: f64, others: f64, scale: f64| {
+            if value == own { others } else { value * scale }
+        };
+        let State { q, v } = problem.initial;
+        let initial = State {
+            q: moved(q, own.q, others.q, from.displacement / to.displacement),
+            v: moved(v, own.v, others.v, from.velocity / to.velocity),
+        };
+        Problem { parameters: other.reduced.parameters, initial, ..problem }
+    }
+
+    /// What a number of the motion means on the machine, all else as it is: the quantity, its value in SI
+    /// units and the unit. D stands for the damper d1, D3 for d3, r for R.
+    ///
+    /// `None` for D2, which no part of the machine sets by itself.
+    #[must_use]
+    pub fn meaning(&self, symbol: Symbol, value: f64) -> Option<(&'static str, f64, &'static str)> {
+        let Reduced { units, mu, .. } = &self.reduced;
+        let belt = &self.machine.belt;
+        Some(match symbol {
+            Symbol::D => {
+                let whole = 2.0 * value * belt.mass * units.omega_0;
+                ("d1", whole - belt.normal_force * mu.first, "N s/m")
+            }
+            Symbol::D2 => return None,
+            Symbol::D3 => {
+                let whole = value * belt.mass / (units.omega_0 * units.displacement.powi(2));
+                ("d3", whole - belt.normal_force * mu.third / 6.0, "N s^3/m^3")
+            }
+            Symbol::R => ("R", value * units.force, "N"),
+            Symbol::Q0 => ("x", value * units.displacement, "m"),
+            Symbol::V0 => ("v", value * units.velocity, "m/s"),
+        })
+    }
+
+    /// The pull of the belt on the mass at a dimensionless velocity, as a part of that at rest; `None`
+    /// where the friction law does not reach.
+    #[must_use]
+    pub fn pull(&self, v: f64) -> Option<f64> {
+        let relative = self.speed - v * self.reduced.units.velocity;
+        Some(self.machine.belt.law.mu(relative)? / self.reduced.mu.value)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Rig;
+    use crate::scene::machine::library::machines;
+
+    #[test]
+    fn numbers_mean_the_quantities_of_the_machine() {
+        for machine in machines() {
+            let rig = Rig::new(machine.clone()).unwrap();
+            let (problem, running) = (rig.problem(), rig.running());
+            for (symbol, expected) in [
+                (Symbol::D, machine.belt.get(Quantity::Damping)),
+                (Symbol::D3, machine.belt.get(Quantity::CubicDamping)),
+                (Symbol::R, machine.belt.get(Quantity::Friction)),
+                (Symbol::Q0, machine.displacement),
+                (Symbol::V0, machine.velocity),
+            ] {
+                let value = symbol.get(&problem.parameters, &problem.initial);
+                let (name, found, _) = running.meaning(symbol, value).unwrap();
+                let size = match symbol {
+                    Symbol::D => machine.belt.normal_force * rig.reduced.mu.first,
+                    Symbol::D3 => machine.belt.normal_force * rig.reduced.mu.third,
+                    _ => 0.0,
+                };
+                let scale = expected.abs() + size.abs();
+                assert!(
+                    (found - expected).abs() <= 1e-12 * scale,
+                    "{}: {name} {found}",
+                    machine.name
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn another_speed_is_another_machine_with_the_same_start_in_metres() {
+        for machine in machines() {
+            let own = Rig::new(machine.clone()).unwrap();
+            let speed = 1.25 * machine.belt.belt_speed;
+            let mut faster = machine.clone();
+            faster.belt.belt_speed = speed;
+            let faster = Rig::new(faster).unwrap();
+            let running = Running::at(machine, speed).unwrap();
+            let moved = own.running().brought_to(&running, own.problem());
+            assert_eq!(moved, faster.problem(), "{}", machine.name);
+            assert_eq!(running.brought_to(&own.running(), moved), own.problem());
+            assert!(running.carries(&moved.parameters));
+            // A start of one's own keeps its place in metres, up to rounding.
+            let initial = State { q: 0.7, v: -0.3 };
+            let moved = own.running().brought_to(&running, Problem { initial, ..own.problem() });
+            for (symbol, value) in [(Symbol::Q0, 0.7), (Symbol::V0, -0.3)] {
+                let before = own.running().meaning(symbol, value).unwrap().1;
+                let after = symbol.get(&moved.parameters, &moved.initial);
+                let after = running.meaning(symbol, after).unwrap().1;
+                assert!((after / before - 1.0).abs() < 1e-15, "{}", machine.name);
+            }
+        }
+    }
+
+    #[test]
+    fn speeds_at_which_there_is_no_machine_are_refused_in_one_line() {
+        let find = |name: &str| machines().iter().find(|machine| machine.name == name).unwrap();
+        for (machine, speed, words) in [
+            ("textbook", 0.0, "v0 = 0 m/s is outside its range"),
+            ("textbook", -0.3, "v0 = -0.3 m/s is outside its range"),
+            ("textbook", f64::NAN, "v0 = NaN m/s is outside its range"),
+            ("slideway", 10.0, "v0 = 10 m/s is outside the friction law; it reaches from"),
+            ("straight", 1.25, "mu = 0 at v0 = 1.25 m/s; it must be positive"),
+        ] {
+            let refused = Running::at(find(machine), speed).unwrap_err();
+            assert!(refused.contains(words) && !refused.contains('\n'), "{machine}: {refused}");
+        }
+    }
+}
