@@ -360,3 +360,31 @@ fn files_of_every_form_are_written_and_nothing_is_lost() {
     assert_eq!((ran.code, ran.err.lines().count()), (2, 1), "{}", ran.err);
     assert!(ran.err.contains(".svg, .png, .csv or .json"), "{}", ran.err);
 }
+
+#[test]
+fn the_path_of_a_belt_is_that_of_its_machines_at_other_speeds() {
+    let figure = figure("belt", Fineness::SCREEN);
+    let [path] = curves(&figure, 0, "over the speed of the belt")[..] else { panic!("one path") };
+    assert!(path.parameters.is_empty(), "nothing holds all along it");
+    let machine = find("belt").unwrap().machine.clone().unwrap().machine;
+    let at = |speed: f64| {
+        let mut belt = machine.belt.clone();
+        belt.belt_speed = speed;
+        let parameters = belt.reduce().unwrap().parameters;
+        [parameters.d, parameters.r]
+    };
+    let (slow, fast) = (0.3 / 32.0, 0.3 * 32.0);
+    assert_eq!((path.points[0], path.points[path.points.len() - 1]), (at(slow), at(fast)));
+    // A fast belt feeds nothing: d1 alone is left of D, and the lower coefficient of friction in r.
+    assert!((at(fast)[0] - 5.0 / 200.0).abs() < 1e-12 && (at(fast)[1] - 0.05).abs() < 1e-12);
+    let speeds: Vec<f64> = figure.panels[0]
+        .marks
+        .iter()
+        .filter_map(|mark| {
+            let speed = mark.name.strip_prefix("v0 = ")?.strip_suffix(" m/s")?.parse().ok()?;
+            assert_eq!([mark.x, mark.y], at(speed), "{}", mark.name);
+            Some(speed)
+        })
+        .collect();
+    assert!(speeds.len() >= 4 && speeds.contains(&0.1), "{speeds:?}");
+}

@@ -84,6 +84,8 @@ pub enum Layer {
     Rate,
     /// The eigenvalues, and their way over D.
     Locus,
+    /// The path of the machine over the speed of its belt.
+    BeltPath,
 }
 
 /// One row of [`LAYERS`].
@@ -104,7 +106,7 @@ pub struct LayerSpec {
 }
 
 /// Every layer, in the order in which they are listed.
-pub const LAYERS: [LayerSpec; 36] = [
+pub const LAYERS: [LayerSpec; 37] = [
     LayerSpec {
         layer: Layer::Trajectory,
         name: "trajectory",
@@ -390,6 +392,14 @@ pub const LAYERS: [LayerSpec; 36] = [
         name: "locus",
         view: View::Eigenvalues,
         meaning: "the eigenvalues, and their way over D",
+        needs: None,
+        usual: true,
+    },
+    LayerSpec {
+        layer: Layer::BeltPath,
+        name: "belt-path",
+        view: View::Regimes,
+        meaning: "the machine over the speed of its belt, round speeds marked",
         needs: None,
         usual: true,
     },

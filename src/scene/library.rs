@@ -17,7 +17,7 @@ macro_rules! scene_file {
 }
 
 /// The files, in the order in which they are listed.
-const FILES: [(&str, &str); 32] = [
+const FILES: [(&str, &str); 33] = [
     scene_file!("plain"),
     scene_file!("capture"),
     scene_file!("linear"),
@@ -30,6 +30,7 @@ const FILES: [(&str, &str); 32] = [
     scene_file!("return-map"),
     scene_file!("regimes"),
     scene_file!("energy"),
+    scene_file!("belt"),
     scene_file!("fig01"),
     scene_file!("fig02"),
     scene_file!("fig03"),

@@ -315,6 +315,8 @@ pub const COMMANDS: &[Command] = &[
         "Show or hide the computed borders", |s, _| general::toggle(s, Layer::Borders)),
     row("toggle-harmonic-border", &[(Regimes, &["P"])], "",
         "Show or hide the border by one harmonic (48)", |s, _| general::toggle(s, Layer::HarmonicBorder)),
+    row("toggle-belt-path", &[(Regimes, &["I"])], "",
+        "Show or hide the machine over the speed of its belt", |s, _| general::toggle(s, Layer::BeltPath)),
     row("toggle-extents", &[(Diagram, &["E"])], "",
         "Show or hide the largest velocities beside the ordinate", |s, _| general::toggle(s, Layer::Extents)),
     row("toggle-eigenvalues", &[(Diagram, &["F"])], "",

@@ -126,7 +126,7 @@ impl Session {
         if layer == Layer::Ghost {
             return self.marks.left.is_none().then_some("not drawn: no mark has been gone to yet");
         }
-        if layer == Layer::Belt {
+        if matches!(layer, Layer::Belt | Layer::BeltPath) {
             return self.scene.machine.is_none().then_some("not drawn: the scene is of no machine");
         }
         let harmonic = matches!(layer, Layer::Harmonic | Layer::Asymptotes);

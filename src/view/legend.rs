@@ -22,7 +22,7 @@ enum Sample {
 }
 
 /// What there is to explain: the layer that shows it, its role, how it is drawn, and what it is.
-const ENTRIES: [(Layer, Role, Sample, &str); 35] = [
+const ENTRIES: [(Layer, Role, Sample, &str); 36] = [
     (Layer::Trajectory, Role::Trajectory, Sample::Line(Dash::Solid), "motion"),
     (Layer::Sticking, Role::Sticking, Sample::Bar, "sticking set, at rest"),
     (Layer::Cycles, Role::Stable, Sample::Line(Dash::Solid), "stable cycle"),
@@ -34,6 +34,7 @@ const ENTRIES: [(Layer, Role, Sample, &str); 35] = [
     (Layer::Field, Role::Field, Sample::Arrow, "direction of flow"),
     (Layer::Balance, Role::Harmonic, Sample::Line(Dash::Dotted), "N harmonics"),
     (Layer::Belt, Role::Current, Sample::Line(Dash::Dashed), "sticks to the belt"),
+    (Layer::BeltPath, Role::Trajectory, Sample::Line(Dash::Solid), "over the belt's speed"),
     (Layer::Harmonic, Role::Harmonic, Sample::Line(Dash::Dotted), "first harmonic"),
     (Layer::Asymptotes, Role::Asymptote, Sample::Line(Dash::Sparse), "its asymptotes"),
     (Layer::Branch, Role::Current, Sample::Line(Dash::Sparse), "present value"),

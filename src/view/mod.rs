@@ -4,6 +4,7 @@
 //! shows as a [`picture`], which [`paint`] puts into its part with the help of [`plot`] and [`pane`]. How things look is decided in [`look`] alone.
 
 pub mod belt;
+mod belt_path;
 pub mod caption;
 mod construction;
 mod costs;

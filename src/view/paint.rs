@@ -47,7 +47,9 @@ fn name<'a>(item: &'a Item) -> Option<Name<'a>> {
 fn put(plot: &mut Plot, item: &Item, look: &Look) {
     let symbols = look.symbols();
     match item {
-        Item::Curve(line, points) => plot.curve(points.iter().copied(), line.role, line.dash),
+        Item::Curve(line, points) | Item::Path(line, points) => {
+            plot.curve(points.iter().copied(), line.role, line.dash);
+        }
         Item::Graph(line, value) => plot.function(line.role, line.dash, value),
         Item::Upright(line, x) => plot.upright(*x, line.role, line.dash),
         Item::Bar(line, from, to) => plot.bar(*from, *to, line.role),
@@ -63,6 +65,7 @@ fn put(plot: &mut Plot, item: &Item, look: &Look) {
         }),
         Item::Arrows(role, flow) => plot.arrows(*role, flow),
         Item::Mark(mark, at, role) => plot.mark(*at, symbol(*mark, symbols), *role),
+        Item::Milestone(at, _, role) => plot.mark(*at, symbols.start, *role),
         Item::Marks(mark, points, role) => {
             if points.len() * APART <= usize::from(plot.inner().width) {
                 for at in points {

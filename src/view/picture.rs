@@ -113,6 +113,8 @@ pub type Flow<'a> = Box<dyn Fn(Point) -> Point + 'a>;
 pub enum Item<'a> {
     /// A polyline; a point that is not finite interrupts it.
     Curve(Line, Vec<Point>),
+    /// A polyline along which other parameters than those on the axes vary too.
+    Path(Line, Vec<Point>),
     /// A graph over the whole window, sampled as finely as whoever draws it needs.
     Graph(Line, Function<'a>),
     /// An upright through the whole window.
@@ -131,6 +133,8 @@ pub enum Item<'a> {
     Arrows(Role, Flow<'a>),
     /// A mark with a meaning.
     Mark(Mark, Point, Role),
+    /// A point on the way, and what files call it.
+    Milestone(Point, String, Role),
     /// Marks of one meaning, left out where they would touch each other.
     Marks(Mark, Vec<Point>, Role),
     /// A text beside a point, and a shorter one for where there is little room.

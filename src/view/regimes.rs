@@ -4,6 +4,7 @@
 //! harmonic (48) is dotted. Today's point is marked: stepping the two parameters moves it and nothing
 //! else.
 
+use super::belt_path;
 use super::dots::Dash;
 use super::look::Role;
 use super::picture::{Fill, Item, Line, Mark, Pattern, Picture};
@@ -61,6 +62,9 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     picture.upright(present(), today.x);
     let level = [window.x.from(), window.x.to()].map(|x| Point { x, y: today.y });
     picture.curve(present(), level);
+    if shows(Layer::BeltPath) {
+        belt_path::draw(&mut picture, session, abscissa, against);
+    }
     picture.mark(Mark::Head, today, Role::Current);
     picture.cross(cursor);
     picture

@@ -43,7 +43,7 @@ pub fn csv(figure: &Figure) -> String {
             }
         }
         for (number, mark) in (1..).zip(&shown.marks) {
-            row("mark", number, mark.name, mark.pen.name(), "", [mark.x, mark.y]);
+            row("mark", number, &mark.name, mark.pen.name(), "", [mark.x, mark.y]);
         }
     }
     out

@@ -189,7 +189,7 @@ pub struct Area {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Mark {
     /// What it says.
-    pub name: &'static str,
+    pub name: picture::Text,
     /// Along the horizontal axis.
     pub x: f64,
     /// Along the vertical axis.

@@ -38,6 +38,11 @@ impl Panel {
             panel.add(item);
         }
         panel.attribute(&session.shown(plot), &varied(session, plot));
+        for item in &picture.items {
+            if let Item::Path(line, points) = item {
+                panel.line(line, points.clone());
+            }
+        }
         panel
     }
 
@@ -86,6 +91,8 @@ impl Panel {
     fn add(&mut self, item: &Item) {
         let Window { x, y } = self.window;
         match item {
+            // A path has no parameters in common with what the panel shows, and comes on top of it.
+            Item::Path(..) | Item::Cross(_) => {}
             Item::Curve(line, points) => self.line(line, points.clone()),
             Item::Graph(line, value) => self.line(line, sample::graph(value, self.window)),
             Item::Upright(line, at) => {
@@ -107,6 +114,12 @@ impl Panel {
                 self.arrows.extend(sample::lattice(self.window).map(|at| (at, flow(at))));
             }
             Item::Mark(mark, at, role) => self.mark(*mark, *at, *role),
+            Item::Milestone(at, name, role) => {
+                self.mark(picture::Mark::Turn, *at, *role);
+                if let Some(mark) = self.marks.last_mut() {
+                    mark.name = name.clone().into();
+                }
+            }
             Item::Marks(mark, points, role) => {
                 for at in points {
                     self.mark(*mark, *at, *role);
@@ -120,7 +133,6 @@ impl Panel {
                     self.area(fill.name, fill.role, &corners);
                 }
             }
-            Item::Cross(_) => {}
         }
     }
 
@@ -141,7 +153,7 @@ impl Panel {
     }
 
     fn mark(&mut self, mark: picture::Mark, at: Point, pen: Role) {
-        self.marks.push(Mark { name: mark.name(), x: at.x, y: at.y, mark, pen });
+        self.marks.push(Mark { name: mark.name().into(), x: at.x, y: at.y, mark, pen });
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::Desk;
 use crate::oscillator::belt::Reduced;
-use crate::scene::Rig;
+use crate::scene::{Layer, Rig};
 use crate::session::{Msg, Overlay, Row, save};
 
 /// The textbook machine at a speed of its belt, reduced without the session.
@@ -152,4 +152,18 @@ fn marks_scenes_and_saved_sessions_know_the_speed() {
     desk.give(Msg::Idle);
     runs_at(&desk, 0.35);
     assert_eq!(Rig::new(desk.session.running().unwrap().machine.clone()).unwrap().reduced, at(0.3));
+}
+
+#[test]
+fn the_path_over_the_speed_asks_nothing() {
+    let mut desk = Desk::open("belt");
+    let with = desk.session.wants();
+    assert_eq!(desk.press(":layer<space>belt-path<space>off<enter>"), []);
+    assert_eq!(desk.session.wants(), with);
+    assert_eq!(desk.press("<tab> I"), [], "its key shows it again");
+    assert!(desk.session.layers.contains(&Layer::BeltPath));
+    // A chart of the same machine over other parameters has it too, and one of no machine says why not.
+    assert_eq!(desk.session.not_drawn(Layer::BeltPath), None);
+    let plain = Desk::open("regimes").session;
+    assert!(plain.not_drawn(Layer::BeltPath).is_some_and(|why| why.contains("no machine")));
 }

@@ -1,0 +1,106 @@
+//! The path of a machine through the parameters, while the speed of its belt goes from slow to fast.
+//!
+//! Everything here is a formula of the friction law: a path costs some evaluations of it and no motion.
+
+use super::Running;
+use crate::oscillator::Parameters;
+
+/// The path covers speeds from this part of the machine's own speed to its reciprocal, as far as the
+/// friction law reaches.
+const SLOWEST: f64 = 1.0 / 32.0;
+
+/// Points of a path: on a page some thousand pixels wide its chords are not seen.
+const POINTS: u32 = 600;
+
+/// First digits of speeds that are worth a mark, the roundest first.
+const DIGITS: [&[u32]; 3] = [&[1], &[2, 5], &[3, 4, 7]];
+
+/// A speed of the belt, in m/s, and the parameters there; `None` where the machine has none.
+pub type Station = (f64, Option<Parameters>);
+
+impl Running<'_> {
+    /// Speeds in even ratios from slow to fast, with the parameters of the machine.
+    #[must_use]
+    pub fn path(&self) -> Vec<Station> {
+        let (slow, fast) = self.speeds();
+        let ratio = (fast / slow).ln();
+        let speed = |point: u32| slow * (f64::from(point) / f64::from(POINTS) * ratio).exp();
+        let inner = (1..POINTS).map(speed);
+        std::iter::once(slow).chain(inner).chain([fast]).map(|speed| self.station(speed)).collect()
+    }
+
+    /// The round speeds of the path, the roundest first.
+    #[must_use]
+    pub fn milestones(&self) -> Vec<Station> {
+        let (slow, fast) = self.speeds();
+        #[expect(clippy::cast_possible_truncation, reason = "exponents of speeds have two digits")]
+        let exponents = slow.log10().floor() as i32..=fast.log10().ceil() as i32;
+        let of = |digits: &'static [u32]| {
+            let decade = move |exponent: i32| {
+                // As it is typed, to the last bit.
+                digits.iter().filter_map(move |digit| format!("{digit}e{exponent}").parse().ok())
+            };
+            exponents.clone().flat_map(decade)
+        };
+        let round = DIGITS.into_iter().flat_map(of);
+        let inside = round.filter(|speed: &f64| (slow..=fast).contains(speed));
+        inside.map(|speed| self.station(speed)).collect()
+    }
+
+    /// The slowest and the fastest speed of the path.
+    fn speeds(&self) -> (f64, f64) {
+        let own = self.machine.belt.belt_speed;
+        let (low, high) = self.machine.belt.law.range();
+        // A law that begins at rest has no last speed above it.
+        ((SLOWEST * own).max(low), (own / SLOWEST).min(high))
+    }
+
+    fn station(&self, speed: f64) -> Station {
+        (speed, Running::at(self.machine, speed).ok().map(|running| running.reduced.parameters))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::scene::Rig;
+    use crate::scene::machine::library::machines;
+
+    #[test]
+    fn a_path_leads_through_the_machine_as_it_is_and_within_its_law() {
+        for machine in machines() {
+            let rig = Rig::new(machine.clone()).unwrap();
+            let (path, own) = (rig.running().path(), machine.belt.belt_speed);
+            assert!(path.windows(2).all(|pair| pair[0].0 < pair[1].0), "{}", machine.name);
+            let (low, high) = machine.belt.law.range();
+            assert!(path.iter().all(|(speed, _)| (low..=high).contains(speed)), "{}", machine.name);
+            let near = path.iter().min_by(|one, other| {
+                (one.0 / own).ln().abs().total_cmp(&(other.0 / own).ln().abs())
+            });
+            let (speed, parameters) = near.unwrap();
+            let (d, exact) = (parameters.unwrap().d, rig.reduced.parameters.d);
+            assert!((speed / own - 1.0).abs() < 0.01 && (d - exact).abs() < 0.01);
+        }
+    }
+
+    #[test]
+    fn a_path_ends_where_friction_does() {
+        let machine = machines().iter().find(|machine| machine.name == "straight").unwrap();
+        let path = Rig::new(machine.clone()).unwrap();
+        let path = path.running().path();
+        // mu = 0.5 - 0.4 v
+        assert!(path.iter().all(|(speed, parameters)| parameters.is_some() == (*speed < 1.25)));
+        assert!(path.iter().any(|(speed, _)| *speed > 1.25));
+    }
+
+    #[test]
+    fn milestones_are_the_numbers_that_one_would_type() {
+        let machine = machines().iter().find(|machine| machine.name == "textbook").unwrap();
+        let rig = Rig::new(machine.clone()).unwrap();
+        let speeds: Vec<f64> =
+            rig.running().milestones().into_iter().map(|(speed, _)| speed).collect();
+        assert_eq!(speeds[..5], [0.01, 0.1, 1.0, 0.02, 0.05]);
+        assert!(
+            speeds.contains(&0.3) && speeds.iter().all(|speed| (0.3 / 32.0..=9.6).contains(speed))
+        );
+    }
+}
