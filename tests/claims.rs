@@ -74,6 +74,15 @@ fn every_claim_is_decided_by_numbers() {
         assert_eq!(finding.verdict(), Verdict::False, "{equation}: {finding:?}");
     }
 
+    // The belt is overtaken where it is slow: at the speeds at which `hopfscope belt --sweep` says so.
+    let slower = about(&all, "after (2)", "stay slower");
+    assert_eq!(slower.verdict(), Verdict::InPart, "{slower:?}");
+    assert_eq!((slower.cases, slower.computed.value), (6, 3.0));
+    assert!(slower.place.contains("v0 = 0.05 m/s"), "{}", slower.place);
+    let contact = about(&all, "x' < v0", "overtakes");
+    assert!(matches!(contact.verdict(), Verdict::Approximates { .. }), "{contact:?}");
+    assert!((0.22..0.24).contains(&contact.computed.value), "{contact:?}");
+
     // Known numbers, computed elsewhere.
     let close = |equation, words, expected: f64, digits: f64| {
         let found = about(&all, equation, words).computed.value;

@@ -8,7 +8,7 @@ use toml::Spanned;
 use super::layer::Layer;
 use super::machine::{self, Rig};
 use super::misread::{self, Complaint, Misread};
-use super::ordinate::{ABSCISSAE, Ordinate};
+use super::ordinate::{ABSCISSAE, Ordinate, Unit};
 use super::scene::{Scene, TOLERANCE, UNTIL, Variant};
 use super::views::{Arrangement, Axes, Exhibit, MOST_PLOTS, View};
 use super::window::{Span, Window};
@@ -53,6 +53,7 @@ struct Plot {
     view: View,
     over: Option<Spanned<Symbol>>,
     ordinate: Option<Spanned<Ordinate>>,
+    unit: Option<Spanned<Unit>>,
     against: Option<Spanned<Symbol>>,
     #[serde(default)]
     with: Vec<BTreeMap<Symbol, Spanned<f64>>>,
@@ -147,12 +148,13 @@ fn of_machine(rig: &Rig, read: &File) -> Result<Problem, Complaint> {
 
 /// A plot of a scene: axes only where there is a choice, a window in both directions or in none.
 fn exhibit(read: &Spanned<Plot>, families: &mut Vec<Vec<Variant>>) -> Result<Exhibit, Complaint> {
-    let Plot { view, over, ordinate, against, with, x, y } = read.get_ref();
+    let Plot { view, over, ordinate, unit, against, with, x, y } = read.get_ref();
     let title = view.spec().title;
     let span = |given: &Option<Spanned<Symbol>>| given.as_ref().map(Spanned::span);
     for (given, views) in [
         (span(over), &[View::Diagram, View::Regimes][..]),
         (ordinate.as_ref().map(Spanned::span), &[View::Diagram]),
+        (unit.as_ref().map(Spanned::span), &[View::Diagram]),
         (span(against), &[View::Regimes]),
     ] {
         if let Some(at) = given.filter(|_| !views.contains(view)) {
@@ -165,8 +167,13 @@ fn exhibit(read: &Spanned<Plot>, families: &mut Vec<Vec<Variant>>) -> Result<Exh
     let axes = Axes {
         abscissa: over.as_ref().map_or(usual.abscissa, |over| *over.get_ref()),
         ordinate: ordinate.as_ref().map_or(usual.ordinate, |ordinate| *ordinate.get_ref()),
+        unit: unit.as_ref().map_or(usual.unit, |unit| *unit.get_ref()),
         against: against.as_ref().map_or(usual.against, |against| *against.get_ref()),
     };
+    if let Some(unit) = unit.as_ref().filter(|_| axes.ordinate.spec().ratio.is_none()) {
+        let message = format!("{} is no length; leave its unit out", axes.ordinate.spec().name);
+        return Err(Complaint { at: unit.span(), message });
+    }
     for axis in [over, against].into_iter().flatten() {
         if ABSCISSAE.iter().all(|(symbol, _)| symbol != axis.get_ref()) {
             let message =
@@ -335,6 +342,13 @@ plot = [
             ("[-3, 3]", "[3, -3]", "8:25", "the second larger"),
             ("over = \"D\"", "over = \"q0\"", "9:30", "D, D2, D3 and r are allowed"),
             ("over", "ordinate = \"size\", over", "9:34", "expected one of `q_max`, `q_min`"),
+            ("over", "unit = \"m\", over", "9:30", "expected `1` or `r`"),
+            (
+                "over",
+                "ordinate = \"period\", unit = \"r\", over",
+                "9:51",
+                "period is no length; leave its unit out",
+            ),
             ("\"phase\"", "\"plane\"", "8:12", "unknown variant `plane`"),
             ("\"diagram\"", "\"phase\"", "9:28", "has no such axis"),
             (

@@ -19,7 +19,7 @@ pub use layer::{LAYERS, Layer, LayerSpec};
 pub use library::{NoScene, find, library, plain};
 pub use machine::{Machine, Rig, Running};
 pub use misread::Misread;
-pub use ordinate::{ABSCISSAE, ORDINATES, Ordinate};
+pub use ordinate::{ABSCISSAE, Height, ORDINATES, Ordinate, Unit};
 pub use request::{Request, SLOTS, Slot};
 pub use scene::{Scene, Variant};
 pub use views::{ARRANGEMENTS, Arrangement, Axes, Exhibit, MOST_PLOTS, VIEWS, View, ViewSpec};

@@ -32,6 +32,21 @@ pub enum Ordinate {
     Multiplier,
 }
 
+/// What lengths on the ordinate of a diagram are measured in.
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize,
+)]
+pub enum Unit {
+    /// The unit of length of the equation.
+    #[default]
+    #[serde(rename = "1")]
+    One,
+    /// The friction r, which is half the width of the sticking set: by the scaling symmetry, ratios to it
+    /// depend on r only through `r D2` and `r^2 D3`.
+    #[serde(rename = "r")]
+    Friction,
+}
+
 /// One row of [`ORDINATES`].
 #[derive(Clone, Copy, Debug)]
 pub struct OrdinateSpec {
@@ -41,6 +56,8 @@ pub struct OrdinateSpec {
     pub name: &'static str,
     /// Its name at the axis.
     pub label: &'static str,
+    /// Its name at the axis in units of r; `None` where it is no length.
+    pub ratio: Option<&'static str>,
     /// What it is, in a few words.
     pub meaning: &'static str,
     /// Reads it out of a cycle.
@@ -58,6 +75,7 @@ pub const ORDINATES: [OrdinateSpec; 7] = [
         ordinate: Ordinate::QMax,
         name: "q_max",
         label: "q_max",
+        ratio: Some("A_q/r"),
         meaning: "right turning point of the cycles",
         read: |cycle| cycle.q_max,
         harmonic: Some(|mean, amplitude| mean + amplitude),
@@ -67,6 +85,7 @@ pub const ORDINATES: [OrdinateSpec; 7] = [
         ordinate: Ordinate::QMin,
         name: "q_min",
         label: "q_min",
+        ratio: Some("q_min/r"),
         meaning: "left turning point of the cycles",
         read: |cycle| cycle.q_min,
         harmonic: Some(|mean, amplitude| mean - amplitude),
@@ -76,6 +95,7 @@ pub const ORDINATES: [OrdinateSpec; 7] = [
         ordinate: Ordinate::VMax,
         name: "v_max",
         label: "v_max",
+        ratio: Some("A_v/r"),
         meaning: "largest velocity of the cycles",
         read: |cycle| cycle.v_max,
         harmonic: Some(|_, amplitude| amplitude),
@@ -85,6 +105,7 @@ pub const ORDINATES: [OrdinateSpec; 7] = [
         ordinate: Ordinate::Amplitude,
         name: "amplitude",
         label: "amplitude",
+        ratio: Some("amplitude/r"),
         meaning: "half of the distance between the turning points",
         read: |cycle| 0.5 * (cycle.q_max - cycle.q_min),
         harmonic: Some(|_, amplitude| amplitude),
@@ -94,6 +115,7 @@ pub const ORDINATES: [OrdinateSpec; 7] = [
         ordinate: Ordinate::Mean,
         name: "mean",
         label: "mean",
+        ratio: Some("mean/r"),
         meaning: "middle between the turning points",
         read: |cycle| 0.5 * (cycle.q_max + cycle.q_min),
         harmonic: Some(|mean, _| mean),
@@ -103,6 +125,7 @@ pub const ORDINATES: [OrdinateSpec; 7] = [
         ordinate: Ordinate::Period,
         name: "period",
         label: "period",
+        ratio: None,
         meaning: "period of the cycles",
         read: |cycle| cycle.period,
         harmonic: Some(|_, _| TAU),
@@ -112,6 +135,7 @@ pub const ORDINATES: [OrdinateSpec; 7] = [
         ordinate: Ordinate::Multiplier,
         name: "multiplier",
         label: "lg multiplier",
+        ratio: None,
         meaning: "decimal logarithm of the Floquet multiplier; below 0 stable",
         read: |cycle| cycle.log_multiplier / LN_10,
         harmonic: None,
@@ -130,6 +154,38 @@ impl Ordinate {
     #[must_use]
     pub fn of(self, cycle: &Cycle) -> f64 {
         (self.spec().read)(cycle)
+    }
+}
+
+/// How high things stand in a diagram.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Height {
+    /// The property.
+    pub ordinate: Ordinate,
+    /// What lengths are measured in.
+    pub unit: Unit,
+    /// The friction r all along the diagram; `None` where that is what the diagram is over.
+    pub friction: Option<f64>,
+}
+
+impl Height {
+    /// The height of a cycle at a value of the parameter of the diagram.
+    #[must_use]
+    pub fn of(&self, value: f64, cycle: &Cycle) -> f64 {
+        self.scaled(value, self.ordinate.of(cycle))
+    }
+
+    /// The height of something that has the property of this size; infinite or no number in units of a
+    /// friction that is zero.
+    #[must_use]
+    pub fn scaled(&self, value: f64, size: f64) -> f64 {
+        if self.is_ratio() { size / self.friction.unwrap_or(value) } else { size }
+    }
+
+    /// Whether heights are in units of r.
+    #[must_use]
+    pub fn is_ratio(&self) -> bool {
+        self.unit == Unit::Friction && self.ordinate.spec().ratio.is_some()
     }
 }
 
@@ -160,9 +216,8 @@ mod tests {
         }
     }
 
-    #[test]
-    fn every_ordinate_is_read_out_of_a_cycle() {
-        let cycle = Cycle {
+    fn cycle() -> Cycle {
+        Cycle {
             stable: true,
             q_min: -3.0,
             q_max: 1.0,
@@ -174,7 +229,27 @@ mod tests {
             clearance: 0.9,
             log_clearance: 0.9_f64.ln(),
             error: 0.0,
-        };
+        }
+    }
+
+    #[test]
+    fn lengths_are_measured_in_r_and_all_else_is_not() {
+        let cycle = cycle();
+        for row in &ORDINATES {
+            let height = |friction| {
+                let ordinate = row.ordinate;
+                Height { ordinate, unit: Unit::Friction, friction }.of(0.5, &cycle)
+            };
+            let plain = row.ordinate.of(&cycle);
+            let ratios = if row.ratio.is_some() { [plain / 0.25, plain / 0.5] } else { [plain; 2] };
+            assert_eq!([height(Some(0.25)), height(None)], ratios, "{}", row.name);
+            assert_eq!(row.ratio.is_some_and(|name| name.ends_with("/r")), row.ratio.is_some());
+        }
+    }
+
+    #[test]
+    fn every_ordinate_is_read_out_of_a_cycle() {
+        let cycle = cycle();
         let [lengths @ .., multiplier] = ORDINATES.map(|row| row.ordinate.of(&cycle));
         assert_eq!(lengths, [1.0, -3.0, 2.0, 2.0, -1.0, 6.5]);
         assert!((multiplier + 2.0).abs() < 1e-15);

@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::ordinate::{Ordinate, usual_values};
+use super::ordinate::{Height, Ordinate, Unit, usual_values};
 use super::window::{Span, Window};
 use crate::oscillator::Symbol;
 
@@ -151,6 +151,9 @@ pub struct Axes {
     pub abscissa: Symbol,
     /// The property of the cycles upwards.
     pub ordinate: Ordinate,
+    /// What it is measured in, where it is a length.
+    #[serde(default)]
+    pub unit: Unit,
     /// The parameter upwards, in a chart of two.
     pub against: Symbol,
 }
@@ -158,7 +161,23 @@ pub struct Axes {
 impl Default for Axes {
     /// The axes of the paper's diagrams.
     fn default() -> Self {
-        Axes { abscissa: Symbol::D, ordinate: Ordinate::QMax, against: Symbol::D3 }
+        Axes { abscissa: Symbol::D, ordinate: Ordinate::QMax, unit: Unit::One, against: Symbol::D3 }
+    }
+}
+
+impl Axes {
+    /// The name of the ordinate of a diagram.
+    #[must_use]
+    pub fn label(&self) -> &'static str {
+        let spec = self.ordinate.spec();
+        spec.ratio.filter(|_| self.unit == Unit::Friction).unwrap_or(spec.label)
+    }
+
+    /// How high things stand in a diagram whose cycles live at this friction.
+    #[must_use]
+    pub fn height(&self, friction: f64) -> Height {
+        let friction = (self.abscissa != Symbol::R).then_some(friction);
+        Height { ordinate: self.ordinate, unit: self.unit, friction }
     }
 }
 

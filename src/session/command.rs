@@ -109,6 +109,8 @@ pub const COMMANDS: &[Command] = &[
         "Draw the chart over the next parameter to the right: D, D2, D3, r", |s, _| axes::next_of_chart(s, false)),
     row("next-chart-up", &[(Regimes, &["Y"])], "axes",
         "Draw the chart over the next parameter upwards", |s, _| axes::next_of_chart(s, true)),
+    row("next-unit", &[(Diagram, &["P"]), (Walk, &["P"])], "",
+        "Measure lengths of the cycles in units of r, or not", |s, _| axes::next_unit(s)),
     row("walk", &[(Diagram, &["w"])], "walk",
         "Take hold of the branch, at today's value or the cursor", |s, _| walk::take_hold(s)),
     row("walk-back", &[(Walk, &["<left>", "h", "<down>", "j"])], "walk",

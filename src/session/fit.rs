@@ -147,17 +147,20 @@ fn belt(session: &Session) -> Option<Window> {
 fn diagram(session: &Session, plot: usize) -> Option<Window> {
     let x = session.plots[plot].window.x;
     let (found, ordinate) = (session.branches(plot), session.plots[plot].axes.ordinate);
-    let pieces = found.iter().flat_map(|(_, branch)| &branch.pieces);
-    let points = pieces.flatten().filter(|point| x.contains(point.value));
-    let mut heights: Vec<f64> = points.map(|point| ordinate.of(&point.cycle)).collect();
+    let each = found.iter().map(|(variant, branch)| (session.height(plot, *variant), branch));
+    let mut heights: Vec<f64> = Vec::new();
+    let mut special: Vec<f64> = Vec::new();
+    for (height, branch) in each {
+        let points = branch.pieces.iter().flatten().filter(|point| x.contains(point.value));
+        heights.extend(points.map(|point| height.of(point.value, &point.cycle)));
+        let points = branch.special.iter().filter(|point| x.contains(point.value));
+        special.extend(points.filter_map(|at| Some(height.of(at.value, &at.cycle?))));
+    }
     heights.retain(|height| height.is_finite());
     heights.sort_by(f64::total_cmp);
-    let special = found.iter().flat_map(|(_, branch)| &branch.special);
-    let special = special.filter(|point| x.contains(point.value));
-    let special = special.filter_map(|point| point.cycle.map(|cycle| ordinate.of(&cycle)));
     let zero = ordinate.spec().from_zero.then_some(0.0);
     let ends = [1.0 - QUANTILE, QUANTILE].map(|part| quantile(&heights, part));
-    let fitting = special.chain(zero).chain(ends.into_iter().flatten());
+    let fitting = special.into_iter().chain(zero).chain(ends.into_iter().flatten());
     let span = Span::covering(fitting)?;
     // A window that begins or ends at zero has room on the other side only.
     let about = if span.contains(0.0) && zero.is_some() { 0.0 } else { span.center() };

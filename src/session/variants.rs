@@ -6,7 +6,7 @@
 use super::state::Session;
 use crate::flow::Problem;
 use crate::oscillator::Symbol;
-use crate::scene::{Answer, Request, Slot, Variant};
+use crate::scene::{Answer, Height, Request, Slot, Variant};
 use crate::study::Branch;
 
 /// A motion that a plot shows, and what tells it from the others there.
@@ -84,6 +84,22 @@ impl Session {
                 _ => None,
             })
             .collect()
+    }
+
+    /// How high the cycles of a variant stand in a diagram, at the friction of the branch on show, stale or
+    /// not.
+    #[must_use]
+    pub fn height(&self, plot: usize, variant: usize) -> Height {
+        let answered = self.answered(self.slot_in(Slot::Branch, plot), plot);
+        let asked = match answered.map(|held| &held.request) {
+            Some(Request::Family { members, .. }) => members.get(variant),
+            request => request,
+        };
+        let friction = match asked {
+            Some(Request::Branch { parameters, .. }) => parameters.r,
+            _ => self.problem.parameters.r,
+        };
+        self.plots.get(plot).map(|plot| plot.axes).unwrap_or_default().height(friction)
     }
 
     /// The kind of question that a plot asks where a layer needs answers of this kind.

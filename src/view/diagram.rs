@@ -14,7 +14,7 @@ use crate::closed_form::harmonic::{
     amplitudes, damping_at, large_asymptote, mean, small_asymptote,
 };
 use crate::oscillator::{Parameters, Symbol};
-use crate::scene::{Answer, Axes, Layer, Ordinate, Point, Slot, View};
+use crate::scene::{Axes, Height, Layer, Ordinate, Point, View};
 use crate::session::{self, Session, Shown};
 use crate::study::{Branch, BranchPoint, Special, SpecialKind};
 
@@ -23,24 +23,25 @@ use crate::study::{Branch, BranchPoint, Special, SpecialKind};
 pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     let diagram = &session.plots[index];
     let Axes { abscissa, ordinate, .. } = diagram.axes;
-    let (name, label) = (abscissa.spec().name, ordinate.spec().label);
+    let (name, label) = (abscissa.spec().name, diagram.axes.label());
     let eigen = abscissa == Symbol::D && session.layers.contains(&Layer::Eigenvalues);
     let label = if eigen { "Re, Im lambda" } else { label };
     let window = diagram.window;
     let mut picture = Picture::new(View::Diagram.spec().title, name, label, window);
-    let pointed = held(session, diagram).or(diagram.cursor);
+    let pointed = held(session, index).or(diagram.cursor);
     picture.reading = pointed.map(|point| {
         let (value, height) = reading(point, window);
         format!("{name} {value} {label} {height}")
     });
     let shows = |layer| session.layers.contains(&layer);
     let current = session.value(abscissa);
-    let found: Vec<(String, &Branch)> = session
-        .found(Slot::Branch, index)
+    let all = session.shown(index);
+    let found: Vec<Found> = session
+        .branches(index)
         .into_iter()
-        .filter_map(|(label, answer)| match answer {
-            Answer::Branch(found) if found.parameter == abscissa => Some((label, found)),
-            _ => None,
+        .filter_map(|(variant, branch)| {
+            let label = all.get(variant)?.label.clone();
+            Some(Found { label, branch, height: session.height(index, variant) })
         })
         .collect();
 
@@ -50,30 +51,33 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     }
     picture.upright(Line::new("present value", Role::Current, Dash::Sparse), current);
     if ordinate.spec().harmonic.is_some() {
-        for shown in session.shown(index) {
+        for shown in &all {
+            let height = diagram.axes.height(shown.problem.parameters.r);
             if shows(Layer::Asymptotes) {
-                asymptotes(&mut picture, &shown, diagram.axes);
+                asymptotes(&mut picture, shown, abscissa, height);
             }
             if shows(Layer::Harmonic) {
-                let largest = largest_amplitude(diagram, &found);
-                harmonic(&mut picture, &shown, diagram.axes, largest);
+                let largest = largest_amplitude(diagram, height, &found);
+                harmonic(&mut picture, shown, abscissa, height, largest);
             }
         }
     }
     if shows(Layer::Branch) {
-        for (label, found) in &found {
-            for piece in &found.pieces {
-                branch(&mut picture, piece, &found.special, ordinate, label);
+        for found in &found {
+            for piece in &found.branch.pieces {
+                branch(&mut picture, piece, found);
             }
         }
-        for piece in found.iter().flat_map(|(_, branch)| &branch.pieces) {
-            here(&mut picture, piece, ordinate, current);
+        for found in &found {
+            for piece in &found.branch.pieces {
+                here(&mut picture, piece, found.height, current);
+            }
         }
     }
     if shows(Layer::Extents) {
-        for (label, found) in &found {
-            for piece in &found.pieces {
-                extents(&mut picture, piece, label);
+        for found in &found {
+            for piece in &found.branch.pieces {
+                extents(&mut picture, piece, found);
             }
         }
     }
@@ -81,22 +85,32 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         eigenvalues(&mut picture, current);
     }
     if shows(Layer::Special) {
-        for special in found.iter().flat_map(|(_, branch)| &branch.special) {
-            caption(&mut picture, special, ordinate, window.y.to());
+        for Found { branch, height, .. } in &found {
+            for special in &branch.special {
+                caption(&mut picture, special, *height, window.y.to());
+            }
         }
     }
     picture.cross(pointed);
     picture
 }
 
+/// A branch that was computed: whose it is, and how high its cycles stand.
+struct Found<'a> {
+    label: String,
+    branch: &'a Branch,
+    height: Height,
+}
+
 /// Where the point that is held stands in a diagram: in every one over its parameter. A cycle that has
 /// gone to infinity stands at the top.
-fn held(session: &Session, diagram: &session::Plot) -> Option<Point> {
-    let held = session.held?;
-    let Axes { abscissa, ordinate, .. } = diagram.axes;
-    let same = session.focused().is_some_and(|focused| focused.axes.abscissa == abscissa);
-    let top = diagram.window.y.to();
-    same.then(|| Point { x: held.value, y: held.cycle.map_or(top, |cycle| ordinate.of(&cycle)) })
+fn held(session: &Session, index: usize) -> Option<Point> {
+    let (held, diagram) = (session.held?, &session.plots[index]);
+    let over = diagram.axes.abscissa;
+    let same = session.focused().is_some_and(|focused| focused.axes.abscissa == over);
+    let (top, height) = (diagram.window.y.to(), session.height(index, held.variant));
+    let y = held.cycle.map_or(top, |cycle| height.of(held.value, &cycle));
+    same.then_some(Point { x: held.value, y })
 }
 
 /// The parameters of a motion, with that of a diagram at `value`.
@@ -107,8 +121,8 @@ fn at(shown: &Shown, abscissa: Symbol, value: f64) -> Parameters {
 }
 
 /// The asymptotes A1 and A2 (51, 52), their height read out of A0 and A.
-fn asymptotes(picture: &mut Picture, shown: &Shown, Axes { abscissa, ordinate, .. }: Axes) {
-    let Some(height) = ordinate.spec().harmonic else { return };
+fn asymptotes(picture: &mut Picture, shown: &Shown, abscissa: Symbol, height: Height) {
+    let Some(size) = height.ordinate.spec().harmonic else { return };
     for (name, asymptote) in [
         ("asymptote A1", small_asymptote as fn(&Parameters) -> Option<f64>),
         ("asymptote A2", large_asymptote),
@@ -118,7 +132,7 @@ fn asymptotes(picture: &mut Picture, shown: &Shown, Axes { abscissa, ordinate, .
         picture.graph(line, move |value| {
             let parameters = at(&shown, abscissa, value);
             let amplitude = asymptote(&parameters)?;
-            Some(height(mean(parameters.d2, amplitude), amplitude))
+            Some(height.scaled(value, size(mean(parameters.d2, amplitude), amplitude)))
         });
     }
 }
@@ -127,15 +141,10 @@ fn asymptotes(picture: &mut Picture, shown: &Shown, Axes { abscissa, ordinate, .
 ///
 /// Over D it is drawn along the amplitude, up to `largest`, which leads through the fold without a gap;
 /// over the other parameters each amplitude is a curve of its own.
-fn harmonic(
-    picture: &mut Picture,
-    shown: &Shown,
-    Axes { abscissa, ordinate, .. }: Axes,
-    largest: f64,
-) {
+fn harmonic(picture: &mut Picture, shown: &Shown, abscissa: Symbol, height: Height, largest: f64) {
     /// Samples along the amplitude: more than any screen has dots.
     const SAMPLES: u16 = 1000;
-    let Some(height) = ordinate.spec().harmonic else { return };
+    let Some(size) = height.ordinate.spec().harmonic else { return };
     let name = named("first harmonic", &shown.label);
     let line = Line::new(name, Role::Harmonic, Dash::Dotted);
     let Parameters { d2, d3, r, .. } = shown.problem.parameters;
@@ -143,7 +152,7 @@ fn harmonic(
         let points = (1..=SAMPLES).map(|sample| {
             let amplitude = largest * f64::from(sample) / f64::from(SAMPLES);
             let x = damping_at(d3, r, amplitude).unwrap_or(f64::NAN);
-            Point { x, y: height(mean(d2, amplitude), amplitude) }
+            Point { x, y: height.scaled(x, size(mean(d2, amplitude), amplitude)) }
         });
         picture.curve(line, points);
         return;
@@ -153,7 +162,7 @@ fn harmonic(
         picture.graph(line.clone(), move |value| {
             let found = amplitudes(&at(&shown, abscissa, value)).into_iter();
             let mut found = found.filter(|answer| answer.stable == stable);
-            found.next().map(|answer| height(answer.mean, answer.amplitude))
+            found.next().map(|answer| height.scaled(value, size(answer.mean, answer.amplitude)))
         });
     }
 }
@@ -161,14 +170,15 @@ fn harmonic(
 /// Twice the largest amplitude that can be on show: beyond it the harmonic curve need not be followed.
 ///
 /// Where the ordinate is no length, that is twice the largest amplitude of the computed branches.
-fn largest_amplitude(diagram: &session::Plot, found: &[(String, &Branch)]) -> f64 {
+fn largest_amplitude(diagram: &session::Plot, height: Height, found: &[Found]) -> f64 {
     let y = diagram.window.y;
+    let unit = height.friction.filter(|_| height.is_ratio()).unwrap_or(1.0);
     match diagram.axes.ordinate {
         Ordinate::QMax | Ordinate::QMin | Ordinate::VMax | Ordinate::Amplitude => {
-            2.0 * y.from().abs().max(y.to().abs())
+            2.0 * unit * y.from().abs().max(y.to().abs())
         }
         Ordinate::Mean | Ordinate::Period | Ordinate::Multiplier => {
-            let points = found.iter().flat_map(|(_, branch)| branch.pieces.iter().flatten());
+            let points = found.iter().flat_map(|found| found.branch.pieces.iter().flatten());
             2.0 * points.map(|point| point.cycle.q_max).fold(0.5, f64::max)
         }
     }
@@ -176,20 +186,16 @@ fn largest_amplitude(diagram: &session::Plot, found: &[(String, &Branch)]) -> f6
 
 /// Adds a piece, run by run of equal stability; neighbouring runs meet at the fold between them. One of
 /// several branches has its label where it is highest in the window.
-fn branch(
-    picture: &mut Picture,
-    piece: &[BranchPoint],
-    special: &[Special],
-    ordinate: Ordinate,
-    label: &str,
-) {
-    let place = |point: &BranchPoint| Point { x: point.value, y: ordinate.of(&point.cycle) };
+fn branch(picture: &mut Picture, piece: &[BranchPoint], found: &Found) {
+    let Found { label, branch: Branch { special, .. }, height } = found;
+    let place =
+        |point: &BranchPoint| Point { x: point.value, y: height.of(point.value, &point.cycle) };
     let mut start = None;
     for run in piece.chunk_by(|one, other| one.cycle.stable == other.cycle.stable) {
         let (first, last) = (&run[0], &run[run.len() - 1]);
         let next = piece.iter().skip_while(|point| *point != last).nth(1);
         let end =
-            next.map(|next| fold_between(last, next, special, ordinate).unwrap_or(place(next)));
+            next.map(|next| fold_between(last, next, special, *height).unwrap_or(place(next)));
         let (role, dash) = stability(first.cycle.stable);
         let name = if first.cycle.stable { "stable cycles" } else { "unstable cycles" };
         let line = Line::new(named(name, label), role, dash);
@@ -206,7 +212,7 @@ fn fold_between(
     one: &BranchPoint,
     other: &BranchPoint,
     special: &[Special],
-    ordinate: Ordinate,
+    height: Height,
 ) -> Option<Point> {
     let (low, high) =
         (one.cycle.q_max.min(other.cycle.q_max), one.cycle.q_max.max(other.cycle.q_max));
@@ -214,13 +220,15 @@ fn fold_between(
     let mut cycles = folds.filter_map(|fold| Some((fold.value, fold.cycle?)));
     cycles
         .find(|(_, cycle)| (low..=high).contains(&cycle.q_max))
-        .map(|(value, cycle)| Point { x: value, y: ordinate.of(&cycle) })
+        .map(|(value, cycle)| Point { x: value, y: height.of(value, &cycle) })
 }
 
 /// The largest velocities of a piece.
-fn extents(picture: &mut Picture, piece: &[BranchPoint], label: &str) {
-    let points = piece.iter().map(|point| Point { x: point.value, y: point.cycle.v_max });
-    let name = named("largest velocity A_v", label);
+fn extents(picture: &mut Picture, piece: &[BranchPoint], found: &Found) {
+    let height = Height { ordinate: Ordinate::VMax, ..found.height };
+    let points =
+        piece.iter().map(|point| Point { x: point.value, y: height.of(point.value, &point.cycle) });
+    let name = named("largest velocity A_v", &found.label);
     picture.curve(Line::new(name, Role::Velocity, Dash::Dashed), points);
 }
 
@@ -242,15 +250,15 @@ fn eigenvalues(picture: &mut Picture, current: f64) {
 }
 
 /// Marks the cycles of a piece at the present value.
-fn here(picture: &mut Picture, piece: &[BranchPoint], ordinate: Ordinate, value: f64) {
+fn here(picture: &mut Picture, piece: &[BranchPoint], height: Height, value: f64) {
     for (index, pair) in piece.windows(2).enumerate() {
         let (a, b) = (&pair[0], &pair[1]);
         if (a.value < value) != (b.value < value) {
-            let places: Vec<[f64; 2]> =
-                piece.iter().map(|point| [point.value, ordinate.of(&point.cycle)]).collect();
-            let height = between(&places, index, value);
+            let place = |point: &BranchPoint| [point.value, height.of(point.value, &point.cycle)];
+            let places: Vec<[f64; 2]> = piece.iter().map(place).collect();
+            let y = between(&places, index, value);
             let mark = if a.cycle.stable { Mark::Stable } else { Mark::Unstable };
-            picture.mark(mark, Point { x: value, y: height }, Role::Current);
+            picture.mark(mark, Point { x: value, y }, Role::Current);
         }
     }
 }
@@ -285,7 +293,7 @@ fn between(places: &[[f64; 2]], index: usize, value: f64) -> f64 {
 }
 
 /// Adds the letter of a special point, and its value where there is room.
-fn caption(picture: &mut Picture, special: &Special, ordinate: Ordinate, top: f64) {
+fn caption(picture: &mut Picture, special: &Special, height: Height, top: f64) {
     let letter = match special.kind {
         SpecialKind::Fold => "F",
         SpecialKind::Escape => "Dc",
@@ -297,9 +305,9 @@ fn caption(picture: &mut Picture, special: &Special, ordinate: Ordinate, top: f6
         let line = Line::new("escape", Role::Asymptote, Dash::Dotted);
         picture.upright(line, special.value);
     }
-    let height = special.cycle.map_or(top, |cycle| ordinate.of(&cycle));
+    let y = special.cycle.map_or(top, |cycle| height.of(special.value, &cycle));
     picture.items.push(Item::Caption {
-        at: Point { x: special.value, y: height },
+        at: Point { x: special.value, y },
         or_at: Vec::new(),
         long: format!("{letter} {}", significant(special.value, 4)).into(),
         short: letter.into(),

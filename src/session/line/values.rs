@@ -3,7 +3,10 @@
 use std::sync::Arc;
 
 use crate::flow::METHODS;
-use crate::scene::{ABSCISSAE, Axes, LAYERS, ORDINATES, Span, VIEWS, View, Window, find, library};
+use crate::scene::ordinate::OrdinateSpec;
+use crate::scene::{
+    ABSCISSAE, Axes, LAYERS, ORDINATES, Ordinate, Span, Unit, VIEWS, View, Window, find, library,
+};
 use crate::session::message::Effect;
 use crate::session::pending;
 use crate::session::plot::{Framing, Pane};
@@ -173,18 +176,32 @@ pub fn axes(session: &mut Session, rest: &str) -> Done {
         .find(|(symbol, _)| symbol.spec().name == over)
         .ok_or_else(|| format!("no diagram over {over:?}; there are {}", listed(allowed())))?;
     let index = diagram(session).ok_or("no plot shows a diagram; view diagram makes one")?;
-    let ordinate = match property.trim() {
-        "" => session.plots[index].axes.ordinate,
-        name => {
-            let row = ORDINATES.iter().find(|row| row.name == name);
-            let names = || listed(ORDINATES.iter().map(|row| row.name));
-            row.ok_or_else(|| format!("no property {name:?}; there are {}", names()))?.ordinate
-        }
+    let axes = session.plots[index].axes;
+    let (ordinate, unit) = match property.trim() {
+        "" => (axes.ordinate, axes.unit),
+        name => property_named(name)?,
     };
     general::focus_on(session, Pane::Plot(index));
-    let axes = session.plots[index].axes;
-    axis::set(session, Axes { abscissa: *abscissa, ordinate, ..axes });
+    axis::set(session, Axes { abscissa: *abscissa, ordinate, unit, ..axes });
     Ok(Vec::new())
+}
+
+/// The names of the properties, and of those that are lengths also in units of r.
+fn properties() -> impl Iterator<Item = String> {
+    let ratio = |row: &OrdinateSpec| row.ratio.map(|_| format!("{}/r", row.name));
+    ORDINATES.iter().flat_map(move |row| std::iter::once(row.name.to_owned()).chain(ratio(row)))
+}
+
+/// The property with this name, and what it is measured in.
+fn property_named(name: &str) -> Result<(Ordinate, Unit), String> {
+    let (base, unit) =
+        name.strip_suffix("/r").map_or((name, Unit::One), |base| (base, Unit::Friction));
+    let row = ORDINATES.iter().find(|row| row.name == base);
+    let row = row.filter(|row| unit == Unit::One || row.ratio.is_some());
+    row.map(|row| (row.ordinate, unit)).ok_or_else(|| {
+        let names: Vec<String> = properties().collect();
+        format!("no property {name:?}; there are {}", names.join(", "))
+    })
 }
 
 /// The plot in use if it is a diagram, else the first one on show.
@@ -197,7 +214,7 @@ fn diagram(session: &Session) -> Option<usize> {
 pub fn axis_words(_: &Session, words: &[&str]) -> Vec<String> {
     match words.len() {
         0 | 1 => ABSCISSAE.iter().map(|(symbol, _)| symbol.spec().name.to_owned()).collect(),
-        2 => ORDINATES.iter().map(|row| row.name.to_owned()).collect(),
+        2 => properties().collect(),
         _ => Vec::new(),
     }
 }

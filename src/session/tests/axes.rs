@@ -2,8 +2,8 @@
 
 use super::Desk;
 use crate::oscillator::Symbol;
-use crate::scene::{Layer, ORDINATES, Ordinate, Slot};
-use crate::session::Framing;
+use crate::scene::{Layer, ORDINATES, Ordinate, Slot, Unit};
+use crate::session::{Framing, Overlay};
 
 #[test]
 fn every_parameter_comes_below_the_diagram_and_the_scene_s_own_comes_back() {
@@ -79,4 +79,41 @@ fn the_harmonic_answer_has_no_multiplier() {
     assert_eq!(desk.session.plots[1].axes.ordinate, Ordinate::Multiplier);
     assert!(desk.session.not_drawn(Layer::Harmonic).is_some());
     assert_eq!(desk.session.not_drawn(Layer::Branch), None);
+}
+
+#[test]
+fn ratios_to_r_are_another_look_at_the_same_branch() {
+    let mut desk = Desk::open("linear");
+    desk.press(":axes<space>D<space>q_max/r<enter>");
+    let plot = desk.session.plot;
+    let axes = desk.session.plots[plot].axes;
+    assert_eq!((axes.unit, axes.label()), (Unit::Friction, "A_q/r"));
+    assert_eq!(desk.press("P"), [], "the branch is the same");
+    assert_eq!(desk.session.plots[plot].axes.label(), "q_max");
+    desk.press("P");
+    assert_eq!(desk.notice(), "A_q/r: right turning point of the cycles, in units of r");
+    let r = desk.session.problem.parameters.r;
+    let height = desk.session.height(plot, 0);
+    let point = desk.branch(plot).pieces[0][3];
+    assert_eq!(height.of(point.value, &point.cycle), point.cycle.q_max / r);
+    // Over r each point has its own.
+    desk.press("X X X");
+    assert_eq!(desk.session.plots[plot].axes.abscissa, Symbol::R);
+    let point = desk.branch(plot).pieces[0][3];
+    let height = desk.session.height(plot, 0);
+    assert_eq!(height.of(point.value, &point.cycle), point.cycle.q_max / point.value);
+    desk.press("Y Y Y Y Y P");
+    assert_eq!(desk.notice(), "period is no length, and has no unit");
+    for (line, words) in [
+        (
+            "axes<space>D<space>period/r",
+            "no property \"period/r\"; there are q_max, q_max/r, q_min",
+        ),
+        ("axes<space>D<space>size", "no property \"size\"; there are q_max"),
+    ] {
+        desk.press(&format!("<esc>:{line}<enter>"));
+        let Some(Overlay::Prompt(prompt)) = &desk.session.overlay else { panic!("{line}: taken") };
+        let refused = prompt.refused.clone().unwrap_or_default();
+        assert!(refused.contains(words), "{refused}");
+    }
 }

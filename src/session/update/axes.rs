@@ -1,8 +1,8 @@
 //! Commands that change what stands on the diagram's axes.
 
-use super::inform;
+use super::{inform, refuse};
 use crate::scene::ordinate::usual_values;
-use crate::scene::{ABSCISSAE, Axes, Exhibit, ORDINATES, Span, View, Window};
+use crate::scene::{ABSCISSAE, Axes, Exhibit, ORDINATES, Span, Unit, View, Window};
 use crate::session::message::Effect;
 use crate::session::state::Session;
 
@@ -59,8 +59,25 @@ pub fn set(session: &mut Session, axes: Axes) {
 pub fn next_ordinate(session: &mut Session) -> Vec<Effect> {
     let Some(plot) = session.focused() else { return Vec::new() };
     let row = &ORDINATES[(plot.axes.ordinate as usize + 1) % ORDINATES.len()];
-    set(session, Axes { ordinate: row.ordinate, ..plot.axes });
-    inform(session, format!("{}: {}", row.label, row.meaning));
+    let axes = Axes { ordinate: row.ordinate, ..plot.axes };
+    set(session, axes);
+    inform(session, format!("{}: {}", axes.label(), row.meaning));
+    Vec::new()
+}
+
+/// Measures lengths of the cycles in units of r, or as the equation does; the branch is the same.
+pub fn next_unit(session: &mut Session) -> Vec<Effect> {
+    let Some(plot) = session.focused() else { return Vec::new() };
+    let (spec, unit) = (plot.axes.ordinate.spec(), plot.axes.unit);
+    if spec.ratio.is_none() {
+        refuse(session, format!("{} is no length, and has no unit", spec.label));
+        return Vec::new();
+    }
+    let unit = if unit == Unit::One { Unit::Friction } else { Unit::One };
+    let axes = Axes { unit, ..plot.axes };
+    set(session, axes);
+    let units = if unit == Unit::One { "" } else { ", in units of r" };
+    inform(session, format!("{}: {}{units}", axes.label(), spec.meaning));
     Vec::new()
 }
 

@@ -32,10 +32,11 @@ fn first(session: &Session) -> Result<Stop, &'static str> {
         return Err("the branch is not computed yet");
     }
     let way = Way::along(&branches);
-    let Plot { axes: Axes { abscissa, ordinate, .. }, window, cursor, .. } = &session.plots[index];
+    let Plot { axes: Axes { abscissa, .. }, window, cursor, .. } = &session.plots[index];
     let found = if let Some(cursor) = cursor {
         way.nearest(|stop| {
-            let height = stop.cycle.map_or(window.y.to(), |cycle| ordinate.of(&cycle));
+            let of = session.height(index, stop.variant);
+            let height = stop.cycle.map_or(window.y.to(), |cycle| of.of(stop.value, &cycle));
             let across = window.x.fraction(stop.value) - window.x.fraction(cursor.x);
             across.hypot(window.y.fraction(height) - window.y.fraction(cursor.y))
         })

@@ -6,7 +6,7 @@ use super::measure::{
     Known, at_rest, count, cycles, half_swing, of_cycle, oscillator, outcome, place, smallest,
     state_at,
 };
-use super::{Claim, Finding, UNSAID};
+use super::{Claim, Finding, UNSAID, belt};
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits, Outcome, Problem, Reason};
 use crate::oscillator::{Parameters, Side, State};
@@ -17,6 +17,14 @@ use crate::study::half_map::Length;
 
 /// The claims.
 pub const CLAIMS: &[Claim] = &[
+    Claim {
+        equation: "x' < v0",
+        section: UNSAID,
+        statement: "below this speed of the belt the stable cycle overtakes it, and the mass sticks: where the \
+                    amplitude of one harmonic is v0/(omega_0 x_0)",
+        scene: Some("belt"),
+        check: belt::contact,
+    },
     Claim {
         equation: "multiplier",
         section: UNSAID,

@@ -7,6 +7,7 @@
 //! ([`Finding::verdict`]).
 
 mod amplitudes;
+mod belt;
 mod beyond;
 mod bifurcation;
 mod equilibria;

@@ -1,13 +1,20 @@
 //! Sections 2 and 3: from the mass on its belt to the equation, and the smooth steady state.
 
 use super::measure::{Known, at_rest, captured, half_swing, oscillator, place};
-use super::{Claim, Finding};
+use super::{Claim, Finding, belt};
 use crate::closed_form::linear::first_standstill;
 use crate::flow::{Limits, Reason};
 use crate::oscillator::Parameters;
 
 /// The claims.
 pub const CLAIMS: &[Claim] = &[
+    Claim {
+        equation: "after (2)",
+        section: "2",
+        statement: "x' < v0, so that the mass does not stick to the belt: its vibrations stay slower",
+        scene: Some("belt"),
+        check: belt::stays_slower,
+    },
     Claim {
         equation: "after (3)",
         section: "2",
