@@ -363,10 +363,10 @@ fn files_of_every_form_are_written_and_nothing_is_lost() {
 
 #[test]
 fn the_path_of_a_belt_is_that_of_its_machines_at_other_speeds() {
-    let figure = figure("belt", Fineness::SCREEN);
+    let figure = figure("belt-speed", Fineness::SCREEN);
     let [path] = curves(&figure, 0, "over the speed of the belt")[..] else { panic!("one path") };
     assert!(path.parameters.is_empty(), "nothing holds all along it");
-    let machine = find("belt").unwrap().machine.clone().unwrap().machine;
+    let machine = find("belt-speed").unwrap().machine.clone().unwrap().machine;
     let at = |speed: f64| {
         let mut belt = machine.belt.clone();
         belt.belt_speed = speed;

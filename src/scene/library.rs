@@ -30,7 +30,7 @@ const FILES: [(&str, &str); 33] = [
     scene_file!("return-map"),
     scene_file!("regimes"),
     scene_file!("energy"),
-    scene_file!("belt"),
+    scene_file!("belt-speed"),
     scene_file!("fig01"),
     scene_file!("fig02"),
     scene_file!("fig03"),

@@ -94,12 +94,12 @@ fn ratios_to_r_are_another_look_at_the_same_branch() {
     assert_eq!(desk.notice(), "A_q/r: right turning point of the cycles, in units of r");
     let r = desk.session.problem.parameters.r;
     let height = desk.session.height(plot, 0);
-    let point = desk.branch(plot).pieces[0][3];
+    let point = desk.branch(plot).pieces[0][1];
     assert_eq!(height.of(point.value, &point.cycle), point.cycle.q_max / r);
     // Over r each point has its own.
     desk.press("X X X");
     assert_eq!(desk.session.plots[plot].axes.abscissa, Symbol::R);
-    let point = desk.branch(plot).pieces[0][3];
+    let point = desk.branch(plot).pieces[0][1];
     let height = desk.session.height(plot, 0);
     assert_eq!(height.of(point.value, &point.cycle), point.cycle.q_max / point.value);
     desk.press("Y Y Y Y Y P");

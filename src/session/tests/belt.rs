@@ -156,7 +156,7 @@ fn marks_scenes_and_saved_sessions_know_the_speed() {
 
 #[test]
 fn the_path_over_the_speed_asks_nothing() {
-    let mut desk = Desk::open("belt");
+    let mut desk = Desk::open("belt-speed");
     let with = desk.session.wants();
     assert_eq!(desk.press(":layer<space>belt-path<space>off<enter>"), []);
     assert_eq!(desk.session.wants(), with);

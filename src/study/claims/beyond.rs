@@ -22,7 +22,7 @@ pub const CLAIMS: &[Claim] = &[
         section: UNSAID,
         statement: "below this speed of the belt the stable cycle overtakes it, and the mass sticks: where the \
                     amplitude of one harmonic is v0/(omega_0 x_0)",
-        scene: Some("belt"),
+        scene: Some("belt-speed"),
         check: belt::contact,
     },
     Claim {

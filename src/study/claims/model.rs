@@ -12,7 +12,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "after (2)",
         section: "2",
         statement: "x' < v0, so that the mass does not stick to the belt: its vibrations stay slower",
-        scene: Some("belt"),
+        scene: Some("belt-speed"),
         check: belt::stays_slower,
     },
     Claim {
