@@ -201,12 +201,14 @@ fn linear_extents(d: f64, r: f64) -> (f64, f64) {
 
 #[test]
 fn extents_of_the_basin_are_those_of_the_formulas() {
-    for (scene, r) in [("fig08", 1.0), ("fig09", 0.1), ("fig16a", 0.02)] {
+    for (scene, r) in [("fig08", 0.1), ("fig09", 0.1), ("fig16a", 0.02)] {
         let drawn = figure(scene, Fineness::PRINT);
         for (panel, shown) in
             drawn.panels.iter().enumerate().filter(|(_, shown)| shown.x.name == "D")
         {
-            let of_velocity = shown.y.name == "v_max";
+            let of_velocity = ["v_max", "A_v/r"].contains(&shown.y.name.as_str());
+            let unit = if shown.y.name.ends_with("/r") { r } else { 1.0 };
+            assert_eq!(unit == r, scene == "fig08", "{}", shown.y.name);
             let mut checked = 0;
             for curve in curves(&drawn, panel, "unstable cycles") {
                 if curve.parameters["r"] != r {
@@ -216,7 +218,8 @@ fn extents_of_the_basin_are_those_of_the_formulas() {
                 for [d, height] in curve.points.iter().filter(|[d, _]| *d > -0.999) {
                     let (q, v) = linear_extents(*d, r);
                     let expected = if of_velocity { v } else { q };
-                    assert!((height / expected - 1.0).abs() < 1e-12, "{scene}: D = {d}, {height}");
+                    let found = unit * height;
+                    assert!((found / expected - 1.0).abs() < 1e-12, "{scene}: D = {d}, {height}");
                     checked += 1;
                 }
             }

@@ -7,6 +7,7 @@ use super::state::Session;
 use crate::oscillator::{Ledger, Parameters, State};
 use crate::scene::Layer;
 use crate::study::Cycle;
+use crate::study::works::works_until;
 
 /// Whose energy it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,6 +31,8 @@ pub enum Entry {
         work: f64,
         /// The same as a part of the largest.
         part: f64,
+        /// What it did until the moment that is played, as the same part; only of the motion.
+        so_far: Option<f64>,
     },
     /// What is missing, as a part of the largest work.
     Residual(f64),
@@ -45,14 +48,15 @@ impl Session {
         {
             let works = found.picture.iter().flat_map(|picture| &picture.works);
             for (cycle, ledger) in found.cycles.iter().zip(works) {
-                add(&mut lines, Owner::Cycle(*cycle), ledger, &found.parameters);
+                add(&mut lines, Owner::Cycle(*cycle), ledger, None, &found.parameters);
             }
         }
         if self.layers.contains(&Layer::MotionWorks)
             && let Some(found) = self.trajectory()
             && let Some(ledger) = &found.ledger
         {
-            add(&mut lines, Owner::Motion, ledger, &found.problem.parameters);
+            let until = self.head().and_then(|head| works_until(found, head.tau));
+            add(&mut lines, Owner::Motion, ledger, until.as_ref(), &found.problem.parameters);
         }
         lines
     }
@@ -74,27 +78,40 @@ impl Session {
     }
 }
 
-/// Adds the lines of one owner; a term that the model does not have gets none.
-fn add(lines: &mut Vec<Entry>, owner: Owner, ledger: &Ledger, parameters: &Parameters) {
+/// What works on a motion: its name, how strong it is, and what it did.
+type Source = (&'static str, f64, fn(&Ledger) -> f64);
+
+/// Adds the lines of one owner, with those until the present moment; a term that the model does not have
+/// gets none.
+fn add(
+    lines: &mut Vec<Entry>,
+    owner: Owner,
+    ledger: &Ledger,
+    until: Option<&Ledger>,
+    parameters: &Parameters,
+) {
     let Parameters { d, d2, d3, r } = *parameters;
-    let stored = ledger.end - ledger.start;
-    let sources = [
-        ("linear", d, ledger.linear),
-        ("quadratic", d2, ledger.quadratic),
-        ("cubic", d3, ledger.cubic),
-        ("friction", r, ledger.friction),
+    let sources: [Source; 4] = [
+        ("linear", d, |ledger| ledger.linear),
+        ("quadratic", d2, |ledger| ledger.quadratic),
+        ("cubic", d3, |ledger| ledger.cubic),
+        ("friction", r, |ledger| ledger.friction),
     ];
-    let largest = sources.iter().map(|(_, _, work)| work.abs()).fold(stored.abs(), f64::max);
+    let stored = |ledger: &Ledger| ledger.end - ledger.start;
+    let works = sources.iter().map(|(.., read)| read(ledger).abs());
+    let largest = works.fold(stored(ledger).abs(), f64::max);
     let part = |work: f64| if largest > 0.0 { work / largest } else { 0.0 };
     lines.push(Entry::Title(owner));
-    let present = sources.iter().filter(|(_, strength, _)| *strength != 0.0);
-    lines.extend(present.map(|(source, _, work)| Entry::Work {
-        source,
-        work: *work,
-        part: part(*work),
-    }));
+    let mut add = |source, read: fn(&Ledger) -> f64| {
+        let work = read(ledger);
+        let so_far = until.map(|until| part(read(until)));
+        lines.push(Entry::Work { source, work, part: part(work), so_far });
+    };
+    for (source, _, read) in sources.iter().filter(|(_, strength, _)| *strength != 0.0) {
+        add(source, *read);
+    }
     if owner == Owner::Motion {
-        lines.push(Entry::Work { source: "stored", work: stored, part: part(stored) });
+        add("stored", stored);
     }
     lines.push(Entry::Residual(part(ledger.residual)));
 }

@@ -5,6 +5,7 @@
 //! relative precision, so that their sum says how well the cycle is closed.
 
 use super::basin::Border;
+use crate::flow::Trajectory;
 use crate::flow::step::Powers;
 use crate::oscillator::energy::energy;
 use crate::oscillator::{Ledger, Parameters, State};
@@ -35,10 +36,90 @@ pub fn works(border: &Border, parameters: &Parameters) -> Option<Ledger> {
     })
 }
 
+/// The ledger of a motion from its start until a time, by quadrature over its samples.
+///
+/// Between two samples the motion is the cubic through both ([`Trajectory::at`]); what its works fail to
+/// account for is the residual, as in the ledger of the whole motion, which is exact.
+#[must_use]
+pub fn works_until(motion: &Trajectory, until: f64) -> Option<Ledger> {
+    /// Abscissae and weights of Gauss and Legendre's rule on 0 .. 1, exact to degree 5.
+    const NODES: [(f64, f64); 3] = [
+        (0.112_701_665_379_258_31, 5.0 / 18.0),
+        (0.5, 8.0 / 18.0),
+        (0.887_298_334_620_741_7, 5.0 / 18.0),
+    ];
+    let Parameters { d, d2, d3, r } = motion.problem.parameters;
+    let now = motion.at(until)?;
+    let mut powers = Powers::default();
+    let mut path = 0.0;
+    let mut before = *motion.samples.first()?;
+    for sample in motion.samples.iter().skip(1).chain([&now]) {
+        if before.tau >= until {
+            break;
+        }
+        let end = if sample.tau < until { *sample } else { now };
+        let h = end.tau - before.tau;
+        for (node, weight) in NODES {
+            let v = motion.at(before.tau + node * h)?.v;
+            let share = weight * h;
+            powers.second += share * v * v;
+            powers.third += share * v * v * v;
+            powers.fourth += share * v * v * v * v;
+        }
+        path += (end.q - before.q).abs();
+        before = end;
+    }
+    let (start, end) = (energy(motion.problem.initial), energy(State { q: now.q, v: now.v }));
+    let (linear, quadratic) = (-2.0 * d * powers.second, -d2 * powers.third);
+    let (cubic, friction) = (-d3 * powers.fourth, -r * path);
+    let residual = (end - start) - (linear + quadratic + cubic + friction);
+    Some(Ledger { start, end, linear, quadratic, cubic, friction, residual })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::flow::Limits;
+
+    #[test]
+    fn works_until_a_time_close_and_end_at_those_of_the_whole_motion() {
+        for (d, d2, d3, r, q) in
+            [(0.02, 0.1, 0.05, 0.125, 1.5), (-0.3, 0.2, 0.5, 0.1, 0.4), (0.1, 0.0, 0.0, 0.0, 1.0)]
+        {
+            let problem = Problem {
+                parameters: Parameters { d, d2, d3, r },
+                initial: State { q, v: 0.0 },
+                until: 30.0,
+                ..Problem::default()
+            };
+            let detail = Detail { crossings: r > 0.0, samples_per_step: 16, energy: true };
+            let motion = trajectory(&problem, detail, &Limits::PATIENT);
+            let whole = motion.ledger.unwrap();
+            let largest = [whole.linear, whole.quadratic, whole.cubic, whole.friction]
+                .into_iter()
+                .fold(0.0, |largest: f64, work| largest.max(work.abs()));
+            let mut last = 0.0;
+            for part in 0..=40 {
+                let found = works_until(&motion, 30.0 * f64::from(part) / 40.0).unwrap();
+                assert!(found.residual.abs() < 1e-6 * largest, "{found:?}");
+                assert!(found.friction <= last, "friction only takes");
+                last = found.friction;
+            }
+            let end = works_until(&motion, 30.0).unwrap();
+            for (found, exact) in [
+                (end.linear, whole.linear),
+                (end.quadratic, whole.quadratic),
+                (end.cubic, whole.cubic),
+                (end.friction, whole.friction),
+                (end.end, whole.end),
+            ] {
+                assert!((found - exact).abs() < 1e-6 * largest, "{found} {exact}");
+            }
+            let start = works_until(&motion, 0.0).unwrap();
+            assert_eq!((start.linear, start.friction, start.end), (0.0, 0.0, start.start));
+        }
+    }
+    use crate::flow::trajectory::trajectory;
+    use crate::flow::{Detail, Limits, Problem};
     use crate::study::cycle::cycles;
 
     #[test]

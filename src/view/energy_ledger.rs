@@ -1,7 +1,8 @@
 //! The energy ledger: a bar for the work of each source, over one turn of each cycle and along the
 //! motion. What feeds points to the right, what brakes to the left; the number stands on the other side.
 //!
-//! Bars are parts of the largest work of their owner, numbers are energies in the units of the model.
+//! Bars are parts of the largest work of their owner, numbers are energies in the units of the model. While
+//! the motion is played, a mark on each of its bars shows what has been done so far.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -10,7 +11,7 @@ use super::dots::Dash;
 use super::look::{Look, Role};
 use super::number::significant;
 use super::pane::Heading;
-use super::picture::{Line, Picture};
+use super::picture::{Line, Mark, Picture};
 use super::plot::{Names, Plot, rows};
 use super::ticks::{Tick, Ticks};
 use crate::scene::{Point, Span, View, Window};
@@ -60,9 +61,12 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
                 let fits = full.chars().count() <= room;
                 plot.write(y, if fits { &full } else { &short }, role);
             }
-            Entry::Work { work, part, .. } => {
+            Entry::Work { work, part, so_far, .. } => {
                 let role = if *work < 0.0 { Role::Stable } else { Role::Unstable };
                 plot.bar(Point { x: 0.0, y }, Point { x: *part, y }, role);
+                if let Some(so_far) = so_far {
+                    plot.mark(Point { x: *so_far, y }, symbols.head, Role::Cursor);
+                }
                 plot.beside_zero(y, *work, DIGITS, *work < 0.0);
             }
             Entry::Residual(part) => {
@@ -89,9 +93,12 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     picture.upright(Line::guide(), 0.0);
     for (line, entry) in lines.iter().enumerate() {
         let from = Point { x: 0.0, y: middle(line) };
-        if let Entry::Work { source, work, part } = entry {
+        if let Entry::Work { source, work, part, so_far } = entry {
             let role = if *work < 0.0 { Role::Stable } else { Role::Unstable };
             picture.bar(*source, role, from, Point { x: *part, ..from });
+            if let Some(x) = *so_far {
+                picture.mark(Mark::Head, Point { x, ..from }, Role::Cursor);
+            }
         }
         let at = Point { x: window.x.at(0.02), ..from };
         picture.caption(at, reading(entry), Role::Text);

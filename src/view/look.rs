@@ -385,6 +385,30 @@ mod tests {
     }
 
     #[test]
+    fn curves_that_meet_in_a_plot_have_colours_of_their_own() {
+        let diagram = [
+            Role::Stable,
+            Role::Unstable,
+            Role::Harmonic,
+            Role::Asymptote,
+            Role::Velocity,
+            Role::Current,
+        ];
+        let time_series = [Role::Trajectory, Role::Velocity, Role::Sticking, Role::Energy];
+        for (theme, name) in THEMES.into_iter().filter(|(theme, _)| *theme != Theme::Mono) {
+            for colors in [Colors::Sixteen, Colors::Indexed, Colors::True] {
+                let look = look(theme, Glyphs::Braille, colors);
+                for pens in [&diagram[..], &time_series] {
+                    let mut seen: Vec<_> = pens.iter().map(|pen| look.style(*pen).fg).collect();
+                    seen.sort_by_key(|colour| format!("{colour:?}"));
+                    seen.dedup();
+                    assert_eq!(seen.len(), pens.len(), "{name} {colors:?}: {seen:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
     fn a_wrong_theme_says_what_is_wrong() {
         let refused = |text: &str| {
             Look::from_text(text, Glyphs::Braille, Colors::Sixteen).unwrap_err().to_string()

@@ -45,10 +45,11 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         })
     });
     picture.level(Line::guide(), 0.0);
+    let force = session.trajectory().filter(|_| shows(Layer::Friction));
+    let force = force.map(|motion| friction_force(motion, motion.problem.until));
     if let Some(motion) = session.trajectory() {
         let end = motion.problem.until;
-        if shows(Layer::Friction) {
-            let force = friction_force(motion, end);
+        if let Some(force) = force.clone() {
             let points: Vec<Point> = force.into_iter().map(|(x, y)| Point { x, y }).collect();
             let first = points.first().copied();
             picture.curve(Line::new("friction force f", Role::Sticking, Dash::Solid), points);
@@ -72,9 +73,20 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
             let y = read(State { q: head.q, v: head.v });
             picture.mark(Mark::Head, Point { x: head.tau, y }, Role::Cursor);
         }
+        if let Some(y) = force.and_then(|force| force_at(&force, head.tau)) {
+            picture.mark(Mark::Head, Point { x: head.tau, y }, Role::Cursor);
+        }
     }
     picture.cross(cursor);
     picture
+}
+
+/// The force at a time on its polyline; where it jumps, the force after the jump.
+fn force_at(force: &[(f64, f64)], tau: f64) -> Option<f64> {
+    let after = force.partition_point(|(at, _)| *at <= tau);
+    let (before, next) = (force.get(after.checked_sub(1)?)?, force.get(after));
+    let part = next.map_or(0.0, |next| (tau - before.0) / (next.0 - before.0));
+    Some(before.1 + part * next.map_or(0.0, |next| next.1 - before.1))
 }
 
 /// A quantity along a motion, and on while it rests.
@@ -113,5 +125,20 @@ fn events(picture: &mut Picture, motion: &Trajectory) {
             picture.upright(Line::new("escapes", Role::Unstable, Dash::Sparse), tau);
         }
         Outcome::GaveUp { .. } => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_force_is_read_between_its_corners_and_after_its_jumps() {
+        let force = [(0.0, 0.5), (2.0, 0.5), (2.0, -0.5), (3.0, -0.5), (3.0, 0.1), (9.0, 0.1)];
+        for (tau, expected) in [(0.0, 0.5), (1.9, 0.5), (2.0, -0.5), (3.0, 0.1), (9.0, 0.1)] {
+            assert_eq!(force_at(&force, tau), Some(expected), "{tau}");
+        }
+        assert_eq!(force_at(&[(1.0, 0.2), (3.0, 0.6)], 2.0), Some(0.4));
+        assert_eq!((force_at(&force, -1.0), force_at(&[], 1.0)), (None, None));
     }
 }

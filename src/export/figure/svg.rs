@@ -23,7 +23,7 @@ fn ink(role: Role) -> (f64, &'static str) {
         Role::Asymptote => (0.9, "#8a6d1f"),
         Role::Lyapunov => (1.2, "#a05a00"),
         Role::Bands => (0.8, "#5f7f9f"),
-        Role::Velocity => (1.2, "#b3261e"),
+        Role::Velocity => (1.2, "#00838f"),
         Role::Current => (0.9, "#444444"),
         Role::Axis | Role::Field | Role::Ghost => (0.8, "#8a8a8a"),
         _ => (1.0, "#222222"),
