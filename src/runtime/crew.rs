@@ -1,32 +1,36 @@
-//! Two workers: one for what the next picture needs, one for what takes long.
+//! Two workers and a clerk: one worker for what the next picture needs, one for what takes long; the clerk
+//! writes figures.
 //!
 //! A scan of minutes must not stand between a key and its picture. So long requests have a worker of
 //! their own, which goes on while the other one answers.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
+use super::clerk::{Clerk, Work};
 use super::panics::Notes;
 use super::worker::{Tell, Worker};
 use crate::flow::{Limits, Reason};
 use crate::scene::{Answer, Request};
 use crate::session::Msg;
 
-/// Both workers, used as one.
+/// Both workers, used as one, and the clerk.
 #[derive(Debug)]
 pub struct Crew {
     quick: Worker,
     long: Worker,
+    clerk: Clerk,
 }
 
 impl Crew {
-    /// Starts both; see [`Worker::start`]. Each says [`Msg::Idle`] for itself; ask [`Crew::is_idle`].
+    /// Starts them; see [`Worker::start`]. Each says [`Msg::Idle`] for itself; ask [`Crew::is_idle`].
     ///
     /// # Errors
     /// If the system gives no threads.
     pub fn start(
         answer: impl Fn(&Request, &Limits, &Tell) -> Result<Answer, Reason> + Send + Sync + 'static,
         notes: Notes,
-        report: impl Fn(Msg) + Clone + Send + 'static,
+        report: impl Fn(Msg) + Clone + Send + Sync + 'static,
     ) -> std::io::Result<Crew> {
         let answer = Arc::new(answer);
         let other = Arc::clone(&answer);
@@ -35,6 +39,7 @@ impl Crew {
         let long =
             move |request: &Request, limits: &Limits, tell: &Tell| other(request, limits, tell);
         Ok(Crew {
+            clerk: Clerk::new(Arc::new(report.clone()), notes.clone()),
             quick: Worker::start(quick, notes.clone(), report.clone())?,
             long: Worker::start(long, notes, report)?,
         })
@@ -54,6 +59,19 @@ impl Crew {
     /// Says that the answer to a request has arrived where it was wanted.
     pub fn taken(&self, request: &Request) {
         self.of(request).taken(request);
+    }
+
+    /// Begins to write a figure; see [`Clerk::begin`].
+    ///
+    /// # Errors
+    /// One line that says why not.
+    pub fn write(&mut self, path: PathBuf, replace: bool, work: Work) -> Result<(), String> {
+        self.clerk.begin(path, replace, work)
+    }
+
+    /// Stops what is being written.
+    pub fn stop_writing(&self) {
+        self.clerk.stop();
     }
 
     /// Whether nothing is in work and nothing waits.

@@ -37,16 +37,28 @@ impl Files {
         }
     }
 
+    /// Whether a file may be written.
+    ///
+    /// # Errors
+    /// One line: it is there already, and not to be replaced.
+    pub fn admit(path: &Path, replace: bool) -> Result<(), String> {
+        let path = at_home(path);
+        if replace || !path.exists() {
+            return Ok(());
+        }
+        let name = path.display();
+        Err(format!("{name} is there already; with ! behind the command it is replaced"))
+    }
+
     /// Writes a file, and says how that ended. Whatever happens, the file is there as a whole or as it
     /// was; one that is there already is replaced only on demand.
     #[must_use]
     pub fn write(path: &Path, content: impl AsRef<[u8]>, replace: bool) -> Notice {
-        let path = at_home(path);
-        let name = path.display();
-        if !replace && path.exists() {
-            let text = format!("{name} is there already; with ! behind the command it is replaced");
+        if let Err(text) = Files::admit(path, replace) {
             return Notice { error: true, text };
         }
+        let path = at_home(path);
+        let name = path.display();
         match write_whole(&path, content.as_ref()) {
             Ok(()) => Notice { error: false, text: format!("written to {name}") },
             Err(why) => Notice { error: true, text: format!("{name} not written: {why}") },

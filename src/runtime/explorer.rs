@@ -7,6 +7,7 @@ use ratatui::Frame;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 
+use super::clerk::Work;
 use super::headless::{self, Played};
 use super::launch::{Ended, Options, launch};
 use super::machine::Machine;
@@ -71,15 +72,17 @@ impl Machine for Explorer {
         view::place(screen, &self.session, Position { x: column, y: row })
     }
 
-    fn figure(&self, path: &Path, plot: Option<usize>) -> Result<Vec<u8>, String> {
+    fn figure(&self, path: &Path, plot: Option<usize>) -> Result<Work, String> {
         let form = Form::of_file(path)?;
         let mut session = self.session.clone();
-        print::refine(&mut session);
-        let plots: Vec<usize> = match plot {
-            Some(plot) => vec![plot],
-            None => session.on_show().collect(),
-        };
-        figure::file(&Figure::of(&session, plots), form)
+        Ok(Box::new(move |limits: &Limits| {
+            print::refine(&mut session, limits);
+            let plots: Vec<usize> = match plot {
+                Some(plot) => vec![plot],
+                None => session.on_show().collect(),
+            };
+            figure::file(&Figure::of(&session, plots), form)
+        }))
     }
 
     fn keepsake(&self) -> Option<String> {

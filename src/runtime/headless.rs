@@ -19,7 +19,7 @@ use crate::export;
 use crate::flow::{Limits, Reason};
 use crate::scene::{Answer, Request};
 use crate::session::replay::{Action, Player, Script, Unmet};
-use crate::session::{Effect, Msg};
+use crate::session::{Effect, Msg, Notice};
 
 /// What a keystroke file showed.
 #[derive(Clone, Debug)]
@@ -104,6 +104,13 @@ fn does(machine: &mut impl Machine, player: &mut Player, msg: Msg) -> bool {
             Effect::Play(script) => {
                 player.interject(script);
             }
+            Effect::Figure { path, .. } => {
+                let text = format!("{} not written: a replay writes no files", path.display());
+                let notice = Notice { error: false, text };
+                if does(machine, player, Msg::Written(notice)) {
+                    return true;
+                }
+            }
             Effect::Suspend
             | Effect::Repaint
             | Effect::Copy(_)
@@ -111,7 +118,7 @@ fn does(machine: &mut impl Machine, player: &mut Player, msg: Msg) -> bool {
             | Effect::Mouse(_)
             | Effect::SaveScan { .. }
             | Effect::Record { .. }
-            | Effect::Figure { .. }
+            | Effect::StopWriting
             | Effect::PutAside(_)
             | Effect::Write { .. } => {}
         }

@@ -5,6 +5,7 @@ use std::path::Path;
 use ratatui::Frame;
 use ratatui::layout::Size;
 
+use super::clerk::Work;
 use crate::scene::Request;
 use crate::session::{Effect, Msg, Place};
 
@@ -31,11 +32,12 @@ pub trait Machine {
         None
     }
 
-    /// What it shows, or one plot of it, as a figure in the form that the ending of a file asks for.
+    /// Makes a figure of what it shows, or of one plot of it, in the form that the ending of a file asks
+    /// for; the work is done elsewhere.
     ///
     /// # Errors
     /// One line that says why there is none.
-    fn figure(&self, _path: &Path, _plot: Option<usize>) -> Result<Vec<u8>, String> {
+    fn figure(&self, _path: &Path, _plot: Option<usize>) -> Result<Work, String> {
         Err("nothing to write".to_owned())
     }
 

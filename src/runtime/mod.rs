@@ -5,6 +5,7 @@
 //! signals, [`worker`] computes. The [`pump`] takes events out, hands them to the session, asks the
 //! worker what the session then wants, and draws.
 
+pub mod clerk;
 pub mod crew;
 mod desk;
 pub mod effects;

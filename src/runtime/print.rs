@@ -24,10 +24,10 @@ pub fn complete(
 
 /// Computes what is on show in the explorer once more, for print. What would keep the user waiting stays
 /// as it is on the screen.
-pub fn refine(session: &mut Session) {
-    /// Evaluations that a question may take: some tenths of a second.
-    const MOST: u64 = 4_000_000;
-    let limits = Limits { evaluations: MOST, ..Limits::PATIENT };
+pub fn refine(session: &mut Session, limits: &Limits) {
+    /// Evaluations that a question may take: a second or two.
+    const MOST: u64 = 40_000_000;
+    let limits = Limits { evaluations: limits.evaluations.min(MOST), ..*limits };
     let drawn = |request: &Request| {
         !matches!(request.slot(), Slot::Scan | Slot::Trade | Slot::Reference | Slot::Claims)
     };

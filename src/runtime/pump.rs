@@ -47,6 +47,8 @@ pub struct Pump<M, W: Write> {
     /// No frames are drawn while the terminal is not ours.
     held: bool,
     player: Option<Player>,
+    /// A figure is being written.
+    writing: bool,
     /// A caption waits to be read.
     paused: bool,
     /// What the user did, and how the session was started.
@@ -77,6 +79,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
             beat: None,
             held: false,
             player: None,
+            writing: false,
             paused: false,
             recorder: Recorder::default(),
             started: String::new(),
@@ -195,6 +198,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
             }
             Event::Session(msg) => {
                 self.recorder.note(&msg);
+                self.writing &= !matches!(msg, Msg::Written(_));
                 if let Msg::Answered(answered) = &msg
                     && answered.complete
                 {
@@ -261,11 +265,20 @@ impl<M: Machine, W: Write> Pump<M, W> {
                     self.update(Msg::Told(notice))?
                 }
                 Effect::Figure { path, plot, replace } => {
-                    let notice = match self.machine.figure(&path, plot) {
-                        Ok(content) => Files::write(&path, &content, replace),
-                        Err(text) => Notice { error: true, text },
-                    };
-                    self.update(Msg::Told(notice))?
+                    let begun = Files::admit(&path, replace)
+                        .and_then(|()| self.machine.figure(&path, plot))
+                        .and_then(|work| self.crew.write(path, replace, work));
+                    match begun {
+                        Ok(()) => {
+                            self.writing = true;
+                            None
+                        }
+                        Err(text) => self.update(Msg::Written(Notice { error: true, text }))?,
+                    }
+                }
+                Effect::StopWriting => {
+                    self.crew.stop_writing();
+                    None
                 }
                 Effect::Record { path, forget, replace } => {
                     let mut recorder = self.recorder.clone();
@@ -318,7 +331,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
         }
         let Some(player) = &mut self.player else { return Ok(None) };
         let (machine, size) = (&self.machine, self.screen.size());
-        let idle = machine.wants().is_empty();
+        let idle = machine.wants().is_empty() && !self.writing;
         let screen = || export::screen::text(&picture::of(machine, size));
         loop {
             return match player.next(idle, screen) {

@@ -45,6 +45,8 @@ pub enum Msg {
         /// Seconds.
         seconds: f64,
     },
+    /// The figure that was being written is, or is not.
+    Written(Notice),
     /// The outer rings tell how an effect ended, such as a file written or not, or a replay.
     Told(Notice),
 }
@@ -126,7 +128,8 @@ pub enum Effect {
         /// Whether a file that is there may be replaced.
         replace: bool,
     },
-    /// Write what plots show as a figure; the ending of the file says in which form.
+    /// Write what plots show as a figure; the ending of the file says in which form. [`Msg::Written`] comes
+    /// back when that has ended.
     Figure {
         /// Where.
         path: PathBuf,
@@ -135,6 +138,8 @@ pub enum Effect {
         /// Whether a file that is there may be replaced.
         replace: bool,
     },
+    /// Stop writing a figure.
+    StopWriting,
     /// Read a file; it comes back as [`Msg::Read`].
     Read {
         /// The file.

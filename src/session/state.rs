@@ -262,6 +262,8 @@ pub struct Session {
     pub caption: Caption,
     /// The file of a session that was interrupted and could be gone on with.
     pub interrupted: Option<PathBuf>,
+    /// The figure that is being written.
+    pub writing: Option<PathBuf>,
     /// The lines typed on the command line, the newest last.
     pub lines: Vec<String>,
     /// The last good answer of each kind that all plots share, with its question.
@@ -314,6 +316,7 @@ impl Session {
             marks: Marks::default(),
             caption: Caption::Nothing,
             interrupted: None,
+            writing: None,
             lines: Vec::new(),
             answers: BTreeMap::new(),
             failures: Vec::new(),

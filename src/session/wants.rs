@@ -14,7 +14,7 @@ use crate::flow::{Problem, Reason, Trajectory};
 use crate::oscillator::Symbol;
 use crate::scene::answer::{Borders, Failure};
 use crate::scene::{Answer, Answered, Axes, Layer, Request, SLOTS, Slot, Span, View, Window};
-use crate::study::accuracy::{Deviation, Reference};
+use crate::study::accuracy::{Deviation, NoComparison, Reference};
 use crate::study::chart::{Chart, Plane};
 use crate::study::claims::Examined;
 use crate::study::harmonic_error::HarmonicBalance;
@@ -26,6 +26,17 @@ const LONG: u64 = 100_000;
 
 /// Bands of capture that are drawn at most: more would fill the plane.
 const MOST_BANDS: usize = 24;
+
+/// Why a motion has no measured error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unmeasured {
+    /// The motion that it is measured against takes too long.
+    TighterGaveUp,
+    /// The motion itself was not computed to its end.
+    GaveUp,
+    /// One of the two escapes, and the other does not.
+    OtherFate,
+}
 
 impl Session {
     /// The questions that what is on show needs answered, the most urgent first; nothing for a layer
@@ -243,29 +254,34 @@ impl Session {
 
     /// The error of the motion on show, and what it was measured against, where both are known.
     ///
-    /// `None` until both are computed, and where the motion takes too long for a reference.
+    /// `None` until both are computed, and where there is no error: [`Session::unmeasured`] says why.
     #[must_use]
     pub fn measured(&self) -> Option<(Deviation, &Reference)> {
-        let fresh = |slot| !self.is_stale(slot, self.plot);
-        if !self.measures() || !fresh(Slot::Trajectory) || !fresh(Slot::Reference) {
-            return None;
-        }
-        let Answer::Reference(Ok(reference)) = self.answer(Slot::Reference, self.plot)? else {
-            return None;
-        };
-        Some((reference.compare(self.trajectory()?).ok()?, reference))
+        self.comparison()?.ok()
     }
 
-    /// Why the error of the motion on show could not be measured; `None` as long as it may be.
+    /// Why the motion on show has no measured error; `None` as long as it may have one.
     #[must_use]
-    pub fn unmeasured(&self) -> Option<Reason> {
-        if !self.measures() || self.is_stale(Slot::Reference, self.plot) {
+    pub fn unmeasured(&self) -> Option<Unmeasured> {
+        self.comparison()?.err()
+    }
+
+    /// The motion on show against its reference; `None` until both are computed.
+    fn comparison(&self) -> Option<Result<(Deviation, &Reference), Unmeasured>> {
+        let stale = |slot| self.is_stale(slot, self.plot);
+        if !self.measures() || stale(Slot::Reference) {
             return None;
         }
-        match self.answer(Slot::Reference, self.plot)? {
-            Answer::Reference(found) => found.as_ref().err().copied(),
-            _ => None,
-        }
+        let Answer::Reference(reference) = self.answer(Slot::Reference, self.plot)? else {
+            return None;
+        };
+        let Ok(reference) = reference else { return Some(Err(Unmeasured::TighterGaveUp)) };
+        let motion = self.trajectory().filter(|_| !stale(Slot::Trajectory))?;
+        Some(match reference.compare(motion) {
+            Ok(deviation) => Ok((deviation, reference)),
+            Err(NoComparison::GaveUp(_)) => Err(Unmeasured::GaveUp),
+            Err(NoComparison::OtherFate) => Err(Unmeasured::OtherFate),
+        })
     }
 
     /// The last borders of capture bands computed for a phase plane, stale or not.

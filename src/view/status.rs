@@ -31,9 +31,13 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         (format!("{}{sentence}", symbol(session, look)), role)
     };
     let busy = if session.is_busy() { "computing " } else { "" };
+    let busy = match session.writing.as_ref().and_then(|path| path.file_name()) {
+        Some(name) => format!("{busy}writing {} ", name.display()),
+        None => busy.to_owned(),
+    };
     let busy = match &session.macros.recording {
         Some((register, _)) => format!("{busy}recording {register} "),
-        None => busy.to_owned(),
+        None => busy,
     };
     let text = format!(" {text}");
     let text = pane::cut(&text, usize::from(area.width), look);
@@ -56,8 +60,8 @@ struct Words {
     /// The same beside a dial at which another error would be measured.
     energy: &'static str,
     measured: &'static str,
-    /// Why that is not the measured error.
-    gave_up: &'static str,
+    /// Why that is not the measured error: the tighter run gave up, the motion did, they end differently.
+    unmeasured: [&'static str; 3],
     recomputed: &'static str,
     duration: bool,
     /// Whether the choice of `auto` is explained.
@@ -71,7 +75,11 @@ const WORDS: [Words; 4] = [
         error: "energy error",
         energy: "energy error",
         measured: "measured error",
-        gave_up: " (the tighter run gave up)",
+        unmeasured: [
+            "the tighter run gave up",
+            "no tighter run: this one gave up",
+            "the tighter run ends otherwise",
+        ],
         recomputed: "recomputed ",
         duration: true,
         choice: true,
@@ -81,7 +89,11 @@ const WORDS: [Words; 4] = [
         error: "error",
         energy: "energy error",
         measured: "measured",
-        gave_up: " (the tighter run gave up)",
+        unmeasured: [
+            "the tighter run gave up",
+            "no tighter run: this one gave up",
+            "the tighter run ends otherwise",
+        ],
         recomputed: "",
         duration: true,
         choice: true,
@@ -91,7 +103,7 @@ const WORDS: [Words; 4] = [
         error: "error",
         energy: "energy error",
         measured: "measured",
-        gave_up: " (tighter run gave up)",
+        unmeasured: ["tighter run gave up", "gave up", "tighter run ends otherwise"],
         recomputed: "",
         duration: true,
         choice: false,
@@ -101,7 +113,7 @@ const WORDS: [Words; 4] = [
         error: "error",
         energy: "energy error",
         measured: "measured",
-        gave_up: " (gave up)",
+        unmeasured: ["gave up", "gave up", "ends otherwise"],
         recomputed: "",
         duration: false,
         choice: false,
@@ -221,6 +233,7 @@ fn work(session: &Session, look: &Look, words: &Words) -> String {
             session.problem.quality().map_or("typed", |quality| quality.name).to_owned(),
         );
     }
+    let why = session.unmeasured().map(|why| words.unmeasured[why as usize]);
     if let Some((deviation, reference)) = session.measured() {
         let least = deviation.error.max(reference.error);
         parts.push(format!("{} {}", words.measured, significant(least, 2)));
@@ -228,8 +241,10 @@ fn work(session: &Session, look: &Look, words: &Words) -> String {
         let largest = ledger.start.max(ledger.end);
         let error = if largest > 0.0 { (ledger.residual / largest).abs() } else { 0.0 };
         let name = if session.measures() { words.energy } else { words.error };
-        let gave_up = session.unmeasured().map_or("", |_| words.gave_up);
-        parts.push(format!("{name} {}{gave_up}", significant(error, 1)));
+        let why = why.map_or(String::new(), |why| format!(" ({why})"));
+        parts.push(format!("{name} {}{why}", significant(error, 1)));
+    } else if let Some(why) = why {
+        parts.push(why.to_owned());
     }
     parts.join(&format!(" {} ", look.symbols().dot))
 }

@@ -5,6 +5,7 @@ use ratatui::Frame;
 
 use super::*;
 use crate::flow::Reason;
+use crate::runtime::clerk::Work;
 use crate::runtime::panics::Notes;
 use crate::runtime::worker::Tell;
 use crate::session::replay;
@@ -20,6 +21,8 @@ struct Counter {
     asks: Option<Effect>,
     moving: bool,
     elapsed: u32,
+    /// A figure is made when something comes through here.
+    gate: Option<Receiver<()>>,
 }
 
 impl Counter {
@@ -40,7 +43,7 @@ impl Machine for Counter {
                 self.elapsed += 1;
                 self.moving = self.elapsed < Self::MOVES;
             }
-            Msg::Told(notice) => self.notice = notice.text,
+            Msg::Told(notice) | Msg::Written(notice) => self.notice = notice.text,
             Msg::Say(caption) => self.notice = caption,
             _ => {}
         }
@@ -53,6 +56,14 @@ impl Machine for Counter {
 
     fn is_moving(&self) -> bool {
         self.moving
+    }
+
+    fn figure(&self, _: &std::path::Path, _: Option<usize>) -> Result<Work, String> {
+        let gate = self.gate.clone().ok_or("nothing to write")?;
+        Ok(Box::new(move |_| {
+            gate.recv().unwrap();
+            Ok(b"curves".to_vec())
+        }))
     }
 
     fn draw(&self, frame: &mut Frame) {
@@ -89,7 +100,9 @@ fn bench() -> Bench {
     let (events, received) = unbounded();
     let screen = Screen::new(Line(write), size()).unwrap();
     let job = |_: &Request, _: &crate::flow::Limits, _: &Tell| Err(Reason::OutOfRange);
-    let crew = Crew::start(job, Notes::default(), |_| ()).unwrap();
+    let report = events.clone();
+    let report = move |msg| drop(report.send(Event::Session(msg)));
+    let crew = Crew::start(job, Notes::default(), report).unwrap();
     let machine = Counter::default();
     let pump = Pump::new(machine, screen, crew, received, Files::default(), size);
     Bench { pump, events, written }
@@ -172,6 +185,44 @@ fn a_replay_types_its_keys_and_says_how_it_ended() {
     assert_eq!(play("<right*3> <resize 20x5> <screen a> <expect \"3\">"), "3 replay done\n");
     let stopped = play("<right> <expect \"2\"> <right>");
     assert!(stopped.starts_with("1 replay stopped: line 1, column 9"), "{stopped}");
+}
+
+/// By order of events: two keys are answered on the screen before the figure is made.
+#[test]
+fn keys_are_answered_while_a_figure_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.svg");
+    let Bench { mut pump, events, written } = bench();
+    let (open, gate) = unbounded();
+    let asks = Effect::Figure { path: path.clone(), plot: None, replace: false };
+    (pump.machine.asks, pump.machine.gate) = (Some(asks), Some(gate));
+    events.send(key("<enter>")).unwrap();
+    let running = std::thread::spawn(move || pump.run().unwrap());
+    for count in ["1", "2"] {
+        events.send(key("<right>")).unwrap();
+        while !written.recv().unwrap().contains(count) {}
+    }
+    assert!(!path.exists());
+    open.send(()).unwrap();
+    while !written.recv().unwrap().contains("written") {}
+    assert_eq!(std::fs::read(path).unwrap(), b"curves");
+    events.send(key("q")).unwrap();
+    assert_eq!(running.join().unwrap(), Stop::Quit);
+}
+
+#[test]
+fn a_figure_that_may_not_be_written_is_not_begun() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.svg");
+    std::fs::write(&path, "mine").unwrap();
+    let Bench { mut pump, .. } = bench();
+    // A gate that stays closed: whoever began would never end.
+    let (_open, gate) = unbounded();
+    let asks = Effect::Figure { path: path.clone(), plot: None, replace: false };
+    (pump.machine.asks, pump.machine.gate) = (Some(asks), Some(gate));
+    pump.handle(key("<enter>")).unwrap();
+    assert!(pump.machine.notice.contains("is there already"), "{}", pump.machine.notice);
+    assert_eq!(std::fs::read(path).unwrap(), b"mine");
 }
 
 #[test]

@@ -43,6 +43,7 @@ impl Recorder {
             | Msg::Read { .. }
             | Msg::Answered(_)
             | Msg::Idle
+            | Msg::Written(_)
             | Msg::Told(_) => {}
         }
     }

@@ -6,9 +6,11 @@ use super::{COST, Desk, answered};
 use crate::flow::{Limits, Method, Reason};
 use crate::oscillator::Symbol;
 use crate::scene::answer::{Failure, answer};
-use crate::scene::{Answer, Answered, Request, SLOTS, Slot};
+use crate::scene::{Answer, Answered, Request, SLOTS, Slot, find};
 use crate::session::update::parameters;
+use crate::session::wants::Unmeasured;
 use crate::session::{Msg, Row, Session, update};
+use crate::study::accuracy::Reference;
 
 /// The number behind the dial and the name of its stop.
 fn dial(desk: &Desk) -> (f64, &'static str) {
@@ -213,6 +215,34 @@ fn the_measured_error_is_that_of_the_motion_on_show() {
     assert!(reference.error < 1e-28, "{:e}", reference.error);
     assert!((1e-10..1e-3).contains(&deviation.error) && deviation.agrees, "{deviation:?}");
     assert!(desk.session.price.evaluations() > COST);
+}
+
+/// A reference that escapes, next to a motion that does not: there is no distance, and that is said.
+#[test]
+fn why_there_is_no_measured_error_is_known() {
+    let mut desk = Desk::open("capture");
+    desk.press("<down*5>");
+    let mut session = desk.session.clone();
+    for (problem, why) in
+        [(find("escape").unwrap().problem, Some(Unmeasured::OtherFate)), (session.problem, None)]
+    {
+        for slot in [Slot::Trajectory, Slot::Reference] {
+            let request = session.request(slot, 0).unwrap();
+            let result = match slot {
+                Slot::Reference => {
+                    let found = Reference::of(&problem, &Limits::PATIENT).unwrap();
+                    Answer::Reference(Ok(Box::new(found)))
+                }
+                _ => answer(&request, &Limits::PATIENT).unwrap(),
+            };
+            session.answers.remove(&slot);
+            let answered = Answered { request, result: Ok(result), seconds: 0.0, complete: true };
+            update(&mut session, Msg::Answered(Box::new(answered)));
+        }
+        assert!(session.measures());
+        assert_eq!(session.unmeasured(), why);
+        assert_eq!(session.measured().is_none(), why.is_some());
+    }
 }
 
 /// Each number of the motion and each kind of question: which questions contain it.

@@ -9,7 +9,7 @@ use super::{Desk, answered};
 use crate::flow::Problem;
 use crate::scene::{Request, Slot, library};
 use crate::session::replay::Recorder;
-use crate::session::{Effect, Msg, Purpose, Session, save, update};
+use crate::session::{Effect, Msg, Notice, Purpose, Session, save, update};
 
 /// Everything of a session that a file holds.
 fn essence(session: &Session) -> impl PartialEq + std::fmt::Debug {
@@ -108,16 +108,27 @@ fn lines_write_open_and_play_files_without_touching_any() {
     assert!(matches!(other.effects.last(), Some(Effect::Write { replace: true, .. })));
     other.press(":figure<space>a.SVG<enter>");
     assert!(matches!(other.effects.last(), Some(Effect::Figure { replace: false, .. })));
+    // While it is written there is no other; what stops a scan stops it too.
+    other.press(":figure<space>b.svg<enter>");
+    assert!(matches!(other.effects.last(), Some(Effect::Figure { replace: false, .. })));
+    other.press("<esc> <esc>");
+    assert_eq!(other.effects.last(), Some(&Effect::StopWriting));
+    let stopped = Notice { error: false, text: "a.SVG not written: stopped".to_owned() };
+    other.give(Msg::Written(stopped.clone()));
+    assert_eq!(other.notice(), stopped.text);
+    other.press("<esc>");
     other.press(":figure<space>a.pdf<enter> <esc>");
-    assert!(matches!(other.effects.last(), Some(Effect::Figure { .. })), "and no other file");
+    assert_eq!(other.effects.last(), Some(&Effect::StopWriting), "and no other file");
     other.press("<A-f><enter>");
     let offered =
         Effect::Figure { path: "supercritical-2.svg".into(), plot: Some(1), replace: false };
     assert_eq!(other.effects.last(), Some(&offered));
+    other.give(Msg::Written(stopped.clone()));
     other.press("W <A-f> <backspace*3>png<enter>");
     let offered =
         Effect::Figure { path: "supercritical-3.png".into(), plot: Some(2), replace: false };
     assert_eq!(other.effects.last(), Some(&offered));
+    other.give(Msg::Written(stopped.clone()));
     other.press("Q :figure-pane!<space>a.csv<enter>");
     assert!(matches!(
         other.effects.last(),

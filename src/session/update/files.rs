@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{inform, refuse};
+use super::{inform, refuse, told};
 use super::{macros, prompt};
 use crate::session::line::letter;
 use crate::session::message::{Effect, Purpose};
@@ -38,10 +38,20 @@ pub(in crate::session) fn ask(path: &str, purpose: Purpose) -> Vec<Effect> {
 const FIGURES: [&str; 4] = ["svg", "png", "csv", "json"];
 
 /// Writes what one plot shows, or all of them.
-pub(in crate::session) fn figure(path: &str, plot: Option<usize>, replace: bool) -> Done {
+pub(in crate::session) fn figure(
+    session: &mut Session,
+    path: &str,
+    plot: Option<usize>,
+    replace: bool,
+) -> Done {
     let path = PathBuf::from(path);
     let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
     if FIGURES.iter().any(|known| known.eq_ignore_ascii_case(ending)) {
+        if let Some(other) = &session.writing {
+            let stops = told(session, "{drop-cursor} stops that");
+            return Err(format!("{} is still being written; {stops}", other.display()));
+        }
+        session.writing = Some(path.clone());
         Ok(vec![Effect::Figure { path, plot, replace }])
     } else {
         let given = path.display().to_string();

@@ -67,6 +67,10 @@ pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
             Vec::new()
         }
         Msg::Read { path, purpose, result } => files::read(session, &path, purpose, result),
+        Msg::Written(notice) => {
+            (session.writing, session.notice) = (None, Some(notice));
+            Vec::new()
+        }
         Msg::Told(notice) => {
             session.notice = Some(notice);
             Vec::new()

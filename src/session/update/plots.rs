@@ -80,6 +80,9 @@ pub fn point_at(session: &mut Session, point: Point) -> Vec<Effect> {
 
 /// Drops the cursor of the plot in focus.
 pub fn drop_cursor(session: &mut Session) -> Vec<Effect> {
+    if session.writing.is_some() {
+        return vec![Effect::StopWriting];
+    }
     if session.focuses_scan() {
         return super::scan::stop(session);
     }

@@ -1,0 +1,178 @@
+//! The clerk: computes and writes one figure at a time, on a thread of its own, so that a heavy one does
+//! not keep the keys waiting.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::{self, JoinHandle};
+
+use super::effects::Files;
+use super::panics::{self, Notes};
+use crate::flow::Limits;
+use crate::session::{Msg, Notice};
+
+/// Makes the content of a file, or says in one line why it cannot.
+pub type Work = Box<dyn FnOnce(&Limits) -> Result<Vec<u8>, String> + Send>;
+
+/// What the clerk calls when a file is written, or is not.
+pub type Report = Arc<dyn Fn(Msg) + Send + Sync>;
+
+/// The handle; dropping it stops what is being written and waits for its end, so that no file is left
+/// half done.
+pub struct Clerk {
+    report: Report,
+    notes: Notes,
+    task: Option<Task>,
+}
+
+/// A file that is being written.
+struct Task {
+    stop: Arc<AtomicBool>,
+    thread: JoinHandle<()>,
+}
+
+impl std::fmt::Debug for Clerk {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        out.debug_struct("Clerk").field("writing", &self.is_writing()).finish_non_exhaustive()
+    }
+}
+
+impl Clerk {
+    /// A clerk with nothing to do.
+    #[must_use]
+    pub fn new(report: Report, notes: Notes) -> Clerk {
+        Clerk { report, notes, task: None }
+    }
+
+    /// Begins to write a file; [`Msg::Written`] says how that ends.
+    ///
+    /// # Errors
+    /// One line: another file is being written, or the system gives no thread.
+    pub fn begin(&mut self, path: PathBuf, replace: bool, work: Work) -> Result<(), String> {
+        if self.is_writing() {
+            return Err(format!("{} not written: another file still is", path.display()));
+        }
+        let stop = Arc::new(AtomicBool::new(false));
+        let (theirs, report, notes) =
+            (Arc::clone(&stop), Arc::clone(&self.report), self.notes.clone());
+        let failed = format!("{} not written", path.display());
+        let writes = move || {
+            let stopped = || theirs.load(Ordering::Relaxed);
+            let limits = Limits { interrupted: &stopped, ..Limits::PATIENT };
+            let name = path.display();
+            let made = catch_unwind(AssertUnwindSafe(|| work(&limits)));
+            report(Msg::Written(match made {
+                _ if stopped() => {
+                    Notice { error: false, text: format!("{name} not written: stopped") }
+                }
+                Ok(Ok(content)) => Files::write(&path, &content, replace),
+                Ok(Err(text)) => Notice { error: true, text },
+                Err(panic) => {
+                    let why = notes.take().unwrap_or_else(|| panics::message(&*panic));
+                    Notice {
+                        error: true,
+                        text: format!("{name} not written: internal error: {why}"),
+                    }
+                }
+            }));
+        };
+        let thread = thread::Builder::new().name("clerk".to_owned()).spawn(writes);
+        let thread = thread.map_err(|why| format!("{failed}: {why}"))?;
+        self.task = Some(Task { stop, thread });
+        Ok(())
+    }
+
+    /// Stops what is being written, if anything; [`Msg::Written`] follows.
+    pub fn stop(&self) {
+        if let Some(task) = &self.task {
+            task.stop.store(true, Ordering::Relaxed);
+        }
+    }
+
+    /// Whether a file is being written.
+    #[must_use]
+    pub fn is_writing(&self) -> bool {
+        self.task.as_ref().is_some_and(|task| !task.thread.is_finished())
+    }
+}
+
+impl Drop for Clerk {
+    fn drop(&mut self) {
+        self.stop();
+        if let Some(task) = self.task.take() {
+            // It has reported whatever there was to report.
+            drop(task.thread.join());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crossbeam_channel::{Receiver, bounded, unbounded};
+
+    use super::*;
+
+    fn clerk() -> (Clerk, Receiver<Msg>) {
+        let (send, messages) = unbounded();
+        (Clerk::new(Arc::new(move |msg| drop(send.send(msg))), Notes::default()), messages)
+    }
+
+    fn notice(messages: &Receiver<Msg>) -> Notice {
+        match messages.recv().unwrap() {
+            Msg::Written(notice) => notice,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn what_is_made_is_written_and_told() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("figure.svg");
+        let (mut clerk, messages) = clerk();
+        clerk.begin(path.clone(), false, Box::new(|_| Ok(b"curves".to_vec()))).unwrap();
+        let told = notice(&messages);
+        assert!(!told.error && told.text.contains("written to"), "{told:?}");
+        assert_eq!(std::fs::read(&path).unwrap(), b"curves");
+        drop(clerk);
+
+        for (work, why) in [
+            (Box::new(|_: &Limits| Err("no curves".to_owned())) as Work, "no curves"),
+            (
+                Box::new(|_: &Limits| -> Result<Vec<u8>, String> { panic!("a defect") }),
+                "internal error: a defect",
+            ),
+        ] {
+            let (mut clerk, messages) = self::clerk();
+            clerk.begin(path.clone(), true, work).unwrap();
+            let told = notice(&messages);
+            assert!(told.error && told.text.contains(why), "{told:?}");
+        }
+        assert_eq!(std::fs::read(&path).unwrap(), b"curves", "left as it was");
+    }
+
+    #[test]
+    fn what_is_stopped_writes_nothing_and_one_file_is_written_at_a_time() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("figure.svg");
+        let (mut clerk, messages) = clerk();
+        let (start, started) = bounded(0);
+        let endless = move |limits: &Limits| {
+            start.send(()).unwrap();
+            while !(limits.interrupted)() {
+                thread::yield_now();
+            }
+            Ok(b"half of the curves".to_vec())
+        };
+        clerk.begin(path.clone(), false, Box::new(endless)).unwrap();
+        started.recv().unwrap();
+        assert!(clerk.is_writing());
+        let other = clerk.begin(folder.path().join("other.svg"), false, Box::new(|_| Ok(vec![])));
+        assert!(other.unwrap_err().contains("other.svg not written: another"));
+        clerk.stop();
+        let told = notice(&messages);
+        assert!(!told.error && told.text.contains("stopped"), "{told:?}");
+        drop(clerk);
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+}
