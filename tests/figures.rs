@@ -8,10 +8,11 @@ use std::fs;
 
 use hopfscope::export::figure::{Curve, Figure, Form, file};
 use hopfscope::flow::Limits;
-use hopfscope::runtime::print::complete;
+use hopfscope::runtime::print::{self, complete};
 use hopfscope::scene::answer::Fineness;
 use hopfscope::scene::library::{find, library};
-use hopfscope::session::{Session, Size};
+use hopfscope::scene::{Point, Span, Window};
+use hopfscope::session::{Framing, Session, Size};
 use program::run;
 use roxmltree::Document;
 use serde_json::Value;
@@ -182,6 +183,89 @@ fn no_chord_misses_its_curve_by_more_than_a_twentieth_of_a_pixel() {
             }
         }
     }
+}
+
+/// A hundred times closer, on a point of a curve of each kind: the chords are as near as before, because
+/// there are more of them, and only there.
+#[test]
+fn no_chord_misses_its_curve_after_zooming_either() {
+    let mut coarse = 0;
+    for (scene, panel, part) in [
+        ("supercritical", 0, 0.3),
+        ("supercritical", 1, 0.9),
+        ("fig07", 2, 0.4),
+        ("fig12", 0, 0.6),
+        ("fig13", 0, 0.3),
+        ("return-map", 1, 0.5),
+    ] {
+        let open = |fineness: Fineness| {
+            let scene = find(scene).expect("a scene");
+            let mut session = Session::new(scene, Size { width: 100, height: 30 });
+            complete(&mut session, fineness, &Limits::PATIENT).expect("an answer");
+            session
+        };
+        let mut session = open(Fineness::PRINT);
+        let whole = Figure::of(&session, [panel]);
+        // A point of the longest curve that is in the window.
+        let Window { x, y } = whole.panels[0].window;
+        let longest = whole.panels[0].curves.iter().max_by_key(|curve| curve.points.len()).unwrap();
+        let inside =
+            |[px, py]: &&[f64; 2]| whole.panels[0].window.contains(Point { x: *px, y: *py });
+        let seen: Vec<&[f64; 2]> = longest.points.iter().filter(inside).collect();
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            clippy::cast_precision_loss,
+            reason = "an index"
+        )]
+        let middle = *seen[(part * seen.len() as f64) as usize];
+        let around = |middle: f64, span: Span| {
+            Span::new(middle - 0.005 * span.width(), middle + 0.005 * span.width()).unwrap()
+        };
+        let window = Window { x: around(middle[0], x), y: around(middle[1], y) };
+        let look = |session: &mut Session| {
+            session.plots[panel].window = window;
+            session.plots[panel].framing = Framing::User;
+        };
+        look(&mut session);
+        complete(&mut session, Fineness::PRINT, &Limits::PATIENT).expect("an answer");
+        coarse += usize::from(Figure::of(&session, [panel]).panels[0].chord() > FAINT);
+        let shown = print::figure(&mut session, &[panel], &Limits::PATIENT);
+        let mut truth = open(Fineness::PRINT.finer(40));
+        look(&mut truth);
+        complete(&mut truth, Fineness::PRINT.finer(40), &Limits::PATIENT).expect("an answer");
+        let truth = Figure::of(&truth, [panel]);
+        let mut looked = 0;
+        for (curve, finer) in shown.panels[0].curves.iter().zip(&truth.panels[0].curves) {
+            assert_eq!(curve.name, finer.name);
+            let near = |points: &[[f64; 2]]| -> Vec<(f64, f64)> {
+                let paper = |[x, y]: &[f64; 2]| {
+                    (PANEL.0 * window.x.fraction(*x), PANEL.1 * window.y.fraction(*y))
+                };
+                points.iter().map(paper).filter(|(x, y)| x.hypot(*y) < 4000.0).collect()
+            };
+            let (line, dense) = (near(&curve.points), near(&finer.points));
+            for point in dense
+                .iter()
+                .filter(|(x, y)| (0.0..=PANEL.0).contains(x) && (0.0..=PANEL.1).contains(y))
+            {
+                let missed = aside(*point, &line, 0);
+                assert!(missed < FAINT, "{scene}, {}, {point:?}: {missed} px", curve.name);
+                looked += 1;
+            }
+        }
+        assert!(looked > 3, "{scene}: nothing to see");
+        let points = |figure: &Figure| {
+            figure.panels[0].curves.iter().map(|curve| curve.points.len()).sum::<usize>()
+        };
+        assert!(
+            points(&shown) < 4 * points(&whole),
+            "{scene}: {} of {}",
+            points(&shown),
+            points(&whole)
+        );
+    }
+    assert!(coarse > 2, "with the usual points {coarse} would show");
 }
 
 /// The fold of the cycles for D2 = 0 over kappa = r^2 D3, from reference computations.

@@ -7,10 +7,10 @@ use clap::{Args, ValueEnum};
 use super::failure::Failure;
 use super::output::{print, write};
 use super::start::Start;
-use crate::export::figure::{self, Figure as Drawn, Form};
+use crate::export::figure::{self as forms, Form};
 use crate::export::screen;
 use crate::flow::Limits;
-use crate::runtime::print::complete;
+use crate::runtime::print::{complete, figure};
 use crate::scene::answer::Fineness;
 use crate::scene::library::library;
 use crate::session::{Session, Size};
@@ -70,16 +70,17 @@ impl Figure {
         complete(&mut session, Fineness::PRINT, &Limits::PATIENT).map_err(|(slot, reason)| {
             Failure::Unanswered(format!("{} not computed: {reason}", slot.name()))
         })?;
-        let drawn = || Drawn::of(&session, 0..session.plots.len());
+        let plots: Vec<usize> = (0..session.plots.len()).collect();
+        let mut drawn = || figure(&mut session, &plots, &Limits::PATIENT);
         if let Some((path, form)) = &self.output {
-            let content = figure::file(&drawn(), *form).map_err(Failure::Unanswered)?;
+            let content = forms::file(&drawn(), *form).map_err(Failure::Unanswered)?;
             return write(path, &content, self.force);
         }
         print(&match self.format {
             Printed::Text => in_letters(&session),
-            Printed::Json => figure::json(&drawn()),
-            Printed::Csv => figure::csv(&drawn()),
-            Printed::Svg => figure::svg(&drawn()),
+            Printed::Json => forms::json(&drawn()),
+            Printed::Csv => forms::csv(&drawn()),
+            Printed::Svg => forms::svg(&drawn()),
         })
     }
 }

@@ -13,7 +13,7 @@ use super::launch::{Ended, Options, launch};
 use super::machine::Machine;
 use super::worker::Tell;
 use super::{print, scanning};
-use crate::export::figure::{self, Figure, Form};
+use crate::export::figure::{self, Form};
 use crate::flow::{Limits, Reason};
 use crate::scene::{Answer, Request, answer as scene_answer};
 use crate::session::replay::Script;
@@ -81,7 +81,8 @@ impl Machine for Explorer {
                 Some(plot) => vec![plot],
                 None => session.on_show().collect(),
             };
-            figure::file(&Figure::of(&session, plots), form)
+            let limits = Limits { evaluations: print::MOST, ..*limits };
+            figure::file(&print::figure(&mut session, &plots, &limits), form)
         }))
     }
 

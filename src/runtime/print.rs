@@ -1,5 +1,6 @@
 //! Sessions computed for print: with as many points on their curves as paper can show.
 
+use crate::export::figure::{FAINT, Figure};
 use crate::flow::{Limits, Reason};
 use crate::scene::answer::{Fineness, answer_for};
 use crate::scene::{Answered, Request, Slot};
@@ -22,19 +23,62 @@ pub fn complete(
     }
 }
 
+/// Evaluations that a question may take in the explorer: a second or two.
+pub const MOST: u64 = 40_000_000;
+
 /// Computes what is on show in the explorer once more, for print. What would keep the user waiting stays
 /// as it is on the screen.
 pub fn refine(session: &mut Session, limits: &Limits) {
-    /// Evaluations that a question may take: a second or two.
-    const MOST: u64 = 40_000_000;
     let limits = Limits { evaluations: limits.evaluations.min(MOST), ..*limits };
-    let drawn = |request: &Request| {
-        !matches!(request.slot(), Slot::Scan | Slot::Trade | Slot::Reference | Slot::Claims)
-    };
-    for request in session.wants().into_iter().filter(drawn) {
+    for request in session.wants().into_iter().filter(|request| is_drawn(request.slot())) {
         // Without a finer answer there is that of the screen.
         let _ = ask(session, request, Fineness::PRINT, &limits);
     }
+}
+
+/// What these plots show as a figure whose chords miss their curves by nothing that is seen, however
+/// closely one looks: where they would, curves are computed with more points.
+pub fn figure(session: &mut Session, plots: &[usize], limits: &Limits) -> Figure {
+    /// More points than usual at most: enough to look a thousand times more closely.
+    const MOST: f64 = 48.0;
+    /// The estimate of a chord's error is one.
+    const MARGIN: f64 = 1.2;
+    /// How often that is tried.
+    const ROUNDS: usize = 3;
+    let mut figure = Figure::of(session, plots.iter().copied());
+    let mut times = vec![1; plots.len()];
+    for _ in 0..ROUNDS {
+        let mut finer = false;
+        for ((plot, panel), times) in plots.iter().zip(&figure.panels).zip(&mut times) {
+            let missed = panel.chord();
+            if missed <= FAINT / MARGIN {
+                continue;
+            }
+            // The error of a chord is that of the square of its length.
+            let wanted = (f64::from(*times) * (MARGIN * MARGIN * missed / FAINT).sqrt()).ceil();
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "up to 48")]
+            let wanted = wanted.min(MOST) as u16;
+            if wanted > *times {
+                *times = wanted;
+                finer = true;
+                let asked = session.needs(*plot).into_iter().filter(|slot| is_drawn(*slot));
+                let asked = asked.filter_map(|slot| session.request(slot, *plot));
+                for request in asked.collect::<Vec<_>>() {
+                    let _ = ask(session, request, Fineness::PRINT.finer(wanted), limits);
+                }
+            }
+        }
+        if !finer || (limits.interrupted)() {
+            break;
+        }
+        figure = Figure::of(session, plots.iter().copied());
+    }
+    figure.thinned(times.into_iter().max().map_or(1, usize::from))
+}
+
+/// Whether an answer has curves.
+fn is_drawn(slot: Slot) -> bool {
+    !matches!(slot, Slot::Scan | Slot::Trade | Slot::Reference | Slot::Claims)
 }
 
 fn ask(

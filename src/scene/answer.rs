@@ -101,7 +101,7 @@ pub struct Fineness {
     /// On each integration step of a trajectory.
     samples_per_step: usize,
     /// On each integration step of a cycle or a border.
-    points_per_step: u8,
+    points_per_step: u16,
     /// On the curve of a harmonic answer.
     harmonic: usize,
     /// On a piece of a branch.
@@ -134,16 +134,16 @@ impl Fineness {
         chord: 1e-4,
     };
 
-    /// More points on each curve, to measure what others leave out.
+    /// More points on each curve, to look at it more closely.
     #[must_use]
-    pub fn finer(self, times: u8) -> Fineness {
+    pub fn finer(self, times: u16) -> Fineness {
         let several = usize::from(times);
         Fineness {
             samples_per_step: self.samples_per_step * several,
             points_per_step: self.points_per_step.saturating_mul(times),
             harmonic: self.harmonic * several,
             branch: self.branch * several,
-            map: self.map.saturating_mul(u16::from(times)),
+            map: self.map.saturating_mul(times),
             chord: self.chord / f64::from(times),
         }
     }

@@ -160,10 +160,10 @@ impl Arc {
 
     /// Points along the arc in the order of time, `count` on each integration step.
     #[must_use]
-    pub fn points(&self, count: u8) -> Vec<State> {
+    pub fn points(&self, count: u16) -> Vec<State> {
         let mut points = Vec::new();
         for piece in &self.pieces {
-            let first = u8::from(!points.is_empty());
+            let first = u16::from(!points.is_empty());
             for index in first..=count {
                 let point = piece.step.at(piece.duration * f64::from(index) / f64::from(count));
                 let x = self.sense * times_power(point.x, piece.unit);

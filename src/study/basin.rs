@@ -42,7 +42,7 @@ impl Border {
     /// The border as a polyline in the order of time, `count` points on each integration step, beginning
     /// with the arc that comes first; a cycle is closed by its first point.
     #[must_use]
-    pub fn curve(&self, count: u8) -> Vec<State> {
+    pub fn curve(&self, count: u16) -> Vec<State> {
         // Of a separatrix the arc that leaves for infinity comes last.
         let upper_first = self.upper.swing.is_err() || !self.upper.is_backward();
         let arcs =

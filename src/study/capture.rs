@@ -96,7 +96,7 @@ impl Bands {
 
     /// The borders as polylines in the order of time, `count` points on each integration step.
     #[must_use]
-    pub fn curves(&self, count: u8) -> Vec<Vec<State>> {
+    pub fn curves(&self, count: u16) -> Vec<Vec<State>> {
         self.upper.iter().chain(&self.lower).map(|arc| arc.points(count)).collect()
     }
 }

@@ -89,7 +89,7 @@ pub struct Cycles {
 }
 
 /// Points drawn on each integration step of a curve.
-const CURVE_POINTS: u8 = 12;
+const CURVE_POINTS: u16 = 12;
 
 /// How far a separatrix is followed for a picture, in units of `1/abs(D2)`.
 const PICTURE_REACH: f64 = 20.0;
@@ -111,13 +111,13 @@ pub fn cycles(parameters: &Parameters, curves: bool, limits: &Limits) -> Result<
 /// The [`Reason`] why the search could not be completed.
 pub fn cycles_drawn(
     parameters: &Parameters,
-    points: u8,
+    points: u16,
     limits: &Limits,
 ) -> Result<Cycles, Reason> {
     found(parameters, Some(points), limits)
 }
 
-fn found(parameters: &Parameters, points: Option<u8>, limits: &Limits) -> Result<Cycles, Reason> {
+fn found(parameters: &Parameters, points: Option<u16>, limits: &Limits) -> Result<Cycles, Reason> {
     if let Some((lifted, unit)) = lifted(parameters) {
         return Ok(found(&lifted, points, limits)?.times_power(-unit));
     }
@@ -144,7 +144,7 @@ fn found(parameters: &Parameters, points: Option<u8>, limits: &Limits) -> Result
 }
 
 impl Picture {
-    fn of(basin: &Basin, points: u8) -> Self {
+    fn of(basin: &Basin, points: u16) -> Self {
         let mut curves: Vec<Vec<State>> =
             basin.borders.iter().map(|border| border.curve(points)).collect();
         let works = basin.borders.iter().skip(usize::from(basin.edge == Edge::Separatrix));

@@ -6,6 +6,7 @@
 //! to whole pixels and have no dashed curves, and a picture of lines and letters needs neither. The PNG is
 //! that SVG, painted.
 
+mod chord;
 mod data;
 mod filled;
 mod layout;
@@ -16,6 +17,7 @@ mod region;
 mod sample;
 mod svg;
 
+pub use chord::FAINT;
 pub use data::{csv, json};
 pub use svg::svg;
 

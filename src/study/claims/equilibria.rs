@@ -256,7 +256,7 @@ fn circle(parameters: &Parameters) -> f64 {
 /// Distance of the border of the basin from the origin.
 pub(super) fn least_kick(parameters: &Parameters, limits: &Limits) -> Result<Known, Reason> {
     /// Points on each step of the border, and the relative error of a distance between them.
-    const POINTS: (u8, f64) = (200, 1e-5);
+    const POINTS: (u16, f64) = (200, 1e-5);
     let basin = basin(parameters, 10.0, limits)?;
     let border = basin.borders.first().map(|border| border.curve(POINTS.0)).unwrap_or_default();
     let least = border.iter().map(|point| point.q.hypot(point.v)).fold(f64::INFINITY, f64::min);
