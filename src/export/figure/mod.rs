@@ -6,6 +6,7 @@
 //! to whole pixels and have no dashed curves, and a picture of lines and letters needs neither. The PNG is
 //! that SVG, painted.
 
+mod captions;
 mod chord;
 mod data;
 mod filled;
@@ -133,13 +134,26 @@ pub struct Panel {
     pub window: Window,
     /// Texts beside points.
     #[serde(skip)]
-    pub captions: Vec<(Point, String, Role)>,
+    pub captions: Vec<Caption>,
     /// Lines to be read against.
     #[serde(skip)]
     pub guides: Vec<Vec<Point>>,
     /// Directions: where, and which way in the world.
     #[serde(skip)]
     pub arrows: Vec<(Point, Point)>,
+}
+
+/// A text beside a point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Caption {
+    /// The point.
+    pub at: Point,
+    /// Points beside which it says the same.
+    pub or_at: Vec<Point>,
+    /// What it says.
+    pub text: String,
+    /// What it stands for.
+    pub role: Role,
 }
 
 /// An axis: its name, and the values at its ends.

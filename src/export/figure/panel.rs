@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Area, Axis, Curve, Mark, Panel, filled, sample};
+use super::{Area, Axis, Caption, Curve, Mark, Panel, filled, sample};
 use crate::oscillator::Symbol;
 use crate::scene::{Point, View, Window};
 use crate::session::{Plot, Session, Shown};
@@ -125,9 +125,12 @@ impl Panel {
                     self.mark(*mark, *at, *role);
                 }
             }
-            Item::Caption { at, long, role, .. } => {
-                self.captions.push((*at, long.to_string(), *role));
-            }
+            Item::Caption { at, or_at, long, role, .. } => self.captions.push(Caption {
+                at: *at,
+                or_at: or_at.clone(),
+                text: long.to_string(),
+                role: *role,
+            }),
             Item::Texture(at) => {
                 for (fill, corners) in filled::polygons(at, self.window) {
                     self.area(fill.name, fill.role, &corners);

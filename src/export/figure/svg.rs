@@ -6,14 +6,14 @@ use super::data::remarks;
 use super::layout::{self, ENTRY, Frame, HEAD, MARGIN, PLOT};
 use super::panel::common;
 use super::region::loops;
-use super::{Area, Curve, Figure, Mark, Panel};
+use super::{Area, Curve, Figure, Mark, Panel, captions};
 use crate::scene::Point;
 use crate::view::look::Role;
 use crate::view::picture;
 use crate::view::ticks::Ticks;
 
 /// Width and colour of the lines of a role, on white paper.
-fn ink(role: Role) -> (f64, &'static str) {
+pub(super) fn ink(role: Role) -> (f64, &'static str) {
     match role {
         Role::Stable | Role::Map => (1.6, "#0b6e3a"),
         Role::Unstable => (1.6, "#b3261e"),
@@ -107,7 +107,7 @@ fn draw(out: &mut String, number: u32, panel: &Panel, frame: Frame) {
     }
     out.push_str("</g>\n");
     axes(out, panel, frame);
-    captions(out, panel, frame);
+    captions::write(out, panel, frame);
 }
 
 /// A polyline, run by run between points that are not finite.
@@ -277,47 +277,6 @@ fn axes(out: &mut String, panel: &Panel, frame: Frame) {
     let _ = writeln!(out, "<path d=\"{notches}\" stroke=\"#222222\" stroke-width=\"0.8\"/>");
 }
 
-/// Texts beside their points, inside of the plot, below others that stand there already.
-fn captions(out: &mut String, panel: &Panel, frame: Frame) {
-    /// Width of a letter and height of a line, in pixels.
-    const LETTER: f64 = 5.6;
-    const LINE: f64 = 12.0;
-    let mut taken: Vec<(f64, f64, f64)> = Vec::new();
-    for (at, caption, role) in &panel.captions {
-        if !frame.window.contains(*at) {
-            continue;
-        }
-        let (x, y) = frame.spot(*at);
-        let length = LETTER * f64::from(u32::try_from(caption.chars().count()).unwrap_or(0));
-        let right = frame.left + PLOT.0;
-        let start = if x + 6.0 + length > right { x - 6.0 - length } else { x + 6.0 };
-        let top = frame.top + LINE;
-        let bottom = frame.top + PLOT.1 - 4.0;
-        let clear = |y: f64| {
-            taken.iter().all(|(from, to, line)| {
-                start > *to || start + length < *from || (y - line).abs() >= LINE
-            })
-        };
-        let rows = (0..16).map(|row| f64::from(row) * LINE);
-        let mut places =
-            rows.flat_map(|by| [y - 4.0 + by, y - 4.0 - by]).filter(|y| (top..=bottom).contains(y));
-        let line = places.find(|y| clear(*y)).unwrap_or((y - 4.0).clamp(top, bottom));
-        taken.push((start, start + length, line));
-        let (_, color) = ink(*role);
-        let caption = escaped(caption);
-        // First its halo, so that what understands no order of painting shows the letters too.
-        for paint in [
-            "fill=\"none\" stroke=\"#ffffff\" stroke-width=\"2.5\"".to_owned(),
-            format!("fill=\"{color}\""),
-        ] {
-            let _ = writeln!(
-                out,
-                "<text x=\"{start:.2}\" y=\"{line:.2}\" font-size=\"10.5\" {paint}>{caption}</text>"
-            );
-        }
-    }
-}
-
 /// What the legend explains.
 #[derive(Clone, PartialEq)]
 enum Entry {
@@ -373,6 +332,6 @@ fn sample(out: &mut String, entry: &Entry, (x, y): (f64, f64)) {
 }
 
 /// A text in which nothing is markup.
-fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
