@@ -113,3 +113,26 @@ fn the_tour_goes_on_by_any_key_and_is_left_by_escape() {
     assert!(!terminal.text().contains("leave the tour"));
     leave(terminal);
 }
+
+#[test]
+fn a_key_writes_the_plot_in_use_as_a_figure_and_replaces_none() {
+    let memory = tempfile::tempdir().unwrap();
+    let file = memory.path().join("pane.svg");
+    let mut terminal = explorer(&["linear"], memory.path());
+    let press = |terminal: &mut Terminal| {
+        terminal.types("\x1bf");
+        terminal.wait_for("figure-pane linear-1.svg");
+        terminal.types(&format!("\x15figure-pane {}\r", file.display()));
+    };
+    press(&mut terminal);
+    terminal.wait_for("written to");
+    let written = fs::read_to_string(&file).unwrap();
+    let picture = roxmltree::Document::parse(&written).unwrap();
+    assert_eq!(picture.root_element().tag_name().name(), "svg");
+    let panels = picture.descendants().filter(|node| node.has_tag_name("clipPath")).count();
+    assert_eq!(panels, 1, "the pane in use, not all");
+    press(&mut terminal);
+    terminal.wait_for("is there already; with ! behind the command it is replaced");
+    assert_eq!(fs::read_to_string(&file).unwrap(), written);
+    leave(terminal);
+}

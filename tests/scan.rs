@@ -290,3 +290,31 @@ fn the_line_for_slurm_makes_the_whole() {
     }
     assert_eq!(parts, readme_scan());
 }
+
+#[test]
+fn a_file_that_holds_something_is_gone_on_with_or_begun_anew_only_when_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("rows.csv");
+    let name = path.to_str().unwrap();
+    let own =
+        |more: &str| scan(&format!("--over D=-0.5:-0.1:3 --measure margin --output {name} {more}"));
+    assert_eq!(own("").code, 0);
+    let whole = fs::read_to_string(&path).unwrap();
+    let ran = own("");
+    assert_eq!((ran.code, ran.err.lines().count()), (2, 1), "{}", ran.err);
+    assert!(ran.err.contains(name) && ran.err.contains("--force begins anew"), "{}", ran.err);
+    // To go on and to begin anew exclude each other.
+    let ran = own("--resume --force");
+    assert_eq!((ran.code, ran.err.lines().count()), (2, 1), "{}", ran.err);
+    assert!(ran.err.contains("--force") && ran.err.contains("--resume"), "{}", ran.err);
+    // Nor does --force mean anything without a file.
+    assert_eq!(scan("--over D=-0.5:-0.1:3 --measure margin --force").code, 2);
+    assert_eq!(fs::read_to_string(&path).unwrap(), whole);
+    // Another file under this name is no scan to go on with; --force begins one in its place.
+    fs::write(&path, "mine\n").unwrap();
+    let ran = own("--resume");
+    assert_eq!((ran.code, ran.err.lines().count()), (2, 1), "{}", ran.err);
+    assert_eq!(fs::read_to_string(&path).unwrap(), "mine\n");
+    assert_eq!(own("--force").code, 0);
+    assert_eq!(fs::read_to_string(&path).unwrap(), whole);
+}

@@ -89,7 +89,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         y: Span::new(middle(lines.len()), 0.0).unwrap_or(Span::known(-1.0, 0.0)),
         ..session.plots[index].window
     };
-    let mut picture = Picture::new(spec.title, "part of the largest work", "line", window);
+    let mut picture = Picture::new(spec.title, "part of the largest work", "", window);
     picture.upright(Line::guide(), 0.0);
     for (line, entry) in lines.iter().enumerate() {
         let from = Point { x: 0.0, y: middle(line) };

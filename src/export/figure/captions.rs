@@ -141,7 +141,10 @@ fn around((x, y): Spot, width: f64) -> impl Iterator<Item = Place> {
 /// The places of all texts of a panel, those that need none left out.
 fn places<'a>(panel: &'a Panel, frame: Frame) -> Vec<(&'a Caption, Place)> {
     /// Harm of the next point of a curve, and of the next place around a point.
-    const LESS_GOOD: (f64, f64) = (0.05, 0.2);
+    const LESS_GOOD: (f64, f64) = (0.05, 0.1);
+    /// Harm of a pixel further away from a point than needed: what names a curve may be anywhere beside
+    /// it, what names a point stands there.
+    const FAR: (f64, f64) = (0.3, 1.0);
     let surroundings = Surroundings::of(panel, frame);
     let mut placed: Vec<(&'a Caption, Place)> = Vec::new();
     let mut taken: Vec<Place> = Vec::new();
@@ -159,6 +162,7 @@ fn places<'a>(panel: &'a Panel, frame: Frame) -> Vec<(&'a Caption, Place)> {
                 && place.top >= frame.top + 2.0
                 && place.top + LINE <= frame.top + PLOT.1 - 2.0
         };
+        let far = if caption.or_at.is_empty() { FAR.1 } else { FAR.0 };
         let mut best: Option<(f64, Place)> = None;
         let spots = std::iter::once(&caption.at).chain(&caption.or_at);
         let mut later = 0.0;
@@ -166,7 +170,8 @@ fn places<'a>(panel: &'a Panel, frame: Frame) -> Vec<(&'a Caption, Place)> {
             let mut harm = later;
             for place in around(spot, width) {
                 if inside(&place) && best.is_none_or(|(least, _)| harm < least) {
-                    let harm = harm + surroundings.harm(&place, spot, &taken);
+                    let away = (place.distance(spot) - GAP).max(0.0) * far;
+                    let harm = harm + away + surroundings.harm(&place, spot, &taken);
                     if best.is_none_or(|(least, _)| harm < least) {
                         best = Some((harm, place));
                     }

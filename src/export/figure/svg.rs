@@ -247,7 +247,11 @@ fn axes(out: &mut String, panel: &Panel, frame: Frame) {
         );
     };
     let rightward = Ticks::fitting(window.x, |ticks| ticks.len() <= 7);
-    let upward = Ticks::fitting(window.y, |ticks| ticks.len() <= 7);
+    let mut upward = Ticks::fitting(window.y, |ticks| ticks.len() <= 7);
+    if panel.y.name.is_empty() {
+        // What has no name is no quantity: a place on paper, the number of a line.
+        upward.ticks.clear();
+    }
     let based = |name: &str, base: Option<&String>| {
         base.map_or_else(|| name.to_owned(), |base| format!("{name} - {base}"))
     };
