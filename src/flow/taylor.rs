@@ -17,11 +17,8 @@ use crate::oscillator::HalfPlane;
 /// Highest order.
 const MOST: usize = 28;
 
-/// Length of a coefficient array: a multiple of the block length beyond `MOST + 1`.
+/// Length of a coefficient array, beyond `MOST + 1`.
 const LENGTH: usize = 32;
-
-/// Coefficients summed at a time; zeros fill the last block.
-const BLOCK: usize = 4;
 
 /// The last term of a step is kept this much below the tolerance, so that the error of some dozens of
 /// steps together still stays near it.
@@ -32,8 +29,17 @@ const TAIL: usize = 4;
 
 /// Order for each tolerance: the smallest bound not below the tolerance decides. The orders minimise
 /// the measured time of the benchmark `flow` at these tolerances.
-const ORDERS: [(f64, usize); 6] =
-    [(1e-4, 8), (1e-7, 12), (1e-10, 16), (1e-13, 20), (1e-15, 24), (0.0, 26)];
+const ORDERS: [(f64, usize); 9] = [
+    (1e-2, 8),
+    (1e-3, 10),
+    (1e-5, 12),
+    (1e-6, 14),
+    (1e-7, 16),
+    (1e-9, 18),
+    (1e-10, 20),
+    (1e-14, 24),
+    (0.0, 26),
+];
 
 /// The stepper.
 #[derive(Clone, Debug)]
@@ -47,6 +53,7 @@ pub struct Taylor {
     v: [f64; LENGTH],
     /// Coefficients of the integral of `v^2`; only kept up where the field is not linear.
     square_integral: [f64; LENGTH],
+    inner: Inner,
     time_exponent: i32,
     /// Unit of time for the next step, near the length of the last one.
     next_time_exponent: i32,
@@ -87,6 +94,7 @@ impl Taylor {
             x: [0.0; LENGTH],
             v: [0.0; LENGTH],
             square_integral: [0.0; LENGTH],
+            inner: Inner::EMPTY,
             time_exponent: 0,
             next_time_exponent: 0,
             duration: 0.0,
@@ -107,41 +115,55 @@ impl Taylor {
     /// Fills the coefficient arrays at a point.
     ///
     /// With `force = D2 v + D3 v^2`, coefficient k of the damping is a sum over products of earlier
-    /// coefficients. The first and the newest coefficient are kept in registers and multiplied by
-    /// themselves; the sums in between run over memory written at least one round ago, in blocks.
+    /// coefficients. The newest two enter it linearly and are kept in registers, so that each waits only
+    /// for one product of the one before it; the sums over the others run over memory written at least
+    /// two rounds ago.
     fn expand(&mut self, from: Point) {
         let HalfPlane { d, d2, d3 } = self.field;
         let unit = times_power(1.0, self.time_exponent);
-        let order = self.order;
-        let nonlinear = !self.field.is_linear();
-        // Element i - 1 holds coefficient i; `reversed[LENGTH - i]` holds coefficient i of v, so that
-        // both factors of a product are read forwards.
-        let mut v = [0.0; LENGTH];
-        let mut force = [0.0; LENGTH];
-        let mut reversed = [0.0; 2 * LENGTH];
-        let first_force = from.v * (d2 + d3 * from.v);
-        let mut newest = unit * (-from.x - from.v * (2.0 * d + first_force));
-        (self.x[0], self.x[1]) = (from.x, unit * from.v);
-        (self.v[0], self.v[1]) = (from.v, newest);
-        self.square_integral[1] = unit * from.v * from.v;
-        for k in 1..order {
-            let factor = unit * INVERSE[k + 1];
-            let mut acceleration = -self.x[k] - 2.0 * d * newest;
-            if nonlinear {
-                let (square, product) = inner_sums(&v, &force, &reversed, k);
-                let square = 2.0 * from.v * newest + square;
-                let newest_force = d2 * newest + d3 * square;
-                acceleration -= first_force * newest + (newest_force * from.v + product);
-                force[k - 1] = newest_force;
-                v[k - 1] = newest;
-                reversed[LENGTH - k] = newest;
-                self.square_integral[k + 1] = square * factor;
+        let order = self.order.min(MOST);
+        self.evaluations += order as u64;
+        let v0 = from.v;
+        let force0 = v0 * (d2 + d3 * v0);
+        let v1 = unit * (-from.x - v0 * (2.0 * d + force0));
+        (self.x[0], self.x[1]) = (from.x, unit * v0);
+        (self.v[0], self.v[1]) = (v0, v1);
+        let mut newest = v1;
+        if self.field.is_linear() {
+            for k in 1..order {
+                let factor = unit * INVERSE[k + 1];
+                let acceleration = -self.x[k] - 2.0 * d * newest;
+                self.x[k + 1] = newest * factor;
+                newest = acceleration * factor;
+                self.v[k + 1] = newest;
             }
+            return;
+        }
+        // With 0 < i < k in `square_k = sum of v_i v_(k-i)`, coefficient k of v^2 is
+        // `2 v0 v_k + square_k`, that of the force `slope v_k + d3 square_k`, and the damping holds
+        // `damping v_k + neighbour v_(k-1)` beside what only earlier coefficients have a part in.
+        let slope = d2 + 2.0 * d3 * v0;
+        let damping = 2.0 * d + force0 + v0 * slope;
+        let (cubic, cubic1) = (d3 * v0, d3 * v1);
+        let neighbour = 2.0 * v1 * (slope + cubic);
+        self.square_integral[1] = unit * v0 * v0;
+        let (mut before, mut force_before, mut square_before) = (0.0, 0.0, 0.0);
+        for k in 1..order {
+            let (inner, product) = if k < 4 { (0.0, 0.0) } else { self.inner.sums(k) };
+            let earlier = cubic * inner + (cubic1 * square_before + product);
+            // In `square_2` and its product v1 meets itself, once instead of twice.
+            let next = if k == 2 { 0.5 * before } else { before };
+            let acceleration = -(self.x[k] + (neighbour * next + earlier)) - damping * newest;
+            let square = 2.0 * v1 * next + inner;
+            let force = slope * newest + d3 * square;
+            self.inner.keep(k, [before, newest], [force_before, force]);
+            let factor = unit * INVERSE[k + 1];
+            self.square_integral[k + 1] = (2.0 * v0 * newest + square) * factor;
             self.x[k + 1] = newest * factor;
+            (before, force_before, square_before) = (newest, force, square);
             newest = acceleration * factor;
             self.v[k + 1] = newest;
         }
-        self.evaluations += order as u64;
     }
 
     /// The step length for this tolerance, or `None` where coefficients overflowed.
@@ -173,12 +195,19 @@ impl Taylor {
 
     /// First root of v in `(0, end]`, in units of the coefficients, given `v(end) <= 0`.
     ///
-    /// Newton's method on the polynomial, kept inside a bracket that shrinks by bisection wherever a
-    /// Newton step leaves it. `v > 0` just after 0 is known (from the side entered), whatever `v(0)` is.
-    fn root(&self, end: f64) -> f64 {
+    /// Newton's method on the polynomial, from the root of the parabola through both ends with the slope
+    /// of the first, kept inside a bracket that shrinks by bisection wherever a Newton step leaves it.
+    /// `v > 0` just after 0 is known (from the side entered), whatever `v(0)` is.
+    fn root(&self, end: f64, v_end: f64) -> f64 {
         /// A Newton step of this relative length leaves an error below rounding: it is squared.
         const SETTLED: f64 = 1e-9;
-        let (mut low, mut high, mut t) = (0.0, end, end);
+        let (v, slope) = (self.v[0], self.v[1]);
+        let bend = ((v_end - v) / end - slope) / end;
+        let spread = (slope * slope - 4.0 * bend * v).sqrt();
+        let guess =
+            if slope > 0.0 { (slope + spread) / (-2.0 * bend) } else { 2.0 * v / (spread - slope) };
+        let (mut low, mut high) = (0.0, end);
+        let mut t = if guess > 0.0 && guess < end { guess } else { end };
         for _ in 0..200 {
             let (value, slope) = value_and_slope(&self.v[..=self.order], t);
             let newton = t - value / slope;
@@ -240,26 +269,45 @@ impl Taylor {
     }
 }
 
-/// The sums over `0 < i < k` of `v_i v_(k-i)` and of `force_i v_(k-i)`.
-fn inner_sums(
-    v: &[f64; LENGTH],
-    force: &[f64; LENGTH],
-    reversed: &[f64; 2 * LENGTH],
-    k: usize,
-) -> (f64, f64) {
-    let blocks = (k + BLOCK - 2) / BLOCK;
-    let partner = &reversed[LENGTH + 1 - k..];
-    let mut squares = [0.0; BLOCK];
-    let mut products = [0.0; BLOCK];
-    let rows = v.chunks_exact(BLOCK).zip(force.chunks_exact(BLOCK));
-    for ((v, force), partner) in rows.zip(partner.chunks_exact(BLOCK)).take(blocks) {
-        for lane in 0..BLOCK {
-            squares[lane] += v[lane] * partner[lane];
-            products[lane] += force[lane] * partner[lane];
-        }
+/// The coefficients from the second on, laid out for sums of products whose indices add up to k.
+///
+/// Each is kept in pairs with its neighbours, which are read as they were written: a processor hands on
+/// at once what it has just stored, but not when it is read together with something else.
+#[derive(Clone, Debug)]
+struct Inner {
+    /// Element i holds coefficients i and i + 1 of v, and of the force.
+    v: [Pair; LENGTH],
+    force: [Pair; LENGTH],
+    /// Element i holds coefficients i and i - 1 of v; a zero ends a sum in place of coefficient 1.
+    reversed: [Pair; LENGTH],
+}
+
+/// Two coefficients.
+type Pair = [f64; 2];
+
+impl Inner {
+    const EMPTY: Inner =
+        Inner { v: [[0.0; 2]; LENGTH], force: [[0.0; 2]; LENGTH], reversed: [[0.0; 2]; LENGTH] };
+
+    /// Keeps coefficients `k - 1` and k.
+    fn keep(&mut self, k: usize, v: Pair, force: Pair) {
+        (self.v[k - 1], self.force[k - 1]) = (v, force);
+        self.reversed[k] = [v[1], if k > 2 { v[0] } else { 0.0 }];
     }
-    let sum = |lanes: [f64; BLOCK]| (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
-    (sum(squares), sum(products))
+
+    /// The sums over `2 <= i <= k - 2` of `v_i v_(k-i)` and of `force_i v_(k-i)`.
+    fn sums(&self, k: usize) -> (f64, f64) {
+        let pairs = (k - 2) / 2;
+        let (mut squares, mut products) = ([0.0; 2], [0.0; 2]);
+        for pair in 0..pairs {
+            let (i, partner) = (2 + 2 * pair, self.reversed[k - 2 - 2 * pair]);
+            for lane in 0..2 {
+                squares[lane] += self.v[i][lane] * partner[lane];
+                products[lane] += self.force[i][lane] * partner[lane];
+            }
+        }
+        (squares[0] + squares[1], products[0] + products[1])
+    }
 }
 
 /// A polynomial by Horner's rule in even and odd powers, two chains of half the length.
@@ -277,14 +325,22 @@ fn value(coefficients: &[f64], t: f64) -> f64 {
     even + t * odd
 }
 
-/// A polynomial and its derivative by Horner's rule.
+/// A polynomial and its derivative by Horner's rule, the even and the odd powers by themselves.
 fn value_and_slope(coefficients: &[f64], t: f64) -> (f64, f64) {
-    let (mut value, mut slope) = (0.0, 0.0);
-    for &coefficient in coefficients.iter().rev() {
-        slope = slope * t + value;
-        value = value * t + coefficient;
+    let square = t * t;
+    let (mut value, mut slope) = ([0.0; 2], [0.0; 2]);
+    let rows = coefficients.chunks_exact(2);
+    if let [last] = rows.remainder() {
+        value[0] = *last;
     }
-    (value, slope)
+    for row in rows.rev() {
+        for part in 0..2 {
+            slope[part] = slope[part] * square + value[part];
+            value[part] = value[part] * square + row[part];
+        }
+    }
+    // With p(t) = e(t^2) + t o(t^2): p' = o + 2 t (e' + t o').
+    (value[0] + t * value[1], value[1] + 2.0 * t * (slope[0] + t * slope[1]))
 }
 
 impl Taylor {
@@ -302,6 +358,7 @@ impl Taylor {
                 return Err(Reason::OutOfRange);
             }
             self.time_exponent -= 40;
+            self.inner = Inner::EMPTY;
         }
     }
 
@@ -333,7 +390,7 @@ impl Stepper for Taylor {
             }
             let v = value(&self.v[..=order], scaled);
             if v <= 0.0 {
-                let root = self.root(scaled);
+                let root = self.root(scaled, v);
                 let end = Point { x: value(&self.x[..=order], root), v: 0.0 };
                 let step = Step { duration: root * unit, end, crossed: true };
                 if step.is_possible() {
