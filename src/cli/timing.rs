@@ -31,9 +31,13 @@ const FEW: usize = 5;
 /// See [`FEW`].
 const LONG: f64 = 0.5;
 
-/// What takes less than this is computed once before each measurement, so that it does not pay for
-/// what the one before it left in the caches.
+/// What takes less than this is computed once before it is measured, so that it does not pay for what
+/// the one before it left in the caches.
 const SHORT: f64 = 1e-3;
+
+/// What takes less than this is measured over as many runs as take so long, beside which reading the
+/// clock is nothing.
+const READABLE: f64 = 20e-6;
 
 /// See [`ENOUGH`].
 const ROUNDS: usize = 25;
@@ -48,16 +52,25 @@ pub fn in_turn<T>(times: u32, count: usize, mut compute: impl FnMut(usize) -> T)
         for (index, seconds) in seconds.iter_mut().enumerate() {
             let few = seconds.len() < FEW && seconds.iter().sum::<f64>() < LONG;
             if times > 1 || few || seconds.iter().sum::<f64>() < ENOUGH {
-                if seconds.last().is_none_or(|last| *last < SHORT) {
-                    black_box(compute(index));
-                }
                 let started = Instant::now();
                 black_box(compute(index));
-                seconds.push(started.elapsed().as_secs_f64());
+                let once = started.elapsed().as_secs_f64();
+                seconds.push(if once < SHORT { again(once, || compute(index)) } else { once });
             }
         }
     }
     seconds.iter_mut().map(|seconds| median(seconds)).collect()
+}
+
+/// The mean seconds of a short computation that just took `once`.
+fn again<T>(once: f64, mut compute: impl FnMut() -> T) -> f64 {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 1000")]
+    let times = (READABLE / once).ceil().clamp(1.0, 1000.0) as u32;
+    let started = Instant::now();
+    for _ in 0..times {
+        black_box(compute());
+    }
+    started.elapsed().as_secs_f64() / f64::from(times)
 }
 
 /// The median; of an even number of values, the mean of the middle two.

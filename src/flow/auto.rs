@@ -1,4 +1,5 @@
-//! Taylor series, and implicit steps while stability, not accuracy, limits the series.
+//! Taylor series, implicit steps while stability, not accuracy, limits the series, and the closed form
+//! of a linear oscillation.
 //!
 //! On a slow manifold an explicit step is a fixed multiple of the damping time however smooth the motion
 //! is. So the product of step and damping rate tells: below 1 where accuracy limits the step, while under
@@ -7,6 +8,7 @@
 //! the same question always gets the same answer. At loose tolerances that noise may be larger than the
 //! velocity itself and hide the sign; so a half swing of very many steps is suspect too.
 
+use super::exact::Exact;
 use super::limits::Reason;
 use super::step::{Field, Point, Powers, Step, Stepper};
 use super::stiff::Stiff;
@@ -33,6 +35,9 @@ const FIRST: f64 = 4.0;
 /// oscillation needs a dozen), and the factor by which this grows if they were not worthwhile.
 const MANY: (u64, u64) = (100, 4);
 
+/// Longest step in closed form. It could be a whole half swing; so it is of moderate curvature.
+const CLOSED: f64 = 1.0;
+
 /// Limited steps in a row before implicit ones are tried, at first and, if they were not worthwhile, at
 /// most. A motion that is stiff for a dozen steps only is over before implicit ones pay.
 const PATIENCE: (u32, u32) = (12, 320);
@@ -45,8 +50,12 @@ pub struct Auto {
     tolerance: f64,
     /// Made when it is first needed: most motions never are stiff.
     stiff: Option<Box<Stiff>>,
-    /// Whether the last step was implicit, and whether the next one is to be.
-    was_implicit: bool,
+    exact: Exact,
+    /// What took the last step.
+    last: Taken,
+    /// Whether the field is a linear oscillation.
+    linear: bool,
+    /// Whether the next step is to be implicit.
     implicit: bool,
     /// Length of the last implicit step in a row, and whether one of them was worthwhile.
     reached: f64,
@@ -62,6 +71,14 @@ pub struct Auto {
     implicit_steps: u64,
 }
 
+/// What took a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Taken {
+    Series,
+    Implicit,
+    Closed,
+}
+
 /// One step of a motion, kept to be looked at again.
 #[derive(Clone, Debug)]
 pub enum LastStep {
@@ -69,6 +86,8 @@ pub enum LastStep {
     Series(Box<Taylor>),
     /// A polynomial of collocation.
     Implicit(Box<Stiff>),
+    /// The closed form of a linear oscillation.
+    Closed(Exact),
 }
 
 impl LastStep {
@@ -78,6 +97,7 @@ impl LastStep {
         match self {
             LastStep::Series(step) => step.at(time),
             LastStep::Implicit(step) => step.at(time),
+            LastStep::Closed(step) => step.at(time),
         }
     }
 
@@ -87,6 +107,7 @@ impl LastStep {
         match self {
             LastStep::Series(step) => step.powers(),
             LastStep::Implicit(step) => step.powers(),
+            LastStep::Closed(step) => step.powers(),
         }
     }
 }
@@ -101,7 +122,9 @@ impl Auto {
             taylor: Taylor::new(tolerance),
             tolerance,
             stiff: None,
-            was_implicit: false,
+            exact: Exact::new(),
+            last: Taken::Series,
+            linear: false,
             implicit: false,
             reached: 0.0,
             worthwhile: false,
@@ -122,7 +145,7 @@ impl Auto {
 
     /// The implicit method, if it took the last step.
     fn implicit(&self) -> Option<&Stiff> {
-        self.stiff.as_deref().filter(|_| self.was_implicit)
+        self.stiff.as_deref().filter(|_| self.last == Taken::Implicit)
     }
 
     /// A copy of the last step alone, to be kept.
@@ -131,6 +154,7 @@ impl Auto {
         self.prepare_dense();
         match self.implicit() {
             Some(stiff) => LastStep::Implicit(Box::new(stiff.clone())),
+            None if self.last == Taken::Closed => LastStep::Closed(self.exact.clone()),
             None => LastStep::Series(Box::new(self.taylor.clone())),
         }
     }
@@ -145,7 +169,10 @@ impl Auto {
     #[must_use]
     pub fn fastest(&mut self) -> Option<f64> {
         self.prepare_dense();
-        self.implicit().map_or_else(|| self.taylor.fastest(), Stiff::fastest)
+        match self.last {
+            Taken::Closed => self.exact.fastest(),
+            _ => self.implicit().map_or_else(|| self.taylor.fastest(), Stiff::fastest),
+        }
     }
 
     /// Takes a step by the method of the hour, then decides on the next one.
@@ -158,7 +185,7 @@ impl Auto {
             && let Some(stiff) = &mut self.stiff
             && let Ok(step) = implicit(stiff)
         {
-            self.was_implicit = true;
+            self.last = Taken::Implicit;
             self.implicit_steps += 1;
             if self.damping_times(&step) >= WORTHWHILE {
                 (self.worthwhile, self.stalled) = (true, 0);
@@ -176,7 +203,7 @@ impl Auto {
             self.reached = step.duration;
             return Ok(step);
         }
-        (self.was_implicit, self.implicit) = (false, false);
+        (self.last, self.implicit) = (Taken::Series, false);
         let step = series(&mut self.taylor)?;
         let limited = self.damping_times(&step) > LIMITED * self.taylor.order();
         self.limited = if limited { self.limited + 1 } else { 0 };
@@ -200,6 +227,10 @@ impl Auto {
 impl Stepper for Auto {
     fn begin(&mut self, field: &HalfPlane) {
         (self.field, self.series_steps) = (*field, 0);
+        self.linear = field.is_linear() && field.d.abs() < 1.0;
+        if self.linear {
+            self.exact.begin(field);
+        }
         self.taylor.begin(field);
         if let Some(stiff) = &mut self.stiff {
             stiff.begin(field);
@@ -207,15 +238,23 @@ impl Stepper for Auto {
     }
 
     fn advance(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {
+        if self.linear {
+            self.last = Taken::Closed;
+            return self.exact.advance(from, longest.min(CLOSED));
+        }
         self.step(|taylor| taylor.advance(from, longest), |stiff| stiff.advance(from, longest))
     }
 
     fn pass(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {
+        if self.linear {
+            self.last = Taken::Closed;
+            return self.exact.pass(from, longest.min(CLOSED));
+        }
         self.step(|taylor| taylor.pass(from, longest), |stiff| stiff.pass(from, longest))
     }
 
     fn prepare_dense(&mut self) {
-        if self.was_implicit
+        if self.last == Taken::Implicit
             && let Some(stiff) = &mut self.stiff
         {
             stiff.prepare_dense();
@@ -223,15 +262,22 @@ impl Stepper for Auto {
     }
 
     fn at(&self, time: f64) -> Point {
-        self.implicit().map_or_else(|| self.taylor.at(time), |stiff| stiff.at(time))
+        match self.last {
+            Taken::Closed => self.exact.at(time),
+            _ => self.implicit().map_or_else(|| self.taylor.at(time), |stiff| stiff.at(time)),
+        }
     }
 
     fn powers(&self) -> Powers {
-        self.implicit().map_or_else(|| self.taylor.powers(), Stepper::powers)
+        match self.last {
+            Taken::Closed => self.exact.powers(),
+            _ => self.implicit().map_or_else(|| self.taylor.powers(), Stepper::powers),
+        }
     }
 
     fn evaluations(&self) -> u64 {
-        self.taylor.evaluations() + self.stiff.as_ref().map_or(0, |stiff| stiff.evaluations())
+        let explicit = self.taylor.evaluations() + self.exact.evaluations();
+        explicit + self.stiff.as_ref().map_or(0, |stiff| stiff.evaluations())
     }
 
     fn rejected(&self) -> u64 {

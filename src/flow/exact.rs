@@ -12,6 +12,7 @@ const MOST_PIECES: f64 = 4096.0;
 /// The stepper. It serves fields with `D2 = D3 = 0` and is exact to rounding for every D.
 #[derive(Clone, Debug)]
 pub struct Exact {
+    field: HalfPlane,
     linear: Linear,
     start: Point,
     duration: f64,
@@ -23,11 +24,25 @@ impl Exact {
     #[must_use]
     pub fn new() -> Self {
         Exact {
+            field: HalfPlane { d: 0.0, d2: 0.0, d3: 0.0 },
             linear: Linear::new(0.0),
             start: Point { x: 0.0, v: 0.0 },
             duration: 0.0,
             evaluations: 0,
         }
+    }
+}
+
+impl Exact {
+    /// The largest v in the last step, if the acceleration changes its sign there.
+    ///
+    /// Velocity and acceleration obey the equation of displacement and velocity.
+    #[must_use]
+    pub fn fastest(&self) -> Option<f64> {
+        let Point { x, v } = self.start;
+        let acceleration = self.field.acceleration(x, v);
+        let top = self.linear.first_standstill(v, acceleration)?;
+        (acceleration > 0.0 && top.time <= self.duration).then_some(top.x)
     }
 }
 
@@ -39,7 +54,7 @@ impl Default for Exact {
 
 impl Stepper for Exact {
     fn begin(&mut self, field: &HalfPlane) {
-        self.linear = Linear::new(field.d);
+        (self.field, self.linear) = (*field, Linear::new(field.d));
     }
 
     fn advance(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {

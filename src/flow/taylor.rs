@@ -29,15 +29,16 @@ const TAIL: usize = 4;
 
 /// Order for each tolerance: the smallest bound not below the tolerance decides. The orders minimise
 /// the measured time of the benchmark `flow` at these tolerances.
-const ORDERS: [(f64, usize); 9] = [
+const ORDERS: [(f64, usize); 10] = [
     (1e-2, 8),
     (1e-3, 10),
     (1e-5, 12),
     (1e-6, 14),
     (1e-7, 16),
     (1e-9, 18),
-    (1e-10, 20),
-    (1e-14, 24),
+    (1e-12, 20),
+    (1e-13, 22),
+    (1e-15, 24),
     (0.0, 26),
 ];
 
