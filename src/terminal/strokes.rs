@@ -145,15 +145,15 @@ impl Sheet {
     }
 
     /// Draws the strokes in this order.
-    fn draw<'a>(
-        &self,
-        strokes: impl Iterator<Item = &'a Stroke>,
-        mut hand: Hand,
-        size: Size,
-    ) -> (String, Hand) {
+    fn draw(&self, strokes: &[&Stroke], mut hand: Hand, size: Size) -> (String, Hand) {
         let mut out = String::with_capacity(2 * self.text.len());
+        let mut awaited = Awaited::of(strokes, size);
         for stroke in strokes {
-            go_to(stroke.start, hand.cursor, size, &mut out);
+            match hand.cursor.and_then(|cursor| awaited.blanks(cursor, stroke.start)) {
+                Some(blanks) => out.push_str(blanks),
+                None => go_to(stroke.start, hand.cursor, size, &mut out),
+            }
+            awaited.drawn(stroke);
             let present = hand.pen;
             let pen = match (stroke.pen, present) {
                 (Some(pen), _) => pen,
@@ -166,6 +166,44 @@ impl Sheet {
             hand = Hand { pen: Some(pen), cursor: Some(Cursor { at, certain: stroke.certain }) };
         }
         (out, hand)
+    }
+}
+
+/// The cells of strokes that are still to be drawn: until then it does not matter what they show.
+struct Awaited {
+    width: usize,
+    cells: Vec<bool>,
+}
+
+impl Awaited {
+    fn of(strokes: &[&Stroke], size: Size) -> Awaited {
+        let width = usize::from(size.width);
+        let mut awaited = Awaited { width, cells: vec![false; width * usize::from(size.height)] };
+        for stroke in strokes {
+            awaited.range(stroke.start, stroke.width).fill(true);
+        }
+        awaited
+    }
+
+    fn range(&mut self, start: Position, width: u16) -> &mut [bool] {
+        let row = usize::from(start.y) * self.width;
+        let end = (usize::from(start.x) + usize::from(width)).min(self.width);
+        self.cells.get_mut(row + usize::from(start.x)..row + end).unwrap_or_default()
+    }
+
+    fn drawn(&mut self, stroke: &Stroke) {
+        self.range(stroke.start, stroke.width).fill(false);
+    }
+
+    /// Blanks that lead from the cursor to a place, if they are shorter than a move and will all be drawn
+    /// over.
+    fn blanks(&mut self, cursor: Cursor, target: Position) -> Option<&'static str> {
+        const BLANKS: &str = "   ";
+        let way = target.x.checked_sub(cursor.at.x)?;
+        let passes = cursor.certain && cursor.at.y == target.y;
+        let blanks =
+            BLANKS.get(..usize::from(way)).filter(|blanks| passes && !blanks.is_empty())?;
+        self.range(cursor.at, way).iter().all(|awaited| *awaited).then_some(blanks)
     }
 }
 
@@ -204,8 +242,8 @@ pub fn draw<'a>(
         shown.set(x, y, cell);
     }
     let size = shown.size;
-    let by_rows = sheet.draw(sheet.strokes.iter(), hand, size);
-    let by_pens = sheet.draw(pen_by_pen(&sheet.strokes).into_iter(), hand, size);
+    let by_rows = sheet.draw(&sheet.strokes.iter().collect::<Vec<_>>(), hand, size);
+    let by_pens = sheet.draw(&pen_by_pen(&sheet.strokes), hand, size);
     if by_pens.0.len() < by_rows.0.len() { by_pens } else { by_rows }
 }
 
