@@ -121,9 +121,47 @@ pub fn find(name: &str) -> Result<Arc<Scene>, NoScene> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::oscillator::Symbol;
+    use crate::oscillator::{State, Symbol};
     use crate::scene::Axes;
     use crate::scene::{View, Window};
+
+    #[test]
+    fn every_scene_of_a_figure_names_it_says_what_is_in_it_and_where_its_numbers_are_from() {
+        let figures = FILES.iter().filter_map(|(name, _)| Some((name, name.strip_prefix("fig")?)));
+        let mut count = 0;
+        for (name, number) in figures {
+            let scene = find(name).unwrap();
+            let number = number.trim_start_matches('0');
+            assert!(scene.title.ends_with(&format!(" (Fig. {number})")), "{name}: {}", scene.title);
+            let said = format!("{} {}", scene.look, scene.press);
+            let sources = ["chosen", "paper", "caption"];
+            assert!(sources.iter().any(|source| said.contains(source)), "{name}: whose numbers?");
+            assert!(scene.press.contains('{'), "{name}: something to press");
+            let sentences = scene.look.matches(". ").count() + 1;
+            assert!((1..=4).contains(&sentences), "{name}: {sentences} sentences");
+            // What is on show is spoken of.
+            let spoken: [(View, &[&str]); 7] = [
+                (
+                    View::Phase,
+                    &["phase plane", "cycle", "motion", "start", "basin", "sticking set", "spiral"],
+                ),
+                (View::Diagram, &["over D", "amplitude", "displacement", "branch"]),
+                (View::Regimes, &["border", "chart"]),
+                (View::TimeSeries, &["time"]),
+                (View::EnergyRate, &["V'"]),
+                (View::Eigenvalues, &["eigenvalue"]),
+                (View::Belt, &["belt"]),
+            ];
+            for plot in &scene.plots {
+                let words = spoken.iter().find(|(view, _)| *view == plot.view);
+                let (_, words) = words.unwrap_or_else(|| panic!("{name}: {:?}", plot.view));
+                let text = format!("{} {said}", scene.title);
+                assert!(words.iter().any(|word| text.contains(word)), "{name}: {:?}", plot.view);
+            }
+            count += 1;
+        }
+        assert_eq!(count, 20, "fig01 to fig17, and the three parts of fig16");
+    }
 
     #[test]
     fn every_scene_of_the_program_reads_and_explains_itself() {
@@ -142,7 +180,14 @@ mod tests {
                         assert!(x.contains(plot.axes.abscissa.get(&parameters, &initial)));
                     }
                     View::Belt => assert!(x.contains(initial.q)),
-                    View::Phase => assert!(x.contains(initial.q) && y.contains(initial.v)),
+                    View::Phase => {
+                        let variants = plot.family.map(|family| &scene.families[family]);
+                        let starts = variants.map_or(vec![initial], |variants| {
+                            variants.iter().map(|one| one.of(scene.problem).initial).collect()
+                        });
+                        let seen = |start: &State| x.contains(start.q) && y.contains(start.v);
+                        assert!(starts.iter().all(seen), "{name}");
+                    }
                     View::TimeSeries => assert!(x.contains(0.0)),
                     View::Regimes => {
                         let value = |symbol: Symbol| symbol.get(&parameters, &initial);

@@ -19,7 +19,7 @@ const APART: (f64, f64) = (0.16, 0.07);
 const CLEAR: f64 = 0.03;
 
 /// What the path stands for, and the marks on it.
-const PEN: Role = Role::Trajectory;
+const PEN: Role = Role::Velocity;
 
 /// Draws the path over two parameters, if the scene is of a machine.
 pub fn draw(picture: &mut Picture, session: &Session, right: Symbol, up: Symbol) {

@@ -8,7 +8,7 @@ use super::dots::Dash;
 use super::look::Role;
 use super::number::significant;
 use super::phase_plane::{named, stability};
-use super::picture::{Item, Line, Mark, Picture};
+use super::picture::{Item, Line, Mark, Picture, Text};
 use super::plot::reading;
 use crate::closed_form::harmonic::{
     amplitudes, damping_at, large_asymptote, mean, small_asymptote,
@@ -25,9 +25,15 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     let Axes { abscissa, ordinate, .. } = diagram.axes;
     let (name, label) = (abscissa.spec().name, diagram.axes.label());
     let eigen = abscissa == Symbol::D && session.layers.contains(&Layer::Eigenvalues);
-    let label = if eigen { "Re, Im lambda" } else { label };
+    let velocity = Axes { ordinate: Ordinate::VMax, ..diagram.axes }.label();
+    let beside = session.layers.contains(&Layer::Extents) && velocity != label;
+    let label: Text = match (eigen, beside) {
+        (true, _) => "Re, Im lambda".into(),
+        (false, true) => format!("{label}, {velocity}").into(),
+        (false, false) => label.into(),
+    };
     let window = diagram.window;
-    let mut picture = Picture::new(View::Diagram.spec().title, name, label, window);
+    let mut picture = Picture::new(View::Diagram.spec().title, name, label.clone(), window);
     let pointed = held(session, index).or(diagram.cursor);
     picture.reading = pointed.map(|point| {
         let (value, height) = reading(point, window);
@@ -85,9 +91,14 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         eigenvalues(&mut picture, current);
     }
     if shows(Layer::Special) {
+        let mut named: Vec<&Special> = Vec::new();
         for Found { branch, height, .. } in &found {
             for special in &branch.special {
-                caption(&mut picture, special, *height, window.y.to());
+                // Several variants may have one in common.
+                if !named.contains(&special) {
+                    caption(&mut picture, special, *height, window.y.to());
+                    named.push(special);
+                }
             }
         }
     }

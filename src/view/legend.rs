@@ -12,7 +12,7 @@ use crate::session::Session;
 const SAMPLE: u16 = 4;
 
 /// What a sample shows.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 enum Sample {
     Line(Dash),
     Bar,
@@ -22,7 +22,10 @@ enum Sample {
 }
 
 /// What there is to explain: the layer that shows it, its role, how it is drawn, and what it is.
-const ENTRIES: [(Layer, Role, Sample, &str); 36] = [
+type Entry = (Layer, Role, Sample, &'static str);
+
+/// Everything that there is to explain, in the order of the legend.
+const ENTRIES: [Entry; 41] = [
     (Layer::Trajectory, Role::Trajectory, Sample::Line(Dash::Solid), "motion"),
     (Layer::Sticking, Role::Sticking, Sample::Bar, "sticking set, at rest"),
     (Layer::Cycles, Role::Stable, Sample::Line(Dash::Solid), "stable cycle"),
@@ -34,9 +37,14 @@ const ENTRIES: [(Layer, Role, Sample, &str); 36] = [
     (Layer::Field, Role::Field, Sample::Arrow, "direction of flow"),
     (Layer::Balance, Role::Harmonic, Sample::Line(Dash::Dotted), "N harmonics"),
     (Layer::Belt, Role::Current, Sample::Line(Dash::Dashed), "sticks to the belt"),
-    (Layer::BeltPath, Role::Trajectory, Sample::Line(Dash::Solid), "over the belt's speed"),
+    (Layer::Borders, Role::Special, Sample::Line(Dash::Solid), "fold of the cycles"),
+    (Layer::Borders, Role::Unstable, Sample::Line(Dash::Solid), "cycle escapes"),
+    (Layer::HarmonicBorder, Role::Harmonic, Sample::Line(Dash::Dotted), "fold of one harmonic"),
+    (Layer::BeltPath, Role::Velocity, Sample::Line(Dash::Solid), "over the belt's speed"),
     (Layer::Harmonic, Role::Harmonic, Sample::Line(Dash::Dotted), "first harmonic"),
     (Layer::Asymptotes, Role::Asymptote, Sample::Line(Dash::Sparse), "its asymptotes"),
+    (Layer::Branch, Role::Stable, Sample::Line(Dash::Solid), "stable cycles"),
+    (Layer::Branch, Role::Unstable, Sample::Line(Dash::Dashed), "unstable cycles"),
     (Layer::Branch, Role::Current, Sample::Line(Dash::Sparse), "present value"),
     (Layer::Extents, Role::Velocity, Sample::Line(Dash::Dashed), "largest velocity"),
     (Layer::Eigenvalues, Role::Stable, Sample::Line(Dash::Solid), "Re lambda"),
@@ -64,8 +72,16 @@ const ENTRIES: [(Layer, Role, Sample, &str); 36] = [
 /// Draws the legend of the layers that are on at the bottom of `area`, if it fits there.
 pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let drawn = |layer: Layer| session.shows(layer) && session.not_drawn(layer).is_none();
-    let entries = ENTRIES.iter().filter(|(layer, ..)| drawn(*layer));
-    let rows = u16::try_from(entries.clone().count()).unwrap_or(u16::MAX);
+    let mut entries: Vec<&Entry> = Vec::new();
+    for entry in ENTRIES.iter().filter(|(layer, ..)| drawn(*layer)) {
+        // Cycles look alike in every plot: they are explained once.
+        let cycle = matches!(entry.1, Role::Stable | Role::Unstable);
+        let alike = |other: &&&Entry| cycle && (other.1, other.2) == (entry.1, entry.2);
+        if entries.iter().find(alike).is_none() {
+            entries.push(entry);
+        }
+    }
+    let rows = u16::try_from(entries.len()).unwrap_or(u16::MAX);
     if area.height < rows || area.width < SAMPLE + 2 {
         return;
     }

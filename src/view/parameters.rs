@@ -266,7 +266,9 @@ fn basin(session: &Session, found: &Cycles, width: usize) -> Vec<String> {
         Edge::Cycle => "edge: unstable cycle",
         Edge::Separatrix => "edge: separatrix",
     };
-    let kicks = found.picture.as_ref().map(|picture| picture.margin).and_then(|margin| {
+    // Without friction there is no set of rests that could survive anything.
+    let rests = found.picture.as_ref().filter(|_| found.parameters.r > 0.0);
+    let kicks = rests.map(|picture| picture.margin).and_then(|margin| {
         let (q, v) = (margin.displacement?, margin.impulse?);
         let text =
             |digits| format!("kick q {} v {}", significant(q, digits), significant(v, digits));
@@ -319,7 +321,7 @@ fn balance(session: &Session, width: usize) -> Vec<String> {
 /// How large the basin is, and how much of its margin the Lyapunov circle (24) proves: that knows the
 /// linear damping only, and where D2 or D3 feed the motion it can promise more than holds.
 fn sizes(found: &Cycles) -> impl Iterator<Item = String> {
-    let picture = found.picture.as_ref();
+    let picture = found.picture.as_ref().filter(|_| found.parameters.r > 0.0);
     let area = picture.and_then(|picture| picture.area);
     let share = picture.and_then(|picture| picture.lyapunov_share).map(|share| {
         if share > 1.0 {

@@ -2,7 +2,7 @@
 
 use super::Desk;
 use crate::oscillator::State;
-use crate::scene::{Point, Span, Window};
+use crate::scene::{Answer, Point, Slot, Span, Window};
 use crate::session::{Framing, Pane};
 use crate::study::{Edge, Margin, Picture};
 
@@ -86,6 +86,40 @@ fn fit_shows_all_that_is_computed() {
     assert_eq!(desk.session.plots[1].framing, Framing::Fitted);
     assert!(desk.session.plots[1].window.y.contains(3.1));
     assert_eq!(desk.session.plots[1].window.x, desk.session.scene.plots[1].opening().x);
+}
+
+#[test]
+fn fit_shows_every_variant_and_not_the_motion_that_none_of_them_is() {
+    for (scene, index) in [("fig15", 1), ("fig13", 0), ("fig05", 1), ("fig16", 1), ("fig17", 3)] {
+        let mut desk = Desk::open(scene);
+        let variants = desk.session.variants(index).expect("variants").len();
+        // A start far away that the variants do not hold, where they hold one, is not on show.
+        let held = desk.session.shown(index).iter().all(|shown| shown.problem.initial.q != 1.2);
+        desk.press(&format!("{} 0", "<tab>".repeat(index + 1)));
+        assert_eq!(desk.session.plots[index].framing, Framing::Fitted, "{scene}");
+        let window = desk.session.plots[index].window;
+        let mut seen = Vec::new();
+        for (label, answer) in desk.session.found(Slot::Cycles, index) {
+            let Answer::Cycles(found) = answer else { continue };
+            for cycle in &found.cycles {
+                let corners = [(cycle.q_min, cycle.v_min), (cycle.q_max, cycle.v_max)];
+                for (x, y) in corners {
+                    assert!(window.contains(Point { x, y }), "{scene} {label}: {x}, {y}");
+                    seen.push(x.abs());
+                }
+            }
+        }
+        let branches = desk.session.branches(index);
+        for point in branches.iter().flat_map(|(_, branch)| branch.pieces.iter().flatten()) {
+            let height = desk.session.height(index, 0).of(point.value, &point.cycle);
+            assert!(window.y.contains(height), "{scene}: {height}");
+            seen.push(height.abs());
+        }
+        assert!(seen.len() >= 2 * variants, "{scene}: every variant has cycles");
+        let farthest = seen.into_iter().fold(0.0, f64::max);
+        let ends = [window.x.to(), window.y.to()];
+        assert!(!held || ends.into_iter().any(|end| end < 1.5 * farthest), "{scene}: {window:?}");
+    }
 }
 
 #[test]
