@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::command::{COMMANDS, Command, command};
 use super::key::Key;
-use super::overlay::Overlay;
+use super::overlay::{Listed, Overlay};
 use super::pending::Pending;
 use super::state::Session;
 use crate::scene::View;
@@ -273,14 +273,14 @@ impl Session {
                 Some(View::Eigenvalues) => Context::Eigenvalues,
                 Some(View::Scan) => Context::Scan,
             },
-            Some(Overlay::Palette(_)) => Context::Palette,
+            Some(Overlay::List(Listed::Palette, _)) => Context::Palette,
             Some(overlay) if overlay.list().is_some_and(|list| list.searching) => Context::Search,
             // Both are read and closed; neither is chosen from.
-            Some(Overlay::Help(_) | Overlay::Cost(_)) => Context::Help,
-            Some(Overlay::Scenes(_)) => Context::Scenes,
-            Some(Overlay::Layers(_)) => Context::Layers,
-            Some(Overlay::Views(_)) => Context::Views,
-            Some(Overlay::Paper(_)) => Context::Paper,
+            Some(Overlay::List(Listed::Help | Listed::Cost, _)) => Context::Help,
+            Some(Overlay::List(Listed::Scenes, _)) => Context::Scenes,
+            Some(Overlay::List(Listed::Layers, _)) => Context::Layers,
+            Some(Overlay::List(Listed::Views, _)) => Context::Views,
+            Some(Overlay::List(Listed::Paper, _)) => Context::Paper,
             Some(Overlay::Entry(_)) => Context::Entry,
             Some(Overlay::Prompt(_)) => Context::Prompt,
             Some(Overlay::Scan(_)) => Context::Form,

@@ -38,7 +38,7 @@ pub use key::{Code, Key};
 pub use keymap::{Context, Hint, Keymap};
 pub use line::{LINES, LineCommand};
 pub use message::{Effect, Gesture, Msg, Place, Pointed, Purpose};
-pub use overlay::{Entry, List, Overlay, Prompt};
+pub use overlay::{Entry, List, Listed, Overlay, Prompt};
 pub use pending::Pending;
 pub use plot::{Framing, Pane, Plot};
 pub use scan::Scanned;

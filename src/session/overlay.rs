@@ -8,20 +8,8 @@ use super::state::Row;
 /// Something over the panes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Overlay {
-    /// All keys, to be scrolled and searched.
-    Help(List),
-    /// The scenes, to pick one.
-    Scenes(List),
-    /// The layers, to switch them on and off.
-    Layers(List),
-    /// The views, to pick what a plot shows.
-    Views(List),
-    /// The claims of the paper, to be scrolled and searched.
-    Paper(List),
-    /// All commands, to search one and run it.
-    Palette(List),
-    /// What the picture costs, question by question.
-    Cost(List),
+    /// A list, to be scrolled and searched.
+    List(Listed, List),
     /// A line in which a value is typed.
     Entry(Entry),
     /// The line in which commands are typed by name.
@@ -32,33 +20,43 @@ pub enum Overlay {
     Offer(Script),
 }
 
+/// What a list is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Listed {
+    /// All keys.
+    Help,
+    /// The scenes, to pick one.
+    Scenes,
+    /// The layers, to switch them on and off.
+    Layers,
+    /// The views, to pick what a plot shows.
+    Views,
+    /// The claims of the paper.
+    Paper,
+    /// All commands, to search one and run it.
+    Palette,
+    /// What the picture costs, question by question.
+    Cost,
+}
+
 impl Overlay {
     /// The list, if it is one.
     #[must_use]
     pub fn list(&self) -> Option<&List> {
-        match self {
-            Overlay::Help(list)
-            | Overlay::Scenes(list)
-            | Overlay::Layers(list)
-            | Overlay::Views(list)
-            | Overlay::Cost(list)
-            | Overlay::Paper(list)
-            | Overlay::Palette(list) => Some(list),
-            Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Scan(_) | Overlay::Offer(_) => None,
-        }
+        if let Overlay::List(_, list) = self { Some(list) } else { None }
     }
 
     /// The list, to be changed.
     pub fn list_mut(&mut self) -> Option<&mut List> {
-        match self {
-            Overlay::Help(list)
-            | Overlay::Scenes(list)
-            | Overlay::Layers(list)
-            | Overlay::Views(list)
-            | Overlay::Cost(list)
-            | Overlay::Paper(list)
-            | Overlay::Palette(list) => Some(list),
-            Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Scan(_) | Overlay::Offer(_) => None,
+        if let Overlay::List(_, list) = self { Some(list) } else { None }
+    }
+
+    /// Whether this is another kind of overlay than `other`, whatever stands in both.
+    #[must_use]
+    pub fn differs(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Overlay::List(one, _), Overlay::List(other, _)) => one != other,
+            _ => std::mem::discriminant(self) != std::mem::discriminant(other),
         }
     }
 }

@@ -4,7 +4,6 @@ use super::history::Before;
 use super::key::Key;
 use super::keymap::Context;
 use super::message::Effect;
-use super::overlay::Overlay;
 use super::state::Session;
 use super::update::{act, macros, marks, refuse};
 
@@ -102,7 +101,7 @@ pub(super) fn resolve(session: &mut Session, pending: Pending, key: Key) -> Vec<
 /// then gets the count.
 fn repeat(session: &mut Session, key: Key, count: u32) -> Vec<Effect> {
     let depth = session.history.depth().0;
-    let overlay = session.overlay.as_ref().map(std::mem::discriminant::<Overlay>);
+    let overlay = session.overlay.clone();
     let mut effects = Vec::new();
     for _ in 0..count {
         if !session.means(key) {
@@ -115,7 +114,10 @@ fn repeat(session: &mut Session, key: Key, count: u32) -> Vec<Effect> {
             *times = count;
         }
         let refused = session.notice.as_ref().is_some_and(|notice| notice.error);
-        let opened = session.overlay.as_ref().map(std::mem::discriminant) != overlay;
+        let opened = match (&session.overlay, &overlay) {
+            (Some(now), Some(before)) => now.differs(before),
+            (now, before) => now.is_some() != before.is_some(),
+        };
         if refused || opened || session.quit || session.pending.is_some() {
             break;
         }

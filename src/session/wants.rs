@@ -7,7 +7,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use super::overlay::Overlay;
+use super::overlay::{Listed, Overlay};
 use super::plot::{Framing, Pane};
 use super::state::{Recomputed, Row, Session};
 use crate::flow::{Problem, Reason, Trajectory};
@@ -52,7 +52,7 @@ impl Session {
             .flat_map(|plot| self.needs(plot).into_iter().map(move |slot| (slot, plot)))
             .collect();
         let mut wanted = Vec::new();
-        if matches!(self.overlay, Some(Overlay::Paper(_))) {
+        if matches!(self.overlay, Some(Overlay::List(Listed::Paper, _))) {
             wanted.push(Request::Claims);
         }
         for request in needed.into_iter().filter_map(|(slot, plot)| self.request(slot, plot)) {

@@ -29,8 +29,8 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
     let session::Plot { window, cursor, .. } = session.plots[index];
     let lines = session.ledger();
     let (window, marks) = marks(area, session, window);
-    let names =
-        Names { title: View::EnergyLedger.spec().title, x: "part of the largest", y: "work" };
+    let title = View::EnergyLedger.spec().title;
+    let names = Names { title, x: "part of the largest", y: "work", marks: Some(marks) };
     let mut heading = Heading::of(session, Pane::Plot(index));
     heading.reading = cursor.map(|cursor| {
         lines
@@ -40,7 +40,7 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
             .map(|(_, entry)| reading(entry))
             .unwrap_or_default()
     });
-    let mut plot = Plot::with_ticks(area, window, names, &heading, look, buffer, Some(marks));
+    let mut plot = Plot::new(area, window, names, &heading, look, buffer);
     plot.upright(0.0, Role::Axis, Dash::Solid);
     let symbols = look.symbols();
     let half = half_a_row(area, window);

@@ -14,7 +14,7 @@ use super::pane;
 use super::paper;
 use crate::scene::ViewSpec;
 use crate::session::update::palette::PaletteRow;
-use crate::session::{Context, Key, List, Overlay, Session};
+use crate::session::{Context, Key, List, Listed, Overlay, Session};
 
 /// Widest list.
 const WIDTH: u16 = 90;
@@ -48,13 +48,13 @@ pub(super) enum Entry {
 /// Draws the open list, if there is one, into the middle of the screen.
 pub fn draw(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let (list, content) = match &session.overlay {
-        Some(Overlay::Help(list)) => (list, help(session, list, look)),
-        Some(Overlay::Scenes(list)) => (list, scenes(session, list, look)),
-        Some(Overlay::Layers(list)) => (list, layers(session, list, look)),
-        Some(Overlay::Views(list)) => (list, views(session, list, look)),
-        Some(Overlay::Cost(list)) => (list, costs::content(session, list, look)),
-        Some(Overlay::Paper(list)) => (list, paper::content(session, list, look)),
-        Some(Overlay::Palette(list)) => (list, palette(session, list, look)),
+        Some(Overlay::List(Listed::Help, list)) => (list, help(session, list, look)),
+        Some(Overlay::List(Listed::Scenes, list)) => (list, scenes(session, list, look)),
+        Some(Overlay::List(Listed::Layers, list)) => (list, layers(session, list, look)),
+        Some(Overlay::List(Listed::Views, list)) => (list, views(session, list, look)),
+        Some(Overlay::List(Listed::Cost, list)) => (list, costs::content(session, list, look)),
+        Some(Overlay::List(Listed::Paper, list)) => (list, paper::content(session, list, look)),
+        Some(Overlay::List(Listed::Palette, list)) => (list, palette(session, list, look)),
         Some(Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Scan(_) | Overlay::Offer(_))
         | None => return,
     };

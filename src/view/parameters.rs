@@ -143,7 +143,7 @@ fn physical(session: &Session, row: Row) -> Option<(&'static str, String)> {
     let running = session.running()?;
     let (name, value, unit) = match row {
         Row::Belt if session.is_on_the_belt() == Some(false) => {
-            return Some(("is of", "another machine".to_owned()));
+            return Some(("v0", "off the belt".to_owned()));
         }
         Row::Belt => ("v0", running.speed, "m/s"),
         Row::Parameter(symbol) => running.meaning(symbol, session.value(symbol))?,

@@ -44,7 +44,7 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
     let x = Scanned::axis(&over[0]);
     let y = over.get(1).map_or_else(|| height.to_owned(), Scanned::axis);
     let body = Rect { height: area.height.saturating_sub(1), ..area };
-    let names = Names { title: &title, x: &x, y: &y };
+    let names = Names { title: &title, x: &x, y: &y, marks: None };
     let mut plot = Plot::new(body, session.plots[index].window, names, &heading, look, buffer);
     let legend = if scanned.is_grid() {
         map(&plot, scanned, height, look, buffer)

@@ -54,6 +54,7 @@ fn a_number_changed_by_hand_leaves_the_belt_and_a_step_of_the_belt_comes_back() 
     desk.press("<right>");
     assert_eq!(desk.session.is_on_the_belt(), Some(false));
     assert_eq!(desk.session.belt_speed, Some(0.3), "the units stay those of this speed");
+    assert!(desk.notice().starts_with("off the belt: "), "{}", desk.notice());
     desk.press("<up> <right>");
     runs_at(&desk, 0.31);
     desk.press("u");

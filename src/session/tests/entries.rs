@@ -2,7 +2,7 @@
 
 use super::Desk;
 use crate::flow::Method;
-use crate::session::{Effect, Entry, Msg, Overlay};
+use crate::session::{Effect, Entry, Listed, Msg, Overlay};
 
 fn entry(desk: &Desk) -> &Entry {
     match &desk.session.overlay {
@@ -72,7 +72,9 @@ fn pasted_text_goes_into_the_open_line_or_opens_one() {
     desk.press("<enter>");
     assert_eq!(desk.session.problem.parameters.d, -0.3);
     desk.press("?/<paste \"undo\"><enter>");
-    let Some(Overlay::Help(list)) = &desk.session.overlay else { panic!("the help is open") };
+    let Some(Overlay::List(Listed::Help, list)) = &desk.session.overlay else {
+        panic!("the help is open")
+    };
     let names: Vec<_> = desk.session.help_rows(list).iter().map(|row| row.name()).collect();
     assert_eq!(names, ["undo", "redo"]);
 }

@@ -3,7 +3,7 @@
 use super::Desk;
 use crate::flow::Method;
 use crate::scene::{Layer, Ordinate, Slot, View};
-use crate::session::{COMMANDS, Effect, LINES, Msg, Overlay, Pane, Prompt, update};
+use crate::session::{COMMANDS, Effect, LINES, Listed, Msg, Overlay, Pane, Prompt, update};
 
 /// Runs a line.
 fn run(desk: &mut Desk, line: &str) -> Vec<Slot> {
@@ -45,7 +45,7 @@ fn the_palette_runs_a_command_in_the_pane_that_it_belongs_to() {
     desk.press("<space>walk-on<enter>");
     assert!(desk.notice().contains("Walking along the branch"), "{}", desk.notice());
     desk.press("<space>nothing<enter>");
-    assert!(matches!(desk.session.overlay, Some(Overlay::Palette(_))));
+    assert!(matches!(desk.session.overlay, Some(Overlay::List(Listed::Palette, _))));
     desk.press("<esc>");
     assert_eq!(desk.session.overlay, None);
 }
@@ -209,7 +209,9 @@ fn an_empty_line_does_nothing() {
 fn the_palette_finds_what_has_all_the_words() {
     let mut desk = Desk::open("plain");
     desk.press("<space>mark<space>go");
-    let Some(Overlay::Palette(list)) = &desk.session.overlay else { panic!("the palette") };
+    let Some(Overlay::List(Listed::Palette, list)) = &desk.session.overlay else {
+        panic!("the palette")
+    };
     let rows = desk.session.palette_rows(list);
     let names: Vec<_> = rows.iter().map(|row| row.name()).collect();
     assert_eq!(names[0], "go-to-mark");

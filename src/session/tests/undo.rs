@@ -2,7 +2,7 @@
 
 use super::Desk;
 use crate::scene::{Layer, Request, Slot, library};
-use crate::session::Overlay;
+use crate::session::{Listed, Overlay};
 
 /// What is asked for the picture; what its error is measured against belongs to the dial.
 fn asked(desk: &Desk) -> Vec<Request> {
@@ -105,7 +105,10 @@ fn lists_move_search_and_close() {
     desk.press("s<down*99><up><enter>");
     assert_eq!(desk.session.scene.name, library()[library().len() - 2].name);
     desk.press("s/no such scene<enter>");
-    assert!(matches!(desk.session.overlay, Some(Overlay::Scenes(_))), "nothing to open");
+    assert!(
+        matches!(desk.session.overlay, Some(Overlay::List(Listed::Scenes, _))),
+        "nothing to open"
+    );
     desk.press("q");
     assert_eq!((&desk.session.overlay, desk.session.quit), (&None, false));
     desk.press("v/basin<enter><space>");

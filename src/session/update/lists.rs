@@ -10,7 +10,7 @@ use crate::scene::{LAYERS, LayerSpec, Scene, VIEWS, ViewSpec, find, library};
 use crate::session::command::{COMMANDS, Command};
 use crate::session::line::LINES;
 use crate::session::message::Effect;
-use crate::session::overlay::{List, Overlay};
+use crate::session::overlay::{List, Listed, Overlay};
 use crate::session::state::Session;
 use crate::study::claims::{Claim, Examined, Verdict, claims};
 
@@ -67,13 +67,13 @@ impl Session {
     /// How many rows the open list has.
     fn list_length(&self) -> usize {
         match &self.overlay {
-            Some(Overlay::Help(list)) => self.help_rows(list).len(),
-            Some(Overlay::Scenes(list)) => self.scene_rows(list).len(),
-            Some(Overlay::Layers(list)) => self.layer_rows(list).len(),
-            Some(Overlay::Views(list)) => self.view_rows(list).len(),
-            Some(Overlay::Paper(list)) => self.claim_rows(list).len(),
-            Some(Overlay::Palette(list)) => self.palette_rows(list).len(),
-            Some(Overlay::Cost(list)) => self.cost_rows(list).len(),
+            Some(Overlay::List(Listed::Help, list)) => self.help_rows(list).len(),
+            Some(Overlay::List(Listed::Scenes, list)) => self.scene_rows(list).len(),
+            Some(Overlay::List(Listed::Layers, list)) => self.layer_rows(list).len(),
+            Some(Overlay::List(Listed::Views, list)) => self.view_rows(list).len(),
+            Some(Overlay::List(Listed::Paper, list)) => self.claim_rows(list).len(),
+            Some(Overlay::List(Listed::Palette, list)) => self.palette_rows(list).len(),
+            Some(Overlay::List(Listed::Cost, list)) => self.cost_rows(list).len(),
             Some(Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Scan(_) | Overlay::Offer(_))
             | None => 0,
         }
@@ -86,7 +86,7 @@ impl Session {
 
 /// Opens the help.
 pub fn open_help(session: &mut Session) -> Vec<Effect> {
-    session.overlay = Some(Overlay::Help(List::default()));
+    session.overlay = Some(Overlay::List(Listed::Help, List::default()));
     Vec::new()
 }
 
@@ -94,7 +94,7 @@ pub fn open_help(session: &mut Session) -> Vec<Effect> {
 pub fn open_scenes(session: &mut Session) -> Vec<Effect> {
     let present = library().iter().position(|scene| scene.name == session.scene.name);
     let list = List { selected: present.unwrap_or(0), ..List::default() };
-    session.overlay = Some(Overlay::Scenes(list));
+    session.overlay = Some(Overlay::List(Listed::Scenes, list));
     Vec::new()
 }
 
@@ -103,32 +103,32 @@ pub fn open_layers(session: &mut Session) -> Vec<Effect> {
     let view = session.plots[session.plot].view;
     let first = LAYERS.iter().position(|row| row.view == view);
     let list = List { selected: first.unwrap_or(0), ..List::default() };
-    session.overlay = Some(Overlay::Layers(list));
+    session.overlay = Some(Overlay::List(Listed::Layers, list));
     Vec::new()
 }
 
 /// Opens the picker of views, with the present one of the plot in use selected.
 pub fn open_views(session: &mut Session) -> Vec<Effect> {
     let selected = session.plots[session.plot].view as usize;
-    session.overlay = Some(Overlay::Views(List { selected, ..List::default() }));
+    session.overlay = Some(Overlay::List(Listed::Views, List { selected, ..List::default() }));
     Vec::new()
 }
 
 /// Opens the list of what the picture costs.
 pub fn open_cost(session: &mut Session) -> Vec<Effect> {
-    session.overlay = Some(Overlay::Cost(List::default()));
+    session.overlay = Some(Overlay::List(Listed::Cost, List::default()));
     Vec::new()
 }
 
 /// Opens the page of the paper: its claims, which are examined when this is first asked for.
 pub fn open_paper(session: &mut Session) -> Vec<Effect> {
-    session.overlay = Some(Overlay::Paper(List::default()));
+    session.overlay = Some(Overlay::List(Listed::Paper, List::default()));
     Vec::new()
 }
 
 /// Opens the scene that shows the selected claim.
 fn show_claim(session: &mut Session) -> Vec<Effect> {
-    let Some(Overlay::Paper(list)) = &session.overlay else { return Vec::new() };
+    let Some(Overlay::List(Listed::Paper, list)) = &session.overlay else { return Vec::new() };
     let selected = session.claim_rows(list).get(list.selected).map(|(claim, _)| *claim);
     let Some(claim) = selected else { return Vec::new() };
     session.overlay = None;
@@ -167,7 +167,7 @@ pub fn search_done(session: &mut Session) -> Vec<Effect> {
         list.searching = false;
     }
     match session.overlay {
-        Some(Overlay::Scenes(_) | Overlay::Views(_)) => choose(session),
+        Some(Overlay::List(Listed::Scenes | Listed::Views, _)) => choose(session),
         _ => Vec::new(),
     }
 }
@@ -201,24 +201,24 @@ pub fn search_clear(session: &mut Session) -> Vec<Effect> {
 /// Opens the selected scene, switches the selected layer, or shows the selected view.
 pub fn choose(session: &mut Session) -> Vec<Effect> {
     match &session.overlay {
-        Some(Overlay::Scenes(list)) => {
+        Some(Overlay::List(Listed::Scenes, list)) => {
             if let Some(scene) = session.scene_rows(list).get(list.selected) {
                 session.overlay = None;
                 open_scene(session, Arc::clone(scene));
             }
         }
-        Some(Overlay::Layers(list)) => {
+        Some(Overlay::List(Listed::Layers, list)) => {
             if let Some(row) = session.layer_rows(list).get(list.selected) {
                 return toggle(session, row.layer);
             }
         }
-        Some(Overlay::Views(list)) => {
+        Some(Overlay::List(Listed::Views, list)) => {
             if let Some(row) = session.view_rows(list).get(list.selected) {
                 session.overlay = None;
                 return show(session, row.view);
             }
         }
-        Some(Overlay::Paper(_)) => return show_claim(session),
+        Some(Overlay::List(Listed::Paper, _)) => return show_claim(session),
         _ => {}
     }
     Vec::new()

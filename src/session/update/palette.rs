@@ -6,7 +6,7 @@ use crate::session::key::Key;
 use crate::session::keymap::Context;
 use crate::session::line::{LINES, LineCommand};
 use crate::session::message::Effect;
-use crate::session::overlay::{List, Overlay};
+use crate::session::overlay::{List, Listed, Overlay};
 use crate::session::plot::Pane;
 use crate::session::state::Session;
 use crate::session::update::general::focus_on;
@@ -68,13 +68,13 @@ fn rank(row: PaletteRow, search: &str) -> usize {
 /// Opens the palette; what is typed searches it.
 pub fn open(session: &mut Session) -> Vec<Effect> {
     let list = List { searching: true, ..List::default() };
-    session.overlay = Some(Overlay::Palette(list));
+    session.overlay = Some(Overlay::List(Listed::Palette, list));
     Vec::new()
 }
 
 /// Runs the selected command; one that takes words gets a line to type them.
 pub fn choose(session: &mut Session, key: Key) -> Vec<Effect> {
-    let Some(Overlay::Palette(list)) = &session.overlay else { return Vec::new() };
+    let Some(Overlay::List(Listed::Palette, list)) = &session.overlay else { return Vec::new() };
     match session.palette_rows(list).get(list.selected) {
         None => Vec::new(),
         Some(PaletteRow::Command(command)) => {

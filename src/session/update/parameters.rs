@@ -22,8 +22,12 @@ pub(in crate::session) fn put(session: &mut Session, stand: Stand) -> bool {
     let before = session.stand();
     let differs = stand != before;
     if differs {
+        let was_on = session.is_on_the_belt() == Some(true);
         session.history.record(Before::Stand(before));
         session.set_stand(stand);
+        if was_on && session.is_on_the_belt() == Some(false) {
+            inform(session, "off the belt: no speed has these numbers; the row belt leads back");
+        }
     }
     differs
 }

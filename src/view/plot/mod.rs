@@ -29,7 +29,7 @@ use crate::scene::{Point, Window};
 use crate::session::settings::Glyphs;
 
 /// What a plot is called.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Names<'a> {
     /// The plot.
     pub title: &'a str,
@@ -37,6 +37,8 @@ pub struct Names<'a> {
     pub x: &'a str,
     /// Its vertical axis; empty where heights mean nothing.
     pub y: &'a str,
+    /// Marks on the vertical axis in place of round numbers.
+    pub marks: Option<Ticks>,
 }
 
 /// The coordinates of a point, to the digits that can be told apart in a window.
@@ -59,7 +61,8 @@ pub struct Plot<'a> {
 }
 
 impl<'a> Plot<'a> {
-    /// Writes title and axes into `area`, and gives the raster between them.
+    /// Writes title and axes into `area`, and gives the raster between them. Where `names` have no marks
+    /// for the vertical axis it has round numbers.
     pub fn new(
         area: Rect,
         window: Window,
@@ -68,20 +71,8 @@ impl<'a> Plot<'a> {
         look: &'a Look,
         buffer: &mut Buffer,
     ) -> Self {
-        Self::with_ticks(area, window, names, heading, look, buffer, None)
-    }
-
-    /// The same with these marks on the vertical axis in place of round numbers.
-    pub fn with_ticks(
-        area: Rect,
-        window: Window,
-        names: Names,
-        heading: &pane::Heading,
-        look: &'a Look,
-        buffer: &mut Buffer,
-        upward: Option<Ticks>,
-    ) -> Self {
-        let Geometry { inner, roomy, rightward, mut upward } = Geometry::of(area, window, upward);
+        let Geometry { inner, roomy, rightward, mut upward } =
+            Geometry::of(area, window, names.marks);
         let (x, y) = (named(names.x, &rightward), named(names.y, &upward));
         let axes = if names.y.is_empty() {
             // Heights without meaning have no scale.
