@@ -1,95 +1,180 @@
-//! What a key takes at draft quality until its first picture: `cargo bench --bench draft`.
+//! What a key takes at draft quality until its picture is out: `cargo bench --bench draft`.
 //!
-//! For every scene and every number of its parameter pane: the time from the key through the answers that
-//! the first picture needs to the picture itself, all on one core and without a terminal; and the worst.
+//! The whole way, as in the explorer: the key goes into the loop, the session asks, the worker answers from
+//! its thread, the painter writes. For every scene, every row of its parameter pane (the dial is one) and
+//! both arrows: the time from the key to the last byte of the first picture in which every layer has an
+//! answer of today, draft or not. The terminal takes each picture at once.
 
+use std::io::{self, Write};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use hopfscope::flow::Limits;
+use crossbeam_channel::{Receiver, Sender, unbounded};
 use hopfscope::flow::quality::DRAFT;
-use hopfscope::scene::answer::{Failure, answer};
-use hopfscope::scene::{Answered, Request, Slot, library};
-use hopfscope::session::{Msg, Row, Session, Size, update};
-use hopfscope::view::frame::render;
-use hopfscope::view::look::Look;
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use hopfscope::runtime::crew::Crew;
+use hopfscope::runtime::effects::Files;
+use hopfscope::runtime::explorer::answer;
+use hopfscope::runtime::panics::Notes;
+use hopfscope::runtime::{Event, Explorer, Machine, Pump};
+use hopfscope::scene::{Request, Scene, Slot, library};
+use hopfscope::session::{Effect, Msg, Session, Size};
+use hopfscope::terminal::{Environment, Screen};
+use ratatui::Frame;
 
-/// The screen.
-const SIZE: Size = Size { width: 120, height: 40 };
+/// The screens.
+const SIZES: [(u16, u16); 2] = [(80, 24), (200, 60)];
 
 /// Times that a key is measured; the median counts.
-const TIMES: usize = 5;
+const TIMES: usize = 3;
+
+/// As long as this without a byte, with nothing wanted, all is done.
+const QUIET: Duration = Duration::from_millis(25);
 
 fn main() {
     // `cargo test --benches` only wants to know that it runs.
     if std::env::args().any(|argument| argument == "--test") {
         return;
     }
+    println!("{:>14}  {:>8}  {:>8}  dearest key", "", "80x24", "200x60");
     let mut worst = (Duration::ZERO, String::new());
     for scene in library() {
-        let mut session = Session::new(Arc::clone(scene), SIZE);
-        session.problem = session.problem.at(&DRAFT);
-        // Windows are fitted after the first answers.
-        for _ in 0..3 {
-            for request in open(&session) {
-                give(&mut session, request);
-            }
-        }
-        let mut dearest = (Duration::ZERO, String::new());
-        for row in session.rows() {
-            // The other way on the dial leads to a finer quality, whose draft is on show already.
-            let keys = ["<right>", "<left>"].into_iter();
-            for key in keys.take(if row == Row::Tolerance { 1 } else { 2 }) {
-                let mut times: Vec<Duration> = (0..TIMES)
-                    .map(|_| {
-                        let mut stepped = session.clone();
-                        stepped.selected = row;
-                        press(&mut stepped, key)
-                    })
-                    .collect();
-                times.sort_unstable();
-                let name = format!("{} on {}", key, row.name());
-                dearest = dearest.max((times[TIMES / 2], name));
-            }
-        }
-        println!("{:>14}  {:>6.2} ms  {}", scene.name, milliseconds(dearest.0), dearest.1);
-        worst = worst.max((dearest.0, format!("{}, {}", scene.name, dearest.1)));
-    }
-    println!("{:>14}  {:>6.2} ms  {}", "worst", milliseconds(worst.0), worst.1);
-}
-
-/// The questions without an answer.
-fn open(session: &Session) -> Vec<Request> {
-    session.wants().into_iter().filter(|request| session.is_open(request)).collect()
-}
-
-fn give(session: &mut Session, request: Request) {
-    let result = answer(&request, &Limits::PATIENT);
-    let result = result.map_err(Failure::Reason);
-    let answered = Answered { request, result, seconds: 0.0, complete: true };
-    update(session, Msg::Answered(Box::new(answered)));
-}
-
-/// Presses a key: the time until the picture of the first answer of each kind that it needs.
-fn press(session: &mut Session, key: &str) -> Duration {
-    let Ok(key) = key.parse() else { return Duration::MAX };
-    let begun = Instant::now();
-    update(session, Msg::Key(key));
-    session.effort.measuring = false;
-    let mut answered = Vec::new();
-    for request in open(session) {
-        // References are computed while the user rests, when the picture has long been there.
-        let slot = request.slot();
-        if !answered.contains(&slot) && slot != Slot::Reference {
-            answered.push(slot);
-            give(session, request);
+        let [small, large] = SIZES.map(|size| dearest(scene, size));
+        println!(
+            "{:>14}  {:>5.2} ms  {:>5.2} ms  {}",
+            scene.name,
+            milliseconds(small.0),
+            milliseconds(large.0),
+            large.1
+        );
+        for (time, key) in [small, large] {
+            worst = worst.max((time, format!("{}, {key}", scene.name)));
         }
     }
-    let screen = Rect::new(0, 0, SIZE.width, SIZE.height);
-    render(screen, session, &Look::new(session.look), &mut Buffer::empty(screen));
-    begun.elapsed()
+    println!("worst: {:.2} ms, {}", milliseconds(worst.0), worst.1);
+}
+
+/// The explorer, which says whether its picture is complete.
+struct Watched {
+    explorer: Explorer,
+    /// Whether each layer of the picture drawn last has an answer of today.
+    complete: Arc<AtomicBool>,
+    /// Whether nothing is wanted.
+    idle: Arc<AtomicBool>,
+}
+
+impl Machine for Watched {
+    fn update(&mut self, msg: Msg) -> Vec<Effect> {
+        self.explorer.update(msg)
+    }
+
+    fn wants(&self) -> Vec<Request> {
+        let wants = self.explorer.wants();
+        self.idle.store(wants.is_empty(), Ordering::Release);
+        wants
+    }
+
+    fn draw(&self, frame: &mut Frame) {
+        self.explorer.draw(frame);
+        let session = self.explorer.session();
+        let missing = |request: &Request| {
+            request.slot() != Slot::Reference && !session.is_refinement(request)
+        };
+        self.complete.store(!self.explorer.wants().iter().any(missing), Ordering::Release);
+    }
+}
+
+/// A terminal that says when bytes arrive, and answers at once.
+struct Line {
+    complete: Arc<AtomicBool>,
+    arrived: Sender<(Instant, bool)>,
+    events: Sender<Event>,
+}
+
+impl Write for Line {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        // Whoever has left does not want to know.
+        let _ = self.arrived.send((Instant::now(), self.complete.load(Ordering::Acquire)));
+        let _ = self.events.send(Event::Shown);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// The keyboard and the eyes.
+struct User {
+    events: Sender<Event>,
+    arrived: Receiver<(Instant, bool)>,
+    idle: Arc<AtomicBool>,
+}
+
+impl User {
+    fn key(&self, name: &str) {
+        let key = name.parse().expect("a key");
+        self.events.send(Event::Session(Msg::Key(key))).expect("the loop runs");
+    }
+
+    /// Waits until all is computed and drawn.
+    fn settle(&self) {
+        loop {
+            let quiet = self.arrived.recv_timeout(QUIET).is_err();
+            if quiet && self.idle.load(Ordering::Acquire) {
+                return;
+            }
+        }
+    }
+
+    /// Presses a key: the time until its first complete picture is out.
+    fn press(&self, name: &str) -> Duration {
+        let begun = Instant::now();
+        self.key(name);
+        let (at, _) = self.arrived.iter().find(|(_, complete)| *complete).expect("a picture");
+        self.settle();
+        at - begun
+    }
+}
+
+/// The dearest key of a scene, and what it takes.
+fn dearest(scene: &Arc<Scene>, (width, height): (u16, u16)) -> (Duration, String) {
+    let mut session = Session::new(Arc::clone(scene), Size { width, height });
+    session.problem = session.problem.at(&DRAFT);
+    let rows = session.rows();
+    let (events, received) = unbounded();
+    let (arrive, arrived) = unbounded();
+    let (complete, idle) = (Arc::new(AtomicBool::new(false)), Arc::new(AtomicBool::new(false)));
+    let line = Line { complete: Arc::clone(&complete), arrived: arrive, events: events.clone() };
+    let size = ratatui::layout::Size { width, height };
+    let report = events.clone();
+    let report = move |msg| drop(report.send(Event::Session(msg)));
+    let crew = Crew::start(answer, Notes::default(), report).expect("threads");
+    let screen = Screen::new(line, size).expect("a screen");
+    let explorer = Explorer::new(session, Environment::default());
+    let machine = Watched { explorer, complete, idle: Arc::clone(&idle) };
+    let mut pump = Pump::new(machine, screen, crew, received, Files::default(), Default::default);
+    let running = std::thread::spawn(move || pump.run().map(drop));
+    let user = User { events, arrived, idle };
+    user.settle();
+    let mut dearest = (Duration::ZERO, String::new());
+    for row in rows {
+        let mut times = [Vec::new(), Vec::new()];
+        for _ in 0..TIMES {
+            for (key, times) in ["<right>", "<left>"].into_iter().zip(&mut times) {
+                times.push(user.press(key));
+            }
+        }
+        for (key, times) in ["<right>", "<left>"].into_iter().zip(&mut times) {
+            times.sort_unstable();
+            dearest = dearest.max((times[TIMES / 2], format!("{key} on {}", row.name())));
+        }
+        user.key("<down>");
+        user.settle();
+    }
+    user.key("q");
+    running.join().expect("no panic").expect("no error");
+    dearest
 }
 
 fn milliseconds(time: Duration) -> f64 {

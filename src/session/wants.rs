@@ -199,6 +199,18 @@ impl Session {
         draft.is_some() && self.answered(slot, plot).map(|held| &held.request) == draft.as_ref()
     }
 
+    /// Whether this is asked, and every plot that asks it has a draft of its answer to show meanwhile.
+    #[must_use]
+    pub fn is_refinement(&self, request: &Request) -> bool {
+        let slot = request.slot();
+        let plots = 0..self.plots.len();
+        let mut asking = plots
+            .filter(|plot| self.request(slot, *plot).as_ref() == Some(request))
+            .map(|plot| self.has_draft(slot, plot))
+            .peekable();
+        asking.peek().is_some() && asking.all(|drafted| drafted)
+    }
+
     /// Whether a question has neither an answer nor a reason for having none.
     #[must_use]
     pub fn is_open(&self, request: &Request) -> bool {

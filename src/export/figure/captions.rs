@@ -85,7 +85,13 @@ impl Surroundings {
         let of_pairs =
             |points: &Vec<[f64; 2]>| spots(&mut points.iter().map(|[x, y]| Point { x: *x, y: *y }));
         Surroundings {
-            curves: panel.curves.iter().map(|curve| of_pairs(&curve.points)).collect(),
+            // A bar may run through its own name.
+            curves: panel
+                .curves
+                .iter()
+                .filter(|curve| curve.style != "thick")
+                .map(|curve| of_pairs(&curve.points))
+                .collect(),
             guides: panel.guides.iter().map(|guide| spots(&mut guide.iter().copied())).collect(),
             marks: panel
                 .marks

@@ -30,14 +30,6 @@ fn open(session: &Session) -> Vec<Request> {
     session.wants().into_iter().filter(|request| session.is_open(request)).collect()
 }
 
-/// Whether every plot that asks this has a draft of it.
-fn is_drafted(session: &Session, request: &Request) -> bool {
-    let slot = request.slot();
-    let mut asking = (0..session.plots.len())
-        .filter(|plot| session.request(slot, *plot).as_ref() == Some(request));
-    asking.all(|plot| session.has_draft(slot, plot))
-}
-
 /// Counted for every scene and every number of its pane both ways, the dial included: what is computed
 /// until each layer on show has an answer of today, draft or not.
 #[test]
@@ -62,7 +54,7 @@ fn at_draft_quality_every_key_takes_half_a_frame_at_most() {
             let wanted = open(&stepped);
             for request in wanted.iter().cloned() {
                 let refines = request.draft().is_some_and(|draft| wanted.contains(&draft));
-                if !refines && !is_drafted(&stepped, &request) {
+                if !refines && !stepped.is_refinement(&request) {
                     evaluations += give(&mut stepped, request);
                 }
             }
