@@ -1,0 +1,226 @@
+//! Answers made by hand, so that pictures of them are always the same, and sessions that have them.
+
+use crate::flow::{Cost, Crossing, Limits, Outcome, Problem, Reason, Sample, Trajectory};
+use crate::oscillator::{Ledger, Parameters, State, Symbol};
+use crate::scene::answer::{Borders, Rows};
+use crate::scene::library::find;
+use crate::scene::{Answer, Answered, Layer, Request};
+use crate::session::{Key, Msg, Session, Size, update};
+use crate::study::chart::{Band, Chart, Line, Plane};
+use crate::study::harmonic_error::HarmonicBalance;
+use crate::study::measure::Value;
+use crate::study::regime::Regime;
+use crate::study::scan::Row;
+use crate::study::trade::Trade;
+use crate::study::{
+    Branch, BranchPoint, Cycle, Cycles, Edge, Margin, Picture, Return, ReturnMap, Special,
+    SpecialKind,
+};
+use std::f64::consts::TAU;
+use std::sync::LazyLock;
+
+/// A scene whose questions are not answered yet.
+pub(super) fn open(scene: &str, width: u16, height: u16) -> Session {
+    Session::new(find(scene).unwrap(), Size { width, height })
+}
+
+/// Answers every open question by hand, at a price that is always the same.
+pub(super) fn settle(session: &mut Session) {
+    for request in session.wants() {
+        if session.is_open(&request) {
+            let result = Ok(by_hand(&request));
+            update(
+                session,
+                Msg::Answered(Box::new(Answered {
+                    request,
+                    result,
+                    seconds: 0.000_25,
+                    complete: true,
+                })),
+            );
+        }
+    }
+    update(session, Msg::Idle);
+}
+
+pub(super) fn press(session: &mut Session, keys: &str) {
+    for key in keys.split_whitespace() {
+        update(session, Msg::Key(key.parse::<Key>().unwrap()));
+        settle(session);
+    }
+}
+
+/// Whether a layer belongs to single figures and would be drawn over the others.
+pub(super) fn drawn_over(layer: Layer) -> bool {
+    matches!(layer, Layer::Extents | Layer::Eigenvalues | Layer::Levels | Layer::Spirals)
+}
+
+pub(super) fn by_hand(request: &Request) -> Answer {
+    match request {
+        Request::Trajectory(problem) => Answer::Trajectory(spiral(*problem)),
+        Request::Cycles { parameters, .. } => {
+            let cycles = vec![cycle(0.5, false), cycle(1.2, true)];
+            let curves: Vec<Vec<State>> = vec![circle(0.5), circle(1.2)];
+            Answer::Cycles(Cycles {
+                parameters: *parameters,
+                edge: Edge::Cycle,
+                harmonic: Vec::new(),
+                cost: Cost { evaluations: 1_200, steps: 60, rejected: 0 },
+                cycles,
+                picture: Some(picture(curves[0].clone(), curves)),
+            })
+        }
+        Request::Scan { scan, from } => {
+            let measured = scan.measured().len();
+            let row = |index: usize| Row {
+                // A slope with a hole in it.
+                values: (0..measured)
+                    .map(|column| match index % 7 {
+                        3 => Value::Nothing,
+                        _ => Value::Count(index * (column + 1)),
+                    })
+                    .collect(),
+                reason: (index == 17).then(|| "edge: budget of 40 evaluations spent".to_owned()),
+                cost: Cost::default(),
+            };
+            let rows = (*from..scan.points()).map(row).collect();
+            Answer::Rows(Rows { first: *from, rows })
+        }
+        Request::Capture { .. } => Answer::Capture(Borders {
+            curves: vec![circle(0.2), circle(0.35)],
+            cost: Cost { evaluations: 800, steps: 40, rejected: 0 },
+        }),
+        Request::Balance { parameters, harmonics } => Answer::Balance(HarmonicBalance {
+            parameters: *parameters,
+            harmonics: *harmonics,
+            balanced: Vec::new(),
+            unknown: None,
+            cost: Cost { evaluations: 200, steps: 10, rejected: 0 },
+        }),
+        Request::Branch { parameter, .. } => Answer::Branch(folded(*parameter)),
+        Request::ReturnMap { parameters, .. } => Answer::ReturnMap(halving(*parameters)),
+        Request::Regimes { plane, .. } => Answer::Regimes(parted(*plane)),
+        Request::Family { members, .. } => {
+            Answer::Family(members.iter().map(|member| Ok(by_hand(member))).collect())
+        }
+        Request::Trade { .. } => Answer::Trade(compared()),
+        Request::Reference { .. } => Answer::Reference(Err(Reason::OutOfRange)),
+        Request::Claims => Answer::Claims(Vec::new()),
+    }
+}
+
+pub(super) fn picture(edge: Vec<State>, curves: Vec<Vec<State>>) -> Picture {
+    let margin = Margin { displacement: Some(0.5), impulse: Some(0.5) };
+    let ledger = Ledger {
+        start: 0.72,
+        end: 0.72,
+        linear: 2.5,
+        quadratic: 0.25,
+        cubic: -2.0,
+        friction: -0.75,
+        residual: 3e-15,
+    };
+    let works = curves.iter().map(|_| ledger).collect();
+    Picture { curves, works, edge, margin, area: Some(0.8), lyapunov_share: Some(0.3) }
+}
+
+/// A motion that winds inwards and comes to rest after three half swings.
+pub(super) fn spiral(problem: Problem) -> Trajectory {
+    let State { q, .. } = problem.initial;
+    let sample = |index: u16| {
+        let tau = 9.47 * f64::from(index) / 300.0;
+        let radius = q * (1.0 - tau / 10.0);
+        Sample { tau, q: radius * tau.cos(), v: -radius * tau.sin() }
+    };
+    let ledger = Ledger { start: 0.5, residual: 2e-14, ..Ledger::default() };
+    Trajectory {
+        problem,
+        method: problem.method,
+        implicit_steps: 0,
+        outcome: Outcome::Captured { tau: 9.47, q: -0.053 },
+        crossings: [3.1, 6.3, 9.47].map(|tau| Crossing { tau, q: 0.1 }).to_vec(),
+        ledger: Some(ledger),
+        samples: (0..=300).map(sample).collect(),
+        cost: Cost { evaluations: 432, steps: 18, rejected: 0 },
+    }
+}
+
+pub(super) fn circle(radius: f64) -> Vec<State> {
+    let corner = |index: u8| (TAU * f64::from(index) / 120.0).sin_cos();
+    (0..=120).map(corner).map(|(sin, cos)| State { q: radius * cos, v: -radius * sin }).collect()
+}
+
+pub(super) fn cycle(radius: f64, stable: bool) -> Cycle {
+    Cycle {
+        stable,
+        q_min: -radius,
+        q_max: radius,
+        v_min: -radius,
+        v_max: radius,
+        period: 6.3,
+        multiplier: (!stable).then_some(3.8),
+        log_multiplier: if stable { -710.0 } else { 3.8_f64.ln() },
+        clearance: radius - 0.1,
+        log_clearance: (radius - 0.1).ln(),
+        error: 1e-14,
+    }
+}
+
+/// A map on which every turning point on the right comes to half of it, or from far out to twice it.
+pub(super) fn halving(parameters: Parameters) -> ReturnMap {
+    let turn = |index: u8| {
+        let from = 0.02 * f64::from(index);
+        Return { from, to: Some(if from < 1.0 { 0.5 * from } else { 2.0 * from - 1.5 }) }
+    };
+    ReturnMap {
+        parameters,
+        sides: [Vec::new(), (5..=100).map(turn).collect()],
+        cost: Cost { evaluations: 900, steps: 30, rejected: 0 },
+    }
+}
+
+/// A chart whose lines are parted by a border that moves to the left.
+pub(super) fn parted(plane: Plane) -> Chart {
+    let line = |index: u8| {
+        let part = f64::from(index) / 20.0;
+        let (from, to) = plane.right_range;
+        let fold = -0.4 * part;
+        let band = |from, to, regime| Band { from, to, regime: Some(regime) };
+        let bands = vec![band(from, fold, Regime::Coexisting), band(fold, to, Regime::Global)];
+        let at = plane.up_range.0 + part * (plane.up_range.1 - plane.up_range.0);
+        let harmonic = Some(0.9 * fold);
+        Line { at, bands, fold: Some(fold), harmonic, escape: None, failure: None }
+    };
+    let cost = Cost { evaluations: 9_000, steps: 300, rejected: 0 };
+    Chart { plane, along: plane.right, lines: (0..=20).map(line).collect(), cost }
+}
+
+/// What accuracy costs on a short motion, computed once and for all.
+pub(super) fn compared() -> Box<Trade> {
+    static FOUND: LazyLock<Box<Trade>> = LazyLock::new(|| {
+        let parameters = Parameters { d: -0.1, d2: 0.0, d3: 0.05, r: 0.1 };
+        let problem = Problem { parameters, until: 20.0, ..Problem::default() };
+        let limits = Limits { evaluations: 50_000, ..Limits::PATIENT };
+        Box::new(Trade::of(&problem, &limits).unwrap())
+    });
+    FOUND.clone()
+}
+
+/// A branch that turns back at a fold.
+pub(super) fn folded(parameter: Symbol) -> Branch {
+    let point = |index: u16| {
+        let q_max = 0.05 + f64::from(index) * 0.02;
+        BranchPoint {
+            value: -0.05 / q_max - 0.15 * q_max * q_max,
+            cycle: cycle(q_max, q_max > 0.55),
+        }
+    };
+    let fold = Special::new(SpecialKind::Fold, -0.136_2, Some(cycle(0.55, false)));
+    let escape = Special::new(SpecialKind::Escape, 0.05, None);
+    Branch {
+        parameter,
+        pieces: vec![(0..120).map(point).collect()],
+        special: vec![fold, escape],
+        cost: Cost { evaluations: 56_000, steps: 900, rejected: 3 },
+    }
+}

@@ -1,0 +1,147 @@
+//! How the command line is used: wrong input, help, readers that go away, settings; what commands answer is
+//! in `command_line.rs`.
+
+mod program;
+
+use std::io::Read;
+use std::process::Stdio;
+
+use program::{command, run};
+
+/// A wrong command line, and what the complaint about it must name.
+const WRONG: [(&str, &[&str]); 34] = [
+    ("--sett D=1", &["--sett", "--set"]),
+    ("nowhere", &["nowhere", "plain", "supercritical"]),
+    ("supercritcal", &["supercritcal", "did you mean supercritical"]),
+    ("trajectry", &["trajectry", "the command trajectory"]),
+    ("trajectory --scene captur", &["captur", "did you mean capture"]),
+    ("trajectory surplus", &["surplus"]),
+    ("trajectory --set D", &["'D'", "NAME=VALUE"]),
+    ("trajectory --set d=1", &["\"d\"", "D, D2, D3, r, q0, v0"]),
+    ("trajectory --set D=NaN", &["D=NaN", "-1000000.0 .. 1000000.0"]),
+    ("trajectory --set D=-inf", &["D=-inf", "-1000000.0 .. 1000000.0"]),
+    ("trajectory --set q0=1e400", &["q0=1e400", "-1e300 .. 1e300"]),
+    ("trajectory --set r=-0.1", &["r=-0.1", "0.0 .. 1e300"]),
+    ("trajectory --set D=abc", &["D=abc", "not a number"]),
+    ("trajectory --until NaN", &["NaN", "0.0 .. 1000000000.0"]),
+    ("trajectory --until -1", &["-1", "0.0 .. 1000000000.0"]),
+    ("trajectory --tol 0", &["'0'", "1e-15 .. 0.01"]),
+    ("trajectory --tol 1e400", &["1e400", "1e-15 .. 0.01"]),
+    ("trajectory --method euler", &["euler", "taylor"]),
+    ("trajectory --format xml", &["xml", "table, json, csv"]),
+    ("trajectory --repeat 0", &["'0'", "1..=1000000"]),
+    ("trajectory --repeat -1", &["-1"]),
+    ("cycles --until 5", &["--until"]),
+    ("cycles --harmonics 0", &["0", "1 .. 255"]),
+    ("cycles --harmonics 256", &["256", "1 .. 255"]),
+    ("cycles --harmonics x", &["x", "1 .. 255"]),
+    ("branch", &["--over"]),
+    ("branch --over D", &["'D'", "NAME=FROM:TO:COUNT"]),
+    ("branch --over D=0:1:0", &["COUNT = 0", "2 .. 1000000"]),
+    ("branch --over D=0:nan:9", &["nan", "-1000000.0 .. 1000000.0"]),
+    ("branch --over r=-1:1:9", &["r=-1:1:9", "0.0 .. 1e300"]),
+    ("branch --over q0=0:1:9", &["q0", "D, D2, D3, r"]),
+    ("replay /does/not/exist", &["/does/not/exist", "No such file"]),
+    ("replay x --size 80", &["80", "WxH"]),
+    ("--glyphs cuneiform", &["cuneiform", "braille"]),
+];
+
+#[test]
+fn wrong_input_is_answered_with_one_line_that_names_it_and_exit_code_2() {
+    for (line, names) in WRONG {
+        let ran = run(&line.split_whitespace().collect::<Vec<_>>());
+        assert_eq!((ran.code, ran.out.as_str()), (2, ""), "{line}: {}", ran.err);
+        assert_eq!(ran.err.lines().count(), 1, "{line}: {}", ran.err);
+        assert!(ran.err.starts_with("hopfscope: "), "{line}: {}", ran.err);
+        for name in names {
+            assert!(ran.err.contains(name), "{line} should name {name}: {}", ran.err);
+        }
+    }
+}
+
+#[test]
+fn without_a_terminal_the_explorer_names_the_other_commands() {
+    let ran = run(&[]);
+    assert_eq!((ran.code, ran.out.as_str()), (2, ""));
+    assert_eq!(ran.err.lines().count(), 1, "{}", ran.err);
+    for command in ["trajectory", "cycles", "replay"] {
+        assert!(ran.err.contains(command), "{}", ran.err);
+    }
+}
+
+#[test]
+fn help_and_version_are_answers() {
+    for option in ["--help", "--version", "-h", "-V"] {
+        let ran = run(&[option]);
+        assert_eq!((ran.code, ran.err.as_str()), (0, ""), "{option}");
+        assert!(ran.out.contains("hopfscope"), "{option}: {}", ran.out);
+    }
+    let help = run(&["trajectory", "--help"]).out;
+    for option in ["--scene", "--set", "--method", "--tol", "--format", "--repeat", "--until"] {
+        assert!(help.contains(option), "{option} is not in the help: {help}");
+    }
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_error() {
+    // Some megabytes of rows, of which the reader takes a few bytes.
+    let options = ["trajectory", "--set", "D=0", "--set", "r=0", "--until", "200000"];
+    let mut child = command(&[&options[..], &["--format", "csv"]].concat())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut first = [0; 16];
+    child.stdout.take().unwrap().read_exact(&mut first).unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(String::from_utf8(output.stderr).unwrap(), "");
+}
+
+#[test]
+fn the_answer_shown_in_the_readme_is_the_one_that_is_given() {
+    let readme = include_str!("../README.md");
+    let block = |line: &&str| line.is_empty() || line.starts_with("    ");
+    let mut lines = readme.lines().skip_while(|line| !line.starts_with("    hopfscope trajectory"));
+    let words: Vec<&str> = lines.next().unwrap().split_whitespace().skip(1).collect();
+    let shown: Vec<&str> =
+        lines.take_while(block).map(|line| line.trim_start_matches("    ")).collect();
+    let shown = shown.join("\n");
+    assert!(shown.lines().count() > 5, "{shown}");
+    let given = run(&words).out;
+    let strip = |text: &str| text.lines().map(str::trim).collect::<Vec<_>>().join("\n");
+    assert!(strip(&given).starts_with(strip(&shown).trim()), "{given}");
+}
+
+#[test]
+fn keys_lists_what_the_settings_file_makes_of_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("config.toml");
+    let file = path.to_str().unwrap();
+    std::fs::write(&path, "[keys.parameters]\nstep-up = [\"<A-l>\"]\n").unwrap();
+    let listed = run(&["keys", "--config", file]);
+    assert_eq!(listed.code, 0);
+    assert!(listed.err.contains(file), "{}", listed.err);
+    let row = listed
+        .out
+        .lines()
+        .find(|line| line.starts_with("parameters") && line.contains(" step-up "));
+    assert!(row.unwrap().contains("<A-l>"), "{row:?}");
+    let usual = run(&["keys", "--no-config", "--format", "csv"]);
+    assert!(usual.out.contains("parameters,step-up,<right> l,"), "{}", usual.out);
+    assert_eq!(usual.err, "");
+    // A mistake is one line with its place, wherever settings are read.
+    std::fs::write(&path, "[keys.parameters]\nstep-up = [\"k\"]\n").unwrap();
+    for arguments in [vec!["keys", "--config", file], vec!["--config", file]] {
+        let refused = run(&arguments);
+        assert_eq!(refused.code, 2);
+        assert!(
+            refused.err.contains("config.toml:2:12: k already means select-previous"),
+            "{}",
+            refused.err
+        );
+        assert_eq!(refused.err.lines().count(), 1);
+    }
+    let missing = run(&["keys", "--config", "/no/such/file"]);
+    assert_eq!((missing.code, missing.err.lines().count()), (2, 1));
+}
