@@ -98,3 +98,20 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn the_multiplier_beside_the_largest_cubic_damping_is_a_number() {
+    let parameters = Parameters {
+        d: -0.409_517_798_157_504_83,
+        d2: 1.805_365_189_941_928_8e-284,
+        d3: f64::MAX,
+        r: 7.460_669_323_394_54e-309,
+    };
+    let limits = Limits { evaluations: 10_000, ..Limits::PATIENT };
+    let found = cycles(&parameters, false, &limits).unwrap();
+    let [cycle, outer] = &found.cycles[..] else { panic!("{found:?}") };
+    assert!(outer.stable && outer.log_multiplier < 0.0, "{outer:?}");
+    // So small a cycle does not know of D3: its multiplier is that of the linear equation, e^(2 x).
+    let x = -std::f64::consts::PI * parameters.d / parameters.omega().unwrap();
+    assert!((cycle.log_multiplier / (2.0 * x) - 1.0).abs() < 1e-6, "{cycle:?}");
+}

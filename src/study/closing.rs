@@ -344,7 +344,9 @@ impl Closing {
         let gap = 2.0 * parameters.r;
         let past_friction: f64 =
             [self.first, self.second].iter().map(|&clearance| log_share(clearance, gap)).sum();
-        past_friction - 2.0 * parameters.d * self.duration - 3.0 * parameters.d3 * self.square
+        // Three times a damping can be too large a number; times the square, which is then small, it is not.
+        let cubic = 3.0 * (parameters.d3 * self.square);
+        past_friction - 2.0 * parameters.d * self.duration - cubic
     }
 }
 
