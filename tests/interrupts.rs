@@ -62,7 +62,7 @@ fn parameters() -> [Parameters; 6] {
         Parameters { d: -0.1, d2: 0.5, d3: 0.0, r: 0.1 },
         Parameters { d: -0.999_999, d2: 0.1, d3: 0.1, r: 0.1 },
         Parameters { d: 0.5, d2: 1e6, d3: -1e6, r: 1.0 },
-        stiff(),
+        Parameters { r: 1e-5, ..stiff() },
     ]
 }
 

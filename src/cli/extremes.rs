@@ -6,21 +6,27 @@ use rayon::prelude::*;
 use super::failure::Failure;
 use super::input;
 use super::output::{Format, print};
-use crate::export::extremes;
+use crate::export::{extreme_cycles, extremes};
 use crate::flow::Limits;
+use crate::oscillator::Parameters;
 use crate::scene::file::TOLERANCE_RANGE;
 use crate::study::extremes::verdict::TOLERANCE;
-use crate::study::extremes::{Case, cases, judge, named};
+use crate::study::extremes::{Case, cases, judge, judge_set, named, sets};
 
 /// Follows motions at the extremes of all parameters by every method, and says how well
+///
+/// With --cycles, finds the limit cycles there instead.
 #[derive(Debug, Args)]
 pub struct Extremes {
     /// Form of the answer
     #[arg(long, value_enum, default_value_t = Format::Table, value_name = "FORM")]
     format: Format,
-    /// Every motion of the lattice, not each eleventh
+    /// Every motion of the lattice, not each eleventh; every set of parameters, not each seventh
     #[arg(long)]
     long: bool,
+    /// The limit cycles at these parameters: how many, how well they close, or why the search gave up
+    #[arg(long, conflicts_with = "tol")]
+    cycles: bool,
     /// Relative error of a step, 1e-15 .. 0.01
     #[arg(long, value_name = "X", value_parser = tolerance, default_value_t = TOLERANCE)]
     tol: f64,
@@ -33,6 +39,16 @@ fn tolerance(text: &str) -> Result<f64, String> {
 impl Extremes {
     /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
+        if self.cycles {
+            let sets: Vec<Parameters> = sets(!self.long).collect();
+            let verdicts: Vec<_> =
+                sets.par_iter().map(|set| judge_set(set, &Limits::PATIENT)).collect();
+            return print(&match self.format {
+                Format::Table => extreme_cycles::table(&verdicts),
+                Format::Json => extreme_cycles::json(&verdicts),
+                Format::Csv => extreme_cycles::csv(&verdicts),
+            });
+        }
         let cases: Vec<Case> = cases(!self.long).collect();
         let verdicts: Vec<_> =
             cases.par_iter().map(|case| judge(case, self.tol, &Limits::PATIENT)).collect();

@@ -39,10 +39,10 @@ pub fn trajectory(motion: &Trajectory) -> String {
 }
 
 /// Names of the columns that describe a cycle.
-const CYCLE: &str =
+pub(super) const CYCLE: &str =
     "stable,q_min,q_max,v_min,v_max,period,multiplier,log_multiplier,clearance,log_clearance,error";
 
-fn cycle(cycle: &Cycle) -> Vec<String> {
+pub(super) fn cycle(cycle: &Cycle) -> Vec<String> {
     vec![
         cycle.stable.to_string(),
         exact(cycle.q_min),

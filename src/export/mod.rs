@@ -4,6 +4,7 @@ pub mod balance;
 pub mod belt;
 pub mod claims;
 pub mod csv;
+pub mod extreme_cycles;
 pub mod extremes;
 pub mod figure;
 pub mod json;

@@ -53,4 +53,8 @@ impl Field for Regularized {
         };
         self.smooth.divergence(v) - self.r * slope
     }
+
+    fn magnitude(&self, x: f64, v: f64) -> f64 {
+        self.smooth.magnitude(x, v) + self.r
+    }
 }

@@ -63,6 +63,9 @@ pub trait Field: Copy {
 
     /// Divergence of the field, the derivative of the acceleration by v; that by x is -1.
     fn divergence(&self, v: f64) -> f64;
+
+    /// Sum of the magnitudes of all terms of the acceleration: what its rounding error is a part of.
+    fn magnitude(&self, x: f64, v: f64) -> f64;
 }
 
 impl Field for HalfPlane {
@@ -74,6 +77,11 @@ impl Field for HalfPlane {
     #[inline]
     fn divergence(&self, v: f64) -> f64 {
         HalfPlane::divergence(self, v)
+    }
+
+    fn magnitude(&self, x: f64, v: f64) -> f64 {
+        let v = v.abs();
+        x.abs() + v * (2.0 * self.d.abs() + v * (self.d2.abs() + self.d3.abs() * v))
     }
 }
 

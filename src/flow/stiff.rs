@@ -5,7 +5,15 @@
 //! stages are the unknowns. Positions depend on velocities linearly, `X = x + h A V`, so that only the
 //! velocities remain: S equations with the analytic Jacobian `1 - h A div(V) + h^2 A^2`, solved by
 //! Newton's method. The error is the difference to an embedded solution of order S, filtered as Hairer
-//! and Wanner describe in section IV.8 of *Solving Ordinary Differential Equations II*.
+//! and Wanner describe in section IV.8 of *Solving Ordinary Differential Equations II*. Where damping is
+//! not stiff over a step, the solution is better than this difference by as much as its order is higher;
+//! where it is, its order is reduced to that of the stages, and it is hardly better at all. So the
+//! tolerance of the difference depends on both.
+
+mod algebra;
+mod arrival;
+
+use algebra::{differences, interpolated, solve, weighted};
 
 use super::limits::Reason;
 use super::scaling::{rough_exp2, rough_log2};
@@ -19,17 +27,24 @@ const MOST: usize = 7;
 /// The scheme for each tolerance: the first whose bound is not above it.
 static SCHEMES: [(f64, &Collocation); 3] = [(5e-4, &THREE), (1e-8, &FIVE), (0.0, &SEVEN)];
 
+/// Part of the way to an arrival after which it is looked at again, from nearby. Where a motion creeps
+/// in along `v^2 = -x/D2`, a hundredth of the way out is left.
+const SHORT_OF: f64 = 0.9;
+
 /// Newton iterations before a step is taken again, shorter. They converge quadratically.
 const ITERATIONS: usize = 12;
+
+/// Least tolerance for the embedded solution: its difference is not known better.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// Difference to the embedded solution that rounding makes, in units of that of one velocity.
+const NOISE: f64 = 16.0;
 
 /// Part of the tolerance that Newton's method may leave.
 const LEFT: f64 = 0.01;
 
 /// Longest step, as a multiple of the one before, over which the last polynomial is a good first guess.
 const FORESEEN: f64 = 3.0;
-
-/// Attempts to find the length of the last step of a swing; it settles in about four.
-const POLISHING: usize = 60;
 
 /// The stepper.
 #[derive(Clone, Debug)]
@@ -38,7 +53,7 @@ pub struct Stiff<F: Field = HalfPlane> {
     /// The square of the matrix of the scheme.
     square: [[f64; MOST]; MOST],
     field: F,
-    /// Tolerance of a step for the embedded solution.
+    /// Tolerance of a step for the embedded solution, where damping is not stiff.
     tolerance: f64,
     /// Tolerance of the solution.
     asked: f64,
@@ -192,7 +207,7 @@ impl<F: Field> Stiff<F> {
             let shrunk = moved / before;
             // Convergence is quadratic: the next change would be about this one times `shrunk^2`.
             let settled = moved * shrunk * shrunk <= LEFT * self.asked * size;
-            if settled || moved <= f64::EPSILON * size {
+            if settled || moved <= (f64::EPSILON * size).max(self.rounding(h)) {
                 // What the last change does to the accelerations needs no evaluation.
                 for j in 0..stages {
                     acceleration[j] += rate[j] * change[j] - h * weighted(integrals[j], &change);
@@ -209,8 +224,33 @@ impl<F: Field> Stiff<F> {
         None
     }
 
-    /// Error of the last attempt in units of the tolerance: below 1 is accepted.
-    fn error(&mut self, h: f64, end: Point, first: bool) -> f64 {
+    /// Error of the velocities of stages over a step of length `h` from rounding of the acceleration.
+    ///
+    /// On a slow manifold large terms balance: their rounding, divided by the damping, is what a velocity is
+    /// worth there, however short the step.
+    fn rounding(&self, h: f64) -> f64 {
+        let Point { x, v } = self.start;
+        let part = self.scheme.start * h;
+        let damped = 1.0 + part * self.field.divergence(v).abs() + part * part;
+        f64::EPSILON * self.field.magnitude(x, v) * part / damped
+    }
+
+    /// Tolerance for the embedded solution over a step of length `h` to `end`.
+    fn tolerance_of(&self, h: f64, end: Point) -> f64 {
+        let rate = |v: f64| self.field.divergence(v).abs();
+        let damping_times = h * rate(self.start.v).max(rate(end.v));
+        let reduced = self.asked / self.scheme.reduced_order(damping_times);
+        self.tolerance.min(reduced.max(ROUNDING))
+    }
+
+    /// The error that an attempt over a step of length `h` to `end` may have.
+    fn scale(&self, h: f64, end: Point) -> ErrorScale {
+        let scale = ErrorScale::new(self.tolerance_of(h, end), self.start, end);
+        ErrorScale { v: scale.v.max(NOISE * self.rounding(h)), ..scale }
+    }
+
+    /// Error of the last attempt in units of what it may be: below 1 is accepted.
+    fn error(&mut self, h: f64, scale: ErrorScale, first: bool) -> f64 {
         let Collocation { error: weights, start: own, .. } = *self.scheme;
         let part = h * own;
         let rate = self.field.divergence(self.start.v);
@@ -227,7 +267,6 @@ impl<F: Field> Stiff<F> {
                 v: (v - part * x) / determinant,
             }
         };
-        let scale = ErrorScale::new(self.tolerance, self.start, end);
         let norm = |error: Point| (error.x / scale.x).abs().max((error.v / scale.v).abs());
         let error = filtered(part * self.start.v + sums.x, part * self.slope + sums.v);
         if norm(error) < 1.0 || !first {
@@ -261,7 +300,7 @@ impl<F: Field> Stiff<F> {
             let shrink = match attempt {
                 None => 0.25,
                 Some(end) => {
-                    let error = self.error(length, end, first);
+                    let error = self.error(length, self.scale(length, end), first);
                     let factor = if error == 0.0 {
                         grow
                     } else {
@@ -288,63 +327,6 @@ impl<F: Field> Stiff<F> {
     fn keep(&mut self, duration: f64, end: Point) {
         (self.duration, self.end) = (duration, end);
         self.dense[1] = differences(self.scheme.nodes, self.start.v, &self.velocity);
-    }
-
-    /// Shortens the step just kept until it ends at the first `v = 0`; `None` where that fails.
-    fn arrive(&mut self) -> Option<Step> {
-        let nodes = self.scheme.nodes;
-        let (whole, polynomial) = (self.duration, self.dense[1]);
-        let at = |length: f64| interpolated(nodes, &polynomial, length / whole);
-        let (mut low, mut high) = self.bracket(whole);
-        // The polynomial of the whole step says about where; steps that end there say exactly where.
-        let mut length = 0.5 * (low + high);
-        for _ in 0..10 {
-            if at(length) > 0.0 {
-                low = length;
-            } else {
-                high = length;
-            }
-            length = 0.5 * (low + high);
-        }
-        (low, high) = (0.0, whole);
-        for _ in 0..POLISHING {
-            let mut guess = [0.0; MOST];
-            for (guess, node) in guess.iter_mut().zip(nodes) {
-                *guess = at(node * length);
-            }
-            let end = self.attempt(length, guess)?;
-            let slope = self.field.acceleration(end.x, end.v);
-            let rest = -end.v / slope;
-            if rest.abs() <= 1e-9 * length {
-                self.keep(length + rest, Point { x: end.x + 0.5 * rest * end.v, v: 0.0 });
-                return Some(Step { duration: self.duration, end: self.end, crossed: true });
-            }
-            if end.v > 0.0 {
-                low = length;
-            } else {
-                high = length;
-            }
-            let newton = length + rest;
-            length = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-        }
-        None
-    }
-
-    /// Where in the step the velocity first becomes zero, as far as the stages tell.
-    fn bracket(&self, whole: f64) -> (f64, f64) {
-        let mut low = 0.0;
-        for (node, &v) in self.scheme.nodes.iter().zip(&self.velocity) {
-            if v <= 0.0 {
-                return (low, node * whole);
-            }
-            low = node * whole;
-        }
-        (0.0, whole)
-    }
-
-    /// Whether the last attempt reaches `v = 0`.
-    fn reaches_standstill(&self) -> bool {
-        self.velocity[..self.scheme.nodes.len()].iter().any(|&v| v <= 0.0)
     }
 
     /// The longest step that cannot pass two crossings: where damping is above critical, any.
@@ -379,12 +361,15 @@ impl<F: Field> Stepper<F> for Stiff<F> {
             if !self.reaches_standstill() {
                 return Ok(Step { duration, end, crossed: false });
             }
-            if let Some(arrival) = self.arrive().filter(Step::is_possible) {
+            let arrival = self.arrive().filter(Step::is_possible);
+            if let Some(arrival) = arrival
+                && self.is_sharp(&arrival)
+            {
                 return Ok(arrival);
             }
             self.rejected += 1;
             (self.end, self.duration) = (last, 0.0);
-            longest = 0.5 * duration;
+            longest = arrival.map_or(0.5 * duration, |arrival| SHORT_OF * arrival.duration);
         }
     }
 
@@ -429,66 +414,11 @@ impl<F: Field> Stepper<F> for Stiff<F> {
 }
 
 /// The tolerance for the embedded solution of order S with which the solution of order `2 S - 1` has
-/// about the tolerance that was asked for (as in the authors' program).
+/// about the tolerance that was asked for (as in the authors' program), where damping is not stiff.
 fn embedded_tolerance(tolerance: f64, stages: usize) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "at most 7")]
     let stages = stages as f64;
     0.1 * tolerance.powf((stages + 1.0) / (2.0 * stages))
-}
-
-fn weighted(weights: &[f64], values: &[f64; MOST]) -> f64 {
-    weights.iter().zip(values).map(|(weight, value)| weight * value).sum()
-}
-
-/// Solves `matrix * x = right` in place by elimination with partial pivoting; `None` if singular.
-fn solve(matrix: &mut [[f64; MOST]; MOST], right: &mut [f64; MOST], size: usize) -> Option<()> {
-    for column in 0..size {
-        let magnitude = |row: &usize| matrix[*row][column].abs();
-        let pivot = (column..size).max_by(|a, b| magnitude(a).total_cmp(&magnitude(b)))?;
-        matrix.swap(column, pivot);
-        right.swap(column, pivot);
-        let own = matrix[column];
-        if own[column] == 0.0 {
-            return None;
-        }
-        for row in column + 1..size {
-            let factor = matrix[row][column] / own[column];
-            for k in column + 1..size {
-                matrix[row][k] -= factor * own[k];
-            }
-            right[row] -= factor * right[column];
-        }
-    }
-    for row in (0..size).rev() {
-        let known: f64 = (row + 1..size).map(|k| matrix[row][k] * right[k]).sum();
-        right[row] = (right[row] - known) / matrix[row][row];
-    }
-    Some(())
-}
-
-/// Newton's divided differences over 0 and the nodes.
-fn differences(nodes: &[f64], first: f64, values: &[f64; MOST]) -> [f64; MOST + 1] {
-    let place = |index: usize| if index == 0 { 0.0 } else { nodes[index - 1] };
-    let mut table = [0.0; MOST + 1];
-    table[0] = first;
-    table[1..].copy_from_slice(values);
-    for level in 1..=nodes.len() {
-        for index in (level..=nodes.len()).rev() {
-            table[index] =
-                (table[index] - table[index - 1]) / (place(index) - place(index - level));
-        }
-    }
-    table
-}
-
-/// The polynomial with these divided differences.
-fn interpolated(nodes: &[f64], differences: &[f64; MOST + 1], at: f64) -> f64 {
-    let stages = nodes.len();
-    let inner = (1..=stages).rev().fold(0.0, |sum, index| {
-        let before = if index == 1 { 0.0 } else { nodes[index - 2] };
-        (sum + differences[index]) * (at - before)
-    });
-    differences[0] + inner
 }
 
 #[cfg(test)]

@@ -127,6 +127,7 @@ fn drive<S: Stepper>(
         let step = advance(stepper, point, remaining).map_err(failed)?;
         steps += 1;
         let goes_on = watch(stepper, time, unit, &step).is_continue();
+        let step = progress(step, point, remaining);
         clock.advance(step.duration);
         let time = clock.plus(0.0);
         point = step.end;
@@ -152,6 +153,23 @@ fn drive<S: Stepper>(
             point = Point { x: times_power(point.x, -drift), v: times_power(point.v, -drift) };
             stepper.begin(&scaled);
         }
+    }
+}
+
+/// The step, or where it changed nothing as many like it as it takes to move x to the next number.
+///
+/// Far out, where large terms balance, rounding makes points of rest of which the motion knows nothing: x
+/// moves on by less than its own rounding, and every further step would be the same again.
+fn progress(step: Step, from: Point, longest: f64) -> Step {
+    if step.crossed || step.end != from || from.v == 0.0 {
+        return step;
+    }
+    let x = if from.v > 0.0 { from.x.next_up() } else { from.x.next_down() };
+    let duration = (x - from.x) / from.v;
+    if duration < longest {
+        Step { duration, end: Point { x, ..from }, crossed: false }
+    } else {
+        Step { duration: longest, ..step }
     }
 }
 

@@ -167,6 +167,32 @@ impl Equation {
         }
     }
 
+    /// Logarithm of the clearance below which no first swing of a cycle starts where the end of the sticking set
+    /// is a node that repels (`D <= -1`); `None` where no swing from there comes back.
+    ///
+    /// Every second swing, however close to the sticking set it starts, ends beyond the one that creeps out
+    /// from its rim, and the next first swing starts there.
+    ///
+    /// # Errors
+    /// The [`Reason`] why a swing failed.
+    pub fn rim(&mut self, limits: &Limits) -> Result<Option<f64>, Reason> {
+        /// A start at the rim, as a part of the smallest length there is.
+        const RIM: f64 = 1e-60;
+        let Parameters { d2, d3, r, .. } = self.parameters;
+        let natural = (1.0 / d2.abs()).min(1.0 / d3.abs().sqrt());
+        let rim = Length::new(RIM * natural.min(r));
+        let mut bound = f64::NEG_INFINITY;
+        for map in &mut self.forward {
+            match map.swing(rim, limits) {
+                Ok(swing) => bound = (swing.end.value - 2.0 * r).ln(),
+                Err(NoEnd::Escapes) => return Ok(None),
+                Err(NoEnd::Never) => bound = f64::NEG_INFINITY,
+                Err(NoEnd::Failed(reason)) => return Err(reason),
+            }
+        }
+        Ok(Some(if bound.is_nan() { f64::NEG_INFINITY } else { bound }))
+    }
+
     /// Clearance at which the first swing of a cycle starts whose right turning point is `q_max`.
     ///
     /// On the upper side the first swing ends there and is followed back; on the lower it starts there.

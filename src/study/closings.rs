@@ -9,12 +9,13 @@ use super::balance::weighed_residual;
 use super::closing::{Closing, Equation, Route};
 use super::half_map::Length;
 use super::search::{Bracket, Node, search};
+use super::weak::{is_one_way, weak_closing};
 use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::{Limits, Reason};
 use crate::oscillator::Parameters;
 
 /// Tolerance of the integration steps of the search and the polish: rounding.
-pub(super) const STEP: f64 = 1e-16;
+pub const STEP: f64 = 1e-16;
 
 /// Slope of the residual below which it is weighed as energy.
 const FLAT: f64 = 0.3;
@@ -52,6 +53,9 @@ fn some_closings(
     if parameters.is_piecewise_linear() {
         let cycle = LinearCycle::new(parameters.d, parameters.r).ok();
         return Ok(cycle.iter().map(Closing::from).collect());
+    }
+    if let Some(closing) = weak_closing(&parameters) {
+        return Ok(vec![closing]);
     }
     searched(equation, most, &[], limits)
 }
@@ -95,15 +99,24 @@ fn searched(
     const BUDGET: u64 = 40_000_000;
     let budget = limits.evaluations.min(BUDGET);
     let limits = &Limits { evaluations: budget, interrupted: limits.interrupted };
-    let Parameters { d, d3, r, .. } = equation.parameters;
-    // The first integral of D2 decreases along every motion (`K` of [`super::balance`]), or increases.
-    if d >= 0.0 && d3 >= 0.0 || r == 0.0 && d <= 0.0 && d3 <= 0.0 {
+    if is_one_way(&equation.parameters) {
         return Ok(Vec::new());
     }
     let Some(low) = lower_end(equation, limits)? else { return Ok(Vec::new()) };
     let brackets = brackets(equation, low, most, known, limits)?;
     equation.want_fastest(true);
-    brackets.into_iter().take(most).map(|bracket| polish(equation, bracket, limits)).collect()
+    let mut found = Vec::new();
+    for bracket in brackets {
+        let closing = polish(equation, bracket, limits)?;
+        // Where the second swing would have to start at the very end of the sticking set, nothing closes.
+        if closing.duration.is_finite() && found.len() < most {
+            if !closing.log_multiplier(&equation.parameters).is_finite() {
+                return Err(Reason::OutOfRange);
+            }
+            found.push(closing);
+        }
+    }
+    Ok(found)
 }
 
 /// Where the search begins, or `None` where no swing passes the sticking set.
@@ -114,8 +127,15 @@ fn lower_end(equation: &mut Equation, limits: &Limits) -> Result<Option<f64>, Re
     const CLEARLY: f64 = 0.125;
     let Parameters { d, d2, d3, r } = equation.parameters;
     let smallest = equation.smallest_clearance(limits)?;
+    let mut rim = f64::NEG_INFINITY;
+    if d <= -1.0 && r > 0.0 {
+        let Some(bound) = equation.rim(limits)? else { return Ok(None) };
+        rim = bound;
+    }
     Ok(smallest.map(|smallest| {
-        if smallest.log.is_finite() {
+        if rim > smallest.log {
+            rim - CLEARLY
+        } else if smallest.log.is_finite() {
             // A cycle of large multiplier lies within rounding of it: begin clearly below.
             smallest.log - CLEARLY
         } else if r > 0.0 {
@@ -186,7 +206,8 @@ fn brackets(
         here = if beyond > next.at { function(beyond, false)? } else { next };
         // A swing that never starts out, or never ends, is no end of the domain: from further out it may.
         let escapes = here.rise == f64::INFINITY || here.fall == f64::INFINITY;
-        if found.len() >= most || escapes {
+        // One of them may turn out to be no cycle.
+        if found.len() > most || (found.len() == most && parameters.d > -1.0) || escapes {
             break;
         }
         stride = (1.5 * stride).min(STRIDES.1);
@@ -206,7 +227,7 @@ pub fn polish(
 ) -> Result<Closing, Reason> {
     let rising = bracket.1.value() > bracket.0.value();
     let (mut low, mut high) = (bracket.0.at, bracket.1.at);
-    let mut route = Route::Mixed;
+    let mut route = beyond_the_end(&bracket);
     let mut switched = false;
     let mut u = secant(&bracket);
     let mut change = f64::INFINITY;
@@ -230,8 +251,12 @@ pub fn polish(
             continue;
         }
         switched = false;
+        let ends = closing.duration.is_finite();
         let flat = route == Route::Mixed && node.slope.abs() < FLAT;
-        if flat && let Some(weighed) = weighed_residual(equation, u, limits)? {
+        if flat
+            && ends
+            && let Some(weighed) = weighed_residual(equation, u, limits)?
+        {
             node = Node { rise: weighed, fall: 0.0, ..node };
         }
         if (node.value() > 0.0) == rising {
@@ -244,7 +269,7 @@ pub fn polish(
         // Rounding moves the root by an ulp, divided by the slope where the residual is a plain
         // difference. A weighed one does better: it goes on while it does.
         let rounding = 4.0 * f64::EPSILON * u.abs().max(1.0);
-        let blurred = change <= rounding / node.slope.abs().min(1.0);
+        let blurred = change.is_finite() && change <= rounding / node.slope.abs().min(1.0);
         // Where rounding of the swings is larger than that, Newton's method stops making progress.
         let stalled = change >= 0.5 * last && change <= 16.0 * rounding;
         let settled = change <= rounding || stalled || (blurred && (!flat || change >= 0.5 * last));
@@ -257,6 +282,18 @@ pub fn polish(
         u = if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
     }
     Err(Reason::NoConvergence { sought: "a limit cycle", change })
+}
+
+/// The route to begin with: where one swing has no end on one side of the bracket, the one that runs it the
+/// other way, and contracts there.
+fn beyond_the_end((low, high): &Bracket) -> Route {
+    if low.rise == f64::INFINITY || high.rise == f64::INFINITY {
+        Route::Backward
+    } else if low.fall == f64::INFINITY || high.fall == f64::INFINITY {
+        Route::Forward
+    } else {
+        Route::Mixed
+    }
 }
 
 /// The closing at an unknown known to rounding, by the route on which it closes best.

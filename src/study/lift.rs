@@ -46,7 +46,9 @@ impl Cycles {
 }
 
 impl Cycle {
-    fn times_power(self, unit: i32) -> Self {
+    /// The same cycle, every length multiplied by `2^unit`.
+    #[must_use]
+    pub fn times_power(self, unit: i32) -> Self {
         let length = |value| times_power(value, unit);
         Cycle {
             q_min: length(self.q_min),

@@ -28,6 +28,7 @@ pub mod scan;
 pub mod search;
 pub mod stability;
 pub mod trade;
+pub mod weak;
 pub mod works;
 
 pub use branch::{Branch, BranchPoint, Special, SpecialKind};

@@ -1,0 +1,78 @@
+//! The last step of a half swing: shortened until it ends at `v = 0`.
+
+use super::algebra::interpolated;
+use super::{MOST, Stiff};
+use crate::flow::step::{ErrorScale, Field, Point, Step};
+
+/// Attempts to find the length of the last step; it settles in about four.
+const POLISHING: usize = 60;
+
+impl<F: Field> Stiff<F> {
+    /// Shortens the step just kept until it ends at the first `v = 0`; `None` where that fails.
+    pub(super) fn arrive(&mut self) -> Option<Step> {
+        let nodes = self.scheme.nodes;
+        let (whole, polynomial) = (self.duration, self.dense[1]);
+        let at = |length: f64| interpolated(nodes, &polynomial, length / whole);
+        let (mut low, mut high) = self.bracket(whole);
+        // The polynomial of the whole step says about where; steps that end there say exactly where.
+        let mut length = 0.5 * (low + high);
+        for _ in 0..10 {
+            if at(length) > 0.0 {
+                low = length;
+            } else {
+                high = length;
+            }
+            length = 0.5 * (low + high);
+        }
+        (low, high) = (0.0, whole);
+        for _ in 0..POLISHING {
+            let mut guess = [0.0; MOST];
+            for (guess, node) in guess.iter_mut().zip(nodes) {
+                *guess = at(node * length);
+            }
+            let end = self.attempt(length, guess)?;
+            let slope = self.field.acceleration(end.x, end.v);
+            let rest = -end.v / slope;
+            if rest.abs() <= 1e-9 * length {
+                self.keep(length + rest, Point { x: end.x + 0.5 * rest * end.v, v: 0.0 });
+                return Some(Step { duration: self.duration, end: self.end, crossed: true });
+            }
+            if end.v > 0.0 {
+                low = length;
+            } else {
+                high = length;
+            }
+            let newton = length + rest;
+            length = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        }
+        None
+    }
+
+    /// Whether the place of an arrival is known as a part of itself, not only of the position from which its
+    /// step began: a motion that creeps in from far out may end its swing in one step.
+    pub(super) fn is_sharp(&mut self, arrival: &Step) -> bool {
+        let scale = self.scale(arrival.duration, arrival.end);
+        let place = ErrorScale {
+            x: scale.x * (arrival.end.x / self.start.size().max(arrival.end.x)),
+            ..scale
+        };
+        arrival.end.x < f64::MIN_POSITIVE || self.error(arrival.duration, place, true) <= 1.0
+    }
+
+    /// Where in the step the velocity first becomes zero, as far as the stages tell.
+    fn bracket(&self, whole: f64) -> (f64, f64) {
+        let mut low = 0.0;
+        for (node, &v) in self.scheme.nodes.iter().zip(&self.velocity) {
+            if v <= 0.0 {
+                return (low, node * whole);
+            }
+            low = node * whole;
+        }
+        (0.0, whole)
+    }
+
+    /// Whether the last attempt reaches `v = 0`.
+    pub(super) fn reaches_standstill(&self) -> bool {
+        self.velocity[..self.scheme.nodes.len()].iter().any(|&v| v <= 0.0)
+    }
+}

@@ -1,0 +1,141 @@
+//! The limit cycles at the parameters of the lattice, and how well they close.
+
+use serde::Serialize;
+
+use super::lattice::{D, D2_D3, R};
+use crate::flow::{Cost, Limits, Reason};
+use crate::oscillator::Parameters;
+use crate::study::Cycle;
+use crate::study::closing::{Closing, Equation, Route};
+use crate::study::closings::{STEP, all_closings};
+use crate::study::lift::lifted;
+
+/// Most evaluations of one half map in a search.
+pub const BUDGET: u64 = 3_000_000;
+
+/// Every how many sets the thin lattice takes one: no factor in common with the number of values of any
+/// parameter.
+pub const THIN: usize = 7;
+
+/// Tolerance of the steps by which a cycle is followed again.
+const AGAIN: f64 = 1e-13;
+
+/// A limit cycle of the lattice.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Found {
+    /// The cycle.
+    #[serde(flatten)]
+    pub cycle: Cycle,
+    /// By what part of the clearance a turn fails to close, followed again by steps of another length, along
+    /// the way in which it contracts.
+    pub residual: f64,
+}
+
+/// What the search answered.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case", tag = "kind")]
+pub enum SetAnswer {
+    /// All cycles, by amplitude.
+    Found {
+        /// They.
+        cycles: Vec<Found>,
+    },
+    /// No answer.
+    GaveUp {
+        /// Why.
+        #[serde(serialize_with = "as_text")]
+        reason: Reason,
+    },
+}
+
+fn as_text<S: serde::Serializer>(reason: &Reason, out: S) -> Result<S::Ok, S::Error> {
+    out.collect_str(reason)
+}
+
+/// The parameters of a place of the lattice and what the search for cycles answered there.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SetVerdict {
+    /// The parameters.
+    pub parameters: Parameters,
+    /// The answer.
+    pub answer: SetAnswer,
+    /// What it cost.
+    pub cost: Cost,
+}
+
+impl SetVerdict {
+    /// The cycles; none where it gave up.
+    #[must_use]
+    pub fn cycles(&self) -> &[Found] {
+        match &self.answer {
+            SetAnswer::Found { cycles } => cycles,
+            SetAnswer::GaveUp { .. } => &[],
+        }
+    }
+}
+
+/// The parameters of the lattice, every set or, if `thin`, each [`THIN`]th.
+pub fn sets(thin: bool) -> impl Iterator<Item = Parameters> {
+    let all = D.iter().flat_map(|&d| {
+        let rows = R.iter().flat_map(move |&r| D2_D3.map(|d2| (r, d2)));
+        rows.flat_map(move |(r, d2)| D2_D3.map(|d3| Parameters { d, d2, d3, r }))
+    });
+    all.step_by(if thin { THIN } else { 1 })
+}
+
+/// Searches for all cycles at these parameters within [`BUDGET`].
+#[must_use]
+pub fn judge_set(parameters: &Parameters, limits: &Limits) -> SetVerdict {
+    let limits =
+        Limits { evaluations: limits.evaluations.min(BUDGET), interrupted: limits.interrupted };
+    // As [`crate::study::cycle::cycles`] does with friction next to the smallest numbers.
+    let (scaled, unit) = lifted(parameters).unwrap_or((*parameters, 0));
+    let mut equation = Equation::new(&scaled, STEP);
+    let answer = match all_closings(&mut equation, &limits) {
+        Err(reason) => SetAnswer::GaveUp { reason },
+        Ok(closings) => SetAnswer::Found {
+            cycles: closings
+                .iter()
+                .map(|closing| Found {
+                    cycle: closing.describe(&scaled, equation.side).times_power(-unit),
+                    residual: residual(closing, &scaled, &limits),
+                })
+                .collect(),
+        },
+    };
+    SetVerdict { parameters: *parameters, answer, cost: equation.cost() }
+}
+
+/// By how much a turn fails to close; infinite where it cannot be followed.
+fn residual(closing: &Closing, parameters: &Parameters, limits: &Limits) -> f64 {
+    let mut equation = Equation::new(parameters, AGAIN);
+    let route = Route::contracting(closing.log_multiplier(parameters));
+    let again = equation.at(route, closing.node.at, limits);
+    again.map_or(f64::INFINITY, |again| again.node.value().abs())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashSet;
+
+    use super::*;
+
+    #[test]
+    fn the_thin_sets_still_pair_every_value_with_every_other() {
+        assert_eq!(sets(false).count(), 1_800);
+        let mut pairs = HashSet::new();
+        for Parameters { d, d2, d3, r } in sets(true) {
+            let values = [d, r, d2, d3].map(f64::to_bits);
+            for first in 0..4 {
+                for second in first + 1..4 {
+                    pairs.insert((first, second, values[first], values[second]));
+                }
+            }
+        }
+        let sides = [D.len(), R.len(), D2_D3.len(), D2_D3.len()];
+        let expected: usize = (0..4)
+            .map(|one| (one + 1..4).map(|other| sides[one] * sides[other]).sum::<usize>())
+            .sum();
+        assert_eq!(pairs.len(), expected);
+    }
+}
