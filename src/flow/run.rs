@@ -240,6 +240,9 @@ impl Works {
 }
 
 /// Hands evenly spaced points of a step to `keep`, its end included, its start not.
+///
+/// At the edge of the range the polynomial of a step may overflow between two points that do not: what
+/// is no number is left out.
 pub(super) fn sample<F: Field, S: Stepper<F>>(
     stepper: &mut S,
     step: &Step,
@@ -251,7 +254,10 @@ pub(super) fn sample<F: Field, S: Stepper<F>>(
     for index in 1..count {
         #[expect(clippy::cast_precision_loss, reason = "a few hundred points")]
         let offset = step.duration * (index as f64 / count as f64);
-        keep(offset, stepper.at(offset));
+        let point = stepper.at(offset);
+        if point.x.is_finite() && point.v.is_finite() {
+            keep(offset, point);
+        }
     }
     keep(step.duration, step.end);
 }

@@ -160,6 +160,23 @@ fn an_interrupted_motion_says_so() {
     assert_eq!(motion.outcome, Outcome::GaveUp { tau: 0.0, reason: Reason::Interrupted });
 }
 
+#[test]
+fn samples_next_to_the_largest_numbers_are_numbers() {
+    let parameters = [-6.266_032_145_776_457e163, 0.0, -1.755_772_970_024_516_4, 0.0];
+    for method in [Method::Taylor, Method::Dop853, Method::Dopri5, Method::Stiff] {
+        let question = Problem {
+            until: 264_128_738.608_010_17,
+            tolerance: 7.3e-11,
+            ..problem(parameters, (-0.020_643_207_369_160_98, 0.0), method)
+        };
+        let detail = Detail { crossings: false, samples_per_step: 2, energy: false };
+        let limits = Limits { evaluations: 4_000, ..Limits::PATIENT };
+        for Sample { tau, q, v } in trajectory(&question, detail, &limits).samples {
+            assert!(tau.is_finite() && q.is_finite() && v.is_finite(), "{method}: {tau} {q} {v}");
+        }
+    }
+}
+
 fn parameters() -> impl Strategy<Value = [f64; 4]> {
     [-0.9..0.9, -1.0..1.0, -1.0..2.0, 0.0..0.5]
 }
