@@ -342,23 +342,41 @@ fn a_fold_and_the_escape_point_end_the_branches_that_lead_to_them() {
 
 #[test]
 fn over_cubic_damping_the_branch_ends_before_its_cycles_are_known_no_more() {
-    let parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.0, r: 0.1 };
-    let found =
-        branch(&parameters, Symbol::D3, (-1.0, 1.0), Points::Even(60), 1e-10, &LIMITS).unwrap();
-    let points = || found.pieces.iter().flatten();
-    for point in points() {
-        let there = Parameters { d3: point.value, ..parameters };
-        let cycles = cycles(&there, false, &LIMITS).unwrap().cycles;
-        let cycle = cycles.iter().find(|cycle| cycle.stable == point.cycle.stable).unwrap();
-        assert!((cycle.q_max / point.cycle.q_max - 1.0).abs() < 1e-6, "D3 = {}", point.value);
+    // Which cycle passes D3 = 0, if one does; the other one comes from infinity there.
+    for (d, d2, passes) in [
+        (-0.3, 0.0, Some(false)),
+        (-0.3, 0.2, Some(false)),
+        (0.3, -0.5, None),
+        (0.3, 0.0, None),
+        (0.3, 0.2, None),
+        (0.0, 0.0, None),
+    ] {
+        let parameters = Parameters { d, d2, d3: 0.0, r: 0.1 };
+        let found =
+            branch(&parameters, Symbol::D3, (-1.0, 1.0), Points::Even(60), 1e-10, &LIMITS).unwrap();
+        assert!(!found.pieces.is_empty());
+        let points = || found.pieces.iter().flatten();
+        for point in points() {
+            let there = Parameters { d3: point.value, ..parameters };
+            let cycles = cycles(&there, false, &LIMITS).unwrap().cycles;
+            let cycle = cycles.iter().find(|cycle| cycle.stable == point.cycle.stable).unwrap();
+            for (one, other) in [(cycle.q_max, point.cycle.q_max), (cycle.q_min, point.cycle.q_min)]
+            {
+                assert!((one / other - 1.0).abs() < 1e-6, "D = {d}, D2 = {d2}, {point:?}");
+            }
+        }
+        let nearest = |stable: bool| {
+            let near = points().filter(|point| point.cycle.stable == stable);
+            near.map(|point| point.value.abs()).fold(f64::INFINITY, f64::min)
+        };
+        for stable in [false, true] {
+            assert!(nearest(stable) > 1e-5 || passes == Some(stable), "D = {d}, D2 = {d2}");
+        }
+        if passes == Some(false) {
+            assert!(found.pieces[0].first().is_some_and(|point| point.value == -1.0));
+            assert!(nearest(true) < 1e-3);
+        }
     }
-    // The unstable cycle passes zero, the stable one comes from infinity there.
-    let smallest = |stable: bool| {
-        let values = points().filter(|point| point.cycle.stable == stable).map(|point| point.value);
-        values.fold(f64::INFINITY, f64::min)
-    };
-    assert_eq!(smallest(false), -1.0);
-    assert!(smallest(true) > 0.0 && smallest(true) < 1e-3);
 }
 
 #[test]

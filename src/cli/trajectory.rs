@@ -32,10 +32,9 @@ impl Trajectory {
             let detail = Detail { energy, ..Detail::default() };
             trajectory(&problem, detail, &Limits::PATIENT)
         };
-        // The ledger is a check on the motion and not part of what it costs: where time is measured
-        // with care, it is made apart.
-        let (mut motion, seconds) = timed(self.output.repeat, || follow(self.output.repeat == 1));
-        if self.output.repeat > 1 {
+        // The ledger is a check on the motion and no part of what it costs: it is made apart.
+        let (mut motion, seconds) = timed(self.output.repeat, || follow(false));
+        if !matches!(motion.outcome, Outcome::GaveUp { .. }) {
             motion = follow(true);
         }
         print(&match self.output.format {

@@ -5,6 +5,8 @@
 //! nothing. Along D, D3 and r a curve is a graph over the amplitude: each of them changes the energy
 //! balance of a swing in one direction only, so for a given clearance one value closes the cycle.
 
+use std::f64::consts::PI;
+
 use serde::Serialize;
 
 use super::closing::{Equation, Route, first_side};
@@ -286,9 +288,8 @@ impl Tracer<'_> {
 
     /// Smallest and largest `ln c0` followed: beyond, a curve counts as gone to nothing or to infinity.
     ///
-    /// Over D3 a cycle goes to infinity at `D3 = 0`, as `sqrt(8 D/(3 D3))`: it is followed to a
-    /// [`NEAREST`] part of the range from there, because values of the parameter are known to a part of
-    /// the range.
+    /// Over D3 a cycle goes to infinity at `D3 = 0`: it is followed to a [`NEAREST`] part of the range from
+    /// there, because values of the parameter are known to a part of the range.
     fn bounds_of_u(&self) -> (f64, f64) {
         let Parameters { d, d2, d3, r } = self.curve.parameters_at(self.curve.scale);
         let natural = (1.0 / d2.abs()).min(1.0 / d3.abs().sqrt());
@@ -302,10 +303,19 @@ impl Tracer<'_> {
             (deepest, (60.0 / d2.abs() + 2.0 * r).ln())
         } else {
             let smallest = if r > 0.0 { deepest } else { natural.ln() - LOG_FAR };
-            if self.parameter == Symbol::D3 && d2 == 0.0 && d < 0.0 {
-                let farthest = (8.0 * d.abs() / (3.0 * NEAREST * self.curve.scale)).sqrt();
-                // The cycle that friction alone borders goes through D3 = 0.
-                return (smallest, farthest.max(4.0 * r / d.abs()).ln());
+            if self.parameter == Symbol::D3 {
+                let least = NEAREST * self.curve.scale;
+                // Sizes there: by linear and cubic damping alone (52), by friction and cubic damping (50),
+                // on the slow manifold by asymmetric and cubic damping; at last those of the cycles that go
+                // through D3 = 0.
+                let sizes = [
+                    (8.0 * d.abs() / (3.0 * least)).sqrt(),
+                    (16.0 * r / (3.0 * PI * least)).cbrt(),
+                    d2.abs() * (d2 / least).powi(2),
+                    if d == 0.0 { 0.0 } else { 4.0 * r / d.abs() },
+                    if d2 == 0.0 { 0.0 } else { 60.0 / d2.abs() },
+                ];
+                return (smallest, sizes.into_iter().fold(0.0, f64::max).ln());
             }
             (smallest, natural.max(r).ln() + LOG_FAR)
         }
