@@ -35,9 +35,9 @@ const LONG: f64 = 0.5;
 /// the one before it left in the caches.
 const SHORT: f64 = 1e-3;
 
-/// What takes less than this is measured over as many runs as take so long, beside which reading the
-/// clock is nothing.
-const READABLE: f64 = 20e-6;
+/// What takes less than this is measured over as many runs as take so long: reading the clock is nothing
+/// beside it, and the processor has learnt which way each branch goes.
+const READABLE: f64 = 200e-6;
 
 /// See [`ENOUGH`].
 const ROUNDS: usize = 25;
@@ -52,20 +52,27 @@ pub fn in_turn<T>(times: u32, count: usize, mut compute: impl FnMut(usize) -> T)
         for (index, seconds) in seconds.iter_mut().enumerate() {
             let few = seconds.len() < FEW && seconds.iter().sum::<f64>() < LONG;
             if times > 1 || few || seconds.iter().sum::<f64>() < ENOUGH {
-                let started = Instant::now();
-                black_box(compute(index));
-                let once = started.elapsed().as_secs_f64();
-                seconds.push(if once < SHORT { again(once, || compute(index)) } else { once });
+                seconds.push(settled(|| compute(index)));
             }
         }
     }
     seconds.iter_mut().map(|seconds| median(seconds)).collect()
 }
 
-/// The mean seconds of a short computation that just took `once`.
-fn again<T>(once: f64, mut compute: impl FnMut() -> T) -> f64 {
+/// The seconds of a computation; of a short one with everything that it needs in the caches.
+fn settled<T>(mut compute: impl FnMut() -> T) -> f64 {
+    let cold = mean(1, &mut compute);
+    if cold >= SHORT {
+        return cold;
+    }
+    let warm = mean(1, &mut compute);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 1000")]
-    let times = (READABLE / once).ceil().clamp(1.0, 1000.0) as u32;
+    let times = (READABLE / warm).ceil().clamp(1.0, 1000.0) as u32;
+    mean(times, &mut compute)
+}
+
+/// The mean seconds of so many computations in a row.
+fn mean<T>(times: u32, mut compute: impl FnMut() -> T) -> f64 {
     let started = Instant::now();
     for _ in 0..times {
         black_box(compute());
