@@ -34,9 +34,12 @@ pub fn weak_closing(parameters: &Parameters) -> Option<Closing> {
     let [cycle] = amplitudes(parameters)[..] else { return None };
     let amplitude = cycle.amplitude;
     let bend = d2.abs() * amplitude;
-    let strengths = [d.abs(), r / amplitude, bend, d3.abs() * amplitude * amplitude];
+    let cubic = d3.abs() * amplitude * amplitude;
+    let strengths = [d.abs(), r / amplitude, bend, cubic];
     let square = PI * amplitude * amplitude;
-    if !one_zero || !square.is_normal() || !strengths.iter().all(|&strength| strength <= WEAK) {
+    // Of an amplitude next to nothing the square underflows, which matters beside a large D3 only.
+    let has_square = square.is_normal() || cubic <= f64::EPSILON * d.abs();
+    if !one_zero || !has_square || !strengths.iter().all(|&strength| strength <= WEAK) {
         return None;
     }
     // In the frame of the first swing, in which D2 >= 0, the left turning point is the farther one.
