@@ -6,6 +6,8 @@
 //! quotient that is renewed only when the correction converges slowly. Lengths are measured with p in
 //! units of the range and u in units of 4.
 
+mod spread;
+
 use super::closing::{Closing, Equation, Route};
 use crate::flow::{Cost, Limits, Reason};
 use crate::oscillator::{Parameters, Side, State, Symbol};
@@ -341,53 +343,6 @@ impl<'a> Curve<'a> {
         LONGEST * self.strides / tangent.p.abs().max(tangent.u.abs() / depth.max(1.0))
     }
 
-    /// Spreads `count` points evenly over a followed curve, both ends included, and corrects each.
-    ///
-    /// Distance is measured in p, u and amplitude together, each in parts of what the curve spans: this
-    /// is how far apart points look on a diagram. Between followed points the curve is interpolated by
-    /// polynomials through six of them.
-    ///
-    /// # Errors
-    /// The [`Reason`] why a swing failed.
-    pub fn spread(
-        &mut self,
-        points: &[CurvePoint],
-        count: usize,
-    ) -> Result<Vec<CurvePoint>, Reason> {
-        let (Some(first), Some(last)) = (points.first(), points.last()) else {
-            return Ok(Vec::new());
-        };
-        let arc = arc_lengths(points);
-        let total = arc[arc.len() - 1];
-        if points.len() < 2 || total == 0.0 {
-            return Ok(points.to_vec());
-        }
-        let window = points.len().min(6);
-        let mut spread = vec![*first];
-        self.slope_in_p = None;
-        for index in 1..count.saturating_sub(1) {
-            #[expect(clippy::cast_precision_loss, reason = "counts of points are small")]
-            let s = total * index as f64 / (count - 1) as f64;
-            let after = arc.partition_point(|&length| length <= s).clamp(1, points.len() - 1);
-            let base = after.saturating_sub(window / 2).min(points.len() - window);
-            let (one, other) = (&points[after - 1], &points[after]);
-            let smooth = interpolate(&points[base..base + window], &arc[base..base + window], s);
-            let tangent = Tangent::between(one, other, self.scale);
-            let route = Route::contracting(0.5 * (one.log_multiplier + other.log_multiplier));
-            let mut found = self.correct(smooth, tangent, route)?;
-            if found.is_none() {
-                // A polynomial may pass beyond where there are cycles; the chord of a bend does not.
-                let fraction = (s - arc[after - 1]) / (arc[after] - arc[after - 1]);
-                let between = |from: f64, to: f64| from + fraction * (to - from);
-                let straight = (between(one.u, other.u), between(one.p, other.p));
-                found = self.correct(straight, tangent, route)?;
-            }
-            spread.extend(found);
-        }
-        spread.push(*last);
-        Ok(spread)
-    }
-
     /// The tangent from the slopes of the residual, turned the way of `along`.
     fn tangent_at(&self, point: &CurvePoint, along: Tangent) -> Option<Tangent> {
         let slope_p = self.slope_in_p?.1 * self.scale;
@@ -467,37 +422,4 @@ impl<'a> Curve<'a> {
         }
         Ok(best)
     }
-}
-
-/// Length along a curve as it looks on a diagram, from its first point to each.
-fn arc_lengths(points: &[CurvePoint]) -> Vec<f64> {
-    let coordinates = |point: &CurvePoint| [point.p, point.u, point.closing.first.value];
-    let mut spans = [f64::MIN_POSITIVE; 3];
-    for (axis, span) in spans.iter_mut().enumerate() {
-        let values = points.iter().map(|point| coordinates(point)[axis]);
-        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-            (low.min(value), high.max(value))
-        });
-        *span = span.max(high - low);
-    }
-    let mut total = 0.0;
-    let mut lengths = vec![0.0];
-    for pair in points.windows(2) {
-        let (one, other) = (coordinates(&pair[0]), coordinates(&pair[1]));
-        let parts = (0..3).map(|axis| (other[axis] - one[axis]) / spans[axis]);
-        total += parts.map(|part| part * part).sum::<f64>().sqrt();
-        lengths.push(total);
-    }
-    lengths
-}
-
-/// `(u, p)` at arc length `s` on the polynomials through these points (Lagrange).
-fn interpolate(points: &[CurvePoint], arc: &[f64], s: f64) -> (f64, f64) {
-    let mut place = (0.0, 0.0);
-    for (i, point) in points.iter().enumerate() {
-        let others = arc.iter().enumerate().filter(|&(j, _)| j != i);
-        let weight: f64 = others.map(|(_, &other)| (s - other) / (arc[i] - other)).product();
-        place = (place.0 + weight * point.u, place.1 + weight * point.p);
-    }
-    place
 }

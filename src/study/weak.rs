@@ -38,7 +38,8 @@ pub fn weak_closing(parameters: &Parameters) -> Option<Closing> {
     let strengths = [d.abs(), r / amplitude, bend, cubic];
     let square = PI * amplitude * amplitude;
     // Of an amplitude next to nothing the square underflows, which matters beside a large D3 only.
-    let has_square = square.is_normal() || cubic <= f64::EPSILON * d.abs();
+    let matters = cubic > f64::EPSILON * d.abs();
+    let has_square = square.is_normal() || (square < f64::MIN_POSITIVE && !matters);
     if !one_zero || !has_square || !strengths.iter().all(|&strength| strength <= WEAK) {
         return None;
     }
@@ -96,6 +97,17 @@ mod tests {
             let [one, other] = [&weak, &found[0]].map(|it| it.log_multiplier(&parameters));
             assert!(near(one, other, 1e-9), "{one:e} {other:e}");
         }
+    }
+
+    #[test]
+    fn amplitudes_whose_square_is_no_number_have_a_multiplier_or_no_answer_here() {
+        let answer = |d, d2, d3, r| {
+            let parameters = Parameters { d, d2, d3, r };
+            weak_closing(&parameters).map(|closing| closing.log_multiplier(&parameters))
+        };
+        let tiny = answer(-1e-12, 1e6, -1e-12, 5e-324).unwrap();
+        assert!((tiny / (TAU * 1e-12) - 1.0).abs() < 1e-9, "{tiny:e}");
+        assert_eq!(answer(-1.6e-256, -1.76e-308, 0.0, 2814.6), None);
     }
 
     #[test]
