@@ -241,23 +241,25 @@ impl Works {
 
 /// Hands evenly spaced points of a step to `keep`, its end included, its start not.
 ///
-/// At the edge of the range the polynomial of a step may overflow between two points that do not: what
-/// is no number is left out.
+/// At the edge of the range a position from the centre of its spiral may overflow, or the polynomial of a
+/// step between two points that do not: what is no number is left out.
 pub(super) fn sample<F: Field, S: Stepper<F>>(
     stepper: &mut S,
     step: &Step,
     count: usize,
     mut keep: impl FnMut(f64, Point),
 ) {
+    let mut keep_number = |offset, point: Point| {
+        if point.x.is_finite() && point.v.is_finite() {
+            keep(offset, point);
+        }
+    };
     let count = count * stepper.pieces();
     stepper.prepare_dense();
     for index in 1..count {
         #[expect(clippy::cast_precision_loss, reason = "a few hundred points")]
         let offset = step.duration * (index as f64 / count as f64);
-        let point = stepper.at(offset);
-        if point.x.is_finite() && point.v.is_finite() {
-            keep(offset, point);
-        }
+        keep_number(offset, stepper.at(offset));
     }
-    keep(step.duration, step.end);
+    keep_number(step.duration, step.end);
 }
