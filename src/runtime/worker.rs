@@ -4,7 +4,7 @@
 //! else one atomic counter moves on, the job sees that at its next step, and what it found is thrown
 //! away. A long job tells what it has so far: each piece is reported at once, with `complete: false`, and
 //! the request is answered only when its last piece is there. A job whose turn is over while others wait is
-//! put aside and begins anew after them ([`super::desk`]). An answer that is on its way is not computed
+//! put aside and begins anew after them (module `desk`). An answer that is on its way is not computed
 //! again: the worker remembers what it has reported until [`Worker::taken`] says that the session knows. A
 //! request that panics becomes a [`Failure::Panic`]; the thread lives on.
 
