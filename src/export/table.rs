@@ -6,7 +6,7 @@ use crate::flow::{Problem, Trajectory};
 use crate::oscillator::{PARAMETERS, Parameters, State, Symbol};
 use crate::study::basin::{Counts, Survey};
 use crate::study::fold::Border;
-use crate::study::{Branch, Cycle, Cycles, Edge, SpecialKind};
+use crate::study::{Branch, Cycle, Cycles, Edge};
 use crate::view::number::{duration, exact, significant};
 use crate::view::status::sentence;
 
@@ -250,11 +250,12 @@ pub fn basin(found: &Survey, seconds: f64) -> String {
 pub fn border(found: &Border, seconds: f64) -> String {
     const PLACES: usize = 12;
     let mut table =
-        Table::new(&[found.second.spec().name, "D_F", "q_max there", "D_F of (48)", "D_c"]);
+        Table::new(&[found.second.spec().name, "D_F", "is a", "q_max there", "D_F of (48)", "D_c"]);
     for point in &found.points {
         table.row(vec![
             significant(point.value, 10),
             rounded(point.fold.map(|fold| fold.d), PLACES),
+            point.fold.map_or("-", |fold| if fold.grazes { "grazing" } else { "fold" }).to_owned(),
             rounded(point.fold.map(|fold| fold.q_max), 8),
             rounded(point.harmonic_fold, 8),
             rounded(point.escape, PLACES),
@@ -286,14 +287,8 @@ pub fn branch(branch: &Branch, base: &Parameters, tolerance: f64, seconds: f64) 
     }
     let mut special = Table::new(&["special point", branch.parameter.spec().name, "q_max"]);
     for point in &branch.special {
-        let kind = match point.kind {
-            SpecialKind::Fold => "fold",
-            SpecialKind::Escape => "escape",
-            SpecialKind::Hopf => "Hopf",
-            SpecialKind::ZeroCrossing => "zero crossing",
-        };
         special.row(vec![
-            kind.to_owned(),
+            point.kind.name(point.cycle.as_ref()).to_owned(),
             significant(point.value, digits(tolerance)),
             rounded(point.q_max, digits(tolerance)),
         ]);
@@ -308,6 +303,22 @@ pub fn branch(branch: &Branch, base: &Parameters, tolerance: f64, seconds: f64) 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::closed_form::piecewise_linear::LinearCycle;
+    use crate::study::{Special, SpecialKind};
+
+    #[test]
+    fn a_branch_ends_where_two_cycles_meet_or_where_one_grazes_the_rest() {
+        let linear = Cycle::from(&LinearCycle::new(-0.3, 0.1).unwrap());
+        let end = |log_multiplier| {
+            let cycle = Cycle { log_multiplier, ..linear };
+            let special = vec![Special::new(SpecialKind::Fold, -1.5, Some(cycle))];
+            let cost = crate::flow::Cost::default();
+            let found = Branch { parameter: Symbol::D, pieces: Vec::new(), special, cost };
+            branch(&found, &Parameters { d: -1.5, d2: 0.0, d3: 10.0, r: 1.0 }, 1e-6, 0.0)
+        };
+        assert!(end(-1e-6).contains("fold") && !end(-1e-6).contains("grazing"));
+        assert!(end(-28.0).contains("grazing") && !end(-28.0).contains("fold"));
+    }
 
     #[test]
     fn points_of_numbers_stand_above_each_other() {

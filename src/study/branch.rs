@@ -32,7 +32,8 @@ pub struct BranchPoint {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SpecialKind {
-    /// Two cycles meet and vanish.
+    /// Two cycles meet and vanish. Well below `D = -1` the unstable one exists only so close to the sticking
+    /// set that numbers do not tell it from the set: the stable cycle grazes it.
     Fold,
     /// The cycle goes to infinity.
     Escape,
@@ -54,6 +55,27 @@ pub struct Special {
     /// The cycle there, shrunk to a point at the Hopf point; `None` where it is infinite.
     #[serde(skip)]
     pub cycle: Option<Cycle>,
+}
+
+impl SpecialKind {
+    /// Whether the branch ends in a stable `cycle` that grazes the sticking set, instead of meeting an unstable
+    /// one.
+    #[must_use]
+    pub fn grazes(self, cycle: Option<&Cycle>) -> bool {
+        self == SpecialKind::Fold && cycle.is_some_and(Cycle::is_stable_beyond_doubt)
+    }
+
+    /// What such a point is called, `cycle` being the one that lives there.
+    #[must_use]
+    pub fn name(self, cycle: Option<&Cycle>) -> &'static str {
+        match self {
+            SpecialKind::Fold if self.grazes(cycle) => "grazing",
+            SpecialKind::Fold => "fold",
+            SpecialKind::Escape => "escape",
+            SpecialKind::Hopf => "Hopf point",
+            SpecialKind::ZeroCrossing => "zero crossing",
+        }
+    }
 }
 
 impl Special {

@@ -41,6 +41,16 @@ pub struct Cycle {
     pub error: f64,
 }
 
+impl Cycle {
+    /// Whether its multiplier is far below the 1 at which two cycles meet.
+    #[must_use]
+    pub fn is_stable_beyond_doubt(&self) -> bool {
+        /// Where two cycles meet, the logarithm vanishes to about half of the digits.
+        const FAR: f64 = -1.0;
+        self.log_multiplier < FAR
+    }
+}
+
 /// What borders the basin of attraction of the sticking set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]

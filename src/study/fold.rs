@@ -24,6 +24,13 @@ pub struct FoldPoint {
     pub q_max: f64,
     /// Its period.
     pub period: f64,
+    /// Whether the stable cycle grazes the sticking set there, instead of meeting an unstable one.
+    ///
+    /// Below `D = -1` motions leave the end of the set along one curve. An unstable cycle exists only between
+    /// the damping at which that curve leads to the other end of the set and the fold, and these two approach
+    /// each other quickly: for `D2 = 0`, `r = 1` they are 0.027 apart at `D3 = 1`, 3e-7 at 2, 1e-14 at 10.
+    #[serde(skip)]
+    pub grazes: bool,
 }
 
 /// Least relative error of the clearance at the fold; that of `D_F` is its square.
@@ -60,7 +67,8 @@ pub fn fold_within(
         },
     };
     let cycle = fold.closing.describe(&graph.curve.parameters_at(fold.p), side);
-    let point = FoldPoint { d: fold.p, q_max: cycle.q_max, period: cycle.period };
+    let grazes = fold.p < -1.0 && cycle.is_stable_beyond_doubt();
+    let point = FoldPoint { d: fold.p, q_max: cycle.q_max, period: cycle.period, grazes };
     Ok((Some(point), graph.curve.cost))
 }
 
@@ -328,6 +336,17 @@ mod tests {
             let escape = escape_point(&without, &Limits::PATIENT).unwrap().unwrap();
             let [near, far] = [1e-6, 1e-4].map(|d3| (found(d2, d3, 1.0).d - escape).abs());
             assert!(near < 5e-5 && near < 0.02 * far, "D2 = {d2}: {near} {far}");
+        }
+    }
+
+    #[test]
+    fn cycles_meet_below_critical_damping_too_as_long_as_numbers_can_tell() {
+        // Both from an integration of the curve that leaves the end of the sticking set, and of the cycles:
+        // with D3 = 2 the unstable cycle lives on an interval of 3e-7 in D.
+        for (d3, d, clearance) in [(1.0, -1.029_759_8, 0.058_5), (2.0, -1.356_087_526, 2e-6)] {
+            let point = found(0.0, d3, 1.0);
+            assert!((point.d - d).abs() < 1e-7 && !point.grazes, "{point:?}");
+            assert!((point.q_max - 1.0 - clearance).abs() < 0.2 * clearance, "{point:?}");
         }
     }
 

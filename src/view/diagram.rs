@@ -306,6 +306,7 @@ fn between(places: &[[f64; 2]], index: usize, value: f64) -> f64 {
 /// Adds the letter of a special point, and its value where there is room.
 fn caption(picture: &mut Picture, special: &Special, height: Height, top: f64) {
     let letter = match special.kind {
+        SpecialKind::Fold if special.kind.grazes(special.cycle.as_ref()) => "G",
         SpecialKind::Fold => "F",
         SpecialKind::Escape => "Dc",
         SpecialKind::Hopf => "H",

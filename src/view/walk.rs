@@ -26,7 +26,7 @@ fn sentence(name: &str, label: &str, held: &Stop, digits: usize, dot: &str) -> S
     // The values that the variant holds, where the diagram shows several.
     parts.extend(Some(label.to_owned()).filter(|label| !label.is_empty()));
     if let Some(kind) = held.special {
-        parts.insert(0, word(kind).to_owned());
+        parts.insert(0, kind.name(held.cycle.as_ref()).to_owned());
     }
     match &held.cycle {
         None => parts.push("the cycle is infinite".to_owned()),
@@ -46,16 +46,6 @@ fn sentence(name: &str, label: &str, held: &Stop, digits: usize, dot: &str) -> S
         }
     }
     parts.join(&format!(" {dot} "))
-}
-
-/// What a special point is called in a sentence.
-fn word(kind: SpecialKind) -> &'static str {
-    match kind {
-        SpecialKind::Fold => "fold",
-        SpecialKind::Escape => "escape",
-        SpecialKind::Hopf => "Hopf point",
-        SpecialKind::ZeroCrossing => "crossing",
-    }
 }
 
 /// The multiplier, as a power of e where it is too large or too small to be read.

@@ -103,14 +103,14 @@ pub const CLAIMS: &[Claim] = &[
     Claim {
         equation: "(18)",
         section: "4.2",
-        statement: "V' = -2 D v^2 - v f_R, with f_R of (5): the energy after a motion",
+        statement: "V' = -2 D v^2 - v f_R, with f_R of (5): change of the energy over a motion",
         scene: Some("fig04"),
         check: |limits| energy(limits, -1.0),
     },
     Claim {
         equation: "(19)",
         section: "4.2",
-        statement: "V' = -2 D v^2 - r abs(v): the energy after a motion",
+        statement: "V' = -2 D v^2 - r abs(v): change of the energy over a motion",
         scene: Some("fig04"),
         check: |limits| energy(limits, 1.0),
     },
@@ -162,12 +162,15 @@ pub const CLAIMS: &[Claim] = &[
     Claim {
         equation: "(24)",
         section: "4.2",
-        statement: "that circle is a quite good conservative estimate of the basin",
+        statement: "that circle is a quite good conservative estimate of the basin: as -0.5 r/D to -0.6 r/D, \
+                    a part",
         scene: Some("fig04"),
         check: |limits| {
             let parameters = oscillator(-0.1, 0.0, 0.0, 0.1);
             let least = least_kick(&parameters, limits)?;
-            Ok(Finding::near(circle(&parameters), least).at(place(&parameters)))
+            let part = circle(&parameters) / least.value;
+            let computed = Known::relative(part, least.error / least.value);
+            Ok(Finding::near(0.5 / 0.6, computed).at(place(&parameters)))
         },
     },
     Claim {

@@ -158,7 +158,7 @@ pub const MEASURES: [MeasureSpec; 9] = [
     MeasureSpec {
         measure: Measure::Fold,
         name: "fold",
-        meaning: "the fold D_F, above which no cycle is left, and the amplitude there",
+        meaning: "the fold D_F (or grazing, below D = -1), above which no cycle is left, and the amplitude there",
         columns: &["D_F", "D_F_q_max"],
         needs: Need::Fold,
     },
