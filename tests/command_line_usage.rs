@@ -99,21 +99,6 @@ fn a_reader_that_goes_away_is_no_error() {
 }
 
 #[test]
-fn the_answer_shown_in_the_readme_is_the_one_that_is_given() {
-    let readme = include_str!("../README.md");
-    let block = |line: &&str| line.is_empty() || line.starts_with("    ");
-    let mut lines = readme.lines().skip_while(|line| !line.starts_with("    hopfscope trajectory"));
-    let words: Vec<&str> = lines.next().unwrap().split_whitespace().skip(1).collect();
-    let shown: Vec<&str> =
-        lines.take_while(block).map(|line| line.trim_start_matches("    ")).collect();
-    let shown = shown.join("\n");
-    assert!(shown.lines().count() > 5, "{shown}");
-    let given = run(&words).out;
-    let strip = |text: &str| text.lines().map(str::trim).collect::<Vec<_>>().join("\n");
-    assert!(strip(&given).starts_with(strip(&shown).trim()), "{given}");
-}
-
-#[test]
 fn keys_lists_what_the_settings_file_makes_of_them() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("config.toml");

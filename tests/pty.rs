@@ -365,11 +365,12 @@ fn every_control_sequence_is_in_the_handbook() {
     terminal.quiet(QUIET);
     terminal.types("\x03");
     assert_eq!(terminal.end(), 0);
-    let handbook = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md"));
+    let handbook =
+        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/terminal.md"));
     let handbook = handbook.unwrap();
     let found = sequences(&terminal.written);
     assert!(found.len() > 12, "{found:?}");
     for sequence in found {
-        assert!(handbook.contains(&format!("`{sequence}`")), "README.md lacks {sequence}");
+        assert!(handbook.contains(&format!("`{sequence}`")), "docs/terminal.md lacks {sequence}");
     }
 }

@@ -36,13 +36,13 @@ fn every_file_meets_its_expectations() {
 }
 
 #[test]
-fn every_keystroke_file_of_the_readme_plays() {
-    let readme = include_str!("../README.md");
+fn every_keystroke_file_of_the_handbook_plays() {
+    let page = include_str!("../docs/explorer.md");
     let blocks: Vec<&str> =
-        readme.split("```keys\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
+        page.split("```keys\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
     assert!(!blocks.is_empty());
     for text in blocks {
-        let script = parse(text).unwrap_or_else(|error| panic!("README: {error}"));
+        let script = parse(text).unwrap_or_else(|error| panic!("docs/explorer.md: {error}"));
         let session = Session::new(plain(), Size { width: 120, height: 40 });
         let size = layout::Size { width: 120, height: 40 };
         let played = replay(session, Environment::default(), script, size).unwrap();

@@ -243,10 +243,10 @@ fn an_interrupt_keeps_what_is_done_and_says_so() {
     assert!(text.ends_with('\n') && done < 1000);
 }
 
-/// The one line of the README that begins with these words.
-fn readme_line(beginning: &str) -> String {
-    let readme = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).unwrap();
-    let mut lines = readme.lines().map(str::trim).filter(|line| line.starts_with(beginning));
+/// The one line of the page on scans that begins with these words.
+fn page_line(beginning: &str) -> String {
+    let page = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/scans.md")).unwrap();
+    let mut lines = page.lines().map(str::trim).filter(|line| line.starts_with(beginning));
     let line = lines.next().unwrap_or_else(|| panic!("no line {beginning}")).to_owned();
     assert_eq!(lines.next(), None);
     line
@@ -261,9 +261,9 @@ fn shell(line: &str, folder: &Path) -> Command {
     shell
 }
 
-/// The scan of the README in one piece.
-fn readme_scan() -> String {
-    let line = readme_line("hopfscope scan --over D=-0.9:-0.2:400");
+/// The scan of that page in one piece.
+fn page_scan() -> String {
+    let line = page_line("hopfscope scan --over D=-0.9:-0.2:400");
     scan(line.strip_prefix("hopfscope scan").unwrap().split('#').next().unwrap()).out
 }
 
@@ -271,16 +271,16 @@ fn readme_scan() -> String {
 #[ignore = "needs GNU parallel: cargo test --test scan -- --ignored"]
 fn the_line_for_gnu_parallel_makes_the_whole() {
     let folder = tempfile::tempdir().unwrap();
-    let line = readme_line("parallel hopfscope scan");
+    let line = page_line("parallel hopfscope scan");
     assert!(shell(&line, folder.path()).status().unwrap().success());
     assert!(shell("cat part[1-4].csv > all.csv", folder.path()).status().unwrap().success());
-    assert_eq!(fs::read_to_string(folder.path().join("all.csv")).unwrap(), readme_scan());
+    assert_eq!(fs::read_to_string(folder.path().join("all.csv")).unwrap(), page_scan());
 }
 
 #[test]
 fn the_line_for_slurm_makes_the_whole() {
     let folder = tempfile::tempdir().unwrap();
-    let line = readme_line("sbatch --array=1-4");
+    let line = page_line("sbatch --array=1-4");
     let wrapped = line.split('\'').nth(1).expect("a wrapped command");
     let mut parts = String::new();
     for task in ["1", "2", "3", "4"] {
@@ -288,7 +288,7 @@ fn the_line_for_slurm_makes_the_whole() {
         assert!(job.env("SLURM_ARRAY_TASK_ID", task).status().unwrap().success());
         parts += &fs::read_to_string(folder.path().join(format!("part{task}.csv"))).unwrap();
     }
-    assert_eq!(parts, readme_scan());
+    assert_eq!(parts, page_scan());
 }
 
 #[test]

@@ -25,6 +25,7 @@ mod replay;
 mod scan;
 mod scene_cost;
 mod scenes;
+mod shell;
 mod start;
 mod timing;
 mod tour;
@@ -74,6 +75,9 @@ enum Command {
     Extremes(extremes::Extremes),
     Replay(replay::Replay),
     Tour(tour::Tour),
+    Completions(shell::Completions),
+    #[command(name = "man")]
+    Manual(shell::Manual),
 }
 
 impl Command {
@@ -94,6 +98,8 @@ impl Command {
             Command::Keys(command) => command.run(),
             Command::Extremes(command) => command.run(),
             Command::Replay(command) => command.run(),
+            Command::Completions(command) => command.run(),
+            Command::Manual(command) => command.run(),
         };
         answered.map(|()| ExitCode::SUCCESS)
     }
