@@ -81,7 +81,9 @@ pub const CLAIMS: &[Claim] = &[
             const PARTS: [f64; 8] = [0.2, 0.8, 0.95, 1.0025, 1.05, 1.3, 2.0, 3.0];
             let cases = [0.1, 0.5, 2.0, 25.0].into_iter().flat_map(|d3| {
                 let fold = printed_fold(d3, 0.1);
-                PARTS.map(|part| (oscillator(part * fold, 0.0, d3, 0.1), 2 * usize::from(part > 1.0)))
+                PARTS.map(|part| {
+                    (oscillator(part * fold, 0.0, d3, 0.1), 2 * usize::from(part > 1.0))
+                })
             });
             let between = (oscillator(-0.637, 0.0, 0.25, 1.0), 2);
             let cases = std::iter::once(between).chain(cases);
