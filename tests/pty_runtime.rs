@@ -104,7 +104,7 @@ fn machinery() {
     let keep = std::env::var_os("KEEP").map(PathBuf::from);
     let options = Options { keep, ..Options::default() };
     let ended = launch(Machinery::default(), confirm, options).unwrap();
-    let failed = ended.code != std::process::ExitCode::SUCCESS;
+    let failed = ended != std::process::ExitCode::SUCCESS;
     println!("{}", if failed { "ended by a signal" } else { "left by the user" });
     std::process::exit(if failed { 77 } else { 0 });
 }

@@ -12,13 +12,19 @@ use support::{Answers, Terminal};
 
 /// The explorer, whose memory is a folder of its own.
 fn explorer(arguments: &[&str], memory: &Path) -> Terminal {
+    let mut terminal = begun(arguments, memory);
+    terminal.quiet(Duration::from_millis(200));
+    terminal
+}
+
+/// The same as soon as there is a picture.
+fn begun(arguments: &[&str], memory: &Path) -> Terminal {
     let program: Vec<&str> =
         [env!("CARGO_BIN_EXE_hopfscope")].iter().chain(arguments).copied().collect();
     let state = memory.to_str().unwrap();
     let environment = [("XDG_STATE_HOME", state), ("XDG_CONFIG_HOME", state)];
     let mut terminal = Terminal::start(&program, &environment, (100, 30), Answers::AtOnce);
     terminal.wait("the first picture", |terminal| terminal.screen().alternate_screen());
-    terminal.quiet(Duration::from_millis(200));
     terminal
 }
 
@@ -134,5 +140,98 @@ fn a_key_writes_the_plot_in_use_as_a_figure_and_replaces_none() {
     press(&mut terminal);
     terminal.wait_for("is there already; with ! behind the command it is replaced");
     assert_eq!(fs::read_to_string(&file).unwrap(), written);
+    leave(terminal);
+}
+
+/// The screen of a terminal without the line of costs in milliseconds, and without blanks at the ends of rows.
+fn screen(text: &str) -> Vec<String> {
+    let rows = text.trim_end().lines().map(|row| row.trim_end().to_owned());
+    rows.filter(|row| !row.contains(" ms")).collect()
+}
+
+/// The last screen of a recording, by the command `replay`.
+fn replayed(file: &Path) -> Vec<String> {
+    let arguments = ["replay", file.to_str().unwrap()];
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_hopfscope"))
+        .args(arguments)
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    screen(&String::from_utf8(output.stdout).unwrap())
+}
+
+#[test]
+fn a_recording_plays_what_was_recorded_without_the_key_that_left() {
+    let memory = tempfile::tempdir().unwrap();
+    leave(explorer(&[], memory.path()));
+    let saved = memory.path().join("saved.toml");
+    let mut terminal = explorer(&["fig16b"], memory.path());
+    terminal.types(&format!("\x1b[C\"a\x1b[C:write {}\r", saved.display()));
+    terminal.wait_for("written to");
+    leave(terminal);
+    for (arguments, keys) in [
+        (&["supercritical", "--set", "q0=0.5"][..], "\x1b[C\x1b[C\x1b[C"),
+        (&["--set", "D3=0.5", "--method", "rk4", "--step", "0.02", "--theme", "light"], "Ro"),
+        (&["--belt", "textbook", "--glyphs", "ascii"], "\t+"),
+        (&["--open", saved.to_str().unwrap()], "u'a"),
+    ] {
+        let file = memory.path().join("r.keys");
+        let all = [arguments, &["--record", file.to_str().unwrap()]].concat();
+        let mut terminal = explorer(&all, memory.path());
+        for key in keys.split_inclusive(|char: char| char != '\x1b' && char != '[') {
+            terminal.types(key);
+            terminal.quiet(Duration::from_millis(250));
+        }
+        let last = screen(&terminal.text());
+        leave(terminal);
+        assert_eq!(replayed(&file), last, "{}", fs::read_to_string(&file).unwrap());
+    }
+}
+
+#[test]
+fn a_recording_is_there_whatever_ends_the_program_and_replaces_no_other_file() {
+    let memory = tempfile::tempdir().unwrap();
+    let file = memory.path().join("scan.csv");
+    fs::write(&file, "data\n").unwrap();
+    let path = file.to_str().unwrap();
+    let refused = |arguments: &[&str]| {
+        let program: Vec<&str> =
+            [env!("CARGO_BIN_EXE_hopfscope")].iter().chain(arguments).copied().collect();
+        let mut terminal = Terminal::start(&program, &[], (100, 30), Answers::AtOnce);
+        assert_eq!(terminal.end(), 2);
+        assert!(terminal.text().contains("is no recording; --force replaces it"));
+    };
+    refused(&["supercritical", "--record", path]);
+    assert_eq!(fs::read_to_string(&file).unwrap(), "data\n");
+    let mut terminal = explorer(&["--record", path, "--force"], memory.path());
+    terminal.types("-0.345\r");
+    terminal.wait_for("-0.345");
+    terminal.quiet(Duration::from_millis(200));
+    terminal.signal(Signal::KILL);
+    terminal.end();
+    let recorded = fs::read_to_string(&file).unwrap();
+    assert!(recorded.contains("- 0 . 3 4 5 <enter>"), "{recorded}");
+    // A recording is replaced by the next one, unasked.
+    leave(explorer(&["--record", path], memory.path()));
+    assert!(!fs::read_to_string(&file).unwrap().contains("<enter>"));
+}
+
+#[test]
+fn keys_pressed_while_a_file_plays_are_not_mixed_into_it() {
+    let memory = tempfile::tempdir().unwrap();
+    let file = memory.path().join("slow.keys");
+    // A line is typed, again and again, while the user presses other keys.
+    let line = ":set<space>r=0.25<enter><right>";
+    fs::write(&file, format!("s/asymmetry<enter>{}", line.repeat(10))).unwrap();
+    let mut terminal = begun(&["--play", file.to_str().unwrap()], memory.path());
+    terminal.wait_for("Asymmetry");
+    for _ in 0..5 {
+        terminal.types("x7");
+        terminal.next(Duration::from_millis(5));
+    }
+    terminal.wait_for("replay done");
+    for row in [" D          -0.1 ", " r          0.25 "] {
+        assert!(terminal.text().replace('\u{25b8}', " ").contains(row), "{}", terminal.text());
+    }
     leave(terminal);
 }

@@ -14,9 +14,10 @@ use super::places::Memory;
 use super::replay::script;
 use super::start::Start;
 use crate::runtime::effects::Files;
-use crate::runtime::{Ended, Options, explore};
+use crate::runtime::{Options, Record, explore};
 use crate::scene::library::PLAIN;
-use crate::session::replay::Script;
+use crate::session::opening::opening;
+use crate::session::replay::{Recorder, Script, Step};
 use crate::session::{Notice, Session, Size, save};
 use crate::terminal::Environment;
 
@@ -44,6 +45,9 @@ pub struct Explore {
     /// Writes what is pressed to a keystroke file
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
+    /// Lets --record replace a file that is no recording
+    #[arg(long, requires = "record")]
+    force: bool,
 }
 
 impl Explore {
@@ -56,16 +60,27 @@ impl Explore {
             Some(file) => self.start.applied(belt::scene(file)?),
             None => self.start.scene_named(name).map_err(|missing| or_command(name, missing))?,
         };
-        let replay = self.play.as_deref().map(script).transpose()?;
+        let play = self.play.as_deref().map(played).transpose()?.unwrap_or_default();
         // The terminal says its size before the first picture.
         let mut session = Session::new(scene, Size { width: 80, height: 24 });
         session.look = self.looks.wishes(&config);
         session.keymap = Arc::new(config.keymap);
         if let Some(path) = &self.open {
             open(&mut session, path)?;
+            let text = format!("opened {}", path.display());
+            session.notice = Some(Notice { error: false, text });
         }
-        go(session, replay, self.record.as_deref())
+        go(session, &play, self.record.as_deref().map(|path| (path, self.force)))
     }
+}
+
+/// The steps that play a file, which is understood before anything runs.
+fn played(path: &Path) -> Result<Vec<Step>, Failure> {
+    script(path)?;
+    let text = Files::read(path).map_err(Failure::Usage)?;
+    let name = path.display().to_string();
+    let run = Step::Run(format!("play {name}"));
+    Ok(vec![Step::File { name, text }, run])
 }
 
 /// Makes a session the saved one of a file.
@@ -75,33 +90,35 @@ pub fn open(session: &mut Session, path: &Path) -> Result<(), Failure> {
     save::open(session, &text).map_err(refused)
 }
 
-/// Runs the explorer until it is left.
+/// Runs the explorer until it is left, with steps that are played at the start; and with the file that is
+/// kept of what is done, if one is, and whether it may replace any other.
 pub fn go(
     mut session: Session,
-    replay: Option<Script>,
-    record: Option<&Path>,
+    play: &[Step],
+    record: Option<(&Path, bool)>,
 ) -> Result<ExitCode, Failure> {
     let environment = Environment::of_process();
     environment.admit().map_err(|refusal| Failure::Usage(refusal.to_string()))?;
+    let started = started();
+    let mut recorder = opening(&session).map_err(Failure::Unanswered)?;
+    recorder.extend(play.iter().cloned());
+    let mut recorder = Recorder::new(recorder);
     // A file that cannot be written should be known before the session, not after.
-    if let Some(path) = record {
-        write(path, "")?;
-    }
+    let record = record.map(|(path, force)| Record::begin(path, force, &started, &mut recorder));
+    let record = record.transpose().map_err(Failure::Usage)?;
     let memory = Memory::open();
     if let Some(memory) = &memory {
         session.interrupted = memory.interrupted();
-        session.notice = welcome(&session, memory).map(|text| Notice { error: false, text });
+        let welcome = welcome(&session, memory).map(|text| Notice { error: false, text });
+        session.notice = welcome.or(session.notice);
     }
     let files = Files { copies: memory.as_ref().map(Memory::copies) };
     let mouse = session.look.mouse;
     let keep = memory.as_ref().map(Memory::keep);
-    let options = Options { replay, started: started(), keep, mouse, files };
-    let Ended { code, recorder } = explore(session, environment, options)
-        .map_err(|error| Failure::Unanswered(format!("the terminal: {error}")))?;
-    if let Some(path) = record {
-        write(path, &recorder.text(&started()))?;
-    }
-    Ok(code)
+    let replay = (!play.is_empty()).then(|| Script::repeated(play, 1));
+    let options = Options { replay, started, recorder, record, keep, mouse, files };
+    explore(session, environment, options)
+        .map_err(|error| Failure::Unanswered(format!("the terminal: {error}")))
 }
 
 /// What is said before the first key: that a session was interrupted, or what to press at the first start.
@@ -114,10 +131,6 @@ fn welcome(session: &Session, memory: &Memory) -> Option<String> {
         return None;
     };
     Some(session.keymap.fill(said, |key| key.to_string()))
-}
-
-fn write(path: &Path, text: &str) -> Result<(), Failure> {
-    std::fs::write(path, text).map_err(|error| Failure::file(path, &error))
 }
 
 /// The command line of this process, as a comment for a recorded file.

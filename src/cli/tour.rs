@@ -10,7 +10,7 @@ use super::explore::go;
 use super::failure::Failure;
 use super::look::Looks;
 use crate::scene::plain;
-use crate::session::update::files::tour_script;
+use crate::session::replay::Step;
 use crate::session::{Session, Size};
 
 /// Shows around in the explorer; any key goes on, Esc leaves the tour and stays
@@ -26,10 +26,9 @@ impl Tour {
     /// Runs the explorer until it is left.
     pub fn run(&self) -> Result<ExitCode, Failure> {
         let config = self.settings.read()?;
-        let script = tour_script().map_err(Failure::Unanswered)?;
         let mut session = Session::new(plain(), Size { width: 80, height: 24 });
         session.look = self.looks.wishes(&config);
         session.keymap = Arc::new(config.keymap);
-        go(session, Some(script), None)
+        go(session, &[Step::Run("tour".to_owned())], None)
     }
 }

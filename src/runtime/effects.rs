@@ -90,7 +90,7 @@ impl Files {
 const LONGEST: u64 = 16 << 20;
 
 /// A path in which a leading `~/` is the user's home, as in the shell.
-fn at_home(path: &Path) -> PathBuf {
+pub(super) fn at_home(path: &Path) -> PathBuf {
     match (path.strip_prefix("~"), std::env::home_dir()) {
         (Ok(rest), Some(home)) => home.join(rest),
         _ => path.to_owned(),

@@ -2,6 +2,7 @@
 
 use std::io;
 use std::path::Path;
+use std::process::ExitCode;
 
 use ratatui::Frame;
 use ratatui::buffer::Buffer;
@@ -9,7 +10,7 @@ use ratatui::layout::{Position, Rect, Size};
 
 use super::clerk::Work;
 use super::headless::{self, Played};
-use super::launch::{Ended, Options, launch};
+use super::launch::{Options, launch};
 use super::machine::Machine;
 use super::worker::Tell;
 use super::{print, scanning};
@@ -59,6 +60,10 @@ impl Machine for Explorer {
 
     fn is_moving(&self) -> bool {
         self.session.is_playing()
+    }
+
+    fn asked(&self) -> u32 {
+        self.session.macros.asked
     }
 
     fn wants(&self) -> Vec<Request> {
@@ -112,7 +117,11 @@ pub fn answer(request: &Request, limits: &Limits, tell: &Tell) -> Result<Answer,
 ///
 /// # Errors
 /// If the terminal cannot be used, or goes away while it is written to.
-pub fn explore(session: Session, environment: Environment, options: Options) -> io::Result<Ended> {
+pub fn explore(
+    session: Session,
+    environment: Environment,
+    options: Options,
+) -> io::Result<ExitCode> {
     launch(Explorer::new(session, environment), answer, options)
 }
 

@@ -96,12 +96,13 @@ fn does(machine: &mut impl Machine, player: &mut Player, msg: Msg) -> bool {
             Effect::Quit => return true,
             // What it reads, a session depends on.
             Effect::Read { path, purpose } => {
-                let result = Files::read(&path);
+                let embedded = player.file(&path).map(|text| Ok(text.to_owned()));
+                let result = embedded.unwrap_or_else(|| Files::read(&path));
                 if does(machine, player, Msg::Read { path, purpose, result }) {
                     return true;
                 }
             }
-            Effect::Play(script) => {
+            Effect::Play(script) | Effect::PlayRegister(script) => {
                 player.interject(script);
             }
             Effect::Figure { path, .. } => {

@@ -15,25 +15,30 @@ use super::effects::Files;
 use super::event::{Event, Stop};
 use super::machine::Machine;
 use super::pump::Pump;
+use super::record::Record;
 use super::signals::{self, exit_code};
 use super::worker::Tell;
 use super::{input, panics};
 use crate::flow::{Limits, Reason};
 use crate::scene::{Answer, Request};
 use crate::session::Notice;
-use crate::session::replay::{Player, Recorder, Script};
+use crate::session::replay::{Recorder, Script};
 use crate::terminal::{Guard, Screen};
 
 /// The signal that a process gets when its terminal goes away.
 const HANG_UP: i32 = signal_hook::consts::SIGHUP;
 
 /// What the explorer does besides exploring.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct Options {
     /// Keys to play at the start.
     pub replay: Option<Script>,
     /// How the session was started, in words, for a file of what the user does.
     pub started: String,
+    /// What that stands for in such a file, with what is played at the start as its last step.
+    pub recorder: Recorder,
+    /// The file that is kept of what the user does.
+    pub record: Option<Record>,
     /// Where to keep a session that is interrupted.
     pub keep: Option<PathBuf>,
     /// Whether the terminal reports the mouse at the start.
@@ -42,17 +47,9 @@ pub struct Options {
     pub files: Files,
 }
 
-/// How the program ended.
-#[derive(Debug)]
-pub struct Ended {
-    /// Its exit code: 0 when the user left, 128 + n after signal n.
-    pub code: ExitCode,
-    /// What the user did.
-    pub recorder: Recorder,
-}
-
 /// Runs a machine in the terminal at standard input and output; see
-/// [`crate::terminal::Environment::admit`] for whether there is one.
+/// [`crate::terminal::Environment::admit`] for whether there is one. Gives the exit code: 0 when the user
+/// left, 128 + n after signal n.
 ///
 /// Call it from the thread that may take the terminal down with its panics; others may not.
 ///
@@ -62,7 +59,7 @@ pub fn launch(
     machine: impl Machine,
     answer: impl Fn(&Request, &Limits, &Tell) -> Result<Answer, Reason> + Send + Sync + 'static,
     options: Options,
-) -> io::Result<Ended> {
+) -> io::Result<ExitCode> {
     let guard = Guard::new()?;
     let notes = panics::install(guard.clone(), std::thread::current().id());
     let (send, events) = unbounded();
@@ -74,11 +71,12 @@ pub fn launch(
     let crew = Crew::start(answer, notes.clone(), report)?;
     let screen = Screen::new(guard.out(), terminal_size())?;
     let mut pump = Pump::new(machine, screen, crew, events, options.files, terminal_size)
-        .playing(options.replay.map(Player::new))
-        .started(options.started);
+        .playing(options.replay)
+        .started(options.started, options.recorder, options.record);
     pump.repaint()?;
     // A panic has been reported by now, and the terminal given back; it ends the program all the same.
     let conducted = catch_unwind(AssertUnwindSafe(|| conduct(&mut pump, &guard)));
+    pump.close_record();
     if !matches!(conducted, Ok(Ok(Stop::Quit))) {
         keep(&pump, options.keep.as_deref());
     }
@@ -98,7 +96,7 @@ pub fn launch(
         Stop::Closed => exit_code(HANG_UP).into(),
         _ => ExitCode::SUCCESS,
     };
-    Ok(Ended { code, recorder: pump.recorder().clone() })
+    Ok(code)
 }
 
 /// Keeps what would be missed of an interrupted session. It is the last thing that is done, and if it

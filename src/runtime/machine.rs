@@ -22,6 +22,11 @@ pub trait Machine {
         false
     }
 
+    /// How many presses the last command took that asked for something outside.
+    fn asked(&self) -> u32 {
+        1
+    }
+
     /// What a cell of a screen of this size stands for, if anything.
     fn place(&self, _size: Size, _column: u16, _row: u16) -> Option<Place> {
         None

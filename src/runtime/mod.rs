@@ -19,6 +19,7 @@ pub mod panics;
 pub mod picture;
 pub mod print;
 pub mod pump;
+pub mod record;
 pub mod scan_file;
 pub mod scanning;
 pub mod signals;
@@ -26,7 +27,8 @@ pub mod worker;
 
 pub use event::{Event, Stop};
 pub use explorer::{Explorer, explore, replay};
-pub use launch::{Ended, Options, launch};
+pub use launch::{Options, launch};
 pub use machine::Machine;
 pub use pump::Pump;
+pub use record::Record;
 pub use worker::Worker;

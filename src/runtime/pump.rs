@@ -17,13 +17,18 @@ use super::crew::Crew;
 use super::effects::Files;
 use super::event::{Event, Stop};
 use super::machine::Machine;
+use super::record::Record;
 use super::{picture, scan_file};
 use crate::export;
 use crate::scene::Request;
-use crate::session::replay::{Action, Player, Recorder};
-use crate::session::{Code, Effect, Key, Msg, Notice, Pointed};
+use crate::session::replay::{LONGEST, Recorder, Script};
+use crate::session::{Effect, Msg, Notice, Pointed};
 use crate::terminal::Screen;
 use crate::terminal::pacing::FRAME_TIME;
+
+mod playing;
+
+use playing::Playing;
 
 /// How long a frame waits for the worker before it shows what is there, marked as old.
 const ANSWER_TIME: Duration = Duration::from_millis(8);
@@ -46,14 +51,16 @@ pub struct Pump<M, W: Write> {
     beat: Option<Instant>,
     /// No frames are drawn while the terminal is not ours.
     held: bool,
-    player: Option<Player>,
+    /// What is played.
+    playing: Option<Playing>,
+    /// What the user did that comes after something else.
+    held_back: VecDeque<Event>,
     /// A figure is being written.
     writing: bool,
-    /// A caption waits to be read.
-    paused: bool,
-    /// What the user did, and how the session was started.
+    /// What the user did, how the session was started, and the file that is kept of it.
     recorder: Recorder,
     started: String,
+    record: Option<Record>,
     terminal_size: fn() -> Size,
 }
 
@@ -78,32 +85,32 @@ impl<M: Machine, W: Write> Pump<M, W> {
             changed: Some(Instant::now()),
             beat: None,
             held: false,
-            player: None,
+            playing: None,
+            held_back: VecDeque::new(),
             writing: false,
-            paused: false,
             recorder: Recorder::default(),
             started: String::new(),
+            record: None,
             terminal_size,
         }
     }
 
     /// Plays a keystroke file: each key when the answer to the last one is on the screen.
     #[must_use]
-    pub fn playing(mut self, player: Option<Player>) -> Self {
-        self.player = player;
+    pub fn playing(mut self, script: Option<Script>) -> Self {
+        self.playing = script.map(|script| Playing::new(script, false, 0));
         self
     }
 
-    /// Says how the session was started, for a file of what the user does.
+    /// Says how the session was started, and begins the recording of what is done with what that stands
+    /// for; what is played at the start is its last step.
     #[must_use]
-    pub fn started(mut self, started: String) -> Self {
-        self.started = started;
+    pub fn started(mut self, started: String, recorder: Recorder, record: Option<Record>) -> Self {
+        if let Some(playing) = &mut self.playing {
+            playing.asked = 1;
+        }
+        (self.started, self.recorder, self.record) = (started, recorder, record);
         self
-    }
-
-    /// What the user did.
-    pub fn recorder(&self) -> &Recorder {
-        &self.recorder
     }
 
     /// What runs in the loop.
@@ -121,6 +128,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
                 return Ok(stop);
             }
             self.ask();
+            self.keep_record()?;
             let mut next = self.wait()?;
             while let Some(event) = next {
                 if let Some(stop) = self.handle(event)? {
@@ -189,15 +197,8 @@ impl<M: Machine, W: Write> Pump<M, W> {
     fn handle(&mut self, event: Event) -> io::Result<Option<Stop>> {
         match event {
             Event::Session(Msg::Idle) if !self.crew.is_idle() => Ok(None),
-            Event::Session(Msg::Key(Key { code: Code::Esc, .. })) if self.player.is_some() => {
-                self.played(false, "replay stopped".to_owned())
-            }
-            Event::Session(Msg::Key(_)) if self.player.is_some() && self.paused => {
-                self.paused = false;
-                Ok(None)
-            }
+            Event::Session(msg) if is_users(&msg) => self.users(msg),
             Event::Session(msg) => {
-                self.recorder.note(&msg);
                 self.writing &= !matches!(msg, Msg::Written(_));
                 if let Msg::Answered(answered) = &msg
                     && answered.complete
@@ -281,29 +282,27 @@ impl<M: Machine, W: Write> Pump<M, W> {
                     None
                 }
                 Effect::Record { path, forget, replace } => {
-                    let mut recorder = self.recorder.clone();
-                    recorder.forget(if self.player.is_none() { forget } else { 0 });
-                    let notice = Files::write(&path, recorder.text(&self.started), replace);
+                    let how = "with ! behind the command it is replaced";
+                    let notice = match Record::admit(&path, replace, how) {
+                        Ok(()) => {
+                            let mut recorder = self.recorder.clone();
+                            recorder.forget(if self.playing.is_none() { forget } else { 0 });
+                            Files::write(&path, recorder.text(&self.started), true)
+                        }
+                        Err(text) => Notice { error: true, text },
+                    };
                     self.update(Msg::Told(notice))?
                 }
                 Effect::Read { path, purpose } => {
-                    let result = Files::read(&path);
+                    let result = self.read(&path);
                     self.update(Msg::Read { path, purpose, result })?
                 }
                 Effect::PutAside(path) => {
                     Files::put_aside(&path);
                     None
                 }
-                Effect::Play(script) => {
-                    let played =
-                        self.player.as_mut().is_none_or(|player| player.interject(script.clone()));
-                    self.player.get_or_insert_with(|| Player::new(script));
-                    if played {
-                        None
-                    } else {
-                        self.played(true, "replay stopped: it plays itself".to_owned())?
-                    }
-                }
+                Effect::Play(script) => self.begin(script, false)?,
+                Effect::PlayRegister(script) => self.begin(script, true)?,
             };
             if stop.is_some() {
                 return Ok(stop);
@@ -316,42 +315,6 @@ impl<M: Machine, W: Write> Pump<M, W> {
         self.screen.control(&Files::clipboard(text))?;
         let notice = self.files.copy(text);
         self.update(Msg::Told(notice))
-    }
-
-    /// The next step of a replay, if the screen shows all that happened before it.
-    ///
-    /// A replay inside the explorer has the size of the terminal and keeps no pictures.
-    fn play(&mut self) -> io::Result<Option<Stop>> {
-        if self.paused
-            || self.changed.is_some()
-            || !self.events.is_empty()
-            || !self.missed.is_empty()
-        {
-            return Ok(None);
-        }
-        let Some(player) = &mut self.player else { return Ok(None) };
-        let (machine, size) = (&self.machine, self.screen.size());
-        let idle = machine.wants().is_empty() && !self.writing;
-        let screen = || export::screen::text(&picture::of(machine, size));
-        loop {
-            return match player.next(idle, screen) {
-                Ok(Action::Give(Msg::Resize { .. }) | Action::Keep(_)) => continue,
-                Ok(Action::Wait) => Ok(None),
-                Ok(Action::Give(msg)) => {
-                    self.paused = matches!(msg, Msg::Say(_));
-                    self.update(msg)
-                }
-                Ok(Action::Done) => self.played(false, "replay done".to_owned()),
-                Err(unmet) => self.played(true, format!("replay stopped: {unmet}")),
-            };
-        }
-    }
-
-    /// Ends a replay.
-    fn played(&mut self, error: bool, text: String) -> io::Result<Option<Stop>> {
-        (self.player, self.paused) = (None, false);
-        self.update(Msg::Say(String::new()))?;
-        self.update(Msg::Told(Notice { error, text }))
     }
 
     /// Tells the worker what is wanted, if that has changed.
@@ -383,8 +346,8 @@ impl<M: Machine, W: Write> Pump<M, W> {
         let now = Instant::now();
         let last = self.beat.replace(now);
         if let Some(last) = last.filter(|_| self.machine.is_moving()) {
-            let msg = Msg::Elapsed { seconds: (now - last).as_secs_f64() };
-            self.recorder.note(&msg);
+            let msg = Msg::Elapsed { seconds: (now - last).as_secs_f64().min(LONGEST) };
+            self.note(&msg);
             // The passing of time asks for nothing outside.
             drop(self.machine.update(msg));
         }
@@ -398,6 +361,11 @@ impl<M: Machine, W: Write> Pump<M, W> {
         self.changed = None;
         Ok(())
     }
+}
+
+/// Whether a message comes from the user's hands.
+fn is_users(msg: &Msg) -> bool {
+    matches!(msg, Msg::Key(_) | Msg::Paste(_) | Msg::Pointed(_))
 }
 
 #[cfg(test)]

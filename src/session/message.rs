@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use super::key::Key;
 use super::replay::Script;
 use super::state::Notice;
+use crate::oscillator::Symbol;
 use crate::scene::{Answered, Point};
 
 /// Everything that can happen to a session.
@@ -29,6 +30,8 @@ pub enum Msg {
     Idle,
     /// A line of the command line, without the line: `<run "set D=-0.3">` in a keystroke file.
     Run(String),
+    /// What stands here is what the session starts with; these parameters belong to its scene.
+    Start(Vec<Symbol>),
     /// A caption of a tour, to be shown until the next one; empty: none.
     Say(String),
     /// A file that was asked for, or why it cannot be read.
@@ -104,6 +107,8 @@ pub enum Effect {
     Repaint,
     /// Play these keys, as if they were typed, before anything else.
     Play(Script),
+    /// The same with the keys of a register: what the user types meanwhile comes after them.
+    PlayRegister(Script),
     /// Have the terminal report the mouse, or leave it alone.
     Mouse(bool),
     /// Put this text on the clipboard (OSC 52) and into a file beside the session.

@@ -12,6 +12,7 @@ pub mod ledger;
 pub mod line;
 pub mod message;
 pub mod motion;
+pub mod opening;
 pub mod overlay;
 pub mod pending;
 pub mod playback;

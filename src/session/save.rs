@@ -23,7 +23,7 @@ use crate::oscillator::PARAMETERS;
 use crate::oscillator::belt::Quantity;
 use crate::scene::file::{TOLERANCE_RANGE, UNTIL_RANGE};
 use crate::scene::{
-    Arrangement, Axes, Exhibit, Layer, MOST_PLOTS, Point, Scene, View, Window, find,
+    Answered, Arrangement, Axes, Exhibit, Layer, MOST_PLOTS, Point, Scene, Slot, View, Window, find,
 };
 
 /// The format that this program writes; it reads this one and all before.
@@ -251,6 +251,12 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     opened.marks = Marks { places, left };
     opened.macros.registers = registers;
     opened.answers = std::mem::take(&mut session.answers);
+    let fits = |slot, held: &Answered| opened.request(slot, plot).as_ref() == Some(&held.request);
+    let unfit: Vec<Slot> =
+        opened.answers.iter().filter(|(slot, held)| !fits(**slot, held)).map(|it| *it.0).collect();
+    for slot in unfit {
+        opened.answers.remove(&slot);
+    }
     opened.keymap = Arc::clone(&session.keymap);
     opened.look = session.look;
     *session = opened;

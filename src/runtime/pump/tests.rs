@@ -8,7 +8,7 @@ use crate::flow::Reason;
 use crate::runtime::clerk::Work;
 use crate::runtime::panics::Notes;
 use crate::runtime::worker::Tell;
-use crate::session::replay;
+use crate::session::{Code, Key, replay};
 use crate::terminal::pacing::{FRAME_TIME, Pacing};
 
 /// A machine that counts right-arrows, shows the last notice, moves for a while after `p`, and leaves at
@@ -171,7 +171,7 @@ fn the_next_frame_waits_until_the_terminal_has_shown_the_last() {
 /// Plays a file and gives back what is on the screen when it is through.
 fn play(file: &str) -> String {
     let Bench { pump, events, written } = bench();
-    let mut pump = pump.playing(Some(Player::new(replay::parse(file).unwrap())));
+    let mut pump = pump.playing(Some(replay::parse(file).unwrap()));
     let running = std::thread::spawn(move || (pump.run().unwrap(), pump));
     while !written.recv().unwrap().contains("replay") {}
     events.send(key("q")).unwrap();
@@ -243,7 +243,7 @@ fn what_concerns_the_process_stops_the_loop() {
 fn a_caption_waits_for_a_key_that_does_nothing_else() {
     let Bench { pump, events, written } = bench();
     let file = replay::parse("<right> <say \"look\"> <right>").unwrap();
-    let mut pump = pump.playing(Some(Player::new(file)));
+    let mut pump = pump.playing(Some(file));
     let running = std::thread::spawn(move || (pump.run().unwrap(), pump));
     while !written.recv().unwrap().contains("look") {}
     events.send(key("q")).unwrap();
@@ -258,7 +258,7 @@ fn a_caption_waits_for_a_key_that_does_nothing_else() {
 fn a_tour_is_left_at_any_caption_by_escape() {
     let Bench { pump, events, written } = bench();
     let file = replay::parse("<right> <say \"look\"> <right>").unwrap();
-    let mut pump = pump.playing(Some(Player::new(file)));
+    let mut pump = pump.playing(Some(file));
     let running = std::thread::spawn(move || (pump.run().unwrap(), pump));
     while !written.recv().unwrap().contains("look") {}
     events.send(key("<esc>")).unwrap();
@@ -273,11 +273,83 @@ fn what_was_pressed_is_written_without_what_asks_for_it() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("walk.keys");
     let Bench { pump, .. } = bench();
-    let mut pump = pump.started("hopfscope basin".to_owned());
+    let mut pump = pump.started("hopfscope basin".to_owned(), Recorder::default(), None);
     for name in ["<right>", "<right>", ":"] {
         pump.handle(key(name)).unwrap();
     }
     pump.machine.asks = Some(Effect::Record { path: path.clone(), forget: 2, replace: false });
     pump.handle(key("<enter>")).unwrap();
-    assert_eq!(std::fs::read_to_string(path).unwrap(), "# hopfscope basin\n<right*2>\n");
+    let written = std::fs::read_to_string(path).unwrap();
+    assert!(written.ends_with("\n# hopfscope basin\n<right*2>\n"), "{written}");
+}
+
+/// What is recorded, without the comments.
+fn recorded(pump: &Pump<Counter, Line>) -> String {
+    replay::text("", pump.recorder.steps())
+}
+
+#[test]
+fn the_users_keys_stop_hold_or_leave_a_replay_and_are_no_part_of_it() {
+    let file = || Some(replay::parse("<right*3>").unwrap());
+    let step = |pump: &mut Pump<Counter, Line>| {
+        pump.draw().unwrap();
+        pump.play().unwrap()
+    };
+    let Bench { pump, .. } = bench();
+    let mut pump = pump.playing(file());
+    step(&mut pump);
+    for ignored in ["<right>", "x", "<enter>"] {
+        assert_eq!(pump.handle(key(ignored)).unwrap(), None);
+    }
+    assert_eq!(pump.machine.count, 1, "keys of the user are not mixed into it");
+    pump.handle(key("<space>")).unwrap();
+    assert!(pump.machine.notice.contains("held"), "{}", pump.machine.notice);
+    step(&mut pump);
+    assert_eq!(pump.machine.count, 1, "held");
+    pump.handle(key("<space>")).unwrap();
+    step(&mut pump);
+    assert_eq!(pump.machine.count, 2, "and on");
+    for leaves in ["q", "<C-c>"] {
+        assert_eq!(pump.handle(key(leaves)).unwrap(), Some(Stop::Quit));
+    }
+    pump.handle(key("<esc>")).unwrap();
+    assert_eq!(pump.machine.notice, "replay stopped");
+    step(&mut pump);
+    assert_eq!(pump.machine.count, 2);
+    pump.handle(key("<right>")).unwrap();
+    assert_eq!(pump.machine.count, 3, "the keys are the user's again");
+    assert_eq!(recorded(&pump), "<right*3>\n", "what was played, and then pressed");
+}
+
+#[test]
+fn what_is_typed_while_a_register_is_played_comes_after_it() {
+    let Bench { mut pump, .. } = bench();
+    pump.machine.asks = Some(Effect::PlayRegister(replay::parse("<right*3>").unwrap()));
+    for name in ["<enter>", "p", "q"] {
+        assert_eq!(pump.handle(key(name)).unwrap(), None);
+    }
+    while pump.playing.is_some() {
+        assert!(!pump.machine.moving);
+        pump.draw().unwrap();
+        pump.play().unwrap();
+    }
+    assert_eq!(pump.machine.count, 3);
+    let missed: Vec<Event> = pump.missed.drain(..).collect();
+    let stops: Vec<_> = missed.into_iter().map(|event| pump.handle(event).unwrap()).collect();
+    assert_eq!(stops, [None, Some(Stop::Quit)]);
+    assert!(pump.machine.moving);
+    assert_eq!(recorded(&pump), "<enter> p\n", "what asks for it plays it again; q is no part");
+}
+
+#[test]
+fn what_was_not_played_to_its_end_is_recorded_as_far_as_it_went() {
+    let Bench { mut pump, .. } = bench();
+    pump.machine.asks = Some(Effect::Play(replay::parse("<right*3>").unwrap()));
+    pump.handle(key("<enter>")).unwrap();
+    for _ in 0..2 {
+        pump.draw().unwrap();
+        pump.play().unwrap();
+    }
+    pump.handle(key("<esc>")).unwrap();
+    assert_eq!(recorded(&pump), "<right*2>\n");
 }

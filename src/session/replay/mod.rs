@@ -11,10 +11,14 @@ mod recorder;
 
 pub use parse::{BadScript, parse};
 pub use player::{Action, Player, Unmet};
-pub use recorder::{Recorder, text};
+pub use recorder::{HEADER, Recorder, comment, heading, lines, text};
 
 use super::key::Key;
-use super::message::Pointed;
+use super::message::{Msg, Pointed};
+use crate::oscillator::Symbol;
+
+/// Seconds that may pass at once.
+pub const LONGEST: f64 = 3600.0;
 
 /// One instruction of a keystroke file.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,6 +55,59 @@ pub enum Step {
     Say(String),
     /// Keep the screen under this name: `<screen name>`.
     Screen(String),
+    /// The session starts with what stands here: nothing was done before. `<start>`, or `<start D3 r>` with
+    /// the parameters that belong to its scene besides those that the scene names itself.
+    Start(Vec<Symbol>),
+    /// Whoever reads the file of this name while this is played finds this text: `<file "a.toml" "text">`.
+    File {
+        /// The name by which it is asked for.
+        name: String,
+        /// What it holds.
+        text: String,
+    },
+}
+
+impl Step {
+    /// What a message stands for in a keystroke file; `None` where it comes by itself from something else
+    /// that does.
+    #[must_use]
+    pub fn of(message: &Msg) -> Option<Self> {
+        Some(match message {
+            Msg::Key(key) => Step::Key { key: *key, count: 1 },
+            Msg::Pointed(pointed) => Step::Pointed(*pointed),
+            Msg::Paste(text) if !text.is_empty() => Step::Paste(text.clone()),
+            Msg::Elapsed { seconds } => Step::Elapse(*seconds),
+            Msg::Resize { width, height } => Step::Resize { width: *width, height: *height },
+            Msg::Run(line) => Step::Run(line.clone()),
+            Msg::Say(text) if !text.is_empty() => Step::Say(text.clone()),
+            Msg::Start(names) => Step::Start(names.clone()),
+            Msg::Paste(_)
+            | Msg::Say(_)
+            | Msg::Read { .. }
+            | Msg::Answered(_)
+            | Msg::Idle
+            | Msg::Written(_)
+            | Msg::Told(_) => return None,
+        })
+    }
+
+    /// What a step gives to a session; of a key, one press.
+    #[must_use]
+    pub fn message(&self) -> Option<Msg> {
+        Some(match self {
+            Step::Key { key, .. } => Msg::Key(*key),
+            Step::Pointed(pointed) => Msg::Pointed(*pointed),
+            Step::Paste(text) => Msg::Paste(text.clone()),
+            Step::Elapse(seconds) => Msg::Elapsed { seconds: *seconds },
+            Step::Resize { width, height } => Msg::Resize { width: *width, height: *height },
+            Step::Run(line) => Msg::Run(line.clone()),
+            Step::Say(text) => Msg::Say(text.clone()),
+            Step::Start(names) => Msg::Start(names.clone()),
+            Step::Wait | Step::Async | Step::Expect(_) | Step::Screen(_) | Step::File { .. } => {
+                return None;
+            }
+        })
+    }
 }
 
 /// A step and where it stands, counted from 1.
@@ -114,6 +171,12 @@ impl std::fmt::Display for Step {
             Step::Run(line) => write!(out, "<run {}>", quoted(line)),
             Step::Say(text) => write!(out, "<say {}>", quoted(text)),
             Step::Screen(name) => write!(out, "<screen {name}>"),
+            Step::Start(names) => {
+                write!(out, "<start")?;
+                names.iter().try_for_each(|symbol| write!(out, " {}", symbol.spec().name))?;
+                write!(out, ">")
+            }
+            Step::File { name, text } => write!(out, "<file {} {}>", quoted(name), quoted(text)),
         }
     }
 }

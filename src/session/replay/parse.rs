@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use super::{Located, Script, Step, mouse};
+use super::{LONGEST, Located, Script, Step, mouse};
+use crate::oscillator::PARAMETERS;
 use crate::scene::misread::printable;
 use crate::session::key::{Code, Key};
 use crate::session::message::Gesture;
@@ -40,7 +41,7 @@ pub(super) const ESCAPES: [(char, char); 5] =
 type Reading = fn(&str) -> Result<Step, String>;
 
 /// What stands between angle brackets and is no key: its first word, and how the rest is read.
-const DIRECTIVES: [(&str, Reading); 12] = [
+const DIRECTIVES: [(&str, Reading); 14] = [
     ("wait", |rest| alone(rest, "wait", Step::Wait)),
     ("async", |rest| alone(rest, "async", Step::Async)),
     ("elapse", elapse),
@@ -50,6 +51,8 @@ const DIRECTIVES: [(&str, Reading); 12] = [
     ("run", |rest| text(rest, "run").map(Step::Run)),
     ("say", |rest| text(rest, "say").map(Step::Say)),
     ("screen", screen),
+    ("start", start),
+    ("file", file),
     ("click", |rest| mouse::read(Gesture::Click, rest)),
     ("nearer", |rest| mouse::read(Gesture::Nearer, rest)),
     ("farther", |rest| mouse::read(Gesture::Farther, rest)),
@@ -116,7 +119,6 @@ fn step(token: &str) -> Result<Step, String> {
 
 /// Seconds that pass, up to an hour.
 fn elapse(text: &str) -> Result<Step, String> {
-    const LONGEST: f64 = 3600.0;
     let seconds = text.parse().ok().filter(|seconds| (0.0..=LONGEST).contains(seconds));
     seconds
         .map(Step::Elapse)
@@ -179,11 +181,39 @@ fn screen(name: &str) -> Result<Step, String> {
     }
 }
 
-/// Text in quotes, with the escapes of [`ESCAPES`].
+/// Names of parameters.
+fn start(rest: &str) -> Result<Step, String> {
+    let symbol = |name: &str| {
+        let row = PARAMETERS.iter().find(|row| row.name == name);
+        row.map(|row| row.symbol).ok_or_else(|| format!("<start> names parameters, not {name:?}"))
+    };
+    rest.split_whitespace().map(symbol).collect::<Result<_, _>>().map(Step::Start)
+}
+
+/// A name and a text, each in quotes.
+fn file(rest: &str) -> Result<Step, String> {
+    let refused = || "<file> needs a name and a text, as in <file \"a.toml\" \"..\">".to_owned();
+    let (name, rest) = leading(rest, "file").map_err(|_| refused())?;
+    let (text, rest) = leading(rest.trim_start(), "file").map_err(|_| refused())?;
+    if name.is_empty() || !rest.is_empty() { Err(refused()) } else { Ok(Step::File { name, text }) }
+}
+
+/// Text in quotes that is not empty, and nothing else.
 fn text(rest: &str, word: &str) -> Result<String, String> {
-    let refused = || format!("<{word}> needs text in quotes, as in <{word} \"captured\">");
-    let inner = rest.strip_prefix('"').and_then(|rest| rest.strip_suffix('"'));
-    let mut chars = inner.ok_or_else(refused)?.chars();
+    match leading(rest, word)? {
+        (text, "") if !text.is_empty() => Ok(text),
+        _ => Err(wants_text(word)),
+    }
+}
+
+fn wants_text(word: &str) -> String {
+    format!("<{word}> needs text in quotes, as in <{word} \"captured\">")
+}
+
+/// The text in quotes at the beginning, with the escapes of [`ESCAPES`], and what follows it.
+fn leading<'a>(rest: &'a str, word: &str) -> Result<(String, &'a str), String> {
+    let refused = || wants_text(word);
+    let mut chars = rest.strip_prefix('"').ok_or_else(refused)?.chars();
     let mut text = String::new();
     while let Some(char) = chars.next() {
         text.push(match char {
@@ -194,11 +224,11 @@ fn text(rest: &str, word: &str) -> Result<String, String> {
                     || format!("unknown escape \\{letter}; \\\" \\\\ \\n \\r \\t are known");
                 escape.ok_or_else(known)?.0
             }
-            '"' => return Err(refused()),
+            '"' => return Ok((text, chars.as_str())),
             char => char,
         });
     }
-    if text.is_empty() { Err(refused()) } else { Ok(text) }
+    Err(refused())
 }
 
 #[cfg(test)]

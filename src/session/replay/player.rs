@@ -1,7 +1,8 @@
 //! Playing a keystroke file: what to do next.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::fmt;
+use std::path::{Path, PathBuf};
 
 use super::{Located, Script, Step};
 use crate::session::message::Msg;
@@ -51,6 +52,8 @@ pub struct Player {
     /// How deep the last step stood.
     depth: u32,
     asynchronous: bool,
+    /// The texts that the file has for those who read files while it is played.
+    files: BTreeMap<PathBuf, String>,
 }
 
 /// Files played by files by files: more are one that plays itself.
@@ -61,7 +64,7 @@ impl Player {
     #[must_use]
     pub fn new(script: Script) -> Self {
         let steps = script.steps.into_iter().map(|step| (step, 0)).collect();
-        Player { steps, depth: 0, asynchronous: false }
+        Player { steps, depth: 0, asynchronous: false, files: BTreeMap::new() }
     }
 
     /// Plays another file first, and then what is left of this one. One that plays itself without end is
@@ -75,6 +78,12 @@ impl Player {
             self.steps.push_front((step, depth));
         }
         true
+    }
+
+    /// The text that was played for a file, if there was one.
+    #[must_use]
+    pub fn file(&self, path: &Path) -> Option<&str> {
+        self.files.get(path).map(String::as_str)
     }
 
     /// What to do next, given whether the session is idle and, if asked, what the screen shows: its
@@ -93,20 +102,17 @@ impl Player {
             self.advance();
             self.depth = depth;
             match step {
-                Step::Wait => {}
                 Step::Async => self.asynchronous = true,
-                Step::Key { key, .. } => return Ok(Action::Give(Msg::Key(key))),
-                Step::Elapse(seconds) => return Ok(Action::Give(Msg::Elapsed { seconds })),
-                Step::Pointed(pointed) => return Ok(Action::Give(Msg::Pointed(pointed))),
-                Step::Run(line) => return Ok(Action::Give(Msg::Run(line))),
-                Step::Say(text) => return Ok(Action::Give(Msg::Say(text))),
-                Step::Paste(text) => return Ok(Action::Give(Msg::Paste(text))),
-                Step::Resize { width, height } => {
-                    return Ok(Action::Give(Msg::Resize { width, height }));
-                }
+                Step::File { name, text } => drop(self.files.insert(name.into(), text)),
                 Step::Screen(name) => return Ok(Action::Keep(name)),
-                Step::Expect(text) if screen().contains(&text) => {}
-                Step::Expect(text) => return Err(Unmet { line, column, text }),
+                Step::Expect(text) if !screen().contains(&text) => {
+                    return Err(Unmet { line, column, text });
+                }
+                step => {
+                    if let Some(message) = step.message() {
+                        return Ok(Action::Give(message));
+                    }
+                }
             }
         }
     }

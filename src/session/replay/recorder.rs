@@ -1,50 +1,51 @@
 //! Writing a keystroke file from what happens in a live session.
 
-use super::Step;
+use super::{LONGEST, Step};
 use crate::session::message::Msg;
 
 /// Longest line of a recorded file, in characters, unless one step is longer.
 const LINE: usize = 72;
 
+/// How the first line of a recording begins, by which it is known as one.
+pub const HEADER: &str = "# A recording of hopfscope";
+
 /// What a user did, as a keystroke file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Recorder {
     steps: Vec<Step>,
+    /// Steps at the beginning that have not changed since this was last asked.
+    unchanged: usize,
 }
 
 impl Recorder {
-    /// Notes a message, if a user can cause it; the answers of the worker come by themselves.
-    ///
-    /// Only what comes from the user belongs here, not what a [`super::Player`] gives.
+    /// A recording that begins with these steps.
+    #[must_use]
+    pub fn new(steps: Vec<Step>) -> Self {
+        Recorder { steps, unchanged: 0 }
+    }
+
+    /// Notes a message, if it stands for something in a keystroke file; the answers of the worker come by
+    /// themselves.
     pub fn note(&mut self, message: &Msg) {
-        match message {
-            Msg::Key(pressed) => match self.steps.last_mut() {
-                Some(Step::Key { key, count }) if key == pressed && *count < super::parse::MOST => {
-                    *count += 1;
-                }
-                _ => self.steps.push(Step::Key { key: *pressed, count: 1 }),
-            },
-            Msg::Paste(text) if !text.is_empty() => self.steps.push(Step::Paste(text.clone())),
-            Msg::Resize { width, height } => {
-                let step = Step::Resize { width: *width, height: *height };
-                match self.steps.last_mut() {
-                    Some(last @ Step::Resize { .. }) => *last = step,
-                    _ => self.steps.push(step),
-                }
+        if let Some(step) = Step::of(message) {
+            self.add(step);
+        }
+    }
+
+    /// Adds a step, as one with the last where the two can be.
+    pub fn add(&mut self, step: Step) {
+        self.touch(self.steps.len().saturating_sub(1));
+        match (self.steps.last_mut(), step) {
+            (Some(Step::Key { key, count }), Step::Key { key: pressed, count: 1 })
+                if *key == pressed && *count < super::parse::MOST =>
+            {
+                *count += 1;
             }
-            Msg::Pointed(pointed) => self.steps.push(Step::Pointed(*pointed)),
-            Msg::Elapsed { seconds } => match self.steps.last_mut() {
-                Some(Step::Elapse(passed)) => *passed += seconds,
-                _ => self.steps.push(Step::Elapse(*seconds)),
-            },
-            Msg::Run(line) => self.steps.push(Step::Run(line.clone())),
-            Msg::Paste(_)
-            | Msg::Say(_)
-            | Msg::Read { .. }
-            | Msg::Answered(_)
-            | Msg::Idle
-            | Msg::Written(_)
-            | Msg::Told(_) => {}
+            (Some(Step::Elapse(passed)), Step::Elapse(seconds)) if *passed + seconds <= LONGEST => {
+                *passed += seconds;
+            }
+            (Some(last @ Step::Resize { .. }), step @ Step::Resize { .. }) => *last = step,
+            (_, step) => self.steps.push(step),
         }
     }
 
@@ -54,53 +55,106 @@ impl Recorder {
         &self.steps
     }
 
-    /// Forgets the last presses of keys, pastes and clicks.
-    pub fn forget(&mut self, mut presses: u32) {
-        while presses > 0 {
-            match self.steps.last_mut() {
-                Some(Step::Key { count, .. }) if *count > presses => {
-                    *count -= presses;
-                    return;
-                }
-                Some(Step::Key { count, .. }) => presses -= *count,
-                // The size of the screen is nobody's press.
-                Some(Step::Resize { .. }) => {}
-                Some(_) => presses -= 1,
-                None => return,
-            }
-            self.steps.pop();
+    /// Steps at the beginning that have not changed since this was called last.
+    pub fn unchanged(&mut self) -> usize {
+        std::mem::replace(&mut self.unchanged, self.steps.len())
+    }
+
+    fn touch(&mut self, step: usize) {
+        self.unchanged = self.unchanged.min(step);
+    }
+
+    /// Forgets the last presses of keys, pastes and clicks. The size of the screen and the passing of time
+    /// are nobody's press, and stay.
+    pub fn forget(&mut self, presses: u32) {
+        let first = self.before(presses);
+        let forgotten: Vec<Step> = self.steps.drain(first..).collect();
+        let nobodys = |step: &Step| matches!(step, Step::Resize { .. } | Step::Elapse(_));
+        forgotten.into_iter().filter(nobodys).for_each(|step| self.add(step));
+    }
+
+    /// Puts the text of a file that is asked for by the last presses before these, unless it is known.
+    pub fn embed(&mut self, name: &str, text: &str, presses: u32) {
+        let known = self.steps.iter().rev().find_map(|step| match step {
+            Step::File { name: other, text } if other == name => Some(text),
+            _ => None,
+        });
+        if known.is_none_or(|known| known != text) {
+            let at = self.before(presses);
+            self.steps.insert(at, Step::File { name: name.to_owned(), text: text.to_owned() });
         }
     }
 
-    /// The file so far, below a comment that says how the session was started.
+    /// The place before the last presses.
+    fn before(&mut self, mut presses: u32) -> usize {
+        let mut at = self.steps.len();
+        while presses > 0 && at > 0 {
+            at -= 1;
+            match &mut self.steps[at] {
+                Step::Key { key, count } if *count > presses => {
+                    *count -= presses;
+                    let rest = Step::Key { key: *key, count: presses };
+                    at += 1;
+                    self.steps.insert(at, rest);
+                    presses = 0;
+                }
+                Step::Key { count, .. } => presses -= *count,
+                Step::Resize { .. } | Step::Elapse(_) | Step::File { .. } => {}
+                _ => presses -= 1,
+            }
+        }
+        self.touch(at.saturating_sub(1));
+        at
+    }
+
+    /// The file so far, below comments that say what it is and how the session was started.
     #[must_use]
     pub fn text(&self, started: &str) -> String {
-        text(started, &self.steps)
+        text(&heading(started), &self.steps)
     }
+}
+
+/// The comments at the beginning of a recording, without their marks.
+#[must_use]
+pub fn heading(started: &str) -> String {
+    let header = HEADER.trim_start_matches("# ");
+    format!("{header}; `hopfscope replay FILE` plays it.\n{started}")
 }
 
 /// A keystroke file of these steps, below a comment.
 #[must_use]
 pub fn text(comment: &str, steps: &[Step]) -> String {
-    let mut text: String = comment.lines().flat_map(|line| ["# ", line, "\n"]).collect();
+    let lines = lines(steps).into_iter().map(|(_, line)| line);
+    std::iter::once(self::comment(comment)).chain(lines).collect()
+}
+
+/// Lines as comments.
+#[must_use]
+pub fn comment(lines: &str) -> String {
+    lines.lines().flat_map(|line| ["# ", line, "\n"]).collect()
+}
+
+/// The lines of a keystroke file, each with the place of its first step and its end.
+#[must_use]
+pub fn lines(steps: &[Step]) -> Vec<(usize, String)> {
+    let mut lines: Vec<(usize, String)> = Vec::new();
     let mut length = 0;
-    for step in steps {
+    for (index, step) in steps.iter().enumerate() {
         let step = step.to_string();
         let added = step.chars().count() + 1;
-        if length > 0 && length + added > LINE + 1 {
-            text.push('\n');
-            length = 0;
+        match lines.last_mut() {
+            Some((_, line)) if length + added <= LINE + 1 => {
+                line.insert(line.len() - 1, ' ');
+                line.insert_str(line.len() - 1, &step);
+                length += added;
+            }
+            _ => {
+                lines.push((index, step + "\n"));
+                length = added;
+            }
         }
-        if length > 0 {
-            text.push(' ');
-        }
-        text.push_str(&step);
-        length += added;
     }
-    if length > 0 {
-        text.push('\n');
-    }
-    text
+    lines
 }
 
 #[cfg(test)]
@@ -134,7 +188,8 @@ mod tests {
         let text = recorder.text("hopfscope basin");
         assert_eq!(
             text,
-            "# hopfscope basin\n<right*5> <hash> <resize 80x24> <paste \"a\\n\\\"b\\\"\">\n"
+            "# A recording of hopfscope; `hopfscope replay FILE` plays it.\n# hopfscope basin\n\
+             <right*5> <hash> <resize 80x24> <paste \"a\\n\\\"b\\\"\">\n"
         );
     }
 
@@ -147,10 +202,30 @@ mod tests {
             key(&mut recorder, name);
         }
         recorder.note(&Msg::Resize { width: 80, height: 24 });
+        recorder.embed("a.keys", "x", 2);
+        recorder.embed("a.keys", "x", 2);
+        let steps = |recorder: &Recorder| text("", recorder.steps());
+        assert_eq!(steps(&recorder), "<right*3> <file \"a.keys\" \"x\"> @ a <resize 80x24>\n");
         recorder.forget(3);
-        assert_eq!(recorder.text(""), "<right*2>\n");
+        assert_eq!(steps(&recorder), "<right*2> <resize 80x24>\n", "nobody's press stays");
         recorder.forget(9);
-        assert_eq!(recorder.text(""), "");
+        assert_eq!(steps(&recorder), "<resize 80x24>\n");
+    }
+
+    #[test]
+    fn it_knows_how_much_of_it_is_as_it_was() {
+        let mut recorder = Recorder::default();
+        let key =
+            |recorder: &mut Recorder, name: &str| recorder.note(&Msg::Key(name.parse().unwrap()));
+        for name in ["<right>", "u", "u"] {
+            key(&mut recorder, name);
+        }
+        assert_eq!(recorder.unchanged(), 0);
+        assert_eq!(recorder.unchanged(), 2);
+        key(&mut recorder, "u");
+        assert_eq!(recorder.unchanged(), 1, "the last step has a count more");
+        recorder.embed("a", "", 2);
+        assert!(recorder.unchanged() <= 1);
     }
 
     proptest! {
@@ -167,6 +242,7 @@ mod tests {
                 }
             }
             let text = recorder.text("a session");
+            let text = text.trim_start_matches(|char| char != '\n').trim_start().to_owned();
             prop_assert!(text.lines().all(|line| line.chars().count() <= LINE));
             prop_assert_eq!(played(&text), wanted);
         }

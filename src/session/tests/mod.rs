@@ -11,6 +11,7 @@ mod entries;
 mod language;
 mod names;
 mod plots;
+mod recorded;
 mod requests;
 mod saved;
 mod scan;
@@ -74,12 +75,28 @@ impl Desk {
             let before = self.effects.len();
             self.give(message);
             for effect in &self.effects[before..] {
-                if let Effect::Play(script) = effect {
+                if let Effect::Play(script) | Effect::PlayRegister(script) = effect {
                     player.interject(script.clone());
                 }
             }
+            self.reads(before, Some(&player));
         }
         self.asked.clone()
+    }
+
+    /// Reads the files that were asked for since the effect of this number, as a file that is played has
+    /// them.
+    fn reads(&mut self, since: usize, player: Option<&Player>) {
+        let effects = self.effects.split_off(since);
+        self.effects.extend(effects.iter().cloned());
+        for effect in effects {
+            if let Effect::Read { path, purpose } = effect
+                && let Some(text) = player.and_then(|player| player.file(&path))
+            {
+                let result = Ok(text.to_owned());
+                self.give(Msg::Read { path, purpose, result });
+            }
+        }
     }
 
     fn settle(&mut self) {

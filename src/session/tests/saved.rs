@@ -8,7 +8,6 @@ use super::strange::any_key;
 use super::{Desk, answered};
 use crate::flow::Problem;
 use crate::scene::{Request, Slot, library};
-use crate::session::replay::Recorder;
 use crate::session::{Effect, Msg, Notice, Purpose, Session, save, update};
 
 /// Everything of a session that a file holds.
@@ -68,25 +67,6 @@ fn a_scene_changed_on_the_command_line_is_saved_in_full() {
     let other = reopened(&desk.session);
     assert_eq!(other.scene, desk.session.scene);
     assert_eq!(other.problem.parameters.d, -0.25);
-}
-
-#[test]
-fn a_session_is_also_the_keys_that_led_to_it() {
-    let keys = "<right*3> <tab> ++ <left*3> <enter> \"a s/asym<enter> i 'a <tab*2> X z";
-    let mut desk = Desk::open("plain");
-    let mut recorder = Recorder::default();
-    let mut player =
-        crate::session::replay::Player::new(crate::session::replay::parse(keys).unwrap());
-    while let crate::session::replay::Action::Give(message) =
-        player.next(true, String::new).unwrap()
-    {
-        recorder.note(&message);
-        desk.give(message);
-    }
-    let mut replayed = Desk::open("plain");
-    replayed.press(&recorder.text("hopfscope"));
-    assert!(essence(&replayed.session) == essence(&desk.session));
-    assert!(essence(&reopened(&desk.session)) == essence(&replayed.session));
 }
 
 #[test]

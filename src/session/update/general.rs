@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::desk::{desk, set_up};
 use super::parameters::number;
 use super::{inform, macros, refuse};
+use crate::oscillator::Symbol;
 use crate::scene::{Layer, Scene};
 use crate::session::belt::Stand;
 use crate::session::history::{Before, Desk, Snapshot};
@@ -186,6 +187,21 @@ pub(in crate::session) fn open_scene(session: &mut Session, scene: Arc<Scene>) {
     session.selected = Row::FIRST;
     // Where the sentences of a scene begin.
     session.focus = Pane::Parameters;
+}
+
+/// Makes what stands here the beginning of a session: its scene opens like this, with these parameters
+/// among its own, and nothing was done before.
+pub(super) fn begin(session: &mut Session, names: Vec<Symbol>) {
+    let mut scene = Arc::clone(&session.scene);
+    let opens = Arc::make_mut(&mut scene);
+    opens.problem = session.problem;
+    opens.terms.extend(names);
+    *session = Session {
+        look: session.look,
+        keymap: Arc::clone(&session.keymap),
+        interrupted: session.interrupted.take(),
+        ..Session::new(scene, session.size)
+    };
 }
 
 /// Brings the scene back as it was opened.

@@ -25,12 +25,14 @@ pub struct Macros {
     pub last: Option<char>,
     /// Presses since nothing was open and nothing waited for: what asks for a command and is not it.
     pub chord: u32,
+    /// Presses of the last such chord that is complete.
+    pub asked: u32,
 }
 
 /// Notes what the user does.
 pub(super) fn note(session: &mut Session, message: &Msg) {
     let macros = &mut session.macros;
-    if matches!(message, Msg::Key(_) | Msg::Paste(_) | Msg::Pointed(_)) {
+    if matches!(message, Msg::Key(_) | Msg::Paste(_) | Msg::Pointed(_) | Msg::Run(_)) {
         macros.chord += 1;
         if let Some((_, recorder)) = &mut macros.recording {
             recorder.note(message);
@@ -40,8 +42,9 @@ pub(super) fn note(session: &mut Session, message: &Msg) {
 
 /// Begins a new chord where nothing is open and nothing waited for.
 pub(super) fn rest(session: &mut Session) {
-    if session.overlay.is_none() && session.pending.is_none() {
-        session.macros.chord = 0;
+    let macros = &mut session.macros;
+    if macros.chord > 0 && session.overlay.is_none() && session.pending.is_none() {
+        macros.asked = std::mem::take(&mut macros.chord);
     }
 }
 
@@ -90,7 +93,7 @@ pub(in crate::session) fn play(session: &mut Session, register: char, times: u32
     let script = Script::repeated(steps, times);
     inline(session);
     session.macros.last = Some(register);
-    vec![Effect::Play(script)]
+    vec![Effect::PlayRegister(script)]
 }
 
 /// Plays the register played or recorded last.

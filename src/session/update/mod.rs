@@ -61,6 +61,10 @@ pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
             session.price = Price { key: Some(line::enter()), recomputed: Vec::new() };
             prompt::run(session, &line)
         }
+        Msg::Start(names) => {
+            general::begin(session, names);
+            Vec::new()
+        }
         Msg::Say(caption) => {
             session.caption =
                 if caption.is_empty() { Caption::Nothing } else { Caption::Tour(caption) };

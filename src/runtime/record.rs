@@ -1,0 +1,152 @@
+//! A recording that is written as it grows, so that whatever ends the program leaves it behind.
+
+use std::fs::{File, OpenOptions};
+use std::io::{self, Read};
+use std::os::unix::fs::FileExt;
+use std::path::{Path, PathBuf};
+
+use super::effects::at_home;
+use crate::session::replay::{HEADER, Recorder, comment, heading, lines};
+
+/// The file of a recording.
+#[derive(Debug)]
+pub struct Record {
+    path: PathBuf,
+    file: File,
+    /// Where each line of steps begins: the place of its first step, and its byte.
+    lines: Vec<(usize, u64)>,
+    /// Bytes of the comments at the beginning.
+    heading: u64,
+}
+
+impl Record {
+    /// Begins the file with what is known already; see [`Record::admit`].
+    ///
+    /// # Errors
+    /// One line: the file may not be replaced, or cannot be written.
+    pub fn begin(
+        path: &Path,
+        replace: bool,
+        started: &str,
+        recorder: &mut Recorder,
+    ) -> Result<Record, String> {
+        Record::admit(path, replace, "--force replaces it")?;
+        let told = |why: io::Error| format!("{}: {why}", path.display());
+        let open = OpenOptions::new().create(true).truncate(true).write(true).open(path);
+        let file = open.map_err(told)?;
+        let comment = comment(&heading(started));
+        file.write_all_at(comment.as_bytes(), 0).map_err(told)?;
+        let heading = comment.len() as u64;
+        let mut record = Record { path: path.to_owned(), file, lines: Vec::new(), heading };
+        record.keep(recorder)?;
+        Ok(record)
+    }
+
+    /// Whether a recording may be written to a file: where there is none, or one that is empty or a
+    /// recording itself.
+    ///
+    /// # Errors
+    /// One line, with `how` to replace the file all the same.
+    pub fn admit(path: &Path, replace: bool, how: &str) -> Result<(), String> {
+        let path = at_home(path);
+        let name = path.display();
+        match std::fs::metadata(&path) {
+            Err(why) if why.kind() == io::ErrorKind::NotFound => return Ok(()),
+            Err(why) => return Err(format!("{name}: {why}")),
+            Ok(found) if !found.is_file() => return Err(format!("{name} is no file")),
+            Ok(found) if found.len() == 0 || replace => return Ok(()),
+            Ok(_) => {}
+        }
+        let mut head = String::new();
+        let begin = File::open(&path).map_err(|why| format!("{name}: {why}"))?;
+        // What is no text is no recording.
+        let read = begin.take(HEADER.len() as u64).read_to_string(&mut head);
+        if read.is_ok() && head == HEADER {
+            return Ok(());
+        }
+        Err(format!("{name} is there already and is no recording; {how}"))
+    }
+
+    /// Writes what has changed since the last time.
+    ///
+    /// # Errors
+    /// One line: the file cannot be written.
+    pub fn keep(&mut self, recorder: &mut Recorder) -> Result<(), String> {
+        let (unchanged, count) = (recorder.unchanged(), recorder.steps().len());
+        if unchanged == count && !self.lines.is_empty() {
+            return Ok(());
+        }
+        // The line in which the first change lies, and all behind it, are written anew.
+        let whole = self.lines.partition_point(|(first, _)| *first < unchanged);
+        let (first, mut at) = match whole.checked_sub(1) {
+            Some(last) => self.lines[last],
+            None => (0, self.heading),
+        };
+        self.lines.truncate(whole.saturating_sub(1));
+        let mut text = String::new();
+        let begin = at;
+        for (step, line) in lines(recorder.steps().get(first..).unwrap_or_default()) {
+            self.lines.push((first + step, at));
+            at += line.len() as u64;
+            text += &line;
+        }
+        let written = self.file.write_all_at(text.as_bytes(), begin);
+        let written = written.and_then(|()| self.file.set_len(at));
+        written.map_err(|why| format!("no longer recorded: {}: {why}", self.path.display()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::session::Msg;
+
+    fn note(recorder: &mut Recorder, key: &str) {
+        recorder.note(&Msg::Key(key.parse().unwrap()));
+    }
+
+    #[test]
+    fn the_file_holds_at_every_moment_what_was_recorded_so_far() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.keys");
+        let mut recorder = Recorder::default();
+        let mut record = Record::begin(&path, false, "hopfscope", &mut recorder).unwrap();
+        for round in 0..200_u32 {
+            note(&mut recorder, ["<right>", "u", "<S-left>"][round as usize / 2 % 3]);
+            if round % 17 == 0 {
+                recorder.forget(round % 7);
+            }
+            if round % 40 == 3 {
+                recorder.embed("b.keys", &round.to_string(), 5);
+            }
+            if round % 3 > 0 {
+                record.keep(&mut recorder).unwrap();
+                let found = std::fs::read_to_string(&path).unwrap();
+                let plain = |text: &str| text.replace('\n', " ");
+                assert_eq!(plain(&found), plain(&recorder.text("hopfscope")));
+            }
+        }
+    }
+
+    #[test]
+    fn only_a_recording_or_nothing_is_replaced_unasked() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("scan.csv");
+        for (text, may) in [
+            ("D,r\n", false),
+            ("# hopfscope\n<right>\n", false),
+            ("# A rec", false),
+            ("\u{fffd}", false),
+            ("", true),
+            ("# A recording of hopfscope; `hopfscope replay FILE` plays it.\n", true),
+        ] {
+            std::fs::write(&path, text).unwrap();
+            assert_eq!(Record::admit(&path, false, "no").is_ok(), may, "{text:?}");
+            assert!(Record::admit(&path, true, "no").is_ok(), "{text:?}");
+        }
+        std::fs::write(&path, [0xff; 64]).unwrap();
+        let refused = Record::admit(&path, false, "--force replaces it").unwrap_err();
+        assert!(refused.ends_with("is no recording; --force replaces it"), "{refused}");
+        assert!(Record::admit(folder.path(), true, "no").is_err(), "a folder is no file");
+    }
+}

@@ -1,0 +1,107 @@
+//! What a session starts with, as steps of a keystroke file that lead to the same from anywhere.
+//!
+//! A scene of the program with other numbers is told in lines that one could type. Anything else, such as a
+//! machine or a saved session, is told as a saved session, which the file carries with it.
+
+use super::replay::Step;
+use super::save;
+use super::settings::{COLORS, GLYPHS, Look, THEMES};
+use super::state::Session;
+use super::step::shortest;
+use crate::flow::method::Dial;
+use crate::flow::{METHODS, Problem};
+use crate::oscillator::{PARAMETERS, Symbol};
+use crate::scene::{Scene, find};
+
+/// The name under which a file carries a session.
+const CARRIED: &str = "start.toml";
+
+/// The steps that lead to a session in which nothing is open.
+///
+/// # Errors
+/// One line, if the session cannot be saved; none is known for which that is so.
+pub fn opening(session: &Session) -> Result<Vec<Step>, String> {
+    let mut steps: Vec<Step> = looks(session.look);
+    let text = save::text(session)?;
+    let new = Session::new(session.scene.clone(), session.size);
+    let is_new = save::text(&new)? == text;
+    if let Some((lines, names)) = scene(&session.scene).filter(|_| is_new) {
+        steps.extend(lines);
+        steps.push(Step::Start(names));
+    } else {
+        steps.push(Step::File { name: CARRIED.to_owned(), text });
+        steps.push(Step::Run(format!("open {CARRIED}")));
+        // What a scene opens with, it opens with; what was done before can be undone as before.
+        steps.extend(is_new.then(|| Step::Start(Vec::new())));
+    }
+    Ok(steps)
+}
+
+/// What the user wishes of the screen, where it is not the usual.
+fn looks(look: Look) -> Vec<Step> {
+    fn line<T: Copy + PartialEq + Default>(
+        name: &str,
+        table: &[(T, &str)],
+        value: T,
+    ) -> Option<Step> {
+        let row = table.iter().find(|row| row.0 == value && value != T::default());
+        row.map(|row| Step::Run(format!("{name} {}", row.1)))
+    }
+    let mouse = look.mouse.then(|| Step::Run("mouse".to_owned()));
+    let lines = [
+        line("glyphs", &GLYPHS, look.glyphs),
+        line("color", &COLORS, look.colors),
+        line("theme", &THEMES, look.theme),
+        mouse,
+    ];
+    lines.into_iter().flatten().collect()
+}
+
+/// The lines that open a scene of the program with other numbers, and the parameters that belong to it
+/// besides its own; `None` where it is another scene.
+fn scene(scene: &Scene) -> Option<(Vec<Step>, Vec<Symbol>)> {
+    let known = find(&scene.name).ok()?;
+    let mut with_numbers = Scene::clone(&known);
+    with_numbers.problem = scene.problem;
+    with_numbers.terms.extend(&scene.terms);
+    if with_numbers != *scene {
+        return None;
+    }
+    let names = scene.terms.difference(&known.terms).copied().collect();
+    let words = numbers(&known.problem, &scene.problem);
+    let set = (!words.is_empty()).then(|| Step::Run(format!("set {}", words.join(" "))));
+    let lines = std::iter::once(Step::Run(format!("scene {}", scene.name))).chain(set);
+    Some((lines.collect(), names))
+}
+
+/// What must be set to come from one motion to another. What is behind the dial of a method is set while
+/// that method is taken.
+fn numbers(from: &Problem, to: &Problem) -> Vec<String> {
+    let value =
+        |symbol: Symbol, problem: &Problem| symbol.get(&problem.parameters, &problem.initial);
+    let given = PARAMETERS.iter().filter(|row| value(row.symbol, from) != value(row.symbol, to));
+    let mut words: Vec<String> =
+        given.map(|row| format!("{}={}", row.name, shortest(value(row.symbol, to)))).collect();
+    if from.until != to.until {
+        words.push(format!("until={}", shortest(to.until)));
+    }
+    let mut method = from.method;
+    for (dial, before, after) in [
+        (Dial::Tolerance, from.tolerance, to.tolerance),
+        (Dial::Step, from.step, to.step),
+        (Dial::Epsilon, from.epsilon, to.epsilon),
+    ] {
+        let by_it = METHODS.iter().find(|row| row.dial == dial).filter(|_| before != after);
+        if let Some(row) = by_it {
+            if method.spec().dial != dial {
+                method = row.method;
+                words.push(format!("method={method}"));
+            }
+            words.push(format!("tolerance={}", shortest(after)));
+        }
+    }
+    if method != to.method {
+        words.push(format!("method={}", to.method));
+    }
+    words
+}

@@ -1,0 +1,185 @@
+//! Recordings: they play what was recorded, from the same beginning to the same end.
+
+use std::sync::Arc;
+
+use proptest::prelude::*;
+
+use super::Desk;
+use super::strange::any_key;
+use crate::flow::{METHODS, Problem};
+use crate::oscillator::{PARAMETERS, Symbol};
+use crate::scene::machine::library::machines;
+use crate::scene::{Rig, Scene, library};
+use crate::session::opening::opening;
+use crate::session::replay::{Recorder, text};
+use crate::session::settings::{COLORS, GLYPHS, Look, THEMES};
+use crate::session::{Effect, Msg, Notice, Session, Size, save};
+
+/// A session as options of the command line start it, and the recording of it.
+fn started(scene: Arc<Scene>, look: Look) -> (Desk, Recorder) {
+    let mut session = Session::new(scene, Size { width: 80, height: 24 });
+    session.look = look;
+    recording(session)
+}
+
+/// A session that begins, and the recording of it.
+fn recording(session: Session) -> (Desk, Recorder) {
+    let recorder = Recorder::new(opening(&session).unwrap());
+    let mut desk = Desk { session, asked: Vec::new(), effects: Vec::new() };
+    desk.settle();
+    (desk, recorder)
+}
+
+/// What a recording leads to, from whatever was there before.
+fn replayed(text: &str, before: &str) -> Desk {
+    let mut desk = Desk::open(before);
+    desk.press("<right> \"a <right> W");
+    desk.press(text);
+    desk
+}
+
+/// A session without what it cost, and what is compared with answers that nobody asks for any more.
+fn alike(session: &Session) -> Session {
+    let mut session = session.clone();
+    session.price = crate::session::Price::default();
+    (session.macros.chord, session.macros.asked) = (0, 0);
+    for slot in session.answers.keys().copied().collect::<Vec<_>>() {
+        if session.is_stale(slot, session.plot) {
+            session.answers.remove(&slot);
+        }
+    }
+    session.plots.iter_mut().for_each(|plot| plot.answers.clear());
+    session.marks.places.values_mut().for_each(|mark| mark.answers.clear());
+    session.marks.left.iter_mut().for_each(|mark| mark.answers.clear());
+    session.effort.burdens.clear();
+    session.interrupted = None;
+    session
+}
+
+fn assert_alike(one: &Session, other: &Session, text: &str) {
+    let (one, other) = (alike(one), alike(other));
+    if one != other {
+        let [one, other] = [one, other].map(|session| format!("{session:#?}"));
+        let mut lines = one.lines().zip(other.lines());
+        let (first, second) = lines.find(|(first, second)| first != second).unwrap_or_default();
+        panic!("{text}\nlive:   {first}\nplayed: {second}");
+    }
+}
+
+/// A scene with numbers of the command line.
+fn with_numbers(scene: &Arc<Scene>, change: impl FnOnce(&mut Scene)) -> Arc<Scene> {
+    let mut scene = Arc::clone(scene);
+    change(Arc::make_mut(&mut scene));
+    scene
+}
+
+/// Numbers as `--set` gives them.
+fn set(scene: &mut Scene, symbol: Symbol, value: f64) {
+    let Problem { parameters, initial, .. } = &mut scene.problem;
+    symbol.set(parameters, initial, value);
+    if !matches!(symbol, Symbol::Q0 | Symbol::V0) {
+        scene.terms.insert(symbol);
+    }
+}
+
+#[test]
+fn a_recording_begins_with_the_lines_that_lead_to_its_start() {
+    let scene = crate::scene::find("supercritical").unwrap();
+    let scene = with_numbers(&scene, |scene| {
+        set(scene, Symbol::Q0, 0.5);
+        set(scene, Symbol::D2, 0.0);
+    });
+    let look = Look { theme: THEMES[1].0, ..Look::default() };
+    let begun = text("", started(scene, look).1.steps());
+    assert_eq!(
+        begun,
+        "<run \"theme light\"> <run \"scene supercritical\"> <run \"set q0=0.5\">\n<start D2>\n"
+    );
+    let begun = text("", started(crate::scene::plain(), Look::default()).1.steps());
+    assert_eq!(begun, "<run \"scene plain\"> <start>\n");
+}
+
+#[test]
+fn a_machine_and_a_saved_session_begin_as_they_were() {
+    for machine in machines() {
+        let scene = Arc::new(Rig::new(machine.clone()).unwrap().scene());
+        let scene = with_numbers(&scene, |scene| set(scene, Symbol::Q0, 0.5));
+        let (live, recorder) = started(scene, Look::default());
+        let begun = text("", recorder.steps());
+        assert_alike(&live.session, &replayed(&begun, "fig17").session, &begun);
+    }
+    let mut used = Desk::open("linear");
+    used.press("<right*3> \"a <left> [ -0.3<enter> 'a W ; <tab*2> +++ &x <right> & u");
+    let saved = save::text(&used.session).unwrap();
+    let mut session = Session::new(crate::scene::plain(), Size { width: 80, height: 24 });
+    save::open(&mut session, &saved).unwrap();
+    session.notice = Some(Notice { error: false, text: "opened start.toml".to_owned() });
+    let (live, recorder) = recording(session);
+    let begun = text("", recorder.steps());
+    assert_alike(&live.session, &replayed(&begun, "fig17").session, &begun);
+}
+
+prop_compose! {
+    /// A scene and its numbers, as options of the command line choose them.
+    fn any_start()(
+        scene in 0..library().len(),
+        given in prop::collection::vec((0..6_usize, 0..5_u8), 0..4),
+        method in prop::option::of(0..METHODS.len()),
+        dials in prop::collection::vec(prop::option::of(0..4_u8), 3),
+    ) -> Arc<Scene> {
+        with_numbers(&library()[scene], |scene| {
+            for (which, tenths) in given {
+                let row = &PARAMETERS[which];
+                set(scene, row.symbol, row.check(f64::from(tenths) / 10.0).unwrap());
+            }
+            let problem = &mut scene.problem;
+            problem.method = method.map_or(problem.method, |which| METHODS[which].method);
+            let dial = |which: usize, now: f64| {
+                dials[which].map_or(now, |digits| 0.3 * 0.1_f64.powi(i32::from(digits) + 2))
+            };
+            problem.tolerance = dial(0, problem.tolerance);
+            problem.step = dial(1, problem.step);
+            problem.epsilon = dial(2, problem.epsilon);
+        })
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(96))]
+
+    #[test]
+    fn any_recording_plays_what_was_recorded(
+        scene in any_start(),
+        (glyphs, color, theme) in (0..GLYPHS.len(), 0..COLORS.len(), 0..THEMES.len()),
+        mouse in any::<bool>(),
+        keys in prop::collection::vec(any_key(), 0..60),
+        before in 0..library().len(),
+    ) {
+        let look = Look {
+            glyphs: GLYPHS[glyphs].0,
+            colors: COLORS[color].0,
+            theme: THEMES[theme].0,
+            mouse,
+        };
+        let (mut live, mut recorder) = started(scene, look);
+        // The tour expects what a screen shows.
+        for key in keys.into_iter().filter(|key| key.to_string() != "<f6>") {
+            let message = Msg::Key(key);
+            recorder.note(&message);
+            let since = live.effects.len();
+            live.give(message);
+            let mut given: Vec<Effect> = live.effects[since..].to_vec();
+            while let Some(Effect::Play(script) | Effect::PlayRegister(script)) = given.pop() {
+                live.press(&text("", &script.steps.into_iter().map(|it| it.step).collect::<Vec<_>>()));
+            }
+            if live.session.quit {
+                break;
+            }
+        }
+        let recorded = recorder.text("hopfscope");
+        let mut other = Desk::open(&library()[before].name);
+        other.session.look = Look::default();
+        other.press(&recorded);
+        assert_alike(&live.session, &other.session, &recorded);
+    }
+}
