@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 use crate::flow::{METHODS, Method};
-use crate::oscillator::{PARAMETERS, Symbol};
+use crate::oscillator::{Interval, PARAMETERS, Symbol};
 use crate::scene::file::UNTIL_RANGE;
 use crate::study::basin::Window;
 
@@ -50,6 +50,19 @@ pub fn assignment(text: &str) -> Result<(Symbol, f64), String> {
     let (name, value) = text.split_once('=').ok_or("expected NAME=VALUE, such as D=-0.3")?;
     let symbol = symbol(name.trim())?;
     Ok((symbol, value_of(symbol, value)?))
+}
+
+/// `NAME=INTERVAL`: a number, `VALUE+-HALFWIDTH` or `LOW..HIGH`.
+pub fn interval(text: &str) -> Result<(Symbol, Interval), String> {
+    let form = "expected NAME=VALUE+-HALFWIDTH or NAME=LOW..HIGH, such as r=0.10+-0.01";
+    let (name, interval) = text.split_once('=').ok_or(form)?;
+    let symbol = symbol(name.trim())?;
+    let interval: Interval =
+        interval.parse().map_err(|refused| format!("{}: {refused}", symbol.spec().name))?;
+    for end in [interval.low, interval.high] {
+        symbol.spec().check(end).map_err(|refused| refused.to_string())?;
+    }
+    Ok((symbol, interval))
 }
 
 /// A parameter and the values through which it goes.
@@ -145,6 +158,20 @@ mod tests {
             ("D=1,5", "\"1,5\" is not a number"),
         ] {
             let refused = assignment(text).unwrap_err();
+            assert!(refused.contains(expected), "{text}: {refused}");
+        }
+    }
+
+    #[test]
+    fn intervals_are_read_and_refused_with_the_range() {
+        assert_eq!(interval("D=-0.3..-0.28"), Ok((Symbol::D, Interval { low: -0.3, high: -0.28 })));
+        for (text, expected) in [
+            ("r", "NAME=VALUE+-HALFWIDTH"),
+            ("r=0.1+-0.2", "outside its range 0.0 .. 1e300"),
+            ("R=0.1", "there is no parameter"),
+            ("r=0.1+-", "r: \"\" is not a number"),
+        ] {
+            let refused = interval(text).unwrap_err();
             assert!(refused.contains(expected), "{text}: {refused}");
         }
     }

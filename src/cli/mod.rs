@@ -17,6 +17,7 @@ mod figure;
 mod input;
 mod keys;
 mod look;
+mod margin;
 mod output;
 mod paper;
 mod places;
@@ -64,6 +65,7 @@ enum Command {
     Cycles(cycles::Cycles),
     Branch(branch::Branch),
     Basin(basin::Basin),
+    Margin(margin::Margin),
     Border(border::Border),
     Paper(paper::Paper),
     Belt(belt::Belt),
@@ -89,6 +91,7 @@ impl Command {
             Command::Cycles(command) => command.run(),
             Command::Branch(command) => command.run(),
             Command::Basin(command) => command.run(),
+            Command::Margin(command) => command.run(),
             Command::Border(command) => command.run(),
             Command::Paper(command) => command.run(),
             Command::Belt(command) => command.run(),

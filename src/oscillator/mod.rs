@@ -7,6 +7,7 @@
 pub mod belt;
 pub mod energy;
 pub mod half_plane;
+pub mod interval;
 pub mod parameters;
 pub mod scaling;
 pub mod sticking;
@@ -14,4 +15,5 @@ pub mod sticking;
 pub use belt::Belt;
 pub use energy::Ledger;
 pub use half_plane::{HalfPlane, Side};
+pub use interval::{Interval, ParameterBox};
 pub use parameters::{PARAMETERS, ParameterSpec, Parameters, State, Symbol};

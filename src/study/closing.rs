@@ -96,6 +96,20 @@ impl Equation {
     #[must_use]
     pub fn with(parameters: &Parameters, side: Side, map: impl Fn(HalfPlane) -> HalfMap) -> Self {
         let fields = [side, side.opposite()].map(|side| HalfPlane::new(parameters, side));
+        Self::on_fields(parameters, side, fields, map)
+    }
+
+    /// The same with damping that differs by side: the fields of the first and of the second swing.
+    ///
+    /// Only the search for brackets and [`Self::at`] serve such an equation; whatever else takes D2 from its
+    /// parameters does not.
+    #[must_use]
+    pub fn on_fields(
+        parameters: &Parameters,
+        side: Side,
+        fields: [HalfPlane; 2],
+        map: impl Fn(HalfPlane) -> HalfMap,
+    ) -> Self {
         Equation {
             parameters: *parameters,
             side,
@@ -103,6 +117,13 @@ impl Equation {
             backward: fields.map(|field| map(field.reversed())),
             charged: Cost::default(),
         }
+    }
+
+    /// The same equation, each integration step within another relative tolerance.
+    #[must_use]
+    pub fn again(&self, tolerance: f64) -> Self {
+        let fields = [&self.forward[0], &self.forward[1]].map(|map| *map.field());
+        Self::on_fields(&self.parameters, self.side, fields, |field| HalfMap::new(field, tolerance))
     }
 
     /// Whether to find the largest speeds.

@@ -180,11 +180,11 @@ fn brackets(
     /// First stride and longest stride, in `ln c0`.
     const STRIDES: (f64, f64) = (0.5, 2.0);
     let high = upper_end(&equation.parameters);
-    let (parameters, side) = (equation.parameters, equation.side);
+    let parameters = equation.parameters;
     let fine = equation.tolerance();
     let rough = fine.max(ROUGH);
     let (step, blur) = if parameters.d.abs() < WEAK { (fine, 0.0) } else { (rough, BLUR * rough) };
-    let mut rough = Equation::on_side(&parameters, side, step);
+    let mut rough = equation.again(step);
     let mut function = |u: f64, fine: bool| {
         let equation = if fine { &mut *equation } else { &mut rough };
         Ok(equation.at(Route::Mixed, u, limits)?.node)
@@ -214,6 +214,19 @@ fn brackets(
     }
     equation.charge(rough.cost());
     Ok(found)
+}
+
+/// The bracket of the innermost closing, without any use of closed forms or of the parameters' D2: it serves an
+/// equation whose damping differs by side.
+///
+/// # Errors
+/// The [`Reason`] why a swing failed.
+pub(super) fn innermost_bracket(
+    equation: &mut Equation,
+    limits: &Limits,
+) -> Result<Option<Bracket>, Reason> {
+    let Some(low) = lower_end(equation, limits)? else { return Ok(None) };
+    Ok(brackets(equation, low, 1, &[], limits)?.into_iter().next())
 }
 
 /// Newton's method on the contracting route, inside the bracket.

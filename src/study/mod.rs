@@ -17,6 +17,7 @@ pub mod design;
 pub mod escape;
 pub mod extremes;
 pub mod fold;
+pub mod guarantee;
 pub mod half_map;
 pub mod harmonic_error;
 pub mod lift;

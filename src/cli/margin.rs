@@ -1,0 +1,55 @@
+//! `hopfscope margin`: how large a kick is survived, for certain.
+
+use clap::Args;
+
+use super::failure::Failure;
+use super::input;
+use super::output::{Format, Output, print};
+use super::timing::timed;
+use crate::export::guarantee;
+use crate::flow::Limits;
+use crate::oscillator::{Interval, ParameterBox, Symbol};
+use crate::scene::library::{PLAIN, find};
+use crate::study;
+
+/// Says how large a kick is survived whatever a bounded disturbance does, at all parameters of a box
+#[derive(Debug, Args)]
+pub struct Margin {
+    /// Scene to start from
+    #[arg(long, value_name = "NAME", default_value = PLAIN)]
+    scene: String,
+    /// Sets D, D2, D3 or r to a number, to VALUE+-HALFWIDTH or to LOW..HIGH; repeatable
+    #[arg(long, value_name = "NAME=INTERVAL", value_parser = input::interval, allow_hyphen_values = true)]
+    set: Vec<(Symbol, Interval)>,
+    /// Bound on the disturbing force, in the units of r
+    #[arg(long, value_name = "W", default_value = "0", value_parser = disturbance,
+          allow_hyphen_values = true)]
+    disturbance: f64,
+    #[command(flatten)]
+    output: Output,
+}
+
+fn disturbance(text: &str) -> Result<f64, String> {
+    input::within("disturbance", (0.0, Symbol::R.spec().max), text)
+}
+
+impl Margin {
+    /// Computes and prints.
+    pub fn run(&self) -> Result<(), Failure> {
+        let scene = find(&self.scene).map_err(|missing| Failure::Usage(missing.to_string()))?;
+        let mut known = ParameterBox::from(scene.problem.parameters);
+        for &(symbol, interval) in &self.set {
+            known.set(symbol, interval).map_err(Failure::Usage)?;
+        }
+        let ask = || study::guarantee::guarantee(&known, self.disturbance, &Limits::PATIENT);
+        let (found, seconds) = timed(self.output.repeat, ask);
+        let found = found.map_err(|reason| {
+            Failure::Unanswered(format!("the margin could not be computed: {reason}"))
+        })?;
+        print(&match self.output.format {
+            Format::Table => guarantee::table(&found, seconds),
+            Format::Json => guarantee::json(&found, seconds),
+            Format::Csv => guarantee::csv(&found),
+        })
+    }
+}

@@ -1,0 +1,81 @@
+//! Guaranteed margins as text.
+
+use serde::Serialize;
+
+use super::csv::{exact_or_empty, line};
+use super::json::{Price, text};
+use crate::oscillator::{Interval, ParameterBox, Symbol};
+use crate::study::Margin;
+use crate::study::guarantee::{Guarantee, Guaranteed};
+use crate::view::number::{duration, significant};
+
+#[derive(Serialize)]
+struct Document<'a> {
+    nominal: Margin,
+    guaranteed: Guaranteed,
+    disturbance: f64,
+    parameters: &'a ParameterBox,
+    cost: Price,
+}
+
+/// One document.
+#[must_use]
+pub fn json(found: &Guarantee, seconds: f64) -> String {
+    text(&Document {
+        nominal: found.nominal,
+        guaranteed: found.guaranteed,
+        disturbance: found.disturbance,
+        parameters: &found.known,
+        cost: Price { counted: found.cost, seconds },
+    })
+}
+
+/// One row for the nominal and one for the guaranteed margin.
+#[must_use]
+pub fn csv(found: &Guarantee) -> String {
+    let row = |name: &str, Margin { displacement, impulse }: Margin, reason: String| {
+        line(&[name.to_owned(), exact_or_empty(displacement), exact_or_empty(impulse), reason])
+    };
+    let reason = found.guaranteed.reason.map(|reason| reason.to_string()).unwrap_or_default();
+    let titles = ["margin", "displacement", "impulse", "reason"].map(str::to_owned);
+    line(&titles)
+        + &row("nominal", found.nominal, String::new())
+        + &row("guaranteed", found.guaranteed.margin, reason)
+}
+
+/// Sentences for reading.
+#[must_use]
+pub fn table(found: &Guarantee, seconds: f64) -> String {
+    let ParameterBox { d, d2, d3, r } = found.known;
+    let names = [Symbol::D, Symbol::D2, Symbol::D3, Symbol::R].map(|symbol| symbol.spec().name);
+    let parameters = names.iter().zip([d, d2, d3, r]).map(|(name, value)| interval(name, value));
+    let parameters = parameters.collect::<Vec<_>>().join(", ");
+    let margin = |Margin { displacement, impulse }: Margin| match (displacement, impulse) {
+        (None, None) => "every kick is survived".to_owned(),
+        _ => [("displacement", displacement), ("impulse", impulse)]
+            .map(|(name, value)| {
+                let value = value.map_or("any".to_owned(), |value| significant(value, 12));
+                format!("{name} {value}")
+            })
+            .join(", "),
+    };
+    let guaranteed = match found.guaranteed.reason {
+        Some(reason) => format!("nothing: {reason}"),
+        None => margin(found.guaranteed.margin),
+    };
+    format!(
+        "{parameters}; disturbance {}\n\nnominal     {}\nguaranteed  {guaranteed}\n\n{} evaluations, {}\n",
+        significant(found.disturbance, 12),
+        margin(found.nominal),
+        found.cost.evaluations,
+        duration(seconds)
+    )
+}
+
+fn interval(name: &str, interval: Interval) -> String {
+    if interval.is_point() {
+        format!("{name} = {}", significant(interval.low, 12))
+    } else {
+        format!("{name} in {} .. {}", significant(interval.low, 12), significant(interval.high, 12))
+    }
+}

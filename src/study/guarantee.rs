@@ -1,0 +1,331 @@
+//! How large a kick is survived for certain: whatever a bounded disturbance does, at whatever parameters of a box.
+//!
+//! `q'' + 2 D q' + D2 q'^2 + D3 q'^3 + q = friction + u(tau)` with `abs(u) <= w`. Above `v = 0` the acceleration
+//! of every such system is at most that of the *worst* one, which has the smallest D, D2, D3 and the friction
+//! `r - w`; below it is at least that of the same system with the largest D2. So at every point of the worst
+//! system's border the true field points inwards, or along it, and no motion leaves its interior. The bound is
+//! attained: the disturbance `w sign(v)` at the worst parameters keeps to the border. In the same way no motion
+//! enters the basin of the *best* system from outside.
+//!
+//! An extreme system has a D2 of its own on each side, so it is a [`Sided`] one; half maps and arcs are
+//! computed side by side anyway.
+
+use serde::Serialize;
+
+use super::arc::{Arc, Direction};
+use super::basin::{Basin, Border, Fate, basin};
+use super::closing::{Closing, Equation, Route};
+use super::closings::{STEP, innermost_bracket};
+use super::cycle::Edge;
+use super::half_map::{HalfMap, Length, NoEnd};
+use super::margin::Margin;
+use super::search::{Bracket, Node};
+use crate::closed_form::piecewise_linear::LinearCycle;
+use crate::flow::{Cost, Limits, Reason};
+use crate::oscillator::{HalfPlane, Interval, ParameterBox, Parameters, Side};
+
+/// An oscillator with parameters of its own on each side of `v = 0`, the friction being the same.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sided {
+    /// Where `v > 0`.
+    pub upper: Parameters,
+    /// Where `v < 0`.
+    pub lower: Parameters,
+}
+
+impl Sided {
+    /// The system that keeps the smallest basin, for disturbances up to `disturbance`, which is less than the
+    /// friction.
+    #[must_use]
+    pub fn worst(known: &ParameterBox, disturbance: f64) -> Self {
+        let ParameterBox { d, d2, d3, r } = *known;
+        let r = if disturbance > 0.0 { (r.low - disturbance).next_down() } else { r.low };
+        let upper = Parameters { d: d.low, d2: d2.low, d3: d3.low, r };
+        Sided { upper, lower: Parameters { d2: d2.high, ..upper } }
+    }
+
+    /// The system that keeps the largest basin.
+    #[must_use]
+    pub fn best(known: &ParameterBox, disturbance: f64) -> Self {
+        let ParameterBox { d, d2, d3, r } = *known;
+        let r = if disturbance > 0.0 { (r.high + disturbance).next_up() } else { r.high };
+        let upper = Parameters { d: d.high, d2: d2.high, d3: d3.high, r };
+        Sided { upper, lower: Parameters { d2: d2.low, ..upper } }
+    }
+
+    fn on(&self, side: Side) -> &Parameters {
+        match side {
+            Side::Upper => &self.upper,
+            Side::Lower => &self.lower,
+        }
+    }
+
+    fn field(&self, side: Side) -> HalfPlane {
+        HalfPlane::new(self.on(side), side)
+    }
+
+    /// The basin of its sticking set, which is all that its innermost border parts, for `D > -1`; `reach` as
+    /// for [`super::basin::basin`]. The second number bounds the relative error of the border's clearance.
+    ///
+    /// Both arcs are followed backward in time, in which the border of a basin attracts.
+    ///
+    /// # Errors
+    /// The [`Reason`] why the border could not be computed; [`Reason::NotApplicable`] for `D <= -1`.
+    pub fn basin(&self, reach: f64, limits: &Limits) -> Result<(Basin, f64), Reason> {
+        if self.upper.d <= -1.0 {
+            return Err(Reason::NotApplicable { needs: "D above -1" });
+        }
+        let mut equation = self.equation();
+        let (first, second) = (equation.side, equation.side.opposite());
+        let gap = 2.0 * self.upper.r;
+        let arc = |side: Side, end: Length| {
+            Arc::new(self.on(side), side, Direction::Backward, end, limits)
+        };
+        let escaping = self.field(second).d2;
+        let (edge, arcs, error) = if let Some((closing, error)) = self.closing(&mut equation, limits)? {
+            let arcs = [arc(first, closing.second.plus(gap))?, arc(second, closing.first.plus(gap))?];
+            (Edge::Cycle, Some(arcs), error)
+        } else if self.upper.d3 == 0.0 && escaping < 0.0 {
+            // Run backward, the motion that goes out along the parabola for ever attracts, to rounding after
+            // this clearance in units of 1/abs(D2).
+            const FORGETS: f64 = 40.0;
+            let out = arc(second, Length::new(reach + gap + FORGETS / escaping.abs()))?;
+            let turning = match &out.swing {
+                Ok(swing) => swing.end,
+                Err(NoEnd::Never | NoEnd::Escapes) => Length { value: 0.0, log: f64::NEG_INFINITY },
+                Err(NoEnd::Failed(reason)) => return Err(*reason),
+            };
+            (Edge::Separatrix, Some([arc(first, turning.plus(gap))?, out]), NOISE)
+        } else {
+            (Edge::None, None, 0.0)
+        };
+        let mut cost = equation.cost();
+        let mut borders = Vec::new();
+        let mut fates = vec![Fate::Captured];
+        if let Some([one, other]) = arcs {
+            cost += one.cost;
+            cost += other.cost;
+            let (upper, lower) = if first == Side::Upper { (one, other) } else { (other, one) };
+            borders.push(Border { upper, lower });
+            fates.push(Fate::Escaped);
+        }
+        Ok((Basin { parameters: self.upper, edge, borders, fates, cost }, error))
+    }
+
+    /// The innermost closed pair of swings, and the relative error of its clearances: from the closed form where
+    /// there is one, else just inside of where the search closes.
+    fn closing(
+        &self,
+        equation: &mut Equation,
+        limits: &Limits,
+    ) -> Result<Option<(Closing, f64)>, Reason> {
+        if self.upper == self.lower && self.upper.is_piecewise_linear() {
+            let cycle = LinearCycle::new(self.upper.d, self.upper.r).ok();
+            return Ok(cycle.map(|cycle| (Closing::from(&cycle), NOISE)));
+        }
+        let Some(bracket) = innermost_bracket(equation, limits)? else { return Ok(None) };
+        let (inside, error) = refine(equation, bracket, limits)?;
+        Ok(Some((equation.at(Route::Mixed, inside, limits)?, error)))
+    }
+
+    /// The closing equation, and with it the side of its first swing: that on which D2 brakes more, because a
+    /// swing of the other one, run backward, does not escape.
+    fn equation(&self) -> Equation {
+        let first = if self.field(Side::Upper).d2 >= self.field(Side::Lower).d2 {
+            Side::Upper
+        } else {
+            Side::Lower
+        };
+        let fields = [first, first.opposite()].map(|side| self.field(side));
+        // How far out a search goes follows from the weaker D2.
+        let weaker = fields.map(|field| field.d2.abs()).into_iter().fold(f64::INFINITY, f64::min);
+        let parameters = Parameters { d2: weaker, ..self.upper };
+        Equation::on_fields(&parameters, first, fields, |field| HalfMap::new(field, STEP))
+    }
+}
+
+/// Relative error of a clearance, of rounding and of steps, where the closing equation is not flat.
+const NOISE: f64 = 1e-12;
+
+/// The inner end of a bracket as narrow as rounding allows, and the relative error of the clearance there.
+fn refine(
+    equation: &mut Equation,
+    (mut low, mut high): Bracket,
+    limits: &Limits,
+) -> Result<(f64, f64), Reason> {
+    /// Halvings from a bracket of length 2 to rounding.
+    const HALVINGS: usize = 60;
+    let mut slope = low.slope;
+    for _ in 0..HALVINGS {
+        let width = high.at - low.at;
+        if width <= 4.0 * f64::EPSILON * low.at.abs().max(1.0) {
+            break;
+        }
+        // A little inside of where the line through a node vanishes, so that both ends close in.
+        let newton = |node: &Node| node.at - node.value() / node.slope;
+        let guess = newton(&low);
+        let inside = guess > low.at && guess < high.at;
+        let at = if inside { guess.min(high.at - 0.25 * width) } else { low.at + 0.5 * width };
+        let node = equation.at(Route::Mixed, at, limits)?.node;
+        if node.value().is_nan() {
+            return Err(Reason::OutOfRange);
+        }
+        if node.value() > 0.0 { high = node } else { low = node }
+        if node.slope.is_finite() {
+            slope = node.slope;
+        }
+    }
+    let width = high.at - low.at;
+    Ok((low.at, width + NOISE / slope.abs().min(1.0)))
+}
+
+/// Margins that hold for certain.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Guaranteed {
+    /// The margin, rounded down by its error; `None` where no kick is lost, or nothing is certain.
+    #[serde(flatten)]
+    pub margin: Margin,
+    /// Why nothing is certain.
+    pub reason: Option<Uncertain>,
+}
+
+/// Why no kick is survived for certain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Uncertain {
+    /// The disturbance moves the mass from its rest by itself.
+    Disturbance {
+        /// The disturbance.
+        w: f64,
+        /// The smallest friction.
+        r: f64,
+    },
+    /// The end of the sticking set repels.
+    Repels {
+        /// The smallest D.
+        d: f64,
+    },
+}
+
+impl std::fmt::Display for Uncertain {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Uncertain::Disturbance { w, r } => {
+                write!(out, "the disturbance w = {w} is not below the smallest friction r = {r}")
+            }
+            Uncertain::Repels { d } => {
+                write!(out, "at the smallest D = {d} the ends of the sticking set repel")
+            }
+        }
+    }
+}
+
+impl Serialize for Uncertain {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+/// What is known for certain, beside what holds at the middle of the box without a disturbance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Guarantee {
+    /// The parameters.
+    pub known: ParameterBox,
+    /// Bound on the disturbance.
+    pub disturbance: f64,
+    /// The margin at the middle of the box, undisturbed.
+    pub nominal: Margin,
+    /// The margin that holds for certain.
+    pub guaranteed: Guaranteed,
+    /// What it cost.
+    pub cost: Cost,
+}
+
+/// Why nothing is certain, if so.
+#[must_use]
+pub fn uncertain(known: &ParameterBox, disturbance: f64) -> Option<Uncertain> {
+    let ParameterBox { d: Interval { low: d, .. }, r: Interval { low: r, .. }, .. } = *known;
+    let worst = Sided::worst(known, disturbance).upper;
+    if disturbance > 0.0 && worst.r <= 0.0 {
+        Some(Uncertain::Disturbance { w: disturbance, r })
+    } else {
+        (d <= -1.0).then_some(Uncertain::Repels { d })
+    }
+}
+
+/// The margins for all parameters of a box and all disturbances up to `disturbance`, and the nominal ones.
+///
+/// Guarantee: see the module; the numbers are rounded down by their error, which is estimated, not enclosed.
+///
+/// # Errors
+/// The [`Reason`] why a border could not be computed.
+pub fn guarantee(
+    known: &ParameterBox,
+    disturbance: f64,
+    limits: &Limits,
+) -> Result<Guarantee, Reason> {
+    let middle = known.middle();
+    let nominal = if middle.d > -1.0 {
+        Sided { upper: middle, lower: middle }.basin(0.0, limits)?.0
+    } else {
+        basin(&middle, 0.0, limits)?
+    };
+    let mut cost = nominal.cost;
+    let reason = uncertain(known, disturbance);
+    let margin = if reason.is_some() {
+        Margin { displacement: None, impulse: None }
+    } else {
+        let (worst, margin) = certain(known, disturbance, limits)?;
+        cost += worst.cost;
+        margin
+    };
+    let guaranteed = Guaranteed { margin, reason };
+    Ok(Guarantee { known: *known, disturbance, nominal: nominal.margin(), guaranteed, cost })
+}
+
+/// The worst system's basin, and its margin rounded down.
+fn certain(
+    known: &ParameterBox,
+    disturbance: f64,
+    limits: &Limits,
+) -> Result<(Basin, Margin), Reason> {
+    let worst = Sided::worst(known, disturbance);
+    let (basin, error) = worst.basin(0.0, limits)?;
+    if error > 0.5 {
+        return Err(Reason::NoConvergence { sought: "the border of the worst system", change: error });
+    }
+    let r = worst.upper.r;
+    let Margin { displacement, impulse } = basin.margin();
+    // Of a displacement only the clearance is in error; an impulse comes of an arc from that clearance.
+    let shrunk = |length: f64| (length * (1.0 - error)).next_down();
+    let displacement = displacement.map(|q| (r + shrunk(q - r)).next_down().max(r.min(q)));
+    Ok((basin, Margin { displacement, impulse: impulse.map(shrunk) }))
+}
+
+/// The starts that are safe for certain, and those that are lost for certain.
+#[derive(Clone, Debug)]
+pub struct Zones {
+    /// The basin of the worst system: inside its first border every motion stays. `None` where nothing is safe.
+    pub safe: Option<Basin>,
+    /// The basin of the best system: outside of its first border nothing comes to rest. `None` where that is
+    /// not known.
+    pub lost: Option<Basin>,
+}
+
+/// Both zones, as far as `reach`.
+///
+/// # Errors
+/// The [`Reason`] why a border could not be computed.
+pub fn zones(
+    known: &ParameterBox,
+    disturbance: f64,
+    reach: f64,
+    limits: &Limits,
+) -> Result<Zones, Reason> {
+    let safe = match uncertain(known, disturbance) {
+        Some(_) => None,
+        None => Some(Sided::worst(known, disturbance).basin(reach, limits)?.0),
+    };
+    let best = Sided::best(known, disturbance);
+    let lost = (best.upper.d > -1.0).then(|| best.basin(reach, limits)).transpose()?;
+    Ok(Zones { safe, lost: lost.map(|(basin, _)| basin) })
+}

@@ -1,0 +1,228 @@
+//! Guaranteed margins: no bounded disturbance, and no parameters of the box, lead out of them, and the worst
+//! disturbance leads out from just beyond.
+
+use hopfscope::flow::Limits;
+use hopfscope::oscillator::{Interval, ParameterBox, Parameters, State};
+use hopfscope::study::guarantee::{Sided, guarantee, zones};
+
+/// Random numbers by `SplitMix64`.
+struct Random(u64);
+
+impl Random {
+    /// Evenly spread over 0 .. 1.
+    fn part(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut bits = self.0;
+        bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        #[expect(clippy::cast_precision_loss, reason = "53 bits fit")]
+        let part = ((bits ^ (bits >> 31)) >> 11) as f64 / (1_u64 << 53) as f64;
+        part
+    }
+
+    fn between(&mut self, Interval { low, high }: Interval) -> f64 {
+        low + self.part() * (high - low)
+    }
+}
+
+/// A disturbance, in units of its bound, over time and the sign of the velocity.
+#[derive(Clone, Copy)]
+enum Force {
+    /// Always with the motion: the worst.
+    Along,
+    /// With the motion, but for a part of the time against it.
+    Mostly(f64),
+    /// Harmonic, of this frequency and phase.
+    Harmonic(f64, f64),
+    /// Jumps between both signs after this many steps.
+    Telegraph(u32, u32),
+}
+
+impl Force {
+    fn any(random: &mut Random) -> Self {
+        let pick = random.part();
+        if pick < 0.25 {
+            Force::Along
+        } else if pick < 0.5 {
+            Force::Mostly(random.part())
+        } else if pick < 0.75 {
+            Force::Harmonic(0.2 + 2.0 * random.part(), 6.3 * random.part())
+        } else {
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small")]
+            let steps = [400.0, 30.0].map(|most| (1.0 + most * random.part()) as u32);
+            Force::Telegraph(steps[0], steps[1])
+        }
+    }
+
+    fn at(self, step: u32, side: f64, random: &mut Random) -> f64 {
+        match self {
+            Force::Along => side,
+            Force::Mostly(part) => if random.part() < part { side } else { -side },
+            Force::Harmonic(frequency, phase) => (frequency * STEP * f64::from(step) + phase).sin(),
+            Force::Telegraph(length, shift) => {
+                if ((step + shift) / length).is_multiple_of(2) { 1.0 } else { -1.0 }
+            }
+        }
+    }
+}
+
+/// Length of a step, over which the disturbance is constant.
+const STEP: f64 = 0.02;
+
+/// Follows a disturbed motion by the method of Runge and Kutta, step by step and half swing by half swing, and
+/// says how far its turning points go to the left and to the right, and whether it is at rest in the end.
+fn extent(
+    system: &Sided,
+    bound: f64,
+    force: Force,
+    start: State,
+    until: f64,
+    random: &mut Random,
+) -> (f64, f64, bool) {
+    let r = system.upper.r;
+    let State { mut q, mut v } = start;
+    let (mut low, mut high) = (q.min(0.0), q.max(0.0));
+    let mut side = v.signum() * f64::from(u8::from(v != 0.0));
+    let mut step = 0;
+    while STEP * f64::from(step) < until {
+        let mut force = |side: f64| bound * force.at(step, side, random);
+        if side == 0.0 {
+            // At rest: the side into which the springs and the disturbance pull, if they overcome friction.
+            let pull = [1.0, -1.0].into_iter().find(|side| side * (force(*side) - q) > r);
+            side = pull.unwrap_or(0.0);
+        }
+        let u = if side == 0.0 { 0.0 } else { force(side) };
+        step += 1;
+        if side == 0.0 || side * (u - q) <= r && v == 0.0 {
+            side = 0.0;
+            continue;
+        }
+        let Parameters { d, d2, d3, .. } = if side > 0.0 { system.upper } else { system.lower };
+        let slope = |q: f64, v: f64| (v, -q - v * (2.0 * d + v * (d2 + v * d3)) - r * side + u);
+        let advance = |h: f64| {
+            let a = slope(q, v);
+            let b = slope(q + 0.5 * h * a.0, v + 0.5 * h * a.1);
+            let c = slope(q + 0.5 * h * b.0, v + 0.5 * h * b.1);
+            let e = slope(q + h * c.0, v + h * c.1);
+            let mean = |a: f64, b: f64, c: f64, e: f64| h / 6.0 * (a + 2.0 * (b + c) + e);
+            (q + mean(a.0, b.0, c.0, e.0), v + mean(a.1, b.1, c.1, e.1))
+        };
+        let next = advance(STEP);
+        if side * next.1 > 0.0 {
+            (q, v) = next;
+        } else {
+            let (mut before, mut after) = (0.0, STEP);
+            for _ in 0..40 {
+                let middle = 0.5 * (before + after);
+                if side * advance(middle).1 > 0.0 { before = middle } else { after = middle }
+            }
+            (q, v, side) = (advance(before).0, 0.0, 0.0);
+        }
+        (low, high) = (low.min(q), high.max(q));
+        if !q.is_finite() || q.abs() > 1e6 {
+            return (f64::NEG_INFINITY, f64::INFINITY, false);
+        }
+    }
+    (low, high, side == 0.0)
+}
+
+/// A box of parameters and a disturbance.
+fn case(d: [f64; 2], d2: [f64; 2], d3: [f64; 2], r: [f64; 2], w: f64) -> (ParameterBox, f64) {
+    let [d, d2, d3, r] = [d, d2, d3, r].map(|[low, high]| Interval { low, high });
+    (ParameterBox { d, d2, d3, r }, w)
+}
+
+/// One border a cycle, one a separatrix, of boxes and of single systems.
+fn cases() -> [(ParameterBox, f64); 5] {
+    [
+        case([-0.3; 2], [0.2; 2], [0.5; 2], [0.1; 2], 0.02),
+        case([-0.3, -0.28], [-0.1, 0.3], [0.4, 0.5], [0.09, 0.11], 0.03),
+        case([-0.1, -0.05], [-0.5, -0.3], [-0.2, 0.1], [0.2, 0.25], 0.1),
+        case([0.1, 0.2], [0.4, 0.5], [0.0; 2], [0.1; 2], 0.05),
+        case([-0.05, 0.05], [-0.2, 0.2], [-0.1, 0.0], [0.1, 0.2], 0.0),
+    ]
+}
+
+/// Starts disturbed motions at a part of the margins, at parameters of the box, and says how many leave the
+/// interior of the border.
+fn leaving(known: &ParameterBox, w: f64, motions: u32, random: &mut Random) -> u32 {
+    let margin = guarantee(known, w, &Limits::PATIENT).unwrap().guaranteed.margin;
+    let safe = zones(known, w, 0.0, &Limits::PATIENT).unwrap().safe.unwrap();
+    let turning = |sign: f64| {
+        let border = safe.borders[0].curve(4);
+        border.iter().map(|state| sign * state.q).fold(f64::NEG_INFINITY, f64::max)
+    };
+    // A separatrix goes to infinity on its way out; where it turns is the end that matters.
+    let [left, right] = [-turning(-1.0), turning(1.0)];
+    let (displacement, impulse) = (margin.displacement.unwrap(), margin.impulse.unwrap());
+    let corner = |random: &mut Random, interval: Interval| match random.part() {
+        part if part < 0.3 => interval.low,
+        part if part < 0.6 => interval.high,
+        _ => random.between(interval),
+    };
+    let mut left_behind = 0;
+    for _ in 0..motions {
+        let ParameterBox { d, d2, d3, r } = *known;
+        let [d, d2, d3, r] = [d, d2, d3, r].map(|interval| corner(random, interval));
+        let parameters = Parameters { d, d2, d3, r };
+        let system = Sided { upper: parameters, lower: parameters };
+        let sign = if random.part() < 0.5 { 1.0 } else { -1.0 };
+        let start = if random.part() < 0.5 {
+            State { q: 0.999 * sign * displacement, v: 0.0 }
+        } else {
+            State { q: 0.0, v: 0.999 * sign * impulse }
+        };
+        let force = Force::any(random);
+        let (low, high, _) = extent(&system, w, force, start, 30.0, random);
+        left_behind += u32::from(low < left || high > right);
+    }
+    left_behind
+}
+
+#[test]
+fn the_margin_known_from_elsewhere() {
+    let known = case([-0.3; 2], [0.2; 2], [0.5; 2], [0.1; 2], 0.0).0;
+    for (w, expected) in [(0.0, 0.2190), (0.02, 0.1743)] {
+        let found = guarantee(&known, w, &Limits::PATIENT).unwrap();
+        let displacement = found.guaranteed.margin.displacement.unwrap();
+        assert!((displacement - expected).abs() < 5e-5, "w = {w}: {displacement}");
+        assert!(displacement < found.nominal.displacement.unwrap());
+    }
+}
+
+#[test]
+fn no_disturbance_leads_out_of_the_guaranteed_margin() {
+    let mut random = Random(1);
+    for (known, w) in cases() {
+        assert_eq!(leaving(&known, w, 60, &mut random), 0, "{known:?}, w = {w}");
+    }
+}
+
+#[test]
+#[ignore = "1e5 motions: a minute"]
+fn no_disturbance_of_very_many_leads_out_of_the_guaranteed_margin() {
+    let mut random = Random(2);
+    for (known, w) in cases() {
+        assert_eq!(leaving(&known, w, 20_000, &mut random), 0, "{known:?}, w = {w}");
+    }
+}
+
+#[test]
+fn the_worst_disturbance_leads_out_from_just_beyond() {
+    let mut random = Random(3);
+    for (known, w) in cases() {
+        let margin = guarantee(&known, w, &Limits::PATIENT).unwrap().guaranteed.margin;
+        // The disturbance makes up for the friction that the worst system lacks.
+        let worst = Sided::worst(&known, 0.0);
+        let (q, v) = (margin.displacement.unwrap(), margin.impulse.unwrap());
+        let mut leaves = |part: f64, start: State| {
+            let start = State { q: part * start.q, v: part * start.v };
+            !extent(&worst, w, Force::Along, start, 200.0, &mut random).2
+        };
+        let kicks = [(q, 0.0), (0.0, v)].map(|(q, v)| [State { q, v }, State { q: -q, v: -v }]);
+        for [kick, mirrored] in kicks {
+            assert!(!leaves(0.999, kick) && !leaves(0.999, mirrored), "{known:?}, w = {w}");
+            assert!(leaves(1.001, kick) || leaves(1.001, mirrored), "{known:?}, w = {w}: {kick:?}");
+        }
+    }
+}
