@@ -43,30 +43,33 @@ pub fn csv(found: &Guarantee) -> String {
         + &row("guaranteed", found.guaranteed.margin, reason)
 }
 
-/// Sentences for reading.
+/// What keeps a number of 12 digits from being rounded up.
+const BELOW: f64 = 1.0 - 5e-12;
+
+/// Sentences for reading; the guaranteed numbers are not rounded up.
 #[must_use]
 pub fn table(found: &Guarantee, seconds: f64) -> String {
     let ParameterBox { d, d2, d3, r } = found.known;
     let names = [Symbol::D, Symbol::D2, Symbol::D3, Symbol::R].map(|symbol| symbol.spec().name);
     let parameters = names.iter().zip([d, d2, d3, r]).map(|(name, value)| interval(name, value));
     let parameters = parameters.collect::<Vec<_>>().join(", ");
-    let margin = |Margin { displacement, impulse }: Margin| match (displacement, impulse) {
+    let margin = |Margin { displacement, impulse }: Margin, part| match (displacement, impulse) {
         (None, None) => "every kick is survived".to_owned(),
         _ => [("displacement", displacement), ("impulse", impulse)]
             .map(|(name, value)| {
-                let value = value.map_or("any".to_owned(), |value| significant(value, 12));
+                let value = value.map_or("any".to_owned(), |value| significant(part * value, 12));
                 format!("{name} {value}")
             })
             .join(", "),
     };
     let guaranteed = match found.guaranteed.reason {
         Some(reason) => format!("nothing: {reason}"),
-        None => margin(found.guaranteed.margin),
+        None => margin(found.guaranteed.margin, BELOW),
     };
     format!(
         "{parameters}; disturbance {}\n\nnominal     {}\nguaranteed  {guaranteed}\n\n{} evaluations, {}\n",
         significant(found.disturbance, 12),
-        margin(found.nominal),
+        margin(found.nominal, 1.0),
         found.cost.evaluations,
         duration(seconds)
     )
