@@ -74,12 +74,12 @@ impl<'a> Running<'a> {
         Some(match symbol {
             Symbol::D => {
                 let whole = 2.0 * value * belt.mass * units.omega_0;
-                ("d1", whole - belt.normal_force * mu.first, "N s/m")
+                ("d1", rest_of(whole, belt.normal_force * mu.first), "N s/m")
             }
             Symbol::D2 => return None,
             Symbol::D3 => {
                 let whole = value * belt.mass / (units.omega_0 * units.displacement.powi(2));
-                ("d3", whole - belt.normal_force * mu.third / 6.0, "N s^3/m^3")
+                ("d3", rest_of(whole, belt.normal_force * mu.third / 6.0), "N s^3/m^3")
             }
             Symbol::R => ("R", value * units.force, "N"),
             Symbol::Q0 => ("x", value * units.displacement, "m"),
@@ -94,6 +94,13 @@ impl<'a> Running<'a> {
         let relative = self.speed - v * self.reduced.units.velocity;
         Some(self.machine.belt.law.mu(relative)? / self.reduced.mu.value)
     }
+}
+
+/// `whole - part`, where both were rounded a few times; zero where no more than that is left.
+fn rest_of(whole: f64, part: f64) -> f64 {
+    const ROUNDINGS: f64 = 8.0 * f64::EPSILON;
+    let rest = whole - part;
+    if rest.abs() <= ROUNDINGS * (whole.abs() + part.abs()) { 0.0 } else { rest }
 }
 
 #[cfg(test)]
@@ -129,6 +136,22 @@ mod tests {
                 );
             }
         }
+    }
+
+    #[test]
+    fn a_damper_that_a_machine_does_not_have_is_zero_at_every_speed() {
+        let mut looked = 0;
+        for machine in machines().iter().filter(|it| it.belt.get(Quantity::CubicDamping) == 0.0) {
+            for percent in 50..150_u8 {
+                let speed = f64::from(percent) / 100.0 * machine.belt.belt_speed;
+                let Ok(running) = Running::at(machine, speed) else { continue };
+                let value = running.reduced.parameters.d3;
+                let (_, found, _) = running.meaning(Symbol::D3, value).unwrap();
+                assert_eq!(found, 0.0, "{} at {speed} m/s", machine.name);
+                looked += 1;
+            }
+        }
+        assert!(looked > 100, "{looked}");
     }
 
     #[test]
