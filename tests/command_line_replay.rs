@@ -21,7 +21,7 @@ fn the_last_screen_is_printed_at_the_size_asked_for() {
     assert_eq!((ran.code, ran.err.as_str()), (0, ""));
     assert_eq!(ran.out.lines().count(), 30, "{}", ran.out);
     assert!(ran.out.lines().all(|line| line.chars().count() <= 90));
-    assert!(ran.out.contains("captured at q ="), "{}", ran.out);
+    assert!(ran.out.contains("comes to rest at q ="), "{}", ran.out);
 }
 
 #[test]

@@ -218,7 +218,7 @@ fn no_chord_misses_its_curve_after_zooming_either() {
     for (scene, panel, part) in [
         ("supercritical", 0, 0.3),
         ("supercritical", 1, 0.9),
-        ("fig07", 2, 0.4),
+        ("fig07", 1, 0.4),
         ("fig12", 0, 0.6),
         ("fig13", 0, 0.3),
         ("return-map", 1, 0.5),
@@ -319,7 +319,7 @@ fn extents_of_the_basin_are_those_of_the_formulas() {
             let unit = if shown.y.name.ends_with("/r") { r } else { 1.0 };
             assert_eq!(unit == r, scene == "fig08", "{}", shown.y.name);
             let mut checked = 0;
-            for curve in curves(&drawn, panel, "unstable cycles") {
+            for curve in curves(&drawn, panel, "unstable cycle") {
                 if curve.parameters["r"] != r {
                     continue;
                 }
@@ -347,7 +347,7 @@ fn extents_of_the_basin_are_those_of_the_formulas() {
 #[test]
 fn the_borders_of_the_basins_are_the_cycles_of_the_formulas() {
     let drawn = figure("fig07", Fineness::PRINT);
-    for (panel, d) in [(1, -0.4), (2, -0.7), (3, -0.999)] {
+    for (panel, d) in [(0, -0.4), (1, -0.7), (2, -0.999)] {
         let (q, v) = linear_extents(d, 1.0);
         let [cycle] = &curves(&drawn, panel, "unstable cycle")[..] else { panic!("one cycle") };
         let areas = &drawn.panels[panel].areas;
@@ -499,4 +499,55 @@ fn the_path_of_a_belt_is_that_of_its_machines_at_other_speeds() {
         })
         .collect();
     assert!(speeds.len() >= 4 && speeds.contains(&0.1), "{speeds:?}");
+}
+
+#[test]
+fn figures_have_no_two_panels_alike_and_no_circles_that_belong_to_nothing() {
+    for scene in scenes().filter(|scene| scene.starts_with("fig")) {
+        let drawn = figure(scene, Fineness::SCREEN);
+        for (index, panel) in drawn.panels.iter().enumerate() {
+            let alike = |other: &&hopfscope::export::figure::Panel| {
+                !panel.curves.is_empty() && other.curves == panel.curves && other.x == panel.x
+            };
+            assert!(drawn.panels[..index].iter().find(alike).is_none(), "{scene}: panel {index}");
+            for start in panel.marks.iter().filter(|mark| mark.name == "start") {
+                let begins = |curve: &Curve| curve.points.first() == Some(&[start.x, start.y]);
+                let on = |curve: &&Curve| begins(curve) || curve.role == "energy";
+                assert!(panel.curves.iter().any(|it| on(&it)), "{scene}: {start:?} starts nothing");
+            }
+        }
+    }
+}
+
+#[test]
+fn legends_name_what_is_drawn_once_and_as_it_is_called() {
+    let legend = |scene: &str| -> Vec<String> {
+        let svg = text(&figure(scene, Fineness::SCREEN), Form::Svg);
+        let picture = Document::parse(&svg).unwrap();
+        let entry = |node: &roxmltree::Node| {
+            node.has_tag_name("text") && node.attribute("font-size") == Some("11")
+        };
+        let entries = picture.descendants().filter(entry);
+        entries.filter_map(|node| node.text().map(str::to_owned)).collect()
+    };
+    for scene in scenes() {
+        let names = legend(scene);
+        for (index, name) in names.iter().enumerate() {
+            let plural = |other: &String| *other == format!("{name}s") || *other == *name;
+            assert!(!names[..index].iter().any(plural), "{scene}: {names:?}");
+            assert!(!names.contains(&format!("{name}s")), "{scene}: {names:?}");
+        }
+    }
+    let names = legend("fig14");
+    assert!(names.iter().any(|name| name == "asymptote A01"), "{names:?}");
+    assert!(names.iter().all(|name| name != "asymptote A1" && name != "asymptote A2"), "{names:?}");
+}
+
+#[test]
+fn the_dashes_of_the_constructed_cycle_lie_over_its_half_turns() {
+    let drawn = figure("fig06", Fineness::SCREEN);
+    let order: Vec<&str> = drawn.panels[0].curves.iter().map(|curve| curve.name.as_str()).collect();
+    let place = |name: &str| order.iter().position(|it| it.starts_with(name)).unwrap();
+    assert!(place("unstable cycle") > place("half turn about the left end"), "{order:?}");
+    assert!(place("unstable cycle") > place("half turn about the right end"), "{order:?}");
 }

@@ -244,7 +244,7 @@ fn a_copied_command_line_gives_the_numbers_on_the_screen() {
     let state = home.path().to_str().unwrap();
     let start = ["--set", "r=0.5", "--set", "q0=2"];
     let mut terminal = explorer(&start, &[("XDG_STATE_HOME", state)], (120, 40));
-    terminal.wait_for("captured at q = -0.116");
+    terminal.wait_for("comes to rest at q = -0.116");
     terminal.types("\x19");
     terminal.wait_for("sent to the terminal");
     let line = clipboard(&terminal);

@@ -2,6 +2,7 @@
 
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, Outcome};
+use hopfscope::oscillator::Symbol;
 use hopfscope::scene::answer::answer;
 use hopfscope::scene::{Answered, Slot, find};
 use hopfscope::session::replay::{Action, Player, parse};
@@ -222,4 +223,96 @@ fn energy_friction_pays_for_the_inner_cycle_and_cubic_damping_for_the_outer_one(
     let bent = Stage::open("energy").press("<down><right>");
     assert_eq!(rows(&bent), rows(&stage) + 3);
     assert!(Stage::open("energy").press("<right*13>").cycles().is_empty());
+}
+
+/// What a text may say about what is on show, and whether that is so.
+type Claim = (&'static str, fn(&Stage) -> bool);
+
+const CLAIMS: [Claim; 17] = [
+    ("Two cycles: the inner one", |stage| stage.kinds() == (true, true)),
+    ("This start lies outside", |stage| !stage.rests_in_the_end()),
+    ("This start lies inside", Stage::rests_in_the_end),
+    ("so the swings grow", |stage| !stage.rests_in_the_end()),
+    ("From here it comes to rest", Stage::rests_in_the_end),
+    ("From here it swings up", |stage| !stage.rests_in_the_end()),
+    ("The motion gains", |stage| !stage.rests_in_the_end()),
+    ("The motion climbs", |stage| !stage.rests_in_the_end()),
+    ("is the unstable cycle that borders", |stage| stage.edge() == Edge::Cycle),
+    ("the unstable cycle is its border", |stage| stage.edge() == Edge::Cycle),
+    ("The two make the unstable cycle", |stage| stage.kinds().0),
+    ("There is one cycle, unstable", |stage| stage.kinds() == (true, false)),
+    ("no cycle is left", |stage| stage.cycles().is_empty()),
+    ("no cycle exists", |stage| stage.cycles().is_empty()),
+    ("Here nothing borders", |stage| stage.edge() == Edge::None),
+    ("every other motion tends to the stable cycle", |stage| stage.kinds() == (false, true)),
+    ("the outer one is shifted", |stage| stage.kinds() == (true, true)),
+];
+
+impl Stage {
+    /// Whether there are unstable and stable cycles.
+    fn kinds(&self) -> (bool, bool) {
+        let any = |stable: bool| self.cycles().iter().any(|cycle| cycle.stable == stable);
+        (any(false), any(true))
+    }
+
+    /// Whether the motion comes to rest, however long it takes.
+    fn rests_in_the_end(&self) -> bool {
+        let problem = hopfscope::flow::Problem { until: 1e4, ..self.0.problem };
+        let motion = trajectory(&problem, Detail::default(), &Limits::PATIENT);
+        matches!(motion.outcome, Outcome::Captured { .. })
+    }
+
+    /// The scene with another value of one number, its motion and cycles computed.
+    fn at(scene: &str, symbol: Symbol, value: f64) -> Stage {
+        let mut session = Session::new(find(scene).unwrap(), Size { width: 80, height: 24 });
+        symbol.set(&mut session.problem.parameters, &mut session.problem.initial, value);
+        for request in session.wants() {
+            if matches!(request.slot(), Slot::Trajectory | Slot::Cycles) {
+                let result = Ok(answer(&request, &Limits::PATIENT).unwrap());
+                let answered = Answered { request, result, seconds: 0.0, complete: true };
+                update(&mut session, Msg::Answered(Box::new(answered)));
+            }
+        }
+        Stage(session)
+    }
+}
+
+#[test]
+fn no_text_contradicts_what_is_on_show_anywhere_in_the_ranges_of_its_scene() {
+    let ranges: [(Symbol, &[f64]); 5] = [
+        (Symbol::D, &[-0.8, -0.5, -0.3, -0.2, -0.15, -0.1, -0.05, -0.02, 0.0, 0.05, 0.3]),
+        (Symbol::D2, &[-0.5, 0.0, 0.3, 1.0]),
+        (Symbol::D3, &[-0.5, 0.0, 0.1, 1.0]),
+        (Symbol::R, &[0.0, 0.02, 0.3, 1.0]),
+        (Symbol::Q0, &[0.05, 0.2, 0.6, 1.2]),
+    ];
+    let mut checked = std::collections::BTreeSet::new();
+    for scene in hopfscope::scene::library() {
+        for (symbol, values) in ranges.iter().filter(|(symbol, _)| scene.declares(*symbol)) {
+            for value in *values {
+                let stage = Stage::at(&scene.name, *symbol, *value);
+                let text = stage.0.said(&scene.look);
+                for (claim, holds) in CLAIMS.iter().filter(|(claim, _)| text.contains(claim)) {
+                    assert!(holds(&stage), "{} at {symbol} = {value}: {text}", scene.name);
+                    checked.insert(*claim);
+                }
+            }
+        }
+    }
+    let silent: Vec<_> = CLAIMS.iter().filter(|(claim, _)| !checked.contains(claim)).collect();
+    assert!(
+        silent.is_empty(),
+        "never said: {:?}",
+        silent.iter().map(|row| row.0).collect::<Vec<_>>()
+    );
+}
+
+#[test]
+fn a_text_about_a_start_leaves_with_it() {
+    let here = Stage::open("plain");
+    assert!(here.0.said(&here.0.scene.look).contains("so the swings grow"));
+    let inside = here.press("<right*5>");
+    assert!(inside.is_captured());
+    let text = inside.0.said(&inside.0.scene.look);
+    assert!(!text.contains("grow") && text.contains("comes to rest"), "{text}");
 }

@@ -7,6 +7,7 @@ use crate::closed_form::harmonic::Harmonic;
 use crate::flow::{Cost, Crossing, Method, Outcome, Trajectory};
 use crate::oscillator::{Ledger, Parameters, State, Symbol};
 use crate::scene::Scene;
+use crate::scene::said::{Condition, said};
 use crate::session::Keymap;
 use crate::study::basin::Survey;
 use crate::study::fold::{Border, BorderPoint};
@@ -155,7 +156,9 @@ pub fn border(found: &Border, seconds: f64) -> String {
 #[must_use]
 pub fn scenes<'a>(scenes: impl IntoIterator<Item = &'a Scene>) -> String {
     let keymap = Keymap::default();
-    let sentence = |text: &str| keymap.fill(text, |key| key.to_string());
+    // What always holds, and what holds of the numbers given here.
+    let here = |one| matches!(one, Condition::Here | Condition::Opened);
+    let sentence = |text: &str| keymap.fill(&said(text, here), |key| key.to_string());
     let document = |scene: &'a Scene| SceneDocument {
         name: &scene.name,
         title: &scene.title,

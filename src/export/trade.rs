@@ -375,7 +375,13 @@ fn plot(rows: &[Row], look: &Look) -> String {
         return String::new();
     };
     let mut buffer = Buffer::empty(AREA);
-    let names = Names { title: "trade", x: "log10(time/ms)", y: "log10(error)", marks: None };
+    let names = Names {
+        title: "trade",
+        x: "log10(time/ms)",
+        y: "log10(error)",
+        scales: Default::default(),
+        marks: None,
+    };
     let mut plot = Plot::new(AREA, Window { x, y }, names, &Heading::default(), look, &mut buffer);
     for (point, letter) in points.into_iter().rev() {
         plot.mark(point, letter, Role::Text);

@@ -74,8 +74,6 @@ pub enum Layer {
     Front,
     /// The largest velocity of the cycles, beside the ordinate.
     Extents,
-    /// Eigenvalues of the rest without friction.
-    Eigenvalues,
     /// Levels of the energy, and where it falls.
     Levels,
     /// The spirals that make the cycle.
@@ -106,7 +104,7 @@ pub struct LayerSpec {
 }
 
 /// Every layer, in the order in which they are listed.
-pub const LAYERS: [LayerSpec; 37] = [
+pub const LAYERS: [LayerSpec; 36] = [
     LayerSpec {
         layer: Layer::Trajectory,
         name: "trajectory",
@@ -353,14 +351,6 @@ pub const LAYERS: [LayerSpec; 37] = [
         view: View::Diagram,
         meaning: "largest velocity of the cycles, beside the ordinate",
         needs: Some(Slot::Branch),
-        usual: false,
-    },
-    LayerSpec {
-        layer: Layer::Eigenvalues,
-        name: "eigenvalues",
-        view: View::Diagram,
-        meaning: "eigenvalues of the rest at r = 0, real and imaginary parts",
-        needs: None,
         usual: false,
     },
     LayerSpec {

@@ -9,6 +9,7 @@ pub mod machine;
 pub mod misread;
 pub mod ordinate;
 pub mod request;
+pub mod said;
 #[expect(clippy::module_inception, reason = "the scene itself, beside what belongs to it")]
 pub mod scene;
 pub mod views;

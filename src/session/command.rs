@@ -321,8 +321,6 @@ pub const COMMANDS: &[Command] = &[
         "Show or hide the machine over the speed of its belt", |s, _| general::toggle(s, Layer::BeltPath)),
     row("toggle-extents", &[(Diagram, &["E"])], "",
         "Show or hide the largest velocities beside the ordinate", |s, _| general::toggle(s, Layer::Extents)),
-    row("toggle-eigenvalues", &[(Diagram, &["F"])], "",
-        "Show or hide the eigenvalues of the rest at r = 0", |s, _| general::toggle(s, Layer::Eigenvalues)),
     row("toggle-levels", &[(Phase, &["E"])], "",
         "Show or hide levels of the energy and where it falls", |s, _| general::toggle(s, Layer::Levels)),
     row("toggle-spirals", &[(Phase, &["I"])], "",

@@ -3,6 +3,7 @@
 pub mod belt;
 pub mod command;
 pub mod config;
+pub mod fate;
 pub mod fit;
 pub mod history;
 pub mod input;

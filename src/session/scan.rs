@@ -116,17 +116,6 @@ impl Scanned {
         }
     }
 
-    /// The name of the axis of a sweep.
-    #[must_use]
-    pub fn axis(sweep: &Sweep) -> String {
-        let name = sweep.symbol.spec().name;
-        match sweep.spacing {
-            Spacing::Even => name.to_owned(),
-            Spacing::Logarithmic if sweep.from < 0.0 => format!("log10 -{name}"),
-            Spacing::Logarithmic => format!("log10 {name}"),
-        }
-    }
-
     /// The part of the world in which all points of a line stand, or all of a grid with half a step
     /// around them.
     #[must_use]

@@ -3,11 +3,11 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::widgets::{Clear, Widget};
 
 use super::keys;
 use super::lists::frame;
 use super::look::{Look, Role};
+use super::pane;
 use crate::session::Session;
 use crate::session::overlay::Caption;
 
@@ -23,7 +23,8 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         }
         Caption::Scene => {
             let heading = filled(" {explain}: hide ");
-            (heading, vec![filled(&session.scene.look), filled(&session.scene.press)])
+            let [look, press] = [&session.scene.look, &session.scene.press];
+            (heading, [look, press].map(|text| filled(&session.said(text))).to_vec())
         }
         Caption::Nothing => return,
     };
@@ -39,7 +40,7 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     }
     let place =
         Rect { x: area.x + (area.width - width) / 2, y: area.bottom() - height, width, height };
-    Clear.render(place, buffer);
+    pane::clear(place, buffer);
     for (y, line) in (place.y + 1..place.bottom() - 1).zip(lines) {
         buffer.set_stringn(place.x + 2, y, line, inner.into(), look.style(Role::Text));
     }
@@ -47,7 +48,7 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
 }
 
 /// A text in lines of at most `width` columns, broken between words where possible.
-fn wrapped(text: &str, width: usize) -> Vec<String> {
+pub(super) fn wrapped(text: &str, width: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {
         let line = lines.last_mut();

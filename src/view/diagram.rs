@@ -1,10 +1,11 @@
 //! The bifurcation diagram: a property of the cycles, over a parameter.
 //!
 //! Computed branches are solid where the cycle is stable and dashed where it is not; the first-order
-//! harmonic answer is dotted beside them. A dotted upright stands at the present value of the
+//! harmonic answer is dotted beside them. Rest belongs to every diagram ([`equilibria`]). A dotted upright stands at the present value of the
 //! parameter, and the cycles there are marked. A point of the branch that is held has a cross.
 
 use super::dots::Dash;
+use super::equilibria;
 use super::look::Role;
 use super::number::significant;
 use super::phase_plane::{named, stability};
@@ -24,14 +25,9 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     let diagram = &session.plots[index];
     let Axes { abscissa, ordinate, .. } = diagram.axes;
     let (name, label) = (abscissa.spec().name, diagram.axes.label());
-    let eigen = abscissa == Symbol::D && session.layers.contains(&Layer::Eigenvalues);
     let velocity = Axes { ordinate: Ordinate::VMax, ..diagram.axes }.label();
     let beside = session.layers.contains(&Layer::Extents) && velocity != label;
-    let label: Text = match (eigen, beside) {
-        (true, _) => "Re, Im lambda".into(),
-        (false, true) => format!("{label}, {velocity}").into(),
-        (false, false) => label.into(),
-    };
+    let label: Text = if beside { format!("{label}, {velocity}").into() } else { label.into() };
     let window = diagram.window;
     let mut picture = Picture::new(View::Diagram.spec().title, name, label.clone(), window);
     let pointed = held(session, index).or(diagram.cursor);
@@ -51,6 +47,10 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         })
         .collect();
 
+    for shown in &all {
+        let height = diagram.axes.height(shown.problem.parameters.r);
+        equilibria::draw(&mut picture, shown, abscissa, height);
+    }
     picture.upright(Line::guide(), 0.0);
     if window.y.from() < 0.0 && window.y.to() > 0.0 {
         picture.level(Line::guide(), 0.0);
@@ -87,9 +87,6 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
             }
         }
     }
-    if eigen {
-        eigenvalues(&mut picture, current);
-    }
     if shows(Layer::Special) {
         let mut named: Vec<&Special> = Vec::new();
         for Found { branch, height, .. } in &found {
@@ -125,7 +122,7 @@ fn held(session: &Session, index: usize) -> Option<Point> {
 }
 
 /// The parameters of a motion, with that of a diagram at `value`.
-fn at(shown: &Shown, abscissa: Symbol, value: f64) -> Parameters {
+pub(super) fn at(shown: &Shown, abscissa: Symbol, value: f64) -> Parameters {
     let (mut parameters, mut initial) = (shown.problem.parameters, shown.problem.initial);
     abscissa.set(&mut parameters, &mut initial, value);
     parameters
@@ -134,10 +131,13 @@ fn at(shown: &Shown, abscissa: Symbol, value: f64) -> Parameters {
 /// The asymptotes A1 and A2 (51, 52), their height read out of A0 and A.
 fn asymptotes(picture: &mut Picture, shown: &Shown, abscissa: Symbol, height: Height) {
     let Some(size) = height.ordinate.spec().harmonic else { return };
-    for (name, asymptote) in [
-        ("asymptote A1", small_asymptote as fn(&Parameters) -> Option<f64>),
-        ("asymptote A2", large_asymptote),
-    ] {
+    // Of the mean they are asymptotes of their own, with names of their own (53, 54).
+    let names = match height.ordinate {
+        Ordinate::Mean => ["asymptote A01", "asymptote A02"],
+        _ => ["asymptote A1", "asymptote A2"],
+    };
+    let asymptotes = [small_asymptote as fn(&Parameters) -> Option<f64>, large_asymptote];
+    for (name, asymptote) in names.into_iter().zip(asymptotes) {
         let line = Line::new(named(name, &shown.label), Role::Asymptote, Dash::Sparse);
         let shown = shown.clone();
         picture.graph(line, move |value| {
@@ -208,7 +208,7 @@ fn branch(picture: &mut Picture, piece: &[BranchPoint], found: &Found) {
         let end =
             next.map(|next| fold_between(last, next, special, *height).unwrap_or(place(next)));
         let (role, dash) = stability(first.cycle.stable);
-        let name = if first.cycle.stable { "stable cycles" } else { "unstable cycles" };
+        let name = if first.cycle.stable { "stable cycle" } else { "unstable cycle" };
         let line = Line::new(named(name, label), role, dash);
         picture.curve(line, start.into_iter().chain(run.iter().map(place)).chain(end));
         // Without a fold the runs share a point, which this one has as its last.
@@ -241,23 +241,6 @@ fn extents(picture: &mut Picture, piece: &[BranchPoint], found: &Found) {
         piece.iter().map(|point| Point { x: point.value, y: height.of(point.value, &point.cycle) });
     let name = named("largest velocity A_v", &found.label);
     picture.curve(Line::new(name, Role::Velocity, Dash::Dashed), points);
-}
-
-/// Eigenvalues of the rest of the smooth system, `-D +- sqrt(D^2 - 1)` (9), over D: their real parts,
-/// and dashed their imaginary parts. Below zero the rest is stable.
-fn eigenvalues(picture: &mut Picture, current: f64) {
-    let spread = |d: f64| (d * d - 1.0).max(0.0).sqrt();
-    let height = |d: f64| ((1.0 - d) * (1.0 + d)).max(0.0).sqrt();
-    for sign in [1.0, -1.0] {
-        let line = Line::new("real part", Role::Stable, Dash::Solid);
-        picture.graph(line, move |d| Some(-d + sign * spread(d)));
-        let line = Line::new("imaginary part", Role::Velocity, Dash::Dashed);
-        picture.graph(line, move |d| (d.abs() <= 1.0).then(|| sign * height(d)));
-        let at = Point { x: current, y: -current + sign * spread(current) };
-        let mark = if at.y < 0.0 { Mark::Stable } else { Mark::Unstable };
-        picture.mark(mark, at, Role::Current);
-    }
-    picture.caption(Point { x: 0.0, y: 0.0 }, "H", Role::Special);
 }
 
 /// Marks the cycles of a piece at the present value.

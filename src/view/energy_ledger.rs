@@ -30,7 +30,8 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
     let lines = session.ledger();
     let (window, marks) = marks(area, session, window);
     let title = View::EnergyLedger.spec().title;
-    let names = Names { title, x: "part of the largest", y: "work", marks: Some(marks) };
+    let scales = Default::default();
+    let names = Names { title, x: "part of the largest", y: "work", scales, marks: Some(marks) };
     let mut heading = Heading::of(session, Pane::Plot(index));
     heading.reading = cursor.map(|cursor| {
         lines

@@ -46,7 +46,7 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
             fitting(&others, usize::from(area.width).saturating_sub(taken + 1), look)
         }
     };
-    pane::line(area, 0, left, right, buffer);
+    pane::line(area, 0, left, right, look, buffer);
 }
 
 /// The first hints that fit into `width`, whole.

@@ -8,6 +8,7 @@ use super::layout::{Layout, SMALLEST, layout};
 use super::look::{Look, Role};
 use super::paint::paint;
 use super::pane::Heading;
+use super::picture::Picture;
 use super::{caption, energy_ledger, footer, lists, parameters, picture, scan, scan_form, status};
 use crate::scene::View;
 use crate::session::settings::Glyphs;
@@ -38,16 +39,28 @@ pub fn render(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer)
 
 fn panes(parts: &Layout, session: &Session, look: &Look, buffer: &mut Buffer) {
     status::title(parts.title, session, look, buffer);
-    parameters::draw(parts.parameters, session, look, buffer);
-    for (index, area) in parts.plots.iter().enumerate().filter(|(_, area)| !area.is_empty()) {
-        plot(*area, session, index, look, buffer);
+    let shown = parts.plots.iter().enumerate().filter(|(_, area)| !area.is_empty());
+    let pictures: Vec<_> = shown
+        .clone()
+        .map(|(index, _)| (session.plots[index].view, picture::of(session, index)))
+        .collect();
+    parameters::draw(parts.parameters, session, &pictures, look, buffer);
+    for ((index, area), (_, picture)) in shown.zip(pictures) {
+        plot(*area, session, index, picture, look, buffer);
     }
     status::draw(parts.status, session, look, buffer);
     footer::draw(parts.footer, session, look, buffer);
 }
 
 /// Draws the plot with this index.
-fn plot(area: Rect, session: &Session, index: usize, look: &Look, buffer: &mut Buffer) {
+fn plot(
+    area: Rect,
+    session: &Session,
+    index: usize,
+    picture: Picture,
+    look: &Look,
+    buffer: &mut Buffer,
+) {
     match session.plots[index].view {
         // Its lines are whole rows of the screen.
         View::EnergyLedger => energy_ledger::draw(area, session, index, look, buffer),
@@ -55,7 +68,7 @@ fn plot(area: Rect, session: &Session, index: usize, look: &Look, buffer: &mut B
         View::Scan => scan::draw(area, session, index, look, buffer),
         _ => {
             let heading = Heading::of(session, Pane::Plot(index));
-            paint(area, picture::of(session, index), heading, look, buffer);
+            paint(area, picture, heading, look, buffer);
         }
     }
 }
@@ -89,7 +102,7 @@ pub fn panels(session: &Session, (width, height): (u16, u16), look: &Look) -> Ve
     let area = Rect { x: 0, y: 0, width, height };
     let panel = |index: usize| {
         let mut buffer = Buffer::empty(area);
-        plot(area, session, index, look, &mut buffer);
+        plot(area, session, index, picture::of(session, index), look, &mut buffer);
         buffer
     };
     (0..session.plots.len()).map(panel).collect()

@@ -16,7 +16,7 @@ pub const SMALLEST: (u16, u16) = (60, 16);
 pub const SMALLEST_PLOT: (u16, u16) = (26, 8);
 
 /// Rows of a screen that has two status lines.
-const DESIGNED: u16 = 20;
+pub(super) const DESIGNED: u16 = 20;
 
 /// Columns of the parameter pane, by the columns of the screen: with names and values, with all
 /// steps, with meanings.

@@ -1,18 +1,19 @@
-//! What the lines of the pictures mean: a sample of each, drawn by the same pens.
+//! What the lines of the pictures mean: a sample of each that is seen, drawn by the same pens.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use super::dots::{Dash, Dots, Pen};
 use super::look::{Look, Role};
-use crate::scene::Layer;
-use crate::session::Session;
+use super::pane;
+use super::picture::{Item, Mark, Picture, common};
+use crate::scene::View;
 
 /// Columns of a sample.
 const SAMPLE: u16 = 4;
 
 /// What a sample shows.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 enum Sample {
     Line(Dash),
     Bar,
@@ -21,75 +22,88 @@ enum Sample {
     Point,
 }
 
-/// What there is to explain: the layer that shows it, its role, how it is drawn, and what it is.
-type Entry = (Layer, Role, Sample, &'static str);
+/// What there is to explain: how it is drawn, its role, and what it is.
+#[derive(Clone, Debug, PartialEq)]
+struct Entry(Sample, Role, String);
 
-/// Everything that there is to explain, in the order of the legend.
-const ENTRIES: [Entry; 41] = [
-    (Layer::Trajectory, Role::Trajectory, Sample::Line(Dash::Solid), "motion"),
-    (Layer::Sticking, Role::Sticking, Sample::Bar, "sticking set, at rest"),
-    (Layer::Cycles, Role::Stable, Sample::Line(Dash::Solid), "stable cycle"),
-    (Layer::Cycles, Role::Unstable, Sample::Line(Dash::Dashed), "unstable cycle"),
-    (Layer::Basin, Role::Basin, Sample::Shade, "comes to rest"),
-    (Layer::Lyapunov, Role::Lyapunov, Sample::Line(Dash::Dotted), "Lyapunov circle"),
-    (Layer::Bands, Role::Bands, Sample::Line(Dash::Dotted), "one half swing more"),
-    (Layer::Ghost, Role::Ghost, Sample::Line(Dash::Dotted), "the point left"),
-    (Layer::Field, Role::Field, Sample::Arrow, "direction of flow"),
-    (Layer::Balance, Role::Harmonic, Sample::Line(Dash::Dotted), "N harmonics"),
-    (Layer::Belt, Role::Current, Sample::Line(Dash::Dashed), "sticks to the belt"),
-    (Layer::Borders, Role::Special, Sample::Line(Dash::Solid), "fold of the cycles"),
-    (Layer::Borders, Role::Unstable, Sample::Line(Dash::Solid), "cycle escapes"),
-    (Layer::HarmonicBorder, Role::Harmonic, Sample::Line(Dash::Dotted), "fold of one harmonic"),
-    (Layer::BeltPath, Role::Velocity, Sample::Line(Dash::Solid), "over the belt's speed"),
-    (Layer::Harmonic, Role::Harmonic, Sample::Line(Dash::Dotted), "first harmonic"),
-    (Layer::Asymptotes, Role::Asymptote, Sample::Line(Dash::Sparse), "its asymptotes"),
-    (Layer::Branch, Role::Stable, Sample::Line(Dash::Solid), "stable cycles"),
-    (Layer::Branch, Role::Unstable, Sample::Line(Dash::Dashed), "unstable cycles"),
-    (Layer::Branch, Role::Current, Sample::Line(Dash::Sparse), "present value"),
-    (Layer::Extents, Role::Velocity, Sample::Line(Dash::Dashed), "largest velocity"),
-    (Layer::Eigenvalues, Role::Stable, Sample::Line(Dash::Solid), "Re lambda"),
-    (Layer::Eigenvalues, Role::Velocity, Sample::Line(Dash::Dashed), "Im lambda"),
-    (Layer::Levels, Role::Basin, Sample::Shade, "energy falls"),
-    (Layer::Spirals, Role::Trajectory, Sample::Line(Dash::Solid), "half turns"),
-    (Layer::Position, Role::Trajectory, Sample::Line(Dash::Solid), "displacement q"),
-    (Layer::Velocity, Role::Velocity, Sample::Line(Dash::Dashed), "velocity v"),
-    (Layer::Friction, Role::Sticking, Sample::Line(Dash::Solid), "friction force f"),
-    (Layer::Energy, Role::Energy, Sample::Line(Dash::Dotted), "energy V"),
-    (Layer::Map, Role::Map, Sample::Line(Dash::Solid), "next turning point"),
-    (Layer::Map, Role::Basin, Sample::Shade, "at rest there"),
-    (Layer::Cobweb, Role::Trajectory, Sample::Line(Dash::Solid), "motion, turn by turn"),
-    (Layer::FixedPoints, Role::Stable, Sample::Point, "cycles"),
-    (Layer::Rows, Role::Trajectory, Sample::Line(Dash::Solid), "methods with events"),
-    (Layer::Rows, Role::Unstable, Sample::Line(Dash::Dotted), "and without"),
-    (Layer::Front, Role::Stable, Sample::Point, "best choices"),
-    (Layer::Rate, Role::Energy, Sample::Line(Dash::Solid), "rate V' of the energy"),
-    (Layer::Rate, Role::Velocity, Sample::Line(Dash::Dashed), "fed by damping"),
-    (Layer::Rate, Role::Sticking, Sample::Line(Dash::Dotted), "taken by friction"),
-    (Layer::Locus, Role::Basin, Sample::Shade, "the rest is stable"),
-    (Layer::Locus, Role::Asymptote, Sample::Line(Dash::Dotted), "eigenvalues over D"),
+/// Names of lines that the legend says otherwise: in fewer words, or in words that stand for several.
+const WORDS: [(&str, &str); 14] = [
+    ("sticking set", "sticking set (at rest)"),
+    ("basin of the sticking set", "comes to rest"),
+    ("border of a band of capture", "one half swing more"),
+    ("motion left", "the point left"),
+    ("cycle left", "the point left"),
+    ("cycle of N harmonics", "N harmonics"),
+    ("speed of the belt", "sticks to the belt"),
+    ("over the speed of the belt", "over the belt's speed"),
+    ("half turn about the left end", "half turns"),
+    ("half turn about the right end", "half turns"),
+    ("the same spiral before and after", "how they go on"),
+    ("fold of the first harmonic", "fold of one harmonic"),
+    ("largest velocity A_v", "largest velocity"),
+    ("from the origin", ""),
 ];
 
-/// Draws the legend of the layers that are on at the bottom of `area`, if it fits there.
-pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
-    let drawn = |layer: Layer| session.shows(layer) && session.not_drawn(layer).is_none();
-    let mut entries: Vec<&Entry> = Vec::new();
-    for entry in ENTRIES.iter().filter(|(layer, ..)| drawn(*layer)) {
-        // Cycles look alike in every plot: they are explained once.
-        let cycle = matches!(entry.1, Role::Stable | Role::Unstable);
-        let alike = |other: &&&Entry| cycle && (other.1, other.2) == (entry.1, entry.2);
-        if entries.iter().find(alike).is_none() {
-            entries.push(entry);
+/// What the pictures on show have to explain, in the order in which they are painted.
+fn entries(pictures: &[(View, Picture)]) -> Vec<Entry> {
+    let mut entries: Vec<Entry> = Vec::new();
+    for (view, picture) in pictures {
+        for item in &picture.items {
+            let entry = entry(*view, picture, item);
+            // An area whose edge has its name goes without saying.
+            let known = |entry: &Entry| {
+                entries.iter().any(|other| (other.1, &other.2) == (entry.1, &entry.2))
+            };
+            entries.extend(entry.filter(|entry| !entry.2.is_empty() && !known(entry)));
         }
     }
-    let rows = u16::try_from(entries.len()).unwrap_or(u16::MAX);
-    if area.height < rows || area.width < SAMPLE + 2 {
+    entries
+}
+
+fn entry(view: View, picture: &Picture, item: &Item) -> Option<Entry> {
+    let sample = match item {
+        // The parts of a machine, the bars of the ledger and the curves of methods have their names on them.
+        _ if matches!(view, View::Belt | View::EnergyLedger) => return None,
+        Item::Mark(Mark::Stable, _, role) if view == View::Trade => {
+            return Some(Entry(Sample::Point, *role, "best choices".to_owned()));
+        }
+        _ if view == View::Trade => return None,
+        Item::Mark(Mark::Stable | Mark::Unstable, _, role) if view == View::ReturnMap => {
+            return Some(Entry(Sample::Point, *role, "cycle".to_owned()));
+        }
+        Item::Arrows(role, _) => {
+            return Some(Entry(Sample::Arrow, *role, "direction of flow".to_owned()));
+        }
+        Item::Bar(..) => Sample::Bar,
+        Item::Shade(..) | Item::Columns(..) | Item::Rows(..) => Sample::Shade,
+        Item::Curve(line, _)
+        | Item::Path(line, _)
+        | Item::Graph(line, _)
+        | Item::Upright(line, _) => Sample::Line(line.dash),
+        Item::Texture(_)
+        | Item::Mark(..)
+        | Item::Milestone(..)
+        | Item::Marks(..)
+        | Item::Caption { .. }
+        | Item::Cross(_) => return None,
+    };
+    let line = item.seen(picture.window)?;
+    let name = common(&line.name);
+    let words = WORDS.iter().find(|(known, _)| *known == name).map_or(name, |(_, words)| words);
+    Some(Entry(sample, line.role, words.to_owned()))
+}
+
+/// Draws the legend of some pictures from the top of `area` down, as far as there is room.
+pub fn draw(area: Rect, pictures: &[(View, Picture)], look: &Look, buffer: &mut Buffer) {
+    if area.width < SAMPLE + 8 {
         return;
     }
-    for (y, (_, role, sample, text)) in (area.bottom() - rows..).zip(entries) {
+    for (y, Entry(sample, role, text)) in (area.y..area.bottom()).zip(entries(pictures)) {
         let place = Rect { x: area.x + 1, y, width: SAMPLE, height: 1 };
-        draw_sample(place, *role, *sample, look, buffer);
+        draw_sample(place, role, sample, look, buffer);
         let room = usize::from(area.width - SAMPLE - 3);
-        buffer.set_stringn(place.right() + 1, y, text, room, look.style(Role::Quiet));
+        let text = pane::cut(&text, room, look);
+        buffer.set_string(place.right() + 1, y, text, look.style(Role::Quiet));
     }
 }
 

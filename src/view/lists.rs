@@ -5,7 +5,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Clear, Paragraph, Widget, Wrap};
+use ratatui::widgets::{Paragraph, Widget, Wrap};
 
 use super::costs;
 use super::keys;
@@ -13,6 +13,7 @@ use super::look::{Look, Role};
 use super::pane;
 use super::paper;
 use crate::scene::ViewSpec;
+use crate::scene::said::said;
 use crate::session::update::palette::PaletteRow;
 use crate::session::{Context, Key, List, Listed, Overlay, Session};
 
@@ -67,7 +68,7 @@ pub fn draw(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     if area.width < 4 || area.height < 4 {
         return;
     }
-    Clear.render(area, buffer);
+    pane::clear(area, buffer);
     let inner = Rect { x: area.x + 2, y: area.y + 1, width: width - 4, height: height - 2 };
     let about = below.min(inner.height.saturating_sub(4));
     let rows = Rect { height: inner.height - about, ..inner };
@@ -111,7 +112,7 @@ fn rows(area: Rect, rows: &[Entry], selected: usize, look: &Look, buffer: &mut B
                 Line::from(line)
             }
         };
-        buffer.set_line(area.x, y, &line, area.width);
+        buffer.set_line(area.x, y, &pane::fitted(line, area.width.into(), look), area.width);
     }
     let count = selectable.count();
     if count == 0 {
@@ -225,7 +226,10 @@ fn scenes(session: &Session, list: &List, look: &Look) -> Content {
     };
     let about = found.get(list.selected).map(|scene| {
         let quiet = look.style(Role::Quiet);
-        let text = |text: &str| Line::styled(keys::sentence(text, &session.keymap, look), quiet);
+        // Nothing is known yet of a scene that is not open.
+        let always = |text: &str| said(text, |_| false);
+        let text =
+            |text: &str| Line::styled(keys::sentence(&always(text), &session.keymap, look), quiet);
         vec![text(&scene.look), Line::default(), text(&scene.press)]
     });
     let rows = found.iter().map(|scene| row(&scene.name, &scene.title)).collect();

@@ -58,6 +58,8 @@ pub enum Role {
     Stable,
     /// Unstable cycles, and the separatrix.
     Unstable,
+    /// What a map shades, the stronger the more dangerous.
+    Danger,
     /// First-order harmonic curve.
     Harmonic,
     /// Asymptotes.
@@ -71,7 +73,7 @@ pub enum Role {
 }
 
 /// Name in theme files, and glyph in a plot without dots, of every role in order.
-const ROLES: [(Role, &str, char); 27] = [
+const ROLES: [(Role, &str, char); 28] = [
     (Role::Text, "text", '*'),
     (Role::Quiet, "quiet", '.'),
     (Role::Title, "title", '*'),
@@ -94,6 +96,7 @@ const ROLES: [(Role, &str, char); 27] = [
     (Role::Map, "map", '#'),
     (Role::Stable, "stable", '#'),
     (Role::Unstable, "unstable", 'o'),
+    (Role::Danger, "danger", '#'),
     (Role::Harmonic, "harmonic", '~'),
     (Role::Asymptote, "asymptote", '\''),
     (Role::Special, "special", '*'),

@@ -16,9 +16,9 @@ const APART: usize = 4;
 
 /// Paints a picture under its heading.
 pub fn paint(area: Rect, picture: Picture, mut heading: Heading, look: &Look, buffer: &mut Buffer) {
-    let Picture { title, x, y, window, reading, items } = picture;
+    let Picture { title, x, y, scales, window, reading, items } = picture;
     heading.reading = reading;
-    let names = Names { title: &title, x: &x, y: &y, marks: None };
+    let names = Names { title: &title, x: &x, y: &y, scales, marks: None };
     let mut plot = Plot::new(area, window, names, &heading, look, buffer);
     // Texts find their places when all else is there; names of curves last, since they have many places
     // to go to.

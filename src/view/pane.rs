@@ -4,6 +4,7 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
+use ratatui::widgets::{Clear, Widget};
 
 use super::look::{Look, Role};
 use crate::scene::Slot;
@@ -15,6 +16,32 @@ pub fn centred(screen: Rect, width: u16, height: u16) -> Rect {
     let x = screen.x + (screen.width - width) / 2;
     let y = screen.y + (screen.height.saturating_sub(1) - height) / 2;
     Rect { x, y, width, height }
+}
+
+/// Clears an area for what stands over the panes, and what it would leave of numbers beside it.
+pub fn clear(area: Rect, buffer: &mut Buffer) {
+    let whole = buffer.area;
+    let letter = |buffer: &Buffer, x: u16, y: u16| {
+        let symbol = buffer.cell((x, y)).map_or(" ", |cell| cell.symbol());
+        symbol.chars().next().filter(char::is_ascii_graphic)
+    };
+    for y in area.y..area.bottom().min(whole.bottom()) {
+        let leftward: Vec<u16> = (whole.x..area.x).rev().collect();
+        let rightward: Vec<u16> = (area.right()..whole.right()).collect();
+        for (edge, beside) in [(area.x, leftward), (area.right().saturating_sub(1), rightward)] {
+            if letter(buffer, edge, y).is_none() {
+                continue;
+            }
+            let run = beside.into_iter().map_while(|x| Some((x, letter(buffer, x, y)?)));
+            let run: Vec<(u16, char)> = run.collect();
+            if run.iter().any(|(_, letter)| letter.is_ascii_digit()) {
+                for (x, _) in run {
+                    buffer[(x, y)].set_symbol(" ");
+                }
+            }
+        }
+    }
+    Clear.render(area, buffer);
 }
 
 /// What stands in a title line besides the title.
@@ -75,68 +102,122 @@ pub fn title(
 ) {
     let (pointer, role) =
         if heading.focused { (look.symbols().pointer, Role::Focus) } else { (" ", Role::Title) };
-    let mut left = vec![Span::styled(format!("{pointer}{title}"), look.style(role))];
-    let mut right = Vec::new();
+    let width = usize::from(area.width);
+    let mut right = Line::default();
     if let Some(mark) = heading.mark {
-        right.push(Span::styled(format!(" {mark}"), look.style(Role::Warning)));
+        right.push_span(Span::styled(format!(" {mark}"), look.style(Role::Warning)));
     }
     if let Some(reading) = &heading.reading {
-        right.push(Span::styled(format!(" {reading}"), look.style(Role::Cursor)));
-    }
-    // Where there is no room for the whole title, what is held tells more than what is drawn.
-    if let Some((_, held)) = title.split_once(", ") {
-        let taken: usize = right.iter().map(Span::width).sum();
-        if title.len() + 1 + taken > usize::from(area.width) {
-            left = vec![Span::styled(format!("{pointer}{held}"), look.style(role))];
-        }
-    }
-    let width = |spans: &[Span]| spans.iter().map(Span::width).sum::<usize>();
-    let room = usize::from(area.width).saturating_sub(width(&left) + width(&right));
-    if room > names.len() + 2 {
-        left.push(Span::styled(format!("  {names}"), look.style(Role::Quiet)));
-    } else if heading.reading.is_none()
-        && names.len() > title.len()
-        && room + title.len() >= names.len()
-    {
-        // The axes say more than the title, and two plots of a view differ in them.
-        left = vec![Span::styled(format!("{pointer}{names}"), look.style(role))];
+        right.push_span(Span::styled(format!(" {reading}"), look.style(Role::Cursor)));
     }
     // What the cursor reads matters more than the end of the title.
-    let taken = width(&right).min(usize::from(area.width));
-    let taken = u16::try_from(taken).unwrap_or(area.width);
-    let left_part = Rect { width: area.width - taken, ..area };
-    line(left_part, 0, left, "", buffer);
-    line(Rect { x: area.right() - taken, width: taken, ..area }, 0, "", right, buffer);
+    let right = fitted(right, width, look);
+    let room = width.saturating_sub(right.width());
+    let whole = |text: &str| pointer.chars().count() + text.chars().count() <= room;
+    let both = whole(&format!("{title}  {names}")) && !names.is_empty();
+    // Where there is no room for both, what is held tells more than what is drawn; and the axes say more
+    // than a short title, and two plots of a view differ in them.
+    let held = title.split_once(", ").map_or(title, |(_, held)| held);
+    let names_first = heading.reading.is_none() && names.len() > title.len();
+    let order = if names_first { [names, title, held] } else { [title, held, names] };
+    let shown = order.into_iter().find(|text| whole(text) && !text.is_empty());
+    let shown = shown.filter(|_| !both).unwrap_or(title);
+    let mut left = vec![Span::styled(format!("{pointer}{shown}"), look.style(role))];
+    if both {
+        left.push(Span::styled(format!("  {names}"), look.style(Role::Quiet)));
+    }
+    let left = fitted(left.into(), room, look);
+    line(area, 0, left, right, look, buffer);
 }
 
-/// A text that fits into `width` columns; where it is cut, it ends with a mark.
+/// How many of the letters of a text stand before a mark that it goes on, where it has `width` columns:
+/// all where it fits, and never a part of a word with digits, which could be taken for another number.
+fn kept(text: &str, width: usize, mark: usize) -> usize {
+    let letters: Vec<char> = text.chars().collect();
+    if letters.len() <= width {
+        return letters.len();
+    }
+    let room = width.saturating_sub(mark);
+    let blank = |letter: &char| letter.is_whitespace();
+    let begin = letters[..room].iter().rposition(blank).map_or(0, |at| at + 1);
+    let end = letters[room..].iter().position(blank).map_or(letters.len(), |at| room + at);
+    let number = letters[begin..end].iter().any(char::is_ascii_digit);
+    if number && end > room { begin } else { room }
+}
+
+/// A text that fits into `width` columns; where it is cut, it ends with a mark, and numbers go whole.
 #[must_use]
 pub fn cut(text: &str, width: usize, look: &Look) -> String {
     let mark = look.symbols().more;
-    if text.chars().count() <= width {
+    let kept = kept(text, width, mark.chars().count());
+    if kept == text.chars().count() {
         return text.to_owned();
     }
-    let kept = width.saturating_sub(mark.chars().count());
+    let mark = if width == 0 { "" } else { mark };
     text.chars().take(kept).chain(mark.chars()).collect()
 }
 
-/// Writes a row of `area`: `left` from its left end and, where it fits, `right` at its right end.
+/// [`cut`] for a text in several styles.
+#[must_use]
+pub fn fitted(line: Line<'static>, width: usize, look: &Look) -> Line<'static> {
+    let text: String = line.spans.iter().map(|span| span.content.as_ref()).collect();
+    let short = cut(&text, width, look);
+    if short == text {
+        return line;
+    }
+    let mut letters = short.chars();
+    let spans = line.spans.into_iter().map(|span| {
+        let count = span.content.chars().count();
+        Span::styled(letters.by_ref().take(count).collect::<String>(), span.style)
+    });
+    Line { spans: spans.collect(), ..line }
+}
+
+/// Writes a row of `area`: `left` from its left end, as far as it fits, and `right` at its right end where
+/// it fits whole.
 pub fn line(
     area: Rect,
     row: u16,
     left: impl Into<Line<'static>>,
     right: impl Into<Line<'static>>,
+    look: &Look,
     buffer: &mut Buffer,
 ) {
     if row >= area.height {
         return;
     }
-    let (left, right) = (left.into(), right.into());
+    let (left, right) = (fitted(left.into(), area.width.into(), look), right.into());
     let (x, y) = (area.x, area.y + row);
-    let needed = u16::try_from(right.width()).unwrap_or(u16::MAX);
-    let start = area.width.saturating_sub(needed);
     let (end, _) = buffer.set_line(x, y, &left, area.width);
-    if needed > 0 && x + start >= end {
+    let needed = u16::try_from(right.width()).unwrap_or(u16::MAX);
+    if let Some(start) = area.width.checked_sub(needed).filter(|_| needed > 0)
+        && x + start >= end
+    {
         buffer.set_line(x + start, y, &right, needed);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::session::settings;
+
+    #[test]
+    fn a_cut_text_has_a_mark_and_no_part_of_a_number() {
+        let look = Look::new(settings::Look::default());
+        let text = "margin 0.0100305 of D = -0.25";
+        for (width, expected) in [
+            (29, text),
+            (28, "margin 0.0100305 of D = \u{2026}"),
+            (17, "margin 0.0100305\u{2026}"),
+            (16, "margin \u{2026}"),
+            (5, "marg\u{2026}"),
+            (1, "\u{2026}"),
+            (0, ""),
+        ] {
+            assert_eq!(cut(text, width, &look), expected, "{width}");
+        }
+        let styled = Line::from(vec![Span::raw("margin 0.01"), Span::raw("00305 of")]);
+        assert_eq!(fitted(styled, 12, &look).to_string(), "margin \u{2026}");
     }
 }

@@ -3,18 +3,20 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Paragraph, Widget, Wrap};
 
+use super::caption::wrapped;
 use super::keys;
+use super::layout::DESIGNED;
 use super::legend;
 use super::look::{Look, Role};
 use super::number::{exact, significant};
 use super::pane::{self, Heading};
+use super::picture::Picture;
 use super::quantity::with_unit;
 use crate::flow::Problem;
 use crate::oscillator::Symbol;
 use crate::oscillator::belt::Quantity;
-use crate::scene::Layer;
+use crate::scene::{Layer, View};
 use crate::session::{Pane, Row, Session, Stand};
 use crate::study::belt::PhysicalMargin;
 use crate::study::harmonic_error::Balanced;
@@ -27,7 +29,13 @@ const VALUES: usize = 16;
 const STEP: usize = 7;
 
 /// Draws the pane.
-pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
+pub fn draw(
+    area: Rect,
+    session: &Session,
+    pictures: &[(View, Picture)],
+    look: &Look,
+    buffer: &mut Buffer,
+) {
     let heading = Heading::of(session, Pane::Parameters);
     pane::title(area, "parameters", "", &heading, look, buffer);
     let wide = usize::from(area.width) > VALUES + STEP;
@@ -36,7 +44,7 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         let selected = row == session.selected;
         let step = (selected || wide).then(|| step(session, row, look)).flatten();
         let line = row_line(session, row, step, area.width, look);
-        pane::line(area, y, line, "", buffer);
+        pane::line(area, y, line, "", look, buffer);
         y += 1;
     }
     if let Some(folded) = folded(session) {
@@ -45,6 +53,7 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
             y,
             Span::styled(format!(" {folded}"), look.style(Role::Quiet)),
             "",
+            look,
             buffer,
         );
         y += 1;
@@ -57,37 +66,46 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let rows = cycles(below, session, look, buffer);
     if wide {
         let text = Rect { y: below.y + rows, height: below.height.saturating_sub(rows), ..below };
-        guide(text, session, look, buffer);
+        guide(text, session, pictures, look, buffer);
     }
 }
 
 /// What to look at in this scene and what to press, and below it what the lines mean.
-fn guide(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
+fn guide(
+    area: Rect,
+    session: &Session,
+    pictures: &[(View, Picture)],
+    look: &Look,
+    buffer: &mut Buffer,
+) {
+    let width = usize::from(area.width.saturating_sub(2));
+    let mut lines = Vec::new();
+    for (heading, text) in [("look", &session.scene.look), ("press", &session.scene.press)] {
+        let mut title = vec![Span::styled(heading, look.style(Role::Title))];
+        // What to press leads on from where the scene opens.
+        if heading == "press" && session.stand() != Stand::of_scene(&session.scene) {
+            let text =
+                keys::sentence("  as opened; {reset-scene} goes back", &session.keymap, look);
+            title.push(Span::styled(text, look.style(Role::Quiet)));
+        }
+        lines.push(title.into());
+        let text = keys::sentence(&session.said(text), &session.keymap, look);
+        let rows = wrapped(&text, width).into_iter();
+        lines.extend(rows.map(|row| Line::styled(row, look.style(Role::Quiet))));
+        lines.push(Line::default());
+    }
     let inner = Rect { x: area.x + 1, width: area.width.saturating_sub(2), ..area };
-    let style = look.style(Role::Quiet);
-    let [seen, pressed] = [&session.scene.look, &session.scene.press]
-        .map(|text| keys::sentence(text, &session.keymap, look));
-    let rows = |text: &str| {
-        text.chars().count().div_ceil(usize::from(inner.width).saturating_sub(6).max(1))
-    };
-    // Broken lines are a few letters shorter than the pane is wide; two headings, a blank, a gap.
-    let taken = rows(&seen) + rows(&pressed) + 5;
-    let lines = vec![
-        Line::styled("look", look.style(Role::Title)),
-        Line::styled(seen, style),
-        Line::default(),
-        Line::styled("press", look.style(Role::Title)),
-        Line::styled(pressed, style),
-    ];
-    Paragraph::new(lines).wrap(Wrap { trim: true }).render(inner, buffer);
-    let below = area.height.saturating_sub(u16::try_from(taken).unwrap_or(u16::MAX));
-    let above_status = below.saturating_sub(1);
-    legend::draw(
-        Rect { y: area.bottom() - below, height: above_status, ..area },
-        session,
-        look,
-        buffer,
-    );
+    let taken = u16::try_from(lines.len()).unwrap_or(u16::MAX).min(area.height);
+    // A text that goes on below the pane says so.
+    let goes_on = lines.len() > usize::from(area.height) + 1;
+    if let Some(last) = usize::from(taken).checked_sub(1).filter(|_| goes_on) {
+        lines[last].push_span(format!(" {}", look.symbols().more));
+    }
+    for (row, line) in (0..taken).zip(lines) {
+        pane::line(inner, row, line, "", look, buffer);
+    }
+    let rest = Rect { y: area.y + taken, height: area.height - taken, ..area };
+    legend::draw(rest, pictures, look, buffer);
 }
 
 fn row_line(
@@ -107,7 +125,7 @@ fn row_line(
     // Numbers changed by hand are those of no belt speed: its row is out of use until it is set again.
     let off = row == Row::Belt && session.is_on_the_belt() == Some(false);
     let value = if off { format!("({value})") } else { value };
-    let gap = VALUES.saturating_sub(name.len() + value.len() + 1);
+    let gap = VALUES.saturating_sub(name.len() + value.len() + 1).max(1);
     let style = look.style(role);
     let value_style = if off && !selected {
         look.style(Role::Quiet)
@@ -121,20 +139,16 @@ fn row_line(
         Span::styled(value, value_style),
     ];
     let step = step.unwrap_or_default();
-    let physical = physical(session, row);
-    let meaning = match &physical {
-        Some((name, value)) => format!("{name} {value}"),
-        None => meaning(&session.problem, row).to_owned(),
-    };
-    if usize::from(width) >= VALUES + STEP + 3 + meaning.len() {
-        line.push(Span::styled(format!("{step:<STEP$}  {meaning}"), look.style(Role::Quiet)));
-    } else {
-        // On a narrow pane what the number means on the machine takes what the step leaves.
-        let room = usize::from(width).saturating_sub(VALUES + step.chars().count() + 2);
-        let physical = physical.map(|(_, value)| value).filter(|value| value.len() <= room);
-        let physical = physical.map_or_else(String::new, |value| format!("  {value}"));
-        line.push(Span::styled(step + &physical, look.style(Role::Quiet)));
-    }
+    let physical = physical(session, row).map(|(name, value)| format!("{name} {value}"));
+    let meaning = physical.clone().unwrap_or_else(|| meaning(&session.problem, row).to_owned());
+    let whole = format!("{step:<STEP$}  {meaning}");
+    // On a narrow pane what the number means on the machine stands in place of the step, of which the
+    // selected row alone needs to speak.
+    let physical = physical.filter(|_| !selected).map(|physical| format!("  {physical}"));
+    let room = usize::from(width).saturating_sub(VALUES);
+    let texts = std::iter::once(whole).chain(physical);
+    let text = texts.into_iter().find(|text| text.chars().count() <= room).unwrap_or(step);
+    line.push(Span::styled(text, look.style(Role::Quiet)));
     line
 }
 
@@ -233,7 +247,7 @@ fn cycles(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) -> u1
         Span::styled(title, look.style(Role::Title)),
         Span::styled(headings, look.style(Role::Quiet)),
     ];
-    pane::line(area, 0, heading, "", buffer);
+    pane::line(area, 0, heading, "", look, buffer);
     let mut y = 1;
     let [stable, unstable] = look.symbols().points;
     for cycle in &found.cycles {
@@ -241,18 +255,25 @@ fn cycles(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) -> u1
             if cycle.stable { (stable, Role::Stable) } else { (unstable, Role::Unstable) };
         let numbers = cells(&|(.., number)| number(cycle));
         let line = vec![Span::styled(format!(" {symbol} "), look.style(role)), Span::raw(numbers)];
-        pane::line(area, y, line, "", buffer);
+        pane::line(area, y, line, "", look, buffer);
         y += 1;
     }
     if found.cycles.is_empty() {
-        pane::line(area, y, " none", "", buffer);
+        pane::line(area, y, " none", "", look, buffer);
         y += 1;
     }
     let words = basin(session, found, usize::from(area.width))
         .into_iter()
         .chain(balance(session, usize::from(area.width)));
     for text in words {
-        pane::line(area, y, Span::styled(format!(" {text}"), look.style(Role::Quiet)), "", buffer);
+        pane::line(
+            area,
+            y,
+            Span::styled(format!(" {text}"), look.style(Role::Quiet)),
+            "",
+            look,
+            buffer,
+        );
         y += 1;
     }
     y + 1
@@ -276,7 +297,12 @@ fn basin(session: &Session, found: &Cycles, width: usize) -> Vec<String> {
         (1..=5).rev().map(text).find(|text| text.len() < width)
     });
     let physical = on_the_machine(session, found);
-    std::iter::once(edge.to_owned()).chain(kicks).chain(physical).chain(sizes(found)).collect()
+    let lines = std::iter::once(edge.to_owned());
+    if session.size.height >= DESIGNED {
+        // The second status line says the rest.
+        return lines.chain(physical).chain(area(found)).collect();
+    }
+    lines.chain(kicks).chain(physical).chain(share(found)).chain(area(found)).collect()
 }
 
 /// The margin on the machine, and which cycles overtake its belt.
@@ -286,7 +312,7 @@ fn on_the_machine(session: &Session, found: &Cycles) -> Vec<String> {
     let margin = margin.map(|margin| PhysicalMargin::new(&margin, &running.reduced.units));
     let kick = margin.and_then(|margin| {
         let (x, impulse) = (margin.displacement?, margin.impulse?);
-        Some(format!("= {}, {}", with_unit(x, 3, "m"), with_unit(impulse, 3, "N s")))
+        Some(format!("kick {}, {}", with_unit(x, 3, "m"), with_unit(impulse, 3, "N s")))
     });
     let fast = |cycle: &&Cycle| cycle.v_max >= running.reduced.sticking_velocity;
     let alarms = found.cycles.iter().filter(fast).map(|cycle| {
@@ -318,18 +344,22 @@ fn balance(session: &Session, width: usize) -> Vec<String> {
     }
 }
 
-/// How large the basin is, and how much of its margin the Lyapunov circle (24) proves: that knows the
-/// linear damping only, and where D2 or D3 feed the motion it can promise more than holds.
-fn sizes(found: &Cycles) -> impl Iterator<Item = String> {
+/// How large the basin is.
+fn area(found: &Cycles) -> Option<String> {
     let picture = found.picture.as_ref().filter(|_| found.parameters.r > 0.0);
     let area = picture.and_then(|picture| picture.area);
-    let share = picture.and_then(|picture| picture.lyapunov_share).map(|share| {
+    area.map(|area| format!("area {}", significant(area, 5)))
+}
+
+/// How much of the margin the Lyapunov circle (24) proves: that knows the linear damping only, and where D2
+/// or D3 feed the motion it can promise more than holds.
+fn share(found: &Cycles) -> Option<String> {
+    let picture = found.picture.as_ref().filter(|_| found.parameters.r > 0.0);
+    picture.and_then(|picture| picture.lyapunov_share).map(|share| {
         if share > 1.0 {
             "Lyapunov: not valid".to_owned()
         } else {
             format!("Lyapunov: {} % of it", significant(100.0 * share, 2))
         }
-    });
-    // The share is one of the kick: it stands below it.
-    share.into_iter().chain(area.map(|area| format!("area {}", significant(area, 5))))
+    })
 }

@@ -10,10 +10,10 @@ use super::look::Role;
 use super::picture::{Item, Line, Mark, Picture, Text};
 use super::plot::reading;
 use crate::closed_form::lyapunov;
-use crate::flow::{Outcome, Sample, Trajectory};
+use crate::flow::{Outcome, Problem, Sample, Trajectory};
 use crate::oscillator::{HalfPlane, Parameters, Side, State};
 use crate::scene::{Answer, Layer, Point, Slot, View};
-use crate::session::{self, Session};
+use crate::session::{self, Session, Shown};
 use crate::study::{Cycles, Edge};
 
 /// What the plot with this index shows.
@@ -73,16 +73,17 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
             }
         }
     }
+    // The cycle lies over the half turns that it is made of, so that its dashes are seen.
+    if shows(Layer::Spirals) {
+        for shown in &shown {
+            construction::spirals(&mut picture, &shown.problem.parameters);
+        }
+    }
     if shows(Layer::Cycles) {
         for (label, answer) in session.found(Slot::Cycles, index) {
             if let Answer::Cycles(found) = answer {
                 cycles(&mut picture, found, &label);
             }
-        }
-    }
-    if shows(Layer::Spirals) {
-        for shown in &shown {
-            construction::spirals(&mut picture, &shown.problem.parameters);
         }
     }
     if shows(Layer::Balance) {
@@ -102,16 +103,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         belt(&mut picture, session);
     }
     if shows(Layer::Trajectory) {
-        for (_, answer) in session.found(Slot::Trajectory, index) {
-            if let Answer::Trajectory(found) = answer
-                && contact.is_none()
-            {
-                end(&mut picture, found);
-            }
-        }
-        for shown in &shown {
-            picture.mark(Mark::Start, point(&shown.problem.initial), Role::Trajectory);
-        }
+        ends(&mut picture, session, index, &shown);
     }
     if let Some(Sample { q, v, .. }) = session.head() {
         picture.mark(Mark::Head, Point { x: q, y: v }, Role::Cursor);
@@ -205,6 +197,25 @@ fn ghost(picture: &mut Picture, session: &Session) {
 #[must_use]
 pub fn stability(stable: bool) -> (Role, Dash) {
     if stable { (Role::Stable, Dash::Solid) } else { (Role::Unstable, Dash::Dashed) }
+}
+
+/// Where motions start and where they are in the end. One of a family that rests from the start is there
+/// for its cycles and has no marks; the present motion that does has the one of its rest.
+fn ends(picture: &mut Picture, session: &Session, index: usize, shown: &[Shown]) {
+    let family = session.variants(index).is_some();
+    for (_, answer) in session.found(Slot::Trajectory, index) {
+        if let Answer::Trajectory(found) = answer
+            && session.contact().is_none()
+            && !(family && matches!(found.outcome, Outcome::Captured { tau: 0.0, .. }))
+        {
+            end(picture, found);
+        }
+    }
+    for Problem { parameters, initial, .. } in shown.iter().map(|shown| &shown.problem) {
+        if initial.v != 0.0 || initial.q.abs() > parameters.r {
+            picture.mark(Mark::Start, point(initial), Role::Trajectory);
+        }
+    }
 }
 
 /// Where a motion is in the end.

@@ -10,6 +10,7 @@ use std::fmt;
 
 use super::dots::Dash;
 use super::look::Role;
+use super::ticks::Scale;
 use super::{
     belt, diagram, eigenvalues, energy_ledger, energy_rate, phase_plane, regimes, return_map, scan,
     time_series, trade,
@@ -163,6 +164,8 @@ pub struct Picture<'a> {
     pub x: Text,
     /// Name of the vertical axis.
     pub y: Text,
+    /// What the numbers along both axes stand for.
+    pub scales: [Scale; 2],
     /// The part of the world on show.
     pub window: Window,
     /// What the cursor reads.
@@ -184,6 +187,56 @@ impl fmt::Debug for Picture<'_> {
     }
 }
 
+impl Item<'_> {
+    /// The line of a curve, an area or a bar that has a name and is seen in this window.
+    #[must_use]
+    pub fn seen(&self, window: Window) -> Option<&Line> {
+        let (line, seen) = match self {
+            Item::Curve(line, points) | Item::Path(line, points) => (line, passes(points, window)),
+            Item::Graph(line, value) => (line, is_met(value, window)),
+            Item::Upright(line, x) => (line, window.x.contains(*x)),
+            Item::Bar(line, from, to) => (line, passes(&[*from, *to], window)),
+            Item::Shade(line, edge) => (line, !edge.is_empty()),
+            Item::Columns(line, from, to) => (line, *from < window.x.to() && *to > window.x.from()),
+            Item::Rows(line, from, to) => (line, *from < window.y.to() && *to > window.y.from()),
+            Item::Texture(_)
+            | Item::Arrows(..)
+            | Item::Mark(..)
+            | Item::Milestone(..)
+            | Item::Marks(..)
+            | Item::Caption { .. }
+            | Item::Cross(_) => return None,
+        };
+        Some(line).filter(|line| seen && !line.name.is_empty())
+    }
+}
+
+/// Whether a polyline is seen in a window: one of its points, or the middle of one of its chords.
+#[must_use]
+pub fn passes(points: &[Point], window: Window) -> bool {
+    let middle = |pair: &[Point]| Point {
+        x: f64::midpoint(pair[0].x, pair[1].x),
+        y: f64::midpoint(pair[0].y, pair[1].y),
+    };
+    points.iter().any(|point| window.contains(*point))
+        || points.windows(2).any(|pair| window.contains(middle(pair)))
+}
+
+/// Whether a graph is seen in a window.
+fn is_met(value: &Function, window: Window) -> bool {
+    /// Places that are looked at.
+    const PLACES: u16 = 200;
+    (0..=PLACES)
+        .map(|place| window.x.at(f64::from(place) / f64::from(PLACES)))
+        .any(|x| value(x).is_some_and(|y| window.y.contains(y)))
+}
+
+/// What a name says without the variant.
+#[must_use]
+pub fn common(name: &str) -> &str {
+    name.split_once(", ").map_or(name, |(common, _)| common)
+}
+
 impl<'a> Picture<'a> {
     /// An empty picture.
     pub fn new(
@@ -193,7 +246,7 @@ impl<'a> Picture<'a> {
         window: Window,
     ) -> Self {
         let (title, x, y) = (title.into(), x.into(), y.into());
-        Picture { title, x, y, window, reading: None, items: Vec::new() }
+        Picture { title, x, y, scales: [Scale::Even; 2], window, reading: None, items: Vec::new() }
     }
 
     /// Adds a polyline.
@@ -255,6 +308,16 @@ impl<'a> Picture<'a> {
     }
 }
 
+/// What the numbers along the axes of the plot with this index stand for.
+#[must_use]
+pub fn scales(session: &Session, index: usize) -> [Scale; 2] {
+    match session.plots[index].view {
+        View::Scan => session.scanned.as_ref().map_or_else(Default::default, scan::scales),
+        View::Trade => [Scale::Logarithmic; 2],
+        _ => [Scale::Even; 2],
+    }
+}
+
 /// What the plot with this index shows.
 #[must_use]
 pub fn of(session: &Session, index: usize) -> Picture<'_> {
@@ -271,6 +334,7 @@ pub fn of(session: &Session, index: usize) -> Picture<'_> {
         View::Scan => scan::picture(session, index),
         View::Belt => belt::picture(session, index),
     };
+    picture.scales = scales(session, index);
     // What all of a plot is held at stands in its title; what tells several apart, at their curves.
     let held = session.held_alike(index);
     if !held.is_empty() {

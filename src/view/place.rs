@@ -4,7 +4,9 @@ use ratatui::layout::{Position, Rect};
 
 use super::energy_ledger;
 use super::layout::layout;
+use super::picture;
 use super::plot::point_at;
+use super::scan;
 use crate::scene::View;
 use crate::session::{Place, Session};
 
@@ -18,12 +20,14 @@ pub fn place(screen: Rect, session: &Session, cell: Position) -> Option<Place> {
     }
     let index = parts.plots.iter().position(|area| area.contains(cell))?;
     let (area, window) = (parts.plots[index], session.plots[index].window);
+    let scales = picture::scales(session, index);
     let point = match session.plots[index].view {
         View::EnergyLedger => {
             let (window, marks) = energy_ledger::marks(area, session, window);
-            point_at(area, window, Some(marks), cell)
+            point_at(area, window, scales, Some(marks), cell)
         }
-        _ => point_at(area, window, None, cell),
+        View::Scan => point_at(scan::body(area), window, scales, None, cell),
+        _ => point_at(area, window, scales, None, cell),
     };
     point.map(|point| Place::Plot(index, point))
 }

@@ -39,20 +39,20 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         let texture = |point: Point| chart.regime_at(point.x, point.y).and_then(texture);
         picture.items.push(Item::Texture(Box::new(texture)));
     }
-    signs(&mut picture, abscissa, against);
+    signs(&mut picture, abscissa, against, session.value(Symbol::R));
     if let Some(chart) = found {
         let mut border = |border, line: Line| {
             for run in chart.border(border) {
                 picture.curve(line.clone(), run.into_iter().map(|(x, y)| Point { x, y }));
             }
         };
-        if shows(Layer::HarmonicBorder) {
-            let name = "fold of the first harmonic";
-            border(Border::Harmonic, Line::new(name, Role::Harmonic, Dash::Dotted));
-        }
         if shows(Layer::Borders) {
             border(Border::Fold, Line::new("fold", Role::Special, Dash::Solid));
             border(Border::Escape, Line::new("escape", Role::Unstable, Dash::Solid));
+        }
+        if shows(Layer::HarmonicBorder) {
+            let name = "fold of the first harmonic";
+            border(Border::Harmonic, Line::new(name, Role::Harmonic, Dash::Dotted));
         }
         if shows(Layer::Regimes) {
             names_of_regimes(&mut picture, chart);
@@ -83,16 +83,18 @@ fn texture(regime: Regime) -> Option<Fill> {
     Some(Fill { pattern, role, name: regime.name() })
 }
 
-/// Where a parameter changes its sign; D = 0 is the Hopf point of the system without friction.
-fn signs(picture: &mut Picture, right: Symbol, up: Symbol) {
+/// Where a parameter changes its sign; D = 0 is the Hopf point where there is no friction.
+fn signs(picture: &mut Picture, right: Symbol, up: Symbol, friction: f64) {
     let window = picture.window;
     picture.upright(Line::guide(), 0.0);
     let level = [window.x.from(), window.x.to()].map(|x| Point { x, y: 0.0 });
     picture.curve(Line::guide(), level);
-    let hopf = if right == Symbol::D {
-        Some(Point { x: 0.0, y: window.y.to() })
-    } else {
-        (up == Symbol::D).then_some(Point { x: window.x.from(), y: 0.0 })
+    let without = friction == 0.0;
+    let hopf = match (right, up) {
+        (Symbol::D, Symbol::R) | (Symbol::R, Symbol::D) => Some(Point { x: 0.0, y: 0.0 }),
+        (Symbol::D, _) if without => Some(Point { x: 0.0, y: window.y.to() }),
+        (_, Symbol::D) if without => Some(Point { x: window.x.from(), y: 0.0 }),
+        _ => None,
     };
     if let Some(place) =
         hopf.filter(|place| window.x.contains(place.x) && window.y.contains(place.y))

@@ -3,7 +3,6 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::Span;
-use ratatui::widgets::{Clear, Widget};
 
 use super::footer::typed;
 use super::lists::frame;
@@ -29,7 +28,7 @@ pub fn draw(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     if area.width < 20 || area.height < 6 {
         return;
     }
-    Clear.render(area, buffer);
+    pane::clear(area, buffer);
     let inner = Rect { x: area.x + 2, y: area.y + 1, width: width - 4, height: height - 2 };
     for (row, (index, spec)) in (0..inner.height).zip(FIELDS.iter().enumerate()) {
         let active = index == form.at;
@@ -43,14 +42,21 @@ pub fn draw(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         } else {
             line.push(Span::styled(input.text().to_owned(), look.style(Role::Text)));
         }
-        pane::line(inner, row, line, "", buffer);
+        pane::line(inner, row, line, "", look, buffer);
     }
     let below = inner.height.saturating_sub(2);
     let quiet = |text: String| Span::styled(text, look.style(Role::Quiet));
-    pane::line(inner, below, quiet(about(form)), "", buffer);
+    pane::line(inner, below, quiet(about(form)), "", look, buffer);
     if let Some(why) = &form.refused {
         let text = pane::cut(why, inner.width.into(), look);
-        pane::line(inner, below + 1, Span::styled(text, look.style(Role::Failure)), "", buffer);
+        pane::line(
+            inner,
+            below + 1,
+            Span::styled(text, look.style(Role::Failure)),
+            "",
+            look,
+            buffer,
+        );
     }
     frame(area, " scan ", "", look, buffer);
 }

@@ -1,7 +1,10 @@
 //! The rows of a scan as a table that scrolls with the row that is looked at.
 
+use std::ops::Range;
+
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
+use ratatui::text::Line;
 
 use super::look::{Look, Role};
 use super::number::significant;
@@ -9,46 +12,64 @@ use super::pane;
 use crate::export::scan::rounded;
 use crate::session::scan::Scanned;
 use crate::study::measure::Value;
+use crate::study::scan::Sweep;
 
-/// Columns of a number.
-const WIDTH: usize = 13;
+/// Digits of a number.
+const DIGITS: usize = 8;
 
 /// Draws the names and the rows around the one that is looked at. The column that is plotted comes
-/// first of those that are measured, and the others follow as far as they fit.
+/// first of those that are measured, and the others follow as far as they fit whole.
 pub fn draw(area: Rect, scanned: &Scanned, look: &Look, buffer: &mut Buffer) {
-    let Rect { x, y, width, height } = area;
-    let Some(room) = usize::from(height).checked_sub(1).filter(|room| *room > 0) else { return };
-    let over = scanned.scan.over();
-    let measured = scanned.scan.measured();
-    let places = usize::from(width) / (WIDTH + 1);
-    let shown = places.saturating_sub(over.len()).min(measured.len()).max(1);
-    let columns: Vec<usize> =
-        (0..shown).map(|offset| (scanned.column + offset) % measured.len()).collect();
-    let cell = |text: &str| format!("{:>WIDTH$} ", pane::cut(text, WIDTH, look));
-    let names = over.iter().map(|sweep| sweep.symbol.spec().name);
-    let names = names.chain(columns.iter().map(|column| measured[*column]));
-    let titles: String = names.map(cell).collect();
-    buffer.set_stringn(x, y, titles, width.into(), look.style(Role::Title));
+    let Some(room) = usize::from(area.height).checked_sub(1).filter(|room| *room > 0) else {
+        return;
+    };
     let first = scanned.at.saturating_sub(room / 2);
     let first = first.min(scanned.rows.len().saturating_sub(room));
-    for (line, (index, row)) in
-        (y + 1..area.bottom()).zip(scanned.rows.iter().enumerate().skip(first))
-    {
-        let place = scanned.scan.place(index);
-        let values = over.iter().zip(place);
-        let values = values.map(|(sweep, which)| significant(sweep.value(which), 8));
-        let nothing = Value::Nothing;
-        let found =
-            columns.iter().map(|column| rounded(*row.values.get(*column).unwrap_or(&nothing)));
-        let mut text: String = values.chain(found).map(|text| cell(&text)).collect();
-        if let Some(reason) = &row.reason {
-            text += reason;
-        }
-        let role = match (index == scanned.at, &row.reason) {
+    let seen = first..scanned.rows.len().min(first + room);
+    let columns = columns(scanned, seen.clone());
+    let mut used = 0;
+    let fits = |width: &usize| {
+        used += width + 1;
+        used <= usize::from(area.width)
+    };
+    let widths: Vec<usize> = columns
+        .iter()
+        .map(|column| column.iter().map(|text| text.chars().count()).max().unwrap_or(0))
+        .take_while(fits)
+        .collect();
+    let line = |row: usize| {
+        let cells = columns.iter().zip(&widths).map(|(column, width)| {
+            let text = &column[row];
+            format!("{text:>width$} ")
+        });
+        cells.collect::<Vec<_>>().concat()
+    };
+    pane::line(area, 0, Line::styled(line(0), look.style(Role::Title)), "", look, buffer);
+    for (row, index) in (1..).zip(seen) {
+        let reason = &scanned.rows[index].reason;
+        let role = match (index == scanned.at, reason) {
             (true, _) => Role::Selected,
             (false, Some(_)) => Role::Warning,
             (false, None) => Role::Text,
         };
-        buffer.set_stringn(x, line, text, width.into(), look.style(role));
+        let text = line(usize::from(row)) + reason.as_deref().unwrap_or_default();
+        pane::line(area, row, Line::styled(text, look.style(role)), "", look, buffer);
     }
+}
+
+/// The columns of these rows: each a name and its cells.
+fn columns(scanned: &Scanned, rows: Range<usize>) -> Vec<Vec<String>> {
+    let (over, measured) = (scanned.scan.over(), scanned.scan.measured());
+    let parameter = |(which, sweep): (usize, &Sweep)| {
+        let value = |index: usize| sweep.value(scanned.scan.place(index)[which]);
+        let cells = rows.clone().map(|index| significant(value(index), DIGITS));
+        std::iter::once(sweep.symbol.spec().name.to_owned()).chain(cells).collect()
+    };
+    let found = |offset: usize| {
+        let column = (scanned.column + offset) % measured.len();
+        let value = |index: usize| scanned.rows[index].values.get(column);
+        let cells = rows.clone().map(|index| rounded(*value(index).unwrap_or(&Value::Nothing)));
+        std::iter::once(measured[column].to_owned()).chain(cells).collect()
+    };
+    over.iter().enumerate().map(parameter).chain((0..measured.len()).map(found)).collect()
 }

@@ -1,4 +1,5 @@
-//! The lines that say it in words: what became of the motion, how it was computed, what that cost.
+//! The lines that say it in words: what becomes of the motion, and which kicks are survived; or how it was
+//! computed and what that cost, where its accuracy is turned or nothing is known of kicks.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -14,12 +15,14 @@ use crate::flow::trajectory::choice;
 use crate::flow::{Outcome, Trajectory};
 use crate::scene::{Answer, Layer, Slot};
 use crate::session::Session;
+use crate::session::fate::{End, Fate, Place};
+use crate::study::Edge;
 
 /// Draws the title line: what the scene is, and its name.
 pub fn title(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let left = Span::styled(format!(" {}", session.scene.title), look.style(Role::Title));
     let right = Span::styled(format!("{} ", session.scene.name), look.style(Role::Quiet));
-    pane::line(area, 0, left, right, buffer);
+    pane::line(area, 0, left, right, look, buffer);
 }
 
 /// Draws the status lines: the outcome first, then method, cost and error.
@@ -39,18 +42,23 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         Some((register, _)) => format!("{busy}recording {register} "),
         None => busy,
     };
-    let text = format!(" {text}");
-    let text = pane::cut(&text, usize::from(area.width), look);
+    // That a computation goes on matters more than the end of the sentence.
+    let room = usize::from(area.width).saturating_sub(busy.chars().count());
+    let text = pane::cut(&format!(" {text}"), room, look);
     let left = Span::styled(text, look.style(role));
-    pane::line(area, 0, left, Span::styled(busy, look.style(Role::Warning)), buffer);
+    pane::line(area, 0, left, Span::styled(busy, look.style(Role::Warning)), look, buffer);
 
     let quiet = |text| Span::styled(text, look.style(Role::Quiet));
+    // What it cost is listed by a key of its own; while its accuracy is turned, it stands here.
+    if let Some(margin) = margin(session).filter(|_| !session.measures()) {
+        return pane::line(area, 1, quiet(format!(" {margin}")), "", look, buffer);
+    }
     let line = |words| (work(session, look, words), price(session, look, words));
     let fits = |(left, right): &(String, String)| {
         left.chars().count() + right.chars().count() + 4 <= usize::from(area.width)
     };
     let (left, right) = WORDS.iter().map(line).find(fits).unwrap_or_else(|| line(&WORDS[3]));
-    pane::line(area, 1, quiet(format!(" {left}")), quiet(format!("{right} ")), buffer);
+    pane::line(area, 1, quiet(format!(" {left}")), quiet(format!("{right} ")), look, buffer);
 }
 
 /// The words of the second line.
@@ -134,7 +142,10 @@ fn outcome(session: &Session) -> (String, Role) {
     }
     match session.trajectory() {
         None => ("computing the motion".into(), Role::Quiet),
-        Some(found) => alarm(session).unwrap_or_else(|| (sentence(found), Role::Text)),
+        Some(found) => alarm(session).unwrap_or_else(|| {
+            let fate = session.fate();
+            (fate.map_or_else(|| sentence(found), |fate| verdict(&fate, found)), Role::Text)
+        }),
     }
 }
 
@@ -189,11 +200,7 @@ fn symbol(session: &Session, look: &Look) -> String {
 /// How a motion ended, in a sentence.
 #[must_use]
 pub fn sentence(motion: &Trajectory) -> String {
-    let swings = match motion.crossings.len() {
-        0 => String::new(),
-        1 => " after 1 half swing".to_owned(),
-        number => format!(" after {number} half swings"),
-    };
+    let swings = swings(motion);
     let three = |value| significant(value, 3);
     match motion.outcome {
         Outcome::Captured { q, .. } if motion.crossings.is_empty() => {
@@ -212,6 +219,74 @@ pub fn sentence(motion: &Trajectory) -> String {
             format!("gave up at tau = {}{swings}: {reason}", three(tau))
         }
     }
+}
+
+/// What becomes of a motion and why, in a sentence.
+fn verdict(fate: &Fate, motion: &Trajectory) -> String {
+    let why = match fate.place {
+        Place::InsideCycle => " (inside the unstable cycle)",
+        Place::OutsideCycle => " (outside the unstable cycle)",
+        Place::InsideSeparatrix => " (inside the separatrix)",
+        Place::OutsideSeparatrix => " (outside the separatrix)",
+        Place::Anywhere => "",
+    };
+    let three = |value| significant(value, 3);
+    let end = match (fate.end, motion.outcome) {
+        (End::OnTheEdge { distance }, _) => {
+            let distance = significant(distance, 1);
+            return format!("on the unstable cycle to {distance}: decided by rounding");
+        }
+        (End::Rests, Outcome::Captured { .. }) if motion.crossings.is_empty() => {
+            return sentence(motion);
+        }
+        (End::Rests, Outcome::Captured { q, .. }) => {
+            format!("comes to rest at q = {}{}", three(q), swings(motion))
+        }
+        (End::Rests, _) => format!("comes to rest, after tau = {}", three(motion.problem.until)),
+        (End::Onto { q_max, grows: true }, _) => {
+            format!("grows onto the stable cycle, q_max {}", significant(q_max, 4))
+        }
+        (End::Onto { q_max, .. }, _) => {
+            format!("falls onto the stable cycle, q_max {}", significant(q_max, 4))
+        }
+        (End::Grows, Outcome::Escaped { tau }) => {
+            format!("escapes at tau = {}{}", significant(tau, 4), swings(motion))
+        }
+        (End::Grows, _) => "grows without bound".to_owned(),
+        (End::Decays, _) => "decays towards the equilibrium".to_owned(),
+    };
+    end + why
+}
+
+/// After how many half swings.
+fn swings(motion: &Trajectory) -> String {
+    match motion.crossings.len() {
+        0 => String::new(),
+        1 => " after 1 half swing".to_owned(),
+        number => format!(" after {number} half swings"),
+    }
+}
+
+/// What the parameters say about kicks out of rest; `None` where that is not known.
+fn margin(session: &Session) -> Option<String> {
+    let found = session.cycles().filter(|_| !session.is_stale(Slot::Cycles, session.plot))?;
+    if found.parameters.r == 0.0 {
+        return None;
+    }
+    if found.edge == Edge::None {
+        return Some("every kick is survived".to_owned());
+    }
+    let picture = found.picture.as_ref()?;
+    let (q, v) = (picture.margin.displacement?, picture.margin.impulse?);
+    let proved = match picture.lyapunov_share {
+        Some(share) if share <= 1.0 => {
+            format!(" (Lyapunov proves {} %)", significant(100.0 * share, 2))
+        }
+        Some(_) => " (Lyapunov: not valid)".to_owned(),
+        None => String::new(),
+    };
+    let [q, v] = [q, v].map(|value| significant(value, 4));
+    Some(format!("survives kicks up to q {q} or v {v}{proved}"))
 }
 
 /// How the motion was computed, what it cost, and its error: measured while the dial is in use, else

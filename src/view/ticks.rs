@@ -7,6 +7,7 @@
 #![expect(
     clippy::cast_possible_truncation,
     clippy::cast_possible_wrap,
+    clippy::cast_precision_loss,
     reason = "powers of ten and counts of ticks are small, whatever the axis"
 )]
 
@@ -30,6 +31,42 @@ pub struct Ticks {
     pub ticks: Vec<Tick>,
 }
 
+/// What the numbers along an axis stand for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Scale {
+    /// Themselves.
+    #[default]
+    Even,
+    /// Decimal logarithms of a quantity, whose own values are labelled.
+    Logarithmic,
+    /// The same of a negative quantity's magnitude.
+    NegativeLogarithmic,
+}
+
+impl Scale {
+    /// What the numbers along the axis of a quantity are called in files.
+    #[must_use]
+    pub fn of_numbers(self, name: &str) -> String {
+        match self {
+            Scale::Even => name.to_owned(),
+            Scale::Logarithmic => format!("log10 {name}"),
+            Scale::NegativeLogarithmic => format!("log10 -{name}"),
+        }
+    }
+}
+
+/// Digits within a decade, and every how many decades they are labelled; the finest first.
+const DECADES: [(&[i64], usize); 8] = [
+    (&[1, 2, 5], 1),
+    (&[1], 1),
+    (&[1], 2),
+    (&[1], 3),
+    (&[1], 5),
+    (&[1], 10),
+    (&[1], 20),
+    (&[1], 100),
+];
+
 /// Most ticks that are ever considered: more than any screen can label.
 const MOST: f64 = 60.0;
 
@@ -40,6 +77,32 @@ const ROUNDING: f64 = 1e-6;
 const DIGITS: i32 = 6;
 
 impl Ticks {
+    /// The finest ticks on an axis of this scale that `fit`: decades where the axis is logarithmic, and
+    /// round numbers between them where it is too short for two decades.
+    #[must_use]
+    pub fn on(scale: Scale, axis: Span, fit: impl Fn(&[Tick]) -> bool) -> Self {
+        let sign = match scale {
+            Scale::Even => return Ticks::fitting(axis, fit),
+            Scale::Logarithmic => "",
+            Scale::NegativeLogarithmic => "-",
+        };
+        let decades = DECADES.iter().map(|(digits, every)| decades(axis, sign, digits, *every));
+        let fitting = decades.into_iter().find(|ticks| fit(ticks));
+        if let Some(ticks) = fitting.filter(|ticks| ticks.len() > 1) {
+            return Ticks { base: None, ticks };
+        }
+        let Ok(values) = Span::new(10_f64.powf(axis.from()), 10_f64.powf(axis.to())) else {
+            return Ticks { base: None, ticks: Vec::new() };
+        };
+        let bent = |ticks: &[Tick]| -> Vec<Tick> {
+            let place = |tick: &Tick| axis.fraction(values.at(tick.fraction).log10());
+            let label = |tick: &Tick| format!("{sign}{}", tick.label);
+            ticks.iter().map(|tick| Tick { fraction: place(tick), label: label(tick) }).collect()
+        };
+        let even = Ticks::fitting(values, |ticks| fit(&bent(ticks)));
+        Ticks { base: even.base.clone(), ticks: bent(&even.ticks) }
+    }
+
     /// The finest ticks that `fit`; none at all if not even a single one fits.
     #[must_use]
     pub fn fitting(axis: Span, fit: impl Fn(&[Tick]) -> bool) -> Self {
@@ -52,6 +115,21 @@ impl Ticks {
             step = step.coarser();
         }
     }
+}
+
+/// Ticks at these digits of every so many decades, on an axis of decimal logarithms.
+fn decades(axis: Span, sign: &str, digits: &[i64], every: usize) -> Vec<Tick> {
+    let (first, last) = (axis.from().floor() as i32, axis.to().ceil() as i32);
+    let numbers = (first..=last)
+        .filter(|power| (power.unsigned_abs() as usize).is_multiple_of(every))
+        .flat_map(|power| digits.iter().map(move |digit| (*digit, power)));
+    let tick = |(digit, power): (i64, i32)| Tick {
+        fraction: axis.fraction(f64::from(power) + (digit as f64).log10()),
+        label: format!("{sign}{}", label(digit, power, digit, false)),
+    };
+    let on_the_axis = |tick: &Tick| (-ROUNDING..=1.0 + ROUNDING).contains(&tick.fraction);
+    let clamped = |tick: Tick| Tick { fraction: tick.fraction.clamp(0.0, 1.0), ..tick };
+    numbers.map(tick).filter(on_the_axis).map(clamped).collect()
 }
 
 /// A distance between ticks: `digit * 10^power` with digit 1, 2 or 5.
@@ -178,6 +256,31 @@ mod tests {
         assert_eq!(labels(0.0, 10.0, 6), ["0", "2", "4", "6", "8", "10"]);
         assert_eq!(labels(-0.012, 0.001, 4), ["-0.010", "-0.005", "0"]);
         assert_eq!(labels(0.0, 40_000.0, 5), ["0", "10000", "20000", "30000", "40000"]);
+    }
+
+    #[test]
+    fn decades_of_a_logarithmic_axis_are_labelled_by_their_values() {
+        let on = |scale, low: f64, high: f64, most: usize| {
+            let ticks = Ticks::on(scale, span(low, high), |ticks| ticks.len() <= most).ticks;
+            ticks.into_iter().map(|tick| (tick.label, tick.fraction)).collect::<Vec<_>>()
+        };
+        let names = |ticks: &[(String, f64)]| -> Vec<String> {
+            ticks.iter().map(|(label, _)| label.clone()).collect()
+        };
+        let scale = Scale::Logarithmic;
+        assert_eq!(names(&on(scale, -2.0, 0.0, 4)), ["0.01", "0.1", "1"]);
+        assert_eq!(names(&on(Scale::NegativeLogarithmic, -2.0, 0.0, 4)), ["-0.01", "-0.1", "-1"]);
+        assert_eq!(names(&on(scale, -1.0, 0.0, 4)), ["0.1", "0.2", "0.5", "1"]);
+        assert_eq!(
+            names(&on(scale, -6.0, 4.0, 6)),
+            ["1e-6", "0.0001", "0.01", "1", "100", "10000"]
+        );
+        // Too short for two decades or their parts: round values.
+        assert_eq!(names(&on(scale, 0.1, 0.28, 4)), ["1.4", "1.6", "1.8"]);
+        for (label, fraction) in on(scale, -3.3, 2.2, 9) {
+            let value: f64 = label.parse().unwrap();
+            assert!((value.log10() - (-3.3 + 5.5 * fraction)).abs() < 1e-9, "{label} {fraction}");
+        }
     }
 
     #[test]

@@ -17,7 +17,7 @@ use crate::study::trade::{Row, Trade};
 pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     let session::Plot { window, cursor, .. } = session.plots[index];
     let title = View::Trade.spec().title;
-    let mut picture = Picture::new(title, "lg evaluations", "lg error", window);
+    let mut picture = Picture::new(title, "evaluations", "error", window);
     picture.reading = session.row_under_cursor(index).map(words);
     if let Some(found) = session.trade() {
         if session.layers.contains(&Layer::Rows) {

@@ -84,15 +84,22 @@ impl Surroundings {
         };
         let of_pairs =
             |points: &Vec<[f64; 2]>| spots(&mut points.iter().map(|[x, y]| Point { x: *x, y: *y }));
+        // Asymptotes and the line of the present value are there to be read against too.
+        let sparse = panel.curves.iter().filter(|curve| curve.style == "sparse");
         Surroundings {
             // A bar may run through its own name.
             curves: panel
                 .curves
                 .iter()
-                .filter(|curve| curve.style != "thick")
+                .filter(|curve| curve.style != "thick" && curve.style != "sparse")
                 .map(|curve| of_pairs(&curve.points))
                 .collect(),
-            guides: panel.guides.iter().map(|guide| spots(&mut guide.iter().copied())).collect(),
+            guides: panel
+                .guides
+                .iter()
+                .map(|guide| spots(&mut guide.iter().copied()))
+                .chain(sparse.map(|curve| of_pairs(&curve.points)))
+                .collect(),
             marks: panel
                 .marks
                 .iter()
@@ -104,7 +111,7 @@ impl Surroundings {
     /// How bad a place is for a text that belongs to a spot; 0 is perfect.
     fn harm(&self, place: &Place, spot: Spot, taken: &[Place]) -> f64 {
         /// Harm of covering another text, a mark, a curve, a line that is there to be read against.
-        const COVERED: [f64; 4] = [1000.0, 12.0, 10.0, 1.0];
+        const COVERED: [f64; 4] = [1000.0, 12.0, 30.0, 1.0];
         /// Harm of standing nearer to another curve than to its own, within so many pixels.
         const MISTAKEN: (f64, f64) = (8.0, 16.0);
         let nearest = |spots: &[Spot]| {
@@ -154,7 +161,10 @@ fn places<'a>(panel: &'a Panel, frame: Frame) -> Vec<(&'a Caption, Place)> {
     let surroundings = Surroundings::of(panel, frame);
     let mut placed: Vec<(&'a Caption, Place)> = Vec::new();
     let mut taken: Vec<Place> = Vec::new();
-    for caption in &panel.captions {
+    // What names a point has few places to go to and comes first.
+    let (points, curves): (Vec<_>, Vec<_>) =
+        panel.captions.iter().partition(|caption| caption.or_at.is_empty());
+    for caption in points.into_iter().chain(curves) {
         let said =
             |other: &&(&Caption, Place)| (other.0.at, &other.0.text) == (caption.at, &caption.text);
         if !frame.window.contains(caption.at) || placed.iter().find(said).is_some() {

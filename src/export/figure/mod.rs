@@ -33,6 +33,7 @@ use crate::scene::{Point, Window};
 use crate::session::Session;
 use crate::view::look::Role;
 use crate::view::picture;
+use crate::view::ticks::Scale;
 
 /// The form in which a figure is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -129,6 +130,12 @@ pub struct Panel {
     pub areas: Vec<Area>,
     /// Points with a meaning.
     pub marks: Vec<Mark>,
+    /// What stands beside the axes: where they are logarithmic, the quantities themselves.
+    #[serde(skip)]
+    pub names: [String; 2],
+    /// What the numbers along both axes stand for.
+    #[serde(skip)]
+    pub scales: [Scale; 2],
     /// The part of the world on show.
     #[serde(skip)]
     pub window: Window,

@@ -9,23 +9,26 @@ use crate::scene::{Point, View, Window};
 use crate::session::{Plot, Session, Shown};
 use crate::view::dots::Dash;
 use crate::view::look::Role;
-use crate::view::picture::{self, Item, Line, Picture};
+use crate::view::picture::{self, Item, Line, Picture, common};
+use crate::view::ticks::Scale;
 
 impl Panel {
     /// What a plot of a session shows, with every function sampled and everything once.
     #[must_use]
     pub fn of(session: &Session, plot: usize) -> Self {
         let picture = picture::of(session, plot);
-        let Picture { title, x, y, window, .. } = &picture;
-        let axis = |name: &str, span: crate::scene::Span| Axis {
-            name: name.to_owned(),
+        let Picture { title, x, y, scales, window, .. } = &picture;
+        let axis = |name: &str, scale: Scale, span: crate::scene::Span| Axis {
+            name: scale.of_numbers(name),
             from: span.from(),
             to: span.to(),
         };
         let mut panel = Panel {
             title: title.to_string(),
-            x: axis(x, window.x),
-            y: axis(y, window.y),
+            x: axis(x, scales[0], window.x),
+            y: axis(y, scales[1], window.y),
+            names: [x.to_string(), y.to_string()],
+            scales: *scales,
             curves: Vec::new(),
             areas: Vec::new(),
             marks: Vec::new(),
@@ -205,11 +208,6 @@ fn parameters_of(name: &str, shown: &[Shown], varied: &[Symbol]) -> BTreeMap<&'s
         .filter(|symbol| !varied.contains(symbol))
         .map(|symbol| (symbol.spec().name, symbol.get(&problem.parameters, &problem.initial)))
         .collect()
-}
-
-/// What a name says without the variant.
-pub(super) fn common(name: &str) -> &str {
-    name.split_once(", ").map_or(name, |(common, _)| common)
 }
 
 /// Takes the same thing of another variant in: what is left is what they have in common.

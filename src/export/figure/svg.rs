@@ -4,12 +4,11 @@ use std::fmt::Write;
 
 use super::data::remarks;
 use super::layout::{self, ENTRY, Frame, HEAD, MARGIN, PLOT};
-use super::panel::common;
 use super::region::loops;
 use super::{Area, Curve, Figure, Mark, Panel, captions};
 use crate::scene::Point;
 use crate::view::look::Role;
-use crate::view::picture;
+use crate::view::picture::{self, common, passes};
 use crate::view::ticks::Ticks;
 
 /// Width and colour of the lines of a role, on white paper.
@@ -179,6 +178,7 @@ fn shade(out: &mut String, areas: &[Area], frame: Frame) {
 fn shading(role: Role) -> (&'static str, f64) {
     match role {
         Role::Stable | Role::Unstable | Role::Field => (ink(role).1, 0.12),
+        Role::Sticking => (ink(role).1, 0.18),
         _ => ("#dbe7f3", 0.75),
     }
 }
@@ -246,8 +246,8 @@ fn axes(out: &mut String, panel: &Panel, frame: Frame) {
             "<text x=\"{x:.2}\" y=\"{y:.2}\" text-anchor=\"{anchor}\"{more}>{text}</text>"
         );
     };
-    let rightward = Ticks::fitting(window.x, |ticks| ticks.len() <= 7);
-    let mut upward = Ticks::fitting(window.y, |ticks| ticks.len() <= 7);
+    let rightward = Ticks::on(panel.scales[0], window.x, |ticks| ticks.len() <= 7);
+    let mut upward = Ticks::on(panel.scales[1], window.y, |ticks| ticks.len() <= 7);
     if panel.y.name.is_empty() {
         // What has no name is no quantity: a place on paper, the number of a line.
         upward.ticks.clear();
@@ -264,11 +264,11 @@ fn axes(out: &mut String, panel: &Panel, frame: Frame) {
     }
     text(left + width / 2.0, top - 9.0, "middle", " font-size=\"12.5\"", &panel.title);
     let italic = " font-style=\"italic\"";
-    let name = based(&panel.x.name, rightward.base.as_ref());
+    let name = based(&panel.names[0], rightward.base.as_ref());
     text(left + width / 2.0, bottom + 35.0, "middle", italic, &name);
     let (x, y) = (left - 46.0, top + height / 2.0);
     let turned = format!("{italic} transform=\"rotate(-90 {x:.2} {y:.2})\"");
-    text(x, y, "middle", &turned, &based(&panel.y.name, upward.base.as_ref()));
+    text(x, y, "middle", &turned, &based(&panel.names[1], upward.base.as_ref()));
     let mut notches = String::new();
     for tick in &rightward.ticks {
         let x = left + tick.fraction * width;
@@ -288,7 +288,8 @@ enum Entry {
     Area(String, Role),
 }
 
-/// Everything with a name, once; which of several variants a curve is stands beside it.
+/// Everything with a name that is seen, once; which of several variants a curve is stands beside it. An
+/// area whose edge has its name goes without saying.
 fn legend(figure: &Figure) -> Vec<Entry> {
     let common = |name: &str| common(name).to_owned();
     let mut entries = Vec::new();
@@ -299,12 +300,23 @@ fn legend(figure: &Figure) -> Vec<Entry> {
     };
     for panel in &figure.panels {
         for Curve { name, pen, style, points, .. } in &panel.curves {
-            if !points.is_empty() {
+            let points: Vec<Point> = points.iter().map(|[x, y]| Point { x: *x, y: *y }).collect();
+            if passes(&points, panel.window) {
                 add(Entry::Line(common(name), *pen, style));
             }
         }
         panel.areas.iter().for_each(|area| add(Entry::Area(common(&area.name), area.pen)));
     }
+    let lines: Vec<(String, Role)> = entries
+        .iter()
+        .filter_map(|entry| match entry {
+            Entry::Line(name, role, _) => Some((name.clone(), *role)),
+            Entry::Area(..) => None,
+        })
+        .collect();
+    let is_edged =
+        |name: &str, role: Role| lines.iter().any(|line| *line == (name.to_owned(), role));
+    entries.retain(|entry| !matches!(entry, Entry::Area(name, role) if is_edged(name, *role)));
     entries
 }
 

@@ -10,7 +10,7 @@ use ratatui::layout::{Position, Rect};
 
 use crate::scene::{Point, Span, Window};
 use crate::view::number::resolved;
-use crate::view::ticks::{Tick, Ticks};
+use crate::view::ticks::{Scale, Tick, Ticks};
 
 /// Smallest area in which axes stand outside the picture; below it labels lie inside.
 const ROOMY: (u16, u16) = (22, 9);
@@ -31,13 +31,13 @@ pub(super) struct Geometry {
 }
 
 impl Geometry {
-    pub fn of(area: Rect, window: Window, upward: Option<Ticks>) -> Self {
+    pub fn of(area: Rect, window: Window, scales: [Scale; 2], upward: Option<Ticks>) -> Self {
         let body = Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area };
         let roomy = body.width >= ROOMY.0 && body.height >= ROOMY.1;
         let rows = rows(area);
         let most = usize::from(rows / 3).clamp(2, 9);
         let upward =
-            upward.unwrap_or_else(|| Ticks::fitting(window.y, |ticks| ticks.len() <= most));
+            upward.unwrap_or_else(|| Ticks::on(scales[1], window.y, |ticks| ticks.len() <= most));
         let widest = upward.ticks.iter().map(|tick| tick.label.len()).max().unwrap_or(0) as u16;
         let gutter = if roomy { (widest + 1).max(GUTTER) } else { 0 };
         let inner = Rect {
@@ -46,7 +46,7 @@ impl Geometry {
             height: rows,
             ..body
         };
-        let spaced = |gap| Ticks::fitting(window.x, |ticks| apart(ticks, inner.width, gap));
+        let spaced = |gap| Ticks::on(scales[0], window.x, |ticks| apart(ticks, inner.width, gap));
         // Two ticks make a scale: rather closer together than only one.
         let rightward = Some(spaced(3)).filter(|ticks| ticks.ticks.len() > 1).unwrap_or(spaced(1));
         Geometry { inner, roomy, rightward, upward }
@@ -68,10 +68,11 @@ pub fn rows(area: Rect) -> u16 {
 pub fn point_at(
     area: Rect,
     window: Window,
+    scales: [Scale; 2],
     upward: Option<Ticks>,
     cell: Position,
 ) -> Option<Point> {
-    let Geometry { inner, .. } = Geometry::of(area, window, upward);
+    let Geometry { inner, .. } = Geometry::of(area, window, scales, upward);
     if !inner.contains(cell) {
         return None;
     }

@@ -24,7 +24,7 @@ use super::dots::{Dash, Dots, Pen};
 use super::look::{Look, Role};
 use super::number::resolved;
 use super::pane;
-use super::ticks::{Tick, Ticks};
+use super::ticks::{Scale, Tick, Ticks};
 use crate::scene::{Point, Window};
 use crate::session::settings::Glyphs;
 
@@ -37,6 +37,8 @@ pub struct Names<'a> {
     pub x: &'a str,
     /// Its vertical axis; empty where heights mean nothing.
     pub y: &'a str,
+    /// What the numbers along both axes stand for.
+    pub scales: [Scale; 2],
     /// Marks on the vertical axis in place of round numbers.
     pub marks: Option<Ticks>,
 }
@@ -72,7 +74,7 @@ impl<'a> Plot<'a> {
         buffer: &mut Buffer,
     ) -> Self {
         let Geometry { inner, roomy, rightward, mut upward } =
-            Geometry::of(area, window, names.marks);
+            Geometry::of(area, window, names.scales, names.marks);
         let (x, y) = (named(names.x, &rightward), named(names.y, &upward));
         let axes = if names.y.is_empty() {
             // Heights without meaning have no scale.

@@ -52,7 +52,7 @@ pub(super) fn press(session: &mut Session, keys: &str) {
 
 /// Whether a layer belongs to single figures and would be drawn over the others.
 pub(super) fn drawn_over(layer: Layer) -> bool {
-    matches!(layer, Layer::Extents | Layer::Eigenvalues | Layer::Levels | Layer::Spirals)
+    matches!(layer, Layer::Extents | Layer::Levels | Layer::Spirals)
 }
 
 pub(super) fn by_hand(request: &Request) -> Answer {
@@ -77,7 +77,10 @@ pub(super) fn by_hand(request: &Request) -> Answer {
                 values: (0..measured)
                     .map(|column| match index % 7 {
                         3 => Value::Nothing,
-                        _ => Value::Count(index * (column + 1)),
+                        // Many digits, so that a cut shows.
+                        _ => Value::Number(
+                            0.010_030_5 * f64::from(u32::try_from(index * (column + 1)).unwrap()),
+                        ),
                     })
                     .collect(),
                 reason: (index == 17).then(|| "edge: budget of 40 evaluations spent".to_owned()),

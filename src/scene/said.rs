@@ -1,0 +1,93 @@
+//! What a scene says, as far as it holds for what is on show.
+//!
+//! A text has parts in brackets, `[two grows: The swings grow onto the outer cycle.]`, each of which holds where
+//! all the conditions before its colon do. What stands outside of brackets holds everywhere.
+
+/// What a part of a text may depend on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Condition {
+    /// The numbers are those that the scene opens with.
+    Here,
+    /// The plots show what they do when the scene opens.
+    Opened,
+    /// There is an unstable cycle.
+    Unstable,
+    /// There is a stable cycle.
+    Stable,
+    /// A motion that just escapes borders the basin.
+    Separatrix,
+    /// Every motion comes to rest.
+    Safe,
+    /// The motion on show comes to rest.
+    Rests,
+    /// The motion on show grows, onto a stable cycle or without bound.
+    Grows,
+}
+
+/// Every condition under its name in scene files; `two` is one of both kinds of cycles.
+pub const CONDITIONS: [(&str, &[Condition]); 9] = [
+    ("here", &[Condition::Here]),
+    ("opened", &[Condition::Opened]),
+    ("unstable", &[Condition::Unstable]),
+    ("stable", &[Condition::Stable]),
+    ("two", &[Condition::Unstable, Condition::Stable]),
+    ("separatrix", &[Condition::Separatrix]),
+    ("safe", &[Condition::Safe]),
+    ("rests", &[Condition::Rests]),
+    ("grows", &[Condition::Grows]),
+];
+
+/// A text without the parts whose conditions do not hold. Brackets that hold no conditions are left as they
+/// are.
+#[must_use]
+pub fn said(text: &str, holds: impl Fn(Condition) -> bool) -> String {
+    let mut out = String::new();
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once('[') {
+        out.push_str(before);
+        let part = after.split_once(']').and_then(|(part, after)| {
+            let (names, said) = part.split_once(": ")?;
+            Some((conditions(names)?, said, after))
+        });
+        let Some((conditions, said, after)) = part else {
+            out.push('[');
+            rest = after;
+            continue;
+        };
+        if conditions.into_iter().all(&holds) {
+            out.push_str(said);
+            rest = after;
+        } else {
+            // One of the blanks around it goes with it.
+            rest = if out.ends_with(' ') || out.is_empty() { after.trim_start() } else { after };
+        }
+    }
+    out.push_str(rest);
+    out.truncate(out.trim_end().len());
+    out
+}
+
+/// The conditions with these names; `None` if one is not known.
+fn conditions(names: &str) -> Option<Vec<Condition>> {
+    let known = |name: &str| CONDITIONS.iter().find(|row| row.0 == name).map(|row| row.1);
+    let found: Option<Vec<_>> = names.split_whitespace().map(known).collect();
+    Some(found?.concat()).filter(|conditions| !conditions.is_empty())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_stand_where_all_their_conditions_hold() {
+        let text = "Always. [two grows: It grows.] [safe: It rests.] End [0, 1] [x: y].";
+        let with = |conditions: &[Condition]| said(text, |one| conditions.contains(&one));
+        assert_eq!(with(&[]), "Always. End [0, 1] [x: y].");
+        assert_eq!(with(&[Condition::Safe]), "Always. It rests. End [0, 1] [x: y].");
+        assert_eq!(with(&[Condition::Unstable, Condition::Grows]), with(&[]));
+        let all = [Condition::Unstable, Condition::Stable, Condition::Grows];
+        assert_eq!(with(&all), "Always. It grows. End [0, 1] [x: y].");
+        assert_eq!(said("[safe: Gone.] Left.", |_| false), "Left.");
+        assert_eq!(said("All rest[unstable: , but some]. [safe: Yes.]", |_| false), "All rest.");
+    }
+}

@@ -1,0 +1,77 @@
+//! Rest in a bifurcation diagram: with friction the sticking set, a band that attracts; without, the
+//! equilibrium at 0, stable on one side of the Hopf point and unstable on the other.
+
+use super::diagram::at;
+use super::dots::Dash;
+use super::look::Role;
+use super::phase_plane::{named, stability};
+use super::picture::{Fill, Item, Line, Pattern, Picture};
+use crate::oscillator::{Parameters, Symbol};
+use crate::scene::{Height, Ordinate};
+use crate::session::Shown;
+
+/// What stands where the motion rests.
+const REST: &str = "rest (attracts)";
+
+/// Draws where one of the motions of a diagram can rest; nothing where the ordinate is no property of a
+/// rest (its period, its multiplier).
+pub fn draw(picture: &mut Picture, shown: &Shown, abscissa: Symbol, height: Height) {
+    let has_band = match height.ordinate {
+        Ordinate::QMax | Ordinate::QMin | Ordinate::Mean => true,
+        Ordinate::VMax | Ordinate::Amplitude => false,
+        Ordinate::Period | Ordinate::Multiplier => return,
+    };
+    if shown.problem.parameters.r == 0.0 && abscissa != Symbol::R {
+        // There is no height in units of a friction that is zero.
+        if !height.is_ratio() {
+            point(picture, shown, abscissa);
+        }
+        return;
+    }
+    let line = Line::new(named(REST, &shown.label), Role::Sticking, Dash::Solid);
+    if !has_band {
+        return picture.level(line, 0.0);
+    }
+    let of = shown.clone();
+    let edge = move |value: f64| {
+        let r = at(&of, abscissa, value).r;
+        let unit = if height.is_ratio() { r } else { 1.0 };
+        (r >= 0.0 && unit > 0.0).then_some(r / unit)
+    };
+    let (upper, lower) = (edge.clone(), edge.clone());
+    let band = edge(picture.window.x.from()).filter(|_| abscissa != Symbol::R);
+    if abscissa == Symbol::R {
+        let fill = Fill { pattern: Pattern::Shade, role: Role::Sticking, name: REST };
+        let within = move |place: crate::scene::Point| {
+            edge(place.x).filter(|edge| place.y.abs() <= *edge).map(|_| fill)
+        };
+        picture.items.push(Item::Texture(Box::new(within)));
+    }
+    picture.graph(line.clone(), upper);
+    if picture.window.y.from() < 0.0 {
+        picture.graph(line.clone(), move |value| lower(value).map(|edge| -edge));
+    }
+    if let Some(edge) = band {
+        picture.items.push(Item::Rows(line, -edge, edge));
+    }
+}
+
+/// Whether the equilibrium without friction is stable: decided by the eigenvalues (9), on the imaginary axis
+/// by cubic damping, whatever D2 (its first integral grows or falls with D3 alone); `None` for a centre.
+fn is_stable(parameters: &Parameters) -> Option<bool> {
+    let Parameters { d, d3, .. } = *parameters;
+    let decisive = if d == 0.0 { d3 } else { d };
+    (decisive != 0.0).then_some(decisive > 0.0)
+}
+
+/// The equilibrium at 0 without friction.
+fn point(picture: &mut Picture, shown: &Shown, abscissa: Symbol) {
+    for stable in [true, false] {
+        let (role, dash) = stability(stable);
+        let name = if stable { "rest (stable)" } else { "rest (unstable)" };
+        let of = shown.clone();
+        picture.graph(Line::new(named(name, &shown.label), role, dash), move |value| {
+            (is_stable(&at(&of, abscissa, value)) == Some(stable)).then_some(0.0)
+        });
+    }
+}

@@ -1,0 +1,193 @@
+//! A scan over two parameters: a map of shades of one hue, the stronger the more dangerous.
+//!
+//! Where values spread over several decades, each shade takes an equal part of their logarithms.
+
+use ratatui::buffer::Buffer;
+use ratatui::text::{Line, Span};
+
+use super::look::{Look, Role};
+use super::number::significant;
+use super::plot::Plot;
+use super::scan::{fitting, measured};
+use crate::scene::Point;
+use crate::session::scan::{Scanned, WORDS};
+use crate::session::settings::Glyphs;
+use crate::study::scan::Sweep;
+
+/// Columns of measures of which the small values are the dangerous ones; of all others the large are.
+const SMALL_IS_DANGEROUS: [&str; 4] = ["displacement", "impulse", "captured_part", "area"];
+
+/// Shades from the weakest to the strongest, and the letters that do without colour.
+const SHADES: &str = "\u{b7}\u{2591}\u{2592}\u{2593}\u{2588}";
+const LETTERS: &str = ".-+*#";
+
+/// The shades of words, in the order of [`WORDS`].
+const OF_WORDS: [(char, Role); 4] =
+    [('.', Role::Stable), ('o', Role::Trajectory), ('^', Role::Unstable), ('?', Role::Warning)];
+
+/// Where there is a row but no number.
+const NOTHING: char = '-';
+
+/// Ratio of the largest to the smallest value from which on shades are parts of a logarithm.
+const SPREAD: f64 = 30.0;
+
+/// The shades of a map and the values between which each stands, from the smallest value up.
+struct Ramp {
+    shades: Vec<char>,
+    low: f64,
+    high: f64,
+    logarithmic: bool,
+}
+
+impl Ramp {
+    fn of(scanned: &Scanned, look: &Look) -> Option<Self> {
+        let (low, high) = scanned.range()?;
+        let plain = look.glyphs == Glyphs::Ascii;
+        let mut shades: Vec<char> = if plain { LETTERS } else { SHADES }.chars().collect();
+        if SMALL_IS_DANGEROUS.contains(&measured(scanned)) {
+            shades.reverse();
+        }
+        Some(Ramp { shades, low, high, logarithmic: low > 0.0 && high / low >= SPREAD })
+    }
+
+    fn shade(&self, value: f64) -> char {
+        let part = if self.logarithmic {
+            (value / self.low).ln() / (self.high / self.low).ln()
+        } else {
+            (value - self.low) / (self.high - self.low)
+        };
+        let last = self.shades.len() - 1;
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            clippy::cast_precision_loss,
+            reason = "a part of a few shades"
+        )]
+        let step = if part.is_finite() { (part * self.shades.len() as f64) as usize } else { 0 };
+        self.shades[step.min(last)]
+    }
+
+    /// The value at which a shade begins.
+    #[expect(clippy::cast_precision_loss, reason = "a few shades")]
+    fn begin(&self, step: usize) -> f64 {
+        let part = step as f64 / self.shades.len() as f64;
+        if self.logarithmic {
+            self.low * (self.high / self.low).powf(part)
+        } else {
+            self.low + (self.high - self.low) * part
+        }
+    }
+}
+
+/// Fills each cell with the shade of the point nearest to it.
+pub fn draw(plot: &Plot, scanned: &Scanned, look: &Look, buffer: &mut Buffer) {
+    let words = scanned.plots_words();
+    let ramp = Ramp::of(scanned, look);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "number of a word")]
+    let shade = |value: f64| match &ramp {
+        _ if words => OF_WORDS[(value as usize).min(OF_WORDS.len() - 1)],
+        Some(ramp) => (ramp.shade(value), Role::Danger),
+        None => (NOTHING, Role::Quiet),
+    };
+    let over = scanned.scan.over();
+    // Of more than two parameters the others stay at their first values.
+    let stride: usize = over[2..].iter().map(|sweep| sweep.count).product();
+    let inner = plot.inner();
+    for column in 0..inner.width {
+        for row in 0..inner.height {
+            let Point { x, y } = plot.world(column, row);
+            let (across, upward) = (nearest(&over[0], x), nearest(&over[1], y));
+            let (Some(across), Some(upward)) = (across, upward) else { continue };
+            let index = (across * over[1].count + upward) * stride;
+            if index >= scanned.rows.len() {
+                continue;
+            }
+            let (symbol, role) = scanned.height(index).map_or((NOTHING, Role::Quiet), shade);
+            let cell = &mut buffer[(inner.x + column, inner.y + row)];
+            cell.set_char(symbol).set_style(look.style(role));
+        }
+    }
+}
+
+/// What the shades mean, whole in `width` columns: with the value at which each begins, else with the
+/// smallest and the largest alone.
+pub fn legend(scanned: &Scanned, width: usize, look: &Look) -> Line<'static> {
+    let name = measured(scanned);
+    let none = if (0..scanned.rows.len()).any(|index| scanned.height(index).is_none()) {
+        format!("  {NOTHING} none")
+    } else {
+        String::new()
+    };
+    let texts: Vec<String> = if scanned.plots_words() {
+        let words =
+            OF_WORDS.iter().zip(WORDS).map(|((symbol, _), word)| format!("{symbol} {word}"));
+        let words = words.collect::<Vec<_>>().join("  ");
+        vec![format!(" {name} {words}{none}"), format!(" {words}")]
+    } else if let Some(ramp) = Ramp::of(scanned, look) {
+        let begins = |(step, shade): (usize, &char)| {
+            format!("{} {shade} ", significant(ramp.begin(step), 3))
+        };
+        let all: String = ramp.shades.iter().enumerate().map(begins).collect();
+        let [low, high] = [ramp.low, ramp.high].map(|value| significant(value, 4));
+        let bare: String = ramp.shades.iter().collect();
+        vec![
+            format!(" {name} {all}{high}{none}"),
+            format!(" {name} {low} {bare} {high}{none}"),
+            format!(" {low} {bare} {high}{none}"),
+            format!(" {low} {bare} {high}"),
+        ]
+    } else {
+        vec![format!(" {name}{none}")]
+    };
+    let text = fitting(texts, width);
+    let role = |letter: char| {
+        let word = OF_WORDS.iter().find(|(symbol, _)| *symbol == letter);
+        if scanned.plots_words() {
+            word.map_or(Role::Quiet, |(_, role)| *role)
+        } else if SHADES.contains(letter) {
+            Role::Danger
+        } else {
+            Role::Quiet
+        }
+    };
+    let alone = |at: usize| {
+        let around = [at.checked_sub(1), at.checked_add(1)];
+        around
+            .into_iter()
+            .flatten()
+            .all(|at| text.chars().nth(at).is_none_or(|it| !it.is_alphanumeric()))
+    };
+    let span = |(at, letter): (usize, char)| {
+        let role = if alone(at) { role(letter) } else { Role::Quiet };
+        Span::styled(letter.to_string(), look.style(role))
+    };
+    text.chars().enumerate().map(span).collect::<Vec<_>>().into()
+}
+
+/// Which value of a sweep a place on its axis belongs to; none beyond half a step of its ends.
+fn nearest(sweep: &Sweep, place: f64) -> Option<usize> {
+    let last = sweep.count - 1;
+    let [from, to] = [0, last].map(|index| Scanned::coordinate(sweep, index));
+    #[expect(clippy::cast_precision_loss, reason = "at most a million")]
+    let steps = (place - from) / (to - from) * last as f64;
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "within the sweep, as has just been seen"
+    )]
+    let index = (steps >= -0.5 && steps.is_finite()).then_some((steps + 0.5) as usize);
+    index.filter(|index| *index <= last)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::measure::MEASURES;
+
+    #[test]
+    fn what_is_dangerous_when_small_is_measured() {
+        for name in SMALL_IS_DANGEROUS {
+            assert!(MEASURES.iter().any(|row| row.columns.contains(&name)), "{name}");
+        }
+    }
+}

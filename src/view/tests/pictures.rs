@@ -1,0 +1,171 @@
+//! Facts about what pictures show: rest in every diagram, names of what is drawn, maps of what is dangerous.
+
+use super::by_hand::{press, settle};
+use super::{braille, draw, letters, settled};
+use crate::export::screen::text;
+use crate::flow::Limits;
+use crate::oscillator::Symbol;
+use crate::scene::answer::answer;
+use crate::scene::library::{find, library};
+use crate::scene::{Answered, Ordinate, Point, View};
+use crate::session::{Msg, Session, Size, update};
+use crate::view::dots::Dash;
+use crate::view::look::{Look, Role};
+use crate::view::picture::{self, Item, Line};
+
+/// A scene whose questions about branches are answered by computation.
+fn computed(scene: &str) -> Session {
+    let mut session = Session::new(find(scene).unwrap(), Size { width: 120, height: 40 });
+    for request in session.wants() {
+        let result = Ok(answer(&request, &Limits::default()).unwrap());
+        let answered = Answered { request, result, seconds: 0.0, complete: true };
+        update(&mut session, Msg::Answered(Box::new(answered)));
+    }
+    session
+}
+
+/// The heights of what is called rest at a value of the parameter of a diagram, with its line.
+fn rests(session: &Session, index: usize, at: f64) -> Vec<(Line, f64)> {
+    let picture = picture::of(session, index);
+    let heights = picture.items.iter().filter_map(|item| match item {
+        Item::Graph(line, value) if line.name.starts_with("rest") => {
+            Some((line.clone(), value(at)?))
+        }
+        _ => None,
+    });
+    heights.collect()
+}
+
+#[test]
+fn rest_is_in_every_bifurcation_diagram() {
+    let mut looked = 0;
+    for scene in library() {
+        let session = Session::new(scene.clone(), Size { width: 120, height: 40 });
+        let diagrams = session.plots.iter().enumerate().filter(|(_, it)| it.view == View::Diagram);
+        for (index, plot) in diagrams {
+            for shown in session.shown(index) {
+                let own: Vec<_> = [plot.window.x.from(), plot.window.x.to()]
+                    .into_iter()
+                    .filter(|at| plot.axes.abscissa != Symbol::D || *at != 0.0)
+                    .flat_map(|at| {
+                        let found = rests(&session, index, at);
+                        let ours = |(line, _): &(Line, f64)| line.name.ends_with(&shown.label);
+                        found
+                            .into_iter()
+                            .filter(ours)
+                            .map(move |found| (at, found))
+                            .collect::<Vec<_>>()
+                    })
+                    .collect();
+                assert!(!own.is_empty(), "{} {index}: {:?}", scene.name, shown.label);
+                let r = shown.problem.parameters.r;
+                for (at, (line, height)) in own {
+                    let unit = if plot.axes.label().ends_with("/r") { r } else { 1.0 };
+                    let band = matches!(plot.axes.ordinate, Ordinate::QMax | Ordinate::Mean);
+                    let expected = if band { r / unit } else { 0.0 };
+                    assert!((height.abs() - expected).abs() < 1e-15, "{}: {height}", scene.name);
+                    // Without friction the equilibrium is stable to the right of the Hopf point.
+                    let pen = match (r > 0.0, at > 0.0) {
+                        (true, _) => (Role::Sticking, Dash::Solid),
+                        (false, true) => (Role::Stable, Dash::Solid),
+                        (false, false) => (Role::Unstable, Dash::Dashed),
+                    };
+                    assert_eq!((line.role, line.dash), pen, "{} at {at}", scene.name);
+                    looked += 1;
+                }
+            }
+        }
+    }
+    assert!(looked > 60, "{looked}");
+}
+
+#[test]
+fn an_h_stands_only_where_a_hopf_point_is() {
+    let letters_h = |session: &Session| -> Vec<Point> {
+        let pictures = (0..session.plots.len()).map(|index| picture::of(session, index));
+        let captions = pictures.flat_map(|picture| {
+            let h = |item: &Item| match item {
+                Item::Caption { at, short, .. } if short == "H" => Some(*at),
+                _ => None,
+            };
+            picture.items.iter().filter_map(h).collect::<Vec<_>>()
+        });
+        captions.collect()
+    };
+    let frictionless = letters_h(&computed("hopf"));
+    assert!(frictionless.iter().all(|at| at.x == 0.0 && at.y == 0.0), "{frictionless:?}");
+    assert_eq!(frictionless.len(), 1);
+    for scene in ["supercritical", "subcritical", "regimes", "fig10", "fig16b"] {
+        assert_eq!(letters_h(&computed(scene)), [], "{scene}");
+    }
+}
+
+#[test]
+fn the_legend_names_what_is_seen_and_nothing_else() {
+    let rows = |session: &Session, name: &str| {
+        let screen = text(&draw(session, letters()));
+        let is_entry = |line: &str| line.get(6..).is_some_and(|entry| entry.starts_with(name));
+        screen.lines().filter(|line| is_entry(line)).count()
+    };
+    let names = ["stable cycle", "unstable cycle", "rest (attracts)", "first harmonic"];
+    let mut session = settled("supercritical", 200, 60, "");
+    for name in names {
+        assert_eq!(rows(&session, name), 1, "{name}");
+    }
+    // Far out there are no cycles to see.
+    for plot in &mut session.plots {
+        plot.window.x = crate::scene::Span::new(50.0, 60.0).unwrap();
+    }
+    for name in ["stable cycle", "unstable cycle", "first harmonic", "motion"] {
+        assert_eq!(rows(&session, name), 0, "{name}");
+    }
+}
+
+/// The map of a scan of margins over D and r, and its session.
+fn map() -> Session {
+    let mut session = settled("supercritical", 100, 30, "");
+    let line = "scan D=-0.9:-0.1:9 r=log:0.01:1:9 margin";
+    let keys: Vec<String> = line
+        .chars()
+        .map(|key| match key {
+            ' ' => "<space>".to_owned(),
+            key => key.to_string(),
+        })
+        .collect();
+    press(&mut session, &format!(": {} <enter>", keys.join(" ")));
+    settle(&mut session);
+    session
+}
+
+#[test]
+fn a_map_labels_decades_and_is_the_stronger_the_more_dangerous_in_one_hue() {
+    let session = map();
+    let screen = text(&draw(&session, braille()));
+    for label in ["0.01", "0.1", "1"] {
+        let at_the_axis = |line: &str| line.contains(&format!(" {label}\u{2524}"));
+        assert!(screen.lines().any(at_the_axis), "{label}: {screen}");
+    }
+    assert!(!screen.contains("log10"), "{screen}");
+    assert!(screen.contains("r over D"), "{screen}");
+    let scanned = session.scanned.as_ref().unwrap();
+    let (low, high) = scanned.range().unwrap();
+    let legend =
+        screen.lines().rfind(|line| line.contains("displacement ") && line.contains('\u{2588}'));
+    let legend = legend.unwrap_or_else(|| panic!("{screen}"));
+    for value in [low, high] {
+        let three = crate::view::number::significant(value, 3);
+        assert!(legend.contains(&three), "{three}: {legend}");
+    }
+    // The smallest margin is the strongest shade, and comes first.
+    let strong = legend.find('\u{2588}').unwrap();
+    assert!(strong < legend.find('\u{2591}').unwrap(), "{legend}");
+    let look = Look::new(braille());
+    let buffer = draw(&session, braille());
+    let shades = buffer
+        .content
+        .iter()
+        .filter(|cell| "\u{2591}\u{2592}\u{2593}\u{2588}".contains(cell.symbol()));
+    let colours: Vec<_> = shades.map(|cell| cell.fg).collect();
+    let hue = look.style(Role::Danger).fg.unwrap();
+    assert!(!colours.is_empty() && colours.iter().all(|fg| *fg == hue));
+}
