@@ -235,3 +235,28 @@ fn keys_pressed_while_a_file_plays_are_not_mixed_into_it() {
     }
     leave(terminal);
 }
+
+#[test]
+fn keys_that_need_an_answer_end_on_the_same_screen_in_one_write_and_one_by_one() {
+    let memory = tempfile::tempdir().unwrap();
+    leave(explorer(&[], memory.path()));
+    for (scene, keys) in [
+        ("supercritical", &["\x1b[C", "\x1b[C", "i", "\x1b[C", "o"][..]),
+        ("supercritical", &[":set r=0.15\r", "\t", "\t", "w", "\x1b[C", "\t", "\r", "u"]),
+        ("linear", &["\"a", "\x1b[C", ":view trade\r", "\x1b[D", "\x1b[D", "\r", "'a"]),
+        ("fig17", &["\x1b[C", "\t", "0", "+", "H", "\x1b[A", "\r"]),
+    ] {
+        let end = |writes: &[String]| {
+            let mut terminal = explorer(&[scene], memory.path());
+            for keys in writes {
+                terminal.types(keys);
+                terminal.quiet(Duration::from_millis(400));
+            }
+            let last = screen(&terminal.text());
+            leave(terminal);
+            last
+        };
+        let one_by_one: Vec<String> = keys.iter().map(ToString::to_string).collect();
+        assert_eq!(end(&[keys.concat()]), end(&one_by_one), "{keys:?} in {scene}");
+    }
+}

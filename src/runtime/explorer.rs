@@ -59,7 +59,11 @@ impl Machine for Explorer {
     }
 
     fn is_moving(&self) -> bool {
-        self.session.is_playing()
+        self.session.is_moving()
+    }
+
+    fn is_waiting(&self) -> bool {
+        self.session.is_waiting()
     }
 
     fn asked(&self) -> u32 {

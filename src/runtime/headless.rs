@@ -76,7 +76,12 @@ pub fn play<M: Machine>(
             asked.clone_from(&wanted);
         }
         let screen = || export::screen::text(&picture::of(&machine, size));
-        match player.next(wanted.is_empty(), screen) {
+        let next = if machine.is_waiting() {
+            Ok(Action::Wait)
+        } else {
+            player.next(wanted.is_empty(), screen)
+        };
+        match next {
             Ok(Action::Give(msg)) => given = Some(msg),
             Ok(Action::Keep(name)) => kept.push((name, picture::of(&machine, size))),
             // The crew lives as long as its handle does, so there is a message.

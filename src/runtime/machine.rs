@@ -22,6 +22,11 @@ pub trait Machine {
         false
     }
 
+    /// Whether a press waits for an answer: then everything that the user does has to wait.
+    fn is_waiting(&self) -> bool {
+        false
+    }
+
     /// How many presses the last command took that asked for something outside.
     fn asked(&self) -> u32 {
         1

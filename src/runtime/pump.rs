@@ -134,6 +134,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
                 if let Some(stop) = self.handle(event)? {
                     return Ok(stop);
                 }
+                self.release();
                 next = self.missed.pop_front().or_else(|| self.events.try_recv().ok());
             }
         }
@@ -141,6 +142,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
 
     /// Waits for the next event; draws and returns none if a frame is due first.
     fn wait(&mut self) -> io::Result<Option<Event>> {
+        self.release();
         if let Some(event) = self.missed.pop_front() {
             return Ok(Some(event));
         }

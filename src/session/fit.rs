@@ -8,7 +8,7 @@ use crate::flow::Outcome;
 use crate::oscillator::energy::energy;
 use crate::oscillator::{State, Symbol};
 use crate::scene::ordinate::usual_values;
-use crate::scene::{Answer, Axes, Layer, Point, Slot, Span, View, Window};
+use crate::scene::{Answer, Axes, Layer, Point, Request, Slot, Span, View, Window};
 use crate::study::trade::Row;
 
 /// Room around what is fitted, as a factor of its width.
@@ -71,8 +71,21 @@ pub(super) fn resolve(session: &mut Session) {
 
 /// Whether something that a plot shows is still to be computed.
 fn is_pending(session: &Session, plot: usize) -> bool {
-    let requests = session.needs(plot).into_iter().filter_map(|slot| session.request(slot, plot));
-    requests.into_iter().any(|request| session.is_open(&request))
+    first_open(session, plot).is_some()
+}
+
+/// The first question of a plot that is still to be answered.
+fn first_open(session: &Session, plot: usize) -> Option<Request> {
+    let mut requests =
+        session.needs(plot).into_iter().filter_map(|slot| session.request(slot, plot));
+    requests.find(|request| session.is_open(request))
+}
+
+/// The question whose answer the window of a plot on show waits for, if it is being fitted.
+pub(super) fn awaited(session: &Session, plot: usize) -> Option<Request> {
+    let fitting = session.plots.get(plot).is_some_and(|plot| plot.framing == Framing::Fitting);
+    let on_show = session.on_show().contains(&plot);
+    first_open(session, plot).filter(|_| fitting && on_show)
 }
 
 /// Every row of the trade.

@@ -251,13 +251,25 @@ pub const CHAINS: [&[Context]; 26] = [
     &[Context::Offer, Context::Always],
 ];
 
+/// The contexts that hold together with this one, which is the most specific.
+fn chain(first: Context) -> &'static [Context] {
+    CHAINS.into_iter().find(|chain| chain[0] == first).unwrap_or(CHAINS[0])
+}
+
 impl Session {
     /// The contexts that hold now, the most specific first: one of [`CHAINS`].
     #[must_use]
     pub fn contexts(&self) -> &'static [Context] {
+        match self.pending {
+            Some(Pending::Count(_)) => chain(Context::Count),
+            Some(Pending::Letter { .. }) => chain(Context::Letter),
+            None => self.contexts_at_rest(),
+        }
+    }
+
+    /// The same when nothing is pending.
+    pub(super) fn contexts_at_rest(&self) -> &'static [Context] {
         let first = match &self.overlay {
-            _ if matches!(self.pending, Some(Pending::Count(_))) => Context::Count,
-            _ if self.pending.is_some() => Context::Letter,
             None if self.held.is_some() => Context::Walk,
             None => match self.focused().map(|plot| plot.view) {
                 None => Context::Parameters,
@@ -286,7 +298,7 @@ impl Session {
             Some(Overlay::Scan(_)) => Context::Form,
             Some(Overlay::Offer(_)) => Context::Offer,
         };
-        CHAINS.into_iter().find(|chain| chain[0] == first).unwrap_or(CHAINS[0])
+        chain(first)
     }
 
     /// Whether a key means something now, or is typed.

@@ -30,6 +30,7 @@ mod tests;
 pub mod trade;
 pub mod update;
 pub mod variants;
+pub mod waiting;
 pub mod walk;
 pub mod wants;
 
@@ -47,4 +48,5 @@ pub use scan::Scanned;
 pub use state::{Notice, Price, ROWS, Row, Session, Size, Steps};
 pub use update::update;
 pub use variants::Shown;
+pub use waiting::Waiting;
 pub use walk::Stop;

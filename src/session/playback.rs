@@ -7,6 +7,7 @@ use std::f64::consts::TAU;
 
 use super::state::Session;
 use crate::flow::{Sample, Trajectory};
+use crate::scene::Slot;
 use crate::study::belt::Followed;
 
 /// How fast the motion is played.
@@ -47,6 +48,14 @@ impl Session {
     #[must_use]
     pub fn is_playing(&self) -> bool {
         self.playback.playing
+    }
+
+    /// Whether time passes for what is on show. It stands still while the motion is computed anew, so that
+    /// the head is where it is however long that takes.
+    #[must_use]
+    pub fn is_moving(&self) -> bool {
+        let asked = self.request(Slot::Trajectory, self.plot);
+        self.is_playing() && asked.is_none_or(|request| !self.is_open(&request))
     }
 
     /// Where the head is on the motion; `None` before anything was played.

@@ -23,6 +23,7 @@ use super::settings::Look;
 use super::step::StepSize;
 use super::update::macros::Macros;
 use super::update::marks::Marks;
+use super::waiting::Waiting;
 use super::walk::Stop;
 use crate::flow::{Cost, Problem};
 use crate::oscillator::Symbol;
@@ -254,6 +255,8 @@ pub struct Session {
     pub history: History,
     /// A count or a letter that the next key completes.
     pub pending: Option<Pending>,
+    /// A press that waits for an answer.
+    pub waiting: Option<Waiting>,
     /// Recorded keys.
     pub macros: Macros,
     /// Points to come back to, and the one that is compared with.
@@ -312,6 +315,7 @@ impl Session {
             overlay: None,
             history: History::default(),
             pending: None,
+            waiting: None,
             macros: Macros::default(),
             marks: Marks::default(),
             caption: Caption::Nothing,

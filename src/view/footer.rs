@@ -28,6 +28,7 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let mut right: Vec<Span> = always.into_iter().flat_map(|hint| spans(hint, look)).collect();
     right.push(Span::raw(" "));
     let left = match (&session.overlay, &session.notice) {
+        _ if session.waiting.is_some() => waiting(session, look),
         _ if session.pending.is_some() => vec![pending(session.pending, look)],
         (Some(Overlay::Entry(entry)), _) => self::entry(entry, session, look),
         (Some(Overlay::Prompt(prompt)), _) => self::prompt(prompt, look),
@@ -71,6 +72,15 @@ fn spans(hint: &Hint, look: &Look) -> [Span<'static>; 2] {
             look.style(Role::Key),
         ),
         Span::styled(format!(" {} ", hint.text), look.style(Role::Quiet)),
+    ]
+}
+
+/// What the last key waits for.
+fn waiting(session: &Session, look: &Look) -> Vec<Span<'static>> {
+    let slot = session.waiting.as_ref().map_or("", |waiting| waiting.request.slot().name());
+    vec![
+        Span::styled(format!(" waiting for: {slot} "), look.style(Role::Title)),
+        Span::styled(" esc forgets the key that waits", look.style(Role::Quiet)),
     ]
 }
 

@@ -10,6 +10,7 @@ use super::{Files, Machine, Pump, picture};
 use crate::export;
 use crate::runtime::event::{Event, Stop};
 use crate::session::replay::{Action, Player, Recorder, Script};
+use crate::session::waiting::forgets;
 use crate::session::{Code, Key, Msg, Notice};
 
 /// Why a play stands still.
@@ -64,6 +65,18 @@ impl<M: Machine, W: Write> Pump<M, W> {
     /// Something that the user did: given to the session; while something is played, to that.
     pub(super) fn users(&mut self, msg: Msg) -> io::Result<Option<Stop>> {
         let Some(playing) = &mut self.playing else {
+            if self.machine.is_waiting() {
+                if !forgets(&msg) && !leaves(&msg) {
+                    self.held_back.push_back(Event::Session(msg));
+                    return Ok(None);
+                }
+                // What waits has not happened, and now it will not.
+                self.recorder.forget(1);
+                self.held_back.clear();
+                if forgets(&msg) {
+                    return self.update(msg);
+                }
+            }
             self.recorder.note(&msg);
             let stop = self.update(msg)?;
             if stop == Some(Stop::Quit) {
@@ -141,7 +154,11 @@ impl<M: Machine, W: Write> Pump<M, W> {
     ///
     /// A replay inside the explorer has the size of the terminal and keeps no pictures.
     pub(super) fn play(&mut self) -> io::Result<Option<Stop>> {
-        if self.changed.is_some() || !self.events.is_empty() || !self.missed.is_empty() {
+        if self.changed.is_some()
+            || !self.events.is_empty()
+            || !self.missed.is_empty()
+            || self.machine.is_waiting()
+        {
             return Ok(None);
         }
         let (machine, size) = (&self.machine, self.screen.size());
@@ -175,13 +192,15 @@ impl<M: Machine, W: Write> Pump<M, W> {
     /// Ends a replay; `whole` if it was played to its end.
     fn played(&mut self, error: bool, text: String, whole: bool) -> io::Result<Option<Stop>> {
         self.settle(whole);
-        self.release();
         self.update(Msg::Say(String::new()))?;
         self.update(Msg::Told(Notice { error, text }))
     }
 
-    /// What the user did meanwhile happens before everything else.
-    fn release(&mut self) {
+    /// What the user did meanwhile happens before everything else, once it can.
+    pub(super) fn release(&mut self) {
+        if self.playing.is_some() || self.machine.is_waiting() {
+            return;
+        }
         while let Some(event) = self.held_back.pop_back() {
             self.missed.push_front(event);
         }
@@ -209,6 +228,9 @@ impl<M: Machine, W: Write> Pump<M, W> {
     /// The program ends: what was recorded is complete.
     pub fn close_record(&mut self) {
         self.settle(false);
+        if self.machine.is_waiting() {
+            self.recorder.forget(1);
+        }
         // Whatever the user has to be told about it comes too late.
         drop(self.record.as_mut().map(|record| record.keep(&mut self.recorder)));
     }

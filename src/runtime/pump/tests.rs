@@ -334,6 +334,7 @@ fn what_is_typed_while_a_register_is_played_comes_after_it() {
         pump.play().unwrap();
     }
     assert_eq!(pump.machine.count, 3);
+    pump.release();
     let missed: Vec<Event> = pump.missed.drain(..).collect();
     let stops: Vec<_> = missed.into_iter().map(|event| pump.handle(event).unwrap()).collect();
     assert_eq!(stops, [None, Some(Stop::Quit)]);

@@ -19,6 +19,7 @@ mod strange;
 mod table;
 mod undo;
 mod views;
+mod waiting;
 mod walk;
 
 use std::sync::Arc;
@@ -102,9 +103,7 @@ impl Desk {
     fn settle(&mut self) {
         for round in 0.. {
             assert!(round < 3, "answers make the session ask again and again");
-            let open: Vec<Request> = self.session.wants();
-            let open: Vec<_> =
-                open.into_iter().filter(|request| self.session.is_open(request)).collect();
+            let open = self.open_questions();
             if open.is_empty() {
                 break;
             }
@@ -114,6 +113,13 @@ impl Desk {
             }
         }
         assert!(!self.session.is_busy());
+    }
+
+    /// What is asked and not answered.
+    fn open_questions(&self) -> Vec<Request> {
+        let mut open: Vec<Request> = self.session.wants();
+        open.retain(|request| self.session.is_open(request));
+        open
     }
 
     /// The first branch of a diagram.

@@ -43,11 +43,8 @@ fn alike(session: &Session) -> Session {
     let mut session = session.clone();
     session.price = crate::session::Price::default();
     (session.macros.chord, session.macros.asked) = (0, 0);
-    for slot in session.answers.keys().copied().collect::<Vec<_>>() {
-        if session.is_stale(slot, session.plot) {
-            session.answers.remove(&slot);
-        }
-    }
+    let wants = session.wants();
+    session.answers.retain(|_, held| wants.contains(&held.request));
     session.plots.iter_mut().for_each(|plot| plot.answers.clear());
     session.marks.places.values_mut().for_each(|mark| mark.answers.clear());
     session.marks.left.iter_mut().for_each(|mark| mark.answers.clear());
@@ -56,7 +53,7 @@ fn alike(session: &Session) -> Session {
     session
 }
 
-fn assert_alike(one: &Session, other: &Session, text: &str) {
+pub(super) fn assert_alike(one: &Session, other: &Session, text: &str) {
     let (one, other) = (alike(one), alike(other));
     if one != other {
         let [one, other] = [one, other].map(|session| format!("{session:#?}"));

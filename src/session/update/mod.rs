@@ -31,14 +31,35 @@ use super::message::{Effect, Msg};
 use super::overlay::{Caption, Entry, Overlay};
 use super::pending;
 use super::plot::Pane;
-use super::replay;
+use super::replay::{self, Step};
 use super::state::{Notice, Price, Row, Session, Size};
+use super::waiting::{self, Waiting};
 use crate::flow::Reason;
 use crate::scene::Answered;
 use crate::scene::answer::Failure;
 
-/// Takes a message in.
+/// Takes a message in; a press that needs an answer which is being computed waits for it.
 pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
+    if matches!(message, Msg::Key(_) | Msg::Paste(_) | Msg::Pointed(_) | Msg::Run(_)) {
+        // Nobody gives another press as long as one waits, but to forget that.
+        if session.waiting.take().is_some() && waiting::forgets(&message) {
+            inform(session, "no longer waited for");
+            return Vec::new();
+        }
+        if let (Some(request), Some(step)) = (session.awaited(&message), Step::of(&message)) {
+            session.waiting = Some(Waiting { step, request });
+            return Vec::new();
+        }
+    }
+    let mut effects = take_in(session, message);
+    if let Some(message) = waiting::released(session) {
+        effects.extend(take_in(session, message));
+    }
+    effects
+}
+
+/// Takes a message in that waits for nothing.
+fn take_in(session: &mut Session, message: Msg) -> Vec<Effect> {
     macros::note(session, &message);
     let effects = match message {
         Msg::Key(key) => press(session, key),

@@ -87,22 +87,34 @@ pub fn choose(session: &mut Session, key: Key) -> Vec<Effect> {
 
 /// Runs a command where it belongs: here, or in the pane that has it, which gets the focus.
 pub fn run(session: &mut Session, command: &Command, key: Key) -> Vec<Effect> {
-    let here = session.contexts();
-    let places: Vec<Context> = command.keys.iter().map(|(context, _)| *context).collect();
-    if !places.iter().any(|place| here.contains(place)) {
-        let mut others = places.iter().copied();
-        let pane = others.find_map(|place| pane(session, place));
-        match (pane, places.first()) {
-            (Some(pane), _) => focus_on(session, pane),
-            (None, Some(place)) if places.iter().all(|place| lacks(session, *place)) => {
-                let place = place.title();
-                refuse(session, format!("{} belongs to what is not here: {place}", command.name));
-                return Vec::new();
-            }
-            (None, _) => {}
+    match place(session, command) {
+        Ok(Some(pane)) => focus_on(session, pane),
+        Ok(None) => {}
+        Err(place) => {
+            refuse(session, format!("{} belongs to what is not here: {place}", command.name));
+            return Vec::new();
         }
     }
     (command.run)(session, key)
+}
+
+/// The pane in which a command belongs, where that is not the one in focus; or what is not here.
+pub(in crate::session) fn place(
+    session: &Session,
+    command: &Command,
+) -> Result<Option<Pane>, &'static str> {
+    let here = session.contexts();
+    let places: Vec<Context> = command.keys.iter().map(|(context, _)| *context).collect();
+    if places.iter().any(|place| here.contains(place)) {
+        return Ok(None);
+    }
+    let pane = places.iter().copied().find_map(|place| pane(session, place));
+    match (pane, places.first()) {
+        (None, Some(place)) if places.iter().all(|place| lacks(session, *place)) => {
+            Err(place.title())
+        }
+        (pane, _) => Ok(pane),
+    }
 }
 
 /// The pane in which the keys of a context apply.

@@ -1,14 +1,15 @@
 //! Commands that play the motion in time.
 
 use super::{inform, refuse};
-use crate::scene::Layer;
+use crate::scene::{Layer, Slot};
 use crate::session::message::Effect;
 use crate::session::state::Session;
 
 /// Plays the motion, or holds it; at its end, from the start again.
 pub fn play(session: &mut Session) -> Vec<Effect> {
     let shown = session.shows(Layer::Trajectory) || session.shows(Layer::Mass);
-    if !shown || session.trajectory().is_none() {
+    let given_up = session.failure(Slot::Trajectory, session.plot).is_some();
+    if !shown || given_up || session.trajectory().is_none() {
         refuse(session, "there is no motion on show to play");
         return Vec::new();
     }

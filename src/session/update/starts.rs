@@ -25,7 +25,7 @@ pub fn beside_edge(session: &mut Session, factor: f64) -> Vec<Effect> {
             let initial = State { q, v: 0.0 };
             change(session, Problem { initial, ..session.problem });
         }
-        Err(why) => refuse(session, told(session, why)),
+        Err(why) => refuse(session, told(session, &why)),
     }
     Vec::new()
 }
@@ -40,12 +40,11 @@ fn edge(found: &Cycles) -> Option<(f64, f64)> {
     Some(((displacement - found.parameters.r).max(0.0), 1.0_f64.copysign(found.parameters.d2)))
 }
 
-fn beside(session: &Session, factor: f64) -> Result<f64, &'static str> {
+fn beside(session: &Session, factor: f64) -> Result<f64, String> {
     if session.is_stale(Slot::Cycles, session.plot) {
-        return Err(if session.is_busy() {
-            "the cycles are still being computed"
-        } else {
-            "the cycles are not computed: {toggle-cycles} shows them"
+        return Err(match session.failure(Slot::Cycles, session.plot) {
+            Some(why) => format!("the cycles are not known: {why}"),
+            None => "the cycles are not computed: {toggle-cycles} shows them".to_owned(),
         });
     }
     let edge = session.cycles().and_then(edge);

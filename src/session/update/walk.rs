@@ -29,7 +29,7 @@ fn first(session: &Session) -> Result<Stop, &'static str> {
     }
     let branches = session.branches(index);
     if branches.is_empty() || is_stale(session, index) {
-        return Err("the branch is not computed yet");
+        return Err("the branch is not known: its computation gave up");
     }
     let way = Way::along(&branches);
     let Plot { axes: Axes { abscissa, .. }, window, cursor, .. } = &session.plots[index];

@@ -1,0 +1,164 @@
+//! Fast and slow typing: what needs an answer waits for it, so that the same keys lead to the same end.
+
+use proptest::prelude::*;
+
+use super::recorded::assert_alike;
+use super::strange::any_key;
+use super::{Desk, answered};
+use crate::flow::Reason;
+use crate::scene::answer::Failure;
+use crate::scene::{Answered, library};
+use crate::session::replay::{Action, Player, parse};
+use crate::session::waiting::NEEDS;
+use crate::session::{Effect, Msg, update};
+
+/// Gives a message while nothing is answered but what it waits for; returns whether it waits.
+fn hurry(desk: &mut Desk, message: Msg) -> bool {
+    let effects = update(&mut desk.session, message);
+    desk.effects.extend(effects);
+    let waits = desk.session.is_waiting();
+    for round in 0.. {
+        let Some(waiting) = &desk.session.waiting else { break };
+        assert!(round < 10, "waits again and again: {waiting:?}");
+        let request = waiting.request.clone();
+        assert!(desk.open_questions().contains(&request), "waits for what nobody answers");
+        let answer = Msg::Answered(Box::new(answered(request)));
+        let effects = update(&mut desk.session, answer);
+        desk.effects.extend(effects);
+    }
+    waits
+}
+
+/// Presses keys as fast as they come; returns which of them waited.
+fn type_ahead(desk: &mut Desk, keys: &str) -> Vec<String> {
+    let mut player = Player::new(parse(keys).unwrap());
+    let mut waited = Vec::new();
+    while let Action::Give(message) = player.next(true, String::new).unwrap() {
+        let before = desk.effects.len();
+        if hurry(desk, message.clone()) {
+            waited.push(format!("{message:?}"));
+        }
+        for effect in &desk.effects[before..] {
+            if let Effect::Play(script) | Effect::PlayRegister(script) = effect {
+                player.interject(script.clone());
+            }
+        }
+    }
+    waited
+}
+
+/// For each command that needs an answer, keys that ask something new and press it at once.
+const HASTY: [(&str, &str, &str); 24] = [
+    ("start-inside", "supercritical", "<right>i"),
+    ("start-outside", "supercritical", "<right>o"),
+    ("start-outside", "supercritical", "<right>:start-outside<enter>"),
+    ("start-inside", "supercritical", "<right><space>start-inside<enter>"),
+    (
+        "start-on-cycle",
+        "supercritical",
+        ":view<space>energy-ledger<enter><down*3>:set<space>r=0.2<enter><enter>",
+    ),
+    (
+        "start-here",
+        "supercritical",
+        ":view<space>time-series<enter><right*9>:set<space>q0=2<enter><enter>",
+    ),
+    ("play-motion", "linear", "<right><f8>"),
+    ("motion-on", "linear", "<right><f9*3>"),
+    ("motion-back", "linear", "<f9*9><right><f7>"),
+    ("use-method", "plain", ":view<space>trade<enter><left*30><enter>"),
+    ("walk", "supercritical", ":set<space>r=0.2<enter>:walk<enter><right*2><enter>"),
+    ("walk-on", "supercritical", ":walk<enter>:set<space>r=0.2<enter><right>"),
+    ("walk-take", "supercritical", ":walk<enter>:set<space>r=0.2<enter><tab><enter>"),
+    ("walk-back", "supercritical", ":walk<enter>:set<space>r=0.2<enter><left>"),
+    ("walk-to-last", "supercritical", ":set<space>r=0.2<enter>:walk<enter><end>"),
+    ("walk-to-first", "supercritical", ":set<space>r=0.2<enter>:walk<enter><home>"),
+    ("walk-to-previous", "supercritical", ":set<space>r=0.2<enter>:walk<enter><S-tab>"),
+    ("walk-far-on", "supercritical", ":set<space>r=0.2<enter>:walk<enter><pgup>"),
+    ("cursor-left", "supercritical", "<right><tab>0<left><up><enter>"),
+    ("zoom-in", "supercritical", "<right><tab>0++"),
+    ("pan-left", "supercritical", "<right><tab>0H"),
+    ("next-ordinate", "supercritical", "<tab*2>XY"),
+    ("goto", "linear", "\"a<right*3>'a"),
+    ("retry", "linear", "<right><f5>"),
+];
+
+#[test]
+fn whatever_needs_an_answer_leads_to_the_same_end_however_fast_it_is_typed() {
+    for (command, scene, keys) in HASTY {
+        let [mut slow, mut fast] = [(); 2].map(|()| Desk::open(scene));
+        slow.press(keys);
+        let waited = type_ahead(&mut fast, keys);
+        assert!(!waited.is_empty(), "{command}: nothing in {keys} waited");
+        fast.settle();
+        assert_alike(&slow.session, &fast.session, keys);
+    }
+    let tried: Vec<&str> = HASTY.iter().map(|(command, ..)| *command).collect();
+    let kinds = NEEDS.iter().filter(|(_, names)| names.iter().any(|name| tried.contains(name)));
+    assert_eq!(kinds.count(), NEEDS.len(), "every need is tried");
+}
+
+#[test]
+fn what_waits_is_forgotten_by_escape_as_if_it_had_not_been_pressed() {
+    let mut desk = Desk::open("supercritical");
+    update(&mut desk.session, Msg::Key("<right>".parse().unwrap()));
+    let before = desk.session.clone();
+    update(&mut desk.session, Msg::Key("i".parse().unwrap()));
+    assert!(desk.session.is_waiting());
+    update(&mut desk.session, Msg::Key("<esc>".parse().unwrap()));
+    assert!(!desk.session.is_waiting());
+    assert_eq!(desk.session.problem, before.problem);
+    desk.settle();
+    assert_eq!(desk.session.problem, before.problem, "and it stays forgotten");
+}
+
+#[test]
+fn what_waits_is_run_when_its_computation_gives_up_and_says_so() {
+    for (keys, said) in [
+        ("i", "the cycles are not known"),
+        ("<tab*2>w", "the branch is not known"),
+        ("<f8>", "no motion"),
+    ] {
+        let mut desk = Desk::open("supercritical");
+        update(&mut desk.session, Msg::Run("set D=-0.3 r=0.2".to_owned()));
+        let mut player = Player::new(parse(keys).unwrap());
+        while let Action::Give(message) = player.next(true, String::new).unwrap() {
+            update(&mut desk.session, message);
+        }
+        while let Some(waiting) = desk.session.waiting.clone() {
+            let result = Err(Failure::Reason(Reason::OutOfRange));
+            let given_up =
+                Answered { request: waiting.request, result, seconds: 0.0, complete: true };
+            update(&mut desk.session, Msg::Answered(Box::new(given_up)));
+        }
+        assert!(desk.notice().contains(said), "{keys}: {}", desk.notice());
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(96))]
+
+    #[test]
+    fn any_keys_lead_to_the_same_end_however_fast_they_are_typed(
+        scene in 0..library().len(),
+        keys in prop::collection::vec((any_key(), 0..4_usize), 0..50),
+    ) {
+        let scene = &library()[scene].name;
+        let [mut slow, mut fast] = [(); 2].map(|()| Desk::open(scene));
+        let mut pressed = String::new();
+        // The tour expects what a screen shows.
+        for (key, answers) in keys.into_iter().filter(|(key, _)| key.to_string() != "<f6>") {
+            let key = key.to_string();
+            slow.press(&key);
+            type_ahead(&mut fast, &key);
+            // Some of what is asked is answered before the next key.
+            for request in fast.open_questions().into_iter().take(answers) {
+                let answer = Msg::Answered(Box::new(answered(request)));
+                update(&mut fast.session, answer);
+            }
+            pressed += &key;
+        }
+        fast.settle();
+        assert_alike(&slow.session, &fast.session, &pressed);
+    }
+}
