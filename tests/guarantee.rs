@@ -57,10 +57,20 @@ impl Force {
     fn at(self, step: u32, side: f64, random: &mut Random) -> f64 {
         match self {
             Force::Along => side,
-            Force::Mostly(part) => if random.part() < part { side } else { -side },
+            Force::Mostly(part) => {
+                if random.part() < part {
+                    side
+                } else {
+                    -side
+                }
+            }
             Force::Harmonic(frequency, phase) => (frequency * STEP * f64::from(step) + phase).sin(),
             Force::Telegraph(length, shift) => {
-                if ((step + shift) / length).is_multiple_of(2) { 1.0 } else { -1.0 }
+                if ((step + shift) / length).is_multiple_of(2) {
+                    1.0
+                } else {
+                    -1.0
+                }
             }
         }
     }

@@ -143,10 +143,18 @@ fn a_key_writes_the_plot_in_use_as_a_figure_and_replaces_none() {
     leave(terminal);
 }
 
-/// The screen of a terminal without the line of costs in milliseconds, and without blanks at the ends of rows.
+/// The rows of a screen that are not blank, without the line of costs, which are those of the machine.
 fn screen(text: &str) -> Vec<String> {
     let rows = text.trim_end().lines().map(|row| row.trim_end().to_owned());
-    rows.filter(|row| !row.contains(" ms")).collect()
+    rows.filter(|row| !row.is_empty() && !row.contains(" ms")).collect()
+}
+
+/// Waits until everything is computed and shown.
+fn rest(terminal: &mut Terminal) {
+    terminal.quiet(Duration::from_millis(150));
+    let works = ["computing", "waiting for", "stale"];
+    terminal.wait("rest", |it| works.iter().all(|word| !it.text().contains(word)));
+    terminal.quiet(Duration::from_millis(150));
 }
 
 /// The last screen of a recording, by the command `replay`.
@@ -180,7 +188,7 @@ fn a_recording_plays_what_was_recorded_without_the_key_that_left() {
         let mut terminal = explorer(&all, memory.path());
         for key in keys.split_inclusive(|char: char| char != '\x1b' && char != '[') {
             terminal.types(key);
-            terminal.quiet(Duration::from_millis(250));
+            rest(&mut terminal);
         }
         let last = screen(&terminal.text());
         leave(terminal);
@@ -250,7 +258,7 @@ fn keys_that_need_an_answer_end_on_the_same_screen_in_one_write_and_one_by_one()
             let mut terminal = explorer(&[scene], memory.path());
             for keys in writes {
                 terminal.types(keys);
-                terminal.quiet(Duration::from_millis(400));
+                rest(&mut terminal);
             }
             let last = screen(&terminal.text());
             leave(terminal);

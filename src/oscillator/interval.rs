@@ -126,7 +126,9 @@ impl ParameterBox {
             Symbol::D3 => &mut self.d3,
             Symbol::R => &mut self.r,
             Symbol::Q0 | Symbol::V0 => {
-                return Err(format!("{symbol} is the start of a motion; only D, D2, D3, r have intervals"));
+                return Err(format!(
+                    "{symbol} is the start of a motion; only D, D2, D3, r have intervals"
+                ));
             }
         } = interval;
         Ok(())

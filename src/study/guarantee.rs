@@ -82,8 +82,11 @@ impl Sided {
             Arc::new(self.on(side), side, Direction::Backward, end, limits)
         };
         let escaping = self.field(second).d2;
-        let (edge, arcs, error) = if let Some((closing, error)) = self.closing(&mut equation, limits)? {
-            let arcs = [arc(first, closing.second.plus(gap))?, arc(second, closing.first.plus(gap))?];
+        let (edge, arcs, error) = if let Some((closing, error)) =
+            self.closing(&mut equation, limits)?
+        {
+            let arcs =
+                [arc(first, closing.second.plus(gap))?, arc(second, closing.first.plus(gap))?];
             (Edge::Cycle, Some(arcs), error)
         } else if self.upper.d3 == 0.0 && escaping < 0.0 {
             // Run backward, the motion that goes out along the parabola for ever attracts, to rounding after
@@ -170,7 +173,11 @@ fn refine(
         if node.value().is_nan() {
             return Err(Reason::OutOfRange);
         }
-        if node.value() > 0.0 { high = node } else { low = node }
+        if node.value() > 0.0 {
+            high = node
+        } else {
+            low = node
+        }
         if node.slope.is_finite() {
             slope = node.slope;
         }
@@ -291,7 +298,10 @@ fn certain(
     let worst = Sided::worst(known, disturbance);
     let (basin, error) = worst.basin(0.0, limits)?;
     if error > 0.5 {
-        return Err(Reason::NoConvergence { sought: "the border of the worst system", change: error });
+        return Err(Reason::NoConvergence {
+            sought: "the border of the worst system",
+            change: error,
+        });
     }
     let r = worst.upper.r;
     let Margin { displacement, impulse } = basin.margin();
