@@ -551,3 +551,36 @@ fn the_dashes_of_the_constructed_cycle_lie_over_its_half_turns() {
     assert!(place("unstable cycle") > place("half turn about the left end"), "{order:?}");
     assert!(place("unstable cycle") > place("half turn about the right end"), "{order:?}");
 }
+
+#[test]
+fn the_name_of_a_fold_covers_no_branch() {
+    let drawn = figure("fig11", Fineness::SCREEN);
+    let svg = text(&drawn, Form::Svg);
+    let picture = Document::parse(&svg).unwrap();
+    let number = |node: &roxmltree::Node, name: &str| -> f64 {
+        node.attribute(name).and_then(|text| text.parse().ok()).unwrap()
+    };
+    // The second panel begins 460 pixels to the right of the first.
+    let (x0, y0) = (460.0 + 64.0, 34.0 + 30.0);
+    let branches =
+        curves(&drawn, 1, "stable cycle").into_iter().chain(curves(&drawn, 1, "unstable"));
+    let spots: Vec<(f64, f64)> = branches
+        .flat_map(|curve| on_paper(&drawn, 1, curve))
+        .map(|(x, y)| (x0 + x, y0 + PANEL.1 - y))
+        .collect();
+    let mut folds = 0;
+    for node in picture.descendants().filter(|node| {
+        node.attribute("font-size") == Some("10.5")
+            && node.attribute("fill") != Some("none")
+            && node.text().is_some_and(|text| text.starts_with('F'))
+    }) {
+        let letters = f64::from(u32::try_from(node.text().unwrap().len()).unwrap());
+        let (left, line) = (number(&node, "x"), number(&node, "y"));
+        let covered = |(x, y): &&(f64, f64)| {
+            (left..left + 5.0 * letters).contains(x) && (line - 8.0..line).contains(y)
+        };
+        assert_eq!(spots.iter().find(covered), None, "{:?}", node.text());
+        folds += 1;
+    }
+    assert_eq!(folds, 3);
+}

@@ -151,62 +151,84 @@ fn around((x, y): Spot, width: f64) -> impl Iterator<Item = Place> {
     })
 }
 
-/// The places of all texts of a panel, those that need none left out.
-fn places<'a>(panel: &'a Panel, frame: Frame) -> Vec<(&'a Caption, Place)> {
-    /// Harm of the next point of a curve, and of the next place around a point.
-    const LESS_GOOD: (f64, f64) = (0.05, 0.1);
-    /// Harm of a pixel further away from a point than needed: what names a curve may be anywhere beside
-    /// it, what names a point stands there.
-    const FAR: (f64, f64) = (0.3, 1.0);
+/// A caption with the form of its text that is written, and where.
+type Placed<'a> = (&'a Caption, &'a str, Place);
+
+/// The places of all texts of a panel, those that need none left out. What would cover a curve is written
+/// in its short form, where that covers less.
+fn places<'a>(panel: &'a Panel, frame: Frame) -> Vec<Placed<'a>> {
+    /// Harm from which on the short form is tried: that of a covered curve.
+    const MUCH: f64 = 30.0;
     let surroundings = Surroundings::of(panel, frame);
-    let mut placed: Vec<(&'a Caption, Place)> = Vec::new();
+    let mut placed: Vec<Placed<'a>> = Vec::new();
     let mut taken: Vec<Place> = Vec::new();
     // What names a point has few places to go to and comes first.
     let (points, curves): (Vec<_>, Vec<_>) =
         panel.captions.iter().partition(|caption| caption.or_at.is_empty());
     for caption in points.into_iter().chain(curves) {
-        let said =
-            |other: &&(&Caption, Place)| (other.0.at, &other.0.text) == (caption.at, &caption.text);
+        let said = |other: &&Placed| (other.0.at, &other.0.text) == (caption.at, &caption.text);
         if !frame.window.contains(caption.at) || placed.iter().find(said).is_some() {
             continue;
         }
-        let length = f64::from(u32::try_from(caption.text.chars().count()).unwrap_or(0));
-        let width = LETTER * length;
-        let inside = |place: &Place| {
-            place.left >= frame.left + 2.0
-                && place.left + width <= frame.left + PLOT.0 - 2.0
-                && place.top >= frame.top + 2.0
-                && place.top + LINE <= frame.top + PLOT.1 - 2.0
+        let find = |text: &'a str| {
+            let (harm, place) = best(caption, text, &surroundings, &taken, frame)?;
+            Some((harm, text, place))
         };
-        let far = if caption.or_at.is_empty() { FAR.1 } else { FAR.0 };
-        let mut best: Option<(f64, Place)> = None;
-        let spots = std::iter::once(&caption.at).chain(&caption.or_at);
-        let mut later = 0.0;
-        for spot in spots.map(|at| frame.spot(*at)) {
-            let mut harm = later;
-            for place in around(spot, width) {
-                if inside(&place) && best.is_none_or(|(least, _)| harm < least) {
-                    let away = (place.distance(spot) - GAP).max(0.0) * far;
-                    let harm = harm + away + surroundings.harm(&place, spot, &taken);
-                    if best.is_none_or(|(least, _)| harm < least) {
-                        best = Some((harm, place));
-                    }
-                }
-                harm += LESS_GOOD.1;
-            }
-            later += LESS_GOOD.0;
-        }
-        if let Some((_, place)) = best {
+        let long = find(&caption.text);
+        let short = long.filter(|(harm, ..)| *harm >= MUCH).and_then(|_| find(&caption.short));
+        let found = [long, short].into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0));
+        if let Some((_, text, place)) = found {
             taken.push(place);
-            placed.push((caption, place));
+            placed.push((caption, text, place));
         }
     }
     placed
 }
 
+/// The best place of a text of a caption and the harm that it does there, if there is one.
+fn best(
+    caption: &Caption,
+    text: &str,
+    surroundings: &Surroundings,
+    taken: &[Place],
+    frame: Frame,
+) -> Option<(f64, Place)> {
+    /// Harm of the next point of a curve, and of the next place around a point.
+    const LESS_GOOD: (f64, f64) = (0.05, 0.1);
+    /// Harm of a pixel further away from a point than needed: what names a curve may be anywhere beside
+    /// it, what names a point stands there.
+    const FAR: (f64, f64) = (0.3, 1.0);
+    let width = LETTER * f64::from(u32::try_from(text.chars().count()).unwrap_or(0));
+    let inside = |place: &Place| {
+        place.left >= frame.left + 2.0
+            && place.left + width <= frame.left + PLOT.0 - 2.0
+            && place.top >= frame.top + 2.0
+            && place.top + LINE <= frame.top + PLOT.1 - 2.0
+    };
+    let far = if caption.or_at.is_empty() { FAR.1 } else { FAR.0 };
+    let mut best: Option<(f64, Place)> = None;
+    let spots = std::iter::once(&caption.at).chain(&caption.or_at);
+    let mut later = 0.0;
+    for spot in spots.map(|at| frame.spot(*at)) {
+        let mut harm = later;
+        for place in around(spot, width) {
+            if inside(&place) && best.is_none_or(|(least, _)| harm < least) {
+                let away = (place.distance(spot) - GAP).max(0.0) * far;
+                let harm = harm + away + surroundings.harm(&place, spot, taken);
+                if best.is_none_or(|(least, _)| harm < least) {
+                    best = Some((harm, place));
+                }
+            }
+            harm += LESS_GOOD.1;
+        }
+        later += LESS_GOOD.0;
+    }
+    best
+}
+
 /// Writes the texts of a panel.
 pub(super) fn write(out: &mut String, panel: &Panel, frame: Frame) {
-    for (Caption { text, role, .. }, Place { left, top, .. }) in places(panel, frame) {
+    for (Caption { role, .. }, text, Place { left, top, .. }) in places(panel, frame) {
         let (_, color) = ink(*role);
         let (text, line) = (escaped(text), top + LINE - 2.5);
         // First its halo, so that what understands no order of painting shows the letters too.

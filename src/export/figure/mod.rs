@@ -159,6 +159,8 @@ pub struct Caption {
     pub or_at: Vec<Point>,
     /// What it says.
     pub text: String,
+    /// What it says where the text would cover a curve.
+    pub short: String,
     /// What it stands for.
     pub role: Role,
 }

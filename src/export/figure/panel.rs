@@ -128,10 +128,11 @@ impl Panel {
                     self.mark(*mark, *at, *role);
                 }
             }
-            Item::Caption { at, or_at, long, role, .. } => self.captions.push(Caption {
+            Item::Caption { at, or_at, long, short, role } => self.captions.push(Caption {
                 at: *at,
                 or_at: or_at.clone(),
                 text: long.to_string(),
+                short: short.to_string(),
                 role: *role,
             }),
             Item::Texture(at) => {
