@@ -17,6 +17,7 @@ pub mod run;
 pub mod scaling;
 pub mod step;
 pub mod stiff;
+pub mod stop;
 pub mod swing;
 pub mod tableau;
 pub mod taylor;

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use super::scaling::{field_in_units, times_power};
 use super::step::{Field, Point, Powers, Step, Stepper};
+use super::stop::Stop;
 use super::swing::{End, Failed, Swing, glide, swing};
 use super::time::Time;
 use super::trajectory::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory};
@@ -122,6 +123,7 @@ impl Run {
         let Problem { parameters, initial, until, .. } = self.found.problem;
         let r = parameters.r;
         let mut point = Point { x: side.position(initial.q, r), v: initial.v.abs() };
+        let mut unit = 0;
         let mut last = initial;
         loop {
             let remaining = self.time.until(until);
@@ -129,8 +131,16 @@ impl Run {
                 return Outcome::Moving { tau: until, q: last.q, v: last.v };
             }
             let field = HalfPlane::new(&parameters, side);
-            let watch = self.watcher(side, field);
-            let result = swing(stepper, &field, point, remaining, limits, watch);
+            let stop = Stop::of(&field, point).filter(|stop| stop.duration < remaining);
+            let result = match stop {
+                Some(Stop { duration, .. }) => {
+                    Ok(Swing { end: End::Crossing { x: point.x }, duration, steps: 0 })
+                }
+                None => {
+                    let watch = self.watcher(side, field);
+                    swing(stepper, &field, (point, unit), remaining, limits, watch)
+                }
+            };
             let end = match self.book(result) {
                 Err(failed) => return failed,
                 Ok(end) => end,
@@ -144,20 +154,26 @@ impl Run {
                     return self.stopped(State { q, v });
                 }
                 End::Crossing { x } => {
-                    let q = side.displacement(x, r);
+                    let (way, q) = match stop {
+                        Some(stop) => (stop.way(), last.q + side.sign() * stop.way()),
+                        None => (x - point.x, side.displacement(x, r)),
+                    };
                     if !q.is_finite() {
                         return Outcome::GaveUp { tau, reason: Reason::OutOfRange };
                     }
                     self.found.crossings.push(Crossing { tau, q });
-                    self.works.path += x - point.x;
-                    last = State { q, v: 0.0 };
+                    self.works.path += way;
                     // The next half swing starts from its clearance, known better than from q - r.
-                    let clearance = x - 2.0 * r;
+                    let (clearance, of) = match stop {
+                        Some(stop) => stop.beyond(side.sign() * last.q - r),
+                        None => (x - 2.0 * r, 0),
+                    };
+                    last = State { q, v: 0.0 };
                     if clearance <= 0.0 {
                         return Outcome::Captured { tau, q };
                     }
                     side = side.opposite();
-                    point = Point { x: -clearance, v: 0.0 };
+                    (point, unit) = (Point { x: -clearance, v: 0.0 }, of);
                 }
             }
         }

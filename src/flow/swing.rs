@@ -56,7 +56,8 @@ pub struct Failed {
     pub steps: u64,
 }
 
-/// Runs one half swing from `start` (`v > 0`, or `v = 0` and `x < 0`) for at most `longest`.
+/// Runs one half swing from `start` (`v > 0`, or `v = 0` and `x < 0`), given in units of `2^unit`, for at
+/// most `longest`.
 ///
 /// `watch` sees each accepted step: the stepper that holds it, the time at which it began, the exponent
 /// of the unit in which its numbers are measured, and the step; it may stop the swing there.
@@ -66,16 +67,12 @@ pub struct Failed {
 pub fn swing<S: Stepper>(
     stepper: &mut S,
     field: &HalfPlane,
-    start: Point,
+    (start, unit): (Point, i32),
     longest: f64,
     limits: &Limits,
     watch: impl FnMut(&mut S, f64, i32, &Step) -> ControlFlow<()>,
 ) -> Result<Swing, Failed> {
-    // A velocity that underflows beside the position stops before it moves anything.
-    if start.x >= 0.0 && times_power(start.v, -exponent(start.size())) < f64::MIN_POSITIVE {
-        return Ok(Swing { end: End::Crossing { x: start.x }, duration: 0.0, steps: 0 });
-    }
-    drive(stepper, S::advance, field, start, longest, limits, watch)
+    drive(stepper, S::advance, field, (start, unit), longest, limits, watch)
 }
 
 /// Follows a motion for `longest` without looking for `v = 0`, through as many half swings as it takes.
@@ -92,7 +89,7 @@ pub fn glide<S: Stepper>(
     limits: &Limits,
     watch: impl FnMut(&mut S, f64, i32, &Step) -> ControlFlow<()>,
 ) -> Result<Swing, Failed> {
-    drive(stepper, S::pass, field, start, longest, limits, watch)
+    drive(stepper, S::pass, field, (start, 0), longest, limits, watch)
 }
 
 /// Takes steps by `advance` until it crosses, the time is over, or escape is certain.
@@ -100,14 +97,15 @@ fn drive<S: Stepper>(
     stepper: &mut S,
     advance: impl Fn(&mut S, Point, f64) -> Result<Step, Reason>,
     field: &HalfPlane,
-    start: Point,
+    (start, unit): (Point, i32),
     longest: f64,
     limits: &Limits,
     mut watch: impl FnMut(&mut S, f64, i32, &Step) -> ControlFlow<()>,
 ) -> Result<Swing, Failed> {
-    let mut unit = exponent(start.size());
+    let size = exponent(start.size());
+    let mut point = Point { x: times_power(start.x, -size), v: times_power(start.v, -size) };
+    let mut unit = unit + size;
     let mut scaled = field_in_units(field, unit);
-    let mut point = Point { x: times_power(start.x, -unit), v: times_power(start.v, -unit) };
     let mut clock = Time::default();
     let mut steps = 0;
     stepper.begin(&scaled);

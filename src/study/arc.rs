@@ -7,8 +7,9 @@
 
 use super::half_map::{HalfMap, HalfSwing, Length, NoEnd};
 use crate::flow::auto::LastStep;
+use crate::flow::exact::Exact;
 use crate::flow::scaling::times_power;
-use crate::flow::step::Powers;
+use crate::flow::step::{Powers, Stepper};
 use crate::flow::tableau::GAUSS;
 use crate::flow::{Cost, Limits, Reason};
 use crate::oscillator::{HalfPlane, Parameters, Side, State};
@@ -31,6 +32,15 @@ pub enum Direction {
     Backward,
 }
 
+impl Direction {
+    fn sense(self) -> f64 {
+        match self {
+            Direction::Forward => 1.0,
+            Direction::Backward => -1.0,
+        }
+    }
+}
+
 /// One integration step of an arc.
 #[derive(Clone, Debug)]
 struct Piece {
@@ -46,10 +56,17 @@ struct Piece {
 pub struct Arc {
     side: Side,
     r: f64,
-    /// -1 where the arc was computed backward: positions are then those of `y = -x`.
-    sense: f64,
-    start: f64,
+    /// That in which the arc was computed.
+    field: HalfPlane,
+    /// Computed backward, positions are those of `y = -x`.
+    direction: Direction,
+    /// Of the swing (forward), or of the next one (backward).
+    clearance: Length,
+    /// At which the computation began.
+    length: Length,
     pieces: Vec<Piece>,
+    /// From where the motion is linear to its end, if it was not followed there.
+    rest: Option<Piece>,
     /// The swing, or why it has no end.
     pub swing: Result<HalfSwing, NoEnd>,
     /// What it cost.
@@ -57,8 +74,8 @@ pub struct Arc {
 }
 
 impl Arc {
-    /// The swing on `side` that starts with clearance `length` (forward), or ends at position `length`
-    /// of its half plane (backward).
+    /// The swing on `side` that starts with this `clearance` (forward), or after which the next one starts
+    /// starts with it (backward).
     ///
     /// # Errors
     /// The [`Reason`] why it could not be computed; escape is not an error.
@@ -66,15 +83,15 @@ impl Arc {
         parameters: &Parameters,
         side: Side,
         direction: Direction,
-        length: Length,
+        clearance: Length,
         limits: &Limits,
     ) -> Result<Self, Reason> {
         let forward = HalfPlane::new(parameters, side);
-        let (field, sense) = match direction {
-            Direction::Forward => (forward, 1.0),
-            Direction::Backward => (forward.reversed(), -1.0),
+        let (field, length) = match direction {
+            Direction::Forward => (forward, clearance),
+            Direction::Backward => (forward.reversed(), clearance.plus(2.0 * parameters.r)),
         };
-        let detail = DETAIL * (length.value + parameters.r);
+        let detail = DETAIL * (clearance.value + parameters.r);
         let mut map = HalfMap::integrating_above(detail, field, TOLERANCE);
         let mut pieces: Vec<Piece> = Vec::new();
         let limits =
@@ -90,8 +107,11 @@ impl Arc {
         Ok(Arc {
             side,
             r: parameters.r,
-            sense,
-            start: -length.value,
+            field,
+            direction,
+            clearance,
+            length,
+            rest: rest(&field, &pieces, detail),
             pieces,
             swing,
             cost: map.cost(),
@@ -102,22 +122,56 @@ impl Arc {
     /// infinity beyond where it ran away.
     #[must_use]
     pub fn speed_at(&self, q: f64) -> Option<f64> {
-        let target = self.sense * self.side.position(q, self.r);
-        if target < self.start {
+        let target = self.direction.sense() * self.side.position(q, self.r);
+        if self.direction == Direction::Backward {
+            let short = self.clearance.value - (self.side.sign() * q - self.r);
+            if short < 0.0 {
+                return None;
+            }
+            if let Some(speed) = self.speed_before_end(short) {
+                return Some(speed);
+            }
+        }
+        if target < -self.length.value {
             return None;
         }
         let index = self.pieces.partition_point(|piece| piece.end < target);
-        let Some(piece) = self.pieces.get(index) else {
+        let rest = self.rest.as_ref().filter(|rest| target <= rest.end);
+        let Some(piece) = self.pieces.get(index).or(rest) else {
             let gone = matches!(self.swing, Err(NoEnd::Escapes));
             return gone.then_some(f64::INFINITY);
         };
         Some(piece.speed_at(target))
     }
 
-    /// Whether it was computed backward in time.
+    /// The speed at a place that is `short` of where the swing ends by next to nothing.
+    ///
+    /// There a position has lost the digits that decide: `v` follows from the way that is left as in
+    /// [`crate::flow::stop`], turned round, to second order.
+    fn speed_before_end(&self, short: f64) -> Option<f64> {
+        /// Part of the position below which it is next to nothing, and largest damping force beside it.
+        const NEAR: f64 = 1e-10;
+        const WEAK: f64 = 1e-3;
+        let end = self.length.value;
+        let speed = (2.0 * short).sqrt() * end.sqrt();
+        let HalfPlane { d, d2, d3 } = self.field;
+        let force = speed * (2.0 * d.abs() + speed * (d2.abs() + speed * d3.abs()));
+        let is_near = short <= NEAR * end && force <= WEAK * end;
+        is_near.then(|| speed * (1.0 - 2.0 / 3.0 * d * (speed / end)))
+    }
+
+    /// The clearance at which the swing starts: 0 where it leaves a node that repels, `None` where it comes
+    /// from infinity.
     #[must_use]
-    pub fn is_backward(&self) -> bool {
-        self.sense < 0.0
+    pub fn clearance(&self) -> Option<Length> {
+        if self.direction == Direction::Forward {
+            return Some(self.clearance);
+        }
+        match &self.swing {
+            Ok(swing) => Some(swing.end),
+            Err(NoEnd::Never) => Some(Length::ZERO),
+            Err(NoEnd::Escapes | NoEnd::Failed(_)) => None,
+        }
     }
 
     /// Area between the arc and `v = 0`: the integral of `v dq`, which is that of `v^2 dtau`.
@@ -149,7 +203,7 @@ impl Arc {
     pub fn time_integral(&self) -> f64 {
         let piece_integral = |piece: &Piece| {
             let displacement = |time: f64| {
-                let x = self.sense * times_power(piece.step.at(time).x, piece.unit);
+                let x = self.direction.sense() * times_power(piece.step.at(time).x, piece.unit);
                 self.side.displacement(x, self.r)
             };
             let node = |(node, weight): &(f64, f64)| weight * displacement(node * piece.duration);
@@ -166,16 +220,33 @@ impl Arc {
             let first = u16::from(!points.is_empty());
             for index in first..=count {
                 let point = piece.step.at(piece.duration * f64::from(index) / f64::from(count));
-                let x = self.sense * times_power(point.x, piece.unit);
+                let x = self.direction.sense() * times_power(point.x, piece.unit);
                 let v = self.side.sign() * times_power(point.v, piece.unit);
                 points.push(State { q: self.side.displacement(x, self.r), v });
             }
         }
-        if self.sense < 0.0 {
+        if self.direction == Direction::Backward {
             points.reverse();
         }
         points
     }
+}
+
+/// What is left of an arc after `pieces` that end below `detail`: linear, so in closed form.
+fn rest(field: &HalfPlane, pieces: &[Piece], detail: f64) -> Option<Piece> {
+    /// Time after which a motion that creeps has decayed beyond the range of numbers, in units of its own.
+    const DECAYED: f64 = 750.0;
+    let &Piece { ref step, unit, duration, .. } = pieces.last()?;
+    let from = step.at(duration);
+    if field.d < 0.0 || from.v <= 0.0 || times_power(from.size(), unit) > detail {
+        return None;
+    }
+    let mut exact = Exact::new();
+    exact.begin(&HalfPlane { d: field.d, d2: 0.0, d3: 0.0 });
+    // Both times of decay have the product 1, and the sum 2 D.
+    let step = exact.advance(from, DECAYED * (2.0 * field.d).max(1.0)).ok()?;
+    let end = times_power(step.end.x, unit);
+    Some(Piece { step: LastStep::Closed(exact), unit, duration: step.duration, end })
 }
 
 impl Piece {

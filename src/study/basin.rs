@@ -6,14 +6,14 @@
 
 use serde::Serialize;
 
-use super::arc::{Arc, Direction};
+use super::border::Border;
 use super::closing::{Closing, Equation, first_side};
-use super::closings::all_closings;
+use super::closings::{STEP, all_closings};
 use super::cycle::Edge;
-use super::half_map::{Length, NoEnd};
 use super::margin::Margin;
 use crate::flow::{Cost, Limits, Reason};
-use crate::oscillator::{Parameters, Side, State};
+use crate::oscillator::sticking::rests;
+use crate::oscillator::{Parameters, State};
 
 /// Where a start ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -27,40 +27,6 @@ pub enum Fate {
     Escaped,
     /// On none of these: neutral motion of a centre.
     Undecided,
-}
-
-/// An orbit that parts the plane: an upper and a lower arc over the displacement.
-#[derive(Clone, Debug)]
-pub struct Border {
-    /// Above `v = 0`.
-    pub upper: Arc,
-    /// Below `v = 0`.
-    pub lower: Arc,
-}
-
-impl Border {
-    /// The border as a polyline in the order of time, `count` points on each integration step, beginning
-    /// with the arc that comes first; a cycle is closed by its first point.
-    #[must_use]
-    pub fn curve(&self, count: u16) -> Vec<State> {
-        // Of a separatrix the arc that leaves for infinity comes last.
-        let upper_first = self.upper.swing.is_err() || !self.upper.is_backward();
-        let arcs =
-            if upper_first { [&self.upper, &self.lower] } else { [&self.lower, &self.upper] };
-        let mut points: Vec<State> = arcs.iter().flat_map(|arc| arc.points(count)).collect();
-        if !self.upper.is_backward() {
-            points.extend(points.first().copied());
-        }
-        points
-    }
-
-    /// The velocities at displacement `q` between which a start lies inside; `None` where none does.
-    #[must_use]
-    pub fn span_at(&self, q: f64) -> Option<(f64, f64)> {
-        let lower = self.lower.speed_at(q)?;
-        let upper = self.upper.speed_at(q)?;
-        Some((-lower, upper))
-    }
 }
 
 /// The borders of the plane, innermost first, and the fates of the regions between them.
@@ -117,7 +83,7 @@ impl Counts {
 /// # Errors
 /// The [`Reason`] why a border could not be computed.
 pub fn basin(parameters: &Parameters, reach: f64, limits: &Limits) -> Result<Basin, Reason> {
-    let mut equation = Equation::new(parameters, f64::EPSILON);
+    let mut equation = Equation::new(parameters, STEP);
     let found = all_closings(&mut equation, limits)?;
     let mut basin = Basin::around(parameters, &found, reach, limits)?;
     basin.cost += equation.cost();
@@ -144,62 +110,20 @@ fn fates_between(parameters: &Parameters, stable: &[bool], with_centre: bool) ->
 
 /// The fate of the whole plane where nothing parts it.
 fn centre_fate(parameters: &Parameters) -> Fate {
-    let Parameters { d, d2, d3, r } = *parameters;
+    let Parameters { d, d3, r, .. } = *parameters;
     if r > 0.0 || d > 0.0 || (d == 0.0 && d3 > 0.0) {
         Fate::Captured
-    } else if d == 0.0 && d3 == 0.0 {
-        debug_assert!(r == 0.0 && d2.is_finite());
+    } else if is_centre(parameters) {
         Fate::Undecided
     } else {
         Fate::Escaped
     }
 }
 
-/// The two arcs of a cycle.
-fn cycle_border(
-    parameters: &Parameters,
-    side: Side,
-    closing: &Closing,
-    limits: &Limits,
-) -> Result<Border, Reason> {
-    let arc = |side, start| Arc::new(parameters, side, Direction::Forward, start, limits);
-    let (first, second) = (arc(side, closing.first)?, arc(side.opposite(), closing.second)?);
-    Ok(match side {
-        Side::Upper => Border { upper: first, lower: second },
-        Side::Lower => Border { upper: second, lower: first },
-    })
-}
-
-/// The orbit that parts capture from escape where no cycle does.
-///
-/// With `D3 = 0` escape happens on the side in whose frame `D2 < 0`. The separatrix is the motion that
-/// goes out along the parabola `v^2 = 1/(2 D2^2) - q/D2` for ever; run backward it attracts, so it is
-/// found by a backward swing from far beyond the window, to rounding after `20/abs(D2)`. Before its
-/// turning point it came from infinity on the other side. With `D <= -1` it is the motion from the end
-/// point of the sticking set, a node, to its other end point.
-fn separatrix(parameters: &Parameters, reach: f64, limits: &Limits) -> Result<Border, Reason> {
-    /// Clearance, in units of `1/abs(D2)`, within which a motion has found the separatrix.
-    const FORGETS: f64 = 40.0;
-    let gap = 2.0 * parameters.r;
-    let arc = |side, length| Arc::new(parameters, side, Direction::Backward, length, limits);
-    if parameters.d <= -1.0 {
-        let end = Length::new(gap);
-        return Ok(Border { upper: arc(Side::Upper, end)?, lower: arc(Side::Lower, end)? });
-    }
-    let escaping = first_side(parameters).opposite();
-    let far = Length::new(reach + gap + FORGETS / parameters.d2.abs());
-    let out = arc(escaping, far)?;
-    let turning = match &out.swing {
-        Ok(swing) => swing.end,
-        // Overdamped: run backward it never turns, and parts nothing but the half plane itself.
-        Err(NoEnd::Never | NoEnd::Escapes) => Length { value: 0.0, log: f64::NEG_INFINITY },
-        Err(NoEnd::Failed(reason)) => return Err(*reason),
-    };
-    let before = arc(escaping.opposite(), turning.plus(gap))?;
-    Ok(match escaping {
-        Side::Upper => Border { upper: out, lower: before },
-        Side::Lower => Border { upper: before, lower: out },
-    })
+/// Whether the steady state is surrounded by periodic motions: D2 alone conserves its first integral.
+fn is_centre(parameters: &Parameters) -> bool {
+    let Parameters { d, d2: _, d3, r } = *parameters;
+    d == 0.0 && d3 == 0.0 && r == 0.0
 }
 
 impl Basin {
@@ -220,11 +144,11 @@ impl Basin {
         let mut borders = Vec::new();
         let mut fates = Vec::new();
         if edge == Edge::Separatrix {
-            borders.push(separatrix(parameters, reach, limits)?);
-            fates.push(Fate::Captured);
+            borders.push(Border::separatrix(parameters, reach, limits)?);
+            fates.push(if is_centre(parameters) { Fate::Undecided } else { Fate::Captured });
         }
         for closing in found {
-            borders.push(cycle_border(parameters, side, closing, limits)?);
+            borders.push(Border::of_cycle(parameters, side, closing, limits)?);
         }
         fates.extend(fates_between(parameters, &stable, fates.is_empty()));
         let mut cost = Cost::default();
@@ -238,11 +162,19 @@ impl Basin {
     /// Where a start ends.
     #[must_use]
     pub fn fate(&self, start: State) -> Fate {
+        if self.rests(start) {
+            return Fate::Captured;
+        }
         let inside = |border: &Border| {
             border.span_at(start.q).is_some_and(|(low, high)| start.v > low && start.v < high)
         };
         let region = self.borders.iter().position(inside).unwrap_or(self.borders.len());
         self.fates[region]
+    }
+
+    /// Whether a start is one of the positions of rest that friction makes.
+    fn rests(&self, start: State) -> bool {
+        self.parameters.r > 0.0 && rests(start, self.parameters.r)
     }
 
     /// Counts the fates of `columns` by `rows` starts, evenly spaced, the window's ends included.
@@ -263,14 +195,17 @@ impl Basin {
                 return Err(Reason::Interrupted);
             }
             let q = between(window.q, column, columns);
+            // The rows between two speeds, a row at rest included: next to a node none else may be.
+            let rows_within = |(low, high): (f64, f64)| {
+                let rests = |v: f64| self.rests(State { q, v });
+                let first = velocities.partition_point(|&v| v <= low && !rests(v));
+                let end = velocities.partition_point(|&v| v < high || rests(v));
+                end.saturating_sub(first)
+            };
             // The rows inside each border; nested, so that each takes what the inner ones left.
             let mut taken = 0;
             for (border, &fate) in self.borders.iter().zip(&self.fates) {
-                let rows_inside = border.span_at(q).map_or(0, |(low, high)| {
-                    let first = velocities.partition_point(|&v| v <= low);
-                    let end = velocities.partition_point(|&v| v < high);
-                    end.saturating_sub(first)
-                });
+                let rows_inside = rows_within(border.span_at(q).unwrap_or((0.0, 0.0)));
                 counts.add(fate, rows_inside.saturating_sub(taken) as u64);
                 taken = taken.max(rows_inside);
             }

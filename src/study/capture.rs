@@ -38,7 +38,6 @@ pub fn bands(
     most: usize,
     limits: &Limits,
 ) -> Result<Bands, Reason> {
-    let gap = 2.0 * parameters.r;
     let mut bands = Bands {
         r: parameters.r,
         upper: Vec::new(),
@@ -62,8 +61,7 @@ pub fn bands(
                 }
                 continue;
             };
-            let end = Length::new(clearance.value + gap);
-            let arc = Arc::new(parameters, side, Direction::Backward, end, limits)?;
+            let arc = Arc::new(parameters, side, Direction::Backward, clearance, limits)?;
             bands.cost += arc.cost;
             let before = starts[index].map_or(0.0, |start| start.value);
             from_infinity[index] = arc.swing == Err(NoEnd::Escapes);

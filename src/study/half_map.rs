@@ -39,6 +39,9 @@ pub struct Length {
 }
 
 impl Length {
+    /// No length at all.
+    pub const ZERO: Length = Length { value: 0.0, log: f64::NEG_INFINITY };
+
     /// From a length.
     #[must_use]
     pub fn new(value: f64) -> Self {
@@ -49,6 +52,12 @@ impl Length {
     #[must_use]
     pub fn from_log(log: f64) -> Self {
         Length { value: log.exp(), log }
+    }
+
+    /// Difference of the logarithms, which is the relative difference where that is small.
+    #[must_use]
+    pub fn apart(self, other: Self) -> f64 {
+        if self.log == other.log { 0.0 } else { (self.log - other.log).abs() }
     }
 
     /// This length and another one put together.
@@ -197,8 +206,14 @@ impl HalfMap {
             }
             ControlFlow::Continue(())
         };
-        let done = match swing(&mut self.stepper, &self.field, leg.point, LONGEST, limits, &mut see)
-        {
+        let done = match swing(
+            &mut self.stepper,
+            &self.field,
+            (leg.point, 0),
+            LONGEST,
+            limits,
+            &mut see,
+        ) {
             Ok(done) => done,
             Err(Failed { reason, steps, .. }) => {
                 self.steps += steps;

@@ -5,9 +5,9 @@
 
 use serde::Serialize;
 
-use super::basin::Basin;
+use super::arc::Arc;
+use super::basin::{Basin, Fate};
 use super::cycle::Edge;
-use super::half_map::NoEnd;
 use crate::closed_form::lyapunov;
 use crate::oscillator::Parameters;
 
@@ -34,14 +34,8 @@ impl Basin {
             Edge::Cycle | Edge::Separatrix => self.borders.first(),
         };
         let Some(edge) = edge else { return Margin { displacement: None, impulse: None } };
-        // A forward arc starts, and a backward arc ends, at the turning point of its own side.
-        let turning = [&edge.upper, &edge.lower].into_iter().filter_map(|arc| match &arc.swing {
-            Ok(swing) if arc.is_backward() => Some(r + swing.end.value),
-            Ok(swing) => Some(r + swing.start.value),
-            // The node at D <= -1: the arc leaves from the end point of the sticking set itself.
-            Err(NoEnd::Never) => Some(r),
-            Err(NoEnd::Escapes | NoEnd::Failed(_)) => None,
-        });
+        let turning = [&edge.upper, &edge.lower].into_iter().filter_map(Arc::clearance);
+        let turning = turning.map(|clearance| r + clearance.value);
         let impulses = edge.span_at(q).map(|(low, high)| high.min(-low));
         Margin {
             displacement: turning.reduce(f64::min),
@@ -65,10 +59,11 @@ impl Basin {
     }
 
     /// Area of the basin in the phase plane: the integral of `v^2` over one turn of its edge; `None`
-    /// where it is infinite.
+    /// where it is infinite, or where there is no basin.
     #[must_use]
     pub fn area(&self) -> Option<f64> {
-        let edge = (self.edge == Edge::Cycle).then(|| self.borders.first())??;
+        let captured = self.fates.first() == Some(&Fate::Captured) && self.edge != Edge::None;
+        let edge = self.borders.first().filter(|edge| captured && edge.is_closed())?;
         Some(edge.upper.area() + edge.lower.area())
     }
 }

@@ -5,6 +5,7 @@ pub mod arc;
 pub mod balance;
 pub mod basin;
 pub mod belt;
+pub mod border;
 pub mod branch;
 pub mod capture;
 pub mod chart;

@@ -4,7 +4,8 @@
 //! integral, and no start has to be followed: at each displacement, how much of the window's velocities
 //! lies between the lower and the upper arc.
 
-use super::basin::{Basin, Border, Fate, Window};
+use super::basin::{Basin, Fate, Window};
+use super::border::Border;
 
 /// A part of a whole, and a bound on its error.
 #[derive(Clone, Copy, Debug, PartialEq)]

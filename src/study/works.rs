@@ -4,7 +4,7 @@
 //! cancel. They are integrals over the arcs with which the cycle is drawn anyway, each with its full
 //! relative precision, so that their sum says how well the cycle is closed.
 
-use super::basin::Border;
+use super::border::Border;
 use crate::flow::Trajectory;
 use crate::flow::step::Powers;
 use crate::oscillator::energy::energy;
@@ -16,11 +16,10 @@ use crate::oscillator::{Ledger, Parameters, State};
 #[must_use]
 pub fn works(border: &Border, parameters: &Parameters) -> Option<Ledger> {
     let Parameters { d, d2, d3, r } = *parameters;
-    let swings = [border.upper.swing.as_ref().ok()?, border.lower.swing.as_ref().ok()?];
-    let path: f64 = swings.iter().map(|swing| swing.start.value + swing.end.value).sum();
+    let [left, right] = [border.upper.clearance()?.value, border.lower.clearance()?.value];
+    let path = 2.0 * (left + right + 2.0 * r);
     let [upper, lower]: [Powers; 2] = [border.upper.powers(), border.lower.powers()];
-    let q_max = swings[0].end.value - r;
-    let stored = energy(State { q: q_max, v: 0.0 });
+    let stored = energy(State { q: r + right, v: 0.0 });
     let linear = -2.0 * d * (upper.second + lower.second);
     let quadratic = -d2 * (upper.third - lower.third);
     let cubic = -d3 * (upper.fourth + lower.fourth);

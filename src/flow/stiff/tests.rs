@@ -60,8 +60,15 @@ fn a_step_that_begins_stiff_and_ends_at_rest_keeps_the_digits_of_its_end() {
 }
 
 fn run<S: Stepper>(stepper: &mut S, field: &HalfPlane, start: Point) -> Swing {
-    swing(stepper, field, start, 60.0, &Limits::PATIENT, |_, _, _, _| ControlFlow::Continue(()))
-        .unwrap()
+    swing(
+        stepper,
+        field,
+        (start, 0),
+        60.0,
+        &Limits::PATIENT,
+        |_, _, _, _| ControlFlow::Continue(()),
+    )
+    .unwrap()
 }
 
 #[test]

@@ -1,0 +1,297 @@
+//! The border of the basin at any multiplier, against numbers computed elsewhere and against motions.
+
+use hopfscope::flow::trajectory::trajectory;
+use hopfscope::flow::{Detail, Limits, Outcome, Problem, Reason};
+use hopfscope::oscillator::{Parameters, State};
+use hopfscope::study::Edge;
+use hopfscope::study::basin::{Basin, Fate, Survey, Window, basin};
+use hopfscope::study::cycle::cycles;
+use hopfscope::study::measure::{Measure, Value, measure};
+use proptest::prelude::*;
+use rayon::prelude::*;
+use serde::Deserialize;
+
+const LIMITS: Limits = Limits::PATIENT;
+
+/// A row of `data/borders.json`: half maps run backward by series of order 34 in quadruple precision, from
+/// the end points of the sticking set until nothing changes, and 9 x 9 motions run forward.
+#[derive(Debug, Deserialize)]
+struct Row {
+    #[serde(flatten)]
+    parameters: Parameters,
+    displacement: f64,
+    impulse: f64,
+    area: Option<f64>,
+    /// Of the cycle that is the border, where one is.
+    log_multiplier: Option<f64>,
+    window: [f64; 4],
+    captured: u64,
+}
+
+fn rows() -> Vec<Row> {
+    serde_json::from_str(include_str!("data/borders.json")).expect("a table of borders")
+}
+
+fn same(one: f64, other: f64, within: f64) -> bool {
+    (one - other).abs() <= within * other.abs()
+}
+
+#[test]
+fn borders_are_those_computed_elsewhere() {
+    let wrong: Vec<String> = rows()
+        .par_iter()
+        .filter_map(|row| {
+            let [left, right, low, high] = row.window;
+            let window = Window { q: (left, right), v: (low, high) };
+            let found = Survey::of(&row.parameters, &window, (9, 9), &LIMITS);
+            let right = found.as_ref().is_ok_and(|found| {
+                let near = |found: Option<f64>, expected: Option<f64>| match (found, expected) {
+                    (Some(found), Some(expected)) => same(found, expected, 1e-10),
+                    (found, expected) => found == expected,
+                };
+                near(found.margin.displacement, Some(row.displacement))
+                    && near(found.margin.impulse, Some(row.impulse))
+                    && near(found.area, row.area)
+                    && found.counts.captured == row.captured
+            });
+            (!right).then(|| format!("{row:?}\n{found:?}"))
+        })
+        .collect();
+    assert!(wrong.is_empty(), "{}: {wrong:#?}", wrong.len());
+}
+
+#[test]
+fn the_margin_is_the_extreme_of_the_cycle_that_borders_the_basin() {
+    let mut largest = 0.0_f64;
+    for row in rows().iter().filter(|row| row.log_multiplier.is_some()) {
+        let found = cycles(&row.parameters, true, &LIMITS).unwrap();
+        let cycle = found.cycles[0];
+        largest = largest.max(cycle.log_multiplier);
+        let expected = row.log_multiplier.unwrap();
+        assert!(same(cycle.log_multiplier, expected, 1e-9), "{row:?} {cycle:?}");
+        let picture = found.picture.unwrap();
+        let displacement = picture.margin.displacement.unwrap();
+        assert!(same(displacement, cycle.q_max.min(-cycle.q_min), 1e-12), "{row:?}");
+        // The curve that is drawn has the extremes of the cycle, up to the distance of its points.
+        let extreme =
+            |part: fn(&State) -> f64| picture.curves[0].iter().map(part).fold(0.0, f64::max);
+        for (drawn, exact) in [
+            (extreme(|it| it.q), cycle.q_max),
+            (extreme(|it| -it.q), -cycle.q_min),
+            (extreme(|it| it.v), cycle.v_max),
+            (extreme(|it| -it.v), -cycle.v_min),
+        ] {
+            assert!(same(drawn, exact, 5e-3), "{row:?}: {drawn} for {exact}");
+        }
+    }
+    assert!(largest > 300.0, "{largest}");
+}
+
+/// A start beside a border, and whether it lies inside.
+fn beside_the_border(found: &Basin, part: f64) -> Vec<(State, bool)> {
+    /// Relative distance from the border.
+    const BESIDE: f64 = 1e-5;
+    let Parameters { r, .. } = found.parameters;
+    let border = &found.borders[0];
+    let reach = |clearance: Option<f64>| clearance.map_or(5.0 * r, |it| r + it);
+    let left = -reach(border.upper.clearance().map(|length| length.value));
+    let right = reach(border.lower.clearance().map(|length| length.value));
+    let q = left + part * (right - left);
+    let Some((low, high)) = border.span_at(q) else { return Vec::new() };
+    let mut starts = Vec::new();
+    for speed in [low, high] {
+        if speed.is_finite() && speed != 0.0 {
+            starts.push((State { q, v: speed * (1.0 - BESIDE) }, true));
+            starts.push((State { q, v: speed * (1.0 + BESIDE) }, false));
+        }
+    }
+    starts
+}
+
+/// Whether a motion is captured; `None` where it ends neither way in time.
+fn is_captured(parameters: Parameters, initial: State) -> Option<bool> {
+    let problem =
+        Problem { parameters, initial, until: 300.0, tolerance: 1e-13, ..Problem::default() };
+    let motion = trajectory(&problem, Detail::default(), &LIMITS);
+    match motion.outcome {
+        Outcome::Captured { .. } => Some(true),
+        Outcome::Escaped { .. } | Outcome::GaveUp { reason: Reason::OutOfRange, .. } => Some(false),
+        // Without nonlinear damping motions that are not captured grow for ever, and escape at no time.
+        Outcome::Moving { .. } if parameters.is_piecewise_linear() => Some(false),
+        Outcome::Moving { .. } | Outcome::GaveUp { .. } => None,
+    }
+}
+
+#[test]
+fn motions_beside_the_border_are_captured_inside_and_run_away_outside() {
+    let wrong: Vec<_> = rows()
+        .par_iter()
+        .flat_map_iter(|row| {
+            let found = basin(&row.parameters, 10.0 * row.parameters.r, &LIMITS).unwrap();
+            let parts = [0.03, 0.2, 0.4, 0.5, 0.6, 0.8, 0.97];
+            let starts: Vec<_> =
+                parts.iter().flat_map(|&part| beside_the_border(&found, part)).collect();
+            let parameters = row.parameters;
+            starts.into_iter().filter_map(move |(start, inside)| {
+                let fate = found.fate(start) == Fate::Captured;
+                let motion = is_captured(parameters, start);
+                let agree = fate == inside && motion.is_none_or(|captured| captured == inside);
+                (!agree).then_some((parameters, start, inside, motion))
+            })
+        })
+        .collect();
+    assert!(wrong.is_empty(), "{}: {wrong:#?}", wrong.len());
+}
+
+#[test]
+fn a_scan_measures_what_the_basin_has() {
+    for row in rows() {
+        let parameters = row.parameters;
+        let [left, right, low, high] = row.window;
+        let window = Window { q: (left, right), v: (low, high) };
+        let problem = Problem { parameters, ..Problem::default() };
+        let measures = [Measure::Margin, Measure::Area, Measure::Stability];
+        let (values, _) = measure(&problem, &measures, &window, &LIMITS).unwrap();
+        let found = basin(&parameters, left.abs().max(right.abs()), &LIMITS).unwrap();
+        let share = found.captured_share(&window);
+        let margin = found.margin();
+        let expected = [
+            margin.displacement.into(),
+            margin.impulse.into(),
+            found.area().into(),
+            Value::Number(share.part),
+        ];
+        for (value, expected) in values.into_iter().zip(expected) {
+            let near = match (value.number(), expected.number()) {
+                (Some(value), Some(expected)) => same(value, expected, 1e-12),
+                (value, expected) => value == expected,
+            };
+            assert!(near, "{row:?}: {value:?} for {expected:?}");
+        }
+    }
+}
+
+/// The area is that of the part of a window around the basin which is captured: a quadrature over the
+/// displacement, where the area is one over time.
+#[test]
+fn areas_are_those_of_the_captured_part_of_a_window() {
+    let closed = rows().into_iter().filter_map(|row| row.area.map(|area| (row, area)));
+    for (row, area) in closed {
+        let found = basin(&row.parameters, 1.0, &LIMITS).unwrap();
+        let cycle = &found.borders[0];
+        let width = 2.0
+            * (row.parameters.r + cycle.upper.clearance().unwrap().value)
+                .max(row.parameters.r + cycle.lower.clearance().unwrap().value);
+        let height =
+            2.0 * found.borders[0].curve(8).iter().fold(0.0_f64, |top, it| top.max(it.v.abs()));
+        let window = Window { q: (-width, width), v: (-height, height) };
+        let share = found.captured_share(&window);
+        let whole = 4.0 * width * height;
+        let error = whole * (share.error + 1e-12) + 1e-10 * area;
+        assert!((share.part * whole - area).abs() <= error, "{row:?}: {share:?}");
+    }
+}
+
+/// `2 r^2/abs(D)`: both half planes hold the triangle-like piece between the node and `2 r`, over which the work
+/// of friction and damping alone decides.
+#[test]
+fn the_linear_basin_beside_repelling_nodes_has_its_closed_form() {
+    for (d, r) in [(-1.0, 1.0), (-2.0, 1.0), (-1.5, 0.3), (-50.0, 2.0), (-1.000_000_1, 1e-3)] {
+        let found = basin(&Parameters { d, d2: 0.0, d3: 0.0, r }, 1.0, &LIMITS).unwrap();
+        assert!(
+            same(found.area().unwrap(), 2.0 * r * r / -d, 1e-12),
+            "D = {d}: {:?}",
+            found.area()
+        );
+        assert_eq!(found.margin().displacement, Some(r));
+    }
+}
+
+#[test]
+fn the_motions_of_a_centre_are_neutral() {
+    // Inside the parabola where the first integral of D2 vanishes all are periodic, outside all run away.
+    let parameters = Parameters { d: 0.0, d2: 0.5, d3: 0.0, r: 0.0 };
+    let found = basin(&parameters, 3.0, &LIMITS).unwrap();
+    for index in 0..400 {
+        let place = |step: i32| -3.0 + 6.0 * f64::from(index * step % 400) / 399.0;
+        let start = State { q: place(1), v: place(37) };
+        let first_integral = 0.5 * start.v * start.v + start.q - 1.0;
+        let expected = if first_integral < 0.0 { Fate::Undecided } else { Fate::Escaped };
+        assert_eq!(found.fate(start), expected, "{start:?}");
+    }
+    assert_eq!(found.area(), None);
+    let window = Window { q: (-0.5, 0.5), v: (-0.5, 0.5) };
+    assert_eq!(found.captured_share(&window).part, 0.0);
+}
+
+#[test]
+fn starts_of_a_hair_beside_the_sticking_set_go_where_they_belong() {
+    let node = Parameters { d: -1.5, d2: 0.0, d3: 0.0, r: 1.0 };
+    let nearly =
+        Parameters { d: -0.999_975_931_443_767_5, d2: -8.747_989_131_568_893, d3: 0.0, r: 0.1 };
+    // Its cycle has the clearance 6.5e-31: what passes the rim of the sticking set by less comes back.
+    let close = Parameters { d: -0.999, d2: 0.0, d3: 0.0, r: 1.0 };
+    for (parameters, q, v, captured) in [
+        (node, 1.0, 1e-9, false),
+        (node, -1.0, -1e-9, false),
+        (node, 1.0, -1e-9, false),
+        (node, 1.0, 1e-14, false),
+        (node, 1.0, 0.0, true),
+        (node, 1.0 + f64::EPSILON, 0.0, false),
+        (node, 1.0 - f64::EPSILON, 1e-9, true),
+        (node, 1.0 - f64::EPSILON, 1e-7, false),
+        (nearly, -0.1, -2.375_549_830_316_453_7e-9, false),
+        (close, 1.0, 1e-16, true),
+        (close, 1.0, 2e-15, false),
+        (close, 1.0 + f64::EPSILON, 0.0, false),
+        (close, -1.0, 1e-33, true),
+        (close, -1.0, 1e-15, false),
+    ] {
+        let start = State { q, v };
+        let found = basin(&parameters, 3.0, &LIMITS).unwrap();
+        assert_eq!(found.fate(start) == Fate::Captured, captured, "{parameters:?} {start:?}");
+        let problem = Problem { parameters, initial: start, until: 250.0, ..Problem::default() };
+        let outcome = trajectory(&problem, Detail::default(), &LIMITS).outcome;
+        let rests = matches!(outcome, Outcome::Captured { .. });
+        assert_eq!(rests, captured, "{parameters:?} {start:?} {outcome:?}");
+    }
+    // Of a start within rounding of the rim a grid counts the rest, and nothing beside it.
+    let window = Window { q: (1.0, 1.0), v: (-1e-9, 1e-9) };
+    let counts = basin(&node, 3.0, &LIMITS).unwrap().count(&window, 1, 3, &LIMITS).unwrap();
+    assert_eq!((counts.captured, counts.escaped), (1, 2));
+}
+
+fn signed_magnitude(exponents: std::ops::Range<f64>) -> impl Strategy<Value = f64> {
+    prop_oneof![
+        1 => Just(0.0),
+        5 => (exponents, any::<bool>())
+            .prop_map(|(exponent, negative)| 10_f64.powf(exponent) * if negative { -1.0 } else { 1.0 }),
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(60))]
+
+    /// Whatever the multiplier: what the basin says of starts on either side of its border their motions do.
+    #[test]
+    fn borders_part_motions(
+        d in prop_oneof![-3.0..10.0, -1.2..0.6],
+        (d2, d3) in (signed_magnitude(-2.0..1.5), signed_magnitude(-3.0..2.0)),
+        r in 0.05..3.0_f64,
+        part in 0.02..0.98_f64,
+    ) {
+        let parameters = Parameters { d, d2, d3, r };
+        let Ok(found) = basin(&parameters, 10.0 * r, &LIMITS) else { return Ok(()) };
+        if found.edge == Edge::None {
+            return Ok(());
+        }
+        let margin = found.margin();
+        prop_assert!(margin.displacement.is_some_and(|it| it >= r) && margin.impulse.is_some());
+        for (start, inside) in beside_the_border(&found, part) {
+            prop_assert_eq!(found.fate(start) == Fate::Captured, inside, "{:?}", start);
+            if let Some(captured) = is_captured(parameters, start) {
+                prop_assert_eq!(captured, inside, "{:?} {:?}", parameters, start);
+            }
+        }
+    }
+}
