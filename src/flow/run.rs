@@ -132,14 +132,11 @@ impl Run {
             }
             let field = HalfPlane::new(&parameters, side);
             let stop = Stop::of(&field, point).filter(|stop| stop.duration < remaining);
-            let result = match stop {
-                Some(Stop { duration, .. }) => {
-                    Ok(Swing { end: End::Crossing { x: point.x }, duration, steps: 0 })
-                }
-                None => {
-                    let watch = self.watcher(side, field);
-                    swing(stepper, &field, (point, unit), remaining, limits, watch)
-                }
+            let result = if let Some(Stop { duration, .. }) = stop {
+                Ok(Swing { end: End::Crossing { x: point.x }, duration, steps: 0 })
+            } else {
+                let watch = self.watcher(side, field);
+                swing(stepper, &field, (point, unit), remaining, limits, watch)
             };
             let end = match self.book(result) {
                 Err(failed) => return failed,

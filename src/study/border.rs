@@ -29,10 +29,12 @@ pub struct Border {
 }
 
 impl Border {
-    fn of(side: Side, [first, second]: [Arc; 2]) -> Self {
+    /// The border of two arcs, the first of them on `side`; `closed` says whether it is a cycle.
+    #[must_use]
+    pub fn of(side: Side, [first, second]: [Arc; 2], closed: bool) -> Self {
         match side {
-            Side::Upper => Border { upper: first, lower: second, closed: true },
-            Side::Lower => Border { upper: second, lower: first, closed: true },
+            Side::Upper => Border { upper: first, lower: second, closed },
+            Side::Lower => Border { upper: second, lower: first, closed },
         }
     }
 
@@ -50,7 +52,8 @@ impl Border {
         let Closing { first, second, .. } = *closing;
         let repels = closing.log_multiplier(parameters) > 0.0;
         let arc = |side, start, next| attracting(parameters, side, (start, next), repels, limits);
-        Ok(Border::of(side, [arc(side, first, second)?, arc(side.opposite(), second, first)?]))
+        let arcs = [arc(side, first, second)?, arc(side.opposite(), second, first)?];
+        Ok(Border::of(side, arcs, true))
     }
 
     /// The border between capture and the rest where no cycle is one; `reach` is the largest displacement
@@ -78,7 +81,7 @@ impl Border {
         }
         let out = arc(braking.opposite(), far)?;
         let before = arc(braking, out.clearance().unwrap_or(Length::ZERO))?;
-        Ok(Border { closed: false, ..Border::of(braking, [before, out]) })
+        Ok(Border::of(braking, [before, out], false))
     }
 
     /// The border where the end points of the sticking set repel: from the clearances 0 outwards, until

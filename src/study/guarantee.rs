@@ -13,11 +13,12 @@
 use serde::Serialize;
 
 use super::arc::{Arc, Direction};
-use super::basin::{Basin, Border, Fate, basin};
+use super::basin::{Basin, Fate, basin};
+use super::border::Border;
 use super::closing::{Closing, Equation, Route};
 use super::closings::{STEP, innermost_bracket};
 use super::cycle::Edge;
-use super::half_map::{HalfMap, Length, NoEnd};
+use super::half_map::{HalfMap, Length};
 use super::margin::Margin;
 use super::search::{Bracket, Node};
 use crate::closed_form::piecewise_linear::LinearCycle;
@@ -77,39 +78,34 @@ impl Sided {
         }
         let mut equation = self.equation();
         let (first, second) = (equation.side, equation.side.opposite());
-        let gap = 2.0 * self.upper.r;
-        let arc = |side: Side, end: Length| {
-            Arc::new(self.on(side), side, Direction::Backward, end, limits)
+        let arc = |side: Side, next: Length| {
+            Arc::new(self.on(side), side, Direction::Backward, next, limits)
         };
         let escaping = self.field(second).d2;
         let (edge, arcs, error) = if let Some((closing, error)) =
             self.closing(&mut equation, limits)?
         {
             let arcs =
-                [arc(first, closing.second.plus(gap))?, arc(second, closing.first.plus(gap))?];
+                [arc(first, closing.second)?, arc(second, closing.first)?];
             (Edge::Cycle, Some(arcs), error)
         } else if self.upper.d3 == 0.0 && escaping < 0.0 {
             // Run backward, the motion that goes out along the parabola for ever attracts, to rounding after
             // this clearance in units of 1/abs(D2).
             const FORGETS: f64 = 40.0;
-            let out = arc(second, Length::new(reach + gap + FORGETS / escaping.abs()))?;
-            let turning = match &out.swing {
-                Ok(swing) => swing.end,
-                Err(NoEnd::Never | NoEnd::Escapes) => Length { value: 0.0, log: f64::NEG_INFINITY },
-                Err(NoEnd::Failed(reason)) => return Err(*reason),
-            };
-            (Edge::Separatrix, Some([arc(first, turning.plus(gap))?, out]), NOISE)
+            let out = arc(second, Length::new(reach + FORGETS / escaping.abs()))?;
+            let before = arc(first, out.clearance().unwrap_or(Length::ZERO))?;
+            (Edge::Separatrix, Some([before, out]), NOISE)
         } else {
             (Edge::None, None, 0.0)
         };
         let mut cost = equation.cost();
         let mut borders = Vec::new();
         let mut fates = vec![Fate::Captured];
-        if let Some([one, other]) = arcs {
-            cost += one.cost;
-            cost += other.cost;
-            let (upper, lower) = if first == Side::Upper { (one, other) } else { (other, one) };
-            borders.push(Border { upper, lower });
+        if let Some(arcs) = arcs {
+            for arc in &arcs {
+                cost += arc.cost;
+            }
+            borders.push(Border::of(first, arcs, edge == Edge::Cycle));
             fates.push(Fate::Escaped);
         }
         Ok((Basin { parameters: self.upper, edge, borders, fates, cost }, error))
