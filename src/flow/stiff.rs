@@ -336,7 +336,14 @@ impl<F: Field> Stiff<F> {
     fn longest(&self) -> f64 {
         const CRITICAL: f64 = 2.0;
         let rate = self.field.divergence(self.start.v);
-        if rate < -CRITICAL { f64::INFINITY } else { LONGEST.min(1.0 / rate.max(0.0)) }
+        if rate < -CRITICAL {
+            f64::INFINITY
+        } else if rate > 0.0 {
+            LONGEST.min(1.0 / rate)
+        } else {
+            // The rate may be -0, whose reciprocal is no bound.
+            LONGEST
+        }
     }
 }
 
