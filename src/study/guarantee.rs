@@ -170,9 +170,9 @@ fn refine(
             return Err(Reason::OutOfRange);
         }
         if node.value() > 0.0 {
-            high = node
+            high = node;
         } else {
-            low = node
+            low = node;
         }
         if node.slope.is_finite() {
             slope = node.slope;
