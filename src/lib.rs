@@ -20,6 +20,9 @@
 //!   over q ([`study::arc`]), so basins, margins and bands of capture are comparisons
 //!   ([`study::basin`], [`study::margin`], [`study::capture`]). [`study::claims`] puts the paper's own
 //!   equations and sentences to the test.
+//! - [`machine`] is the mass on its belt by the whole model: friction by its own law, two switching lines,
+//!   riding on the belt and overtaking it. One return map, which never decreases, orders all cycles; what
+//!   a start ends as is read off the next turning point ([`machine::Portrait`]).
 //! - [`scene`] says what is on show, as [`scene::Request`] values that name exactly their inputs, and
 //!   [`session`] is a pure machine: `update(&mut Session, Msg) -> Vec<Effect>` and
 //!   `Session::wants() -> Vec<Request>`. What has not changed is not asked again; a hidden layer asks
@@ -33,6 +36,7 @@ pub mod cli;
 pub mod closed_form;
 pub mod export;
 pub mod flow;
+pub mod machine;
 pub mod oscillator;
 pub mod runtime;
 pub mod scene;

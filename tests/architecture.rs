@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 const RINGS: [&[&str]; 6] = [
     &["oscillator", "closed_form"],
     &["flow"],
-    &["study"],
+    &["study", "machine"],
     &["session", "scene"],
     &["view", "export"],
     &["terminal", "runtime", "cli"],

@@ -8,15 +8,17 @@ use clap::Args;
 use super::failure::Failure;
 use super::output::{Format, Output, print};
 use super::timing::timed;
-use crate::export::belt::{self, Answer, Designed, Sweep};
-use crate::flow::{Limits, Reason};
-use crate::oscillator::belt::{Dimension, QUANTITIES, Quantity, Reduced};
-use crate::scene::machine::file::{FARTHEST_START, parse, value_of};
+use crate::export::belt::{self, Answer, Designed, Sweep, SweepPoint};
+use crate::flow::Limits;
+use crate::machine::design::friction_for;
+use crate::machine::survey::{Trouble, portrait, survey};
+use crate::machine::varied::Varied;
+use crate::oscillator::belt::Dimension;
+use crate::scene::machine::file::{FARTHEST_START, parse};
 use crate::scene::machine::library::{TEXTBOOK, find, machines};
-use crate::scene::machine::unit::measured;
+use crate::scene::machine::unit::{Measured, measured};
 use crate::scene::{Machine, Rig, Scene};
-use crate::study::belt::{survey, sweep};
-use crate::study::design::{Kick, friction_for};
+use crate::study::design::Kick;
 
 /// Says what a mass on a belt does, in physical units
 #[derive(Debug, Args)]
@@ -25,10 +27,16 @@ pub struct Belt {
     /// File of the machine, or the name of one that comes with the program
     #[arg(value_name = "FILE", default_value = TEXTBOOK)]
     machine: String,
-    /// Sets a quantity, such as "v0=0.2 m/s"; repeatable: m, c, d1, d3, F, R, v0, and the start x, v
+    /// Sets a number of the machine or its friction law, such as "v0=0.2 m/s"; repeatable; also the start x, v
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
     set: Vec<(Name, f64)>,
-    /// Varies a quantity, such as "v0=0.1 m/s:0.5 m/s:21": margins, cycles and alarms along its way
+    /// Start of the motion, such as "x=1 mm,v=0 m/s"
+    #[arg(long, value_name = "x=..,v=..", value_parser = start, allow_hyphen_values = true)]
+    start: Option<Start>,
+    /// Window "XMIN:XMAX,VMIN:VMAX": tells the part of it from which the mass comes to rest
+    #[arg(long, value_name = "WINDOW", value_parser = window, allow_hyphen_values = true)]
+    window: Option<Window>,
+    /// Varies a number, such as "v0=0.1 m/s:0.5 m/s:21": margins and cycles along its way
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = range, allow_hyphen_values = true)]
     sweep: Option<Range>,
     /// Asks how much friction R a margin needs: a displacement ("2 mm") or an impulse ("0.1 N s")
@@ -44,9 +52,9 @@ fn long_about() -> String {
         .map(|machine| format!("  {:9} {}", machine.name, machine.title))
         .collect();
     format!(
-        "Says what a mass on a belt does, in physical units: its dimensionless numbers, cycles and margins, what \
-         the Taylor expansion of friction leaves out, and whether anything overtakes the belt.\n\nMachines of \
-         the program:\n{}",
+        "Says what a mass on a belt does, in physical units: its cycles, slipping and sticking, the border of \
+         what comes to rest and the margins up to it, and by how much the cubic expansion of friction is wrong \
+         about them.\n\nMachines of the program:\n{}",
         known.join("\n")
     )
 }
@@ -54,29 +62,39 @@ fn long_about() -> String {
 /// What `--set` can set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Name {
-    /// A quantity of the machine.
-    Quantity(Quantity),
+    /// A number of the machine.
+    Number(Varied),
     /// Displacement at the start, in m.
     Displacement,
     /// Velocity at the start, in m/s.
     Velocity,
 }
 
-/// A quantity and the values through which it goes.
+/// A number and the values through which it goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Range {
-    quantity: Quantity,
+    varied: Varied,
     ends: (f64, f64),
     count: usize,
 }
 
-/// A quantity by its name.
-fn quantity(name: &str) -> Option<Quantity> {
-    Quantity::named(name.trim())
+/// Where a motion starts; what is not given stays.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Start {
+    x: Option<f64>,
+    v: Option<f64>,
 }
 
-fn names() -> String {
-    QUANTITIES.map(|row| row.name).join(", ")
+/// A window of the phase plane, in m and m/s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Window {
+    x: (f64, f64),
+    v: (f64, f64),
+}
+
+/// A measured value as a value of a number of the machine.
+fn value_of(varied: Varied, read: &Measured) -> Result<f64, String> {
+    varied.check(read.as_a(varied.dimension(), varied.unit())?)
 }
 
 /// `NAME=VALUE`, the value with or without a unit.
@@ -84,15 +102,16 @@ fn assignment(text: &str) -> Result<(Name, f64), String> {
     let form = "expected NAME=VALUE, such as \"v0=0.2 m/s\"";
     let (name, value) = text.split_once('=').ok_or(form)?;
     let read = measured(value)?;
-    if let Some(quantity) = quantity(name) {
-        let value = value_of(quantity, &read).map_err(|error| format!("{name}: {error}"))?;
-        return Ok((Name::Quantity(quantity), value));
+    if let Some(varied) = Varied::named(name.trim()) {
+        let value = value_of(varied, &read).map_err(|error| format!("{name}: {error}"))?;
+        return Ok((Name::Number(varied), value));
     }
     let (name, dimension, unit) = match name.trim() {
         "x" => (Name::Displacement, Dimension::LENGTH, "m"),
         "v" => (Name::Velocity, Dimension::VELOCITY, "m/s"),
         other => {
-            return Err(format!("there is no quantity {other:?}; there are {}, x, v", names()));
+            let names = Varied::names();
+            return Err(format!("there is no quantity {other:?}; there are {names}, x, v"));
         }
     };
     let value = read.as_a(dimension, unit)?;
@@ -106,27 +125,56 @@ fn assignment(text: &str) -> Result<(Name, f64), String> {
     }
 }
 
+/// `x=..,v=..`, one of them or both.
+fn start(text: &str) -> Result<Start, String> {
+    let mut start = Start::default();
+    for part in text.split(',') {
+        match assignment(part)? {
+            (Name::Displacement, x) => start.x = Some(x),
+            (Name::Velocity, v) => start.v = Some(v),
+            (Name::Number(_), _) => {
+                return Err(format!("{part:?} is no start; expected x=.. and v=.."));
+            }
+        }
+    }
+    Ok(start)
+}
+
+/// `XMIN:XMAX,VMIN:VMAX`.
+fn window(text: &str) -> Result<Window, String> {
+    let form =
+        || format!("{text:?} is no window; expected XMIN:XMAX,VMIN:VMAX, such as -2mm:2mm,0:1");
+    let pair = |part: &str, dimension, unit| {
+        let (from, to) = part.split_once(':').ok_or_else(form)?;
+        let read = |text| measured(text).and_then(|read| read.as_a(dimension, unit));
+        let (from, to) = (read(from)?, read(to)?);
+        if from < to { Ok((from, to)) } else { Err(format!("{part:?}: {from} is not below {to}")) }
+    };
+    let (x, v) = text.split_once(',').ok_or_else(form)?;
+    Ok(Window { x: pair(x, Dimension::LENGTH, "m")?, v: pair(v, Dimension::VELOCITY, "m/s")? })
+}
+
 /// `NAME=FROM:TO:COUNT`.
 fn range(text: &str) -> Result<Range, String> {
     /// Most points of a sweep.
     const MOST: usize = 100_000;
     let form = || "expected NAME=FROM:TO:COUNT, such as \"v0=0.1 m/s:0.5 m/s:21\"".to_owned();
     let (name, range) = text.split_once('=').ok_or_else(form)?;
-    let unknown = || format!("there is no quantity {name:?}; there are {}", names());
-    let quantity = quantity(name).ok_or_else(unknown)?;
+    let unknown = || format!("there is no quantity {name:?}; there are {}", Varied::names());
+    let varied = Varied::named(name.trim()).ok_or_else(unknown)?;
     let [from, to, count] = range.split(':').collect::<Vec<_>>()[..] else { return Err(form()) };
     let (from, to) = (measured(from)?, measured(to)?);
     if from.dimension.is_some() != to.dimension.is_some() {
         return Err(format!("{range:?}: FROM and TO both take a unit, or none (SI units)"));
     }
-    let (from, to) = (value_of(quantity, &from)?, value_of(quantity, &to)?);
+    let (from, to) = (value_of(varied, &from)?, value_of(varied, &to)?);
     let parsed = count.trim().parse().ok().filter(|count| (2..=MOST).contains(count));
     let count =
         parsed.ok_or_else(|| format!("COUNT = {count} is not a whole number in 2 .. {MOST}"))?;
     if from == to {
         return Err(format!("FROM and TO are both {from:?}"));
     }
-    Ok(Range { quantity, ends: (from, to), count })
+    Ok(Range { varied, ends: (from, to), count })
 }
 
 /// A margin: a displacement or an impulse, told apart by the unit.
@@ -182,38 +230,39 @@ impl Belt {
         let mut machine = machine(&self.machine)?;
         for &(name, value) in &self.set {
             match name {
-                Name::Quantity(quantity) => machine.belt.set(quantity, value),
+                Name::Number(varied) => {
+                    varied.set(&mut machine.belt, value).map_err(Failure::Usage)?;
+                }
                 Name::Displacement => machine.displacement = value,
                 Name::Velocity => machine.velocity = value,
             }
         }
+        let Start { x, v } = self.start.unwrap_or_default();
+        machine.displacement = x.unwrap_or(machine.displacement);
+        machine.velocity = v.unwrap_or(machine.velocity);
         Ok(machine)
     }
 
     /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
         let machine = self.machine()?;
-        let gave_up = |reason: Reason| {
-            Failure::Unanswered(format!("the belt could not be computed: {reason}"))
-        };
         if let Some(range) = self.sweep {
             let (swept, seconds) = timed(self.output.repeat, || self.swept(&machine, range));
-            let answer = Sweep { seconds, ..swept.map_err(gave_up)? };
+            let answer = Sweep { seconds, ..swept? };
             return print(&match self.output.format {
                 Format::Table => belt::sweep_table(&answer),
                 Format::Json => belt::sweep_json(&answer),
                 Format::Csv => belt::sweep_csv(&answer),
             });
         }
-        let reduced = machine.reduce().map_err(|error| Failure::Usage(error.to_string()))?;
-        let limits = &Limits::PATIENT;
         let start = (machine.displacement, machine.velocity);
         let (found, seconds) = timed(self.output.repeat, || {
-            let survey = survey(&machine.belt, &reduced, start, machine.until, limits)?;
-            Ok((survey, self.designed(&reduced)?))
+            let survey = survey(&machine.belt, start, machine.until, &Limits::PATIENT)?;
+            let share = self.window.map(|window| survey.portrait.rest_share(window.x, window.v));
+            Ok((survey, share, self.designed(&machine.belt)?))
         });
-        let (survey, design) = found.map_err(gave_up)?;
-        let answer = Answer { machine: &machine, survey: &survey, design, seconds };
+        let (survey, rest_share, design) = found.map_err(troubled)?;
+        let answer = Answer { machine: &machine, survey: &survey, rest_share, design, seconds };
         print(&match self.output.format {
             Format::Table => belt::table(&answer),
             Format::Json => belt::json(&answer),
@@ -222,47 +271,70 @@ impl Belt {
     }
 
     /// The friction for the margin, if asked for.
-    fn designed(&self, reduced: &Reduced) -> Result<Option<Designed>, Reason> {
+    fn designed(&self, belt: &crate::oscillator::Belt) -> Result<Option<Designed>, Trouble> {
         let Some((kick, wanted)) = self.design else { return Ok(None) };
-        let unit = match kick {
-            Kick::Displacement => reduced.units.displacement,
-            Kick::Impulse => reduced.units.impulse,
-        };
-        let design = friction_for(&reduced.parameters, kick, wanted / unit, &Limits::PATIENT)?;
-        Ok(Some(Designed { kick, wanted, design }))
+        let needed = friction_for(belt, kick, wanted)?;
+        Ok(needed.map(|needed| Designed { kick, wanted, needed }))
     }
 
     /// The sweep, with the friction for the margin at each point if asked for.
-    fn swept<'a>(&self, machine: &'a Machine, range: Range) -> Result<Sweep<'a>, Reason> {
-        let Range { quantity, ends, count } = range;
-        let (points, mut cost) = sweep(&machine.belt, quantity, ends, count, &Limits::PATIENT)?;
-        let mut answered = Vec::with_capacity(count);
-        for point in points {
-            let designed = match &point.found {
-                Ok(found) => self.designed(&found.reduced)?,
+    fn swept<'a>(&self, machine: &'a Machine, range: Range) -> Result<Sweep<'a>, Failure> {
+        let Range { varied, ends, count } = range;
+        let point = |index: usize| {
+            let value = between(ends, index, count);
+            let mut here = machine.belt.clone();
+            varied.set(&mut here, value).map_err(Failure::Usage)?;
+            let found = portrait(&here).map_err(|trouble| trouble.to_string());
+            let design = match &found {
+                Ok(_) => self.designed(&here).map_err(troubled)?,
                 Err(_) => None,
             };
-            if let Some(designed) = &designed {
-                cost += designed.design.cost;
-            }
-            answered.push((point, designed));
-        }
-        Ok(Sweep { machine, quantity, points: answered, cost, seconds: 0.0 })
+            Ok(SweepPoint { value, found, design })
+        };
+        let points = (0..count).map(point).collect::<Result<_, Failure>>()?;
+        Ok(Sweep { machine, varied, points, seconds: 0.0 })
+    }
+}
+
+/// Value number `index` of `count` evenly spaced over a range, both ends included to the last bit.
+fn between((from, to): (f64, f64), index: usize, count: usize) -> f64 {
+    if index + 1 == count {
+        return to;
+    }
+    #[expect(clippy::cast_precision_loss, reason = "sweeps have few points")]
+    let part = index as f64 / (count - 1) as f64;
+    from + part * (to - from)
+}
+
+/// A machine that has no answer: its own fault is bad input.
+fn troubled(trouble: Trouble) -> Failure {
+    let line = format!("the belt could not be computed: {trouble}");
+    if trouble.is_of_the_machine() {
+        Failure::Usage(trouble.to_string())
+    } else {
+        Failure::Unanswered(line)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::oscillator::belt::Quantity;
 
     #[test]
     fn assignments_take_units_and_refuse_others() {
-        assert_eq!(assignment("m=250 g"), Ok((Name::Quantity(Quantity::Mass), 0.25)));
-        assert_eq!(assignment("v0=0.2"), Ok((Name::Quantity(Quantity::BeltSpeed), 0.2)));
+        assert_eq!(
+            assignment("m=250 g"),
+            Ok((Name::Number(Varied::Quantity(Quantity::Mass)), 0.25))
+        );
+        assert_eq!(
+            assignment("v0=0.2"),
+            Ok((Name::Number(Varied::Quantity(Quantity::BeltSpeed)), 0.2))
+        );
         assert_eq!(assignment("x=-2mm"), Ok((Name::Displacement, -0.002)));
         for (text, words) in [
             ("m", "expected NAME=VALUE"),
-            ("M=1", "there are m, c, d1, d3, F, R, v0, x, v"),
+            ("M=1", "there are m, c, d1, d3, F, R, v0, mu_s, R_static"),
             ("m=2 N", "m: has another dimension; it takes a unit such as kg"),
             ("R=-1", "R = -1 N is outside its range 0.0 .."),
             ("x=1e9", "allowed: -1000000.0 .. 1000000.0"),
@@ -275,7 +347,8 @@ mod tests {
 
     #[test]
     fn sweeps_and_margins_are_read() {
-        let expected = Range { quantity: Quantity::BeltSpeed, ends: (0.1, 0.5), count: 5 };
+        let expected =
+            Range { varied: Varied::Quantity(Quantity::BeltSpeed), ends: (0.1, 0.5), count: 5 };
         assert_eq!(range("v0=10 cm/s:50 cm/s:5"), Ok(expected));
         for text in ["v0", "v0=1:2", "v0=1 m/s:2:5", "v0=1:2:1", "v9=1:2:3", "v0=0:1:3", "v0=1:1:3"]
         {

@@ -90,13 +90,26 @@ pub fn friction_for(
         cost += found.cost;
         Ok((kick.margin(&found.margin()) / wanted).ln())
     };
-    if let Some(r) = hardly_any(parameters, wanted)
+    let needed = least_friction(wanted, hardly_any(parameters, wanted), &mut excess)?;
+    Ok(Design { needed, cost })
+}
+
+/// The least friction at which an increasing function of it, which may jump, becomes positive; `any` is one
+/// that counts as none.
+///
+/// # Errors
+/// Those of the function, [`Reason::NoConvergence`] where no bracket is found.
+pub fn least_friction(
+    wanted: f64,
+    any: Option<f64>,
+    excess: &mut impl FnMut(f64) -> Result<f64, Reason>,
+) -> Result<Needed, Reason> {
+    if let Some(r) = any
         && excess(r)? >= 0.0
     {
-        return Ok(Design { needed: Needed::Any, cost });
+        return Ok(Needed::Any);
     }
-    let needed = smallest(wanted, &mut excess)?;
-    Ok(Design { needed, cost })
+    smallest(wanted, excess)
 }
 
 /// The friction at which a margin of this size is the one without friction; `None` where that is none,

@@ -82,22 +82,20 @@ impl Sided {
             Arc::new(self.on(side), side, Direction::Backward, next, limits)
         };
         let escaping = self.field(second).d2;
-        let (edge, arcs, error) = if let Some((closing, error)) =
-            self.closing(&mut equation, limits)?
-        {
-            let arcs =
-                [arc(first, closing.second)?, arc(second, closing.first)?];
-            (Edge::Cycle, Some(arcs), error)
-        } else if self.upper.d3 == 0.0 && escaping < 0.0 {
-            // Run backward, the motion that goes out along the parabola for ever attracts, to rounding after
-            // this clearance in units of 1/abs(D2).
-            const FORGETS: f64 = 40.0;
-            let out = arc(second, Length::new(reach + FORGETS / escaping.abs()))?;
-            let before = arc(first, out.clearance().unwrap_or(Length::ZERO))?;
-            (Edge::Separatrix, Some([before, out]), NOISE)
-        } else {
-            (Edge::None, None, 0.0)
-        };
+        let (edge, arcs, error) =
+            if let Some((closing, error)) = self.closing(&mut equation, limits)? {
+                let arcs = [arc(first, closing.second)?, arc(second, closing.first)?];
+                (Edge::Cycle, Some(arcs), error)
+            } else if self.upper.d3 == 0.0 && escaping < 0.0 {
+                // Run backward, the motion that goes out along the parabola for ever attracts, to rounding after
+                // this clearance in units of 1/abs(D2).
+                const FORGETS: f64 = 40.0;
+                let out = arc(second, Length::new(reach + FORGETS / escaping.abs()))?;
+                let before = arc(first, out.clearance().unwrap_or(Length::ZERO))?;
+                (Edge::Separatrix, Some([before, out]), NOISE)
+            } else {
+                (Edge::None, None, 0.0)
+            };
         let mut cost = equation.cost();
         let mut borders = Vec::new();
         let mut fates = vec![Fate::Captured];

@@ -4,32 +4,36 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::{Answer, Designed, alarm};
-use crate::export::json::{Price, text};
-use crate::flow::Outcome;
-use crate::oscillator::belt::{Derivatives, FrictionLaw, QUANTITIES, TaylorError, Units};
+use super::expansion::Expansion;
+use super::{Answer, Designed, margins};
+use crate::export::json::text;
+use crate::machine::motion::Outcome;
+use crate::machine::survey::Survey;
+use crate::machine::turn::Place;
+use crate::machine::{Cycle, Fate, Ledger, Portrait};
+use crate::oscillator::belt::{Derivatives, FrictionLaw, QUANTITIES, Units};
 use crate::oscillator::{Belt, Parameters};
-use crate::study::belt::{Alarm, Contact, PhysicalMargin, Reach, Survey};
 use crate::study::design::{Kick, Needed};
-use crate::study::{Cycle, Edge, Margin};
 
 #[derive(Serialize)]
 struct Document<'a> {
     machine: &'a str,
+    model: &'static str,
     quantities: BTreeMap<&'static str, f64>,
     friction: Friction,
     units: &'a Units,
     parameters: &'a Parameters,
     sticking_velocity: Both,
     rest_band: Both,
-    cycles: Vec<CycleOf<'a>>,
-    basin: Basin,
-    margin: Margins,
+    #[serde(flatten)]
+    whole: Whole,
     motion: Motion,
-    alarms: Vec<Sentence>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rest_share: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     design: Option<DesignOf>,
-    cost: Price,
+    expansion: Expansion<'a>,
+    cost: Cost,
 }
 
 /// A number without unit, and in SI units.
@@ -40,7 +44,7 @@ struct Both {
 }
 
 #[derive(Serialize)]
-pub(super) struct Friction {
+struct Friction {
     law: &'static str,
     /// Quadratic mean of the distances of a table's points from the law.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -49,51 +53,117 @@ pub(super) struct Friction {
     mu1: f64,
     mu2: f64,
     mu3: f64,
+    /// The coefficient up to which the belt holds the mass.
+    mu_s: Option<f64>,
 }
 
 impl Friction {
-    fn new(law: &FrictionLaw, mu: &Derivatives) -> Self {
-        let missed = match law {
+    fn new(belt: &Belt, mu: &Derivatives) -> Self {
+        let missed = match &belt.law {
             FrictionLaw::Table(spline) => Some(spline.missed()),
             _ => None,
         };
         let Derivatives { value, first, second, third } = *mu;
-        Friction { law: law.name(), missed, mu: value, mu1: first, mu2: second, mu3: third }
+        Friction {
+            law: belt.law.name(),
+            missed,
+            mu: value,
+            mu1: first,
+            mu2: second,
+            mu3: third,
+            mu_s: belt.static_coefficient.or_else(|| belt.law.mu(0.0)),
+        }
     }
 }
 
+/// What the whole model says about all motions of a machine.
 #[derive(Serialize)]
-struct Basin {
-    edge: Edge,
+pub(super) struct Whole {
+    cycles: Vec<CycleOf>,
+    neutral: bool,
+    border: BorderOf,
+    margin: Margins,
 }
 
 #[derive(Serialize)]
-struct CycleOf<'a> {
+struct CycleOf {
+    kind: &'static str,
+    overtakes: bool,
     stable: bool,
     x_min: f64,
     x_max: f64,
     v_min: f64,
     v_max: f64,
     period: f64,
-    reaches_belt: bool,
-    taylor: Option<TaylorError>,
-    dimensionless: &'a Cycle,
+    stick_duration: f64,
+    multiplier: f64,
+}
+
+#[derive(Serialize)]
+struct BorderOf {
+    kind: &'static str,
 }
 
 #[derive(Serialize)]
 struct Margins {
-    #[serde(flatten)]
-    physical: PhysicalMargin,
-    dimensionless: Margin,
+    displacement: Option<f64>,
+    impulse: Option<f64>,
+    /// To the right and to the left, in m.
+    displacements: Option<(f64, f64)>,
+    /// With and against the belt, in m/s.
+    velocities: Option<(f64, f64)>,
+}
+
+impl Whole {
+    pub(super) fn new(portrait: &Portrait) -> Self {
+        let [displacement, impulse] = margins(portrait);
+        let margin = portrait.margin;
+        Whole {
+            cycles: portrait.cycles.iter().map(CycleOf::new).collect(),
+            neutral: portrait.neutral,
+            border: BorderOf { kind: portrait.border.kind() },
+            margin: Margins {
+                displacement,
+                impulse,
+                displacements: margin.map(|margin| margin.displacement),
+                velocities: margin.map(|margin| margin.velocity),
+            },
+        }
+    }
+}
+
+impl CycleOf {
+    fn new(cycle: &Cycle) -> Self {
+        CycleOf {
+            kind: kind(cycle),
+            overtakes: cycle.overtakes,
+            stable: cycle.stable,
+            x_min: cycle.x.0,
+            x_max: cycle.x.1,
+            v_min: cycle.v.0,
+            v_max: cycle.v.1,
+            period: cycle.period,
+            stick_duration: cycle.stick_duration,
+            multiplier: cycle.multiplier,
+        }
+    }
+}
+
+/// The name of a kind of cycle.
+pub(super) fn kind(cycle: &Cycle) -> &'static str {
+    if cycle.sticks { "stick-slip" } else { "slip" }
 }
 
 #[derive(Serialize)]
 struct Motion {
     start: Start,
-    outcome: PhysicalOutcome,
+    outcome: OutcomeOf,
+    /// How far it was followed, in s.
+    until: f64,
     displacement: (f64, f64),
     velocity: (f64, f64),
-    taylor: Option<TaylorError>,
+    phases: Vec<PhaseOf>,
+    energy: Energy,
 }
 
 #[derive(Serialize)]
@@ -102,43 +172,71 @@ struct Start {
     v: f64,
 }
 
-/// How a motion ended, in SI units.
 #[derive(Serialize)]
-#[serde(rename_all = "kebab-case", tag = "kind")]
-pub(super) enum PhysicalOutcome {
-    SticksToBelt { t: f64, x: f64 },
-    Captured { t: f64, x: f64 },
-    Moving { t: f64, x: f64, v: f64 },
-    Escaped { t: f64 },
-    GaveUp { t: f64, reason: String },
+struct OutcomeOf {
+    kind: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cycle: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    x: Option<f64>,
+    /// When it came to rest, if within the time for which it was followed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    t: Option<f64>,
 }
 
-impl PhysicalOutcome {
-    /// Of the motion: what it does after it has reached the belt is not known.
-    pub(super) fn new(survey: &Survey) -> Self {
-        if let Some(Contact { t, x }) = survey.reach.sticks {
-            return Self::SticksToBelt { t, x };
-        }
-        let units = &survey.reduced.units;
-        let (time, length) = (units.time, units.displacement);
-        match survey.motion.outcome {
-            Outcome::Captured { tau, q } => Self::Captured { t: tau * time, x: q * length },
-            Outcome::Moving { tau, q, v } => {
-                Self::Moving { t: tau * time, x: q * length, v: v * units.velocity }
-            }
-            Outcome::Escaped { tau } => Self::Escaped { t: tau * time },
-            Outcome::GaveUp { tau, reason } => {
-                Self::GaveUp { t: tau * time, reason: reason.to_string() }
-            }
+#[derive(Serialize)]
+struct PhaseOf {
+    t: f64,
+    x: f64,
+    phase: &'static str,
+}
+
+#[derive(Serialize)]
+struct Energy {
+    start: f64,
+    end: f64,
+    belt: f64,
+    damper: f64,
+    guide: f64,
+    residual: f64,
+}
+
+impl Motion {
+    fn new(answer: &Answer) -> Self {
+        let Survey { motion, fate, rest, .. } = answer.survey;
+        let named = |kind| OutcomeOf { kind, cycle: None, x: None, t: None };
+        let outcome = match fate {
+            Fate::Rest => OutcomeOf {
+                x: *rest,
+                t: (motion.outcome == Outcome::Rests).then_some(motion.end.t),
+                ..named("rest")
+            },
+            Fate::Cycle(index) => OutcomeOf { cycle: Some(*index), ..named("cycle") },
+            Fate::Neutral => named("neutral"),
+            Fate::Escaped => named("escaped"),
+            Fate::Unknown(_) => named("unknown"),
+        };
+        let Ledger { start, end, belt, damper, guide } = motion.ledger;
+        let residual = motion.ledger.residual();
+        let phase = |place: Place| match place {
+            Place::Sticks => "stick",
+            Place::Rests => "rest",
+            Place::Slips(_) => "slip",
+        };
+        Motion {
+            start: Start { x: answer.machine.displacement, v: answer.machine.velocity },
+            outcome,
+            until: motion.end.t,
+            displacement: motion.x,
+            velocity: motion.v,
+            phases: motion
+                .legs
+                .iter()
+                .map(|leg| PhaseOf { t: leg.t, x: leg.x, phase: phase(leg.place) })
+                .collect(),
+            energy: Energy { start, end, belt, damper, guide, residual },
         }
     }
-}
-
-#[derive(Serialize)]
-struct Sentence {
-    #[serde(flatten)]
-    alarm: Alarm,
-    message: String,
 }
 
 #[derive(Serialize)]
@@ -154,15 +252,22 @@ pub(super) struct DesignOf {
 }
 
 impl DesignOf {
-    pub(super) fn new(designed: &Designed, belt: &Belt, units: &Units) -> Self {
+    pub(super) fn new(designed: &Designed, belt: &Belt) -> Self {
         DesignOf {
             kick: designed.kick,
             margin: designed.wanted,
-            force: designed.force(units),
-            needed: designed.design.needed,
-            message: designed.sentence(belt, units),
+            force: designed.force(),
+            needed: designed.needed,
+            message: designed.sentence(belt),
         }
     }
+}
+
+/// Steps of the whole model, and the time.
+#[derive(Serialize)]
+pub(super) struct Cost {
+    pub steps: u64,
+    pub seconds: f64,
 }
 
 /// Everything that is said about a machine, as a document.
@@ -170,17 +275,12 @@ impl DesignOf {
 pub fn json(answer: &Answer) -> String {
     let survey = answer.survey;
     let (belt, reduced) = (&survey.belt, &survey.reduced);
-    let units = &reduced.units;
-    let pairs = survey.cycles.cycles.iter().zip(&survey.reaches);
-    let mut cost = survey.cost;
-    if let Some(designed) = &answer.design {
-        cost += designed.design.cost;
-    }
     text(&Document {
         machine: &answer.machine.name,
+        model: "whole",
         quantities: QUANTITIES.iter().map(|row| (row.name, belt.get(row.quantity))).collect(),
-        friction: Friction::new(&belt.law, &reduced.mu),
-        units,
+        friction: Friction::new(belt, &reduced.mu),
+        units: &reduced.units,
         parameters: &reduced.parameters,
         sticking_velocity: Both {
             dimensionless: reduced.sticking_velocity,
@@ -190,39 +290,11 @@ pub fn json(answer: &Answer) -> String {
             dimensionless: reduced.parameters.r,
             physical: belt.friction / belt.stiffness,
         },
-        cycles: pairs.map(|(cycle, reach)| cycle_of(cycle, reach, units)).collect(),
-        basin: Basin { edge: survey.cycles.edge },
-        margin: Margins {
-            physical: PhysicalMargin::new(&survey.margin(), units),
-            dimensionless: survey.margin(),
-        },
-        motion: Motion {
-            start: Start { x: answer.machine.displacement, v: answer.machine.velocity },
-            outcome: PhysicalOutcome::new(survey),
-            displacement: survey.reach.displacement,
-            velocity: survey.reach.velocity,
-            taylor: survey.reach.taylor,
-        },
-        alarms: survey
-            .alarms()
-            .into_iter()
-            .map(|found| Sentence { alarm: found, message: alarm(&found, belt) })
-            .collect(),
-        design: answer.design.as_ref().map(|designed| DesignOf::new(designed, belt, units)),
-        cost: Price { counted: cost, seconds: answer.seconds },
+        whole: Whole::new(&survey.portrait),
+        motion: Motion::new(answer),
+        rest_share: answer.rest_share,
+        design: answer.design.as_ref().map(|designed| DesignOf::new(designed, belt)),
+        expansion: Expansion::new(survey),
+        cost: Cost { steps: survey.portrait.steps, seconds: answer.seconds },
     })
-}
-
-fn cycle_of<'a>(cycle: &'a Cycle, reach: &Reach, units: &Units) -> CycleOf<'a> {
-    CycleOf {
-        stable: cycle.stable,
-        x_min: cycle.q_min * units.displacement,
-        x_max: cycle.q_max * units.displacement,
-        v_min: reach.velocity.0,
-        v_max: reach.velocity.1,
-        period: cycle.period * units.time,
-        reaches_belt: reach.sticks.is_some(),
-        taylor: reach.taylor,
-        dimensionless: cycle,
-    }
 }

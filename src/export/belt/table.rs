@@ -1,12 +1,13 @@
 //! A machine's answer as text to read, and as rows of comma-separated values.
 
-use super::document::PhysicalOutcome;
-use super::{Answer, PLACES, alarm, quantities};
+use super::document::kind;
+use super::expansion::Expansion;
+use super::{Answer, PLACES, margins, quantities};
 use crate::export::csv::{exact_or_empty, line};
 use crate::export::table::Table;
-use crate::oscillator::belt::{Derivatives, FrictionLaw, TaylorError};
-use crate::study::Edge;
-use crate::study::belt::PhysicalMargin;
+use crate::machine::motion::Outcome;
+use crate::machine::{Border, Cycle, Fate};
+use crate::oscillator::belt::{Derivatives, FrictionLaw};
 use crate::view::number::{duration, significant};
 use crate::view::quantity::with_unit;
 
@@ -24,33 +25,28 @@ struct Row {
 fn rows(answer: &Answer) -> Vec<Row> {
     let survey = answer.survey;
     let (belt, reduced) = (&survey.belt, &survey.reduced);
-    let parameters = &reduced.parameters;
-    let margin = survey.margin();
-    let physical = PhysicalMargin::new(&margin, &reduced.units);
+    let (parameters, units) = (&reduced.parameters, &reduced.units);
+    let [displacement, impulse] = margins(&survey.portrait);
     let pure = |what, value| Row { what, dimensionless: Some(value), physical: None };
-    let both = |what, dimensionless: Option<f64>, value: Option<f64>, unit| Row {
+    let scaled = |what, value: Option<f64>, scale: f64, unit| Row {
         what,
-        dimensionless,
+        dimensionless: value.map(|value| value / scale),
         physical: value.map(|value| (value, unit)),
     };
-    let unit = |what, value, unit| both(what, Some(1.0), Some(value), unit);
+    let velocity = impulse.map(|impulse| impulse / belt.mass);
+    let held = belt.static_guide.unwrap_or(belt.friction) / belt.stiffness;
     vec![
         pure("D", parameters.d),
         pure("D2", parameters.d2),
         pure("D3", parameters.d3),
-        both("friction r", Some(parameters.r), Some(belt.friction), "N"),
-        unit("unit of displacement x0", reduced.units.displacement, "m"),
-        unit("unit of time", reduced.units.time, "s"),
-        both("rests within +-", Some(parameters.r), Some(belt.friction / belt.stiffness), "m"),
-        both(
-            "sticks to the belt at",
-            Some(reduced.sticking_velocity),
-            Some(belt.belt_speed),
-            "m/s",
-        ),
-        both("margin: displacement", margin.displacement, physical.displacement, "m"),
-        both("margin: impulse", margin.impulse, physical.impulse, "N s"),
-        both("margin: velocity", margin.impulse, physical.velocity, "m/s"),
+        scaled("friction r", Some(belt.friction), units.force, "N"),
+        scaled("unit of displacement x0", Some(units.displacement), units.displacement, "m"),
+        scaled("unit of time", Some(units.time), units.time, "s"),
+        scaled("rests within +-", Some(held), units.displacement, "m"),
+        scaled("sticks to the belt at", Some(belt.belt_speed), units.velocity, "m/s"),
+        scaled("margin: displacement", displacement, units.displacement, "m"),
+        scaled("margin: impulse", impulse, units.impulse, "N s"),
+        scaled("margin: velocity", velocity, units.velocity, "m/s"),
     ]
 }
 
@@ -71,25 +67,17 @@ pub fn table(answer: &Answer) -> String {
             physical.map_or_else(String::new, |(value, unit)| with_unit(value, PLACES, unit)),
         ]);
     }
-    out += &format!("{numbers}\n");
-    out += match survey.cycles.edge {
-        Edge::None => {
-            "every kick is survived: the whole plane comes to rest, or nothing borders it\n"
-        }
-        Edge::Cycle => "beyond the margin the unstable cycle is crossed\n",
-        Edge::Separatrix => "beyond the margin the velocity runs away\n",
-    };
-    out.push('\n');
-    out += &reaches(answer);
-    for found in survey.alarms() {
-        out += &format!("alarm: {}\n", alarm(&found, belt));
+    out += &format!("{numbers}\n{}\n\n", border(answer));
+    out += &cycles(&survey.portrait.cycles);
+    out += &format!("{}\n", motion(answer));
+    if let Some(share) = answer.rest_share {
+        out += &format!("of the window, {} comes to rest\n", significant(share, DIGITS));
     }
+    out += &format!("{}\n", expansion(answer));
     if let Some(designed) = &answer.design {
-        out += &format!("{}\n", designed.sentence(belt, &reduced.units));
+        out += &format!("{}\n", designed.sentence(belt));
     }
-    let mut evaluations = survey.cost.evaluations;
-    evaluations += answer.design.map_or(0, |designed| designed.design.cost.evaluations);
-    out + &format!("{evaluations} evaluations, {}\n", duration(answer.seconds))
+    out + &format!("{} steps, {}\n", survey.portrait.steps, duration(answer.seconds))
 }
 
 /// The friction law at the belt speed.
@@ -113,69 +101,108 @@ fn friction(law: &FrictionLaw, mu: &Derivatives) -> String {
     )
 }
 
-/// How far the cycles and the motion reach, and what the Taylor expansion leaves out on the way.
-fn reaches(answer: &Answer) -> String {
-    let survey = answer.survey;
-    let units = &survey.reduced.units;
-    let titles = ["", "x from", "to", "v from", "to", "period", "Taylor error", "of F mu(v0)"];
-    let mut table = Table::new(&titles);
-    let speed = |value| with_unit(value, PLACES, "m/s");
-    let taylor = |error: &Option<TaylorError>| match error {
-        Some(error) => {
-            let part = if error.complete { "" } else { " (in part)" };
-            [with_unit(error.force, 3, "N"), significant(error.of_friction, 3) + part]
+/// What borders the basin of rest, in a sentence.
+fn border(answer: &Answer) -> &'static str {
+    let portrait = &answer.survey.portrait;
+    match portrait.border {
+        Border::None => "every kick is survived: whatever happens, the mass comes to rest",
+        Border::NoBasin => "no kick is survived, however small: rest repels",
+        Border::Cycle(..) => "beyond the margin an unstable cycle is crossed",
+        Border::Grazing(_) if portrait.neutral => {
+            "within the margin every motion is periodic; beyond it the mass sticks to the belt"
         }
-        None => ["-".to_owned(), "-".to_owned()],
-    };
-    for (cycle, reach) in survey.cycles.cycles.iter().zip(&survey.reaches) {
-        let name = if cycle.stable { "stable cycle" } else { "unstable cycle" };
-        let length = |q: f64| with_unit(q * units.displacement, PLACES, "m");
-        let mut cells = vec![name.to_owned(), length(cycle.q_min), length(cycle.q_max)];
-        cells.extend([speed(reach.velocity.0), speed(reach.velocity.1)]);
-        cells.push(with_unit(cycle.period * units.time, PLACES, "s"));
-        cells.extend(taylor(&reach.taylor));
-        table.row(cells);
+        Border::Grazing(_) => "beyond the margin the mass comes to stick to the belt",
     }
-    let reach = &survey.reach;
-    let mut cells = vec!["the motion".to_owned()];
-    cells.extend([reach.displacement.0, reach.displacement.1].map(|x| with_unit(x, PLACES, "m")));
-    cells.extend([speed(reach.velocity.0), speed(reach.velocity.1), String::new()]);
-    cells.extend(taylor(&reach.taylor));
-    table.row(cells);
-    format!("{table}\n{}\n", outcome(&PhysicalOutcome::new(survey), answer))
 }
 
-/// How the motion ended, in a sentence.
-fn outcome(outcome: &PhysicalOutcome, answer: &Answer) -> String {
+/// The cycles, a row each.
+fn cycles(cycles: &[Cycle]) -> String {
+    if cycles.is_empty() {
+        return "no cycle\n".to_owned();
+    }
+    let titles = ["", "x from", "to", "v from", "to", "period", "on the belt", "multiplier"];
+    let mut table = Table::new(&titles);
+    for cycle in cycles {
+        let stability = if cycle.stable { "stable" } else { "unstable" };
+        let over = if cycle.overtakes { ", overtaking" } else { "" };
+        let length = |x| with_unit(x, PLACES, "m");
+        let speed = |v| with_unit(v, PLACES, "m/s");
+        table.row(vec![
+            format!("{stability} {}{over}", kind(cycle)),
+            length(cycle.x.0),
+            length(cycle.x.1),
+            speed(cycle.v.0),
+            speed(cycle.v.1),
+            with_unit(cycle.period, PLACES, "s"),
+            with_unit(cycle.stick_duration, PLACES, "s"),
+            significant(cycle.multiplier, PLACES),
+        ]);
+    }
+    table.to_string()
+}
+
+/// What becomes of the motion, in a sentence.
+fn motion(answer: &Answer) -> String {
+    let survey = answer.survey;
     let length = |x| with_unit(x, PLACES, "m");
-    let time = |t| with_unit(t, PLACES, "s");
     let start = answer.machine;
     let from = format!(
         "from x = {}, v = {}: ",
         length(start.displacement),
         with_unit(start.velocity, PLACES, "m/s")
     );
-    from + &match outcome {
-        PhysicalOutcome::SticksToBelt { t, x } => {
-            format!("reaches the belt's speed at t = {}, x = {}", time(*t), length(*x))
+    let end = &survey.motion.end;
+    from + &match survey.fate {
+        Fate::Rest => {
+            let place = survey.rest.map_or_else(String::new, |x| format!(" at x = {}", length(x)));
+            if survey.motion.outcome == Outcome::Rests {
+                format!("comes to rest{place}, at t = {}", with_unit(end.t, PLACES, "s"))
+            } else {
+                format!("comes to rest{place}")
+            }
         }
-        PhysicalOutcome::Captured { t, x } => {
-            format!("at rest at x = {} since t = {}", length(*x), time(*t))
+        Fate::Cycle(index) => {
+            let cycle = &survey.portrait.cycles[index];
+            format!("ends on the {} cycle up to x = {}", kind(cycle), length(cycle.x.1))
         }
-        PhysicalOutcome::Moving { t, x, .. } => {
-            format!("still moving at t = {}, x = {}", time(*t), length(*x))
-        }
-        PhysicalOutcome::Escaped { t } => format!("runs away at t = {}", time(*t)),
-        PhysicalOutcome::GaveUp { t, reason } => format!("gave up at t = {}: {reason}", time(*t)),
+        Fate::Neutral => "is periodic, one of a family".to_owned(),
+        Fate::Escaped => "grows without bound".to_owned(),
+        Fate::Unknown(stop) => format!("is not known: {stop}"),
     }
+}
+
+/// What the cubic expansion says instead, in a sentence.
+fn expansion(answer: &Answer) -> String {
+    let survey = answer.survey;
+    let found = Expansion::new(survey);
+    let lead = "friction as a cubic (the oscillator of the paper) says: ";
+    let Some(margin) = found.margin else {
+        let reason = survey.expansion.as_ref().err().map(ToString::to_string);
+        return format!("{lead}nothing; {}", reason.unwrap_or_default());
+    };
+    let size = match (margin.physical.displacement, margin.error.displacement) {
+        (None, _) => "every kick is survived".to_owned(),
+        (Some(own), None) => format!("margin {}", with_unit(own, PLACES, "m")),
+        (Some(own), Some(error)) => {
+            let percent = significant(100.0 * error.abs() / (own - error).abs(), 2);
+            let way = if error > 0.0 { "large" } else { "small" };
+            let judged = if error == 0.0 || own == error {
+                String::new()
+            } else {
+                format!(", {percent} % too {way}")
+            };
+            format!("margin {}{judged}", with_unit(own, PLACES, "m"))
+        }
+    };
+    let count = |stable| found.cycles.iter().filter(|cycle| cycle.stable == stable).count();
+    format!("{lead}{size}; {} unstable and {} stable cycles", count(false), count(true))
 }
 
 /// One row for each number, in SI units.
 #[must_use]
 pub fn csv(answer: &Answer) -> String {
     let mut out = String::from("what,dimensionless,physical,unit\n");
-    for Row { what, dimensionless, physical } in rows(answer) {
-        let (value, unit) = physical.map_or((None, ""), |(value, unit)| (Some(value), unit));
+    let mut put = |what: &str, dimensionless: Option<f64>, value: Option<f64>, unit: &str| {
         let cells = [
             what.to_owned(),
             exact_or_empty(dimensionless),
@@ -183,12 +210,31 @@ pub fn csv(answer: &Answer) -> String {
             unit.to_owned(),
         ];
         out += &line(&cells);
+    };
+    for Row { what, dimensionless, physical } in rows(answer) {
+        let (value, unit) = physical.map_or((None, ""), |(value, unit)| (Some(value), unit));
+        put(what, dimensionless, value, unit);
+    }
+    for (index, cycle) in answer.survey.portrait.cycles.iter().enumerate() {
+        let stability = if cycle.stable { "stable" } else { "unstable" };
+        let lead = format!("{stability} {} cycle {index}", kind(cycle));
+        for (name, value, unit) in [
+            ("x_min", cycle.x.0, "m"),
+            ("x_max", cycle.x.1, "m"),
+            ("v_min", cycle.v.0, "m/s"),
+            ("v_max", cycle.v.1, "m/s"),
+            ("period", cycle.period, "s"),
+            ("stick_duration", cycle.stick_duration, "s"),
+            ("multiplier", cycle.multiplier, ""),
+        ] {
+            put(&format!("{lead}: {name}"), None, Some(value), unit);
+        }
+    }
+    if let Some(share) = answer.rest_share {
+        put("rest share of the window", Some(share), None, "");
     }
     if let Some(designed) = &answer.design {
-        let force = designed.force(&answer.survey.reduced.units);
-        let cells =
-            ["R for the margin".to_owned(), String::new(), exact_or_empty(force), "N".to_owned()];
-        out += &line(&cells);
+        put("R for the margin", None, designed.force(), "N");
     }
     out
 }

@@ -43,6 +43,12 @@ pub struct Belt {
     pub belt_speed: f64,
     /// Coefficient of friction between mass and belt.
     pub law: FrictionLaw,
+    /// Coefficient up to which the belt holds the mass; that of the law at rest where nothing is said.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub static_coefficient: Option<f64>,
+    /// Force up to which the friction element holds the mass, in N; R where nothing is said.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub static_guide: Option<f64>,
 }
 
 /// The units of the dimensionless oscillator: what 1 of each stands for.

@@ -136,6 +136,16 @@ impl SmoothingSpline {
         self.missed
     }
 
+    /// Its pieces in their order: from where to where, and the coefficients of powers of the distance from the
+    /// left end.
+    pub fn polynomials(&self) -> impl Iterator<Item = (f64, f64, [f64; 6])> + '_ {
+        let ends = self.x.windows(2).zip(&self.g).zip(self.slopes.iter().zip(&self.third));
+        ends.map(|((ends, value), ((first, second), [a, b, c]))| {
+            let terms = [*value, *first, second / 2.0, a / 6.0, b / 24.0, c / 60.0];
+            (ends[0], ends[1], terms)
+        })
+    }
+
     /// The curve and its derivatives at `x`; beyond the ends its last pieces go on.
     #[must_use]
     pub fn at(&self, x: f64) -> Derivatives {

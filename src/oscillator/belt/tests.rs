@@ -22,6 +22,8 @@ fn stribeck() -> Belt {
             exponent: 1.0,
             viscous: 0.02,
         },
+        static_coefficient: None,
+        static_guide: None,
     }
 }
 

@@ -1,6 +1,7 @@
 //! Machine files: TOML in, [`Machine`] out, or one line that names what is wrong and where.
 
 use std::fmt;
+use std::ops::Range;
 
 use serde::Deserialize;
 use serde::de::{Deserializer, Visitor};
@@ -8,6 +9,7 @@ use toml::Spanned;
 
 use super::Machine;
 use super::unit::{Measured, measured};
+use crate::machine::Model;
 use crate::oscillator::Belt;
 use crate::oscillator::belt::spline::SmoothingSpline;
 use crate::oscillator::belt::{Dimension, FrictionLaw, QUANTITIES, Quantity};
@@ -49,8 +51,10 @@ struct File {
     f: Option<Spanned<Number>>,
     #[serde(rename = "R")]
     r: Option<Spanned<Number>>,
+    #[serde(rename = "R_static")]
+    r_static: Option<Spanned<Number>>,
     v0: Option<Spanned<Number>>,
-    friction: Spanned<Law>,
+    friction: Spanned<Friction>,
     #[serde(default)]
     start: Start,
     until: Option<Spanned<Number>>,
@@ -64,28 +68,46 @@ struct Start {
     v: Option<Spanned<Number>>,
 }
 
-/// A friction law.
+/// A friction law, one of four, and what static friction adds to it.
 #[derive(Deserialize)]
-#[serde(rename_all = "lowercase", deny_unknown_fields)]
-enum Law {
-    Constant {
-        mu: Spanned<Number>,
-    },
-    Polynomial {
-        coefficients: Vec<Spanned<Number>>,
-    },
-    Stribeck {
-        rest: Spanned<Number>,
-        kinetic: Spanned<Number>,
-        velocity: Spanned<Number>,
-        exponent: Option<Spanned<Number>>,
-        viscous: Option<Spanned<Number>>,
-    },
-    Table {
-        file: Option<Spanned<String>>,
-        points: Option<Spanned<Vec<(Number, Number)>>>,
-        scatter: Option<Spanned<Number>>,
-    },
+#[serde(deny_unknown_fields)]
+struct Friction {
+    #[serde(rename = "static")]
+    at_rest: Option<Spanned<Number>>,
+    constant: Option<Constant>,
+    polynomial: Option<Polynomial>,
+    stribeck: Option<Stribeck>,
+    table: Option<Table>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Constant {
+    mu: Spanned<Number>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Polynomial {
+    coefficients: Vec<Spanned<Number>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Stribeck {
+    rest: Spanned<Number>,
+    kinetic: Spanned<Number>,
+    velocity: Spanned<Number>,
+    exponent: Option<Spanned<Number>>,
+    viscous: Option<Spanned<Number>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Table {
+    file: Option<Spanned<String>>,
+    points: Option<Spanned<Vec<(Number, Number)>>>,
+    scatter: Option<Spanned<Number>>,
 }
 
 /// A number, or a text of a number with a unit.
@@ -152,6 +174,11 @@ fn machine(
     fetch: impl FnOnce(&str) -> Result<String, String>,
 ) -> Result<Machine, Complaint> {
     let whole = read.friction.span();
+    let friction = read.friction.into_inner();
+    let any = (0.0, LARGEST_COEFFICIENT);
+    let pure = |given| number("static", given, Dimension::ONE, "", any, 0.0);
+    let at_rest = friction.at_rest.as_ref().map(|given| pure(Some(given))).transpose()?;
+    let guide = |given| quantity_as("R_static", Quantity::Friction, given);
     let mut belt = Belt {
         mass: 0.0,
         stiffness: 0.0,
@@ -160,7 +187,9 @@ fn machine(
         normal_force: 0.0,
         friction: 0.0,
         belt_speed: 0.0,
-        law: law(read.friction, fetch)?,
+        law: law(friction, &whole, fetch)?,
+        static_coefficient: at_rest,
+        static_guide: read.r_static.as_ref().map(guide).transpose()?,
     };
     let given = [&read.m, &read.c, &read.d1, &read.d3, &read.f, &read.r, &read.v0];
     for (row, given) in QUANTITIES.iter().zip(given) {
@@ -177,8 +206,9 @@ fn machine(
         };
         belt.set(row.quantity, value);
     }
-    let reduced =
-        belt.reduce().map_err(|error| Complaint { at: whole, message: error.to_string() })?;
+    let unfit = |message| Complaint { at: whole.clone(), message };
+    let reduced = belt.reduce().map_err(|error| unfit(error.to_string()))?;
+    Model::new(&belt).map_err(|error| unfit(error.to_string()))?;
     let start = (-FARTHEST_START, FARTHEST_START);
     let displacement = number("x", read.start.x.as_ref(), Dimension::LENGTH, "m", start, 0.0)?;
     let velocity = number("v", read.start.v.as_ref(), Dimension::VELOCITY, "m/s", start, 0.0)?;
@@ -197,10 +227,16 @@ fn machine(
 
 /// A quantity of the table.
 fn quantity(quantity: Quantity, given: &Spanned<Number>) -> Result<f64, Complaint> {
-    given.get_ref().read().and_then(|read| value_of(quantity, &read)).map_err(|message| {
-        let message = named(quantity.spec().name, message);
-        Complaint { at: given.span(), message }
-    })
+    quantity_as(quantity.spec().name, quantity, given)
+}
+
+/// A value of the kind of a quantity, under a name of its own.
+fn quantity_as(name: &str, quantity: Quantity, given: &Spanned<Number>) -> Result<f64, Complaint> {
+    given
+        .get_ref()
+        .read()
+        .and_then(|read| value_of(quantity, &read))
+        .map_err(|message| Complaint { at: given.span(), message: named(name, message) })
 }
 
 /// A measured value as a value of this quantity, within its range.
@@ -240,93 +276,95 @@ fn number(
     )))
 }
 
+/// The one law that a file gives.
 fn law(
-    given: Spanned<Law>,
+    given: Friction,
+    whole: &Range<usize>,
     fetch: impl FnOnce(&str) -> Result<String, String>,
 ) -> Result<FrictionLaw, Complaint> {
-    let whole = given.span();
-    let any = (-LARGEST_COEFFICIENT, LARGEST_COEFFICIENT);
-    let pure =
-        |name, given: &Spanned<Number>| number(name, Some(given), Dimension::ONE, "", any, 0.0);
-    Ok(match given.into_inner() {
-        Law::Constant { mu } => FrictionLaw::Constant { mu: pure("mu", &mu)? },
-        Law::Polynomial { coefficients } => {
-            let slowness = Dimension::new(0, -1, 1);
-            let coefficient = |(power, given): (usize, &Spanned<Number>)| {
-                let power = i8::try_from(power).unwrap_or(i8::MAX);
-                let dimension = Dimension::ONE.times(slowness, power).unwrap_or(Dimension::ONE);
-                let unit = match power {
-                    0 => String::new(),
-                    1 => "s/m".to_owned(),
-                    _ => format!("s^{power}/m^{power}"),
-                };
-                number("coefficients", Some(given), dimension, &unit, any, 0.0)
-            };
-            let numbers = coefficients.iter().enumerate().map(coefficient);
-            FrictionLaw::Polynomial { coefficients: numbers.collect::<Result<_, _>>()? }
+    match given {
+        Friction { constant: Some(law), polynomial: None, stribeck: None, table: None, .. } => {
+            Ok(FrictionLaw::Constant { mu: coefficient("mu", &law.mu)? })
         }
-        Law::Stribeck { rest, kinetic, velocity, exponent, viscous } => FrictionLaw::Stribeck {
-            rest: pure("rest", &rest)?,
-            kinetic: pure("kinetic", &kinetic)?,
-            velocity: number(
-                "velocity",
-                Some(&velocity),
-                Dimension::VELOCITY,
-                "m/s",
-                STRIBECK_VELOCITY,
-                1.0,
-            )?,
-            exponent: number(
-                "exponent",
-                exponent.as_ref(),
-                Dimension::ONE,
-                "",
-                STRIBECK_EXPONENT,
-                1.0,
-            )?,
-            viscous: number(
-                "viscous",
-                viscous.as_ref(),
-                Dimension::new(0, -1, 1),
-                "s/m",
-                any,
-                0.0,
-            )?,
-        },
-        Law::Table { file, points, scatter } => {
-            let scatter = number(
-                "scatter",
-                scatter.as_ref(),
-                Dimension::ONE,
-                "",
-                (0.0, LARGEST_COEFFICIENT),
-                0.0,
-            )?;
-            let (at, points) = match (file, points) {
-                (Some(file), None) => {
-                    let at = file.span();
-                    let name = file.get_ref();
-                    let text =
-                        fetch(name).map_err(|message| Complaint { at: at.clone(), message })?;
-                    let read = table(name, &text);
-                    (at.clone(), read.map_err(|message| Complaint { at, message })?)
-                }
-                (None, Some(points)) => (points.span(), listed(&points)?),
-                _ => {
-                    let message =
-                        "a table takes either file = \"NAME.csv\" or points = [[v, mu], ..]";
-                    return Err(Complaint { at: whole, message: message.to_owned() });
-                }
-            };
-            if points.len() > MOST_POINTS {
-                let message = format!("{} points; {MOST_POINTS} are allowed", points.len());
-                return Err(Complaint { at, message });
-            }
-            let spline = SmoothingSpline::new(&points, scatter)
-                .map_err(|error| Complaint { at, message: error.to_string() })?;
-            FrictionLaw::Table(spline)
+        Friction { constant: None, polynomial: Some(law), stribeck: None, table: None, .. } => {
+            polynomial(&law)
         }
+        Friction { constant: None, polynomial: None, stribeck: Some(law), table: None, .. } => {
+            stribeck(&law)
+        }
+        Friction { constant: None, polynomial: None, stribeck: None, table: Some(law), .. } => {
+            spline(law, whole, fetch)
+        }
+        _ => {
+            let message = "friction takes one law: constant, polynomial, stribeck or table";
+            Err(Complaint { at: whole.clone(), message: message.to_owned() })
+        }
+    }
+}
+
+/// Any coefficient of friction.
+const ANY: (f64, f64) = (-LARGEST_COEFFICIENT, LARGEST_COEFFICIENT);
+
+fn coefficient(name: &str, given: &Spanned<Number>) -> Result<f64, Complaint> {
+    number(name, Some(given), Dimension::ONE, "", ANY, 0.0)
+}
+
+fn polynomial(law: &Polynomial) -> Result<FrictionLaw, Complaint> {
+    let slowness = Dimension::new(0, -1, 1);
+    let coefficient = |(power, given): (usize, &Spanned<Number>)| {
+        let power = i8::try_from(power).unwrap_or(i8::MAX);
+        let dimension = Dimension::ONE.times(slowness, power).unwrap_or(Dimension::ONE);
+        let unit = match power {
+            0 => String::new(),
+            1 => "s/m".to_owned(),
+            _ => format!("s^{power}/m^{power}"),
+        };
+        number("coefficients", Some(given), dimension, &unit, ANY, 0.0)
+    };
+    let numbers = law.coefficients.iter().enumerate().map(coefficient);
+    Ok(FrictionLaw::Polynomial { coefficients: numbers.collect::<Result<_, _>>()? })
+}
+
+fn stribeck(law: &Stribeck) -> Result<FrictionLaw, Complaint> {
+    let (speed, slowness) = (Dimension::VELOCITY, Dimension::new(0, -1, 1));
+    let (exponent, viscous) = (law.exponent.as_ref(), law.viscous.as_ref());
+    Ok(FrictionLaw::Stribeck {
+        rest: coefficient("rest", &law.rest)?,
+        kinetic: coefficient("kinetic", &law.kinetic)?,
+        velocity: number("velocity", Some(&law.velocity), speed, "m/s", STRIBECK_VELOCITY, 1.0)?,
+        exponent: number("exponent", exponent, Dimension::ONE, "", STRIBECK_EXPONENT, 1.0)?,
+        viscous: number("viscous", viscous, slowness, "s/m", ANY, 0.0)?,
     })
+}
+
+fn spline(
+    law: Table,
+    whole: &Range<usize>,
+    fetch: impl FnOnce(&str) -> Result<String, String>,
+) -> Result<FrictionLaw, Complaint> {
+    let scatter = (0.0, LARGEST_COEFFICIENT);
+    let scatter = number("scatter", law.scatter.as_ref(), Dimension::ONE, "", scatter, 0.0)?;
+    let (at, points) = match (law.file, law.points) {
+        (Some(file), None) => {
+            let at = file.span();
+            let name = file.get_ref();
+            let refuse = |message| Complaint { at: at.clone(), message };
+            let text = fetch(name).map_err(refuse)?;
+            (at.clone(), table(name, &text).map_err(refuse)?)
+        }
+        (None, Some(points)) => (points.span(), listed(&points)?),
+        _ => {
+            let message = "a table takes either file = \"NAME.csv\" or points = [[v, mu], ..]";
+            return Err(Complaint { at: whole.clone(), message: message.to_owned() });
+        }
+    };
+    if points.len() > MOST_POINTS {
+        let message = format!("{} points; {MOST_POINTS} are allowed", points.len());
+        return Err(Complaint { at, message });
+    }
+    let spline = SmoothingSpline::new(&points, scatter)
+        .map_err(|error| Complaint { at, message: error.to_string() })?;
+    Ok(FrictionLaw::Table(spline))
 }
 
 /// The points that stand in the machine file itself.

@@ -1,5 +1,9 @@
 use super::*;
-use crate::oscillator::belt::FrictionLaw;
+use crate::flow::trajectory::trajectory;
+use crate::flow::{Detail, Limits, Problem};
+use crate::oscillator::Belt;
+use crate::oscillator::belt::{FrictionLaw, Reduced, TaylorError};
+use crate::study::cycle::cycles;
 
 fn belt() -> Belt {
     Belt {
@@ -17,11 +21,31 @@ fn belt() -> Belt {
             exponent: 1.0,
             viscous: 0.0,
         },
+        static_coefficient: None,
+        static_guide: None,
     }
 }
 
-fn surveyed(belt: &Belt, start: (f64, f64), until: f64) -> Survey {
-    survey(belt, &belt.reduce().unwrap(), start, until, &Limits::PATIENT).unwrap()
+/// The motion of the oscillator that the machine reduces to, and its velocities up to the belt's, in m/s.
+fn motion(belt: &Belt, start: (f64, f64), until: f64) -> (Trajectory, Followed, Units) {
+    let Reduced { parameters, units, sticking_velocity, .. } = belt.reduce().unwrap();
+    let problem = Problem {
+        parameters,
+        initial: State { q: start.0 / units.displacement, v: start.1 / units.velocity },
+        until: until / units.time,
+        ..Problem::default()
+    };
+    let detail = Detail { crossings: true, samples_per_step: 8, energy: false };
+    let motion = trajectory(&problem, detail, &Limits::PATIENT);
+    let followed = Followed::of(&motion, sticking_velocity);
+    (motion, followed, units)
+}
+
+/// What the cubic leaves out of friction over the velocities of a motion.
+fn left_out(belt: &Belt, start: (f64, f64), until: f64) -> TaylorError {
+    let (_, followed, units) = motion(belt, start, until);
+    let (low, high) = followed.velocity;
+    belt.taylor_error((low * units.velocity, high * units.velocity)).unwrap()
 }
 
 /// The equation of motion itself, in kg, m and s, by classical Runge-Kutta steps; a half swing ends at
@@ -72,15 +96,14 @@ fn turning_points(belt: &Belt, start: (f64, f64), until: f64) -> Vec<(f64, f64)>
 /// m and s.
 fn apart(belt: &Belt, start: (f64, f64), until: f64) -> (usize, f64, f64) {
     let full = turning_points(belt, start, until);
-    let model = surveyed(belt, start, until);
-    let units = model.reduced.units;
-    let pairs = full.iter().zip(&model.motion.crossings);
+    let (model, _, units) = motion(belt, start, until);
+    let pairs = full.iter().zip(&model.crossings);
     let apart = pairs.map(|((t, x), turn)| {
         ((turn.q * units.displacement - x).abs(), (turn.tau * units.time - t).abs())
     });
     let (x, t) =
         apart.fold((0.0, 0.0), |worst, (x, t)| (f64::max(worst.0, x), f64::max(worst.1, t)));
-    assert_eq!(full.len(), model.motion.crossings.len());
+    assert_eq!(full.len(), model.crossings.len());
     (full.len(), x, t)
 }
 
@@ -97,15 +120,15 @@ fn the_physical_motion_is_as_far_off_as_the_taylor_error_allows() {
     let belt = belt();
     let start = (0.0012, 0.0);
     let (turns, x, _) = apart(&belt, start, 0.5);
-    let error = surveyed(&belt, start, 0.5).reach.taylor.unwrap();
+    let error = left_out(&belt, start, 0.5);
     // A force that is wrong by e displaces by e/c at rest, and at most 2 e/c a half swing at resonance,
     // each grown by the self-excitation since.
     let growth = 1.4_f64.powi(i32::try_from(turns).unwrap());
     let allowed = 2.0 * growth * error.force / belt.stiffness;
     assert!(turns >= 7 && x > 1e-9 && x < allowed, "{turns} turns, {x} of {allowed} m");
     // And the remainder is of fourth order: half the motion, a sixteenth of the force.
-    let half = surveyed(&belt, (0.0006, 0.0), 0.05).reach.taylor.unwrap();
-    let whole = surveyed(&belt, start, 0.05).reach.taylor.unwrap();
+    let half = left_out(&belt, (0.0006, 0.0), 0.05);
+    let whole = left_out(&belt, start, 0.05);
     assert!((whole.force / half.force).log2() > 3.5);
 }
 
@@ -115,53 +138,29 @@ fn a_motion_that_overtakes_the_belt_is_told_with_its_time() {
     let law = FrictionLaw::Constant { mu: 0.25 };
     let free = Belt { damping: 0.0, cubic_damping: 0.0, friction: 0.0, law, ..belt() };
     let amplitude = |speed: f64| speed / 50.0;
-    let slow = surveyed(&free, (amplitude(0.2999), 0.0), 1.0);
-    assert_eq!(slow.reach.sticks, None);
-    assert!((slow.reach.velocity.1 / 0.2999 - 1.0).abs() < 1e-7, "{:?}", slow.reach);
-    let fast = surveyed(&free, (amplitude(0.6), 0.0), 1.0);
+    let (_, slow, units) = motion(&free, (amplitude(0.2999), 0.0), 1.0);
+    assert_eq!(slow.sticks, None);
+    assert!((slow.velocity.1 * units.velocity / 0.2999 - 1.0).abs() < 1e-7, "{slow:?}");
+    let (_, fast, _) = motion(&free, (amplitude(0.6), 0.0), 1.0);
     let contact = (std::f64::consts::PI + (0.5_f64).asin()) / 50.0;
-    assert!((fast.reach.sticks.unwrap().t - contact).abs() < 1e-6, "{:?}", fast.reach);
-    assert!((fast.reach.velocity.1 - 0.3).abs() < 1e-15, "the model ends at the belt");
-    let at_once = surveyed(&free, (0.0, 0.3), 1.0);
-    assert_eq!(at_once.reach.sticks, Some(Contact { t: 0.0, x: 0.0 }));
-    assert_eq!(fast.alarms(), [Alarm::Motion { at: fast.reach.sticks.unwrap() }]);
-    assert!(slow.alarms().is_empty());
+    assert!((fast.sticks.unwrap().0 * units.time - contact).abs() < 1e-6, "{fast:?}");
+    assert!((fast.velocity.1 * units.velocity - 0.3).abs() < 1e-15, "followed up to the belt");
+    let (_, at_once, _) = motion(&free, (0.0, 0.3), 1.0);
+    assert_eq!(at_once.sticks, Some((0.0, 0.0)));
 }
 
 #[test]
 fn cycles_and_margins_come_back_in_physical_units() {
     let law = FrictionLaw::Polynomial { coefficients: vec![0.5, -0.4] };
     let linear = Belt { law, cubic_damping: 0.0, ..belt() };
-    let found = surveyed(&linear, (0.001, 0.0), 0.2);
-    let Reduced { parameters, units, .. } = found.reduced;
-    let margin = PhysicalMargin::new(&found.margin(), &units);
+    let Reduced { parameters, units, .. } = linear.reduce().unwrap();
+    let found = cycles(&parameters, true, &Limits::PATIENT).unwrap();
+    let margin = PhysicalMargin::new(&found.picture.unwrap().margin, &units);
     // A_q = r coth(x/2), x = -pi D/omega (equation 32); in metres R/c takes the place of r.
     let x = -std::f64::consts::PI * parameters.d / parameters.omega().unwrap();
     let expected = linear.friction / linear.stiffness / (0.5 * x).tanh();
     assert!((margin.displacement.unwrap() / expected - 1.0).abs() < 1e-12);
     let speed = margin.velocity.unwrap();
     assert!((margin.impulse.unwrap() / (linear.mass * speed) - 1.0).abs() < 1e-15);
-    assert_eq!(found.reaches.len(), 1);
-    assert!((found.reaches[0].velocity.1 / speed - 1.0).abs() < 0.1);
-}
-
-#[test]
-fn a_sweep_of_the_belt_speed_goes_through_the_parameters() {
-    let (points, cost) =
-        sweep(&belt(), Quantity::BeltSpeed, (0.1, 1.3), 13, &Limits::PATIENT).unwrap();
-    assert!(points.len() == 13 && cost.evaluations > 0);
-    let found: Vec<&SweepFound> =
-        points.iter().map(|point| point.found.as_ref().unwrap()).collect();
-    // The faster the belt, the flatter the characteristic: damping grows and the cycles vanish.
-    for pair in found.windows(2) {
-        assert!(pair[0].reduced.parameters.d < pair[1].reduced.parameters.d);
-    }
-    assert!(found[0].sticks && !found[12].sticks);
-    assert!(!found[2].cycles.cycles.is_empty() && found[12].cycles.cycles.is_empty());
-    for found in found {
-        let d = found.reduced.parameters.d;
-        if let Some(fold) = found.fold {
-            assert_eq!(found.cycles.cycles.is_empty(), d > fold.d, "D = {d}");
-        }
-    }
+    assert!((found.cycles[0].v_max * units.velocity / speed - 1.0).abs() < 0.1);
 }

@@ -39,6 +39,8 @@ fn machine() -> Belt {
             exponent: 1.0,
             viscous: 0.0,
         },
+        static_coefficient: None,
+        static_guide: None,
     }
 }
 

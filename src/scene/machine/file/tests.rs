@@ -71,6 +71,26 @@ fn a_table_may_stand_in_a_file_of_its_own() {
 }
 
 #[test]
+fn static_friction_stands_beside_the_law_and_never_below_it() {
+    let text = GOOD.replace("friction.constant", "friction.static = 0.3\nfriction.constant");
+    let text = text.replace("R = 0.5", "R = 0.5\nR_static = \"0.8 N\"");
+    let belt = read(&text).unwrap().belt;
+    assert_eq!((belt.static_coefficient, belt.static_guide), (Some(0.3), Some(0.8)));
+    assert_eq!(read(GOOD).unwrap().belt.static_coefficient, None);
+    let below = read(&text.replace("static = 0.3", "static = 0.2")).unwrap_err().to_string();
+    assert!(
+        below.contains("mu_s = 0.2 is below the coefficient 0.25 of the law at rest"),
+        "{below}"
+    );
+    let two = GOOD.replace("start =", "friction.polynomial = { coefficients = [1] }\nstart =");
+    let two = read(&two).unwrap_err().to_string();
+    assert!(
+        two.contains("friction takes one law: constant, polynomial, stribeck or table"),
+        "{two}"
+    );
+}
+
+#[test]
 fn what_is_wrong_is_said_with_its_place_and_what_is_allowed() {
     for (from, to, place, words) in [
         ("title", "titel", "1:1", "expected one of `title`"),
@@ -82,8 +102,8 @@ fn what_is_wrong_is_said_with_its_place_and_what_is_allowed() {
         ("m = \"250 g\"\n", "", "1:1", "m (mass) is missing; such as m = \"1 kg\""),
         ("mu = 0.25", "mu = 0", "7:1", "mu = 0 at v0 = 0.2 m/s; it must be positive"),
         ("mu = 0.25", "mu = \"3 m\"", "7:28", "mu: has another dimension; it takes no unit"),
-        ("mu = 0.25", "my = 0.25", "7:", "unexpected keys in table: my, available keys: mu"),
-        ("constant", "coulomb", "7:", "unknown variant `coulomb`"),
+        ("mu = 0.25", "my = 0.25", "7:", "unknown field `my`, expected `mu`"),
+        ("constant", "coulomb", "7:", "unknown field `coulomb`, expected one of `static`"),
         ("constant = { mu = 0.25 }", "table = {}", "7:1", "either file = "),
         ("\"2 mm\"", "\"2 s\"", "8:15", "x: has another dimension; it takes a unit such as m"),
         ("\"2 mm\"", "1e7", "8:15", "x = 10000000 m is outside its range"),

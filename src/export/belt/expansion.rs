@@ -1,0 +1,129 @@
+//! What the oscillator of the paper, with friction as a cubic, says about a machine, and by how much it is
+//! wrong about it.
+
+use serde::Serialize;
+
+use super::margins;
+use crate::machine::survey::Survey;
+use crate::oscillator::Parameters;
+use crate::oscillator::belt::TaylorError;
+use crate::study::belt::PhysicalMargin;
+use crate::study::{Cycle, Edge, Margin};
+
+/// The answer of the expansion.
+#[derive(Serialize)]
+pub(super) struct Expansion<'a> {
+    parameters: &'a Parameters,
+    /// Why it has no answer.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<String>,
+    pub cycles: Vec<ExpandedCycle<'a>>,
+    edge: Option<Edge>,
+    pub margin: Option<ExpandedMargin>,
+}
+
+/// A cycle of the expansion.
+#[derive(Serialize)]
+pub(super) struct ExpandedCycle<'a> {
+    pub stable: bool,
+    pub x_min: f64,
+    pub x_max: f64,
+    pub v_min: f64,
+    pub v_max: f64,
+    pub period: f64,
+    /// Whether it is as fast as the belt, which the expansion does not know.
+    pub reaches_belt: bool,
+    /// What the cubic leaves out of friction on its way.
+    pub taylor: Option<TaylorError>,
+    /// By how much it misses the cycle of the same stability that comes nearest; `None` without one.
+    pub error: Option<CycleError>,
+    dimensionless: &'a Cycle,
+}
+
+/// Differences to a cycle of the whole model, in m, m/s and s.
+#[derive(Clone, Copy, Serialize)]
+pub(super) struct CycleError {
+    x_min: f64,
+    pub x_max: f64,
+    v_min: f64,
+    v_max: f64,
+    period: f64,
+}
+
+/// Margins by the expansion.
+#[derive(Serialize)]
+pub(super) struct ExpandedMargin {
+    #[serde(flatten)]
+    pub physical: PhysicalMargin,
+    dimensionless: Margin,
+    /// By how much they exceed the true ones; `None` where one of the two does not exist.
+    pub error: MarginError,
+}
+
+/// Differences of margins, in m and N s.
+#[derive(Clone, Copy, Serialize)]
+pub(super) struct MarginError {
+    pub displacement: Option<f64>,
+    impulse: Option<f64>,
+}
+
+impl<'a> Expansion<'a> {
+    pub(super) fn new(survey: &'a Survey) -> Self {
+        let reduced = &survey.reduced;
+        let parameters = &reduced.parameters;
+        let found = match &survey.expansion {
+            Ok(found) => found,
+            Err(reason) => {
+                let reason = Some(reason.to_string());
+                return Expansion {
+                    parameters,
+                    reason,
+                    cycles: Vec::new(),
+                    edge: None,
+                    margin: None,
+                };
+            }
+        };
+        let margin = found.picture.as_ref().map(|picture| {
+            let physical = PhysicalMargin::new(&picture.margin, &reduced.units);
+            let [displacement, impulse] = margins(&survey.portrait);
+            let excess = |own: Option<f64>, whole: Option<f64>| Some(own? - whole?);
+            let error = MarginError {
+                displacement: excess(physical.displacement, displacement),
+                impulse: excess(physical.impulse, impulse),
+            };
+            ExpandedMargin { physical, dimensionless: picture.margin, error }
+        });
+        let cycles = found.cycles.iter().map(|cycle| expanded(cycle, survey)).collect();
+        Expansion { parameters, reason: None, cycles, edge: Some(found.edge), margin }
+    }
+}
+
+fn expanded<'a>(cycle: &'a Cycle, survey: &Survey) -> ExpandedCycle<'a> {
+    let units = &survey.reduced.units;
+    let (x_min, x_max) = (cycle.q_min * units.displacement, cycle.q_max * units.displacement);
+    let (v_min, v_max) = (cycle.v_min * units.velocity, cycle.v_max * units.velocity);
+    let period = cycle.period * units.time;
+    let alike = survey.portrait.cycles.iter().filter(|whole| whole.stable == cycle.stable);
+    let distance = |whole: &crate::machine::Cycle| (whole.x.1 - x_max).abs();
+    let nearest = alike.min_by(|one, other| distance(one).total_cmp(&distance(other)));
+    let error = nearest.map(|whole| CycleError {
+        x_min: x_min - whole.x.0,
+        x_max: x_max - whole.x.1,
+        v_min: v_min - whole.v.0,
+        v_max: v_max - whole.v.1,
+        period: period - whole.period,
+    });
+    ExpandedCycle {
+        stable: cycle.stable,
+        x_min,
+        x_max,
+        v_min,
+        v_max,
+        period,
+        reaches_belt: cycle.v_max >= survey.reduced.sticking_velocity,
+        taylor: survey.belt.taylor_error((v_min, v_max)).filter(|error| error.force.is_finite()),
+        error,
+        dimensionless: cycle,
+    }
+}

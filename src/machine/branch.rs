@@ -1,0 +1,86 @@
+//! The cycles of a machine along one of its numbers, and the places where they change.
+
+use super::portrait::Portrait;
+use super::special::{Special, between};
+use super::survey::{Trouble, portrait};
+use super::varied::Varied;
+use crate::oscillator::Belt;
+
+/// A point of a branch.
+#[derive(Clone, Debug)]
+pub struct BranchPoint {
+    /// Value of the number that varies, in SI units.
+    pub value: f64,
+    /// What the machine does there, or why there is no answer.
+    pub found: Result<Portrait, Trouble>,
+}
+
+/// The cycles along a number.
+#[derive(Clone, Debug)]
+pub struct Branch {
+    /// Its points.
+    pub points: Vec<BranchPoint>,
+    /// Where the portrait changes, in the order of the points.
+    pub special: Vec<Special>,
+}
+
+/// Value number `index` of `count` evenly spaced ones, both ends included to the last bit.
+#[must_use]
+pub fn spaced((from, to): (f64, f64), index: usize, count: usize) -> f64 {
+    if index + 1 == count {
+        return to;
+    }
+    #[expect(clippy::cast_precision_loss, reason = "branches have few points")]
+    let part = index as f64 / (count - 1) as f64;
+    from + part * (to - from)
+}
+
+/// Follows the cycles of a machine along one of its numbers, through `count` values.
+///
+/// # Errors
+/// One line, where the machine's law has no such number.
+pub fn branch(
+    belt: &Belt,
+    varied: Varied,
+    range: (f64, f64),
+    count: usize,
+) -> Result<Branch, String> {
+    varied.set(&mut belt.clone(), range.0)?;
+    let family = |value: f64| {
+        let mut here = belt.clone();
+        varied.set(&mut here, value).ok()?;
+        Some(here)
+    };
+    let point = |index| {
+        let value = spaced(range, index, count);
+        let mut here = belt.clone();
+        varied.set(&mut here, value)?;
+        Ok(BranchPoint { value, found: portrait(&here) })
+    };
+    let points = (0..count).map(point).collect::<Result<Vec<_>, String>>()?;
+    let mut special = Vec::new();
+    for pair in points.windows(2) {
+        if let (Ok(one), Ok(other)) = (&pair[0].found, &pair[1].found) {
+            special.extend(between(&family, (pair[0].value, one), (pair[1].value, other)));
+        }
+    }
+    Ok(Branch { points, special })
+}
+
+/// The special values along one number, at each value of another.
+///
+/// # Errors
+/// One line, where the machine's law has no such numbers.
+pub fn borders(
+    belt: &Belt,
+    (along, range, count): (Varied, (f64, f64), usize),
+    (against, values, rows): (Varied, (f64, f64), usize),
+) -> Result<Vec<(f64, Vec<Special>)>, String> {
+    let row = |index| {
+        let value = spaced(values, index, rows);
+        let mut here = belt.clone();
+        against.set(&mut here, value)?;
+        Ok((value, branch(&here, along, range, count)?.special))
+    };
+    (0..rows).map(row).collect()
+}

@@ -1,0 +1,311 @@
+//! The limit cycles: the fixed points of the return map, each found and described.
+
+use super::arc::{Flow, Step, Stop, Watch};
+use super::landmarks::Landmarks;
+use super::model::{Model, Phase};
+use super::return_map::{Image, Return};
+use super::search::{NOTHING, Sample, zeros};
+use super::turn::Place;
+use crate::oscillator::scaling::{exponent, times_power};
+
+/// A limit cycle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cycle {
+    /// Whether it rides on the belt for a while.
+    pub sticks: bool,
+    /// Whether it overtakes the belt.
+    pub overtakes: bool,
+    /// Whether it attracts.
+    pub stable: bool,
+    /// Smallest and largest displacement, in m.
+    pub x: (f64, f64),
+    /// Smallest and largest velocity, in m/s.
+    pub v: (f64, f64),
+    /// Period, in s.
+    pub period: f64,
+    /// How long of it the mass rides on the belt, in s.
+    pub stick_duration: f64,
+    /// Floquet multiplier; 0 where it sticks.
+    pub multiplier: f64,
+    /// Where it begins and ends to ride on the belt, in m.
+    pub ride: Option<(f64, f64)>,
+}
+
+/// Extremes of the velocity and times along a motion.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Extremes {
+    /// Smallest and largest velocity.
+    pub y: (f64, f64),
+    /// Time, all in all.
+    pub duration: f64,
+    /// Time on the belt.
+    pub stick: f64,
+    /// The last ride.
+    pub ride: Option<(f64, f64)>,
+}
+
+impl Watch for Extremes {
+    fn step(&mut self, _: &Model, step: &Step) {
+        self.duration += step.duration;
+        if let Some(peak) = step.peak {
+            let y = step.series.velocity(peak).0;
+            self.y = (self.y.0.min(y), self.y.1.max(y));
+        }
+    }
+
+    fn stick(&mut self, model: &Model, from: f64, to: f64) {
+        let duration = (to - from) / model.speed;
+        self.duration += duration;
+        self.stick += duration;
+        self.y.1 = self.y.1.max(model.speed);
+        self.ride = Some((from, to));
+    }
+}
+
+/// The fixed points of the return map, and whether it is the identity somewhere.
+#[derive(Clone, Debug, Default)]
+pub struct FixedPoints {
+    /// Right turning points with the images, by amplitude.
+    pub points: Vec<(f64, Image)>,
+    /// Whether all motions that slip are periodic.
+    pub neutral: bool,
+    /// Up to where they were looked for, and what ended the search.
+    pub end: f64,
+    /// See [`Self::end`].
+    pub stop: Option<Stop>,
+}
+
+/// Stands for what cannot be reckoned: the mass comes to rest, or runs away.
+const FAR: f64 = 1e3;
+
+impl Flow<'_> {
+    /// `ln(image/x)` of the return map over `u = ln(x/unit)`.
+    pub(super) fn growth(&mut self, u: f64, unit: f64) -> Result<Sample, Stop> {
+        let x = unit * u.exp();
+        let lost = |f| Ok(Sample { u, f, slope: 0.0 });
+        match self.returned(x) {
+            Ok(Return::Turns(image)) => {
+                let slope = image.log_slope.exp() * x / image.x - 1.0;
+                Ok(Sample { u, f: (image.x / x).ln(), slope })
+            }
+            Ok(Return::Rests(_)) => lost(-FAR),
+            Err(Stop::Escaped) => lost(FAR),
+            Err(stop) => Err(stop),
+        }
+    }
+
+    /// All fixed points of the return map.
+    ///
+    /// # Errors
+    /// [`Stop`] where even the motions next to rest cannot be followed.
+    pub fn fixed_points(&mut self, marks: Option<&Landmarks>) -> Result<FixedPoints, Stop> {
+        let mut found = FixedPoints::default();
+        let touch = marks.and_then(|marks| marks.grazing.right);
+        let scale = self.scale(marks);
+        let at = |x: f64| (x / scale).ln();
+        let smallest = self.smallest(scale)?;
+        let slipping = match touch {
+            _ if smallest.is_infinite() => None,
+            Some(touch) if touch > smallest => {
+                let grazing = marks.map_or(touch, |marks| marks.grazing.image);
+                let slope = marks.map_or(0.0, |marks| marks.grazing.log_slope.exp());
+                Some(Sample {
+                    u: at(touch),
+                    f: if grazing > 0.0 { (grazing / touch).ln() } else { -FAR },
+                    slope: slope * touch / grazing - 1.0,
+                })
+            }
+            Some(_) => None,
+            None => Some(self.farthest(smallest, scale, &mut found)?),
+        };
+        let mut roots = Vec::new();
+        if let Some(last) = slipping {
+            let first = self.growth(at(smallest), scale)?;
+            found.end = scale * last.u.exp();
+            found.neutral = self.is_neutral(first, last, scale)?;
+            if !found.neutral {
+                roots = zeros((first, last), &mut |u| self.growth(u, scale))?;
+            }
+        }
+        if let Some(marks) = marks {
+            let released = marks.released.filter(|x| touch.is_some_and(|touch| *x >= touch));
+            match released.map(|released| (released, self.returned(released))) {
+                Some((released, Ok(Return::Turns(image)))) if image.sticks_from.is_some() => {
+                    found.points.push((released, image));
+                }
+                Some((_, Err(stop))) => found.stop = Some(stop),
+                _ => {}
+            }
+            if let Some(beyond) = marks.beyond {
+                let start = beyond * (1.0 + 4.0 * f64::EPSILON);
+                if let Ok(first) = self.growth(at(start), scale) {
+                    let last = self.farthest(start, scale, &mut found)?;
+                    found.end = scale * last.u.exp();
+                    roots.extend(zeros((first, last), &mut |u| self.growth(u, scale))?);
+                }
+            }
+        }
+        for u in roots {
+            let x = scale * u.exp();
+            if let Return::Turns(image) = self.returned(x)? {
+                found.points.push((x, image));
+            }
+        }
+        found.points.sort_by(|one, other| one.0.total_cmp(&other.0));
+        Ok(found)
+    }
+
+    /// A power of two beyond all lengths that the machine singles out, so that nothing depends on their unit.
+    fn scale(&self, marks: Option<&Landmarks>) -> f64 {
+        let model = self.model;
+        let mut lengths = vec![model.guide_static, model.pull];
+        if model.speed.is_finite() {
+            lengths.push(model.speed);
+        }
+        if let Some(marks) = marks {
+            lengths.extend(marks.grazing.right);
+            lengths.extend(marks.released);
+            lengths.extend(marks.beyond);
+        }
+        lengths.extend(model.velocities());
+        let largest = lengths.into_iter().filter(|x| x.is_finite()).fold(0.0, f64::max);
+        if largest > 0.0 { times_power(1.0, exponent(largest) + 1) } else { 1.0 }
+    }
+
+    /// The right turning point below which every motion comes to rest; without friction of the guide, one
+    /// below which the map is linear.
+    fn smallest(&mut self, scale: f64) -> Result<f64, Stop> {
+        let (guide, held) = (self.model.guide, self.model.guide_static);
+        if held > 0.0 {
+            let before = match self.arc(Phase::Between, (held, 0.0), true, &mut ()) {
+                // What comes to rest there was released by the belt: all that only slips rests before.
+                Ok(end) if end.on_belt => return Ok(f64::INFINITY),
+                Ok(end) => end.x,
+                Err(Stop::Settled) => -guide,
+                Err(stop) => return Err(stop),
+            };
+            let right = self.right_before(before)?;
+            return Ok(right.unwrap_or(f64::INFINITY).max(held * (1.0 + 1e-12)));
+        }
+        let mut x = scale * 1e-3;
+        let linear = self.model.linear_growth();
+        for _ in 0..12 {
+            let here = self.growth((x / scale).ln(), scale)?;
+            if (here.f - linear).abs() <= 0.1 * linear.abs() || !linear.is_finite() {
+                break;
+            }
+            x *= 0.1;
+        }
+        Ok(x)
+    }
+
+    /// A right turning point far beyond `scale`, or as far as motions can be followed.
+    fn farthest(&mut self, from: f64, scale: f64, found: &mut FixedPoints) -> Result<Sample, Stop> {
+        /// How far beyond.
+        const DOUBLINGS: u32 = 10;
+        /// Where a swing takes more than half of the amplitude, and more the larger it is, dissipation rules.
+        const CONTRACTS: f64 = -0.7;
+        let at = |x: f64| (x / scale).ln();
+        let mut last = self.growth(at(from), scale)?;
+        let mut x = from.max(scale);
+        for _ in 0..DOUBLINGS {
+            let before = last;
+            match self.growth(at(x), scale) {
+                Ok(sample) => last = sample,
+                Err(stop) => {
+                    found.stop = Some(stop);
+                    return Ok(self.edge(last, at(x), scale));
+                }
+            }
+            let shrinks = last.f < CONTRACTS && last.f < before.f;
+            if shrinks || last.f.abs() >= FAR {
+                break;
+            }
+            x *= 2.0;
+        }
+        Ok(last)
+    }
+
+    /// The last place up to which the map is known, between one where it is and one where it is not.
+    fn edge(&mut self, mut known: Sample, mut unknown: f64, unit: f64) -> Sample {
+        for _ in 0..40 {
+            match self.growth(0.5 * (known.u + unknown), unit) {
+                Ok(sample) => known = sample,
+                Err(_) => unknown = 0.5 * (known.u + unknown),
+            }
+        }
+        known
+    }
+
+    /// Whether all motions in between are periodic.
+    fn is_neutral(&mut self, first: Sample, last: Sample, unit: f64) -> Result<bool, Stop> {
+        let middle = self.growth(0.5 * (first.u + last.u), unit)?;
+        let other = self.growth(0.3 * first.u + 0.7 * last.u, unit)?;
+        Ok([first, middle, other, last].iter().all(|sample| sample.f.abs() < NOTHING))
+    }
+
+    /// Everything about the cycle through a right turning point.
+    ///
+    /// # Errors
+    /// [`Stop`], where rounding carries the motion off.
+    pub fn describe(&mut self, x: f64, image: &Image, stable: bool) -> Result<Cycle, Stop> {
+        let model = self.model;
+        let sticks = image.sticks_from.is_some();
+        let overtakes = image.overtakes_from.is_some();
+        let mut extremes = Extremes::default();
+        self.around(x, !stable && !sticks && !overtakes, &mut extremes)?;
+        let speed = model.omega_0;
+        Ok(Cycle {
+            sticks,
+            overtakes,
+            stable,
+            x: (image.left, x),
+            v: (extremes.y.0 * speed, extremes.y.1 * speed),
+            period: extremes.duration / speed,
+            stick_duration: extremes.stick / speed,
+            multiplier: if sticks { 0.0 } else { image.log_slope.exp() },
+            ride: extremes.ride,
+        })
+    }
+
+    /// Follows a motion once around from a right turning point; backward in time where that attracts.
+    ///
+    /// # Errors
+    /// [`Stop`], where rounding carries the motion off.
+    pub fn around(&mut self, x: f64, backward: bool, watch: &mut impl Watch) -> Result<f64, Stop> {
+        if backward {
+            let left = self.arc(Phase::Between, (x, 0.0), true, watch)?.x;
+            self.arc(Phase::Below, (left, 0.0), true, watch)?;
+            return Ok(left);
+        }
+        let left = self.turn(Place::Slips(Phase::Below), (x, 0.0), watch)?.x;
+        self.turn(Place::Slips(Phase::Between), (left, 0.0), watch)?;
+        Ok(left)
+    }
+}
+
+impl Model {
+    /// The logarithm by which a small motion grows in one swing around a rest without friction of the guide;
+    /// infinite where it does not swing.
+    #[must_use]
+    pub fn linear_growth(&self) -> f64 {
+        let d = 0.5 * self.damping;
+        let turning = (1.0 - d * d).sqrt();
+        if turning > 0.0 { -std::f64::consts::TAU * d / turning } else { f64::NEG_INFINITY * d }
+    }
+
+    /// Velocities at which the force changes its form.
+    fn velocities(&self) -> Vec<f64> {
+        let mut found: Vec<f64> = self.slower.fall.iter().map(|fall| fall.velocity).collect();
+        for piece in &self.slower.pieces {
+            let c = &piece.coefficients;
+            if piece.center == 0.0 && c.len() > 2 && c[1] != 0.0 {
+                let knee = |(k, c_k): (usize, &f64)| {
+                    (c[1] / c_k).abs().powf(1.0 / f64::from(u16::try_from(k - 1).unwrap_or(1)))
+                };
+                found.extend(c.iter().enumerate().skip(2).filter(|(_, c)| **c != 0.0).map(knee));
+            }
+        }
+        found
+    }
+}

@@ -1,0 +1,57 @@
+//! How much friction of the guide a margin needs, by the whole model.
+//!
+//! As for the oscillator of the paper ([`crate::study::design`]): more friction of the guide turns the field
+//! inwards wherever the mass moves, so that the basin of rest grows with it.
+
+use super::model::Model;
+use super::portrait::{Border, Portrait};
+use super::survey::{Trouble, portrait};
+use crate::flow::Reason;
+use crate::oscillator::Belt;
+use crate::study::design::{Kick, Needed, least_friction};
+
+/// The size of a margin of this kind, in m or N s; infinite where every kick is survived.
+fn margin(portrait: &Portrait, kick: Kick) -> f64 {
+    portrait.margin.map_or(f64::INFINITY, |margin| match kick {
+        Kick::Displacement => margin.least_displacement(),
+        Kick::Impulse => portrait.model.mass * margin.least_velocity(),
+    })
+}
+
+/// The least friction R of the guide, in N, at which the margin is `wanted` (m or N s) or more; `None` where
+/// no bracket of it was found.
+///
+/// # Errors
+/// [`Trouble`] where a machine on the way has no portrait.
+pub fn friction_for(belt: &Belt, kick: Kick, wanted: f64) -> Result<Option<Needed>, Trouble> {
+    let model = Model::new(belt)?;
+    let mut trouble = None;
+    // As a length: what the guide holds at rest.
+    let length = match kick {
+        Kick::Displacement => wanted,
+        Kick::Impulse => wanted / (model.mass * model.omega_0),
+    };
+    let mut excess = |held: f64| {
+        let friction = held * belt.stiffness;
+        let static_guide = belt.static_guide.map(|at_rest| at_rest.max(friction));
+        match portrait(&Belt { friction, static_guide, ..belt.clone() }) {
+            Ok(found) if matches!(found.border, Border::NoBasin) => Ok(f64::MIN),
+            Ok(found) => Ok((margin(&found, kick) / wanted).ln().max(f64::MIN)),
+            Err(found) => {
+                trouble = Some(found);
+                Err(Reason::NotApplicable { needs: "a portrait of the machine" })
+            }
+        }
+    };
+    let without = (model.damping > 0.0).then_some(0.0);
+    let found = least_friction(length, without, &mut excess);
+    if let Some(trouble) = trouble {
+        return Err(trouble);
+    }
+    let force = |r: f64| r * belt.stiffness;
+    Ok(found.ok().map(|needed| match needed {
+        Needed::Any => Needed::Any,
+        Needed::Friction { r } => Needed::Friction { r: force(r) },
+        Needed::Fold { r, below } => Needed::Fold { r: force(r), below: below / length * wanted },
+    }))
+}

@@ -1,0 +1,120 @@
+//! What depends on velocity: the force on the mass in each phase of its motion, less its value at rest.
+//!
+//! On either side of the belt's speed the force is a polynomial in the velocity `y`, piecewise for a table,
+//! plus for Stribeck's law one falling exponential. Both are kept relative to the steady position, where the
+//! force vanishes exactly: near rest it keeps all its digits however small the velocity is. Forces are
+//! divided by the stiffness, so that they are lengths, and velocities by the natural frequency.
+
+/// A polynomial `sum c_k (y - center)^k` for velocities in `low ..= high`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Piece {
+    pub low: f64,
+    pub high: f64,
+    pub center: f64,
+    pub coefficients: Vec<f64>,
+}
+
+impl Piece {
+    /// Value and slope.
+    fn at(&self, y: f64) -> (f64, f64) {
+        let step = y - self.center;
+        self.coefficients.iter().rev().fold((0.0, 0.0), |(value, slope), coefficient| {
+            (value * step + coefficient, slope * step + value)
+        })
+    }
+}
+
+/// The polynomial with these coefficients, in powers of the distance from a point `by` further on.
+pub fn shifted(coefficients: &[f64], by: f64) -> Vec<f64> {
+    let mut shifted = coefficients.to_vec();
+    for start in 1..shifted.len() {
+        for k in (start - 1..shifted.len() - 1).rev() {
+            shifted[k] += by * shifted[k + 1];
+        }
+    }
+    shifted
+}
+
+/// The falling part of Stribeck's law, `drop exp(-(slip/velocity)^exponent)`, on one side of the belt.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fall {
+    pub drop: f64,
+    pub velocity: f64,
+    pub exponent: f64,
+    /// Speed of the belt.
+    pub speed: f64,
+    /// Whether the mass is faster than the belt.
+    pub above: bool,
+}
+
+impl Fall {
+    /// How fast the mass slips on the belt.
+    pub fn slip(&self, y: f64) -> f64 {
+        if self.above { (y - self.speed).max(0.0) } else { (self.speed - y).max(0.0) }
+    }
+
+    fn power(&self, slip: f64) -> f64 {
+        let ratio = slip / self.velocity;
+        if self.exponent == 1.0 { ratio } else { ratio.powf(self.exponent) }
+    }
+
+    /// `drop exp(..)` with the sign with which it acts on the mass.
+    pub fn full(&self, y: f64) -> f64 {
+        let force = self.drop * (-self.power(self.slip(y))).exp();
+        if self.above { -force } else { force }
+    }
+
+    /// Its part of the force: below the belt's speed less that at rest, with all digits near rest.
+    pub fn value(&self, y: f64) -> f64 {
+        if self.above {
+            return self.full(y);
+        }
+        let rest = self.power(self.speed);
+        let rise = if self.exponent == 1.0 {
+            y / self.velocity
+        } else {
+            -rest * (self.exponent * (-(y / self.speed).min(1.0)).ln_1p()).exp_m1()
+        };
+        if rise.abs() <= 1.0 {
+            self.drop * (-rest).exp() * rise.exp_m1()
+        } else {
+            self.full(y) - self.drop * (-rest).exp()
+        }
+    }
+
+    /// Derivative of [`Self::value`].
+    pub fn slope(&self, y: f64) -> f64 {
+        let slip = self.slip(y);
+        let steepness = if self.exponent == 1.0 {
+            1.0
+        } else {
+            self.exponent * (slip / self.velocity).powf(self.exponent - 1.0)
+        };
+        self.drop * (-self.power(slip)).exp() * steepness / self.velocity
+    }
+}
+
+/// The force on one side of the belt's speed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Side {
+    /// Pieces that follow one another in y.
+    pub pieces: Vec<Piece>,
+    /// The exponential part.
+    pub fall: Option<Fall>,
+}
+
+impl Side {
+    /// The piece for a motion at `y` towards larger or smaller velocities; `None` beyond the law.
+    pub fn piece(&self, y: f64, rising: bool) -> Option<&Piece> {
+        self.pieces.iter().find(|piece| {
+            if rising { piece.low <= y && y < piece.high } else { piece.low < y && y <= piece.high }
+        })
+    }
+
+    /// The force and its derivative; beyond the law the nearest piece goes on.
+    pub fn at(&self, y: f64) -> (f64, f64) {
+        let found = self.pieces.iter().find(|piece| y <= piece.high).or(self.pieces.last());
+        let (value, slope) = found.map_or((0.0, 0.0), |piece| piece.at(y));
+        self.fall.map_or((value, slope), |fall| (value + fall.value(y), slope + fall.slope(y)))
+    }
+}

@@ -1,0 +1,86 @@
+//! The motions that the belt's line singles out: what touches it, what it releases, what overtakes it.
+
+use super::arc::{Flow, Stop};
+use super::model::{Lines, Phase};
+use super::return_map::Divergence;
+use super::turn::Place;
+
+/// The orbit that touches the belt's line, if it went on slipping.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grazing {
+    /// Left turning point before the contact.
+    pub left: f64,
+    /// Right turning point before that; `None` where no motion comes from one.
+    pub right: Option<f64>,
+    /// Right turning point after the contact.
+    pub image: f64,
+    /// Logarithm of the derivative of the return map there, from below.
+    pub log_slope: f64,
+}
+
+/// Where the return map changes its form.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Landmarks {
+    /// Places on the line.
+    pub lines: Lines,
+    /// The orbit that touches the line.
+    pub grazing: Grazing,
+    /// Right turning point of what the belt has released; `None` where that comes to rest at once.
+    pub released: Option<f64>,
+    /// Left turning point from which the lower end of the stick band is reached.
+    pub low_left: f64,
+    /// From here on motions do not end on the band, but overtake the belt; `None` where all do.
+    pub beyond: Option<f64>,
+}
+
+impl Flow<'_> {
+    /// The landmarks; `None` without a belt, or without a law for small slips.
+    ///
+    /// # Errors
+    /// [`Stop`] where the friction law ends before they are reached.
+    pub fn landmarks(&mut self) -> Result<Option<Landmarks>, Stop> {
+        let model = self.model;
+        let Some(lines) = model.lines else { return Ok(None) };
+        let grazing = self.grazing(&lines)?;
+        let released = self.turn(Place::Sticks, (lines.release, model.speed), &mut ())?;
+        let low_left = self.left_before(lines.low, model.speed, &mut ())?;
+        let beyond = self.beyond(&lines, low_left)?;
+        let released = (!released.rests).then_some(released.x);
+        Ok(Some(Landmarks { lines, grazing, released, low_left, beyond }))
+    }
+
+    fn grazing(&mut self, lines: &Lines) -> Result<Grazing, Stop> {
+        let (guide, speed) = (self.model.guide, self.model.speed);
+        let mut divergence = Divergence::default();
+        let left = self.left_before(lines.fold, speed, &mut divergence)?;
+        let after = self.arc(Phase::Between, (lines.fold, speed), false, &mut divergence)?;
+        let left = left.min(-self.model.guide_static);
+        let mut before = Divergence::default();
+        let (right, ratio) = match self.arc(Phase::Below, (left, 0.0), true, &mut before) {
+            Ok(end) => (Some(end.x), end.accelerations.1 / end.accelerations.0),
+            Err(Stop::Escaped | Stop::OutsideLaw { .. }) => (None, 1.0),
+            Err(Stop::Settled) => (Some(guide), 0.0),
+            Err(stop) => return Err(stop),
+        };
+        let between = (left + guide) / (after.x + guide);
+        let log_slope = divergence.0 + before.0 + (ratio * between).abs().ln();
+        Ok(Grazing { left, right, image: after.x, log_slope })
+    }
+
+    /// The right turning point beyond which motions overtake the belt and do not come to ride on it.
+    fn beyond(&mut self, lines: &Lines, low_left: f64) -> Result<Option<f64>, Stop> {
+        let speed = self.model.speed;
+        // The last motion that comes down on the band, followed back to where it rose above the line.
+        let back = |stop| match stop {
+            Stop::Escaped | Stop::Settled | Stop::OutsideLaw { .. } => Ok(None),
+            Stop::Steps => Err(Stop::Steps),
+        };
+        let rose = match self.arc(Phase::Above, (lines.release, speed), true, &mut ()) {
+            Ok(end) => end.x,
+            Err(stop) => return back(stop),
+        };
+        let left =
+            if rose >= lines.low { low_left } else { self.left_before(rose, speed, &mut ())? };
+        self.right_before(left).or_else(back)
+    }
+}

@@ -1,0 +1,236 @@
+//! A motion in time: its legs, the curve that it draws, and its ledger.
+
+use super::arc::{Flow, Step, Stop, Watch};
+use super::curve::{Curve, Piece};
+use super::ledger::{Ledger, Works};
+use super::model::{Model, Phase};
+use super::turn::Place;
+
+/// How a motion ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Outcome {
+    /// The guide holds the mass since then.
+    Rests,
+    /// It still moves when time is up.
+    Moves,
+    /// It could not be followed further.
+    Stops(Stop),
+}
+
+/// A stretch of a motion in one phase, on the belt, or at rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Leg {
+    /// What the mass does.
+    pub place: Place,
+    /// When it begins, in s.
+    pub t: f64,
+    /// Displacement there, in m.
+    pub x: f64,
+}
+
+/// A state in SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State {
+    /// Time, in s.
+    pub t: f64,
+    /// Displacement, in m.
+    pub x: f64,
+    /// Velocity, in m/s.
+    pub v: f64,
+}
+
+/// A motion from a start, in SI units.
+#[derive(Clone, Debug)]
+pub struct Motion {
+    /// Its legs in their order.
+    pub legs: Vec<Leg>,
+    /// All of it as a curve, whose pieces follow one another in time.
+    pub curve: Curve,
+    /// Where it ends, or how far it was followed.
+    pub end: State,
+    /// How it ends.
+    pub outcome: Outcome,
+    /// Smallest and largest displacement, in m.
+    pub x: (f64, f64),
+    /// Smallest and largest velocity, in m/s.
+    pub v: (f64, f64),
+    /// Where the energy comes from and goes.
+    pub ledger: Ledger,
+    model: Model,
+}
+
+/// Collects a motion until its time is up.
+struct Recorder {
+    curve: Curve,
+    works: Works,
+    left: f64,
+    state: (f64, f64),
+    x: (f64, f64),
+    y: (f64, f64),
+}
+
+impl Recorder {
+    fn reaches(&mut self, x: f64, y: f64) {
+        self.x = (self.x.0.min(x), self.x.1.max(x));
+        self.y = (self.y.0.min(y), self.y.1.max(y));
+    }
+}
+
+impl Watch for Recorder {
+    fn step(&mut self, model: &Model, step: &Step) {
+        if self.left <= 0.0 {
+            return;
+        }
+        let duration = step.duration.min(self.left);
+        self.left -= step.duration;
+        self.works.slip(model, step, duration);
+        self.curve
+            .step(model, &Step { duration, peak: step.peak.filter(|t| *t < duration), ..*step });
+        if let Some(Piece::Slip(slip)) = self.curve.pieces.last() {
+            let ends = [slip.peak.map(|peak| slip.at(peak)), Some(slip.at(duration))];
+            for (x, y) in ends.into_iter().flatten() {
+                self.state = (x, y);
+                self.reaches(x, y);
+            }
+        }
+    }
+
+    fn stick(&mut self, model: &Model, from: f64, to: f64) {
+        if self.left <= 0.0 {
+            return;
+        }
+        let duration = (to - from) / model.speed;
+        let to = if duration > self.left { from + self.left * model.speed } else { to };
+        self.left -= duration;
+        self.works.ride(model, from, to);
+        self.curve.stick(model, from, to);
+        self.state = (to, model.speed);
+        self.reaches(to, model.speed);
+    }
+}
+
+/// Most pieces that are kept of a motion.
+const MOST_PIECES: usize = 200_000;
+
+impl Motion {
+    /// Follows a motion from displacement `x` (m) and velocity `v` (m/s) for `until` seconds.
+    #[must_use]
+    pub fn new(model: &Model, x: f64, v: f64, until: f64) -> Self {
+        let omega_0 = model.omega_0;
+        let start = (x, model.scaled_velocity(v));
+        let (mut x, mut y) = start;
+        let whole = until * omega_0;
+        let mut recorder = Recorder {
+            curve: Curve::default(),
+            works: Works::default(),
+            left: whole,
+            state: start,
+            x: (x, x),
+            y: (y, y),
+        };
+        let mut flow = Flow::new(model);
+        let mut legs = Vec::new();
+        let mut place = model.place(x, y);
+        let outcome = loop {
+            if recorder.left <= 0.0 {
+                break Outcome::Moves;
+            }
+            if recorder.curve.pieces.len() > MOST_PIECES {
+                break Outcome::Stops(Stop::Steps);
+            }
+            legs.push(Leg { place, t: (whole - recorder.left) / omega_0, x });
+            match flow.leg(place, (x, y), &mut recorder) {
+                Ok(Some(next)) => (place, x, y) = next,
+                Ok(None) | Err(Stop::Settled) => break Outcome::Rests,
+                Err(stop) => break Outcome::Stops(stop),
+            }
+        };
+        let Recorder { curve, works, left, state: (x, y), .. } = recorder;
+        let t = (whole - left.max(0.0)) / omega_0;
+        let scaled = |(low, high): (f64, f64)| (low * omega_0, high * omega_0);
+        Motion {
+            legs,
+            end: State { t, x, v: y * omega_0 },
+            outcome,
+            x: recorder.x,
+            v: scaled(recorder.y),
+            ledger: works.ledger(model, start, (x, y)),
+            curve,
+            model: model.clone(),
+        }
+    }
+
+    /// The states at the ends of its steps and at so many places evenly between them.
+    #[must_use]
+    pub fn samples(&self, between: u32) -> Vec<State> {
+        let Model { omega_0, speed, .. } = self.model;
+        let parts = f64::from(between + 1);
+        let mut begin = 0.0;
+        let mut found = Vec::new();
+        for piece in &self.curve.pieces {
+            let duration = match piece {
+                Piece::Slip(slip) => slip.duration,
+                Piece::Line { from, to } => (to - from) / speed,
+            };
+            let first = u32::from(!found.is_empty());
+            for part in first..=between + 1 {
+                let t = duration * f64::from(part) / parts;
+                let (x, y) = match piece {
+                    Piece::Slip(slip) => slip.at(t),
+                    Piece::Line { from, .. } => (from + t * speed, speed),
+                };
+                found.push(State { t: (begin + t) / omega_0, x, v: y * omega_0 });
+            }
+            begin += duration;
+        }
+        found
+    }
+}
+
+impl Flow<'_> {
+    /// Follows one leg; returns where the next begins, `None` at rest.
+    fn leg(
+        &mut self,
+        place: Place,
+        (x, y): (f64, f64),
+        watch: &mut impl Watch,
+    ) -> Result<Option<(Place, f64, f64)>, Stop> {
+        let phase = match place {
+            Place::Rests => return Ok(None),
+            Place::Sticks => {
+                let release = self.model.lines.map_or(x, |lines| lines.release);
+                watch.stick(self.model, x, release);
+                return Ok(Some((Place::Slips(Phase::Between), release, y)));
+            }
+            Place::Slips(phase) => phase,
+        };
+        let end = self.arc(phase, (x, y), false, watch)?;
+        let (place, x) = self.after(phase, &end);
+        Ok(Some((place, x, if end.on_belt { self.model.speed } else { 0.0 })))
+    }
+
+    /// Where a motion from `(x, y)` that comes to rest does so, in m.
+    ///
+    /// # Errors
+    /// [`Stop`] where it does not.
+    pub fn rest_of(&mut self, mut x: f64, mut y: f64) -> Result<f64, Stop> {
+        /// Turns that a motion may take.
+        const TURNS: usize = 200_000;
+        if self.model.guide_static == 0.0 {
+            return Ok(0.0);
+        }
+        for _ in 0..TURNS {
+            let place = self.model.place(x, y);
+            match self.turn(place, (x, y), &mut ()) {
+                Ok(turn) if turn.rests => return Ok(turn.x),
+                Ok(turn) => (x, y) = (turn.x, 0.0),
+                Err(Stop::Settled) if place == Place::Slips(Phase::Below) => {
+                    return Ok(self.model.guide);
+                }
+                Err(Stop::Settled) => return Ok(-self.model.guide),
+                Err(stop) => return Err(stop),
+            }
+        }
+        Err(Stop::Steps)
+    }
+}

@@ -1,0 +1,375 @@
+//! What becomes of every motion: the cycles, the basin of rest with its border and margins.
+//!
+//! Fixed points and jumps of the return map cut the line of right turning points into gaps. Within a gap all
+//! motions go one way, to the next cycle on that side; so one look into each gap settles the fate of every
+//! start, which needs no more than the way to its next right turning point.
+
+use super::arc::{Flow, Stop};
+use super::curve::{Curve, Piece, Window};
+use super::cycles::Cycle;
+use super::landmarks::Landmarks;
+use super::model::{Model, Phase};
+use super::return_map::Return;
+use super::turn::Place;
+
+/// What a motion ends as.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fate {
+    /// At rest.
+    Rest,
+    /// On the cycle of this index, or on it from the start.
+    Cycle(usize),
+    /// Periodic, one of a family.
+    Neutral,
+    /// It grows without bound.
+    Escaped,
+    /// It leaves what is known of the machine.
+    Unknown(Stop),
+}
+
+/// What borders the basin of rest.
+#[derive(Clone, Debug)]
+pub enum Border {
+    /// The unstable cycle of this index.
+    Cycle(usize, Curve),
+    /// An orbit that touches the belt's line, and a piece of that line.
+    Grazing(Curve),
+    /// Nothing: everything comes to rest.
+    None,
+    /// Rest itself repels.
+    NoBasin,
+}
+
+impl Border {
+    /// The name of its kind.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Border::Cycle(..) => "cycle",
+            Border::Grazing(_) => "grazing",
+            Border::None => "none",
+            Border::NoBasin => "no-basin",
+        }
+    }
+
+    /// The closed curve, where there is one.
+    #[must_use]
+    pub fn curve(&self) -> Option<&Curve> {
+        match self {
+            Border::Cycle(_, curve) | Border::Grazing(curve) => Some(curve),
+            Border::None | Border::NoBasin => None,
+        }
+    }
+}
+
+/// Kicks out of the steady position up to which the mass comes back to rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Margin {
+    /// Displacements to the right and to the left, in m.
+    pub displacement: (f64, f64),
+    /// Velocities with and against the belt, in m/s.
+    pub velocity: (f64, f64),
+}
+
+impl Margin {
+    /// The smaller displacement, in m.
+    #[must_use]
+    pub fn least_displacement(&self) -> f64 {
+        self.displacement.0.min(self.displacement.1)
+    }
+
+    /// The smaller velocity, in m/s.
+    #[must_use]
+    pub fn least_velocity(&self) -> f64 {
+        self.velocity.0.min(self.velocity.1)
+    }
+}
+
+/// A gap between right turning points.
+#[derive(Clone, Copy, Debug)]
+struct Gap {
+    /// Its upper end.
+    to: f64,
+    fate: Fate,
+}
+
+/// What a machine does.
+#[derive(Clone, Debug)]
+pub struct Portrait {
+    /// Its model.
+    pub model: Model,
+    /// The cycles, by amplitude.
+    pub cycles: Vec<Cycle>,
+    /// Whether there is a family of periodic orbits.
+    pub neutral: bool,
+    /// The border of the basin of rest; of a neutral family where rest is one of it.
+    pub border: Border,
+    /// The kicks that are survived; `None` where every one is.
+    pub margin: Option<Margin>,
+    /// Where the line of the belt is met.
+    pub landmarks: Option<Landmarks>,
+    /// Why motions far out are not known; `None` where all are.
+    pub stop: Option<Stop>,
+    /// Steps that it took.
+    pub steps: u64,
+    gaps: Vec<Gap>,
+}
+
+/// A place on the line of right turning points where something changes.
+#[derive(Clone, Copy, Debug)]
+enum Mark {
+    Cycle(usize),
+    Jump,
+}
+
+impl Portrait {
+    /// Computes what a machine does.
+    ///
+    /// # Errors
+    /// [`Stop`] where the motions near rest, or those that the belt releases, cannot be followed.
+    pub fn new(model: &Model) -> Result<Self, Stop> {
+        let mut flow = Flow::new(model);
+        let landmarks = flow.landmarks()?;
+        let found = flow.fixed_points(landmarks.as_ref())?;
+        let mut marks: Vec<(f64, Mark)> = found
+            .points
+            .iter()
+            .enumerate()
+            .map(|(index, (x, _))| (*x, Mark::Cycle(index)))
+            .collect();
+        marks.extend(jumps(model, landmarks.as_ref()).into_iter().map(|x| (x, Mark::Jump)));
+        marks.sort_by(|one, other| one.0.total_cmp(&other.0));
+        let ways = ways(&mut flow, &marks, found.end)?;
+        let mut cycles = Vec::new();
+        for (index, (x, image)) in found.points.iter().enumerate() {
+            let place =
+                marks.iter().position(|(_, mark)| matches!(mark, Mark::Cycle(i) if *i == index));
+            let attracts =
+                |place: usize| ways[place] == Way::Outward && ways[place + 1] == Way::Inward;
+            let stable = image.sticks_from.is_some() || place.is_some_and(attracts);
+            cycles.push(flow.describe(*x, image, stable)?);
+        }
+        let mut portrait = Portrait {
+            model: model.clone(),
+            cycles,
+            neutral: found.neutral,
+            border: Border::None,
+            margin: None,
+            landmarks,
+            stop: found.stop,
+            steps: 0,
+            gaps: gaps(&marks, &ways, found.stop),
+        };
+        portrait.settle_border(&mut flow, &marks)?;
+        portrait.steps = flow.steps;
+        Ok(portrait)
+    }
+
+    fn settle_border(&mut self, flow: &mut Flow, marks: &[(f64, Mark)]) -> Result<(), Stop> {
+        let model = &self.model;
+        let Some(first) = self.gaps.first() else { return Ok(()) };
+        let inner = if self.neutral { Fate::Neutral } else { Fate::Rest };
+        if first.fate != inner {
+            self.border = Border::NoBasin;
+            self.margin = Some(Margin { displacement: (0.0, 0.0), velocity: (0.0, 0.0) });
+            return Ok(());
+        }
+        let last = self.gaps.iter().take_while(|gap| gap.fate == inner).count();
+        let Some((x, mark)) = marks.get(last - 1).filter(|_| last < self.gaps.len()) else {
+            return Ok(());
+        };
+        let mut curve = Curve::default();
+        let left = match mark {
+            Mark::Cycle(index) => {
+                let cycle = &self.cycles[*index];
+                let left = flow.around(*x, !cycle.sticks && !cycle.overtakes, &mut curve)?;
+                self.border = Border::Cycle(*index, curve.clone());
+                left
+            }
+            Mark::Jump => {
+                let left = flow.jump_border(*x, self.landmarks.as_ref(), &mut curve)?;
+                self.border = Border::Grazing(curve.clone());
+                left
+            }
+        };
+        let (up, down) = curve.velocities_at(0.0, model.speed);
+        let speed = |y: Option<f64>| y.map_or(f64::INFINITY, |y| (y * model.omega_0).abs());
+        self.margin =
+            Some(Margin { displacement: (*x, -left), velocity: (speed(up), speed(down)) });
+        Ok(())
+    }
+
+    /// What becomes of a motion that starts at displacement `x` (m) with velocity `v` (m/s).
+    ///
+    /// # Errors
+    /// [`Stop`] where it does not get to its next right turning point.
+    pub fn fate(&self, x: f64, v: f64) -> Result<Fate, Stop> {
+        let y = self.model.scaled_velocity(v);
+        let mut flow = Flow::new(&self.model);
+        let turn = match flow.to_the_right(x, y) {
+            Ok(turn) => turn,
+            Err(Stop::Settled) => return Ok(Fate::Rest),
+            Err(Stop::Escaped) => return Ok(Fate::Escaped),
+            Err(stop) => return Err(stop),
+        };
+        Ok(turn.map_or(Fate::Rest, |x| self.fate_of_turn(x)))
+    }
+
+    /// What becomes of motions far out.
+    #[must_use]
+    pub fn outermost(&self) -> Fate {
+        self.gaps.last().map_or(Fate::Rest, |gap| gap.fate)
+    }
+
+    /// What becomes of a motion that turns on the right at `x`.
+    fn fate_of_turn(&self, x: f64) -> Fate {
+        let gap = self.gaps.iter().find(|gap| x < gap.to).or(self.gaps.last());
+        gap.map_or(Fate::Rest, |gap| gap.fate)
+    }
+
+    /// The part of a window, in m and m/s, from which the mass comes to rest.
+    #[must_use]
+    pub fn rest_share(&self, x: (f64, f64), v: (f64, f64)) -> f64 {
+        let y = (self.model.scaled_velocity(v.0), self.model.scaled_velocity(v.1));
+        let window = Window { x, y };
+        match &self.border {
+            Border::None => 1.0,
+            Border::NoBasin => 0.0,
+            Border::Cycle(_, curve) | Border::Grazing(curve) => {
+                curve.area_within(&window, self.model.speed) / window.area()
+            }
+        }
+    }
+}
+
+/// Where the return map jumps: where a touch becomes a ride, and where the mirror band ends.
+fn jumps(model: &Model, landmarks: Option<&Landmarks>) -> Vec<f64> {
+    let Some(marks) = landmarks else { return Vec::new() };
+    let mut found: Vec<f64> = marks.grazing.right.into_iter().collect();
+    if marks.lines.release > marks.lines.fold {
+        found.extend(marks.beyond.filter(|beyond| Some(*beyond) != marks.grazing.right));
+    }
+    found.retain(|x| *x > model.guide_static);
+    found
+}
+
+/// Where motions go in a gap.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Way {
+    Outward,
+    Inward,
+    /// They are periodic.
+    Nowhere,
+    /// They leave what is known.
+    Lost(Stop),
+}
+
+/// Where motions go in each gap.
+fn ways(flow: &mut Flow, marks: &[(f64, Mark)], end: f64) -> Result<Vec<Way>, Stop> {
+    let mut ways = Vec::with_capacity(marks.len() + 1);
+    let held = flow.model.guide_static;
+    let mut low = held;
+    for high in marks.iter().map(|(x, _)| Some(*x)).chain([None]) {
+        let high = high.unwrap_or(if end > low { end } else { 2.0 * low });
+        let x = low + 0.5 * (high - low);
+        ways.push(match flow.returned(x) {
+            Ok(Return::Turns(image)) => way(image.x, x),
+            Ok(Return::Rests(_)) | Err(Stop::Settled) => Way::Inward,
+            Err(Stop::Escaped) => Way::Outward,
+            Err(stop @ Stop::OutsideLaw { .. }) => Way::Lost(stop),
+            Err(Stop::Steps) => return Err(Stop::Steps),
+        });
+        low = high;
+    }
+    Ok(ways)
+}
+
+fn way(image: f64, x: f64) -> Way {
+    let change = (image - x) / x;
+    if change.abs() < super::search::NOTHING {
+        Way::Nowhere
+    } else if change > 0.0 {
+        Way::Outward
+    } else {
+        Way::Inward
+    }
+}
+
+/// The fate of each gap.
+fn gaps(marks: &[(f64, Mark)], ways: &[Way], stop: Option<Stop>) -> Vec<Gap> {
+    let fate = |gap: usize| {
+        let mut here = gap;
+        loop {
+            let (mark, next) = match ways[here] {
+                Way::Lost(stop) => return Fate::Unknown(stop),
+                Way::Nowhere => return Fate::Neutral,
+                Way::Outward => (marks.get(here), here + 1),
+                Way::Inward if here == 0 => return Fate::Rest,
+                Way::Inward => (marks.get(here - 1), here - 1),
+            };
+            match mark {
+                None => return stop.map_or(Fate::Escaped, Fate::Unknown),
+                Some((_, Mark::Cycle(index))) => return Fate::Cycle(*index),
+                // Motions go on across a jump; the map rises there, so it never sends them back.
+                Some((_, Mark::Jump)) => here = next,
+            }
+        }
+    };
+    let ends = marks.iter().map(|(x, _)| *x).chain([f64::INFINITY]);
+    ends.enumerate().map(|(gap, to)| Gap { to, fate: fate(gap) }).collect()
+}
+
+impl Flow<'_> {
+    /// The next right turning point of any start; `None` where it comes to rest before.
+    ///
+    /// # Errors
+    /// [`Stop`] where it does not get there.
+    pub fn to_the_right(&mut self, mut x: f64, mut y: f64) -> Result<Option<f64>, Stop> {
+        if y == 0.0 && x > self.model.guide_static {
+            return Ok(Some(x));
+        }
+        for _ in 0..2 {
+            let place = self.model.place(x, y);
+            let turn = self.turn(place, (x, y), &mut ())?;
+            if turn.rests {
+                return Ok(None);
+            }
+            if place != Place::Slips(Phase::Below) {
+                return Ok(Some(turn.x));
+            }
+            (x, y) = (turn.x, 0.0);
+        }
+        Ok(None)
+    }
+
+    /// The closed border through a jump of the return map at the right turning point `x`, backward in time
+    /// from the belt's line to the line again, and the piece of line between.
+    fn jump_border(
+        &mut self,
+        x: f64,
+        landmarks: Option<&Landmarks>,
+        curve: &mut Curve,
+    ) -> Result<f64, Stop> {
+        let speed = self.model.speed;
+        let Some(marks) = landmarks else { return Err(Stop::Steps) };
+        let corner =
+            if Some(x) == marks.grazing.right { marks.lines.fold } else { marks.lines.low };
+        let left = self.left_before(corner, speed, curve)?;
+        let left = left.min(-self.model.guide_static);
+        self.arc(Phase::Below, (left, 0.0), true, curve)?;
+        let mut end = self.arc(Phase::Between, (x, 0.0), true, curve)?;
+        if end.on_belt && end.x > marks.lines.release {
+            end = self.arc(Phase::Above, (end.x, speed), true, curve)?;
+        }
+        curve.pieces.push(Piece::Line { from: corner, to: end.x });
+        Ok(left)
+    }
+}
+
+impl Model {
+    /// A velocity in m/s divided by the natural frequency; that of the belt to the last bit.
+    #[must_use]
+    pub fn scaled_velocity(&self, v: f64) -> f64 {
+        v / self.omega_0
+    }
+}

@@ -1,0 +1,104 @@
+//! The return map: from a right turning point to the next one.
+//!
+//! In the plane it never decreases, because motions may merge but not cross. On one interval it is constant:
+//! all that comes to ride on the belt leaves it at the same place. So at most one cycle sticks to the belt,
+//! with multiplier exactly 0, and the fixed points put everything else in order.
+
+use super::arc::{Flow, Step, Stop, Watch};
+use super::model::{Model, Phase};
+use super::series::value;
+use super::turn::{Place, Turn};
+use crate::flow::tableau::GAUSS;
+
+/// The integral of the divergence of the field along a motion.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Divergence(pub f64);
+
+impl Watch for Divergence {
+    fn step(&mut self, model: &Model, step: &Step) {
+        let slope =
+            |node: f64| model.force(step.phase, value(&step.series.y, node * step.duration)).1;
+        let sum: f64 = GAUSS.iter().map(|(node, weight)| weight * slope(*node)).sum();
+        self.0 += sum * step.duration;
+    }
+}
+
+/// The image of a right turning point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Image {
+    /// The next right turning point.
+    pub x: f64,
+    /// The left one between them.
+    pub left: f64,
+    /// Logarithm of the derivative of the map; minus infinity where it is constant.
+    pub log_slope: f64,
+    /// Where the mass began to ride on the belt.
+    pub sticks_from: Option<f64>,
+    /// Where it left the belt's line upwards.
+    pub overtakes_from: Option<f64>,
+}
+
+/// What becomes of a motion within one return.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Return {
+    /// It turns on the right again.
+    Turns(Image),
+    /// It comes to rest at this displacement.
+    Rests(f64),
+}
+
+impl Flow<'_> {
+    /// The next right turning point after the one at `x`, outside of what the guide holds.
+    ///
+    /// # Errors
+    /// [`Stop`] where the motion does not turn; a motion that settles at a balance comes to rest instead.
+    pub fn returned(&mut self, x: f64) -> Result<Return, Stop> {
+        let mut divergence = Divergence::default();
+        let left = match self.turn(Place::Slips(Phase::Below), (x, 0.0), &mut divergence) {
+            Ok(Turn { x, rests: true, .. }) => return Ok(Return::Rests(x)),
+            Ok(turn) => turn,
+            Err(Stop::Settled) => return Ok(Return::Rests(self.model.guide)),
+            Err(stop) => return Err(stop),
+        };
+        match self.turn(Place::Slips(Phase::Between), (left.x, 0.0), &mut divergence) {
+            Ok(Turn { x, rests: true, .. }) => Ok(Return::Rests(x)),
+            Ok(Turn { x, way, .. }) => Ok(Return::Turns(Image {
+                x,
+                left: left.x,
+                log_slope: left.way.log_ratio + way.log_ratio + divergence.0,
+                sticks_from: way.sticks_from,
+                overtakes_from: way.overtakes_from,
+            })),
+            Err(Stop::Settled) => Ok(Return::Rests(-self.model.guide)),
+            Err(stop) => Err(stop),
+        }
+    }
+
+    /// The right turning point from which the next left one is `left`; `None` where there is none, because
+    /// every motion turns before.
+    ///
+    /// # Errors
+    /// [`Stop`] where the friction law ends, or steps do.
+    pub fn right_before(&mut self, left: f64) -> Result<Option<f64>, Stop> {
+        let left = left.min(-self.model.guide_static);
+        match self.arc(Phase::Below, (left, 0.0), true, &mut ()) {
+            Ok(end) => Ok(Some(end.x)),
+            Err(Stop::Escaped) => Ok(None),
+            Err(Stop::Settled) => Ok(Some(self.model.guide)),
+            Err(stop) => Err(stop),
+        }
+    }
+
+    /// The left turning point from which a motion between rest and the belt's speed reaches `(x, y)`; where
+    /// there is none, the edge of what the guide holds.
+    ///
+    /// # Errors
+    /// [`Stop`] where the friction law ends, or steps do.
+    pub fn left_before(&mut self, x: f64, y: f64, watch: &mut impl Watch) -> Result<f64, Stop> {
+        match self.arc(Phase::Between, (x, y), true, watch) {
+            Ok(end) => Ok(end.x),
+            Err(Stop::Settled) => Ok(-self.model.guide),
+            Err(stop) => Err(stop),
+        }
+    }
+}

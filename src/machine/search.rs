@@ -1,0 +1,157 @@
+//! All zeros of a smooth function that costs an integration each time, with its derivative.
+//!
+//! An interval is halved until a cubic through both ends foretells the middle; then a zero shows as a change
+//! of sign, or two of them as an extremum beyond zero. What a cubic foretells to a few percent of its
+//! distance from zero cannot hide a pair of zeros.
+
+use super::arc::Stop;
+
+/// A value of the function.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Where.
+    pub u: f64,
+    /// The value.
+    pub f: f64,
+    /// The derivative.
+    pub slope: f64,
+}
+
+/// Halvings of an interval at most.
+const DEPTH: u32 = 12;
+
+/// Part of the distance from zero to which the cubic must foretell the middle.
+const FORETOLD: f64 = 0.05;
+
+/// What is smaller is rounding.
+pub const NOTHING: f64 = 1e-12;
+
+/// The zeros of a function between two samples, in their order.
+///
+/// # Errors
+/// The [`Stop`] of an evaluation.
+pub fn zeros(
+    ends: (Sample, Sample),
+    evaluate: &mut impl FnMut(f64) -> Result<Sample, Stop>,
+) -> Result<Vec<f64>, Stop> {
+    /// Intervals to begin with.
+    const FIRST: i32 = 8;
+    let mut found = Vec::new();
+    let mut left = ends.0;
+    for part in 1..=FIRST {
+        let at = ends.0.u + (ends.1.u - ends.0.u) * f64::from(part) / f64::from(FIRST);
+        let right = if part == FIRST { ends.1 } else { evaluate(at)? };
+        within(left, right, DEPTH, evaluate, &mut found)?;
+        left = right;
+    }
+    Ok(found)
+}
+
+fn within(
+    left: Sample,
+    right: Sample,
+    depth: u32,
+    evaluate: &mut impl FnMut(f64) -> Result<Sample, Stop>,
+    found: &mut Vec<f64>,
+) -> Result<(), Stop> {
+    let middle = evaluate(0.5 * (left.u + right.u))?;
+    let h = right.u - left.u;
+    let foretold = 0.5 * (left.f + right.f) + h / 8.0 * (left.slope - right.slope);
+    let least = left.f.abs().min(right.f.abs()).min(middle.f.abs());
+    let error = (foretold - middle.f).abs();
+    // One sign and slopes that all point one way leave no room for zeros, however rough the function.
+    let monotone = left.slope * middle.slope > 0.0 && middle.slope * right.slope > 0.0;
+    let settled = error <= FORETOLD * least || error <= NOTHING || (monotone && error < 0.5 * h);
+    if depth > 0 && !settled {
+        within(left, middle, depth - 1, evaluate, found)?;
+        return within(middle, right, depth - 1, evaluate, found);
+    }
+    leaf(left, middle, evaluate, found)?;
+    leaf(middle, right, evaluate, found)
+}
+
+/// The zeros where the function is nearly a cubic.
+fn leaf(
+    left: Sample,
+    right: Sample,
+    evaluate: &mut impl FnMut(f64) -> Result<Sample, Stop>,
+    found: &mut Vec<f64>,
+) -> Result<(), Stop> {
+    if (left.f > 0.0) != (right.f > 0.0) {
+        found.push(zero(left, right, evaluate)?);
+        return Ok(());
+    }
+    let sign = if left.f > 0.0 { 1.0 } else { -1.0 };
+    if sign * left.slope < 0.0 && sign * right.slope > 0.0 {
+        let lowest = extremum(left, right, evaluate)?;
+        if sign * lowest.f <= 0.0 {
+            found.push(zero(left, lowest, evaluate)?);
+            found.push(zero(lowest, right, evaluate)?);
+        }
+    }
+    Ok(())
+}
+
+/// The zero between two samples of different sign: Newton's method inside a bracket.
+///
+/// # Errors
+/// The [`Stop`] of an evaluation.
+pub fn zero(
+    mut left: Sample,
+    mut right: Sample,
+    evaluate: &mut impl FnMut(f64) -> Result<Sample, Stop>,
+) -> Result<f64, Stop> {
+    let mut here = if left.f.abs() < right.f.abs() { left } else { right };
+    for _ in 0..120 {
+        if here.f == 0.0 {
+            return Ok(here.u);
+        }
+        let newton = here.u - here.f / here.slope;
+        let inside = newton > left.u.min(right.u) && newton < left.u.max(right.u);
+        let next = if inside { newton } else { 0.5 * (left.u + right.u) };
+        let settled = 2.0 * f64::EPSILON * (1.0 + next.abs()).min(2.0);
+        if (next - here.u).abs() <= settled || next == left.u || next == right.u {
+            return Ok(next);
+        }
+        here = evaluate(next)?;
+        if (here.f > 0.0) == (left.f > 0.0) { left = here } else { right = here }
+    }
+    Ok(here.u)
+}
+
+/// Where the slope vanishes between two samples with slopes of different sign.
+///
+/// # Errors
+/// The [`Stop`] of an evaluation.
+pub fn extremum(
+    mut left: Sample,
+    mut right: Sample,
+    evaluate: &mut impl FnMut(f64) -> Result<Sample, Stop>,
+) -> Result<Sample, Stop> {
+    let mut best = if left.f.abs() < right.f.abs() { left } else { right };
+    // The rule of Illinois on the slope: an end that stays counts half.
+    let (mut a, mut b) = (left.slope, right.slope);
+    let mut side = 0;
+    for _ in 0..60 {
+        let next = (left.u * b - right.u * a) / (b - a);
+        let inside = next > left.u && next < right.u;
+        let here = evaluate(if inside { next } else { 0.5 * (left.u + right.u) })?;
+        if here.f.abs() < best.f.abs() {
+            best = here;
+        }
+        let crossed = (here.f > 0.0) != (best.f > 0.0) || (here.f > 0.0) != (left.f > 0.0);
+        if crossed || here.slope == 0.0 || right.u - left.u < 1e-9 {
+            return Ok(here);
+        }
+        if (here.slope > 0.0) == (left.slope > 0.0) {
+            (left, a) = (here, here.slope);
+            b *= if side == 1 { 0.5 } else { 1.0 };
+            side = 1;
+        } else {
+            (right, b) = (here, here.slope);
+            a *= if side == 2 { 0.5 } else { 1.0 };
+            side = 2;
+        }
+    }
+    Ok(best)
+}

@@ -1,0 +1,274 @@
+//! Where the portrait of a machine changes while one of its numbers varies.
+//!
+//! Each change but the fold is the zero of a number that one or two integrations give: the damping at rest
+//! (Hopf), and left turning points of the orbits that the belt's line singles out. A fold is where the return
+//! map touches the diagonal: the extremum of its growth vanishes.
+
+use serde::Serialize;
+
+use super::arc::{Flow, Stop};
+use super::landmarks::Landmarks;
+use super::model::{Model, Phase};
+use super::portrait::{Border, Portrait};
+use super::search::Sample;
+use super::turn::Place;
+use crate::oscillator::Belt;
+
+/// A kind of change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Kind {
+    /// Rest changes its stability.
+    Hopf,
+    /// A cycle that slips touches the belt's line, and sticks beyond.
+    Grazing,
+    /// The stick-slip cycle and the border of rest meet as both touch the belt's line.
+    Annihilation,
+    /// The stick-slip cycle comes to overtake the belt.
+    Overtaking,
+    /// The cycle comes to overtake the belt without sticking to it.
+    Unsticking,
+    /// Two cycles meet.
+    Fold,
+}
+
+/// A place where the portrait changes.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Special {
+    /// What happens.
+    pub kind: Kind,
+    /// Value of the number that varies, in SI units.
+    pub value: f64,
+    /// Largest displacement of the cycle that it happens to, in m; none at rest.
+    pub x_max: Option<f64>,
+}
+
+/// The numbers whose zeros are special, at one place; `None` where they do not exist.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Signs {
+    damping: f64,
+    /// Whether the guide holds the mass.
+    held: bool,
+    /// Next left turning point of the orbit that touches the line, as if it slipped, less the last one.
+    touching: Option<f64>,
+    /// The same of the orbit that the belt releases.
+    released: Option<f64>,
+    /// The same less the left turning point that leads to the lower end of the stick band.
+    overtaking: Option<f64>,
+    /// Right turning point of what is released, less that from which motions do not stick any more.
+    unsticking: Option<f64>,
+    /// Logarithm of the multiplier of the orbit that touches.
+    log_slope: f64,
+    /// Right turning points of the orbits that touch and that are released.
+    turns: (Option<f64>, Option<f64>),
+    /// Whether static friction exceeds the kinetic one.
+    jumps: bool,
+}
+
+impl Signs {
+    /// Computes them.
+    ///
+    /// # Errors
+    /// [`Stop`] where the friction law ends before.
+    pub fn new(model: &Model) -> Result<Self, Stop> {
+        let mut flow = Flow::new(model);
+        let signs =
+            Signs { damping: model.damping, held: model.guide_static > 0.0, ..Self::default() };
+        let Some(Landmarks { lines, grazing, released, low_left, beyond }) = flow.landmarks()?
+        else {
+            return Ok(signs);
+        };
+        let mut left = |right: f64| {
+            let place = Place::Slips(Phase::Below);
+            let turn = flow.turn(place, (right, 0.0), &mut ()).ok()?;
+            (!turn.rests).then_some(turn.x)
+        };
+        // What comes to rest on the left would have turned where the guide lets go.
+        let held = -model.guide_static;
+        let of =
+            |right: f64, left: Option<f64>| if right > 0.0 { left.unwrap_or(held) } else { held };
+        let after_touch = of(grazing.image, left(grazing.image.max(model.guide_static)));
+        let after_release = released.map(|right| of(right, left(right)));
+        Ok(Signs {
+            touching: Some(after_touch - grazing.left),
+            released: Some(after_release.unwrap_or(held) - grazing.left),
+            overtaking: after_release.map(|left| left - low_left),
+            unsticking: released.zip(beyond).map(|(right, beyond)| right - beyond),
+            log_slope: grazing.log_slope,
+            turns: (grazing.right, released),
+            jumps: lines.release > lines.fold,
+            ..signs
+        })
+    }
+
+    /// One of the numbers.
+    fn of(&self, kind: Kind) -> Option<f64> {
+        let rides = self.released.is_some_and(|released| released <= 0.0);
+        match kind {
+            Kind::Hopf => (!self.held).then_some(self.damping),
+            Kind::Grazing => self.touching,
+            Kind::Annihilation => self.released.filter(|_| self.jumps),
+            Kind::Overtaking => self.overtaking.filter(|_| rides),
+            Kind::Unsticking => self.unsticking.filter(|_| rides),
+            Kind::Fold => None,
+        }
+    }
+
+    /// The change at a zero; a touch of an unstable cycle is where the stick-slip cycle ends.
+    fn special(&self, kind: Kind, value: f64) -> Special {
+        let ends = kind == Kind::Grazing && !self.jumps && self.log_slope > 0.0;
+        let x_max = match kind {
+            Kind::Hopf => None,
+            Kind::Grazing => self.turns.0,
+            _ => self.turns.1,
+        };
+        Special { kind: if ends { Kind::Annihilation } else { kind }, value, x_max }
+    }
+}
+
+/// Relative width to which a special value is narrowed.
+const WIDTH: f64 = 4.0 * f64::EPSILON;
+
+/// A machine along a number: `None` where there is none.
+pub type Family<'a> = &'a dyn Fn(f64) -> Option<Belt>;
+
+fn signs_at(family: Family, value: f64) -> Option<Signs> {
+    Signs::new(&Model::new(&family(value)?).ok()?).ok()
+}
+
+/// All special values between two neighbouring ones, with the portraits there.
+#[must_use]
+pub fn between(family: Family, left: (f64, &Portrait), right: (f64, &Portrait)) -> Vec<Special> {
+    /// Kinds that are zeros of [`Signs`].
+    const KINDS: [Kind; 5] =
+        [Kind::Hopf, Kind::Grazing, Kind::Annihilation, Kind::Overtaking, Kind::Unsticking];
+    let (Some(from), Some(to)) = (signs_at(family, left.0), signs_at(family, right.0)) else {
+        return Vec::new();
+    };
+    let mut found: Vec<Special> = KINDS
+        .into_iter()
+        .filter_map(|kind| {
+            let ends = (from.of(kind)?, to.of(kind)?);
+            if (ends.0 > 0.0) == (ends.1 > 0.0) {
+                return None;
+            }
+            let of = |value| signs_at(family, value)?.of(kind);
+            let value = zero(&of, (left.0, ends.0), (right.0, ends.1))?;
+            Some(signs_at(family, value)?.special(kind, value))
+        })
+        .collect();
+    found.sort_by(|one, other| (one.value - left.0).abs().total_cmp(&(other.value - left.0).abs()));
+    // Between these the portrait keeps its form, unless cycles fold.
+    let portrait_at = |value| Portrait::new(&Model::new(&family(value)?).ok()?).ok();
+    let aside = 1e-6 * (right.0 - left.0);
+    let mut stretches = Vec::new();
+    let mut begin = (left.0, Some(left.1.clone()));
+    for special in &found {
+        let (before, after) = (special.value - aside, special.value + aside);
+        stretches.push((begin, (before, portrait_at(before))));
+        begin = (after, portrait_at(after));
+    }
+    stretches.push((begin, (right.0, Some(right.1.clone()))));
+    for ((from, one), (to, other)) in stretches {
+        if let (Some(one), Some(other)) = (one, other)
+            && let Some(fold) = fold(family, (from, one), (to, other))
+        {
+            found.push(fold);
+        }
+    }
+    found.sort_by(|one, other| (one.value - left.0).abs().total_cmp(&(other.value - left.0).abs()));
+    found
+}
+
+/// The zero of a function between two values of different sign, by the rule of Illinois; `None` where the
+/// function does not exist on the way.
+fn zero(
+    function: &dyn Fn(f64) -> Option<f64>,
+    mut left: (f64, f64),
+    mut right: (f64, f64),
+) -> Option<f64> {
+    let mut stayed = 0;
+    for _ in 0..100 {
+        let width = (right.0 - left.0).abs();
+        if width <= WIDTH * left.0.abs().max(right.0.abs()) || left.1 == 0.0 || right.1 == 0.0 {
+            break;
+        }
+        let secant = left.0 - left.1 * (right.0 - left.0) / (right.1 - left.1);
+        let inside = (secant - left.0) * (secant - right.0) < 0.0;
+        let next = if inside { secant } else { 0.5 * (left.0 + right.0) };
+        if next == left.0 || next == right.0 {
+            break;
+        }
+        let here = (next, function(next)?);
+        if (here.1 > 0.0) == (left.1 > 0.0) {
+            right.1 *= if stayed == 1 { 0.5 } else { 1.0 };
+            (left, stayed) = (here, 1);
+        } else {
+            left.1 *= if stayed == 2 { 0.5 } else { 1.0 };
+            (right, stayed) = (here, 2);
+        }
+    }
+    Some(if left.1.abs() < right.1.abs() { left.0 } else { right.0 })
+}
+
+/// How many cycles there are, of each kind; a fold takes one of each stability.
+fn count(portrait: &Portrait) -> (usize, usize, bool) {
+    let stable = portrait.cycles.iter().filter(|cycle| cycle.stable).count();
+    (stable, portrait.cycles.len() - stable, matches!(portrait.border, Border::NoBasin))
+}
+
+/// The fold between two places where the numbers of stable and of unstable cycles both differ by one.
+fn fold(family: Family, left: (f64, Portrait), right: (f64, Portrait)) -> Option<Special> {
+    /// Halvings that bring the portraits near the fold.
+    const NEAR: usize = 12;
+    if count(&left.1) == count(&right.1) {
+        return None;
+    }
+    let (mut with, mut without) =
+        if left.1.cycles.len() > right.1.cycles.len() { (left, right) } else { (right, left) };
+    for _ in 0..NEAR {
+        let middle = 0.5 * (with.0 + without.0);
+        let portrait = Portrait::new(&Model::new(&family(middle)?).ok()?).ok()?;
+        if count(&portrait) == count(&with.1) {
+            with = (middle, portrait);
+        } else {
+            without = (middle, portrait);
+        }
+    }
+    let pairs =
+        with.1.cycles.windows(2).filter(|pair| {
+            pair[0].stable != pair[1].stable && !pair.iter().any(|cycle| cycle.sticks)
+        });
+    let gap = |pair: &&[super::Cycle]| pair[1].x.1 / pair[0].x.1;
+    let pair = pairs.min_by(|one, other| gap(one).total_cmp(&gap(other)))?;
+    let (low, high) = (pair[0].x.1, pair[1].x.1);
+    let extremum = |value: f64| -> Option<Sample> {
+        let model = Model::new(&family(value)?).ok()?;
+        steepest(&model, (low * high).sqrt(), (high / low).ln())
+    };
+    let ends = (extremum(with.0)?, extremum(without.0)?);
+    let value = zero(&|value| Some(extremum(value)?.f), (with.0, ends.0.f), (without.0, ends.1.f))?;
+    let x = extremum(value)?.u.exp();
+    Some(Special { kind: Kind::Fold, value, x_max: Some(x) })
+}
+
+/// The extremum of the growth `ln(image/x)` over `u = ln x` near a place, by secants on its exact slope.
+fn steepest(model: &Model, near: f64, width: f64) -> Option<Sample> {
+    let mut flow = Flow::new(model);
+    let mut growth = |u: f64| flow.growth(u, 1.0).ok();
+    let mut one = growth(near.ln())?;
+    let mut other = growth(near.ln() + 0.1 * width.min(1.0))?;
+    for _ in 0..50 {
+        if one.slope == other.slope {
+            break;
+        }
+        let next = other.u - other.slope * (other.u - one.u) / (other.slope - one.slope);
+        one = other;
+        // No further than the two cycles are apart.
+        other = growth(next.clamp(other.u - width, other.u + width))?;
+        if (other.u - one.u).abs() < 1e-9 {
+            break;
+        }
+    }
+    Some(other)
+}

@@ -1,0 +1,127 @@
+//! From phase to phase: which one follows at a switching line, and the motion up to its next turning point.
+//!
+//! Where the inclusion leaves a choice the mass is held: by the belt wherever static friction suffices, by
+//! the guide likewise. An orbit that touches the belt's line tangentially sticks.
+
+use super::arc::{End, Flow, Stop, Watch};
+use super::model::{Model, Phase};
+
+/// What the mass does at a place of the phase plane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// It slips.
+    Slips(Phase),
+    /// It rides on the belt.
+    Sticks,
+    /// It rests, held by the guide.
+    Rests,
+}
+
+/// A turning point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turn {
+    /// Displacement there.
+    pub x: f64,
+    /// Whether the mass comes to rest.
+    pub rests: bool,
+    /// What the way was like.
+    pub way: Way,
+}
+
+/// The way to a turning point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Way {
+    /// Logarithm of the product of (acceleration in/acceleration out) over the arcs; with the integral of
+    /// the divergence, of the derivative of the map. Minus infinity after sticking.
+    pub log_ratio: f64,
+    /// Where the mass began to ride on the belt.
+    pub sticks_from: Option<f64>,
+    /// Where it left the belt's line upwards.
+    pub overtakes_from: Option<f64>,
+}
+
+impl Model {
+    /// What the mass does at displacement `x` and velocity `y` (divided by the natural frequency).
+    #[must_use]
+    pub fn place(&self, x: f64, y: f64) -> Place {
+        if y == 0.0 {
+            return if self.rests_at(x) {
+                Place::Rests
+            } else {
+                Place::Slips(if x > 0.0 { Phase::Below } else { Phase::Between })
+            };
+        }
+        match (self.lines, y.total_cmp(&self.speed)) {
+            (Some(lines), std::cmp::Ordering::Equal) => {
+                if x > lines.release {
+                    Place::Slips(Phase::Between)
+                } else if x < lines.low {
+                    Place::Slips(Phase::Above)
+                } else {
+                    Place::Sticks
+                }
+            }
+            (_, std::cmp::Ordering::Greater) => Place::Slips(Phase::Above),
+            _ => Place::Slips(if y < 0.0 { Phase::Below } else { Phase::Between }),
+        }
+    }
+}
+
+impl Flow<'_> {
+    /// Follows a motion from a place to its next turning point: on the left from `y < 0`, on the right
+    /// otherwise.
+    ///
+    /// # Errors
+    /// [`Stop`] where it does not turn.
+    pub fn turn(
+        &mut self,
+        place: Place,
+        (mut x, mut y): (f64, f64),
+        watch: &mut impl Watch,
+    ) -> Result<Turn, Stop> {
+        /// Contacts with the belt's line: three at most, one more by rounding.
+        const CONTACTS: usize = 8;
+        let model = self.model;
+        let mut way = Way::default();
+        let mut place = place;
+        for _ in 0..CONTACTS {
+            let phase = match place {
+                Place::Rests => return Ok(Turn { x, rests: true, way }),
+                Place::Slips(phase) => phase,
+                Place::Sticks => {
+                    let release = model.lines.map_or(x, |lines| lines.release);
+                    watch.stick(model, x, release);
+                    way.sticks_from = way.sticks_from.or(Some(x));
+                    way.log_ratio = f64::NEG_INFINITY;
+                    x = release;
+                    Phase::Between
+                }
+            };
+            let end = self.arc(phase, (x, y), false, watch)?;
+            let (entered, left) = end.accelerations;
+            way.log_ratio += (entered / left).abs().ln();
+            (place, x) = self.after(phase, &end);
+            if !end.on_belt {
+                return Ok(Turn { x, rests: place == Place::Rests, way });
+            }
+            y = model.speed;
+            if place == Place::Slips(Phase::Above) {
+                way.overtakes_from = Some(x);
+            }
+        }
+        Err(Stop::Steps)
+    }
+
+    /// What follows an arc, and where; no motion arrives where its own side pushes away, but by rounding.
+    pub(super) fn after(&self, phase: Phase, end: &End) -> (Place, f64) {
+        let model = self.model;
+        let x = match (end.on_belt, phase, model.lines) {
+            (false, Phase::Below, _) => end.x.min(model.guide),
+            (false, ..) => end.x.max(-model.guide),
+            (true, Phase::Above, Some(lines)) => end.x.max(lines.low),
+            (true, _, Some(lines)) => end.x.min(lines.fold),
+            (true, _, None) => end.x,
+        };
+        (model.place(x, if end.on_belt { model.speed } else { 0.0 }), x)
+    }
+}

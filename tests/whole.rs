@@ -1,0 +1,292 @@
+//! The whole model of the mass on a belt against machines computed independently (80-bit Taylor series with
+//! polynomial events, and DOP853), against closed forms, and against itself.
+
+use std::f64::consts::PI;
+
+use hopfscope::machine::motion::Outcome;
+use hopfscope::machine::{Border, Fate, Flow, Model, Motion, Portrait, Unfit};
+use hopfscope::oscillator::Belt;
+use hopfscope::oscillator::belt::FrictionLaw;
+use serde_json::Value;
+
+fn data() -> Value {
+    serde_json::from_str(include_str!("data/belts.json")).unwrap()
+}
+
+fn machine(name: &str) -> Belt {
+    serde_json::from_value(data()["machines"][name]["belt"].clone()).unwrap()
+}
+
+fn portrait(belt: &Belt) -> Portrait {
+    Portrait::new(&Model::new(belt).unwrap()).unwrap()
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+/// Equal to some digits of the larger one, or of a size below which nothing counts.
+fn close(one: f64, other: f64, relative: f64) -> bool {
+    (one - other).abs() <= relative * one.abs().max(other.abs())
+}
+
+#[test]
+fn every_reference_machine_has_its_cycles_margins_and_border() {
+    for (name, expected) in data()["machines"].as_object().unwrap() {
+        let found = portrait(&machine(name));
+        let cycles = expected["cycles"].as_array().unwrap();
+        assert_eq!(found.cycles.len(), cycles.len(), "{name}");
+        for (cycle, expected) in found.cycles.iter().zip(cycles) {
+            let kind = [
+                ("sticks", cycle.sticks),
+                ("stable", cycle.stable),
+                ("overtakes", cycle.overtakes),
+            ];
+            for (key, value) in kind {
+                assert_eq!(expected[key], value, "{name} {key}");
+            }
+            for (key, value) in [
+                ("x_min", cycle.x.0),
+                ("x_max", cycle.x.1),
+                ("v_min", cycle.v.0),
+                ("v_max", cycle.v.1),
+                ("period", cycle.period),
+                ("stick_duration", cycle.stick_duration),
+                ("multiplier", cycle.multiplier),
+            ] {
+                assert!(close(value, number(&expected[key]), 1e-13), "{name} {key}: {value}");
+            }
+        }
+        assert_eq!(expected["border"], found.border.kind(), "{name}");
+        assert_eq!(expected["neutral"], found.neutral, "{name}");
+        let margin = found.margin.map(|margin| {
+            [margin.displacement.0, margin.displacement.1, margin.velocity.0, margin.velocity.1]
+        });
+        assert_eq!(expected["margin"].is_null(), margin.is_none(), "{name}");
+        for (value, expected) in
+            margin.iter().flatten().zip(expected["margin"].as_array().into_iter().flatten())
+        {
+            assert!(close(*value, number(expected), 1e-13), "{name}: margin {value}, {expected}");
+        }
+    }
+}
+
+#[test]
+fn every_reference_start_ends_where_it_should() {
+    for (name, expected) in data()["machines"].as_object().unwrap() {
+        let belt = machine(name);
+        let found = portrait(&belt);
+        for end in expected["ends"].as_array().unwrap() {
+            let (x, v) = (number(&end[0]), number(&end[1]));
+            let fate = found.fate(x, v).unwrap();
+            let told = match fate {
+                Fate::Rest => Value::from("rest"),
+                Fate::Cycle(index) => Value::from(index),
+                Fate::Neutral => Value::from("neutral"),
+                other => panic!("{name}: {other:?}"),
+            };
+            assert_eq!(told, end[2], "{name} from {x}, {v}");
+            if fate == Fate::Rest {
+                let rest = Flow::new(&found.model).rest_of(x, v / found.model.omega_0).unwrap();
+                let error = (rest - number(&end[3])).abs();
+                assert!(
+                    error <= 1e-11 * belt.friction / belt.stiffness,
+                    "{name} from {x}, {v}: {error:e}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn the_share_that_comes_to_rest_is_that_of_the_open_benchmark() {
+    for row in data()["rest_share"].as_array().unwrap() {
+        let belt = Belt { belt_speed: number(&row[0]), ..machine("bstab-1.5") };
+        let found = portrait(&belt);
+        // The window is told in the elongation of the spring.
+        let steady = found.model.pull;
+        let share = found.rest_share((-2.0 - steady, 2.0 - steady), (0.0, 2.0));
+        assert!((share - number(&row[1])).abs() < 1e-12, "{row}: {share}");
+    }
+}
+
+#[test]
+fn the_share_counts_every_piece_of_the_border() {
+    // The border of kind grazing, cut by the window on all sides, against a count of starts.
+    for name in ["coulomb-guide", "coulomb-damped", "stribeck-guide-cubic"] {
+        let found = portrait(&machine(name));
+        let margin = found.margin.unwrap();
+        let x = (-0.7 * margin.displacement.1, 1.2 * margin.displacement.0);
+        let v = (-0.6 * margin.velocity.1, 1.1 * margin.velocity.0);
+        let count = 40;
+        let mut rest = 0;
+        for i in 0..count {
+            for j in 0..count {
+                let part = |index: i32| (f64::from(index) + 0.5) / f64::from(count);
+                let start = (x.0 + (x.1 - x.0) * part(i), v.0 + (v.1 - v.0) * part(j));
+                rest += i32::from(found.fate(start.0, start.1) == Ok(Fate::Rest));
+            }
+        }
+        let counted = f64::from(rest) / f64::from(count * count);
+        assert!((found.rest_share(x, v) - counted).abs() < 5e-3, "{name}: {counted}");
+    }
+}
+
+/// A machine with constant kinetic friction and a higher static one.
+fn coulomb(guide: f64, speed: f64) -> Belt {
+    Belt { friction: guide, belt_speed: speed, ..machine("coulomb-guide") }
+}
+
+#[test]
+fn coulomb_friction_has_its_closed_forms() {
+    let belt = coulomb(0.0, 0.2);
+    let omega = (belt.stiffness / belt.mass).sqrt();
+    for speed in [0.02, 0.2, 0.7] {
+        let delta = belt.normal_force * 0.2 / belt.stiffness;
+        let u = speed / omega;
+        let free = portrait(&coulomb(0.0, speed));
+        let amplitude = delta.hypot(u);
+        assert!(free.neutral && free.cycles.len() == 1);
+        let cycle = &free.cycles[0];
+        let stick = 2.0 * delta / speed;
+        let period = stick + (2.0 * PI - 2.0 * (delta / u).atan()) / omega;
+        for (found, expected) in [
+            (cycle.x.1, amplitude),
+            (cycle.x.0, -amplitude),
+            (cycle.v.0, -omega * amplitude),
+            (cycle.v.1, speed),
+            (cycle.stick_duration, stick),
+            (cycle.period, period),
+            (free.margin.unwrap().displacement.0, u),
+        ] {
+            assert!(close(found, expected, 1e-13), "v0 = {speed}: {found}, {expected}");
+        }
+        let rho = 0.002;
+        let guided = portrait(&coulomb(rho * belt.stiffness, speed));
+        let third = amplitude - 4.0 * rho;
+        assert_eq!(guided.cycles.len(), usize::from(third >= u), "v0 = {speed}");
+        let Some(cycle) = guided.cycles.first() else { continue };
+        let arrival = (third * third - u * u).sqrt();
+        let slip = ((u / delta).atan() + PI + (u / third).asin()) / omega;
+        let stick = (delta + arrival) / speed;
+        for (found, expected) in [
+            (cycle.x.1, amplitude - rho),
+            (cycle.x.0, 3.0 * rho - amplitude),
+            (cycle.stick_duration, stick),
+            (cycle.period, stick + slip),
+            (guided.margin.unwrap().displacement.0, u + 3.0 * rho),
+            (guided.margin.unwrap().displacement.1, u + rho),
+        ] {
+            assert!(close(found, expected, 1e-13), "v0 = {speed}: {found}, {expected}");
+        }
+    }
+}
+
+#[test]
+fn a_damped_slip_takes_the_time_of_its_transcendental_equation() {
+    let cycle = portrait(&machine("coulomb-damped")).cycles[0];
+    assert!(close(cycle.stick_duration, 0.149_427_282_841_480_35, 1e-13));
+    assert!(close(cycle.period, 0.652_507_023_097_521_9, 1e-13));
+}
+
+#[test]
+fn a_cubic_law_far_from_the_belt_is_the_oscillator_of_the_paper() {
+    use hopfscope::flow::Limits;
+    let belt = machine("clutch-static");
+    let found = portrait(&belt);
+    let reduced = belt.reduce().unwrap();
+    let cycles =
+        hopfscope::study::cycle::cycles(&reduced.parameters, true, &Limits::PATIENT).unwrap();
+    let (slip, cubic) = (&found.cycles[0], &cycles.cycles[0]);
+    let units = &reduced.units;
+    for (whole, cubic) in [
+        (slip.x.1, cubic.q_max * units.displacement),
+        (slip.x.0, cubic.q_min * units.displacement),
+        (slip.v.1, cubic.v_max * units.velocity),
+        (slip.period, cubic.period * units.time),
+        (slip.multiplier, cubic.multiplier.unwrap()),
+    ] {
+        assert!(close(whole, cubic, 1e-13), "{whole} {cubic}");
+    }
+}
+
+#[test]
+fn static_friction_below_the_kinetic_one_is_refused() {
+    let belt = Belt { static_coefficient: Some(0.29), ..machine("coulomb-guide") };
+    assert_eq!(Model::new(&belt), Err(Unfit::StaticBelowKinetic { mu_s: 0.29, mu: 0.3 }));
+    let belt = Belt { static_guide: Some(0.1), ..machine("coulomb-guide") };
+    let refused = Model::new(&belt).unwrap_err().to_string();
+    assert_eq!(
+        refused,
+        "R_static = 0.1 N is below R = 0.2 N; static friction is at least the kinetic one"
+    );
+}
+
+#[test]
+fn without_friction_of_the_guide_a_falling_law_leaves_no_basin() {
+    let found = portrait(&Belt { damping: 0.0, ..machine("bstab-1.5") });
+    assert!(matches!(found.border, Border::NoBasin));
+    assert_eq!(found.margin.unwrap().least_displacement(), 0.0);
+    assert_eq!(found.cycles.len(), 1);
+    assert!(found.cycles[0].sticks && found.fate(1e-9, 0.0) == Ok(Fate::Cycle(0)));
+}
+
+#[test]
+fn the_ledger_of_a_motion_closes_with_the_work_of_the_belt() {
+    for name in data()["machines"].as_object().unwrap().keys() {
+        let belt = machine(name);
+        let model = Model::new(&belt).unwrap();
+        let far = 2.5 * model.speed;
+        for start in [
+            (0.3 * far, 0.0),
+            (-far, 0.0),
+            (0.0, 0.9 * belt.belt_speed),
+            (-0.2 * far, 1.7 * belt.belt_speed),
+        ] {
+            let period = 2.0 * PI / model.omega_0;
+            let motion = Motion::new(&model, start.0, start.1, 5.3 * period);
+            assert!(
+                motion.ledger.residual().abs() < 1e-13,
+                "{name} {start:?}: {:?}",
+                motion.ledger
+            );
+            assert!(motion.outcome == Outcome::Rests || close(motion.end.t, 5.3 * period, 1e-13));
+        }
+    }
+}
+
+#[test]
+fn lengths_scale_by_a_power_of_two_to_the_last_bit() {
+    for name in ["guide-only", "graze-slip", "clutch-static", "coulomb-guide"] {
+        let belt = machine(name);
+        for k in [0.125, 1024.0] {
+            let law = match belt.law.clone() {
+                FrictionLaw::Stribeck { rest, kinetic, velocity, exponent, viscous } => {
+                    let (velocity, viscous) = (velocity * k, viscous / k);
+                    FrictionLaw::Stribeck { rest, kinetic, velocity, exponent, viscous }
+                }
+                FrictionLaw::Polynomial { coefficients } => {
+                    let scaled = coefficients.iter().zip(0..).map(|(c, n)| c / k.powi(n));
+                    FrictionLaw::Polynomial { coefficients: scaled.collect() }
+                }
+                other => other,
+            };
+            let scaled = Belt {
+                normal_force: belt.normal_force * k,
+                friction: belt.friction * k,
+                belt_speed: belt.belt_speed * k,
+                cubic_damping: belt.cubic_damping / (k * k),
+                law,
+                ..belt.clone()
+            };
+            let (one, other) = (portrait(&belt), portrait(&scaled));
+            assert_eq!(one.cycles.len(), other.cycles.len());
+            for (one, other) in one.cycles.iter().zip(&other.cycles) {
+                assert_eq!((one.x.0 * k, one.v.1 * k), (other.x.0, other.v.1), "{name}");
+                assert_eq!((one.period, one.multiplier), (other.period, other.multiplier));
+            }
+            let margins = [&one, &other].map(|found| found.margin.unwrap().velocity.1);
+            assert_eq!(margins[0] * k, margins[1], "{name}");
+        }
+    }
+}
