@@ -11,6 +11,8 @@
 //! - [`flow`] computes motions. A motion is a chain of smooth half swings glued at `v = 0`; a
 //!   [`flow::step::Stepper`] takes one step of the smooth field, [`flow::swing`] runs it to the next
 //!   `v = 0`, [`flow::trajectory`] glues. No step ever crosses the discontinuity.
+//! - [`numerics`] is arithmetic for all of them: intervals with outward rounding. [`proof`] encloses half swings
+//!   in it, and proves how many limit cycles there are and where.
 //! - [`study`] asks questions of the flow. Everything rests on the half-swing map
 //!   ([`study::half_map`]), which contains no friction, is increasing, and is inverted by itself with
 //!   the damping reversed. Cycles close two of them ([`study::closing`]); a search that excludes what
@@ -37,7 +39,9 @@ pub mod closed_form;
 pub mod export;
 pub mod flow;
 pub mod machine;
+pub mod numerics;
 pub mod oscillator;
+pub mod proof;
 pub mod runtime;
 pub mod scene;
 pub mod session;

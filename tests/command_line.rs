@@ -138,7 +138,7 @@ fn the_last_of_two_values_counts_and_scenes_give_the_others() {
 #[test]
 fn a_cycles_document_has_its_fields() {
     let answer = json("cycles --set D=-0.2 --set D2=0.2 --set D3=0.5 --set r=0.1");
-    assert_eq!(keys(&answer), ["basin", "cost", "cycles", "harmonic", "parameters"]);
+    assert_eq!(keys(&answer), ["basin", "cost", "count", "cycles", "harmonic", "parameters"]);
     assert_eq!(keys(&answer["cost"]), ["evaluations", "rejected", "seconds", "steps"]);
     let cycles = answer["cycles"].as_array().unwrap();
     assert_eq!(cycles.len(), 2);
@@ -168,7 +168,10 @@ fn a_cycles_document_has_its_fields() {
 #[test]
 fn a_harmonic_balance_stands_beside_the_cycles_if_asked_for() {
     let answer = json("cycles --set D=-0.7 --set r=0.1 --harmonics 9");
-    assert_eq!(keys(&answer), ["balance", "basin", "cost", "cycles", "harmonic", "parameters"]);
+    assert_eq!(
+        keys(&answer),
+        ["balance", "basin", "cost", "count", "cycles", "harmonic", "parameters"]
+    );
     let rows = answer["balance"].as_array().unwrap();
     let harmonics: Vec<f64> = rows.iter().map(|row| number(&row["harmonics"])).collect();
     assert_eq!(harmonics, [1.0, 3.0, 5.0, 9.0]);

@@ -10,11 +10,13 @@ use crate::closed_form::harmonics::MOST;
 use crate::export::{balance, csv, json, table};
 use crate::flow::{Limits, Reason};
 use crate::oscillator::Parameters;
+use crate::proof::cycles::Proof;
 use crate::study;
 use crate::study::cycle::cycles;
 use crate::study::harmonic_error::{HarmonicBalance, convergence};
+use crate::study::proved::proved;
 
-/// Finds every limit cycle, and what borders the basin of the sticking set
+/// Finds every limit cycle and proves that there are no others; says what borders the basin
 #[derive(Debug, Args)]
 pub struct Cycles {
     #[command(flatten)]
@@ -38,27 +40,33 @@ impl Cycles {
         self.start.note_own_method();
         let problem = self.start.problem()?;
         let (found, seconds) = timed(self.output.repeat, || self.find(&problem.parameters));
-        let (found, rungs) =
-            found.map_err(|reason| Failure::Unanswered(format!("the search gave up: {reason}")))?;
+        let Answer { found, proof, rungs } = found?;
         let rungs = rungs.as_deref();
         print(&match self.output.format {
             Format::Table => {
-                table::cycles(&found, seconds) + &rungs.map(balance::table).unwrap_or_default()
+                table::cycles(&found, &proof, seconds)
+                    + &rungs.map(balance::table).unwrap_or_default()
             }
-            Format::Json => json::cycles(&found, rungs, seconds),
+            Format::Json => json::cycles(&found, &proof, rungs, seconds),
             Format::Csv => rungs.map_or_else(|| csv::cycles(&found), balance::csv),
         })
     }
 
-    /// The cycles, and the harmonic balance if asked for.
-    fn find(
-        &self,
-        parameters: &Parameters,
-    ) -> Result<(study::Cycles, Option<Vec<HarmonicBalance>>), Reason> {
+    /// The cycles, their proof, and the harmonic balance if asked for.
+    fn find(&self, parameters: &Parameters) -> Result<Answer, Failure> {
         let limits = &Limits::PATIENT;
-        let found = cycles(parameters, false, limits)?;
+        let gave_up = |reason: Reason| Failure::Unanswered(format!("the search gave up: {reason}"));
+        let found = cycles(parameters, false, limits).map_err(gave_up)?;
+        let proof = proved(&found).map_err(|wrong| Failure::Unanswered(wrong.to_string()))?;
         let compare = |most| convergence(parameters, &found.cycles, most, limits);
-        let rungs = self.harmonics.map(compare).transpose()?;
-        Ok((found, rungs))
+        let rungs = self.harmonics.map(compare).transpose().map_err(gave_up)?;
+        Ok(Answer { found, proof, rungs })
     }
+}
+
+/// What the command answers.
+struct Answer {
+    found: study::Cycles,
+    proof: Proof,
+    rungs: Option<Vec<HarmonicBalance>>,
 }

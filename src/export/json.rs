@@ -2,17 +2,18 @@
 
 use serde::Serialize;
 
-use super::balance;
+use super::{balance, proof};
 use crate::closed_form::harmonic::Harmonic;
 use crate::flow::{Cost, Crossing, Method, Outcome, Trajectory};
 use crate::oscillator::{Ledger, Parameters, State, Symbol};
+use crate::proof::cycles::Proof;
 use crate::scene::Scene;
 use crate::scene::said::{Condition, said};
 use crate::session::Keymap;
 use crate::study::basin::Survey;
 use crate::study::fold::{Border, BorderPoint};
 use crate::study::harmonic_error::HarmonicBalance;
-use crate::study::{Branch, BranchPoint, Cycle, Cycles, Edge, Special};
+use crate::study::{Branch, BranchPoint, Cycles, Edge, Special};
 
 /// What an answer cost, counted and timed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -44,7 +45,8 @@ struct Basin {
 #[derive(Serialize)]
 struct CyclesDocument<'a> {
     parameters: &'a Parameters,
-    cycles: &'a [Cycle],
+    cycles: Vec<proof::Row<'a>>,
+    count: proof::Count<'a>,
     harmonic: &'a [Harmonic],
     #[serde(skip_serializing_if = "Option::is_none")]
     balance: Option<Vec<balance::Row>>,
@@ -108,12 +110,18 @@ pub fn trajectory(motion: &Trajectory, seconds: f64) -> String {
     })
 }
 
-/// Every cycle, and beside them the harmonic balance if asked for.
+/// Every cycle with what is proved about it, and beside them the harmonic balance if asked for.
 #[must_use]
-pub fn cycles(found: &Cycles, rungs: Option<&[HarmonicBalance]>, seconds: f64) -> String {
+pub fn cycles(
+    found: &Cycles,
+    proof: &Proof,
+    rungs: Option<&[HarmonicBalance]>,
+    seconds: f64,
+) -> String {
     text(&CyclesDocument {
         parameters: &found.parameters,
-        cycles: &found.cycles,
+        cycles: proof::rows(&found.cycles, proof),
+        count: proof::count(proof),
         harmonic: &found.harmonic,
         balance: rungs.map(balance::rows),
         basin: Basin { edge: found.edge },

@@ -9,6 +9,7 @@ pub mod extremes;
 pub mod figure;
 pub mod guarantee;
 pub mod json;
+mod proof;
 pub mod scan;
 pub mod scene_cost;
 pub mod screen;

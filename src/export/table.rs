@@ -2,8 +2,11 @@
 
 use std::fmt;
 
+use super::proof::{certain, enclosure, sentence as sentence_of_proof};
 use crate::flow::{Problem, Trajectory};
 use crate::oscillator::{PARAMETERS, Parameters, State, Symbol};
+use crate::proof::cycles::Proof;
+use crate::proof::enclose::Enclosure;
 use crate::study::basin::{Counts, Survey};
 use crate::study::fold::Border;
 use crate::study::{Branch, Cycle, Cycles, Edge};
@@ -172,21 +175,40 @@ fn cycle(cycle: &Cycle, places: usize) -> Vec<String> {
     cells
 }
 
-/// Every cycle, the harmonic answer beside it, and what borders the basin.
+/// The same in the digits that are certain.
+fn certain_cycle(cycle: &Cycle, bounds: &Enclosure, places: usize) -> Vec<String> {
+    let mut cells = self::cycle(cycle, places);
+    let Enclosure { q_min, q_max, v_min, v_max, period, multiplier, clearance } = *bounds;
+    let numbers = [q_min, q_max, v_min, v_max, period, multiplier, clearance];
+    for (cell, bounds) in cells.iter_mut().skip(1).zip(numbers) {
+        // What over- or underflows is told by its logarithm.
+        if !cell.starts_with("exp") {
+            *cell = certain(bounds, places);
+        }
+    }
+    cells
+}
+
+/// Every cycle in the digits that are proved, the harmonic answer beside it, and what borders the basin.
 #[must_use]
-pub fn cycles(found: &Cycles, seconds: f64) -> String {
+pub fn cycles(found: &Cycles, proof: &Proof, seconds: f64) -> String {
     /// Cycles are computed to rounding; this many digits are for reading.
-    const PLACES: usize = 10;
+    const PLACES: usize = 12;
     let mut out = format!("{}\n\n", parameters(&found.parameters, None));
-    if found.cycles.is_empty() {
-        out += "no limit cycle\n";
-    } else {
+    if !found.cycles.is_empty() {
         let mut table = Table::new(&CYCLE);
         for found in &found.cycles {
-            table.row(cycle(found, PLACES));
+            table.row(if let Some(bounds) = enclosure(proof, found) {
+                certain_cycle(found, &bounds, PLACES)
+            } else {
+                let mut cells = cycle(found, PLACES - 2);
+                cells[0] += ", not proved";
+                cells
+            });
         }
-        out += &table.to_string();
+        out += &format!("{table}\n");
     }
+    out += &sentence_of_proof(found.cycles.len(), proof);
     out += "\nby one harmonic, for comparison: ";
     if found.harmonic.is_empty() {
         out += "none\n";

@@ -24,6 +24,7 @@ pub mod harmonic_error;
 pub mod lift;
 pub mod margin;
 pub mod measure;
+pub mod proved;
 pub mod regime;
 pub mod return_map;
 pub mod scan;

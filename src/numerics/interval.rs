@@ -1,0 +1,344 @@
+//! Intervals with outward rounding, in safe stable Rust.
+//!
+//! Rust rounds every `+ - * /` and `sqrt` to the nearest double (IEEE 754), so the exact result lies
+//! strictly within one unit in the last place of the computed one, and the next double below and above
+//! enclose it: also where the result is subnormal, or overflows (the double below infinity is the
+//! largest finite one, which an overflowing exact result exceeds). A bound that is not a number says
+//! nothing and becomes infinite. So every operation here contains all exact results for all members of
+//! its operands; the functions at the end bound the remainder of a series in the same arithmetic.
+
+#![expect(
+    clippy::neg_cmp_op_on_partial_ord,
+    reason = "a comparison with what is not a number fails, and its negation is the safe side"
+)]
+
+use std::fmt;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use serde::ser::{Serialize, SerializeTuple, Serializer};
+
+/// All numbers between two doubles, both included; a bound may be infinite.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval {
+    lower: f64,
+    upper: f64,
+}
+
+/// The number pi: the double nearest to it lies below it.
+pub const PI: Interval = Interval { lower: std::f64::consts::PI, upper: 3.141_592_653_589_793_6 };
+
+/// Upper 33 bits of `ln 2`; its products with whole numbers below `2^20` are exact.
+const LN_2_HIGH: f64 = f64::from_bits(0x3fe6_2e42_fee0_0000);
+
+/// `ln 2 - LN_2_HIGH = 1.908_214_929_270_587_816..e-10`.
+const LN_2_LOW: Interval =
+    Interval { lower: 1.908_214_929_270_587e-10, upper: 1.908_214_929_270_588e-10 };
+
+impl Interval {
+    /// Every number: what an operation without a sensible result returns.
+    pub const ALL: Interval = Interval { lower: f64::NEG_INFINITY, upper: f64::INFINITY };
+
+    /// The numbers from `lower` to `upper`; every number if they are out of order or one is not a number.
+    #[must_use]
+    pub const fn new(lower: f64, upper: f64) -> Self {
+        if lower <= upper { Interval { lower, upper } } else { Interval::ALL }
+    }
+
+    /// One double.
+    #[must_use]
+    pub const fn point(value: f64) -> Self {
+        Interval::new(value, value)
+    }
+
+    /// The numbers within `radius` of `middle`.
+    #[must_use]
+    pub fn around(middle: f64, radius: f64) -> Self {
+        Interval::outward(middle - radius, middle + radius)
+    }
+
+    /// One double further out on either side than two rounded bounds.
+    fn outward(lower: f64, upper: f64) -> Self {
+        let lower = if lower.is_nan() { f64::NEG_INFINITY } else { lower.next_down() };
+        let upper = if upper.is_nan() { f64::INFINITY } else { upper.next_up() };
+        Interval::new(lower, upper)
+    }
+
+    /// Lower bound.
+    #[must_use]
+    pub const fn lower(self) -> f64 {
+        self.lower
+    }
+
+    /// Upper bound.
+    #[must_use]
+    pub const fn upper(self) -> f64 {
+        self.upper
+    }
+
+    /// A double within, near the middle; 0 if both bounds are infinite.
+    #[must_use]
+    pub fn middle(self) -> f64 {
+        let middle = 0.5 * self.lower + 0.5 * self.upper;
+        if middle.is_nan() { 0.0 } else { middle.clamp(self.lower, self.upper) }
+    }
+
+    /// A number that no member is further away from [`Interval::middle`] than.
+    #[must_use]
+    pub fn radius(self) -> f64 {
+        let middle = self.middle();
+        if self.lower == self.upper {
+            return 0.0;
+        }
+        (middle - self.lower).max(self.upper - middle).next_up()
+    }
+
+    /// Width, rounded up.
+    #[must_use]
+    pub fn width(self) -> f64 {
+        if self.lower == self.upper { 0.0 } else { (self.upper - self.lower).next_up() }
+    }
+
+    /// Whether a number is a member.
+    #[must_use]
+    pub fn contains(self, value: f64) -> bool {
+        self.lower <= value && value <= self.upper
+    }
+
+    /// Whether every member of `self` is one of `other`.
+    #[must_use]
+    pub fn is_within(self, other: Self) -> bool {
+        other.lower <= self.lower && self.upper <= other.upper
+    }
+
+    /// Whether both bounds are finite.
+    #[must_use]
+    pub fn is_finite(self) -> bool {
+        self.lower.is_finite() && self.upper.is_finite()
+    }
+
+    /// Whether it is a single double.
+    #[must_use]
+    pub fn is_point(self) -> bool {
+        self.lower == self.upper
+    }
+
+    /// The members of both; `None` if there are none.
+    #[must_use]
+    pub fn intersection(self, other: Self) -> Option<Self> {
+        let (lower, upper) = (self.lower.max(other.lower), self.upper.min(other.upper));
+        (lower <= upper).then_some(Interval { lower, upper })
+    }
+
+    /// The smallest interval that holds both.
+    #[must_use]
+    pub fn hull(self, other: Self) -> Self {
+        Interval { lower: self.lower.min(other.lower), upper: self.upper.max(other.upper) }
+    }
+
+    /// The largest magnitude of a member.
+    #[must_use]
+    pub fn magnitude(self) -> f64 {
+        self.lower.abs().max(self.upper.abs())
+    }
+
+    /// All squares of members.
+    #[must_use]
+    pub fn square(self) -> Self {
+        let (one, other) = (self.lower * self.lower, self.upper * self.upper);
+        let smallest = if self.contains(0.0) { 0.0 } else { one.min(other).next_down() };
+        Interval::new(smallest.max(0.0), one.max(other).next_up())
+    }
+
+    /// All square roots of members, which must not be negative.
+    #[must_use]
+    pub fn sqrt(self) -> Self {
+        Interval::outward(self.lower.sqrt(), self.upper.sqrt())
+    }
+
+    /// Twice: exact, unless it overflows.
+    #[must_use]
+    pub fn twice(self) -> Self {
+        Interval::new(2.0 * self.lower, 2.0 * self.upper)
+    }
+
+    /// `exp` of all members.
+    #[must_use]
+    pub fn exp(self) -> Self {
+        Interval::new(exp(self.lower).lower, exp(self.upper).upper)
+    }
+
+    /// `exp(x) - 1` of all members.
+    #[must_use]
+    pub fn exp_m1(self) -> Self {
+        Interval::new(exp_m1(self.lower).lower, exp_m1(self.upper).upper)
+    }
+
+    /// `atan` of all members.
+    #[must_use]
+    pub fn atan(self) -> Self {
+        Interval::new(atan(self.lower).lower, atan(self.upper).upper)
+    }
+
+    /// A polynomial with these coefficients, by Horner's rule, lowest power first.
+    #[must_use]
+    pub fn polynomial(self, coefficients: &[Interval]) -> Self {
+        coefficients.iter().rev().fold(Interval::point(0.0), |sum, &next| sum * self + next)
+    }
+}
+
+/// `exp(value)`.
+///
+/// With `n` the whole number nearest to `value/ln 2`, `y = value - n ln 2` is at most 0.3466 in size up
+/// to rounding of n, and `exp(value) = 2^n exp(y)`. The terms of degree 18 and more of `exp(y)` are together
+/// below `0.36^18/18! e^0.36 < 1e-23` for `abs(y) < 0.36`.
+fn exp(value: f64) -> Interval {
+    const TERMS: usize = 18;
+    const REMAINDER: f64 = 1e-23;
+    let turns = (value / std::f64::consts::LN_2).round();
+    if value.is_nan() {
+        return Interval::ALL;
+    }
+    if turns > 1020.0 {
+        return Interval::new(f64::MAX.sqrt(), f64::INFINITY);
+    }
+    if turns < -1022.0 {
+        return Interval::new(0.0, f64::MIN_POSITIVE);
+    }
+    let high = Interval::point(turns * LN_2_HIGH);
+    let y = Interval::point(value) - high - Interval::point(turns) * LN_2_LOW;
+    if !(y.magnitude() < 0.36) {
+        return Interval::ALL;
+    }
+    let (mut sum, mut k) = (Interval::point(1.0), 17.0);
+    for _ in 1..TERMS {
+        sum = Interval::point(1.0) + y * sum / Interval::point(k);
+        k -= 1.0;
+    }
+    sum = sum + Interval::new(-REMAINDER, REMAINDER);
+    #[expect(clippy::cast_possible_truncation, reason = "a whole number in -1022 ..= 1020")]
+    let biased = (turns as i64 + 1023).unsigned_abs();
+    sum * Interval::point(f64::from_bits(biased << 52))
+}
+
+/// `exp(value) - 1`: below 1/2 by its own series, whose terms of degree 19 and more are together a part
+/// below `0.5^18/19! e^0.5 < 1e-22` of its first.
+fn exp_m1(value: f64) -> Interval {
+    const REMAINDER: f64 = 1e-22;
+    if !(value.abs() <= 0.5) {
+        return exp(value) - Interval::point(1.0);
+    }
+    let (y, mut sum, mut k) = (Interval::point(value), Interval::point(1.0), 18.0);
+    for _ in 0..17 {
+        sum = Interval::point(1.0) + y * sum / Interval::point(k);
+        k -= 1.0;
+    }
+    y * (sum + Interval::new(-REMAINDER, REMAINDER))
+}
+
+/// `atan(value)`: halved three times by `atan(x) = 2 atan(x/(1 + sqrt(1 + x^2)))`, which brings the
+/// argument within `tan(pi/16) < 0.199`; then the alternating series, whose error is less than its first
+/// omitted term, `0.199^31/31 < 1e-22` of an argument of at most 0.199.
+fn atan(value: f64) -> Interval {
+    const REMAINDER: f64 = 1e-22;
+    if value.is_nan() {
+        return Interval::ALL;
+    }
+    if value.abs() > 1e150 {
+        // pi/2 - atan(1/x), with 0 < atan(1/x) < 1e-150.
+        let right = Interval::outward(PI.lower / 2.0, PI.upper / 2.0);
+        return if value > 0.0 { right } else { -right };
+    }
+    let one = Interval::point(1.0);
+    let mut y = Interval::point(value);
+    for _ in 0..3 {
+        y = y / (one + (one + y.square()).sqrt());
+    }
+    let (square, mut sum, mut odd) = (y.square(), Interval::point(0.0), 29.0);
+    for _ in 0..15 {
+        sum = one / Interval::point(odd) - square * sum;
+        odd -= 2.0;
+    }
+    y * (sum + Interval::new(-REMAINDER, REMAINDER)) * Interval::point(8.0)
+}
+
+impl Neg for Interval {
+    type Output = Interval;
+
+    fn neg(self) -> Interval {
+        Interval { lower: -self.upper, upper: -self.lower }
+    }
+}
+
+impl Add for Interval {
+    type Output = Interval;
+
+    fn add(self, other: Interval) -> Interval {
+        Interval::outward(self.lower + other.lower, self.upper + other.upper)
+    }
+}
+
+impl Sub for Interval {
+    type Output = Interval;
+
+    fn sub(self, other: Interval) -> Interval {
+        Interval::outward(self.lower - other.upper, self.upper - other.lower)
+    }
+}
+
+impl Mul for Interval {
+    type Output = Interval;
+
+    fn mul(self, other: Interval) -> Interval {
+        extremes([
+            self.lower * other.lower,
+            self.lower * other.upper,
+            self.upper * other.lower,
+            self.upper * other.upper,
+        ])
+    }
+}
+
+impl Div for Interval {
+    type Output = Interval;
+
+    fn div(self, other: Interval) -> Interval {
+        if other.contains(0.0) {
+            return Interval::ALL;
+        }
+        extremes([
+            self.lower / other.lower,
+            self.lower / other.upper,
+            self.upper / other.lower,
+            self.upper / other.upper,
+        ])
+    }
+}
+
+/// The outward hull of four rounded results; `min` and `max` skip what is not a number, so that is
+/// looked for first.
+fn extremes(results: [f64; 4]) -> Interval {
+    if results.iter().any(|result| result.is_nan()) {
+        return Interval::ALL;
+    }
+    let [a, b, c, d] = results;
+    Interval::outward(a.min(b).min(c.min(d)), a.max(b).max(c.max(d)))
+}
+
+impl fmt::Display for Interval {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "[{:?}, {:?}]", self.lower, self.upper)
+    }
+}
+
+impl Serialize for Interval {
+    /// As `[lower, upper]`.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut pair = serializer.serialize_tuple(2)?;
+        pair.serialize_element(&self.lower)?;
+        pair.serialize_element(&self.upper)?;
+        pair.end()
+    }
+}
+
+#[cfg(test)]
+mod tests;

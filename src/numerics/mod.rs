@@ -1,0 +1,5 @@
+//! Arithmetic that every other ring may build on.
+
+pub mod interval;
+
+pub use interval::Interval;

@@ -1,0 +1,138 @@
+//! The count of limit cycles: every clearance between the inner and the outer end is excluded, or lies in an
+//! interval that holds exactly one cycle, or is told to be open.
+//!
+//! Where the return map G lies above the diagonal at A, no cycle has its clearance in `[A, G(A))`: G
+//! increases, so that `G(z) >= G(A) > z` there. The three other cases are the same with the inverse and with
+//! the other sign. So a gap is walked through from both sides by iteration; what the walks leave is
+//! decided by the derivative, which differs from 1 throughout (one cycle if the signs differ, none if they
+//! do not), or by the distance from the diagonal in the middle; else it is halved.
+
+use super::ends::{Sign, sign_at};
+use super::map::{Bound, Direction, ReturnMap};
+use crate::numerics::Interval;
+
+/// A gap this narrow, relative to itself, is not halved any more.
+const NARROWEST: f64 = 1e-13;
+
+/// An end of a gap, with the side of the diagonal on which the map lies there.
+pub type Edge = (f64, Sign);
+
+/// What became of the gaps.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Count {
+    /// Intervals of clearances that hold exactly one cycle each, and whether it attracts.
+    pub unique: Vec<(Interval, bool)>,
+    /// Intervals about which nothing is known.
+    pub open: Vec<Interval>,
+}
+
+impl Count {
+    /// Decides the gap between two edges.
+    pub fn decide(&mut self, map: &mut ReturnMap, mut low: Edge, mut high: Edge, halvings: u32) {
+        /// A walk goes on while each step takes this part of the gap away.
+        const WORTH: f64 = 0.25;
+        /// Two cycles' worth of walking before the derivative is asked.
+        const NEAR: f64 = 0.15;
+        loop {
+            let before = high.0 - low.0;
+            if low.1 != high.1 || low.1 == Sign::Above {
+                low.0 = from_below(map, low);
+            }
+            if low.0 <= high.0 && (low.1 != high.1 || low.1 == Sign::Below) {
+                high.0 = from_above(map, high);
+            }
+            if low.0 > high.0 {
+                return;
+            }
+            let left = high.0 - low.0;
+            if left > (1.0 - WORTH) * before || (left < NEAR * low.0 && low.1 != high.1) {
+                break;
+            }
+        }
+        let gap = Interval::new(low.0, high.0);
+        if high.0 < 1.6 * low.0 && self.settle(map, gap, low.1, high.1) {
+            return;
+        }
+        if gap.width() <= NARROWEST * high.0 || halvings == 0 {
+            return self.leave(low, high);
+        }
+        let Some(middle) = clear_middle(map, gap) else { return self.leave(low, high) };
+        self.decide(map, low, middle, halvings - 1);
+        self.decide(map, middle, high, halvings - 1);
+    }
+
+    /// Leaves a gap open, together with an open one that it touches.
+    fn leave(&mut self, low: Edge, high: Edge) {
+        let gap = Interval::new(low.0, high.0);
+        match self.open.last_mut() {
+            Some(last) if last.upper() >= gap.lower() => *last = last.hull(gap),
+            _ => self.open.push(gap),
+        }
+    }
+
+    /// Decides by the derivative, of the map or of its inverse; whether it could.
+    fn settle(&mut self, map: &mut ReturnMap, gap: Interval, low: Sign, high: Sign) -> bool {
+        // Near a cycle that repels the inverse contracts, and is known where the map itself is not.
+        let repels = low == Sign::Below && high == Sign::Above;
+        let directions = [Direction::Forward, Direction::Backward];
+        let order = if repels { [directions[1], directions[0]] } else { directions };
+        order.into_iter().any(|direction| self.settle_along(map, direction, gap, low, high))
+    }
+
+    fn settle_along(
+        &mut self,
+        map: &mut ReturnMap,
+        direction: Direction,
+        gap: Interval,
+        low: Sign,
+        high: Sign,
+    ) -> bool {
+        let Some(slope) = map.slope(direction, gap) else { return false };
+        if slope.lower() > 1.0 || slope.upper() < 1.0 {
+            if low != high {
+                self.unique.push((gap, low == Sign::Above));
+            }
+            return true;
+        }
+        if low != high {
+            return false;
+        }
+        // On one side of the diagonal in the middle by more than the map can come closer on the way to an end.
+        let middle = Interval::point(gap.middle());
+        let away = map.image(direction, middle) - middle;
+        let sway = (slope - Interval::point(1.0)) * (gap - middle);
+        let sum = away + sway;
+        sum.lower() > 0.0 || sum.upper() < 0.0
+    }
+}
+
+/// The new lower edge of a gap.
+fn from_below(map: &mut ReturnMap, (at, sign): Edge) -> f64 {
+    let direction = match sign {
+        Sign::Above => Direction::Forward,
+        Sign::Below => Direction::Backward,
+    };
+    map.image_bound(direction, at, Bound::Lower).max(at)
+}
+
+/// The new upper edge of a gap.
+fn from_above(map: &mut ReturnMap, (at, sign): Edge) -> f64 {
+    let direction = match sign {
+        Sign::Above => Direction::Backward,
+        Sign::Below => Direction::Forward,
+    };
+    map.image_bound(direction, at, Bound::Upper).min(at)
+}
+
+/// A point inside a gap at which the sign is certain.
+fn clear_middle(map: &mut ReturnMap, gap: Interval) -> Option<Edge> {
+    /// Parts of the way at which to look.
+    const PARTS: [f64; 6] = [0.5, 0.57, 0.43, 0.64, 0.36, 0.79];
+    let (low, high) = (gap.lower(), gap.upper());
+    let wide = low > 0.0 && high > 4.0 * low;
+    PARTS.iter().find_map(|&part| {
+        let at = if wide { low * (high / low).powf(part) } else { low + part * (high - low) };
+        let sign = (at > low && at < high).then(|| sign_at(map, at))??;
+        Some((at, sign))
+    })
+}

@@ -1,0 +1,141 @@
+//! All limit cycles at given parameters, proved: how many there are, and bounds of their numbers.
+
+use serde::Serialize;
+
+use super::affine::affine_cycle;
+use super::count::Count;
+use super::enclose::{Enclosure, enclose};
+use super::ends::{End, inner_end, outer_end};
+use super::field::{ParameterBox, scaled};
+use super::map::ReturnMap;
+use super::theorems::{Theorem, theorem};
+use crate::numerics::Interval;
+use crate::oscillator::scaling::exponent;
+
+/// A limit cycle that exists and is the only one in an interval of clearances.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ProvedCycle {
+    /// In which its clearance `q_max - r` lies, and no other cycle's.
+    pub within: Interval,
+    /// Whether it attracts.
+    pub stable: bool,
+    /// Bounds of its numbers, where they could be had.
+    pub enclosure: Option<Enclosure>,
+}
+
+/// Clearances about which nothing is proved.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Open {
+    /// Smallest.
+    pub lower: f64,
+    /// Largest; infinite where there is no bound.
+    pub upper: f64,
+    /// Why.
+    pub reason: &'static str,
+}
+
+/// What is proved about the limit cycles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Proof {
+    /// For all of these parameters.
+    pub parameters: ParameterBox,
+    /// The theorem that gave their number without computing motions.
+    pub theorem: Option<Theorem>,
+    /// The cycles, by amplitude.
+    pub cycles: Vec<ProvedCycle>,
+    /// What could not be decided; there are these cycles and no others if this is empty.
+    pub open: Vec<Open>,
+    /// Certified half swings that it took.
+    pub swings: u32,
+}
+
+impl Proof {
+    /// Whether the number of cycles is proved.
+    #[must_use]
+    pub fn is_complete(&self) -> bool {
+        self.open.is_empty()
+    }
+}
+
+const STIFF: &str = "a half swing is too stiff to be enclosed";
+const CLOSE: &str = "the return map comes closer to its diagonal than it can be bounded";
+const PARTLY: &str =
+    "the number of cycles differs, or may differ, within the parameters' intervals";
+
+/// Proves how many cycles there are and encloses them; `hints` are clearances near which some may lie.
+#[must_use]
+pub fn prove(parameters: &ParameterBox, hints: &[f64]) -> Proof {
+    // Near the ends of the range of doubles r is brought to about 1: exactly, or as an interval.
+    let unit = if parameters.r.lower() > 0.0 { exponent(parameters.r.middle()) } else { 0 };
+    let unit = if unit.abs() > 300 { unit } else { 0 };
+    let local = parameters.in_units_of(unit);
+    let hints: Vec<f64> =
+        hints.iter().map(|&hint| scaled(Interval::point(hint), -unit).middle()).collect();
+    let mut proof = prove_in_units(&local, &hints);
+    proof.parameters = *parameters;
+    for cycle in &mut proof.cycles {
+        cycle.within = scaled(cycle.within, unit);
+        cycle.enclosure = cycle.enclosure.map(|it| it.times_power(unit));
+    }
+    for open in &mut proof.open {
+        let clearances = scaled(Interval::new(open.lower, open.upper), unit);
+        (open.lower, open.upper) = (clearances.lower(), clearances.upper());
+    }
+    proof
+}
+
+fn prove_in_units(parameters: &ParameterBox, hints: &[f64]) -> Proof {
+    let theorem = theorem(parameters);
+    let mut map = ReturnMap::new(parameters);
+    let mut proof =
+        Proof { parameters: *parameters, theorem, cycles: Vec::new(), open: Vec::new(), swings: 0 };
+    let known = match theorem {
+        Some(Theorem::OneWay | Theorem::Overdamped) => Count::default(),
+        Some(Theorem::Affine) => {
+            let enclosure = affine_cycle(parameters);
+            let within = Interval::new(0.0, f64::INFINITY);
+            proof.cycles.push(ProvedCycle { within, stable: false, enclosure });
+            return proof;
+        }
+        Some(Theorem::Frictionless) => {
+            let within = Interval::new(0.0, f64::INFINITY);
+            Count { unique: vec![(within, parameters.d.upper() < 0.0)], open: Vec::new() }
+        }
+        None => counted(&mut map),
+    };
+    let reason = if parameters.is_point() { CLOSE } else { PARTLY };
+    for (within, stable) in known.unique {
+        let hint = hints.iter().copied().find(|&hint| within.contains(hint));
+        let guess = hint.unwrap_or(if within.is_finite() { within.middle() } else { 1.0 });
+        let enclosure = enclose(&mut map, guess, within, stable)
+            .filter(|it| it.clearance.intersection(within).is_some());
+        proof.cycles.push(ProvedCycle { within, stable, enclosure });
+    }
+    for open in known.open {
+        let reason = if open.upper() == f64::INFINITY { STIFF } else { reason };
+        proof.open.push(Open { lower: open.lower(), upper: open.upper(), reason });
+    }
+    proof.swings = map.swings;
+    proof
+}
+
+/// Counts by the return map.
+fn counted(map: &mut ReturnMap) -> Count {
+    /// Halvings of the whole range before a gap is left open.
+    const HALVINGS: u32 = 60;
+    let mut count = Count::default();
+    let all =
+        |from: f64| Count { unique: Vec::new(), open: vec![Interval::new(from, f64::INFINITY)] };
+    let low = match inner_end(map) {
+        End::At(clearance, sign) => (clearance, sign),
+        End::Empty => return count,
+        End::Open => return all(0.0),
+    };
+    let high = match outer_end(map, low.0) {
+        End::At(clearance, sign) => (clearance, sign),
+        End::Empty => return count,
+        End::Open => return all(low.0),
+    };
+    count.decide(map, low, high, HALVINGS);
+    count
+}

@@ -1,0 +1,149 @@
+//! A limit cycle enclosed: existence and uniqueness near a guess by the interval Newton method, then all its
+//! numbers.
+
+use super::field::{ParameterBox, scaled};
+use super::map::{Direction, ReturnMap};
+use super::swing::{Start, Swing, swing};
+use crate::numerics::Interval;
+use serde::Serialize;
+
+/// Bounds of the numbers of one limit cycle.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Enclosure {
+    /// Right turning point.
+    pub q_max: Interval,
+    /// Left turning point.
+    pub q_min: Interval,
+    /// Largest velocity.
+    pub v_max: Interval,
+    /// Smallest velocity.
+    pub v_min: Interval,
+    /// Period.
+    pub period: Interval,
+    /// Floquet multiplier.
+    pub multiplier: Interval,
+    /// `q_max - r`.
+    pub clearance: Interval,
+}
+
+/// The same lengths in units of `2^-k`.
+impl Enclosure {
+    /// Every length multiplied by `2^k`.
+    #[must_use]
+    pub fn times_power(self, k: i32) -> Self {
+        let length = |it| scaled(it, k);
+        Enclosure {
+            q_max: length(self.q_max),
+            q_min: length(self.q_min),
+            v_max: length(self.v_max),
+            v_min: length(self.v_min),
+            clearance: length(self.clearance),
+            ..self
+        }
+    }
+
+    /// Whether it attracts, if that is certain.
+    #[must_use]
+    pub fn stable(&self) -> Option<bool> {
+        if self.multiplier.upper() < 1.0 {
+            Some(true)
+        } else if self.multiplier.lower() > 1.0 {
+            Some(false)
+        } else {
+            None
+        }
+    }
+}
+
+/// Encloses the only cycle with a clearance in `within`, which exists, `guess` being near it.
+///
+/// The map is run the way in which it contracts: at a cycle that repels, backward.
+pub fn enclose(
+    map: &mut ReturnMap,
+    guess: f64,
+    within: Interval,
+    stable: bool,
+) -> Option<Enclosure> {
+    /// Radii to try, relative to the guess.
+    const RADII: [f64; 6] = [1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2];
+    let direction = if stable { Direction::Forward } else { Direction::Backward };
+    let mut near = guess;
+    let mut around = None;
+    for radius in RADII {
+        let wide = Interval::around(near, radius * near);
+        if let Some(inner) = newton(map, wide, direction)
+            && inner.lower() > wide.lower()
+            && inner.upper() < wide.upper()
+        {
+            around = Some(inner);
+            break;
+        }
+        near = polished(map, near, direction);
+    }
+    // The only cycle within an interval lies in every step of the method from there, interior or not.
+    let only = |map: &mut ReturnMap| newton(map, within, direction)?.intersection(within);
+    let mut clearance = around.or_else(|| only(map).or(within.is_finite().then_some(within)))?;
+    if let Some(better) = newton(map, clearance, direction) {
+        clearance = better.intersection(clearance)?;
+    }
+    describe(map, clearance, direction)
+}
+
+/// One step of the interval Newton method: all fixed points in `over` lie in the result, and if that lies in
+/// the interior of `over` there is exactly one.
+fn newton(map: &mut ReturnMap, over: Interval, direction: Direction) -> Option<Interval> {
+    let middle = Interval::point(over.middle());
+    let off = map.image(direction, middle) - middle;
+    let slope = map.slope(direction, over)? - Interval::point(1.0);
+    let step = off / slope;
+    (step.is_finite() && !slope.contains(0.0)).then(|| middle - step)
+}
+
+/// A step of Newton's method in plain numbers.
+fn polished(map: &mut ReturnMap, near: f64, direction: Direction) -> f64 {
+    let point = Interval::point(near);
+    let off = (map.image(direction, point) - point).middle();
+    let slope = map.slope(direction, point).map_or(f64::NAN, |slope| slope.middle() - 1.0);
+    let next = near - off / slope;
+    if next > 0.5 * near && next < 2.0 * near { next } else { near }
+}
+
+/// All numbers of the cycle with this clearance.
+fn describe(map: &mut ReturnMap, clearance: Interval, direction: Direction) -> Option<Enclosure> {
+    let ParameterBox { r, .. } = map.parameters;
+    let gap = r.twice();
+    // The clearance of the left turning point, then the swings below and above.
+    let index = usize::from(direction == Direction::Backward);
+    let left = map.half(index, direction, clearance);
+    if !(left.lower() > 0.0 && left.is_finite()) {
+        return None;
+    }
+    let starts = match direction {
+        Direction::Forward => [clearance, left],
+        Direction::Backward => [left + gap, clearance + gap],
+    };
+    let mut run = |index: usize| -> Option<Swing> {
+        let field = map.halves[index].field(direction);
+        map.swings += 1;
+        swing(field, &Start::at_rest(starts[index]), true).arrived()
+    };
+    let (below, above) = (run(0)?, run(1)?);
+    // What D2 contributes to the divergence vanishes around a closed curve.
+    let cubic = |swing: &Swing| {
+        let c = scaled(scaled(map.parameters.d3, swing.unit), swing.unit);
+        c * swing.square * Interval::point(3.0)
+    };
+    let period = below.duration + above.duration;
+    let damping = map.parameters.d.twice() * period + cubic(&below) + cubic(&above);
+    let share = |z: Interval| z / (z + gap);
+    let multiplier = share(clearance) * share(left) * (-damping).exp();
+    Some(Enclosure {
+        q_max: clearance + r,
+        q_min: -(left + r),
+        v_max: above.fastest?,
+        v_min: -below.fastest?,
+        period,
+        multiplier,
+        clearance,
+    })
+}

@@ -1,0 +1,124 @@
+//! The two ends of the search for cycles: below one clearance and above another there is none.
+
+use super::barrier::least_end;
+use super::map::{Direction, ReturnMap};
+use crate::numerics::Interval;
+
+/// On which side of the diagonal the return map lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sign {
+    /// The next clearance is larger, or the motion never turns again.
+    Above,
+    /// The next clearance is smaller, or the motion comes to rest.
+    Below,
+}
+
+/// What lies at an end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum End {
+    /// No cycle has its clearance beyond this one, at which the map has this sign.
+    At(f64, Sign),
+    /// There is no cycle at all.
+    Empty,
+    /// Nothing could be proved.
+    Open,
+}
+
+/// The inner end.
+pub fn inner_end(map: &mut ReturnMap) -> End {
+    /// Halvings of a clearance that comes to rest, where the inverse is not to be had.
+    const HALVINGS: i32 = 40;
+    // The last clearances from which the second swing, and both swings, end in the sticking set.
+    let second = map.half(1, Direction::Backward, Interval::point(0.0));
+    if second.lower() == f64::INFINITY {
+        return End::Empty;
+    }
+    let first = map.half(0, Direction::Backward, Interval::point(second.lower()));
+    if first.lower() == f64::INFINITY {
+        return End::Empty;
+    }
+    if first.lower() > 0.0 {
+        return End::At(first.lower(), Sign::Below);
+    }
+    let (gap, fields) = (map.gap, map.halves.map(|half| *half.field(Direction::Forward)));
+    if fields[0].a.upper() <= -2.0 {
+        let least = fields.map(|field| (Interval::point(least_end(&field)) - gap).lower());
+        let passed = map.half(1, Direction::Forward, Interval::point(least[0])).lower();
+        let bound = passed.max(least[1]);
+        if bound > 0.0 && bound < f64::INFINITY {
+            // No image is smaller, if every motion comes back at all.
+            let returns = map.parameters.d3.lower() > 0.0 && least[0] > 0.0 && passed >= least[1];
+            let sign = if returns { Some(Sign::Above) } else { sign_at(map, bound) };
+            return sign.map_or(End::Open, |sign| End::At(bound, sign));
+        }
+        if bound == f64::INFINITY {
+            return End::Empty;
+        }
+    }
+    let mut clearance = gap.lower();
+    for _ in 0..HALVINGS {
+        if map.image(Direction::Forward, Interval::point(clearance)).upper() == f64::NEG_INFINITY {
+            return End::At(clearance, Sign::Below);
+        }
+        clearance *= 0.5;
+    }
+    End::Open
+}
+
+/// The outer end; `inner` is the clearance at the inner one.
+pub fn outer_end(map: &mut ReturnMap, inner: f64) -> End {
+    let [first, second] = [0, 1].map(|index| {
+        let greatest = map.greatest(index, Direction::Forward);
+        if greatest < f64::INFINITY {
+            (Interval::point(greatest) - map.gap).upper()
+        } else {
+            greatest
+        }
+    });
+    if first <= 0.0 || second <= 0.0 {
+        return End::Empty;
+    }
+    let through = if first < f64::INFINITY {
+        map.half(1, Direction::Forward, Interval::point(first)).upper()
+    } else {
+        f64::INFINITY
+    };
+    let bound = second.min(through);
+    if bound < inner {
+        return End::Empty;
+    }
+    if bound < f64::INFINITY {
+        // No image is larger: the map is not above the diagonal there, unless the motion never turns again.
+        let sign =
+            if map.parameters.d3.lower() > 0.0 { Some(Sign::Below) } else { sign_at(map, bound) };
+        return sign.map_or(End::Open, |sign| End::At(bound, sign));
+    }
+    escape(map, inner)
+}
+
+/// A clearance from which no motion turns twice.
+fn escape(map: &mut ReturnMap, inner: f64) -> End {
+    let mut clearance = inner.max(map.gap.upper());
+    for _ in 0..200 {
+        clearance *= 4.0;
+        if !clearance.is_finite() {
+            break;
+        }
+        if map.image(Direction::Forward, Interval::point(clearance)).lower() == f64::INFINITY {
+            return End::At(clearance, Sign::Above);
+        }
+    }
+    End::Open
+}
+
+/// On which side of the diagonal the map certainly lies at a clearance.
+pub fn sign_at(map: &mut ReturnMap, clearance: f64) -> Option<Sign> {
+    let image = map.image(Direction::Forward, Interval::point(clearance));
+    if image.lower() > clearance {
+        Some(Sign::Above)
+    } else if image.upper() < clearance {
+        Some(Sign::Below)
+    } else {
+        None
+    }
+}

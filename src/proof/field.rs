@@ -1,0 +1,117 @@
+//! The field of a half plane with its coefficients known to lie in intervals.
+
+use crate::numerics::Interval;
+use crate::oscillator::scaling::times_power;
+use crate::oscillator::{Parameters, Side};
+
+/// The parameters of the oscillator, each an interval: what is proved holds for every value in it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ParameterBox {
+    /// Effective linear damping D.
+    pub d: Interval,
+    /// Asymmetric damping D2.
+    pub d2: Interval,
+    /// Cubic damping D3.
+    pub d3: Interval,
+    /// Intensity r of the dry friction, not negative.
+    pub r: Interval,
+}
+
+impl From<&Parameters> for ParameterBox {
+    /// The parameters as the doubles that they are.
+    fn from(parameters: &Parameters) -> Self {
+        let Parameters { d, d2, d3, r } = *parameters;
+        let [d, d2, d3, r] = [d, d2, d3, r].map(Interval::point);
+        ParameterBox { d, d2, d3, r }
+    }
+}
+
+impl ParameterBox {
+    /// The same with lengths measured in units of `2^k`.
+    #[must_use]
+    pub fn in_units_of(&self, k: i32) -> Self {
+        let d3 = scaled(scaled(self.d3, k), k);
+        ParameterBox { d: self.d, d2: scaled(self.d2, k), d3, r: scaled(self.r, -k) }
+    }
+
+    /// Whether each parameter is one double.
+    #[must_use]
+    pub fn is_point(&self) -> bool {
+        [self.d, self.d2, self.d3, self.r].iter().all(|it| it.is_point())
+    }
+}
+
+/// `v' = -x - v (a + b v + c v^2)`, `x' = v`: the smooth field of one half plane in its own frame, in
+/// which the motion runs from `(-z, 0)` through `v > 0`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Field {
+    /// `2 D`.
+    pub a: Interval,
+    /// `D2` above `v = 0`, `-D2` below.
+    pub b: Interval,
+    /// `D3`.
+    pub c: Interval,
+}
+
+impl Field {
+    /// The field on one side of the switching line.
+    #[must_use]
+    pub fn new(parameters: &ParameterBox, side: Side) -> Self {
+        let b = if side == Side::Upper { parameters.d2 } else { -parameters.d2 };
+        Field { a: parameters.d.twice(), b, c: parameters.d3 }
+    }
+
+    /// The field of motions run backward, in the frame `y = -x`.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        Field { a: -self.a, b: -self.b, c: -self.c }
+    }
+
+    /// The same field for motions measured in units of `2^k`.
+    #[must_use]
+    pub fn in_units_of(&self, k: i32) -> Self {
+        Field { a: self.a, b: scaled(self.b, k), c: scaled(scaled(self.c, k), k) }
+    }
+
+    /// The member that damps least: of all fields here its motion from a given start lies highest.
+    #[must_use]
+    pub fn weakest(&self) -> Self {
+        let least = |it: Interval| Interval::point(it.lower());
+        Field { a: least(self.a), b: least(self.b), c: least(self.c) }
+    }
+
+    /// The member that damps most.
+    #[must_use]
+    pub fn strongest(&self) -> Self {
+        let most = |it: Interval| Interval::point(it.upper());
+        Field { a: most(self.a), b: most(self.b), c: most(self.c) }
+    }
+
+    /// Whether it is one field.
+    #[must_use]
+    pub fn is_point(&self) -> bool {
+        [self.a, self.b, self.c].iter().all(|it| it.is_point())
+    }
+
+    /// All accelerations at a point.
+    #[must_use]
+    pub fn acceleration(&self, x: Interval, v: Interval) -> Interval {
+        -x - v * (self.a + v * (self.b + v * self.c))
+    }
+
+    /// All damping slopes `a + 2 b v + 3 c v^2`, minus the divergence of the field.
+    #[must_use]
+    pub fn slope(&self, v: Interval) -> Interval {
+        v.polynomial(&[self.a, self.b.twice(), self.c * Interval::point(3.0)])
+    }
+}
+
+/// `value * 2^k`: exact unless it leaves the normal range, where it is one double wider on both sides.
+#[must_use]
+pub fn scaled(value: Interval, k: i32) -> Interval {
+    let bound = |bound: f64, widen: fn(f64) -> f64| {
+        let scaled = times_power(bound, k);
+        if times_power(scaled, -k) == bound { scaled } else { widen(scaled) }
+    };
+    Interval::new(bound(value.lower(), f64::next_down), bound(value.upper(), f64::next_up))
+}

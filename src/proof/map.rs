@@ -1,0 +1,268 @@
+//! The return map of the right turning point, bounded on both sides, and its inverse.
+//!
+//! Values are clearances `z > 0` from the sticking set, and two that are none: `-inf` for a motion that
+//! has come to rest, `+inf` for one that never turns again. Both keep the map increasing, so that one
+//! order serves for all of them. It also increases where damping or friction is taken away (lemma 8), so that
+//! bounds over intervals of parameters come from their ends.
+
+use super::barrier::greatest_end;
+use super::field::{Field, ParameterBox};
+use super::swing::{MOST_STEPS, Passage, Start, Swing, swing};
+use crate::numerics::Interval;
+use crate::oscillator::Side;
+
+/// The half map of one side, both ways.
+#[derive(Clone, Copy, Debug)]
+pub struct Half {
+    forward: Field,
+    backward: Field,
+    /// Where all swings of either field end at most, once that was asked for.
+    greatest: [Option<f64>; 2],
+}
+
+/// The map from one right turning point to the next.
+///
+/// The first half swing runs below `v = 0`, from the right turning point to the left one, the second above.
+#[derive(Clone, Debug)]
+pub struct ReturnMap {
+    /// The parameters.
+    pub parameters: ParameterBox,
+    /// The two half maps in the order in which they are run.
+    pub halves: [Half; 2],
+    /// `2 r`.
+    pub gap: Interval,
+    /// Half swings computed so far.
+    pub swings: u32,
+    /// Steps they took, about.
+    pub steps: u32,
+}
+
+/// Which way a map is run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// With time.
+    Forward,
+    /// Against it: the inverse.
+    Backward,
+}
+
+/// Steps of integration after which nothing more is computed: some 50 milliseconds.
+const MOST_WORK: u32 = 30_000;
+
+/// Starts closer together than this part of themselves are one ball where the derivative is asked for.
+const NARROW: f64 = 1e-9;
+
+/// Starts that differ by rounding only are one ball where the end is asked for.
+const ROUNDED: f64 = 1e-15;
+
+/// Which bound is meant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bound {
+    /// From below.
+    Lower,
+    /// From above.
+    Upper,
+}
+
+impl Half {
+    /// The field that a direction runs.
+    #[must_use]
+    pub fn field(&self, direction: Direction) -> &Field {
+        match direction {
+            Direction::Forward => &self.forward,
+            Direction::Backward => &self.backward,
+        }
+    }
+}
+
+impl ReturnMap {
+    /// The map at these parameters.
+    #[must_use]
+    pub fn new(parameters: &ParameterBox) -> Self {
+        let half = |side| {
+            let forward = Field::new(parameters, side);
+            Half { forward, backward: forward.reversed(), greatest: [None; 2] }
+        };
+        let halves = [half(Side::Lower), half(Side::Upper)];
+        ReturnMap {
+            parameters: *parameters,
+            halves,
+            gap: parameters.r.twice(),
+            swings: 0,
+            steps: 0,
+        }
+    }
+
+    /// Runs one field from rest.
+    pub fn run(&mut self, field: &Field, start: Interval) -> Passage {
+        if self.steps > MOST_WORK {
+            return Passage::Unknown;
+        }
+        let passage = swing(field, &Start::at_rest(start), false);
+        self.swings += 1;
+        self.steps += match passage {
+            Passage::Arrives(swing) => swing.steps,
+            Passage::Never => MOST_STEPS / 8,
+            Passage::Unknown => MOST_STEPS,
+        };
+        passage
+    }
+
+    /// Upper bound of where all swings of a half end, however far out they start.
+    pub fn greatest(&mut self, index: usize, direction: Direction) -> f64 {
+        let place = usize::from(direction == Direction::Backward);
+        if let Some(known) = self.halves[index].greatest[place] {
+            return known;
+        }
+        let field = *self.halves[index].field(direction);
+        let greatest = greatest_end(&field, &mut self.swings);
+        self.halves[index].greatest[place] = Some(greatest);
+        greatest
+    }
+
+    /// Lower bound of where a swing ends. Where it is too stiff, one that starts further in ends below it.
+    fn least(&mut self, index: usize, direction: Direction, start: f64) -> f64 {
+        /// How many times a start is quartered in search of one that is not stiff.
+        const SHORTENINGS: i32 = 6;
+        let field = self.halves[index].field(direction).strongest();
+        let mut from = start;
+        for _ in 0..SHORTENINGS {
+            match self.run(&field, Interval::point(from)) {
+                Passage::Arrives(swing) => return swing.end.lower(),
+                Passage::Never => return f64::INFINITY,
+                Passage::Unknown => from *= 0.25,
+            }
+        }
+        f64::NEG_INFINITY
+    }
+
+    /// Upper bound of where a swing ends; where it is too stiff, the barrier above all swings.
+    fn most(&mut self, index: usize, direction: Direction, start: f64) -> f64 {
+        let field = self.halves[index].field(direction).weakest();
+        let highest = if start < f64::INFINITY {
+            self.run(&field, Interval::point(start))
+        } else {
+            Passage::Unknown
+        };
+        match highest.arrived() {
+            Some(swing) => swing.end.upper(),
+            None => self.greatest(index, direction),
+        }
+    }
+
+    /// One half of the map: from the clearances before a swing to those after it.
+    pub fn half(&mut self, index: usize, direction: Direction, from: Interval) -> Interval {
+        let start = match direction {
+            Direction::Forward => from,
+            Direction::Backward => from + self.gap,
+        };
+        let field = *self.halves[index].field(direction);
+        if field.is_point()
+            && from.lower() > 0.0
+            && from.radius() <= ROUNDED * from.lower()
+            && let Some(swing) = self.run(&field, start).arrived()
+        {
+            return self.after(direction, swing.end);
+        }
+        let lower = self.bound(index, direction, from.lower(), Bound::Lower);
+        let upper = self.bound(index, direction, from.upper(), Bound::Upper);
+        Interval::new(lower, upper.max(lower))
+    }
+
+    /// A bound of one half of the map at a clearance.
+    fn bound(&mut self, index: usize, direction: Direction, from: f64, which: Bound) -> f64 {
+        if from == f64::INFINITY || (direction == Direction::Forward && from <= 0.0) {
+            return if from > 0.0 { from } else { f64::NEG_INFINITY };
+        }
+        let start = match direction {
+            Direction::Forward => Interval::point(from),
+            Direction::Backward => Interval::point(from) + self.gap,
+        };
+        let end = match which {
+            Bound::Lower => self.least(index, direction, start.lower()),
+            Bound::Upper => self.most(index, direction, start.upper()),
+        };
+        if end.is_infinite() {
+            return if direction == Direction::Backward { end.max(0.0) } else { end };
+        }
+        let after = self.after(direction, Interval::point(end));
+        match which {
+            Bound::Lower => after.lower(),
+            Bound::Upper => after.upper(),
+        }
+    }
+
+    /// The clearances after swings that end at these positions: `-inf` where they end in the sticking set.
+    fn after(&self, direction: Direction, end: Interval) -> Interval {
+        match direction {
+            Direction::Forward => {
+                let rest = |bound: f64| if bound > 0.0 { bound } else { f64::NEG_INFINITY };
+                let after = end - self.gap;
+                Interval::new(rest(after.lower()), rest(after.upper()))
+            }
+            Direction::Backward => Interval::new(end.lower().max(0.0), end.upper()),
+        }
+    }
+
+    /// The order in which a direction runs the halves.
+    fn order(direction: Direction) -> [usize; 2] {
+        match direction {
+            Direction::Forward => [0, 1],
+            Direction::Backward => [1, 0],
+        }
+    }
+
+    /// A bound of the whole map at a clearance.
+    pub fn image_bound(&mut self, direction: Direction, from: f64, which: Bound) -> f64 {
+        let [first, second] = Self::order(direction);
+        let between = self.bound(first, direction, from, which);
+        self.bound(second, direction, between, which)
+    }
+
+    /// The whole map.
+    pub fn image(&mut self, direction: Direction, from: Interval) -> Interval {
+        let [first, second] = Self::order(direction);
+        let between = self.half(first, direction, from);
+        self.half(second, direction, between)
+    }
+
+    /// The derivative of the map over an interval of clearances; `None` where a swing is not certain.
+    pub fn slope(&mut self, direction: Direction, over: Interval) -> Option<Interval> {
+        let mut product = Interval::point(1.0);
+        let mut from = over;
+        for index in Self::order(direction) {
+            let field = *self.halves[index].field(direction);
+            let start = if direction == Direction::Backward { from + self.gap } else { from };
+            let (swing, slope) = self.swing_over(&field, start)?;
+            product = product * slope;
+            from = if direction == Direction::Forward { swing.end - self.gap } else { swing.end };
+            if !(from.lower() > 0.0) {
+                return None;
+            }
+        }
+        Some(product)
+    }
+
+    /// A swing from an interval of starts at rest, and the derivative of its end by the start:
+    /// `z/X exp(integral of the divergence)` (lemma 9).
+    ///
+    /// The end and the integral of `v^2` are increasing functions of the start, and decreasing ones of the
+    /// damping: wide intervals take them from two motions, and only the duration from the ball.
+    pub fn swing_over(&mut self, field: &Field, start: Interval) -> Option<(Swing, Interval)> {
+        let mut whole = self.run(field, start).arrived()?;
+        if !(field.is_point() && start.radius() <= NARROW * start.lower()) {
+            let low = self.run(&field.strongest(), Interval::point(start.lower())).arrived()?;
+            let high = self.run(&field.weakest(), Interval::point(start.upper())).arrived()?;
+            whole.end = Interval::new(low.end.lower(), high.end.upper());
+            let least = low.square_in(whole.unit).lower();
+            let most = high.square_in(whole.unit).upper();
+            whole.square = Interval::new(least, most).intersection(whole.square)?;
+            let Field { a, b, c } = field.in_units_of(whole.unit);
+            let path = super::field::scaled(whole.end + start, -whole.unit);
+            let cubic = c * whole.square * Interval::point(3.0);
+            whole.divergence = -(a * whole.duration + (b * path).twice() + cubic);
+        }
+        let slope = start / whole.end * whole.divergence.exp();
+        slope.is_finite().then_some((whole, slope))
+    }
+}

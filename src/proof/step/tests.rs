@@ -1,0 +1,268 @@
+//! The roundings counted by hand in this file, counted again by numbers that do it themselves.
+
+use super::*;
+use crate::closed_form::twofold::Twofold;
+
+/// A magnitude, and how many units of roundoff times a magnitude it may be off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Counted {
+    size: f64,
+    roundings: f64,
+}
+
+fn exact(size: f64) -> Counted {
+    Counted { size, roundings: 0.0 }
+}
+
+impl Add for Counted {
+    type Output = Counted;
+
+    fn add(self, other: Counted) -> Counted {
+        let size = self.size + other.size;
+        let own = if self.size == 0.0 || other.size == 0.0 { 0.0 } else { size };
+        Counted { size, roundings: self.roundings + other.roundings + own }
+    }
+}
+
+/// Of magnitudes a difference is a sum.
+#[expect(clippy::suspicious_arithmetic_impl, reason = "the worst case of a difference")]
+impl Sub for Counted {
+    type Output = Counted;
+
+    fn sub(self, other: Counted) -> Counted {
+        self + other
+    }
+}
+
+impl Mul for Counted {
+    type Output = Counted;
+
+    fn mul(self, other: Counted) -> Counted {
+        let size = self.size * other.size;
+        let carried = self.roundings * other.size + other.roundings * self.size;
+        Counted { size, roundings: carried + size }
+    }
+}
+
+impl Neg for Counted {
+    type Output = Counted;
+
+    fn neg(self) -> Counted {
+        self
+    }
+}
+
+thread_local! {
+    /// Roundings of the coefficients taken so far, in pairs of x and v.
+    static TAKEN: std::cell::RefCell<Vec<f64>> = const { std::cell::RefCell::new(Vec::new()) };
+}
+
+impl Scalar for Counted {
+    const ZERO: Counted = Counted { size: 0.0, roundings: 0.0 };
+
+    fn inverse(k: usize) -> Counted {
+        // Only powers of two have an exact inverse; counting one for all is what the bound does.
+        Counted { size: INVERSE[k], roundings: INVERSE[k] }
+    }
+
+    fn taken(self) -> Counted {
+        TAKEN.with_borrow_mut(|taken| taken.push(self.roundings));
+        exact(self.size)
+    }
+}
+
+/// For each degree: the roundings of `k + 1` times the next coefficients of x and v, and the sums of magnitudes
+/// by which the numbers of [`ROUNDINGS`] are multiplied.
+fn counted(field: [f64; 3], x: f64, v: f64) -> Vec<(f64, [f64; 7])> {
+    let mut series = Series::<Counted>::EMPTY;
+    TAKEN.with_borrow_mut(Vec::clear);
+    series.expand(field.map(exact), exact(x), exact(v));
+    let taken = TAKEN.take();
+    let [a, b, c] = field;
+    let size = |k: usize| series.v[k].size;
+    let square = |k: usize| (0..=k).map(|i| size(i) * size(k - i)).sum::<f64>();
+    let row = |k: usize| {
+        let degree = f64::from(u8::try_from(k).unwrap());
+        let cube: f64 = (0..=k).map(|i| square(i) * size(k - i)).sum();
+        // In sums over all degrees `v v'` is half, and `v^2 v'` a third, of the degree times v^2 and v^3.
+        let (b0, c0) = (b * square(k), c * cube);
+        let sizes =
+            [size(k), series.x[k].size, a * size(k), b0, 0.5 * degree * b0, c0, degree / 3.0 * c0];
+        ((degree + 1.0) * (taken[2 * k] + taken[2 * k + 1]), sizes)
+    };
+    (0..ORDER).map(row).collect()
+}
+
+/// The bound is never below the count, and halving any of its numbers brings it below somewhere.
+#[test]
+fn the_bound_of_roundings_is_what_counting_gives() {
+    /// Next to nothing, but not so that adding it is exact.
+    const LITTLE: f64 = 1e-30;
+    let mut tightest = [f64::INFINITY; 7];
+    for strong in [None, Some(0), Some(1), Some(2)] {
+        let mut field = [LITTLE; 3];
+        if let Some(strong) = strong {
+            field[strong] = 1e3;
+        }
+        for (x, v) in [(1.0, LITTLE), (LITTLE, 1.0), (1.0, 1.0)] {
+            for (degree, (count, sizes)) in counted(field, x, v).into_iter().enumerate() {
+                let bound = |numbers: &[f64; 7]| -> f64 {
+                    numbers.iter().zip(&sizes).map(|(number, size)| number * size).sum()
+                };
+                let whole = bound(&ROUNDINGS);
+                assert!(count <= whole * (1.0 + 1e-9), "{field:?} {degree}: {count} > {whole}");
+                for (index, tightest) in tightest.iter_mut().enumerate() {
+                    let mut fewer = ROUNDINGS;
+                    fewer[index] *= 0.5;
+                    *tightest = tightest.min(bound(&fewer) / count);
+                }
+            }
+        }
+    }
+    assert!(tightest.iter().all(|&ratio| ratio < 0.999), "not all are needed: {tightest:?}");
+}
+
+#[test]
+fn a_polynomial_is_evaluated_with_the_roundings_counted() {
+    let mut series = Series::<Counted>::EMPTY;
+    series.expand([0.3, 0.2, 0.5].map(exact), exact(1.0), exact(0.5));
+    for h in [1e-6, 0.3, 1.0, 30.0] {
+        let (x, v) = series.at(exact(h));
+        let degrees = |coefficients: &[Counted; LENGTH]| {
+            let mut power = 1.0;
+            let mut sum = 0.0;
+            for (k, coefficient) in coefficients.iter().enumerate().take(ORDER + 1) {
+                sum += f64::from(u8::try_from(2 * k + 1).unwrap()) * coefficient.size * power;
+                power *= h;
+            }
+            sum
+        };
+        for (value, bound) in [(x, degrees(&series.x)), (v, degrees(&series.v))] {
+            assert!(
+                value.roundings <= bound * (1.0 + 1e-9) && value.roundings > 0.4 * bound,
+                "{h} {value:?} {bound}"
+            );
+        }
+    }
+}
+
+/// The coefficients against the equation in twice the precision: each is off by what its roundings allow, which a
+/// part 1e-13 of one of them would exceed.
+#[test]
+fn every_coefficient_obeys_the_equation_to_rounding() {
+    for field in [[-0.4, 0.2, 0.5], [0.3, -0.7, -0.2], [-0.2, 0.0, 0.0], [1.9, 3.0, 7.0]] {
+        let mut series = Series::<f64>::EMPTY;
+        for (x, v) in [(-0.3, 0.0), (-0.7, 1.3), (0.4, 0.9)] {
+            series.expand(field, x, v);
+            let of = Twofold::of;
+            let coefficient = |power: i32, k: usize| -> Twofold {
+                let mut product = vec![of(1.0)];
+                for _ in 0..power {
+                    let times = |degree: usize| {
+                        (0..=degree.min(product.len() - 1)).fold(of(0.0), |sum, i| {
+                            sum.plus(product[i].times(series.v[degree - i]))
+                        })
+                    };
+                    product = (0..=k).map(times).collect();
+                }
+                product[k]
+            };
+            for k in 0..ORDER {
+                let degree = f64::from(u8::try_from(k).unwrap());
+                let terms = [
+                    of(series.v[k + 1]).times(degree + 1.0),
+                    of(series.x[k]),
+                    coefficient(1, k).times(field[0]),
+                    coefficient(2, k).times(field[1]),
+                    coefficient(3, k).times(field[2]),
+                ];
+                let sizes: f64 = terms.iter().map(|term| term.high.abs()).sum();
+                let defect = terms.into_iter().fold(of(0.0), Twofold::plus).high.abs();
+                // Convolutions may cancel; their sizes are bounded by those of their factors.
+                let spread: f64 = (0..=k).map(|i| (series.v[i] * series.v[k - i]).abs()).sum();
+                let allowed = UNIT
+                    * (14.0 + 0.5 * degree)
+                    * (sizes + (field[1].abs() + 6.0 * field[2].abs()) * spread);
+                assert!(defect <= allowed, "{field:?} degree {k}: {defect:e} > {allowed:e}");
+                let off = series.x[k + 1] * (degree + 1.0) - series.v[k];
+                assert!(off.abs() <= 2.1 * UNIT * series.v[k].abs(), "degree {k}");
+            }
+        }
+    }
+}
+
+#[test]
+fn errors_of_a_linear_spiral_grow_as_it_does() {
+    for a in [-1.9, -0.4, 0.0, 0.7, 1.9, -3.0, 3.0] {
+        let (low, high) = if f64::abs(a) < 2.0 {
+            (-0.5 * a, -0.5 * a)
+        } else {
+            let root = (a * a / 4.0 - 1.0_f64).sqrt();
+            (-0.5 * a + root, -0.5 * a + root)
+        };
+        let point = Interval::point;
+        let field = Field { a: point(a), b: point(0.0), c: point(0.0) };
+        let rate = Prepared::new(&field).growth(Norm::fitting(a), Interval::new(0.9, 1.1));
+        assert!(rate >= low && rate <= high + 1e-9, "{a}: {rate} {high}");
+    }
+}
+
+/// Growth is at least that of every member: the largest eigenvalue of the symmetric part in the norm, on a grid.
+#[test]
+fn growth_bounds_every_direction_and_every_slope() {
+    let point = Interval::point;
+    for skew in [-1.9, -0.5, 0.0, 0.8, 1.99] {
+        let norm = Norm::new(skew);
+        for (a, b, c) in [(-0.4, 0.3, 0.5), (1.0, -2.0, 0.0), (0.2, 0.0, -3.0)] {
+            let field = Field { a: point(a), b: point(b), c: point(c) };
+            let (v0, reach) = (0.7, 0.4);
+            let bound = Prepared::new(&field).growth(norm, Interval::around(v0, reach));
+            let mut most = f64::NEG_INFINITY;
+            for i in 0..=20 {
+                for j in 0..=20 {
+                    let at = |k: i32| v0 + reach * (f64::from(k) / 10.0 - 1.0);
+                    let (v, w) = (at(i), at(j));
+                    let m = a + b * (v + w) + c * (v * v + v * w + w * w);
+                    for k in 0..90 {
+                        let (y, x) = (f64::from(k) * std::f64::consts::PI / 90.0).sin_cos();
+                        let size = x * x + skew * x * y + y * y;
+                        let change =
+                            2.0 * x * y + skew * y * y + (skew * x + 2.0 * y) * (-x - m * y);
+                        most = most.max(0.5 * change / size);
+                    }
+                }
+            }
+            assert!(
+                most <= bound && most > bound - 0.2 * bound.abs() - 0.05,
+                "{skew} {a} {b} {c}: {most} {bound}"
+            );
+        }
+    }
+}
+
+#[test]
+fn nothing_is_said_of_what_is_not_a_number() {
+    let point = Interval::point;
+    let field = Field { a: point(-0.2), b: point(0.1), c: point(0.5) };
+    let local = Prepared::new(&field);
+    let mut series = Series::<f64>::EMPTY;
+    series.expand(local.middles(), -0.5, 0.2);
+    let norm = Norm::new(0.0);
+    assert!(local.carry(norm, &series, 0.2, 1e-15).is_some());
+    assert!(local.carry(norm, &series, 0.2, f64::NAN).is_none());
+    assert!(local.carry(norm, &series, f64::NAN, 1e-15).is_none());
+    assert!(local.carry(norm, &series, 5.0, 1e-15).is_none());
+    series.v[7] = f64::NAN;
+    assert!(local.carry(norm, &series, 0.2, 1e-15).is_none());
+}
+
+#[test]
+fn exponentials_are_bounded_from_above() {
+    for z in [-0.9, -0.3, -1e-9, 0.0, 1e-9, 0.2, 0.5, 0.9] {
+        let bound = exponential(z).unwrap();
+        let exact = Interval::point(z).exp();
+        assert!(bound.at_end >= exact.upper() && bound.at_end < exact.upper() * 1.02, "{z}");
+        assert!(bound.max_inside >= 1.0);
+    }
+    assert!(exponential(0.91).is_none() && exponential(f64::NAN).is_none());
+}

@@ -1,0 +1,363 @@
+//! The certified half swing: from `(x, v)`, `v >= 0`, to the next `v = 0`, or the proof that there is none.
+
+use super::field::{Field, scaled};
+use super::step::{INFLATE, Norm, Prepared, Reached, Series, UNIT};
+use crate::numerics::Interval;
+use crate::oscillator::scaling::exponent;
+
+/// Where a half swing starts: any point of a box. On `v = 0` it starts left of the centre, `x < 0`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start {
+    /// Position in the frame of the half plane.
+    pub x: Interval,
+    /// Velocity in that frame, not negative.
+    pub v: Interval,
+}
+
+impl Start {
+    /// At rest with this clearance from the sticking set.
+    #[must_use]
+    pub fn at_rest(clearance: Interval) -> Self {
+        Start { x: -clearance, v: Interval::point(0.0) }
+    }
+}
+
+/// A half swing that arrives at `v = 0`; each interval holds the values of all starts and fields.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Swing {
+    /// Position at which it arrives.
+    pub end: Interval,
+    /// How long it takes.
+    pub duration: Interval,
+    /// Integral of the divergence of the field along it.
+    pub divergence: Interval,
+    /// Integral of `v^2`, in units of `2^(2 unit)`.
+    pub square: Interval,
+    /// Exponent of the unit of `square`.
+    pub unit: i32,
+    /// Largest velocity, if asked for.
+    pub fastest: Option<Interval>,
+    /// Steps taken.
+    pub steps: u32,
+}
+
+/// What can be said of a half swing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Passage {
+    /// Every motion arrives at `v = 0`.
+    Arrives(Swing),
+    /// No motion does: the velocity never falls again.
+    Never,
+    /// Nothing is certain.
+    Unknown,
+}
+
+impl Swing {
+    /// The integral of `v^2` in units of `2^(2 unit)`.
+    #[must_use]
+    pub fn square_in(&self, unit: i32) -> Interval {
+        let k = self.unit - unit;
+        scaled(scaled(self.square, k), k)
+    }
+}
+
+impl Passage {
+    /// The swing, if it certainly arrives.
+    #[must_use]
+    pub fn arrived(self) -> Option<Swing> {
+        if let Passage::Arrives(swing) = self { Some(swing) } else { None }
+    }
+}
+
+/// Size of the last term of a step relative to the state: below rounding.
+const TOLERANCE: f64 = 1e-18;
+
+/// Steps after which a swing is given up: a smooth one takes ten, a stiff one any number.
+pub const MOST_STEPS: u32 = 250;
+
+/// Attempts with ever shorter steps before giving up.
+const ATTEMPTS: usize = 12;
+
+/// Computes a half swing of every field in `field` from every point of `start`.
+///
+/// Guarantee: the bounds hold for the exact motions, whatever the rounding. `Unknown` where they cannot be
+/// had: a stiff or a wide motion, or one that arrives within its own error of the centre.
+#[must_use]
+pub fn swing(field: &Field, start: &Start, wants_fastest: bool) -> Passage {
+    let size = start.x.magnitude().max(start.v.magnitude());
+    if !(size > 0.0 && size.is_finite() && start.v.lower() >= 0.0) {
+        return Passage::Unknown;
+    }
+    if start.v.lower() == 0.0 && (start.v.upper() > 0.0 || start.x.upper() >= 0.0) {
+        return Passage::Unknown;
+    }
+    let unit = exponent(size);
+    let local = Prepared::new(&field.in_units_of(unit));
+    let start = Start { x: scaled(start.x, -unit), v: scaled(start.v, -unit) };
+    let (x, v) = (start.x.middle(), start.v.middle());
+    // The norm of a vector is at most the sum of its components' magnitudes.
+    let radius = (start.x.radius() + start.v.radius()) * INFLATE;
+    if never_returns(local.field(), start.x.upper(), start.v.lower()) {
+        return Passage::Never;
+    }
+    let norm = Norm::fitting(local.field().a.middle());
+    let mut run = Run {
+        local,
+        norm,
+        x,
+        v,
+        radius,
+        time: 0.0,
+        time_error: 0.0,
+        square: 0.0,
+        square_error: 0.0,
+        fastest: None,
+    };
+    let mut series = Series::EMPTY;
+    for steps in 1..=MOST_STEPS {
+        match run.advance(&mut series, wants_fastest) {
+            Some(Arrival::Later) => {}
+            Some(Arrival::Now { end, lag }) => return run.finish(&start, end, lag, unit, steps),
+            Some(Arrival::Never) => return Passage::Never,
+            None => return Passage::Unknown,
+        }
+    }
+    Passage::Unknown
+}
+
+/// Whether no motion from positions up to `x` and velocities from `v` on ever returns to `v = 0` (lemma 7).
+///
+/// On the line `v = x + m` motions cross to the left where `P(v) = m - (a + 2) v - b v^2 - c v^3 >= 0`, and
+/// above it the acceleration is at least `P(v) + v`. So if P is not negative from v on, what is above the line
+/// and faster than v stays so.
+#[must_use]
+pub fn never_returns(field: &Field, x: f64, v: f64) -> bool {
+    let m = Interval::point(v) - Interval::point(x);
+    let [a, b, c] = [field.a, field.b, field.c].map(|it| Interval::point(it.upper()));
+    if !(m.lower() > 0.0 && v >= 0.0 && c.upper() <= 0.0) {
+        return false;
+    }
+    let (at, two, three) = (Interval::point(v), Interval::point(2.0), Interval::point(3.0));
+    let linear = a + two;
+    // Coefficients of P in powers of the velocity beyond v.
+    let p0 = m - at * (linear + at * (b + at * c));
+    let p1 = -(linear + at * (b * two + at * c * three));
+    let p2 = -(b + at * c * three);
+    let p3 = -c;
+    let holds = |it: Interval| it.lower() >= 0.0;
+    if holds(p1) && holds(p2) {
+        return holds(p0);
+    }
+    if p2.lower() > 0.0 && holds(Interval::point(4.0) * p0 * p2 - p1.square()) {
+        return true;
+    }
+    if !(p3.lower() > 0.0) {
+        return false;
+    }
+    // Half of the cubic term makes up for the square by u^3 >= 2 t u^2 - t^2 u, the other half for what is
+    // then linear by u^3 >= 3 t^2 u - 2 t^3; both hold for all u, t >= 0.
+    let half = p3 / two;
+    let linear = if holds(p2) { p1 } else { p1 - p2.square() / (p3 * two) };
+    if holds(linear) {
+        return holds(p0);
+    }
+    let t = Interval::point((-linear / (half * three)).sqrt().upper());
+    holds(p0 - half * two * t * t * t) && holds(linear + half * three * t * t)
+}
+
+/// A half swing under way, in units in which its start is near 1.
+struct Run {
+    local: Prepared,
+    norm: Norm,
+    x: f64,
+    v: f64,
+    /// Norm of the distance to the motion.
+    radius: f64,
+    time: f64,
+    time_error: f64,
+    square: f64,
+    square_error: f64,
+    fastest: Option<Interval>,
+}
+
+/// What a step says of the largest velocity.
+enum Speed {
+    /// It comes later.
+    StillRising,
+    /// It was reached.
+    Largest(Interval),
+    /// It was reached, but is not certain enough.
+    Uncertain,
+}
+
+enum Arrival {
+    Later,
+    Now {
+        /// Where.
+        end: Interval,
+        /// How far from the end of the last step, in time.
+        lag: f64,
+    },
+    Never,
+}
+
+impl Run {
+    fn advance(&mut self, series: &mut Series, wants_fastest: bool) -> Option<Arrival> {
+        series.expand(self.local.middles(), self.x, self.v);
+        let mut h = series.step(TOLERANCE);
+        if !(h > 0.0) {
+            return None;
+        }
+        let ahead = series.velocity(h).0;
+        let mut last = false;
+        let norm = self.local.norm(self.norm, series, h);
+        self.radius *= self.norm.into(norm) * INFLATE;
+        self.norm = norm;
+        if !(ahead > 4.0 * norm.stretch * self.radius) {
+            (h, last) = arrival(series, h, ahead)?;
+        }
+        let mut reached = None;
+        for _ in 0..ATTEMPTS {
+            reached = self.local.carry(self.norm, series, h, self.radius);
+            if reached.is_some() {
+                break;
+            }
+            (h, last) = (0.75 * h, false);
+        }
+        let reached = reached?;
+        if wants_fastest && self.fastest.is_none() {
+            match self.turn_of_speed(series, h, &reached) {
+                Speed::StillRising => {}
+                Speed::Largest(fastest) => self.fastest = Some(fastest),
+                Speed::Uncertain => return None,
+            }
+        }
+        self.time += h;
+        self.time_error += UNIT * self.time;
+        self.square += reached.square;
+        self.square_error += reached.square_error + UNIT * self.square;
+        (self.x, self.v, self.radius) = (reached.x, reached.v, reached.radius);
+        let off = self.norm.stretch * self.radius * INFLATE;
+        if last {
+            return self.arrive(off);
+        }
+        // The sign of v at the end of a step must be certain.
+        if !(self.v > off) {
+            return None;
+        }
+        let escapes =
+            never_returns(self.local.field(), (self.x + off).next_up(), (self.v - off).next_down());
+        Some(if escapes { Arrival::Never } else { Arrival::Later })
+    }
+
+    /// The arrival at `v = 0` near the end of the last step (lemma 6).
+    ///
+    /// There `abs(v) <= most`, and as long as that is so, v falls at a rate of at least
+    /// `x - most (abs(a) + ..)`: so the time of arrival is within `most/rate`, and the position within `most` times
+    /// that.
+    fn arrive(&self, off: f64) -> Option<Arrival> {
+        let most = (self.v.abs() + off) * INFLATE;
+        let x = Interval::around(self.x, off);
+        let field = self.local.field();
+        let speed = Interval::new(-most, most);
+        let damping = speed * (field.a + speed * (field.b + speed * field.c));
+        // While the motion moves on, or is followed back, x only grows.
+        let rate = Interval::point(x.lower()) - Interval::point(damping.magnitude());
+        if !(rate.lower() > 0.0) {
+            return None;
+        }
+        let lag = (Interval::point(most) / Interval::point(rate.lower())).upper();
+        let along = (Interval::point(most) * Interval::point(lag)).upper();
+        let end =
+            Interval::new(x.lower(), (Interval::point(x.upper()) + Interval::point(along)).upper());
+        let end = if end.lower() > 0.0 { end } else { return None };
+        Some(Arrival::Now { end, lag })
+    }
+
+    /// The largest velocity if it is reached within this step.
+    ///
+    /// Where the acceleration vanishes its derivative is `-v < 0`: there is one such moment in a half swing.
+    /// Near it, with acceleration at most `d` in size at velocity v, the rest of the rise is at most
+    /// `d^2/(v - d f)`, where f bounds the slope of the damping.
+    fn turn_of_speed(&self, series: &Series, h: f64, end: &Reached) -> Speed {
+        let field = self.local.field();
+        let rough =
+            |x: f64, v: f64| field.acceleration(Interval::point(x), Interval::point(v)).middle();
+        if rough(end.x, end.v) > 0.0 {
+            return Speed::StillRising;
+        }
+        let (mut low, mut high) = (0.0, h);
+        for _ in 0..40 {
+            let middle = 0.5 * (low + high);
+            if series.velocity(middle).1 > 0.0 { low = middle } else { high = middle }
+        }
+        let Some(near) = self.local.carry(self.norm, series, high, self.radius) else {
+            return Speed::Uncertain;
+        };
+        let off = self.norm.stretch * near.radius * INFLATE;
+        let (x, v) = (Interval::around(near.x, off), Interval::around(near.v, off));
+        let unbalanced = Interval::point(field.acceleration(x, v).magnitude());
+        let cap = v.upper() * 1.01;
+        let slope = field.slope(Interval::new(v.lower(), cap)).magnitude();
+        let bend = Interval::point(v.lower()) - unbalanced * Interval::point(slope);
+        if !(bend.lower() > 0.0) {
+            return Speed::Uncertain;
+        }
+        let rise = (unbalanced.square() / bend).upper();
+        let top = (Interval::point(v.upper()) + Interval::point(rise)).upper();
+        if top <= cap { Speed::Largest(Interval::new(v.lower(), top)) } else { Speed::Uncertain }
+    }
+
+    fn finish(&self, start: &Start, end: Interval, lag: f64, unit: i32, steps: u32) -> Passage {
+        let Field { a, b, c } = *self.local.field();
+        let duration = Interval::around(self.time, (self.time_error + lag) * INFLATE);
+        // Beyond the end of the step v is below its bound there, whose square times the lag is less than this.
+        let beyond = lag * (self.v.abs() + self.norm.stretch * self.radius).powi(2);
+        let square = Interval::around(self.square, (self.square_error + beyond) * INFLATE);
+        let divergence =
+            -(a * duration + (b * (end - start.x)).twice() + c * square * Interval::point(3.0));
+        if !(duration.is_finite() && divergence.is_finite() && duration.lower() > 0.0) {
+            return Passage::Unknown;
+        }
+        Passage::Arrives(Swing {
+            end: scaled(end, unit),
+            duration,
+            divergence,
+            square,
+            unit,
+            fastest: self.fastest.map(|fastest| scaled(fastest, unit)),
+            steps,
+        })
+    }
+}
+
+/// Where the polynomial of v vanishes at or just beyond `h`, by Newton's method inside a bracket; otherwise a
+/// shorter step. The flag says which. No bound depends on how good the root is.
+fn arrival(series: &Series, h: f64, ahead: f64) -> Option<(f64, bool)> {
+    /// How far beyond the step its polynomial is trusted.
+    const BEYOND: f64 = 1.02;
+    let (mut low, mut high) = (0.0, if ahead > 0.0 { BEYOND * h } else { h });
+    let mut at = h;
+    for _ in 0..60 {
+        let (value, slope) = series.velocity(at);
+        if value > 0.0 {
+            low = at;
+        } else {
+            high = at;
+        }
+        let newton = at - value / slope;
+        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        let change = (next - at).abs();
+        at = next;
+        if change <= 1e-15 * h {
+            break;
+        }
+    }
+    if at > low.max(0.0) * 0.999 && at > 0.0 && at < BEYOND * h * (1.0 - 1e-9) {
+        Some((at, true))
+    } else if ahead > 0.0 {
+        Some((0.8 * h, false))
+    } else {
+        None
+    }
+}

@@ -1,0 +1,50 @@
+//! What is known about the number of limit cycles without computing a motion.
+
+use serde::Serialize;
+
+use super::field::ParameterBox;
+use crate::numerics::Interval;
+
+/// Why there are no cycles, or only one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Theorem {
+    /// The first integral of D2 changes one way on every motion (lemma 13): no cycle.
+    OneWay,
+    /// Beyond critical damping nothing holds a motion back that has left the sticking set (lemma 14): no cycle.
+    Overdamped,
+    /// Half swings are affine maps (lemma 15): one cycle, for `-1 < D < 0` and `r > 0`.
+    Affine,
+    /// Without friction the field is one cubic (Lins, de Melo and Pugh 1977): one cycle for `D D3 < 0`.
+    Frictionless,
+}
+
+/// The theorem that decides the number of cycles, if there is one.
+#[must_use]
+pub fn theorem(parameters: &ParameterBox) -> Option<Theorem> {
+    let ParameterBox { d, d2, d3, r } = *parameters;
+    let zero = |it: Interval| it == Interval::point(0.0);
+    if one_way(d, d3, r) {
+        return Some(Theorem::OneWay);
+    }
+    if d.upper() <= -1.0 && d3.upper() <= 0.0 {
+        return Some(Theorem::Overdamped);
+    }
+    if zero(d2) && zero(d3) {
+        return (d.lower() > -1.0 && d.upper() < 0.0 && r.lower() > 0.0).then_some(Theorem::Affine);
+    }
+    let opposite = d.upper() < 0.0 && d3.lower() > 0.0 || d.lower() > 0.0 && d3.upper() < 0.0;
+    (zero(r) && opposite).then_some(Theorem::Frictionless)
+}
+
+/// Whether `r + 2 D w + D3 w^3` has one sign for all speeds w (lemma 13).
+fn one_way(d: Interval, d3: Interval, r: Interval) -> bool {
+    let loses = d.lower() >= 0.0 && d3.lower() >= 0.0;
+    let gains = r.upper() == 0.0 && d.upper() <= 0.0 && d3.upper() <= 0.0;
+    // Its least value, at w = 3 r/(4 abs(D)) when it is zero, is positive where 32 abs(D)^3 < 27 r^2 D3.
+    let cube = Interval::point(32.0) * (-d) * d.square();
+    let loses_yet = d3.lower() > 0.0
+        && d.upper() < 0.0
+        && (Interval::point(27.0) * r * r * d3 - cube).lower() > 0.0;
+    loses || gains || loses_yet
+}

@@ -1,0 +1,304 @@
+//! Proofs of limit cycles against references of thirty digits, against motions in twice the precision, and
+//! against the search.
+
+use hopfscope::flow::precise::{COARSE, FINE, precise};
+use hopfscope::flow::{Limits, Problem};
+use hopfscope::numerics::Interval;
+use hopfscope::oscillator::{Parameters, State};
+use hopfscope::proof::cycles::{Proof, prove};
+use hopfscope::proof::field::{Field, ParameterBox};
+use hopfscope::proof::swing::{Passage, Start, swing};
+use hopfscope::study::cycle::cycles;
+use hopfscope::study::proved::proved;
+use serde::Deserialize;
+
+/// A number known to twice the digits of a double, as a sum of two.
+type Long = (f64, f64);
+
+/// Whether an interval holds it.
+fn holds(interval: Interval, (high, low): Long) -> bool {
+    (high - interval.lower()) + low >= 0.0 && (interval.upper() - high) - low >= 0.0
+}
+
+fn exactly(d: f64, d2: f64, d3: f64, r: f64) -> ParameterBox {
+    ParameterBox::from(&Parameters { d, d2, d3, r })
+}
+
+/// Reference cycles of these doubles: stability, and the first 32 digits of the right and of the negative left turning
+/// point, of the period and of the multiplier, enclosed to 1e-30 by an independent tool.
+#[rustfmt::skip]
+#[expect(clippy::unreadable_literal, reason = "all digits of a reference")]
+const REFERENCES: [([f64; 4], bool, [Long; 4]); 5] = [
+    ([-0.2, 0.2, 0.5, 0.1], false, [(0.35005884538993726, 2.1599580319942222e-17), (0.3847819481189786, -6.086188009348503e-18), (6.374955080671314, -1.7794887135603148e-16), (2.224628281697501, 6.5653600277123e-17)]),
+    ([-0.2, 0.2, 0.5, 0.1], true, [(0.7223333330302725, 4.084446244446085e-17), (0.8932028032411413, -1.3906407388974706e-17), (6.322694602883211, 4.2165509303734457e-16), (0.355865264037352, 2.5972518627244207e-17)]),
+    ([-0.3, 0.0, 0.5, 0.1], false, [(0.22472936852475442, 1.2488735856304817e-17), (0.22472936852475442, 1.2488735856304817e-17), (6.559272455926867, -8.676856130515323e-17), (5.990283091814947, -6.567548208934395e-17)]),
+    ([-0.3, 0.0, 0.5, 0.1], true, [(1.1583724547453083, -5.4091604151484135e-17), (1.1583724547453083, -5.4091604151484135e-17), (6.343593639766338, -3.4034078727566756e-17), (0.06208805289795733, 4.474698967702533e-19)]),
+    ([-0.1, 0.0, 0.0, 0.1], false, [(0.6386823184357734, -5.547407013254875e-17), (0.6386823184357734, -5.547407013254875e-17), (6.314838833996553, 2.5473757703309967e-16), (1.8803988026214897, 4.171128497029203e-17)]),
+];
+
+#[test]
+fn reference_cycles_of_thirty_digits_are_enclosed() {
+    for ([d, d2, d3, r], stable, [q_max, left, period, multiplier]) in REFERENCES {
+        let proof = prove(&exactly(d, d2, d3, r), &[]);
+        assert!(proof.is_complete(), "{proof:?}");
+        let cycle = proof.cycles.iter().find(|cycle| cycle.stable == stable).unwrap();
+        let found = cycle.enclosure.unwrap();
+        assert!(holds(found.q_max, q_max), "{found:?}");
+        assert!(holds(-found.q_min, left), "{found:?}");
+        assert!(holds(found.period, period), "{found:?}");
+        assert!(holds(found.multiplier, multiplier), "{found:?}");
+        assert!(found.q_max.width() < 1e-12 * q_max.0 && found.period.width() < 1e-11);
+        assert!(found.multiplier.width() < 1e-10 * multiplier.0, "{found:?}");
+        assert_eq!(found.stable(), Some(stable));
+    }
+}
+
+/// A cycle of `data/cycles.json`, computed to about 14 digits by another program.
+#[derive(Deserialize)]
+struct Reference {
+    #[serde(flatten)]
+    parameters: Parameters,
+    q_max: f64,
+    q_min: f64,
+    v_max: f64,
+    v_min: f64,
+    period: f64,
+    multiplier: f64,
+}
+
+#[test]
+fn every_reference_cycle_is_proved_and_enclosed_to_twelve_digits() {
+    let references: Vec<Reference> =
+        serde_json::from_str(include_str!("data/cycles.json")).unwrap();
+    for reference in references {
+        let proof = prove(&ParameterBox::from(&reference.parameters), &[]);
+        assert!(proof.is_complete(), "{:?}", proof.open);
+        let near = |value: Interval, expected: f64, within: f64| {
+            let slack = within * expected.abs();
+            value.lower() <= expected + slack
+                && value.upper() >= expected - slack
+                && value.width() <= slack
+        };
+        let enclosures = || proof.cycles.iter().filter_map(|cycle| cycle.enclosure);
+        let same = |found: &hopfscope::proof::enclose::Enclosure| {
+            near(found.q_max, reference.q_max, 1e-12)
+                && near(found.q_min, reference.q_min, 1e-12)
+                && near(found.v_max, reference.v_max, 1e-12)
+                && near(found.v_min, reference.v_min, 1e-12)
+                && near(found.period, reference.period, 1e-12)
+                && near(found.multiplier, reference.multiplier, 1e-10)
+        };
+        let (p, q) = (reference.parameters, reference.q_max);
+        assert!(enclosures().any(|it| same(&it)), "{p:?} q_max {q}: {:?}", proof.cycles);
+    }
+}
+
+/// A generator of numbers in `0 .. 1`, the same on every machine.
+struct Dice(u64);
+
+impl Dice {
+    fn roll(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        #[expect(clippy::cast_precision_loss, reason = "53 bits")]
+        let value = (self.0 >> 11) as f64;
+        value * 2.0_f64.powi(-53)
+    }
+
+    /// 0 in one of five cases, else of either sign and between 1e-3 and 1e3.
+    fn magnitude(&mut self) -> f64 {
+        let (kind, size) = (self.roll(), 10.0_f64.powf(6.0 * self.roll() - 3.0));
+        if kind < 0.2 { 0.0 } else { size.copysign(kind - 0.6) }
+    }
+
+    fn parameters(&mut self) -> Parameters {
+        let d = 4.0 * self.roll() - 2.0;
+        let (d2, d3) = (self.magnitude(), self.magnitude());
+        Parameters { d, d2, d3, r: 10.0_f64.powf(9.0 * self.roll() - 6.0) }
+    }
+}
+
+/// Half swings enclosed, and the same in twice the precision: each enclosure holds its motion.
+fn check_half_swings(count: usize) {
+    let mut dice = Dice(88_172_645_463_325_252);
+    let (mut enclosed, mut unknown, mut wide) = (0, 0, 0);
+    for _ in 0..count {
+        let d = 1.6 * dice.roll() - 0.9;
+        let (d2, d3) = (dice.roll() - 0.5, 1.2 * dice.roll() - 0.4);
+        let x = 1e-3 * 5e3_f64.powf(dice.roll());
+        let point = Interval::point;
+        let field = Field { a: point(2.0 * d), b: point(d2), c: point(d3) };
+        let start = Start::at_rest(point(x));
+        let found = match swing(&field, &start, false) {
+            Passage::Arrives(found) => found,
+            Passage::Never => continue,
+            Passage::Unknown => {
+                unknown += 1;
+                continue;
+            }
+        };
+        let problem = Problem {
+            parameters: Parameters { d, d2, d3, r: 0.0 },
+            initial: State { q: -x, v: 0.0 },
+            until: found.duration.upper() * (1.0 + 1e-6),
+            ..Problem::default()
+        };
+        let [fine, coarse] = [FINE, COARSE].map(|grain| {
+            precise(&problem, grain, &Limits::PATIENT).expect("a smooth motion").turns[0]
+        });
+        let (q, tau) = ((fine.q.high, fine.q.low), (fine.tau.high, fine.tau.low));
+        assert!((fine.q.high - coarse.q.high).abs() <= 1e-15 * x.max(q.0), "{problem:?}");
+        assert!(holds(found.end, q), "{problem:?}: {} {q:?}", found.end);
+        assert!(holds(found.duration, tau), "{problem:?}: {} {tau:?}", found.duration);
+        enclosed += 1;
+        wide += usize::from(found.end.width() > 1e-11 * q.0);
+    }
+    assert!(enclosed > count * 8 / 10 && unknown <= count / 100, "{enclosed} {unknown}");
+    assert!(wide <= count / 50, "{wide} of {enclosed} are wide");
+}
+
+#[test]
+fn random_half_swings_hold_the_motions_of_twice_the_precision() {
+    check_half_swings(300);
+}
+
+#[test]
+#[ignore = "hundred thousand motions in twice the precision: minutes"]
+fn a_hundred_thousand_half_swings_hold_the_motions_of_twice_the_precision() {
+    check_half_swings(100_000);
+}
+
+/// Swings at the ends of the range of doubles are those near 1, scaled.
+#[test]
+fn half_swings_scale_to_the_last_bit() {
+    let point = Interval::point;
+    let run = |unit: i32| {
+        let by = |power: i32| 2.0_f64.powi(power);
+        let field = Field {
+            a: point(-0.4),
+            b: point(0.3 * by(-unit)),
+            c: point(0.5 * by(-unit) * by(-unit)),
+        };
+        let found = swing(&field, &Start::at_rest(point(0.75 * by(unit))), true).arrived().unwrap();
+        (
+            found.end.lower() / by(unit),
+            found.end.upper() / by(unit),
+            found.duration,
+            found.fastest.unwrap().upper() / by(unit),
+        )
+    };
+    for unit in [-500, -37, 3, 440] {
+        assert_eq!(run(unit), run(0), "2^{unit}");
+    }
+    // Far below where damping is anything but linear.
+    let tiny = Field { a: point(-0.4), b: point(0.3), c: point(0.5) };
+    let swing = swing(&tiny, &Start::at_rest(point(1e-300)), false).arrived().unwrap();
+    let growth = (std::f64::consts::PI * 0.2 / 0.96_f64.sqrt()).exp();
+    assert!((swing.end.lower() / 1e-300 / growth - 1.0).abs() < 1e-12, "{swing:?}");
+}
+
+#[test]
+fn proofs_of_mirrored_and_of_scaled_parameters_agree() {
+    let turns = |proof: &Proof| -> Vec<(f64, f64)> {
+        let ends = proof.cycles.iter().filter_map(|cycle| cycle.enclosure);
+        ends.map(|it| (it.q_max.middle(), -it.q_min.middle())).collect()
+    };
+    let whole = turns(&prove(&exactly(-0.2, 0.2, 0.5, 0.1), &[]));
+    let mirrored = turns(&prove(&exactly(-0.2, -0.2, 0.5, 0.1), &[]));
+    assert_eq!(whole.len(), 2);
+    for (one, other) in whole.iter().zip(&mirrored) {
+        assert!((one.0 - other.1).abs() < 1e-12 && (one.1 - other.0).abs() < 1e-12);
+    }
+    for k in [-400, -30, 30, 400] {
+        let by = 2.0_f64.powi(k);
+        let scaled = turns(&prove(&exactly(-0.2, 0.2 / by, 0.5 / by / by, 0.1 * by), &[]));
+        assert_eq!(scaled.len(), 2, "2^{k}");
+        for (one, other) in whole.iter().zip(&scaled) {
+            assert!((one.0 * by - other.0).abs() <= 1e-12 * other.0, "2^{k}");
+        }
+    }
+}
+
+/// Random parameters of all signs and sizes: what is proved agrees with the search.
+fn check_sets(count: usize) -> usize {
+    let mut dice = Dice(0x9e37_79b9_7f4a_7c15);
+    let mut open = 0;
+    for _ in 0..count {
+        let parameters = dice.parameters();
+        let proof = match cycles(&parameters, false, &Limits::PATIENT) {
+            Ok(found) => proved(&found).unwrap_or_else(|wrong| panic!("{parameters:?}: {wrong}")),
+            Err(_) => prove(&ParameterBox::from(&parameters), &[]),
+        };
+        open += usize::from(!proof.is_complete());
+    }
+    open
+}
+
+#[test]
+fn search_and_proof_agree_on_random_parameters() {
+    let open = check_sets(60);
+    assert!(open <= 9, "{open} of 60 are open");
+}
+
+#[test]
+#[ignore = "twenty thousand sets of parameters: minutes"]
+fn search_and_proof_agree_on_twenty_thousand_sets() {
+    let open = check_sets(20_000);
+    assert!(open <= 3_000, "{open} of 20000 are open");
+}
+
+#[test]
+fn theorems_decide_without_a_motion() {
+    for (d, d2, d3, r, count) in [
+        (0.3, 5.0, 0.5, 0.1, 0),
+        (0.0, -2.0, 0.0, 0.1, 0),
+        (-0.1, 1.0, 0.5, 0.1, 0),
+        (-1.5, 3.0, -1.0, 0.1, 0),
+        (-1.0, 0.0, 0.0, 1.0, 0),
+        (-0.999_999, 0.0, 0.0, 1.0, 1),
+        (-1e-12, 0.0, 0.0, 1e-300, 1),
+    ] {
+        let proof = prove(&exactly(d, d2, d3, r), &[]);
+        assert!(proof.is_complete() && proof.cycles.len() == count && proof.swings == 0);
+        assert!(proof.cycles.iter().all(|cycle| cycle.enclosure.is_some()));
+    }
+    // Of the closed form where its clearance underflows, and where its amplitude is huge.
+    let steep = prove(&exactly(-0.999_999, 0.0, 0.0, 1.0), &[]).cycles[0].enclosure.unwrap();
+    assert!(steep.clearance.lower() == 0.0 && steep.clearance.upper() < 1e-300);
+    assert!(steep.q_max.contains(1.0) && steep.multiplier.upper() == f64::INFINITY);
+    let weak = prove(&exactly(-1e-12, 0.0, 0.0, 1.0), &[]).cycles[0].enclosure.unwrap();
+    let amplitude = 2.0 / (std::f64::consts::PI * 1e-12);
+    assert!(
+        (weak.q_max.middle() / amplitude - 1.0).abs() < 1e-11
+            && weak.q_max.width() < 1e-14 * amplitude
+    );
+}
+
+/// What holds for an interval of parameters holds for those in it.
+#[test]
+fn intervals_of_parameters_hold_what_is_proved_inside() {
+    let wide = ParameterBox {
+        d: Interval::new(-0.201, -0.199),
+        d2: Interval::new(0.199, 0.201),
+        d3: Interval::new(0.499, 0.501),
+        r: Interval::new(0.0999, 0.1001),
+    };
+    let all = prove(&wide, &[]);
+    assert!(all.is_complete() && all.cycles.len() == 2, "{all:?}");
+    for (d, d2, d3, r) in
+        [(-0.201, 0.201, 0.499, 0.0999), (-0.199, 0.199, 0.501, 0.1001), (-0.2, 0.2, 0.5, 0.1)]
+    {
+        let one = prove(&exactly(d, d2, d3, r), &[]);
+        for (cycle, around) in one.cycles.iter().zip(&all.cycles) {
+            let (cycle, around) = (cycle.enclosure.unwrap(), around.enclosure.unwrap());
+            assert!(cycle.q_max.is_within(around.q_max), "{} {}", cycle.q_max, around.q_max);
+            assert!(cycle.period.is_within(around.period));
+            assert!(cycle.multiplier.is_within(around.multiplier));
+            assert!(cycle.v_min.is_within(around.v_min));
+        }
+    }
+    // Across a fold the number of cycles is not one number.
+    let across = ParameterBox { d: Interval::new(-0.18, -0.17), ..wide };
+    assert!(!prove(&across, &[]).is_complete());
+}
