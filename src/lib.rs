@@ -25,6 +25,8 @@
 //! - [`machine`] is the mass on its belt by the whole model: friction by its own law, two switching lines,
 //!   riding on the belt and overtaking it. One return map, which never decreases, orders all cycles; what
 //!   a start ends as is read off the next turning point ([`machine::Portrait`]).
+//! - [`fit`] turns a recorded motion into estimates of all these numbers, with their errors, and the margin
+//!   that they leave.
 //! - [`scene`] says what is on show, as [`scene::Request`] values that name exactly their inputs, and
 //!   [`session`] is a pure machine: `update(&mut Session, Msg) -> Vec<Effect>` and
 //!   `Session::wants() -> Vec<Request>`. What has not changed is not asked again; a hidden layer asks
@@ -37,6 +39,7 @@
 pub mod cli;
 pub mod closed_form;
 pub mod export;
+pub mod fit;
 pub mod flow;
 pub mod machine;
 pub mod numerics;

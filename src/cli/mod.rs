@@ -14,6 +14,7 @@ mod explore;
 mod extremes;
 mod failure;
 mod figure;
+mod fit;
 mod input;
 mod keys;
 mod look;
@@ -72,6 +73,7 @@ enum Command {
     Scan(scan::ScanCommand),
     Trade(trade::Trade),
     Figure(figure::Figure),
+    Fit(fit::Fit),
     Scenes(scenes::Scenes),
     Keys(keys::Keys),
     Extremes(extremes::Extremes),
@@ -97,6 +99,7 @@ impl Command {
             Command::Belt(command) => command.run(),
             Command::Trade(command) => command.run(),
             Command::Figure(command) => command.run(),
+            Command::Fit(command) => command.run(),
             Command::Scenes(command) => command.run(),
             Command::Keys(command) => command.run(),
             Command::Extremes(command) => command.run(),

@@ -7,6 +7,7 @@ pub mod csv;
 pub mod extreme_cycles;
 pub mod extremes;
 pub mod figure;
+pub mod fit;
 pub mod guarantee;
 pub mod json;
 mod proof;

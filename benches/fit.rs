@@ -1,0 +1,82 @@
+//! Fits and their gradients: `cargo bench --bench fit`.
+//!
+//! Gradients through the events by sensitivities of half swings, beside forward differences; whole fits of ten
+//! thousand samples and of a short record; and what a step of a held number takes until all others have followed.
+
+use divan::{Bencher, black_box};
+use hopfscope::fit::chance::Chance;
+use hopfscope::fit::levenberg_marquardt::Effort;
+use hopfscope::fit::observation::{Data, Observation, R, Start, Unknowns};
+use hopfscope::fit::refit::refitted;
+use hopfscope::fit::{Question, Record, estimate};
+
+fn main() {
+    divan::main();
+}
+
+/// omega0, offset, D, D2, D3, r, q0 and the time of release or the velocity: a decay to rest, and a long ringing.
+const DECAY: (Unknowns, Start, f64) =
+    ([10.0, 0.5, 0.02, 0.005, 0.0005, 0.15, 6.0, 0.3], Start::Release, 6.0);
+const RINGING: (Unknowns, Start, f64) =
+    ([31.4, 0.0, 0.0008, 0.0, 2e-5, 0.001, 6.0, 0.5], Start::Moving, 30.0);
+
+fn observation((_, start, seconds): (Unknowns, Start, f64), samples: u32) -> Observation {
+    let at = |index: u32| seconds * f64::from(index) / f64::from(samples);
+    let t: Vec<f64> = (0..samples).map(at).collect();
+    let x = vec![0.0; t.len()];
+    Observation { data: Data::Samples { t, x }, start, linear: false, reach: 1e9 }
+}
+
+fn record(motion: (Unknowns, Start, f64), samples: u32) -> Record {
+    let observation = observation(motion, samples);
+    let Data::Samples { t, .. } = observation.data.clone() else { return Record::default() };
+    let mut chance = Chance::new(1);
+    let seen = observation.compare(&motion.0, false).expect("the motion stays");
+    let x = seen.residuals.iter().map(|it| 0.01 * chance.normal() - it.value).collect();
+    Record { t: Some(t), x, ..Record::default() }
+}
+
+#[divan::bench(args = [("decay", DECAY), ("ringing", RINGING)])]
+fn gradient_by_sensitivities(bencher: Bencher, (_, motion): &(&str, (Unknowns, Start, f64))) {
+    let observation = observation(*motion, 10_000);
+    bencher.bench(|| observation.compare(black_box(&motion.0), true));
+}
+
+#[divan::bench(args = [("decay", DECAY), ("ringing", RINGING)])]
+fn gradient_by_forward_differences(bencher: Bencher, (_, motion): &(&str, (Unknowns, Start, f64))) {
+    let observation = observation(*motion, 10_000);
+    bencher.bench(|| {
+        let mut moved = motion.0;
+        let base = observation.compare(black_box(&moved), false);
+        let columns: Vec<_> = (0..moved.len())
+            .map(|place| {
+                let kept = moved[place];
+                moved[place] += 1e-6 * kept.abs().max(1e-3);
+                let column = observation.compare(black_box(&moved), false);
+                moved[place] = kept;
+                column
+            })
+            .collect();
+        (base, columns)
+    });
+}
+
+#[divan::bench(args = [("decay", DECAY, 500), ("decay", DECAY, 10_000), ("ringing", RINGING, 10_000)])]
+fn whole_fit(bencher: Bencher, (_, motion, samples): &(&str, (Unknowns, Start, f64), u32)) {
+    let record = record(*motion, *samples);
+    bencher.bench(|| estimate(black_box(&record), &Question::default(), &|| false));
+}
+
+#[divan::bench(args = [("decay", DECAY, 2_000), ("decay", DECAY, 10_000)])]
+fn step_of_a_held_number(
+    bencher: Bencher,
+    (_, motion, samples): &(&str, (Unknowns, Start, f64), u32),
+) {
+    let found = estimate(&record(*motion, *samples), &Question::default(), &|| false)
+        .expect("a decay is understood");
+    let step = found.p[R] + 2.0 * found.covariance.error(R);
+    bencher.bench(|| {
+        let mut effort = Effort { with_derivatives: 0, plain: 0, interrupted: &|| false };
+        refitted(&found, R, black_box(step), &mut effort)
+    });
+}

@@ -1,0 +1,281 @@
+//! `hopfscope fit`: what a recorded motion says about the oscillator.
+
+use std::io::{self, IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+use clap::{Args, ValueEnum};
+
+use super::failure::Failure;
+use super::output::{Format, Output, print, write};
+use super::timing::timed;
+use crate::export::figure::{self, Form};
+use crate::export::fit::{self as forms, Fitted, Inertia, LENGTHS, length_in_metres};
+use crate::fit::names::{Choice, NAMES, NameSpec, named};
+use crate::fit::observation::{OMEGA0, R};
+use crate::fit::{Column, DRAWS, LossName, Question, Reading, Unfit, estimate, margins, parse};
+use crate::flow::Limits;
+use crate::oscillator::belt::Dimension;
+use crate::scene::machine::unit::measured;
+
+/// Estimates omega0, offset, D, D2, D3 and r of a recorded motion, with errors, and the margin that follows
+#[derive(Debug, Args)]
+pub struct Fit {
+    /// Record: a column of times and one of displacements, as instruments write them
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// Columns of times and displacements, by number from 1 or by name
+    #[arg(long, value_name = "t=1,x=2", value_parser = columns)]
+    columns: Option<(Option<Column>, Option<Column>)>,
+    /// Rows are successive turning points, with or without times
+    #[arg(long)]
+    peaks: bool,
+    /// Numbers to estimate: omega0, offset, D, D2, D3, r; damping and friction not named are held (at 0 unless set)
+    #[arg(long, value_name = "NAMES", value_parser = names)]
+    free: Option<Names>,
+    /// Holds a number at a value, such as D3=0; repeatable
+    #[arg(long, value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
+    set: Vec<(&'static NameSpec, f64)>,
+    /// How residuals count
+    #[arg(long, value_enum, default_value_t = Loss::Auto, value_name = "LOSS")]
+    loss: Loss,
+    /// Mass of the oscillator, such as "2 kg": forces and damping in N, N s/m
+    #[arg(long, value_name = "MASS", value_parser = mass, conflicts_with = "stiffness")]
+    mass: Option<f64>,
+    /// Stiffness of the spring, such as "800 N/m", instead of the mass
+    #[arg(long, value_name = "STIFFNESS", value_parser = stiffness)]
+    stiffness: Option<f64>,
+    /// Unit of the displacements, where the file does not name it
+    #[arg(long, value_name = "UNIT", value_parser = length)]
+    unit: Option<String>,
+    /// Draws from the estimate for the distribution of the margin
+    #[arg(long, value_name = "N", default_value_t = DRAWS, hide_default_value = true,
+          value_parser = draws)]
+    draws: usize,
+    /// Pictures to write as well: record and residuals, damping over amplitude, phase plane, margin; the ending says
+    /// in which form: .svg, .png, .csv or .json
+    #[arg(long = "output", value_name = "FILE", value_parser = picture)]
+    pictures: Option<(PathBuf, Form)>,
+    /// Replaces what that file holds
+    #[arg(long, requires = "pictures")]
+    force: bool,
+    #[command(flatten)]
+    output: Output,
+}
+
+/// How residuals count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Loss {
+    /// Squared, without the samples that cannot belong to the motion.
+    Auto,
+    /// Squared, every one of them.
+    Linear,
+    /// Large ones by their size.
+    SoftL1,
+    /// Large ones hardly.
+    Cauchy,
+}
+
+impl From<Loss> for LossName {
+    fn from(loss: Loss) -> Self {
+        match loss {
+            Loss::Auto => LossName::Auto,
+            Loss::Linear => LossName::Linear,
+            Loss::SoftL1 => LossName::SoftL1,
+            Loss::Cauchy => LossName::Cauchy,
+        }
+    }
+}
+
+/// Names of numbers to estimate.
+#[derive(Clone, Debug)]
+struct Names(Vec<&'static NameSpec>);
+
+fn name(text: &str) -> Result<&'static NameSpec, String> {
+    named(text.trim()).ok_or_else(|| {
+        format!("there is no {text:?}; there are {}", NAMES.map(|row| row.name).join(", "))
+    })
+}
+
+fn names(text: &str) -> Result<Names, String> {
+    text.split(',').map(name).collect::<Result<_, _>>().map(Names)
+}
+
+fn assignment(text: &str) -> Result<(&'static NameSpec, f64), String> {
+    let (key, value) = text.split_once('=').ok_or("expected NAME=VALUE, such as D3=0")?;
+    let row = name(key)?;
+    let value: f64 = value.trim().parse().map_err(|_| format!("{value:?} is not a number"))?;
+    let allowed = match row.place {
+        OMEGA0 => value > 0.0,
+        R => value >= 0.0,
+        _ => true,
+    };
+    if value.is_finite() && allowed {
+        Ok((row, value))
+    } else {
+        let least = if row.place == OMEGA0 { "more than 0" } else { "0 or more" };
+        let range = if matches!(row.place, OMEGA0 | R) { least } else { "any finite number" };
+        Err(format!("{text} is outside its range; allowed: {range}"))
+    }
+}
+
+fn columns(text: &str) -> Result<(Option<Column>, Option<Column>), String> {
+    let form = || {
+        format!("{text:?} does not name columns; expected such as t=1,x=3, x=2, or t=time,x=weg")
+    };
+    let mut chosen = (None, None);
+    for part in text.split(',') {
+        let (key, value) = part.split_once('=').ok_or_else(form)?;
+        let column = match value.trim().parse() {
+            Ok(0) => return Err(format!("{part:?}: columns are counted from 1")),
+            Ok(number) => Column::Number(number),
+            Err(_) => Column::Name(value.trim().to_owned()),
+        };
+        match key.trim() {
+            "t" => chosen.0 = Some(column),
+            "x" => chosen.1 = Some(column),
+            _ => return Err(form()),
+        }
+    }
+    Ok(chosen)
+}
+
+/// A positive quantity with or without its unit.
+fn positive(text: &str, dimension: Dimension, unit: &str) -> Result<f64, String> {
+    let value = measured(text)?.as_a(dimension, unit)?;
+    if value > 0.0 { Ok(value) } else { Err(format!("{text:?} is not positive")) }
+}
+
+fn mass(text: &str) -> Result<f64, String> {
+    positive(text, Dimension::new(1, 0, 0), "kg")
+}
+
+fn stiffness(text: &str) -> Result<f64, String> {
+    positive(text, Dimension::new(1, 0, -2), "N/m")
+}
+
+fn length(text: &str) -> Result<String, String> {
+    let known = || {
+        format!("{text:?} is no unit of length; there are {}", LENGTHS.map(|it| it.0).join(", "))
+    };
+    length_in_metres(text).map(|_| text.to_owned()).ok_or_else(known)
+}
+
+/// A file with one of the known endings.
+fn picture(text: &str) -> Result<(PathBuf, Form), String> {
+    let path = PathBuf::from(text);
+    Form::of_file(&path).map(|form| (path, form))
+}
+
+fn draws(text: &str) -> Result<usize, String> {
+    let number = text.parse().ok().filter(|number| (40..=1_000_000).contains(number));
+    number.ok_or_else(|| format!("{text:?} is not a whole number in 40 .. 1000000"))
+}
+
+impl Fit {
+    /// Reads, fits and prints.
+    pub fn run(&self) -> Result<(), Failure> {
+        let fitted = self.fitted()?;
+        if let Some((path, form)) = &self.pictures {
+            let content =
+                figure::file(&forms::figure(&fitted), *form).map_err(Failure::Unanswered)?;
+            write(path, &content, self.force)?;
+        }
+        print(&match self.output.format {
+            Format::Table => forms::table(&fitted),
+            Format::Json => forms::json(&fitted),
+            Format::Csv => forms::csv(&fitted),
+        })
+    }
+
+    fn fitted(&self) -> Result<Fitted, Failure> {
+        let name = self.file.display().to_string();
+        let bytes = std::fs::read(&self.file).map_err(|error| Failure::file(&self.file, &error))?;
+        let (time, displacement) = self.columns.clone().unwrap_or_default();
+        let reading = Reading { time, displacement, peaks: self.peaks };
+        let bad = |problem: &dyn std::fmt::Display| Failure::Usage(format!("{name}: {problem}"));
+        let mut record = parse(&bytes, &reading).map_err(|error| bad(&error))?;
+        record.unit = self.unit.clone().or(record.unit);
+        let inertia = self.inertia(record.unit.as_deref()).map_err(|problem| bad(&problem))?;
+        let question = self.question()?;
+        let watched = Watched::new();
+        let interrupted = || watched.step();
+        let (found, seconds) = timed(self.output.repeat, || {
+            let estimate = estimate(&record, &question, &interrupted)?;
+            let margins =
+                margins(&estimate, self.draws, &Limits::PATIENT).map_err(|_| Unfit::Interrupted)?;
+            Ok::<_, Unfit>((estimate, margins))
+        });
+        watched.end();
+        let (estimate, margins) = found.map_err(|reason| match reason {
+            Unfit::TooFew { .. } | Unfit::NotAlternating { .. } => bad(&reason),
+            _ => Failure::Unanswered(format!("{name}: {reason}")),
+        })?;
+        let name = short_name(&self.file);
+        Ok(Fitted { name, record, estimate, margins, inertia, seconds })
+    }
+
+    fn question(&self) -> Result<Question, Failure> {
+        let free = self.free.as_ref().map(|names| names.0.clone());
+        let both = self.set.iter().find(|(row, _)| free.iter().flatten().any(|free| free == row));
+        if let Some((row, _)) = both {
+            return Err(Failure::Usage(format!(
+                "{0} is both --free and --set; it can be one of them",
+                row.name
+            )));
+        }
+        let choice = Choice { free, held: self.set.clone() };
+        Ok(Question { choice, loss: self.loss.into(), peaks: self.peaks })
+    }
+
+    /// Mass or stiffness with the metres in the record's unit of length.
+    fn inertia(&self, unit: Option<&str>) -> Result<Option<(Inertia, f64)>, String> {
+        let mass = self.mass.map(Inertia::Mass);
+        let Some(inertia) = mass.or(self.stiffness.map(Inertia::Stiffness)) else {
+            return Ok(None);
+        };
+        let known = LENGTHS.map(|it| it.0).join(", ");
+        let unit =
+            unit.ok_or_else(|| format!("the file names no unit of length; --unit one of {known}"))?;
+        let metres = length_in_metres(unit)
+            .ok_or_else(|| format!("{unit:?} is no known unit of length; --unit one of {known}"))?;
+        Ok(Some((inertia, metres)))
+    }
+}
+
+fn short_name(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
+/// Counts motions on the last line of a terminal.
+struct Watched {
+    shown: bool,
+    state: Mutex<(u64, Instant, bool)>,
+}
+
+impl Watched {
+    fn new() -> Self {
+        Watched { shown: io::stderr().is_terminal(), state: Mutex::new((0, Instant::now(), false)) }
+    }
+
+    /// One motion more; nobody interrupts.
+    fn step(&self) -> bool {
+        /// How often the line is written anew.
+        const EVERY: Duration = Duration::from_millis(250);
+        if let Ok(mut state) = self.state.lock() {
+            state.0 += 1;
+            if self.shown && state.1.elapsed() >= EVERY {
+                (state.1, state.2) = (Instant::now(), true);
+                drop(std::write!(io::stderr(), "\rfitting: {} motions\x1b[K", state.0));
+            }
+        }
+        false
+    }
+
+    fn end(&self) {
+        if self.state.lock().is_ok_and(|state| state.2) {
+            drop(std::write!(io::stderr(), "\r\x1b[K"));
+        }
+    }
+}

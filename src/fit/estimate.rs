@@ -1,0 +1,182 @@
+//! What a record says: the best motion with its uncertainty.
+
+use super::levenberg_marquardt::Effort;
+use super::names::{Choice, NAMES, NameSpec};
+use super::noise::Noise;
+use super::observation::{Data, OMEGA0, R, Start, UNKNOWNS, Unknowns};
+use super::problem::Problem;
+use super::profile::{Interval, Profile};
+use super::question::Unfit;
+use super::residuals::{Whiteness, whiteness};
+use super::search::Found;
+use super::turning_points::Extreme;
+use super::uncertainty::Covariance;
+
+/// A minimum that competes with the best one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rival {
+    /// Half swings within the record.
+    pub half_swings: usize,
+    /// How much worse it is, in units of the noise's variance.
+    pub delta_chi2: f64,
+    /// Its unknowns.
+    pub p: Unknowns,
+}
+
+/// What a record says.
+#[derive(Clone, Debug)]
+pub struct Estimate {
+    /// What was asked.
+    pub choice: Choice,
+    /// What was measured and used.
+    pub data: Data,
+    /// How the motion begins.
+    pub start: Start,
+    /// The unknowns.
+    pub p: Unknowns,
+    /// Which of them are free.
+    pub free: [bool; UNKNOWNS],
+    /// How well they are known.
+    pub covariance: Covariance,
+    /// Intervals of 95 %, by the place of the unknown.
+    pub intervals: [Interval; UNKNOWNS],
+    /// Measured less computed, one for each measured number; times of peaks in displacement units.
+    pub residuals: Vec<f64>,
+    /// Which of them count.
+    pub used: Vec<bool>,
+    /// Half swings within the record.
+    pub half_swings: usize,
+    /// Whether the motion comes to rest within the record.
+    pub rests: bool,
+    /// Minima for other numbers of half swings, the best first, itself included.
+    pub rivals: Vec<Rival>,
+    /// What the residuals look like.
+    pub whiteness: Whiteness,
+    /// The turning points as read off the record.
+    pub extremes: Vec<Extreme>,
+    /// Noise seen before any model.
+    pub noise: Noise,
+    /// Samples flattened at full scale, left out.
+    pub saturated: usize,
+    /// Motions computed with and without derivatives.
+    pub motions: (u64, u64),
+    /// Motions larger than this have escaped.
+    pub reach: f64,
+}
+
+impl Estimate {
+    /// Samples that are no part of the motion, left out.
+    #[must_use]
+    pub fn outliers(&self) -> usize {
+        self.used.iter().filter(|used| !**used).count()
+    }
+
+    /// The rows of the numbers that were asked for and could be estimated.
+    pub fn wanted(&self) -> impl Iterator<Item = &'static NameSpec> + '_ {
+        NAMES.iter().filter(|row| self.choice.is_wanted(row) && self.free[row.place])
+    }
+
+    /// Smallest and largest amplitude seen, half peak to peak.
+    #[must_use]
+    pub fn amplitudes(&self) -> (f64, f64) {
+        let halves = self.extremes.windows(2).map(|two| 0.5 * (two[1].x - two[0].x).abs());
+        halves.fold((f64::INFINITY, 0.0), |(low, high), half| (low.min(half), high.max(half)))
+    }
+
+    /// Minima that the data do not rule out: within a rise of 4 of the best.
+    pub fn contenders(&self) -> impl Iterator<Item = &Rival> {
+        self.rivals.iter().filter(|rival| rival.delta_chi2 < 4.0)
+    }
+}
+
+/// Judges a minimum: noise, covariance, intervals, rivals.
+///
+/// # Errors
+/// [`Unfit::Blind`] where an unknown has no influence; [`Unfit::Interrupted`].
+pub fn judged(
+    problem: &Problem,
+    used: &[bool],
+    found: &Found,
+    effort: &mut Effort,
+) -> Result<Estimate, Unfit> {
+    let problem = &Problem { used, ..*problem };
+    let observation = problem.observation(found.start);
+    let task = problem.task(&observation);
+    let best = &found.valleys[0].optimum;
+    let p = best.p;
+    let kept: Vec<f64> = task.used_residuals(&best.seen).iter().map(|it| it.value).collect();
+    let samples_per_period = match problem.data {
+        #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
+        Data::Samples { t, .. } => {
+            t.len() as f64 / (t[t.len() - 1] - t[0]) * std::f64::consts::TAU / p[OMEGA0]
+        }
+        Data::Peaks { .. } => 2.0,
+    };
+    let judge = |absorbed: f64| match problem.data {
+        Data::Samples { .. } => whiteness(&kept, samples_per_period, absorbed),
+        // Of a few peaks, and of two kinds of residuals, no memory can be told.
+        Data::Peaks { .. } => Whiteness {
+            white: true,
+            autocorrelation: Vec::new(),
+            ..whiteness(&kept, samples_per_period, absorbed)
+        },
+    };
+    let mut whiteness = judge(0.0);
+    let mut covariance =
+        Covariance::at(&task, best, &whiteness.autocorrelation).ok_or(Unfit::Blind)?;
+    if !whiteness.autocorrelation.is_empty() {
+        #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
+        let absorbed = 1.0 - covariance.freedom / kept.len() as f64;
+        whiteness = judge(absorbed);
+        covariance = Covariance::at(&task, best, &whiteness.autocorrelation).ok_or(Unfit::Blind)?;
+    }
+    // Correlated noise makes larger differences of the loss by chance.
+    let unit = task.variance(&best.seen, covariance.freedom) * covariance.inflation(R);
+    let rivals: Vec<Rival> = found
+        .valleys
+        .iter()
+        .map(|valley| Rival {
+            half_swings: valley.half_swings,
+            delta_chi2: (valley.optimum.cost - best.cost) / unit,
+            p: valley.optimum.p,
+        })
+        .collect();
+    let mut intervals = [Interval::default(); UNKNOWNS];
+    for (valley, rival) in found.valleys.iter().zip(&rivals) {
+        if rival.delta_chi2 >= 4.0 {
+            continue;
+        }
+        let Some(covariance) = Covariance::at(&task, &valley.optimum, &whiteness.autocorrelation)
+        else {
+            continue;
+        };
+        let profile = Profile { task: &task, optimum: &valley.optimum, covariance: &covariance };
+        for (place, interval) in intervals.iter_mut().enumerate() {
+            if !problem.free[place] {
+                continue;
+            }
+            let one = profile.interval(place, effort)?;
+            *interval = if rival.delta_chi2 == 0.0 { one } else { interval.joined(one) };
+        }
+    }
+    Ok(Estimate {
+        choice: Choice::default(),
+        data: problem.data.clone(),
+        start: found.start,
+        p,
+        free: problem.free,
+        covariance,
+        intervals,
+        residuals: best.seen.residuals.iter().map(|it| it.value).collect(),
+        used: used.to_vec(),
+        half_swings: best.seen.turns.len(),
+        rests: best.seen.rests,
+        rivals,
+        whiteness,
+        extremes: Vec::new(),
+        noise: Noise::default(),
+        saturated: 0,
+        motions: (effort.with_derivatives, effort.plain),
+        reach: problem.reach,
+    })
+}

@@ -1,0 +1,150 @@
+//! A first guess of all unknowns, from the record alone.
+
+use std::f64::consts::PI;
+
+use super::decrements::{Averaged, regressions};
+use super::noise::{Noise, median, robust_deviation};
+use super::observation::{D, D2, D3, LAST, OFFSET, OMEGA0, Q0, R, Start, Unknowns};
+use super::search::Beginning;
+use super::spectrum::dominant_frequency;
+use super::turning_points::{Extreme, smoothed, turning_points, without_jumps};
+
+/// First guesses and what they were read from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Guess {
+    /// The ways in which the record may begin, the likelier one first.
+    pub beginnings: Vec<Beginning>,
+    /// The turning points.
+    pub extremes: Vec<Extreme>,
+}
+
+/// Reads guesses off a record; `None` where fewer than three turning points, a hold and a rest included, can be
+/// told from noise.
+#[must_use]
+pub fn guess(t: &[f64], x: &[f64], noise: &Noise) -> Option<Guess> {
+    let cleaned = if noise.has_outliers { without_jumps(x) } else { x.to_vec() };
+    let (low, high) = cleaned
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &x| (low.min(x), high.max(x)));
+    let mut period = 1.0 / dominant_frequency(t, &cleaned)?;
+    let mut extremes = Vec::new();
+    // Two rounds: the extremes themselves give a better period.
+    for _ in 0..2 {
+        let averaged = samples_within(t, period / 12.0).sqrt();
+        let hysteresis = (6.0 * noise.deviation / averaged).max(0.02 * (high - low));
+        extremes = turning_points(t, &cleaned, period, hysteresis);
+        period = period_of(&extremes).unwrap_or(period);
+    }
+    let first = *extremes.first()?;
+    let begins = begins(t, &cleaned, noise, first, period);
+    let begin = first.t - 0.5 * period;
+    let hold = median(cleaned[..t.partition_point(|&t| t < begin).max(1)].to_vec());
+    if begins == Begins::Held {
+        extremes.insert(0, Extreme { t: begin, x: hold });
+    }
+    let tail =
+        (6.0 * noise.deviation / samples_within(t, period / 12.0).sqrt()).max(0.02 * (high - low));
+    extremes.extend(rest(t, &cleaned, &extremes, period, tail));
+    let regressions = regressions(&extremes);
+    let guess = |start: Start, averaged: &Averaged| {
+        let mut p: Unknowns = [0.0; 8];
+        (p[OMEGA0], p[OFFSET]) = (2.0 * PI / period, averaged.offset);
+        (p[D], p[D2], p[D3], p[R]) = (averaged.d, averaged.d2, averaged.d3, averaged.r);
+        (p[Q0], p[LAST]) = match start {
+            Start::Release => (hold - averaged.offset, begin),
+            Start::Moving => first_state(t, &cleaned, &p, period)?,
+        };
+        Some(p)
+    };
+    let beginning = |start: Start, certain: bool| Beginning {
+        start,
+        certain,
+        guesses: regressions.iter().filter_map(|averaged| guess(start, averaged)).collect(),
+    };
+    let beginnings = match begins {
+        Begins::Held => vec![beginning(Start::Release, true), beginning(Start::Moving, false)],
+        Begins::Unclear => vec![beginning(Start::Moving, false), beginning(Start::Release, false)],
+        Begins::Moving => vec![beginning(Start::Moving, true)],
+    };
+    (!regressions.is_empty()).then_some(Guess { beginnings, extremes })
+}
+
+/// How many samples a stretch of time holds on average, at least one.
+fn samples_within(t: &[f64], stretch: f64) -> f64 {
+    #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
+    let rate = t.len() as f64 / (t[t.len() - 1] - t[0]);
+    (rate * stretch).max(1.0)
+}
+
+/// Twice the slope of the times of extremes over their number; a missed extreme counts for two.
+#[must_use]
+pub fn period_of(extremes: &[Extreme]) -> Option<f64> {
+    let gaps: Vec<f64> = extremes.windows(2).map(|two| two[1].t - two[0].t).collect();
+    if gaps.len() < 2 {
+        return None;
+    }
+    let half = median(gaps.clone());
+    let (mut number, mut rows) = (0.0, vec![(0.0, extremes[0].t)]);
+    for (gap, extreme) in gaps.iter().zip(&extremes[1..]) {
+        number += (gap / half).round().max(1.0);
+        rows.push((number, extreme.t));
+    }
+    #[expect(clippy::cast_precision_loss, reason = "a count of extremes")]
+    let count = rows.len() as f64;
+    let (n, t) = rows.iter().fold((0.0, 0.0), |sum, row| (sum.0 + row.0, sum.1 + row.1));
+    let (n, t) = (n / count, t / count);
+    let (up, down) = rows.iter().fold((0.0, 0.0), |sum, row| {
+        (sum.0 + (row.0 - n) * (row.1 - t), sum.1 + (row.0 - n).powi(2))
+    });
+    Some(2.0 * up / down)
+}
+
+/// The level at which a record ends flat: its last extreme.
+fn rest(t: &[f64], x: &[f64], extremes: &[Extreme], period: f64, tail: f64) -> Option<Extreme> {
+    let last = extremes.last()?;
+    let from = t.partition_point(|&t| t < last.t + 0.55 * period);
+    if t.last()? - last.t < 1.2 * period || from >= t.len() {
+        return None;
+    }
+    let smooth = smoothed(&t[from..], &x[from..], period / 12.0);
+    let level = median(smooth.clone());
+    let flat = smooth.iter().all(|x| (x - level).abs() <= 2.0 * tail);
+    flat.then_some(Extreme { t: last.t + 0.5 * period, x: level })
+}
+
+/// How a record begins, as far as its first turning point tells.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Begins {
+    Held,
+    Unclear,
+    Moving,
+}
+
+/// A motion that is under way turns within half a period. What takes longer was held, if it scatters no more
+/// than the noise: a growth begins small and looks like a hold.
+fn begins(t: &[f64], x: &[f64], noise: &Noise, first: Extreme, period: f64) -> Begins {
+    let natural = (first.t - t[0]) / period;
+    let begin = &x[..t.partition_point(|&time| time < first.t - 0.55 * period)];
+    let level = median(begin.to_vec());
+    let spread = robust_deviation(begin.iter().map(|x| x - level));
+    match natural {
+        0.6.. if spread <= 2.0 * noise.deviation => Begins::Held,
+        0.4.. => Begins::Unclear,
+        _ => Begins::Moving,
+    }
+}
+
+/// Displacement and velocity at the first sample, from an undamped swing through the first third of a period.
+fn first_state(t: &[f64], x: &[f64], p: &Unknowns, period: f64) -> Option<(f64, f64)> {
+    let to = t.partition_point(|&time| time <= t[0] + period / 3.0).max(3).min(t.len());
+    let mut normal = nalgebra::Matrix2::zeros();
+    let mut right = nalgebra::Vector2::zeros();
+    for (time, x) in t[..to].iter().zip(x) {
+        let (sine, cosine) = (p[OMEGA0] * (time - t[0])).sin_cos();
+        let row = nalgebra::Vector2::new(cosine, sine);
+        normal += row * row.transpose();
+        right += row * (x - p[OFFSET]);
+    }
+    let found = normal.cholesky()?.solve(&right);
+    Some((found[0], found[1]))
+}

@@ -1,0 +1,257 @@
+//! One half swing with its derivatives, in the frame of its half plane ([`HalfPlane`]).
+//!
+//! Beside the motion `x' = v, v' = f(x, v)` run four solutions of the variational equation
+//! `y' = w, w' = -y + (df/dv) w + g`: one homogeneous, begun across the flow, and those of D, D2 and D3 with
+//! `g = -2 v, -v^2, -v^3`. Every other derivative is a combination of these and of the flow itself: a shift of
+//! the start splits into a part along the flow, which only delays the motion, and a part across it. Where the
+//! damping is linear and stays so, all of it is a formula; elsewhere the Taylor coefficients of motion and
+//! derivatives obey one recurrence.
+
+use crate::oscillator::HalfPlane;
+
+/// Solutions of the variational equation: across the flow, by D, by D2 of this frame, by D3.
+pub const WAYS: usize = 4;
+
+/// Order of the series.
+const ORDER: usize = 18;
+
+/// Largest truncation error of a step, in parts of the state.
+const TOLERANCE: f64 = 1e-13;
+
+/// Longest step: no two arrivals at `v = 0` fit in.
+const LONGEST: f64 = 2.0;
+
+/// `x`, `v`, then the positions of the [`WAYS`], padded to a width that vectorises.
+type Lanes = [f64; 8];
+
+/// A point of the motion with its derivatives.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Jet {
+    /// Position in the frame of the half plane.
+    pub x: f64,
+    /// Velocity.
+    pub v: f64,
+    /// Derivatives of the position.
+    pub y: [f64; WAYS],
+    /// Derivatives of the velocity.
+    pub w: [f64; WAYS],
+}
+
+/// A stretch of a half swing that one formula describes.
+#[derive(Clone, Debug)]
+pub struct Stretch {
+    field: HalfPlane,
+    /// Whether derivatives are carried along.
+    with_derivatives: bool,
+    formula: Formula,
+    /// How long the formula holds.
+    pub duration: f64,
+    /// Whether the stretch ends on `v = 0`.
+    pub arrives: bool,
+}
+
+#[derive(Clone, Debug)]
+enum Formula {
+    /// The linear oscillation from this point, `abs(D) < 1`, with frequency `omega`.
+    Linear { start: Jet, omega: f64 },
+    /// Taylor coefficients.
+    Series(Box<[Lanes; ORDER + 1]>),
+}
+
+/// Above this damping the closed form loses digits to `omega`.
+const OSCILLATORY: f64 = 0.9;
+
+impl Stretch {
+    /// The first stretch of the motion from `start`, in closed form if `linear` (then `D2 = D3 = 0`, and their
+    /// derivatives are not wanted) and the damping allows it.
+    ///
+    /// `None` where the numbers leave their range.
+    #[must_use]
+    pub fn new(field: HalfPlane, start: Jet, linear: bool, with_derivatives: bool) -> Option<Self> {
+        if linear && field.d.abs() < OSCILLATORY {
+            return Some(Self::linear(field, start, with_derivatives));
+        }
+        let empty = Formula::Series(Box::new([[0.0; 8]; ORDER + 1]));
+        let mut stretch =
+            Stretch { field, with_derivatives, formula: empty, duration: 0.0, arrives: false };
+        stretch.advance(start).then_some(stretch)
+    }
+
+    fn linear(field: HalfPlane, start: Jet, with_derivatives: bool) -> Self {
+        let omega = ((1.0 - field.d) * (1.0 + field.d)).sqrt();
+        let phase = (omega * start.v).atan2(start.x + field.d * start.v);
+        let formula = Formula::Linear { start, omega };
+        Stretch { field, with_derivatives, formula, duration: phase / omega, arrives: true }
+    }
+
+    /// Moves on to the stretch that begins at `start`; `false` where the numbers leave their range.
+    #[must_use]
+    pub fn advance(&mut self, start: Jet) -> bool {
+        let Formula::Series(terms) = &mut self.formula else { return false };
+        let duration = if self.with_derivatives {
+            expand::<true>(terms, &self.field, &start)
+        } else {
+            expand::<false>(terms, &self.field, &start)
+        };
+        self.duration = duration;
+        self.arrives = false;
+        if !(duration > 0.0 && velocity(terms, duration).is_finite()) {
+            return false;
+        }
+        if velocity(terms, duration) <= 0.0 {
+            self.duration = arrival(terms, duration);
+            self.arrives = true;
+        }
+        true
+    }
+
+    /// Position, velocity, and the derivatives of the position.
+    #[must_use]
+    #[inline]
+    pub fn at(&self, t: f64) -> (f64, f64, [f64; WAYS]) {
+        match &self.formula {
+            Formula::Linear { .. } => {
+                let Jet { x, v, y, .. } = self.jet(t);
+                (x, v, y)
+            }
+            Formula::Series(terms) => {
+                let mut sum = terms[ORDER];
+                for term in terms[..ORDER].iter().rev() {
+                    for (sum, term) in sum.iter_mut().zip(term) {
+                        *sum = *sum * t + term;
+                    }
+                }
+                (sum[0], sum[1], [sum[2], sum[3], sum[4], sum[5]])
+            }
+        }
+    }
+
+    /// The point `t` after the start of this stretch, with all derivatives.
+    #[must_use]
+    pub fn jet(&self, t: f64) -> Jet {
+        match &self.formula {
+            Formula::Linear { start, omega } => linear_jet(self.field.d, *omega, start, t),
+            Formula::Series(terms) => {
+                let (x, v, y) = self.at(t);
+                let mut w = [0.0; WAYS];
+                for (order, term) in terms.iter().enumerate().skip(1).rev() {
+                    for (w, term) in w.iter_mut().zip(&term[2..]) {
+                        *w = *w * t + count(order) * term;
+                    }
+                }
+                Jet { x, v, y, w }
+            }
+        }
+    }
+}
+
+/// The linear oscillation: `C = cos(omega t)`, `S = sin(omega t)/omega`, both times `e^(-D t)`.
+fn linear_jet(d: f64, omega: f64, start: &Jet, t: f64) -> Jet {
+    let decay = (-d * t).exp();
+    let (sine, cosine) = (omega * t).sin_cos();
+    let (c, s) = (decay * cosine, decay * sine / omega);
+    let flow = |x: f64, v: f64| (c * x + s * (v + d * x), c * v - s * (x + d * v));
+    let (x, v) = flow(start.x, start.v);
+    // dC/dD = t D S and dS/dD = -D (t C - S)/omega^2, beside the decay's own -t.
+    let bend = d / (omega * omega);
+    let (c_by_d, s_by_d) = (t * (d * s - c), -t * s - bend * (t * c - s));
+    let mut jet = Jet { x, v, ..Jet::default() };
+    (jet.y[0], jet.w[0]) = flow(start.y[0], start.w[0]);
+    let (y, w) = flow(start.y[1], start.w[1]);
+    jet.y[1] = y + c_by_d * start.x + s_by_d * (start.v + d * start.x) + s * start.x;
+    jet.w[1] = w + c_by_d * start.v - s_by_d * (start.x + d * start.v) - s * start.v;
+    jet
+}
+
+#[expect(clippy::cast_precision_loss, reason = "an order")]
+fn count(order: usize) -> f64 {
+    order as f64
+}
+
+/// Computes the coefficients; returns how far they may be used.
+fn expand<const DERIVATIVES: bool>(
+    terms: &mut [Lanes; ORDER + 1],
+    field: &HalfPlane,
+    start: &Jet,
+) -> f64 {
+    let HalfPlane { d, d2, d3 } = *field;
+    let mut v = [0.0; ORDER + 1];
+    let mut square = [0.0; ORDER + 1];
+    let mut slope = [0.0; ORDER + 1];
+    let mut w = [[0.0; WAYS]; ORDER + 1];
+    let [y0, y1, y2, y3] = start.y;
+    terms[0] = [start.x, start.v, y0, y1, y2, y3, 0.0, 0.0];
+    v[0] = start.v;
+    w[0] = start.w;
+    for k in 0..ORDER {
+        let (mut second, mut third) = (0.0, 0.0);
+        for i in 0..=k {
+            second += v[i] * v[k - i];
+        }
+        square[k] = second;
+        for i in 0..=k {
+            third += square[i] * v[k - i];
+        }
+        let part = 1.0 / count(k + 1);
+        let x = terms[k][0];
+        v[k + 1] = part * (-x - 2.0 * d * v[k] - d2 * second - d3 * third);
+        terms[k + 1][0] = part * v[k];
+        terms[k + 1][1] = v[k + 1];
+        if DERIVATIVES {
+            slope[k] = -2.0 * d2 * v[k] - 3.0 * d3 * second;
+            if k == 0 {
+                slope[0] -= 2.0 * d;
+            }
+            let mut sum = [0.0, -2.0 * v[k], -second, -third];
+            for i in 0..=k {
+                for (sum, w) in sum.iter_mut().zip(&w[k - i]) {
+                    *sum += slope[i] * w;
+                }
+            }
+            for way in 0..WAYS {
+                w[k + 1][way] = part * (sum[way] - terms[k][2 + way]);
+                terms[k + 1][2 + way] = part * w[k][way];
+            }
+        }
+    }
+    let size = start.x.abs().max(start.v.abs());
+    let tail = |order: usize, size: f64| {
+        let last = terms[order][0].abs().max(v[order].abs());
+        (TOLERANCE * size / last).powf(1.0 / count(order))
+    };
+    let step = tail(ORDER, size).min(tail(ORDER - 1, size));
+    // NaN stays NaN and is refused by the caller; no tail at all allows any step.
+    if step.is_nan() { step } else { step.min(LONGEST) }
+}
+
+fn velocity(terms: &[Lanes; ORDER + 1], t: f64) -> f64 {
+    terms.iter().rev().fold(0.0, |sum, term| sum * t + term[1])
+}
+
+/// The first arrival at `v = 0` after the start, given `v(end) <= 0`.
+///
+/// A start on `v = 0` is no arrival: there the polynomial is divided by its root.
+fn arrival(terms: &[Lanes; ORDER + 1], end: f64) -> f64 {
+    let skip = usize::from(terms[0][1] == 0.0);
+    let value = |t: f64| {
+        let rest = terms[skip..].iter().rev();
+        rest.fold((0.0, 0.0), |(value, slope), term| (value * t + term[1], slope * t + value))
+    };
+    let (mut low, mut high) = (0.0, end);
+    let mut t = end;
+    for _ in 0..100 {
+        let (v, slope) = value(t);
+        if v > 0.0 {
+            low = t;
+        } else {
+            high = t;
+        }
+        let newton = t - v / slope;
+        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        if (next - t).abs() <= 2.0 * f64::EPSILON * end {
+            return next;
+        }
+        t = next;
+    }
+    t
+}

@@ -1,0 +1,147 @@
+//! The lines above the numbers: names of columns and their units.
+
+/// Units of time and how many seconds they are.
+pub const TIME_UNITS: [(&str, f64); 7] = [
+    ("s", 1.0),
+    ("ms", 1e-3),
+    ("us", 1e-6),
+    ("ns", 1e-9),
+    ("min", 60.0),
+    ("h", 3600.0),
+    ("sec", 1.0),
+];
+
+/// What columns of times are called, in lower case; the first that a name contains decides.
+const TIMES: [&str; 5] = ["time", "zeit", "temps", "tiempo", "seconds"];
+
+/// What columns of displacements are called; earlier ones first.
+const DISPLACEMENTS: [&str; 11] = [
+    "displ",
+    "weg",
+    "auslenk",
+    "deflec",
+    "peak",
+    "position",
+    "amplitude",
+    "extrem",
+    "distance",
+    "x",
+    "q",
+];
+
+/// Names and units of the columns.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Header {
+    columns: Vec<Named>,
+}
+
+/// A column.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+struct Named {
+    name: String,
+    unit: Option<String>,
+}
+
+/// How many seconds a unit of time is.
+#[must_use]
+pub fn seconds(unit: &str) -> Option<f64> {
+    let plain = unit.to_lowercase().replace(['\u{b5}', '\u{3bc}'], "u");
+    TIME_UNITS.iter().find(|(name, _)| *name == plain).map(|(_, seconds)| *seconds)
+}
+
+impl Named {
+    /// `name [unit]`, `name (unit)`, `name / unit` or `name_unit` for times.
+    fn read(cell: &str) -> Self {
+        for (open, close) in [('[', ']'), ('(', ')')] {
+            if let Some((name, rest)) = cell.split_once(open) {
+                let unit = rest.split(close).next().unwrap_or_default().trim();
+                let unit = (!unit.is_empty() && unit != "-").then(|| unit.to_owned());
+                return Named { name: name.trim().to_owned(), unit };
+            }
+        }
+        for sign in ["/", " in ", "_"] {
+            if let Some((name, unit)) = cell.rsplit_once(sign)
+                && (sign != "_" || seconds(unit).is_some())
+            {
+                return Named { name: name.trim().to_owned(), unit: Some(unit.trim().to_owned()) };
+            }
+        }
+        Named { name: cell.trim().to_owned(), unit: None }
+    }
+}
+
+impl Header {
+    /// The header that these lines make: the last one with a known name, and units that may follow it.
+    #[must_use]
+    pub fn of(lines: &[Vec<&str>]) -> Self {
+        let read = |line: &Vec<&str>| Header {
+            columns: line.iter().map(|cell| Named::read(cell)).collect(),
+        };
+        let known =
+            |header: &Header| header.time().is_some() || header.displacement(None).is_some();
+        let headers: Vec<Header> = lines.iter().map(read).collect();
+        let Some(place) = headers.iter().rposition(known).or(headers.len().checked_sub(1)) else {
+            return Header::default();
+        };
+        let mut header = headers[place].clone();
+        if let Some(units) = lines.get(place + 1)
+            && units.len() >= header.columns.len()
+        {
+            for (column, unit) in header.columns.iter_mut().zip(units) {
+                let bare = unit.trim_matches(['[', ']', '(', ')']);
+                if column.unit.is_none() && !bare.is_empty() {
+                    column.unit = Some(bare.to_owned());
+                }
+            }
+        }
+        header
+    }
+
+    /// Whether the file has no header.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.columns.is_empty()
+    }
+
+    /// The names.
+    #[must_use]
+    pub fn names(&self) -> Vec<&str> {
+        self.columns.iter().map(|column| column.name.as_str()).collect()
+    }
+
+    /// The column with this name.
+    #[must_use]
+    pub fn named(&self, name: &str) -> Option<usize> {
+        self.columns.iter().position(|column| column.name.eq_ignore_ascii_case(name.trim()))
+    }
+
+    /// The unit of a column.
+    #[must_use]
+    pub fn unit(&self, column: usize) -> Option<String> {
+        self.columns.get(column)?.unit.clone()
+    }
+
+    fn find(&self, fits: impl Fn(&str) -> bool, but: Option<usize>) -> Option<usize> {
+        let mut columns = self.columns.iter().enumerate();
+        columns
+            .find(|(place, column)| Some(*place) != but && fits(&column.name))
+            .map(|(place, _)| place)
+    }
+
+    /// The column of times. A capital T is a temperature.
+    #[must_use]
+    pub fn time(&self) -> Option<usize> {
+        let called = |name: &str| TIMES.iter().any(|time| name.to_lowercase().contains(time));
+        self.find(called, None).or_else(|| self.find(|name| name == "t", None))
+    }
+
+    /// The column of displacements beside that of times.
+    #[must_use]
+    pub fn displacement(&self, time: Option<usize>) -> Option<usize> {
+        let is = |known: &str, name: &str| {
+            let name = name.to_lowercase();
+            if known.len() > 1 { name.contains(known) } else { name == known }
+        };
+        DISPLACEMENTS.iter().find_map(|known| self.find(|name| is(known, name), time))
+    }
+}

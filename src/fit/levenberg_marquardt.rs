@@ -1,0 +1,274 @@
+//! Nonlinear least squares with exact gradients: Levenberg and Marquardt's method on a QR factor.
+//!
+//! Each set of gradients is factored once; every damping that is tried costs a factor of 16 rows. The damping
+//! is scaled by the largest column norms met so far (More, *The Levenberg-Marquardt algorithm*, 1978), its size
+//! follows the ratio of actual to predicted reduction (Nielsen, 1999). A trial point whose motion escapes is a
+//! rejected step. Friction that would become negative is held at zero while it wants to.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::loss::Loss;
+use super::observation::{Observation, R, Residual, Seen, UNKNOWNS, Unknowns};
+use super::triangle::triangle;
+
+/// What the iteration counts and whom it asks.
+pub struct Effort<'a> {
+    /// Motions with derivatives.
+    pub with_derivatives: u64,
+    /// Motions without.
+    pub plain: u64,
+    /// Asked before each motion; `true` ends the computation.
+    pub interrupted: &'a dyn Fn() -> bool,
+}
+
+/// Why there is no fit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoFit {
+    /// The motion of the first guess escapes.
+    Lost,
+    /// A newer question took its place.
+    Interrupted,
+}
+
+/// Passes an interruption on, and hands back what else may fail.
+///
+/// # Errors
+/// [`NoFit::Interrupted`].
+pub fn interrupted<T>(result: Result<T, NoFit>) -> Result<Result<T, NoFit>, NoFit> {
+    match result {
+        Err(NoFit::Interrupted) => Err(NoFit::Interrupted),
+        other => Ok(other),
+    }
+}
+
+/// A point at which the iteration ended.
+#[derive(Clone, Debug)]
+pub struct Optimum {
+    /// The unknowns.
+    pub p: Unknowns,
+    /// The loss, in squared units of the residuals.
+    pub cost: f64,
+    /// The model against the record, with derivatives.
+    pub seen: Seen,
+    /// Whether the iteration settled.
+    pub settled: bool,
+}
+
+/// What is estimated, and how residuals count.
+#[derive(Clone, Copy, Debug)]
+pub struct Task<'a> {
+    /// Record and model.
+    pub observation: &'a Observation,
+    /// Which unknowns are free.
+    pub free: [bool; UNKNOWNS],
+    /// How residuals count.
+    pub loss: Loss,
+    /// Which residuals count at all; empty: all of them.
+    pub used: &'a [bool],
+    /// Only the first so many residuals count.
+    pub horizon: usize,
+}
+
+/// Most iterations.
+const MOST: usize = 50;
+
+/// Most iterations where a rough answer will do.
+const FEW: usize = 12;
+
+/// The relative reduction of the loss below which the iteration has settled.
+const SETTLED: f64 = 1e-10;
+
+impl Task<'_> {
+    fn counts(&self, index: usize) -> bool {
+        index < self.horizon && self.used.get(index).copied().unwrap_or(true)
+    }
+
+    /// The loss at a point.
+    #[must_use]
+    pub fn cost(&self, seen: &Seen) -> f64 {
+        let used = seen.residuals.iter().enumerate().filter(|(index, _)| self.counts(*index));
+        used.map(|(_, residual)| self.loss.of(residual.value)).sum()
+    }
+
+    /// The residuals that count.
+    #[must_use]
+    pub fn used_residuals<'a>(&self, seen: &'a Seen) -> Vec<&'a Residual> {
+        let used = seen.residuals.iter().enumerate().filter(|(index, _)| self.counts(*index));
+        used.map(|(_, residual)| residual).collect()
+    }
+
+    /// Variance of the noise: the loss's own measure of the residuals over the degrees of freedom.
+    #[must_use]
+    pub fn variance(&self, seen: &Seen, freedom: f64) -> f64 {
+        let used = self.used_residuals(seen).into_iter();
+        let influence = |residual: &Residual| self.loss.weight(residual.value) * residual.value;
+        used.map(|residual| influence(residual).powi(2)).sum::<f64>() / freedom
+    }
+
+    /// Compares record and model, and counts it.
+    ///
+    /// # Errors
+    /// [`NoFit`] where the model escapes, or somebody interrupts.
+    pub fn look(
+        &self,
+        p: &Unknowns,
+        derivatives: bool,
+        effort: &mut Effort,
+    ) -> Result<Seen, NoFit> {
+        if (effort.interrupted)() {
+            return Err(NoFit::Interrupted);
+        }
+        *(if derivatives { &mut effort.with_derivatives } else { &mut effort.plain }) += 1;
+        self.observation.compare(p, derivatives).map_err(|_| NoFit::Lost)
+    }
+
+    /// The columns of the free unknowns.
+    #[must_use]
+    pub fn columns(&self) -> Vec<usize> {
+        (0..UNKNOWNS).filter(|&column| self.free[column]).collect()
+    }
+
+    /// The triangular factor of the weighted gradients of these unknowns, with the residuals as a last column.
+    #[must_use]
+    pub fn factor(&self, seen: &Seen, columns: &[usize]) -> DMatrix<f64> {
+        let width = columns.len() + 1;
+        triangle(width, seen.residuals.len(), |index, row| {
+            let residual = &seen.residuals[index];
+            let weight =
+                if self.counts(index) { self.loss.weight(residual.value).sqrt() } else { 0.0 };
+            for (cell, &column) in row.iter_mut().zip(columns) {
+                *cell = weight * residual.by[column];
+            }
+            row[width - 1] = weight * residual.value;
+        })
+    }
+
+    /// Iterates from a first guess.
+    ///
+    /// # Errors
+    /// [`NoFit`] where even the guess cannot be compared with the record.
+    pub fn solve(&self, guess: Unknowns, effort: &mut Effort) -> Result<Optimum, NoFit> {
+        self.solve_within(SETTLED, MOST, guess, effort)
+    }
+
+    /// The same to a part of a standard error: enough for a start, or for the profile of the loss.
+    ///
+    /// # Errors
+    /// As [`Task::solve`].
+    pub fn solve_roughly(&self, guess: Unknowns, effort: &mut Effort) -> Result<Optimum, NoFit> {
+        #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
+        let count = self.observation.data.residuals().max(1) as f64;
+        self.solve_within(0.01 / count, FEW, guess, effort)
+    }
+
+    fn solve_within(
+        &self,
+        enough: f64,
+        most: usize,
+        guess: Unknowns,
+        effort: &mut Effort,
+    ) -> Result<Optimum, NoFit> {
+        let mut p = guess;
+        let mut seen = self.look(&p, true, effort)?;
+        let mut cost = self.cost(&seen);
+        let columns = self.columns();
+        let mut norms = vec![0.0_f64; columns.len()];
+        let (mut damping, mut grow) = (1e-4, 2.0);
+        let mut settled = columns.is_empty();
+        for _ in 0..most {
+            if settled {
+                break;
+            }
+            let factor = self.factor(&seen, &columns);
+            for (column, norm) in norms.iter_mut().enumerate() {
+                *norm = norm.max(factor.column(column).norm());
+            }
+            let taken = loop {
+                let Some((step, predicted)) = damped_step(&factor, &norms, damping, &p, &columns)
+                else {
+                    settled = true;
+                    break None;
+                };
+                if predicted <= enough * cost {
+                    settled = true;
+                    break None;
+                }
+                let trial: Unknowns = std::array::from_fn(|place| p[place] + step[place]);
+                let found = match self.look(&trial, false, effort) {
+                    Err(NoFit::Interrupted) => return Err(NoFit::Interrupted),
+                    other => other.ok().map(|seen| self.cost(&seen)),
+                };
+                let gain = found.map_or(-1.0, |found| (cost - found) / predicted);
+                if let Some(found) = found.filter(|found| *found < cost) {
+                    let bend = 1.0 - (2.0 * gain - 1.0).powi(3);
+                    damping = (damping * bend.clamp(0.1, 1.0)).max(1e-12);
+                    grow = 2.0;
+                    break Some((trial, found));
+                }
+                damping *= if found.is_none() { 8.0 } else { grow };
+                grow *= 2.0;
+                if damping > 1e16 {
+                    settled = true;
+                    break None;
+                }
+            };
+            let Some((trial, found)) = taken else { break };
+            settled = (cost - found) <= enough * cost;
+            (p, cost) = (trial, found);
+            seen = self.look(&p, true, effort)?;
+        }
+        Ok(Optimum { p, cost, seen, settled })
+    }
+}
+
+/// The damped step and the reduction of the loss that the linear model predicts.
+fn damped_step(
+    factor: &DMatrix<f64>,
+    norms: &[f64],
+    damping: f64,
+    p: &Unknowns,
+    columns: &[usize],
+) -> Option<(Unknowns, f64)> {
+    let width = columns.len();
+    let friction = columns.iter().position(|&column| column == R);
+    let mut held: Option<f64> = None;
+    loop {
+        let mut system = DMatrix::zeros(2 * width + 1, width);
+        let mut target = DVector::zeros(2 * width + 1);
+        system.rows_mut(0, width + 1).copy_from(&factor.columns(0, width));
+        target.rows_mut(0, width + 1).copy_from(&factor.column(width));
+        for (column, norm) in norms.iter().enumerate() {
+            let norm = if *norm > 0.0 { *norm } else { 1.0 };
+            system[(width + 1 + column, column)] = damping.sqrt() * norm;
+        }
+        if let (Some(friction), Some(change)) = (friction, held) {
+            let column = system.column(friction).into_owned();
+            target -= column * change;
+            system.column_mut(friction).fill(0.0);
+            system[(width + 1 + friction, friction)] = 1.0;
+            target[width + 1 + friction] = 0.0;
+        }
+        let qr = system.qr();
+        let mut solution = qr.r().solve_upper_triangular(&(qr.q().transpose() * target))?;
+        if let (Some(friction), Some(change)) = (friction, held) {
+            solution[friction] = change;
+        }
+        if !solution.iter().all(|value| value.is_finite()) {
+            return None;
+        }
+        if let Some(friction) = friction
+            && held.is_none()
+            && p[R] + solution[friction] < 0.0
+        {
+            held = Some(-p[R]);
+            continue;
+        }
+        let left = factor.columns(0, width) * &solution - factor.column(width);
+        let predicted = factor.column(width).norm_squared() - left.norm_squared();
+        let mut step = [0.0; UNKNOWNS];
+        for (&column, value) in columns.iter().zip(solution.iter()) {
+            step[column] = *value;
+        }
+        return Some((step, predicted));
+    }
+}

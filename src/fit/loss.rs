@@ -1,0 +1,50 @@
+//! How a residual counts: squared, or less where it is large.
+
+/// A loss function; `scale` is the size beyond which a residual is large.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Loss {
+    /// `e^2`.
+    Linear,
+    /// `2 s^2 (sqrt(1 + (e/s)^2) - 1)`: large residuals count by their size.
+    SoftL1 {
+        /// See [`Loss`].
+        scale: f64,
+    },
+    /// `s^2 ln(1 + (e/s)^2)`: large residuals count hardly more than moderate ones.
+    Cauchy {
+        /// See [`Loss`].
+        scale: f64,
+    },
+}
+
+impl Loss {
+    /// Whether large residuals count less than their square.
+    #[must_use]
+    pub fn is_robust(self) -> bool {
+        self != Loss::Linear
+    }
+
+    /// The loss of a residual.
+    #[must_use]
+    pub fn of(self, residual: f64) -> f64 {
+        match self {
+            Loss::Linear => residual * residual,
+            Loss::SoftL1 { scale } => {
+                let part = (residual / scale).powi(2);
+                // The same as sqrt(1 + z) - 1, without its cancellation.
+                2.0 * scale * scale * part / (1.0 + (1.0 + part).sqrt())
+            }
+            Loss::Cauchy { scale } => scale * scale * (residual / scale).powi(2).ln_1p(),
+        }
+    }
+
+    /// The weight of a residual in the equivalent weighted least squares: the derivative of the loss by `e^2`.
+    #[must_use]
+    pub fn weight(self, residual: f64) -> f64 {
+        match self {
+            Loss::Linear => 1.0,
+            Loss::SoftL1 { scale } => 1.0 / (1.0 + (residual / scale).powi(2)).sqrt(),
+            Loss::Cauchy { scale } => 1.0 / (1.0 + (residual / scale).powi(2)),
+        }
+    }
+}

@@ -1,0 +1,357 @@
+//! A motion with its derivatives by everything that it depends on, half swing by half swing.
+//!
+//! A half swing from `(x, v)` ends at `(X, 0)` after T; friction only turns its end into the next start
+//! `x = 2 r - X`. So derivatives are chained from one half swing to the next, without a jump matrix: with
+//! `dX` and `dT` of the half swing, `dx = 2 dr - dX` and `dtau` grows by `dT = -dv/f`. This is what a saltation
+//! matrix at `v = 0` gives, and it is never singular: a moving mass always stops with `f = -X < 0`.
+//! Inside a half swing a later start only delays the motion: `dq` contains `-v dtau`.
+
+use super::half_swing::{Jet, Stretch};
+use crate::oscillator::{HalfPlane, Parameters, Side, State};
+
+/// What a motion depends on: D, D2, D3, r, q0, v0.
+pub const NUMBERS: usize = 6;
+
+/// Place of r among the [`NUMBERS`].
+const R: usize = 3;
+
+/// Most half swings of one motion.
+const MOST: usize = 100_000;
+
+/// Most steps of one half swing, a hundred times what any recorded motion takes.
+const STEPS: u32 = 5_000;
+
+/// The derivatives by the [`NUMBERS`].
+pub type Gradient = [f64; NUMBERS];
+
+/// A point of a motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Point {
+    /// Displacement.
+    pub q: f64,
+    /// Velocity.
+    pub v: f64,
+    /// Derivatives of the displacement at a fixed time.
+    pub by: Gradient,
+}
+
+/// A turning point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Turn {
+    /// When.
+    pub tau: f64,
+    /// Where.
+    pub q: f64,
+    /// Derivatives of the time.
+    pub tau_by: Gradient,
+    /// Derivatives of the displacement.
+    pub q_by: Gradient,
+}
+
+/// A motion as far as it was followed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Followed {
+    /// Every arrival at `v = 0` within the time, the last one included where it rests.
+    pub turns: Vec<Turn>,
+    /// Whether the last turn is a capture.
+    pub rests: bool,
+}
+
+/// How a motion is followed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Way {
+    /// Whether D2 and D3 are zero and stay so.
+    pub linear: bool,
+    /// Whether derivatives are wanted.
+    pub with_derivatives: bool,
+    /// A motion larger than this is taken to be lost.
+    pub reach: f64,
+    /// Most turning points; later times are not answered.
+    pub turns: usize,
+}
+
+/// The motion grew beyond its reach, or its half swings beyond number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Lost;
+
+/// Derivatives of the start of a half swing.
+#[derive(Clone, Copy, Default)]
+struct Start {
+    x: Gradient,
+    v: Gradient,
+    tau: Gradient,
+}
+
+/// Follows the motion from `start` through the ascending `times`, handing each point to `see`.
+///
+/// # Errors
+/// [`Lost`] where the motion escapes before the last time.
+pub fn follow(
+    parameters: &Parameters,
+    start: State,
+    times: &[f64],
+    way: Way,
+    mut see: impl FnMut(usize, Point),
+) -> Result<Followed, Lost> {
+    let r = parameters.r;
+    let mut followed = Followed::default();
+    let mut next = 0;
+    let Some(mut side) = Side::entered_from(start, r) else {
+        let by = [0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+        (0..times.len()).for_each(|index| see(index, Point { q: start.q, v: 0.0, by }));
+        followed.rests = true;
+        return Ok(followed);
+    };
+    let sign = side.sign();
+    // A velocity of -0 would be one that has just arrived.
+    let (mut x, mut v) = (sign * start.q + r, start.v.abs());
+    let mut chain = Start::default();
+    chain.x[R] = 1.0;
+    chain.x[4] = sign;
+    chain.v[5] = sign;
+    let mut tau = 0.0;
+    for _ in 0..MOST {
+        if next >= times.len() || followed.turns.len() >= way.turns {
+            return Ok(followed);
+        }
+        let swing = HalfSwing::new(parameters, side, (x, v), &chain);
+        let (turn, end) = swing.follow(tau, times, &mut next, way, &mut see)?;
+        let Some(turn) = turn else { return Ok(followed) };
+        followed.turns.push(turn);
+        tau = turn.tau;
+        x = 2.0 * r - end;
+        v = 0.0;
+        if x >= 0.0 {
+            let point = Point { q: turn.q, v: 0.0, by: turn.q_by };
+            (next..times.len()).for_each(|index| see(index, point));
+            followed.rests = true;
+            return Ok(followed);
+        }
+        for (p, by) in chain.x.iter_mut().enumerate() {
+            let friction = if p == R { 1.0 } else { 0.0 };
+            *by = friction - side.sign() * turn.q_by[p];
+        }
+        chain.v = [0.0; NUMBERS];
+        chain.tau = turn.tau_by;
+        side = side.opposite();
+    }
+    Err(Lost)
+}
+
+/// A half swing about to begin.
+struct HalfSwing<'a> {
+    parameters: &'a Parameters,
+    side: Side,
+    field: HalfPlane,
+    start: Jet,
+    /// The start's shift along the flow, for each number: a delay.
+    along: Gradient,
+    /// The start's shift across the flow, for each number.
+    across: Gradient,
+    chain: &'a Start,
+}
+
+impl<'a> HalfSwing<'a> {
+    fn new(parameters: &'a Parameters, side: Side, (x, v): (f64, f64), chain: &'a Start) -> Self {
+        let field = HalfPlane::new(parameters, side);
+        let (fx, fv) = (v, field.acceleration(x, v));
+        let norm = fx.hypot(fv);
+        let (ux, uv) = (fx / norm, fv / norm);
+        let mut start = Jet { x, v, ..Jet::default() };
+        (start.y[0], start.w[0]) = (-uv, ux);
+        let (mut along, mut across) = ([0.0; NUMBERS], [0.0; NUMBERS]);
+        for p in 0..NUMBERS {
+            along[p] = (ux * chain.x[p] + uv * chain.v[p]) / norm;
+            across[p] = ux * chain.v[p] - uv * chain.x[p];
+        }
+        HalfSwing { parameters, side, field, start, along, across, chain }
+    }
+
+    /// Combines the solutions of the variational equation: across the flow, by D, D2 and D3.
+    #[inline]
+    fn combined(&self, ways: &[f64; 4]) -> Gradient {
+        let [across, d, d2, d3] = *ways;
+        let mut by = self.across.map(|share| share * across);
+        by[0] += d;
+        by[1] += self.side.sign() * d2;
+        by[2] += d3;
+        by
+    }
+
+    /// Sees the times of this half swing; the turn that ends it and its position, if it comes in time.
+    fn follow(
+        &self,
+        tau: f64,
+        times: &[f64],
+        next: &mut usize,
+        way: Way,
+        see: &mut impl FnMut(usize, Point),
+    ) -> Result<(Option<Turn>, f64), Lost> {
+        let (sign, r) = (self.side.sign(), self.parameters.r);
+        let Way { linear, with_derivatives, reach, .. } = way;
+        let mut stretch =
+            Stretch::new(self.field, self.start, linear, with_derivatives).ok_or(Lost)?;
+        let mut passed = 0.0;
+        for _ in 0..STEPS {
+            let until = passed + stretch.duration;
+            while let Some(&time) = times.get(*next)
+                && time - tau <= until
+            {
+                let (x, v, ways) = stretch.at(time - tau - passed);
+                let mut point = Point { q: sign * (x - r), v: sign * v, by: [0.0; NUMBERS] };
+                if with_derivatives {
+                    point.by = self.combined(&ways);
+                    point.by[R] -= 1.0;
+                    for p in 0..NUMBERS {
+                        let delay = self.along[p] - self.chain.tau[p];
+                        point.by[p] = sign * (point.by[p] + delay * v);
+                    }
+                }
+                see(*next, point);
+                *next += 1;
+            }
+            if *next >= times.len() {
+                return Ok((None, 0.0));
+            }
+            let end = stretch.jet(stretch.duration);
+            if stretch.arrives {
+                return Ok((Some(self.turn(tau + until, &end)), end.x));
+            }
+            // Neither a motion that escapes nor one whose steps no longer move the time comes to an end.
+            if !(end.x.abs().max(end.v) <= reach && until > passed) {
+                return Err(Lost);
+            }
+            passed = until;
+            if !stretch.advance(end) {
+                return Err(Lost);
+            }
+        }
+        Err(Lost)
+    }
+
+    fn turn(&self, tau: f64, end: &Jet) -> Turn {
+        let sign = self.side.sign();
+        let force = self.field.acceleration(end.x, 0.0);
+        let (moved, sped) = (self.combined(&end.y), self.combined(&end.w));
+        let mut turn = Turn { tau, q: sign * (end.x - self.parameters.r), ..Turn::default() };
+        for p in 0..NUMBERS {
+            let friction = if p == R { 1.0 } else { 0.0 };
+            turn.q_by[p] = sign * (moved[p] - friction);
+            turn.tau_by[p] = self.chain.tau[p] - self.along[p] - sped[p] / force;
+        }
+        turn
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::flow::trajectory::trajectory;
+    use crate::flow::{Detail, Limits, Outcome, Problem};
+
+    /// Onto a stable cycle, to rest near a fold, to rest over asymmetric damping, undamped; from rest and moving.
+    const MOTIONS: [(Parameters, State); 4] = [
+        (Parameters { d: -0.05, d2: 0.01, d3: 0.004, r: 0.1 }, State { q: 9.0, v: 0.5 }),
+        (Parameters { d: -0.08, d2: 0.02, d3: 0.003, r: 0.4 }, State { q: 3.9, v: 0.0 }),
+        (Parameters { d: 0.1, d2: 0.3, d3: 0.05, r: 0.2 }, State { q: -4.0, v: 1.0 }),
+        (Parameters { d: 0.02, d2: 0.0, d3: 0.0, r: 0.1 }, State { q: 4.0, v: 3.0 }),
+    ];
+
+    fn way(linear: bool, with_derivatives: bool) -> Way {
+        Way { linear, with_derivatives, reach: 1e4, turns: usize::MAX }
+    }
+
+    fn points(parameters: &Parameters, start: State, times: &[f64], way: Way) -> Vec<Point> {
+        let mut points = Vec::new();
+        follow(parameters, start, times, way, |_, point| points.push(point)).unwrap();
+        points
+    }
+
+    fn times() -> Vec<f64> {
+        (0..120).map(|index| 0.25 * f64::from(index)).collect()
+    }
+
+    #[test]
+    fn motions_are_those_of_the_integrators() {
+        for (parameters, initial) in MOTIONS {
+            let found = points(&parameters, initial, &[0.7, 5.0, 29.0], way(false, false));
+            for (point, until) in found.iter().zip([0.7, 5.0, 29.0]) {
+                let problem =
+                    Problem { parameters, initial, until, tolerance: 1e-13, ..Problem::default() };
+                let motion = trajectory(&problem, Detail::default(), &Limits::PATIENT);
+                let q = match motion.outcome {
+                    Outcome::Moving { q, .. } | Outcome::Captured { q, .. } => q,
+                    other => panic!("{other:?}"),
+                };
+                assert!((point.q - q).abs() < 1e-9 * initial.q.abs(), "{parameters:?} {until}");
+            }
+        }
+    }
+
+    #[test]
+    fn derivatives_are_those_of_differences_through_every_event() {
+        const STEP: f64 = 1e-6;
+        for (parameters, start) in MOTIONS {
+            let numbers =
+                [parameters.d, parameters.d2, parameters.d3, parameters.r, start.q, start.v];
+            let at = |numbers: [f64; NUMBERS], with_derivatives: bool| {
+                let [d, d2, d3, r, q, v] = numbers;
+                let parameters = Parameters { d, d2, d3, r };
+                points(&parameters, State { q, v }, &times(), way(false, with_derivatives))
+            };
+            let exact = at(numbers, true);
+            for p in (0..NUMBERS).filter(|&p| p != 5 || start.v != 0.0) {
+                let moved = |step: f64| {
+                    let mut numbers = numbers;
+                    numbers[p] += step;
+                    at(numbers, false)
+                };
+                let (above, below) = (moved(STEP), moved(-STEP));
+                let largest = exact.iter().map(|point| point.by[p].abs()).fold(0.0, f64::max);
+                for ((exact, above), below) in exact.iter().zip(&above).zip(&below) {
+                    let difference = (above.q - below.q) / (2.0 * STEP);
+                    let off = (exact.by[p] - difference).abs();
+                    assert!(off < 1e-6 * largest, "{parameters:?}: number {p}: {off} of {largest}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_closed_form_and_the_series_are_one_motion() {
+        let (parameters, moving) = MOTIONS[3];
+        for start in [moving, State { q: 4.0, v: 0.0 }, State { q: -4.0, v: 0.0 }] {
+            let formula = points(&parameters, start, &times(), way(true, true));
+            let series = points(&parameters, start, &times(), way(false, true));
+            for (formula, series) in formula.iter().zip(&series) {
+                assert!((formula.q - series.q).abs() < 1e-12, "{start:?}");
+                // By D, r, q0 and v0; those of D2 and D3 are not wanted of the formula.
+                for p in [0, 3, 4, 5] {
+                    let off = (formula.by[p] - series.by[p]).abs();
+                    assert!(off < 1e-11 * formula.by[p].abs().max(1.0), "number {p}: {off}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn without_derivatives_the_motion_is_the_same_to_the_last_bit() {
+        for (parameters, start) in MOTIONS {
+            let with = points(&parameters, start, &times(), way(false, true));
+            let without = points(&parameters, start, &times(), way(false, false));
+            let same = |(one, other): (&Point, &Point)| (one.q, one.v) == (other.q, other.v);
+            assert!(with.iter().zip(&without).all(same));
+        }
+    }
+
+    #[test]
+    fn a_motion_that_escapes_is_lost_and_one_at_rest_stays() {
+        let parameters = Parameters { d: -0.1, d2: 0.0, d3: -1.0, r: 0.1 };
+        let start = State { q: 10.0, v: 0.0 };
+        let found = follow(&parameters, start, &[50.0], way(false, true), |_, _| {});
+        assert_eq!(found, Err(Lost));
+        let rest = State { q: 0.05, v: 0.0 };
+        let found = points(&parameters, rest, &[0.0, 50.0], way(false, true));
+        assert!(found.iter().all(|point| (point.q, point.v, point.by[4]) == (0.05, 0.0, 1.0)));
+    }
+}

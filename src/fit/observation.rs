@@ -1,0 +1,209 @@
+//! What a record should show: the model of the observation and its residuals.
+//!
+//! `x(t) = offset + q(omega0 (t - t0); D, D2, D3, r, q0, v0)` in the unit of the record. Held until an unknown
+//! release, or in motion from the first sample on: both have the same eight unknowns but for the last. Turning
+//! points, with or without times, are the same motion seen only where `v = 0`.
+
+use super::motion::{Gradient, Lost, Turn, Way, follow};
+use crate::oscillator::{Parameters, State};
+
+/// How many unknowns there are.
+pub const UNKNOWNS: usize = 8;
+
+/// Places of the unknowns.
+pub const OMEGA0: usize = 0;
+/// See [`OMEGA0`].
+pub const OFFSET: usize = 1;
+/// See [`OMEGA0`].
+pub const D: usize = 2;
+/// See [`OMEGA0`].
+pub const D2: usize = 3;
+/// See [`OMEGA0`].
+pub const D3: usize = 4;
+/// See [`OMEGA0`].
+pub const R: usize = 5;
+/// See [`OMEGA0`].
+pub const Q0: usize = 6;
+/// The time of release, of the first peak, or the velocity at the first sample.
+pub const LAST: usize = 7;
+
+/// Values of the unknowns: angular frequency in 1/s, lengths in the unit of the record, times in s, the initial
+/// velocity as `velocity/omega0`.
+pub type Unknowns = [f64; UNKNOWNS];
+
+/// How the recorded motion begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Start {
+    /// Held at rest until it is let go.
+    Release,
+    /// In motion at the first sample.
+    Moving,
+}
+
+/// What was measured.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Data {
+    /// Displacements at ascending times.
+    Samples {
+        /// Times in s.
+        t: Vec<f64>,
+        /// Displacements.
+        x: Vec<f64>,
+    },
+    /// Successive turning points.
+    Peaks {
+        /// Times in s, if they were measured.
+        t: Option<Vec<f64>>,
+        /// Displacements.
+        x: Vec<f64>,
+        /// Size of an error of the times beside one of the displacements, in s per length.
+        ratio: f64,
+    },
+}
+
+impl Data {
+    /// Every residual's number: samples, or displacements and times of peaks.
+    #[must_use]
+    pub fn residuals(&self) -> usize {
+        match self {
+            Data::Samples { x, .. } => x.len(),
+            Data::Peaks { t, x, .. } => x.len() * if t.is_some() { 2 } else { 1 },
+        }
+    }
+
+    /// Whether turning points were measured.
+    #[must_use]
+    pub fn has_peaks(&self) -> bool {
+        matches!(self, Data::Peaks { .. })
+    }
+
+    /// The displacements.
+    #[must_use]
+    pub fn displacements(&self) -> &[f64] {
+        match self {
+            Data::Samples { x, .. } | Data::Peaks { x, .. } => x,
+        }
+    }
+}
+
+/// A residual: measured less computed, and the derivatives of what is computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Residual {
+    /// Measured less computed.
+    pub value: f64,
+    /// Derivatives of the computed value.
+    pub by: Unknowns,
+}
+
+/// What the model says about the whole record.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Seen {
+    /// One for each measured number.
+    pub residuals: Vec<Residual>,
+    /// The turning points within the record.
+    pub turns: Vec<Turn>,
+    /// Whether the motion comes to rest within the record.
+    pub rests: bool,
+}
+
+/// The parameters of the motion among the unknowns.
+#[must_use]
+pub fn parameters(p: &Unknowns) -> Parameters {
+    Parameters { d: p[D], d2: p[D2], d3: p[D3], r: p[R] }
+}
+
+/// A record and the model of its start.
+#[derive(Clone, Debug)]
+pub struct Observation {
+    /// What was measured.
+    pub data: Data,
+    /// How the motion begins.
+    pub start: Start,
+    /// Whether D2 and D3 are held at zero.
+    pub linear: bool,
+    /// A motion larger than this has escaped.
+    pub reach: f64,
+}
+
+impl Observation {
+    /// Compares the record with the model.
+    ///
+    /// # Errors
+    /// [`Lost`] where the model escapes before the record ends, or rests before the last measured peak.
+    pub fn compare(&self, p: &Unknowns, with_derivatives: bool) -> Result<Seen, Lost> {
+        if !(p[OMEGA0] > 0.0 && p.iter().all(|value| value.is_finite())) {
+            return Err(Lost);
+        }
+        let way = Way {
+            linear: self.linear && p[D2] == 0.0 && p[D3] == 0.0,
+            with_derivatives,
+            reach: self.reach,
+            turns: usize::MAX,
+        };
+        match &self.data {
+            Data::Samples { t, x } => self.samples(p, t, x, way),
+            Data::Peaks { t, x, ratio } => peaks(p, t.as_deref(), x, *ratio, way),
+        }
+    }
+
+    fn samples(&self, p: &Unknowns, t: &[f64], x: &[f64], way: Way) -> Result<Seen, Lost> {
+        let (held, origin, velocity) = match self.start {
+            Start::Release => (t.partition_point(|&t| t < p[LAST]), p[LAST], 0.0),
+            Start::Moving => (0, t.first().copied().unwrap_or(0.0), p[LAST]),
+        };
+        let mut residuals = Vec::with_capacity(x.len());
+        for &x in &x[..held] {
+            let mut by = [0.0; UNKNOWNS];
+            (by[OFFSET], by[Q0]) = (1.0, 1.0);
+            residuals.push(Residual { value: x - p[OFFSET] - p[Q0], by });
+        }
+        let times: Vec<f64> = t[held..].iter().map(|t| p[OMEGA0] * (t - origin)).collect();
+        let start = State { q: p[Q0], v: velocity };
+        let moving = self.start == Start::Moving;
+        let followed = follow(&parameters(p), start, &times, way, |index, point| {
+            let mut by = unknowns(&point.by);
+            by[OMEGA0] = point.v * (t[held + index] - origin);
+            by[OFFSET] = 1.0;
+            by[LAST] = if moving { point.by[5] } else { -p[OMEGA0] * point.v };
+            residuals.push(Residual { value: x[held + index] - p[OFFSET] - point.q, by });
+        })?;
+        Ok(Seen { residuals, turns: followed.turns, rests: followed.rests })
+    }
+}
+
+/// Derivatives by D, D2, D3, r and q0 at their places among the unknowns.
+fn unknowns(by: &Gradient) -> Unknowns {
+    let mut all = [0.0; UNKNOWNS];
+    all[D..=Q0].copy_from_slice(&by[..5]);
+    all
+}
+
+/// Compares turning points; times count in the unit `ratio`.
+fn peaks(p: &Unknowns, t: Option<&[f64]>, x: &[f64], ratio: f64, way: Way) -> Result<Seen, Lost> {
+    /// No half swing of a motion that goes on oscillating takes longer.
+    const SLOWEST: f64 = 50.0;
+    #[expect(clippy::cast_precision_loss, reason = "a number of peaks")]
+    let patience = [SLOWEST * x.len() as f64];
+    let way = Way { turns: x.len() - 1, ..way };
+    let start = State { q: p[Q0], v: 0.0 };
+    let followed = follow(&parameters(p), start, &patience, way, |_, _| {})?;
+    if followed.turns.len() + 1 < x.len() {
+        return Err(Lost);
+    }
+    let mut first = Turn { q: p[Q0], ..Default::default() };
+    first.q_by[4] = 1.0;
+    let turns: Vec<_> = std::iter::once(first).chain(followed.turns.iter().copied()).collect();
+    let mut residuals = Vec::with_capacity(2 * x.len());
+    for (turn, x) in turns.iter().zip(x) {
+        let mut by = unknowns(&turn.q_by);
+        by[OFFSET] = 1.0;
+        residuals.push(Residual { value: x - p[OFFSET] - turn.q, by });
+    }
+    for (turn, t) in turns.iter().zip(t.unwrap_or_default()) {
+        let mut by = unknowns(&turn.tau_by).map(|by| by / (p[OMEGA0] * ratio));
+        by[OMEGA0] = -turn.tau / (p[OMEGA0] * p[OMEGA0] * ratio);
+        by[LAST] = 1.0 / ratio;
+        residuals.push(Residual { value: (t - p[LAST] - turn.tau / p[OMEGA0]) / ratio, by });
+    }
+    Ok(Seen { residuals, turns: followed.turns, rests: followed.rests })
+}

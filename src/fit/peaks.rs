@@ -1,0 +1,106 @@
+//! Fits a list of turning points.
+
+use super::decrements::regressions;
+use super::estimate::{Estimate, judged};
+use super::guess::period_of;
+use super::levenberg_marquardt::{Effort, Optimum, Task};
+use super::loss::Loss;
+use super::observation::{D, D2, D3, Data, LAST, OFFSET, OMEGA0, Q0, R, Start, UNKNOWNS, Unknowns};
+use super::problem::Problem;
+use super::question::{Question, Unfit, placed, reach};
+use super::record::Record;
+use super::search::Beginning;
+use super::turning_points::Extreme;
+
+/// Fits a list of peaks: the errors of displacements and times are weighed against each other by their residuals.
+///
+/// # Errors
+/// [`Unfit`].
+pub fn peaks(record: &Record, question: &Question, effort: &mut Effort) -> Result<Estimate, Unfit> {
+    const ROUNDS: usize = 8;
+    let x = &record.x;
+    let mut held = question.choice.unknowns();
+    if record.t.is_none() {
+        (held[OMEGA0], held[LAST]) = (Some(1.0), Some(0.0));
+    }
+    let free = held.map(|held| held.is_none());
+    let unknowns = free.iter().filter(|free| **free).count();
+    let t = record.t.clone();
+    let measured = x.len() * if t.is_some() { 2 } else { 1 };
+    let seen_in_x = unknowns - usize::from(free[OMEGA0]) - usize::from(free[LAST]);
+    if x.len() < 3 || x.len() <= seen_in_x {
+        return Err(Unfit::TooFew { measured: x.len(), unknowns: seen_in_x });
+    }
+    let turned = |three: &[f64]| (three[1] - three[0]) * (three[2] - three[1]) >= 0.0;
+    let wrong = x.windows(3).filter(|three| turned(three)).count();
+    if 3 * wrong > x.len() {
+        let peak = x.windows(3).position(turned).unwrap_or(0) + 1;
+        return Err(Unfit::NotAlternating { peak });
+    }
+    let time = |index: usize| t.as_ref().map_or(0.0, |t| t[index]);
+    let extremes: Vec<Extreme> =
+        x.iter().enumerate().map(|(index, &x)| Extreme { t: time(index), x }).collect();
+    let omega0 = period_of(&extremes).map_or(1.0, |period| std::f64::consts::TAU / period);
+    let mut guesses = Vec::new();
+    for averaged in regressions(&extremes) {
+        let mut p: Unknowns = [0.0; UNKNOWNS];
+        (p[OMEGA0], p[OFFSET], p[LAST]) = (omega0, averaged.offset, time(0));
+        (p[D], p[D2], p[D3]) = (averaged.d, averaged.d2, averaged.d3);
+        p[Q0] = x[0] - averaged.offset;
+        // A guess that rests before the last peak is none: less friction keeps it going.
+        for part in [1.0, 0.9, 0.7, 0.4, 0.0] {
+            p[R] = part * averaged.r;
+            guesses.push(placed(&held, p));
+        }
+    }
+    let starts = [Beginning { start: Start::Release, certain: true, guesses }];
+    let amplitude = 0.5 * (x[1] - x[0]).abs();
+    let mut ratio = 1.0 / (omega0 * amplitude);
+    if measured <= unknowns {
+        return Err(Unfit::TooFew { measured, unknowns });
+    }
+    let of = |ratio: f64| Data::Peaks { t: t.clone(), x: x.clone(), ratio };
+    let mut data = of(ratio);
+    let mut found = asked(&data, free).search(&starts, effort)?;
+    for _ in 0..ROUNDS {
+        let problem = asked(&data, free);
+        let observation = problem.observation(found.start);
+        let task = problem.task(&observation);
+        let next = ratio * spread_ratio(&task, &found.valleys[0].optimum, x.len());
+        if t.is_none() || !next.is_finite() || (next / ratio - 1.0).abs() < 0.01 {
+            break;
+        }
+        ratio = next;
+        data = of(ratio);
+        asked(&data, free).polish(&mut found, effort)?;
+    }
+    let problem = asked(&data, free);
+    let used = vec![true; data.residuals()];
+    let mut estimate = judged(&problem, &used, &found, effort)?;
+    (estimate.choice, estimate.extremes) = (question.choice.clone(), extremes);
+    Ok(estimate)
+}
+
+/// Squared residuals, all of them; how large they are is not known beforehand.
+fn asked(data: &Data, free: [bool; UNKNOWNS]) -> Problem<'_> {
+    let reach = reach(data.displacements());
+    Problem { data, free, loss: Loss::Linear, used: &[], noise: 0.0, reach }
+}
+
+/// How much larger the errors of the times are than those of the displacements, in the present unit: each from
+/// its residuals and the part of the unknowns that it determines (its leverage).
+fn spread_ratio(task: &Task, optimum: &Optimum, peaks: usize) -> f64 {
+    let columns = task.columns();
+    let width = columns.len();
+    let factor = task.factor(&optimum.seen, &columns);
+    let upper = factor.view((0, 0), (width, width)).transpose();
+    let mut sums = [(0.0, 0.0); 2];
+    for (index, residual) in optimum.seen.residuals.iter().enumerate() {
+        let row = nalgebra::DVector::from_iterator(width, columns.iter().map(|&c| residual.by[c]));
+        let leverage = upper.solve_lower_triangular(&row).map_or(1.0, |it| it.norm_squared());
+        let sum = &mut sums[usize::from(index >= peaks)];
+        *sum = (sum.0 + residual.value * residual.value, sum.1 + 1.0 - leverage);
+    }
+    let [x, t] = sums.map(|(squares, freedom)| (squares / freedom.max(0.5)).sqrt());
+    t / x
+}

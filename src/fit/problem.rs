@@ -1,0 +1,96 @@
+//! A record with what is asked of it, and how well a minimum explains it.
+
+use super::levenberg_marquardt::{Optimum, Task};
+use super::loss::Loss;
+use super::noise::robust_deviation;
+use super::observation::{D2, D3, Data, OMEGA0, Observation, Start, UNKNOWNS};
+use super::residuals::whiteness;
+
+/// What the search is told.
+#[derive(Clone, Copy, Debug)]
+pub struct Problem<'a> {
+    /// What was measured.
+    pub data: &'a Data,
+    /// Which unknowns are free.
+    pub free: [bool; UNKNOWNS],
+    /// How residuals count.
+    pub loss: Loss,
+    /// Which residuals count; empty: all.
+    pub used: &'a [bool],
+    /// Noise of the record as far as it is known beforehand; 0 where it is not.
+    pub noise: f64,
+    /// A motion larger than this has escaped.
+    pub reach: f64,
+}
+
+/// What the residuals of a minimum look like.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// White and small.
+    Noise,
+    /// Small, with a short memory: filtered noise, or a minimum next to the right one.
+    Correlated,
+    /// Too large, or swinging with the motion.
+    Unexplained,
+}
+
+/// Residuals this many times the noise may still be noise: filtered noise hides from second differences.
+const HIDDEN: f64 = 4.0;
+
+impl Problem<'_> {
+    /// Record and model.
+    #[must_use]
+    pub fn observation(&self, start: Start) -> Observation {
+        let free = |place: usize| self.free[place];
+        Observation {
+            data: self.data.clone(),
+            start,
+            linear: !free(D2) && !free(D3),
+            reach: self.reach,
+        }
+    }
+
+    /// What is estimated, and how residuals count.
+    #[must_use]
+    pub fn task<'a>(&'a self, observation: &'a Observation) -> Task<'a> {
+        let Problem { free, loss, used, .. } = *self;
+        Task { observation, free, loss, used, horizon: usize::MAX }
+    }
+
+    /// How far the residuals are from noise.
+    #[must_use]
+    pub fn verdict(&self, optimum: &Optimum) -> Verdict {
+        let Data::Samples { t, .. } = self.data else { return Verdict::Unexplained };
+        let used = |index: usize| self.used.get(index).copied().unwrap_or(true);
+        let residuals: Vec<f64> = optimum
+            .seen
+            .residuals
+            .iter()
+            .enumerate()
+            .filter(|(index, _)| used(*index))
+            .map(|(_, residual)| residual.value)
+            .collect();
+        let deviation = robust_deviation(residuals.iter().copied());
+        // What a robust loss forgives must not look like a swing.
+        let within: Vec<f64> = residuals
+            .into_iter()
+            .map(|value| value.clamp(-4.0 * deviation, 4.0 * deviation))
+            .collect();
+        #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
+        let rate = t.len() as f64 / (t[t.len() - 1] - t[0]);
+        let found = whiteness(&within, rate * std::f64::consts::TAU / optimum.p[OMEGA0], 0.0);
+        if found.systematic || deviation > HIDDEN * self.noise {
+            Verdict::Unexplained
+        } else if found.white {
+            Verdict::Noise
+        } else {
+            Verdict::Correlated
+        }
+    }
+
+    /// Whether the residuals may be noise.
+    #[must_use]
+    pub fn explains(&self, optimum: &Optimum) -> bool {
+        self.verdict(optimum) != Verdict::Unexplained
+    }
+}

@@ -1,0 +1,166 @@
+//! Intervals by the profile of the loss, where it is not quadratic.
+//!
+//! The interval of 95 % ends where the loss, minimised over all other unknowns, has risen by what noise alone
+//! explains. Where the loss is quadratic this is the minimum and a multiple of the standard error, which one motion
+//! checks on each side. Elsewhere the end is sought with all others refitted.
+
+use super::levenberg_marquardt::{Effort, NoFit, Optimum, Task};
+use super::observation::{R, Unknowns};
+use super::uncertainty::{Covariance, deviation_of_95_percent};
+
+/// An interval of 95 %.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Interval {
+    /// Its lower end; `None` where the data set no bound.
+    pub lower: Option<f64>,
+    /// Its upper end; `None` where the data set no bound.
+    pub upper: Option<f64>,
+    /// Whether the loss is quadratic within it.
+    pub quadratic: bool,
+}
+
+impl Interval {
+    /// The smallest interval that holds both.
+    #[must_use]
+    pub fn joined(self, other: Interval) -> Self {
+        let both = |one: Option<f64>, two: Option<f64>, pick: fn(f64, f64) -> f64| {
+            one.zip(two).map(|(one, two)| pick(one, two))
+        };
+        Interval {
+            lower: both(self.lower, other.lower, f64::min),
+            upper: both(self.upper, other.upper, f64::max),
+            quadratic: false,
+        }
+    }
+}
+
+/// How far the rise of the loss may be from quadratic, as a part of itself.
+const QUADRATIC: f64 = 0.2;
+
+/// Most refits for one end.
+const REFITS: usize = 8;
+
+/// Beyond so many standard errors there is no bound.
+const FARTHEST: f64 = 60.0;
+
+/// The profile of one unknown about a minimum.
+pub struct Profile<'a> {
+    /// What was fitted.
+    pub task: &'a Task<'a>,
+    /// The minimum.
+    pub optimum: &'a Optimum,
+    /// Its covariance.
+    pub covariance: &'a Covariance,
+}
+
+impl Profile<'_> {
+    /// The interval of an unknown.
+    ///
+    /// # Errors
+    /// [`NoFit::Interrupted`].
+    pub fn interval(&self, unknown: usize, effort: &mut Effort) -> Result<Interval, NoFit> {
+        let z = deviation_of_95_percent(self.covariance.independent);
+        let reach = z * self.covariance.error(unknown);
+        let white = self.covariance.inflation(unknown);
+        let variance = self.task.variance(&self.optimum.seen, self.covariance.freedom);
+        let rise = z * z * white * variance;
+        let mut ends = [None; 2];
+        let mut quadratic = true;
+        for (end, sign) in ends.iter_mut().zip([-1.0, 1.0]) {
+            let straight = self.shifted(&self.optimum.p, unknown, sign * reach);
+            // No friction is less than none: r ends at 0, and what leans on r bends there.
+            let crosses = straight[R] < 0.0 && self.task.free[R];
+            if !crosses && self.rises_by(&straight, rise, effort)? {
+                *end = Some(straight[unknown]);
+                continue;
+            }
+            quadratic = false;
+            *end = self.sought(unknown, sign, reach, rise, effort)?;
+        }
+        Ok(Interval { lower: ends[0], upper: ends[1], quadratic })
+    }
+
+    fn shifted(&self, from: &Unknowns, unknown: usize, by: f64) -> Unknowns {
+        let along = self.covariance.along(unknown);
+        std::array::from_fn(|place| from[place] + by * along[place])
+    }
+
+    /// Whether the loss there has risen as a quadratic one would have.
+    fn rises_by(&self, p: &Unknowns, rise: f64, effort: &mut Effort) -> Result<bool, NoFit> {
+        match self.task.look(p, false, effort) {
+            Ok(seen) => {
+                let risen = self.task.cost(&seen) - self.optimum.cost;
+                Ok((risen / rise - 1.0).abs() <= QUADRATIC)
+            }
+            Err(NoFit::Interrupted) => Err(NoFit::Interrupted),
+            Err(NoFit::Lost) => Ok(false),
+        }
+    }
+
+    /// The end on one side, by refits: a secant on the root of the rise, which is straight where it is quadratic.
+    fn sought(
+        &self,
+        unknown: usize,
+        sign: f64,
+        reach: f64,
+        rise: f64,
+        effort: &mut Effort,
+    ) -> Result<Option<f64>, NoFit> {
+        let center = self.optimum.p[unknown];
+        let farthest = if unknown == R && sign < 0.0 { center } else { FARTHEST * reach };
+        if farthest <= 0.0 {
+            return Ok(Some(center));
+        }
+        let mut task = *self.task;
+        task.free[unknown] = false;
+        let (mut inside, mut outside): ((f64, f64), Option<(f64, f64)>) = ((0.0, 0.0), None);
+        let mut warm = self.optimum.p;
+        let mut step = reach.min(farthest);
+        for _ in 0..REFITS {
+            let mut guess = self.shifted(&warm, unknown, center + sign * step - warm[unknown]);
+            guess[unknown] = center + sign * step;
+            guess[R] = guess[R].max(0.0);
+            let risen = match task.solve_roughly(guess, effort) {
+                Ok(found) => {
+                    warm = found.p;
+                    ((found.cost - self.optimum.cost).max(0.0) / rise).sqrt()
+                }
+                Err(NoFit::Interrupted) => return Err(NoFit::Interrupted),
+                Err(NoFit::Lost) => f64::INFINITY,
+            };
+            if (risen - 1.0).abs() <= 0.02 {
+                return Ok(Some(center + sign * step));
+            }
+            if risen < 1.0 {
+                if step >= farthest {
+                    return Ok((unknown == R && sign < 0.0).then_some(0.0));
+                }
+                inside = (step, risen);
+            } else {
+                outside = Some((step, risen));
+            }
+            step = match outside {
+                None => (step * (1.1 / risen.max(0.2))).max(1.2 * step).min(farthest),
+                Some((far, high)) if high.is_finite() => {
+                    let part = (1.0 - inside.1) / (high - inside.1);
+                    inside.0 + part.clamp(0.1, 0.9) * (far - inside.0)
+                }
+                Some((far, _)) => 0.5 * (inside.0 + far),
+            };
+        }
+        Ok(outside.map(|_| center + sign * step))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn joined_intervals_hold_both_and_stay_open_where_one_is() {
+        let one = Interval { lower: Some(1.0), upper: Some(2.0), quadratic: true };
+        let other = Interval { lower: Some(0.5), upper: None, quadratic: true };
+        let both = one.joined(other);
+        assert_eq!(both, Interval { lower: Some(0.5), upper: None, quadratic: false });
+    }
+}

@@ -1,0 +1,425 @@
+//! Reads what instruments write: two columns of numbers among headers, comments, units and gaps.
+//!
+//! Separator, decimal sign, columns and units are found from the text itself. What is read is what was
+//! written: times in seconds, displacements in the unit of the file, missing samples left out.
+
+use std::fmt;
+
+use super::header::{self, Header};
+
+/// A column of a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Column {
+    /// By its number, from 1.
+    Number(usize),
+    /// By the name in the header.
+    Name(String),
+}
+
+/// How to read a file.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Reading {
+    /// The column of times, if not to be found by its name.
+    pub time: Option<Column>,
+    /// The column of displacements, if not to be found by its name.
+    pub displacement: Option<Column>,
+    /// Rows are successive turning points, with or without times.
+    pub peaks: bool,
+}
+
+/// What a file holds.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Record {
+    /// Times in s; none where a list of peaks has none.
+    pub t: Option<Vec<f64>>,
+    /// Displacements in the unit of the file.
+    pub x: Vec<f64>,
+    /// Unit of the displacements, if the file names one.
+    pub unit: Option<String>,
+    /// Rows without a usable number.
+    pub missing: usize,
+    /// Rows that repeat another one.
+    pub repeated: usize,
+}
+
+/// Why a file cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BadRecord {
+    /// Line, from 1; 0 where the file as a whole is meant.
+    pub line: usize,
+    /// Column, from 1; 0 where the line as a whole is meant.
+    pub column: usize,
+    /// What is wrong, and what is allowed.
+    pub problem: String,
+}
+
+impl fmt::Display for BadRecord {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (self.line, self.column) {
+            (0, _) => {}
+            (line, 0) => write!(out, "line {line}: ")?,
+            (line, column) => write!(out, "line {line}, column {column}: ")?,
+        }
+        out.write_str(&self.problem)
+    }
+}
+
+impl std::error::Error for BadRecord {}
+
+/// What instruments write where they have no number, in lower case.
+const MISSING: [&str; 14] = [
+    "", "-", "--", "---", "nan", "na", "n/a", "#n/a", "null", "none", "inf", "-inf", "ovl",
+    "overload",
+];
+
+/// A cell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Cell {
+    Number(f64),
+    Missing,
+    Text,
+}
+
+/// The text of a file: UTF-8, UTF-16 with its mark, or else Latin-1.
+fn decoded(bytes: &[u8]) -> String {
+    let wide = |pair: fn([u8; 2]) -> u16| {
+        let units = bytes[2..].chunks_exact(2).map(|two| pair([two[0], two[1]]));
+        char::decode_utf16(units).map(|char| char.unwrap_or(char::REPLACEMENT_CHARACTER)).collect()
+    };
+    match bytes {
+        [0xff, 0xfe, ..] => wide(u16::from_le_bytes),
+        [0xfe, 0xff, ..] => wide(u16::from_be_bytes),
+        _ => match std::str::from_utf8(bytes) {
+            Ok(text) => text.trim_start_matches('\u{feff}').to_owned(),
+            Err(_) => bytes.iter().map(|&byte| char::from(byte)).collect(),
+        },
+    }
+}
+
+/// A line that holds something, with its number.
+#[derive(Clone, Copy)]
+struct Line<'a> {
+    number: usize,
+    text: &'a str,
+}
+
+fn lines(text: &str) -> Vec<Line<'_>> {
+    let mut found = Vec::new();
+    let parts = text.split('\n').flat_map(|part| {
+        // A carriage return alone ends a line too; before a newline it belongs to it.
+        part.strip_suffix('\r').unwrap_or(part).split('\r')
+    });
+    for (index, text) in parts.enumerate() {
+        let text = text.trim_matches(|char| char == ' ' || char == '\0');
+        let blank = text.trim().is_empty() || text.chars().all(|char| ";,\t ".contains(char));
+        if !(blank || text.starts_with(['#', '%'])) {
+            found.push(Line { number: index + 1, text });
+        }
+    }
+    found
+}
+
+/// How the cells of a line are told apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Separator {
+    Sign(char),
+    Blanks,
+}
+
+impl Separator {
+    /// The separator of the last rows, which are data in any file.
+    fn of(lines: &[Line]) -> Self {
+        /// So many rows decide.
+        const ROWS: usize = 20;
+        let last = &lines[lines.len().saturating_sub(ROWS)..];
+        let most = |sign: &dyn Fn(&str) -> bool| {
+            2 * last.iter().filter(|line| sign(line.text)).count() > last.len()
+        };
+        if let Some(sign) = [';', '\t'].into_iter().find(|&sign| most(&|text| text.contains(sign)))
+        {
+            return Separator::Sign(sign);
+        }
+        let blank = |text: &str| {
+            let cells: Vec<&str> = text.split_whitespace().collect();
+            cells.len() > 1 && cells.iter().all(|cell| matches!(read(cell, true), Cell::Number(_)))
+        };
+        if most(&|text| text.contains(',')) && !most(&blank) {
+            return Separator::Sign(',');
+        }
+        Separator::Blanks
+    }
+
+    fn cells(self, text: &str) -> Vec<&str> {
+        match self {
+            Separator::Sign(sign) => text.split(sign).map(unquoted).collect(),
+            Separator::Blanks => text.split_whitespace().map(unquoted).collect(),
+        }
+    }
+
+    fn comma_is_decimal(self) -> bool {
+        self != Separator::Sign(',')
+    }
+}
+
+fn unquoted(cell: &str) -> &str {
+    cell.trim().trim_matches('"').trim()
+}
+
+fn read(cell: &str, comma_is_decimal: bool) -> Cell {
+    if MISSING.contains(&cell.to_ascii_lowercase().as_str()) {
+        return Cell::Missing;
+    }
+    let plain = if comma_is_decimal && cell.contains(',') {
+        // With both signs the later one is the decimal sign, the other one groups digits.
+        if cell.rfind(',') > cell.rfind('.') {
+            cell.replace('.', "").replace(',', ".")
+        } else {
+            cell.replace(',', "")
+        }
+    } else {
+        cell.to_owned()
+    };
+    // Words such as "infinity" are no numbers that an instrument measured.
+    if plain.starts_with(|char: char| char.is_ascii_digit() || "+-.".contains(char)) {
+        return match plain.parse::<f64>() {
+            Ok(value) if value.is_finite() => Cell::Number(value),
+            Ok(_) => Cell::Missing,
+            Err(_) => Cell::Text,
+        };
+    }
+    Cell::Text
+}
+
+fn whole(problem: impl Into<String>) -> BadRecord {
+    BadRecord { line: 0, column: 0, problem: problem.into() }
+}
+
+/// Reads a file.
+///
+/// # Errors
+/// [`BadRecord`] with line and column of what cannot be understood.
+pub fn parse(bytes: &[u8], reading: &Reading) -> Result<Record, BadRecord> {
+    let text = decoded(bytes);
+    let lines = lines(&text);
+    if lines.is_empty() {
+        return Err(whole(
+            "the file holds no rows; expected a column of times and one of displacements",
+        ));
+    }
+    let separator = Separator::of(&lines);
+    let decimal = separator.comma_is_decimal();
+    let cells: Vec<Vec<&str>> = lines.iter().map(|line| separator.cells(line.text)).collect();
+    let kinds = |row: &Vec<&str>| row.iter().map(|cell| read(cell, decimal)).collect::<Vec<_>>();
+    let numeric = |row: &Vec<&str>| {
+        let kinds = kinds(row);
+        kinds.iter().any(|cell| matches!(cell, Cell::Number(_)))
+            && kinds.iter().filter(|cell| **cell == Cell::Text).count() * 2 < kinds.len()
+    };
+    let Some(first) = cells.iter().position(numeric) else {
+        let Line { number, .. } = lines[0];
+        return Err(BadRecord {
+            line: number,
+            column: 1,
+            problem: "no row of numbers follows".into(),
+        });
+    };
+    let last = cells.iter().rposition(numeric).unwrap_or(first);
+    let header = Header::of(&cells[..first]);
+    let width = cells[first].len();
+    let chosen = columns(reading, &header, &cells[first..=last], width, decimal)
+        .map_err(|problem| BadRecord { line: lines[first].number, column: 0, problem })?;
+    let seconds = match chosen.time.and_then(|time| header.unit(time).map(|unit| (time, unit))) {
+        None => 1.0,
+        Some((time, unit)) => header::seconds(&unit).ok_or_else(|| BadRecord {
+            line: lines[first.saturating_sub(1)].number,
+            column: time + 1,
+            problem: format!(
+                "times in {unit:?}; allowed are {}",
+                header::TIME_UNITS.map(|(name, _)| name).join(", ")
+            ),
+        })?,
+    };
+    let mut record = Record { unit: header.unit(chosen.displacement), ..Record::default() };
+    let mut rows: Vec<(f64, f64)> = Vec::new();
+    for index in first..=last {
+        let cell = |column: usize| -> Result<Cell, BadRecord> {
+            let (line, column_number) = (lines[index].number, column + 1);
+            let Some(text) = cells[index].get(column) else {
+                if index == last {
+                    return Ok(Cell::Missing);
+                }
+                let problem = format!("{} of at least {column_number} cells", cells[index].len());
+                return Err(BadRecord { line, column: column_number, problem });
+            };
+            match read(text, decimal) {
+                Cell::Text => {
+                    let problem =
+                        format!("{text:?} is not a number; a missing one is empty, - or NaN");
+                    Err(BadRecord { line, column: column_number, problem })
+                }
+                cell => Ok(cell),
+            }
+        };
+        let t = chosen.time.map_or(Ok(Cell::Number(0.0)), &cell)?;
+        let x = cell(chosen.displacement)?;
+        match (t, x) {
+            (Cell::Number(t), Cell::Number(x)) => rows.push((seconds * t, x)),
+            _ => record.missing += 1,
+        }
+    }
+    if chosen.time.is_some() {
+        rows.sort_by(|one, other| one.0.total_cmp(&other.0));
+        let before = rows.len();
+        rows.dedup();
+        record.repeated = before - rows.len();
+        record.t = Some(rows.iter().map(|row| row.0).collect());
+    }
+    record.x = rows.iter().map(|row| row.1).collect();
+    Ok(record)
+}
+
+/// Which columns are read, from 0.
+struct Chosen {
+    time: Option<usize>,
+    displacement: usize,
+}
+
+fn columns(
+    reading: &Reading,
+    header: &Header,
+    rows: &[Vec<&str>],
+    width: usize,
+    decimal: bool,
+) -> Result<Chosen, String> {
+    let place = |column: &Column| match column {
+        Column::Number(number) if (1..=width).contains(number) => Ok(number - 1),
+        Column::Number(number) => Err(format!("there is no column {number}; there are {width}")),
+        Column::Name(name) => header.named(name).ok_or_else(|| {
+            format!("there is no column {name:?}; there are {}", header.names().join(", "))
+        }),
+    };
+    let mut time = reading.time.as_ref().map(place).transpose()?;
+    let mut displacement = reading.displacement.as_ref().map(place).transpose()?;
+    time = time.or_else(|| header.time().filter(|&column| Some(column) != displacement));
+    displacement = displacement.or_else(|| header.displacement(time));
+    let free = |taken: Option<usize>| (0..width).find(|&column| Some(column) != taken);
+    if time.is_none() && reading.time.is_none() && (!reading.peaks || header.is_empty()) {
+        let first = if displacement == Some(0) { None } else { Some(0) };
+        time = first
+            .filter(|&column| width > 1 && !(reading.peaks && counts_rows(rows, column, decimal)));
+        let counted = reading.peaks && width > 1 && time.is_none();
+        if counted && displacement.is_none() {
+            displacement = Some(1);
+        }
+    }
+    let displacement = displacement.or_else(|| free(time));
+    match (time, displacement) {
+        (None, _) if !reading.peaks => {
+            Err("one column only; expected times and displacements, or --peaks".into())
+        }
+        (Some(time), Some(displacement)) if time == displacement => {
+            Err(format!("column {} cannot hold both times and displacements", time + 1))
+        }
+        (time, Some(displacement)) => Ok(Chosen { time, displacement }),
+        (_, None) => Err("one column only; expected times and displacements".into()),
+    }
+}
+
+/// Whether a column only numbers the rows, from 0 or 1.
+fn counts_rows(rows: &[Vec<&str>], column: usize, decimal: bool) -> bool {
+    let value = |row: &Vec<&str>| match row.get(column).map(|cell| read(cell, decimal)) {
+        Some(Cell::Number(value)) => Some(value),
+        _ => None,
+    };
+    let values: Vec<f64> = rows.iter().filter_map(value).collect();
+    matches!(values.first(), Some(0.0 | 1.0))
+        && values.len() == rows.len()
+        && values.windows(2).all(|two| two[1] - two[0] == 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<Record, BadRecord> {
+        parse(text.as_bytes(), &Reading::default())
+    }
+
+    fn pairs(record: &Record) -> Vec<(f64, f64)> {
+        record.t.iter().flatten().copied().zip(record.x.iter().copied()).collect()
+    }
+
+    #[test]
+    fn one_record_in_many_spellings() {
+        let expected = vec![(0.0, 1.5), (0.001, -2.25), (0.002, 3.0)];
+        for text in [
+            "time [s],displacement [mm]\n0,1.5\n0.001,-2.25\n0.002,3\n",
+            "Zeit [ms];Weg [mm]\r\n0,0;1,5\r\n1,0;-2,25\r\n2,0;3,0\r\n",
+            "% a comment\nTime\tDisplacement\nms\tmm\n0\t1.5\n1\t-2.25\n2\t3\n% end\n",
+            "0.000e0  1.5\n 1.0e-3 -2.25\n2e-3 3\n",
+            "n,T [degC],t [us],x [um]\n1,20,0,1.5\n2,20,1000,-2.25\n3,20,2000,3\n",
+            "0,0 1,5\n0,001 -2,25\n0,002 3,0\n",
+            "\"t (s)\",\"x (mm)\"\n\"0\",\"1.5\"\n\"0.001\",\"-2.25\"\n\"0.002\",\"3\"\n",
+            "rig 4; floor 2\n\nt/s;x/mm\n0;1.5\n0.001;-2.25\n0.001;-2.25\n0.0015;NaN\n0.0016;\n0.002;3",
+            "0;1.5\n0.001;-2.25\n0.002;3\n0.00",
+        ] {
+            assert_eq!(pairs(&read(text).unwrap()), expected, "{text}");
+        }
+        let latin = b"Zeit [\xb5s];Weg [\xb5m]\n0;1,5\n1000;-2,25\n2000;3\n";
+        let record = parse(latin, &Reading::default()).unwrap();
+        assert_eq!((pairs(&record), record.unit.as_deref()), (expected, Some("\u{b5}m")));
+    }
+
+    #[test]
+    fn missing_and_repeated_rows_are_counted() {
+        let record = read("t,x\n0,1\n1,-\n2,nan\n3,\n4,2\n4,2\n").unwrap();
+        assert_eq!((record.missing, record.repeated, record.x), (3, 1, vec![1.0, 2.0]));
+    }
+
+    #[test]
+    fn columns_can_be_named_or_numbered() {
+        let text = "a,b,c\n0,5,1\n1,6,2\n";
+        let choose = |time, displacement| {
+            let reading =
+                Reading { time: Some(time), displacement: Some(displacement), peaks: false };
+            parse(text.as_bytes(), &reading)
+        };
+        let record = choose(Column::Number(1), Column::Number(3)).unwrap();
+        assert_eq!(pairs(&record), [(0.0, 1.0), (1.0, 2.0)]);
+        let record = choose(Column::Name("a".into()), Column::Name("b".into())).unwrap();
+        assert_eq!(pairs(&record), [(0.0, 5.0), (1.0, 6.0)]);
+        let refused = choose(Column::Number(1), Column::Number(4)).unwrap_err().to_string();
+        assert_eq!(refused, "line 2: there is no column 4; there are 3");
+    }
+
+    #[test]
+    fn peaks_come_with_and_without_times() {
+        let reading = Reading { peaks: true, ..Reading::default() };
+        for (text, times) in [
+            ("no,peak time [s],peak [mm]\n0,0.5,8\n1,0.75,-6\n", Some(vec![0.5, 0.75])),
+            ("no,peak [mm]\n0,8\n1,-6\n", None),
+            ("peak\n8\n-6\n", None),
+            ("8\n-6\n", None),
+            ("1 8\n2 -6\n", None),
+            ("0.5 8\n0.75 -6\n", Some(vec![0.5, 0.75])),
+        ] {
+            let record = parse(text.as_bytes(), &reading).unwrap();
+            assert_eq!((record.t, record.x), (times, vec![8.0, -6.0]), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_number_is_named_by_line_and_column() {
+        for (text, problem) in [
+            ("t,x\n0,1\n1,abc\n2,3\n", "line 3, column 2: \"abc\" is not a number"),
+            ("t,x\n0,1\n1\n2,3\n", "line 3, column 2: 1 of at least 2 cells"),
+            ("t [frames],x\n0,1\n1,2\n", "line 1, column 1: times in \"frames\"; allowed are s, "),
+            ("1\n2\n", "line 1: one column only"),
+            ("", "the file holds no rows"),
+            ("hello\nworld\n", "line 1, column 1: no row of numbers"),
+        ] {
+            let refused = read(text).unwrap_err().to_string();
+            assert!(refused.starts_with(problem), "{text:?}: {refused}");
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! What the residuals say: whether they are noise, and of which kind.
+
+/// What the residuals look like.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Whiteness {
+    /// Correlation of neighbouring residuals.
+    pub correlation: f64,
+    /// Autocorrelation of the noise model at lags 1, 2, ..; empty where the residuals are white.
+    pub autocorrelation: Vec<f64>,
+    /// Whether they cannot be told from independent noise.
+    pub white: bool,
+    /// Whether they swing with the motion: then the model leaves something out.
+    pub systematic: bool,
+}
+
+/// Deviation of a normal variable that chance exceeds once in a thousand times.
+const RARE: f64 = 3.09;
+
+/// Highest order of the autoregressive noise model.
+const ORDERS: usize = 10;
+
+/// The longest memory of filtered noise, in periods of the motion.
+const LONG: f64 = 0.25;
+
+/// Judges residuals, in the order of time, of a motion with so many samples a period; `absorbed` is the part of the
+/// noise that the fit has taken up, and with it the same part of what neighbours have in common.
+#[must_use]
+pub fn whiteness(residuals: &[f64], samples_per_period: f64, absorbed: f64) -> Whiteness {
+    /// Fewer residuals say nothing.
+    const FEWEST: usize = 24;
+    let n = residuals.len();
+    if n < FEWEST {
+        let correlation = if n > 2 { autocorrelations(residuals, &[1])[0] } else { 0.0 };
+        return Whiteness { correlation, white: true, ..Whiteness::default() };
+    }
+    let short: Vec<usize> = (1..=ORDERS.min(n / 5)).collect();
+    let rho = autocorrelations(residuals, &short);
+    let squares: f64 = rho.iter().map(|rho| rho * rho).sum();
+    let limit = chi_squared(count(short.len()), RARE);
+    let white = count(n) * squares <= limit && rho[0].abs() * count(n).sqrt() <= RARE + 0.3;
+    let white = white && !is_patchy(residuals, samples_per_period);
+    let restored: Vec<f64> = rho.iter().map(|rho| rho + absorbed * (1.0 - rho)).collect();
+    let autocorrelation = if white { Vec::new() } else { autoregressive(&restored, n) };
+    // A memory as long as a good part of a swing is no filter's: a drift, or what the model leaves out.
+    let memory: f64 = autocorrelation.iter().sum();
+    let systematic = memory > LONG * samples_per_period
+        || swings(residuals, &autocorrelation, samples_per_period);
+    Whiteness { correlation: rho[0], autocorrelation, white, systematic }
+}
+
+/// Whether some half swing is fitted worse than chance has it: a wrong last half swing is lost in the average.
+fn is_patchy(residuals: &[f64], samples_per_period: f64) -> bool {
+    /// Deviations that chance does not reach in thousands of half swings.
+    const FAR: f64 = 5.0;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "capped by n")]
+    let width = ((0.5 * samples_per_period).min(count(residuals.len())) as usize).max(8);
+    let square = |e: &f64| e * e;
+    let variance = residuals.iter().map(square).sum::<f64>() / count(residuals.len());
+    residuals.chunks_exact(width).any(|part| {
+        let mean = part.iter().sum::<f64>() / (count(width) * variance).sqrt();
+        let power = part.iter().map(square).sum::<f64>() / variance - count(width);
+        mean.abs() > FAR || power > FAR * (2.0 * count(width)).sqrt()
+    })
+}
+
+#[expect(clippy::cast_precision_loss, reason = "counts of samples")]
+fn count(count: usize) -> f64 {
+    count as f64
+}
+
+/// The autocorrelation of residuals at these lags.
+#[must_use]
+pub fn autocorrelations(residuals: &[f64], lags: &[usize]) -> Vec<f64> {
+    let power: f64 = residuals.iter().map(|e| e * e).sum();
+    let at = |lag: usize| -> f64 {
+        let shifted = residuals.iter().skip(lag);
+        residuals.iter().zip(shifted).map(|(one, other)| one * other).sum::<f64>()
+    };
+    lags.iter().map(|&lag| if power > 0.0 { at(lag) / power } else { 0.0 }).collect()
+}
+
+/// The value that a chi-squared variable exceeds as rarely as a normal one exceeds `z` (Wilson and Hilferty).
+fn chi_squared(freedom: f64, z: f64) -> f64 {
+    let part = 2.0 / (9.0 * freedom);
+    freedom * (1.0 - part + z * part.sqrt()).powi(3)
+}
+
+/// The autocorrelation of the autoregressive noise that fits best: Levinson and Durbin's recursion, with the
+/// order that Bayes's criterion takes. Estimates at long lags would be mostly noise; the model's decay.
+fn autoregressive(rho: &[f64], n: usize) -> Vec<f64> {
+    /// Lags at which less is left than this are none.
+    const NOTHING: f64 = 0.01;
+    let mut best = (f64::INFINITY, Vec::new());
+    let (mut coefficients, mut power): (Vec<f64>, f64) = (Vec::new(), 1.0);
+    for order in 1..=rho.len() {
+        let told: f64 = coefficients.iter().enumerate().map(|(i, a)| a * rho[order - 2 - i]).sum();
+        let reflection = ((rho[order - 1] - told) / power).clamp(-0.999, 0.999);
+        let mut next = coefficients.clone();
+        for (i, a) in next.iter_mut().enumerate() {
+            *a -= reflection * coefficients[order - 2 - i];
+        }
+        next.push(reflection);
+        coefficients = next;
+        power *= 1.0 - reflection * reflection;
+        let criterion = count(n) * power.ln() + count(order) * count(n).ln();
+        if criterion < best.0 {
+            best = (criterion, coefficients.clone());
+        }
+    }
+    let coefficients = best.1;
+    let mut all = rho[..coefficients.len()].to_vec();
+    while all.len() < n / 4
+        && all.iter().rev().take(coefficients.len()).any(|rho| rho.abs() > NOTHING)
+    {
+        let recent = all.iter().rev().zip(&coefficients);
+        all.push(recent.map(|(rho, a)| rho * a).sum());
+    }
+    all
+}
+
+/// Whether correlation comes back at lags of a sixth of a period to two periods, where filtered noise has
+/// forgotten itself.
+fn swings(residuals: &[f64], short: &[f64], samples_per_period: f64) -> bool {
+    /// So many lags are looked at, spread over the range.
+    const LAGS: usize = 150;
+    /// How far beyond chance.
+    const FAR: f64 = 5.0;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "capped by n")]
+    let lag =
+        |periods: f64| ((periods * samples_per_period).min(count(residuals.len())) as usize).max(1);
+    let (from, to) = (lag(1.0 / 6.0).max(ORDERS), lag(2.0).min(residuals.len() / 3));
+    if to <= from + 4 {
+        return false;
+    }
+    let step = (to - from).div_ceil(LAGS);
+    let lags: Vec<usize> = (from..to).step_by(step).collect();
+    let rho = autocorrelations(residuals, &lags);
+    // Bartlett: beyond its memory, the estimates of correlated noise scatter by this much more.
+    let spread = 1.0 + 2.0 * short.iter().map(|rho| rho * rho).sum::<f64>();
+    let sum: f64 = rho.iter().map(|rho| count(residuals.len()) * rho * rho).sum();
+    let independent = (count(lags.len()) * count(step) / spread).clamp(1.0, count(lags.len()));
+    (sum / (spread * count(lags.len())) - 1.0) * (independent / 2.0).sqrt() > FAR
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fit::chance::Chance;
+
+    fn noise(n: usize, rho: f64) -> Vec<f64> {
+        let mut chance = Chance::new(7);
+        let mut last = 0.0;
+        let next = |_| {
+            last = rho * last + (1.0 - rho * rho).sqrt() * chance.normal();
+            last
+        };
+        (0..n).map(next).collect()
+    }
+
+    #[test]
+    fn independent_noise_is_white_and_filtered_noise_is_known_by_its_memory() {
+        let found = whiteness(&noise(4000, 0.0), 80.0, 0.0);
+        assert!(found.white && !found.systematic, "{found:?}");
+        let found = whiteness(&noise(4000, 0.9), 80.0, 0.0);
+        assert!(!found.white && !found.systematic, "{found:?}");
+        for (lag, rho) in [(1, 0.9_f64), (2, 0.81), (10, 0.349)] {
+            assert!((found.autocorrelation[lag - 1] - rho).abs() < 0.05, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn a_swing_that_is_left_over_is_found_below_the_noise() {
+        let mut residuals = noise(4000, 0.0);
+        for (index, e) in residuals.iter_mut().enumerate() {
+            *e += 0.5 * (count(index) * std::f64::consts::TAU / 80.0).sin();
+        }
+        let found = whiteness(&residuals, 80.0, 0.0);
+        assert!(!found.white && found.systematic, "{found:?}");
+    }
+}

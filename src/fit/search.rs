@@ -1,0 +1,188 @@
+//! From first guesses to the best minimum: several starts, and horizons that grow.
+
+use super::levenberg_marquardt::{Effort, NoFit, Optimum, Task, interrupted};
+use super::loss::Loss;
+use super::observation::{D2, D3, Data, LAST, OMEGA0, R, Start, Unknowns};
+use super::problem::Problem;
+use super::valley::Valley;
+
+/// A way in which a record may begin, with guesses of the unknowns.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Beginning {
+    /// How the motion begins.
+    pub start: Start,
+    /// Whether the record leaves no doubt of that.
+    pub certain: bool,
+    /// Guesses of the unknowns.
+    pub guesses: Vec<Unknowns>,
+}
+
+/// Everything that was found.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// How the motion begins.
+    pub start: Start,
+    /// The minima by their cost; the first is the answer.
+    pub valleys: Vec<Valley>,
+}
+
+/// The parts of a record through which a horizon grows.
+const HORIZONS: [f64; 4] = [0.2, 0.35, 0.6, 0.85];
+
+/// After so many motions with derivatives no further way is tried: what is not explained by then is no motion of
+/// this oscillator.
+const ENOUGH: u64 = 250;
+
+/// Fewest half swings of a horizon.
+const FEWEST: usize = 4;
+
+impl Problem<'_> {
+    /// Follows the guesses down, those of each way of beginning in the order in which they resemble the record,
+    /// until one explains it; else the best of all.
+    ///
+    /// # Errors
+    /// [`NoFit`] where no guess leads anywhere.
+    pub fn search(&self, guesses: &[Beginning], effort: &mut Effort) -> Result<Found, NoFit> {
+        let mut best: Option<(Start, Optimum)> = None;
+        let mut failure = NoFit::Lost;
+        let mut starts = self.ranked(guesses, effort)?;
+        for (round, way) in WAYS.into_iter().enumerate() {
+            let mut costs = Vec::new();
+            for &(start, guess, certain) in &starts {
+                let observation = self.observation(start);
+                let mut cost = f64::INFINITY;
+                let mut explained = false;
+                match interrupted(way(self, &self.task(&observation), guess, effort))? {
+                    Ok(found) => {
+                        cost = found.cost;
+                        explained = self.explains(&found);
+                        if best.as_ref().is_none_or(|(_, best)| self.is_better(&found, start, best))
+                        {
+                            best = Some((start, found));
+                        }
+                    }
+                    Err(other) => failure = other,
+                }
+                costs.push(cost);
+                if explained && (certain || round > 0) {
+                    break;
+                }
+            }
+            let tired = effort.with_derivatives > ENOUGH;
+            if best.as_ref().is_some_and(|(_, best)| tired || self.explains(best)) {
+                break;
+            }
+            // The beginning that came closer goes first the next time.
+            let mut ranked: Vec<_> = costs.into_iter().zip(starts).collect();
+            ranked.sort_by(|one, other| one.0.total_cmp(&other.0));
+            starts = ranked.into_iter().map(|(_, start)| start).collect();
+            starts.truncate(1);
+        }
+        let (start, optimum) = best.ok_or(failure)?;
+        let observation = self.observation(start);
+        let valleys = self.valleys(&self.task(&observation), optimum, effort)?;
+        Ok(Found { start, valleys })
+    }
+
+    /// Fits every minimum anew, with the residuals that count now.
+    ///
+    /// # Errors
+    /// [`NoFit`] if somebody interrupts, or the motion is lost.
+    pub fn polish(&self, found: &mut Found, effort: &mut Effort) -> Result<(), NoFit> {
+        let observation = self.observation(found.start);
+        let task = self.task(&observation);
+        for valley in &mut found.valleys {
+            valley.optimum = task.solve(valley.optimum.p, effort)?;
+            valley.half_swings = valley.optimum.seen.turns.len();
+        }
+        found.valleys.sort_by(|one, other| one.optimum.cost.total_cmp(&other.optimum.cost));
+        found.valleys.dedup_by_key(|valley| valley.half_swings);
+        Ok(())
+    }
+
+    /// Whether a minimum is better than the best one so far. A release that explains no more than a motion under
+    /// way is none: nothing was seen of the hold.
+    fn is_better(&self, found: &Optimum, start: Start, best: &Optimum) -> bool {
+        #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
+        let unit = best.cost / self.data.residuals().max(1) as f64;
+        let needed = if start == Start::Release { 4.0 * unit } else { -4.0 * unit };
+        let needed = if self.data.has_peaks() { 0.0 } else { needed };
+        found.cost < best.cost - needed
+    }
+
+    /// For each way of beginning the guess that comes closest to the record as it stands.
+    fn ranked(
+        &self,
+        guesses: &[Beginning],
+        effort: &mut Effort,
+    ) -> Result<Vec<(Start, Unknowns, bool)>, NoFit> {
+        let mut starts = Vec::new();
+        for beginning in guesses {
+            let observation = self.observation(beginning.start);
+            let task = self.task(&observation);
+            let mut best = (f64::INFINITY, None);
+            for &guess in &beginning.guesses {
+                if let Ok(seen) = interrupted(task.look(&guess, false, effort))? {
+                    let cost = task.cost(&seen);
+                    if cost < best.0 {
+                        best = (cost, Some(guess));
+                    }
+                }
+            }
+            starts.extend(best.1.map(|guess| (beginning.start, guess, beginning.certain)));
+        }
+        Ok(starts)
+    }
+}
+
+/// A way from a guess to a minimum.
+type Descent = fn(&Problem, &Task, Unknowns, &mut Effort) -> Result<Optimum, NoFit>;
+
+/// The ways in the order in which they are tried.
+const WAYS: [Descent; 4] = [
+    |_, task, guess, effort| task.solve(guess, effort),
+    growing,
+    |problem, task, guess, effort| {
+        growing(problem, task, without(guess, &[D2, D3], problem), effort)
+    },
+    |problem, task, guess, effort| growing(problem, task, without(guess, &[R], problem), effort),
+];
+
+fn without(mut guess: Unknowns, places: &[usize], problem: &Problem) -> Unknowns {
+    for &place in places {
+        if problem.free[place] {
+            guess[place] = 0.0;
+        }
+    }
+    guess
+}
+
+/// Descends on a growing part of the record, with a loss that forgives what is still far off.
+fn growing(
+    problem: &Problem,
+    task: &Task,
+    guess: Unknowns,
+    effort: &mut Effort,
+) -> Result<Optimum, NoFit> {
+    let mut p = guess;
+    let Data::Samples { t, .. } = problem.data else { return task.solve(p, effort) };
+    let (first, last) = (t[0], t[t.len() - 1]);
+    let half_swing = std::f64::consts::PI / p[OMEGA0];
+    #[expect(clippy::cast_precision_loss, reason = "a few half swings")]
+    let shortest = FEWEST as f64 * half_swing;
+    let begin = match task.observation.start {
+        Start::Release => p[LAST].max(first),
+        Start::Moving => first,
+    };
+    let loss = Loss::SoftL1 { scale: 3.0 * problem.noise.max(f64::MIN_POSITIVE) };
+    for part in HORIZONS {
+        let until = begin + (part * (last - begin)).max(shortest);
+        let horizon = t.partition_point(|&t| t <= until);
+        if horizon >= t.len() {
+            break;
+        }
+        p = Task { loss, horizon, ..*task }.solve_roughly(p, effort)?.p;
+    }
+    let rough = Task { loss, ..*task }.solve_roughly(p, effort)?;
+    task.solve(rough.p, effort)
+}

@@ -1,0 +1,415 @@
+//! Fits of records whose truth is known: made by an independent simulator, or by the program's own motions with
+//! noise of fixed seeds.
+
+mod program;
+
+use std::fs;
+
+use hopfscope::fit::chance::Chance;
+use hopfscope::fit::names::{Choice, NAMES, named};
+use hopfscope::fit::observation::{Data, Observation, Start, Unknowns};
+use hopfscope::fit::{Estimate, Question, Record, estimate};
+use program::{json, run};
+use rayon::prelude::*;
+use serde_json::Value;
+
+const NUMBERS: [&str; 6] = ["omega0", "offset", "D", "D2", "D3", "r"];
+
+fn path(name: &str) -> String {
+    format!("{}/tests/data/fit/{name}.csv", env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The records with their truth: parameters, the standard errors that the Fisher information allows (for the rows
+/// kept here), and what the motion does.
+fn truth() -> serde_json::Map<String, Value> {
+    let text =
+        fs::read_to_string(format!("{}/tests/data/fit/truth.json", env!("CARGO_MANIFEST_DIR")));
+    serde_json::from_str(&text.unwrap()).unwrap()
+}
+
+fn fitted(name: &str) -> Value {
+    let peaks = if name.starts_with("peaks") { " --peaks" } else { "" };
+    json(&format!("fit {}{peaks} --draws 40", path(name)))
+}
+
+/// The 95 % interval, open where the data set no bound.
+fn interval(number: &Value) -> (f64, f64) {
+    (
+        number["lower"].as_f64().unwrap_or(f64::NEG_INFINITY),
+        number["upper"].as_f64().unwrap_or(f64::INFINITY),
+    )
+}
+
+#[test]
+fn records_of_an_independent_simulator_are_understood_from_the_file_alone() {
+    let (mut inside, mut asked) = (0, 0);
+    for (name, truth) in truth() {
+        let found = fitted(&name);
+        for number in NUMBERS {
+            let (told, true_value) =
+                (&found["parameters"][number], truth["parameters"][number].as_f64().unwrap());
+            let (lower, upper) = interval(told);
+            asked += 1;
+            inside += usize::from((lower..=upper).contains(&true_value));
+            let error = told["standard_error"].as_f64().unwrap();
+            let off = (told["value"].as_f64().unwrap() - true_value) / error;
+            assert!(off.abs() < 4.0, "{name}: {number} is {off} standard errors off");
+            let fisher = truth["standard_error"][number].as_f64().unwrap();
+            assert!(
+                error <= 1.3 * fisher,
+                "{name}: the error of {number} is {error}, not {fisher}"
+            );
+        }
+        assert_eq!(found["rests"], truth["rests"], "{name}");
+        assert_eq!(found["half_swings"], truth["half_swings"], "{name}");
+        assert_eq!(found["residuals"]["white"], true, "{name}");
+        assert_eq!(found["residuals"]["systematic"], false, "{name}");
+        let separable = found["separable"].as_array().unwrap();
+        assert_eq!(separable.is_empty(), name != "d_or_r", "{name}: {separable:?}");
+    }
+    // Of 54 intervals of 95 %, 2.7 miss on average; eight or more in one of 200 worlds.
+    assert!(inside >= asked - 7, "{inside} of {asked} intervals hold the truth");
+}
+
+#[test]
+fn what_cannot_be_separated_is_told_as_the_combination_that_is_known() {
+    let found = fitted("d_or_r");
+    let combination = &found["separable"][0];
+    let weight = |name: &str| combination["combination"][name].as_f64().unwrap();
+    // 2/(pi A) and (3/8) A^2 at the amplitudes of the record, 8.7 .. 9.7.
+    assert_eq!(weight("D"), 1.0);
+    assert!((weight("r") - 0.069).abs() < 0.002 && (weight("D3") - 32.0).abs() < 2.0);
+    // The truth: 0.004 + 0.069 x 0.03.
+    let (value, error) =
+        (combination["value"].as_f64().unwrap(), combination["standard_error"].as_f64().unwrap());
+    assert!((value - 0.006_06).abs() < 3.0 * error && error < 3e-4, "{value} +- {error}");
+    // Known together to 3 %, alone not within their own size.
+    assert!(
+        found["parameters"]["D"]["standard_error"].as_f64().unwrap() > 10.0 * value.abs() / 2.0
+    );
+}
+
+#[test]
+fn a_margin_seen_in_the_record_is_found_and_one_beyond_it_is_called_extrapolated() {
+    for (name, extrapolated) in [("near_fold", false), ("negative_captured", true)] {
+        let line = format!("fit {}", path(name));
+        let margin = &json(&line)["margin"];
+        let (lower, upper) = interval(&margin["displacement"]);
+        let true_margin = truth()[name]["margin"].as_f64().unwrap();
+        assert!((lower..=upper).contains(&true_margin), "{name}: {lower} .. {upper}");
+        assert!(upper - lower < 0.15 * true_margin, "{name}: {lower} .. {upper}");
+        assert_eq!(margin["extrapolated"], extrapolated, "{name}");
+        assert_eq!((&margin["displacement"]["none"], &margin["failed"]), (&0.0.into(), &0.into()));
+    }
+}
+
+/// A record of the program's own motion with noise.
+struct Simulated {
+    p: Unknowns,
+    start: Start,
+    seconds: f64,
+    samples: u32,
+    noise: f64,
+    /// Correlation from one sample to the next.
+    memory: f64,
+}
+
+impl Simulated {
+    fn times(&self) -> Vec<f64> {
+        (0..self.samples).map(|i| self.seconds * f64::from(i) / f64::from(self.samples)).collect()
+    }
+
+    fn record(&self, seed: u64) -> Record {
+        let t = self.times();
+        let data = Data::Samples { x: vec![0.0; t.len()], t: t.clone() };
+        let observation = Observation { data, start: self.start, linear: false, reach: 1e9 };
+        let motion = observation.compare(&self.p, false).unwrap().residuals;
+        let mut chance = Chance::new(seed);
+        let mut error = chance.normal();
+        let fresh = (1.0 - self.memory * self.memory).sqrt();
+        let noisy = |seen: &hopfscope::fit::observation::Residual| {
+            error = self.memory * error + fresh * chance.normal();
+            self.noise * error - seen.value
+        };
+        Record { t: Some(t), x: motion.iter().map(noisy).collect(), ..Record::default() }
+    }
+
+    fn fitted(&self, seed: u64) -> Estimate {
+        estimate(&self.record(seed), &Question::default(), &|| false).unwrap()
+    }
+}
+
+/// How many of the estimates hold the truth of each number in their intervals of 95 %.
+fn covered(estimates: &[Estimate], p: &Unknowns) -> Vec<usize> {
+    let holds = |estimate: &Estimate, place: usize| {
+        let interval = estimate.intervals[place];
+        interval.lower.is_none_or(|lower| lower <= p[place])
+            && interval.upper.is_none_or(|upper| p[place] <= upper)
+    };
+    let count = |place: usize| estimates.iter().filter(|estimate| holds(estimate, place)).count();
+    NAMES.iter().map(|row| count(row.place)).collect()
+}
+
+/// omega0, offset, D, D2, D3, r, q0, t0: fourteen half swings and a rest.
+const DECAY: Unknowns = [10.0, 0.5, 0.02, 0.005, 0.0005, 0.15, 6.0, 0.3];
+
+#[test]
+fn intervals_of_95_percent_hold_the_truth_in_93_to_97_of_100_noisy_decays() {
+    let decay = Simulated {
+        p: DECAY,
+        start: Start::Release,
+        seconds: 6.0,
+        samples: 200,
+        noise: 0.05,
+        memory: 0.0,
+    };
+    let estimates: Vec<Estimate> =
+        (1..=200_u64).into_par_iter().map(|seed| decay.fitted(seed)).collect();
+    let covered = covered(&estimates, &DECAY);
+    assert!(covered.iter().all(|count| (186..=194).contains(count)), "of 200: {covered:?}");
+}
+
+#[test]
+fn correlated_noise_is_told_and_paid_for() {
+    let decay = Simulated {
+        p: DECAY,
+        start: Start::Release,
+        seconds: 6.0,
+        samples: 400,
+        noise: 0.05,
+        memory: 0.8,
+    };
+    let estimates: Vec<Estimate> =
+        (1..=16_u64).into_par_iter().map(|seed| decay.fitted(seed)).collect();
+    for estimate in &estimates {
+        assert!(!estimate.whiteness.white && !estimate.whiteness.systematic);
+        assert!(
+            (estimate.whiteness.correlation - 0.8).abs() < 0.2,
+            "{:?}",
+            estimate.whiteness.correlation
+        );
+        // (1 + rho)/(1 - rho) = 9 in variance for unknowns that change slowly.
+        let inflation = estimate.covariance.inflation(named("r").unwrap().place);
+        assert!((4.0..13.0).contains(&inflation), "{inflation}");
+    }
+    let covered = covered(&estimates, &DECAY);
+    assert!(covered.iter().all(|count| *count >= 13), "of 16: {covered:?}");
+}
+
+#[test]
+fn impossible_samples_are_left_out_and_the_rest_is_fitted_as_if_they_had_not_been() {
+    let decay = Simulated {
+        p: DECAY,
+        start: Start::Release,
+        seconds: 6.0,
+        samples: 1200,
+        noise: 0.05,
+        memory: 0.0,
+    };
+    let clean = decay.record(5);
+    let mut dirty = clean.clone();
+    let mut chance = Chance::new(77);
+    let mut spoiled = 0;
+    for x in &mut dirty.x {
+        if chance.even() < 0.02 {
+            *x += 8.0 * (chance.even() - 0.5).signum() * (0.3 + chance.even());
+            spoiled += 1;
+        }
+    }
+    let question = Question::default();
+    let clean = estimate(&clean, &question, &|| false).unwrap();
+    let dirty = estimate(&dirty, &question, &|| false).unwrap();
+    assert_eq!((clean.outliers(), dirty.outliers()), (0, spoiled));
+    for row in &NAMES {
+        let (one, other) = (clean.p[row.place], dirty.p[row.place]);
+        let error = clean.covariance.error(row.place);
+        assert!((one - other).abs() < 0.5 * error, "{}: {one} {other} +- {error}", row.name);
+        assert!(dirty.covariance.error(row.place) < 1.1 * error, "{}", row.name);
+    }
+}
+
+#[test]
+fn a_rest_that_two_numbers_of_half_swings_explain_is_told_with_both() {
+    // Weak friction and much noise: the last turning point may lie on either side of the rim.
+    let unclear = Simulated {
+        p: [14.0, 0.1, 0.002, 0.0, 0.01, 0.02, 5.0, 0.4],
+        start: Start::Moving,
+        seconds: 20.0,
+        samples: 1000,
+        noise: 0.06,
+        memory: 0.0,
+    };
+    let found = unclear.fitted(2);
+    let rivals: Vec<usize> = found.contenders().map(|rival| rival.half_swings).collect();
+    assert!(rivals.len() >= 2, "{:?}", found.rivals);
+    let r = named("r").unwrap().place;
+    for rival in found.contenders() {
+        let interval = found.intervals[r];
+        assert!(interval.lower.unwrap() <= rival.p[r] && rival.p[r] <= interval.upper.unwrap());
+    }
+}
+
+#[test]
+fn a_drift_that_the_model_does_not_know_is_told() {
+    let decay = Simulated {
+        p: DECAY,
+        start: Start::Release,
+        seconds: 6.0,
+        samples: 600,
+        noise: 0.02,
+        memory: 0.0,
+    };
+    let mut record = decay.record(4);
+    let times = decay.times();
+    record.x.iter_mut().zip(times).for_each(|(x, t)| *x += 0.1 * t);
+    let found = estimate(&record, &Question::default(), &|| false).unwrap();
+    assert!(
+        found.whiteness.systematic && !found.whiteness.white,
+        "{:?}",
+        found.whiteness.correlation
+    );
+}
+
+#[test]
+fn ten_thousand_samples_take_at_most_forty_motions_with_derivatives() {
+    // A weakly damped oscillation read by a converter with steps of 0.005.
+    let ringing = Simulated {
+        p: [31.4, 0.0, 0.0008, 0.0, 2e-5, 0.001, 6.0, 0.5],
+        start: Start::Moving,
+        seconds: 30.0,
+        samples: 10_000,
+        noise: 0.006,
+        memory: 0.0,
+    };
+    let mut record = ringing.record(3);
+    record.x.iter_mut().for_each(|x| *x = (*x / 0.005).round() * 0.005);
+    let found = estimate(&record, &Question::default(), &|| false).unwrap();
+    assert!(found.motions.0 <= 40, "{:?}", found.motions);
+    assert_eq!(found.half_swings, 300);
+    for row in &NAMES {
+        let off = (found.p[row.place] - ringing.p[row.place]) / found.covariance.error(row.place);
+        assert!(off.abs() < 3.5, "{}: {off}", row.name);
+    }
+    let decay = Simulated {
+        p: DECAY,
+        start: Start::Release,
+        seconds: 6.0,
+        samples: 10_000,
+        noise: 0.05,
+        memory: 0.0,
+    };
+    let found = decay.fitted(11);
+    assert!(found.motions.0 <= 40, "{:?}", found.motions);
+}
+
+#[test]
+fn numbers_that_are_held_stay_and_only_those_asked_for_are_told() {
+    let file = path("coulomb_rest");
+    let found = json(&format!("fit {file} --free D,r --draws 40"));
+    let told: Vec<&String> = found["parameters"].as_object().unwrap().keys().collect();
+    assert_eq!(told, ["D", "r"]);
+    assert_eq!(found["held"], serde_json::json!({"D2": 0.0, "D3": 0.0}));
+    let both = json(&format!("fit {file} --draws 40"));
+    let error = |document: &Value| document["parameters"]["r"]["standard_error"].as_f64().unwrap();
+    // Fewer unknowns, smaller errors: 1.33e-4 against 2.92e-4 for all rows of this record.
+    assert!(error(&found) < 0.6 * error(&both));
+    let held = json(&format!("fit {file} --set r=0.15 --set D3=0 --draws 40"));
+    assert_eq!(held["held"], serde_json::json!({"D3": 0.0, "r": 0.15}));
+    assert!(held["parameters"]["r"].is_null());
+}
+
+#[test]
+fn with_a_mass_forces_are_told_in_newtons() {
+    let found = json(&format!("fit {} --mass 2kg --draws 40", path("coulomb_rest")));
+    let number = |name: &str| found["physical"]["numbers"][name]["value"].as_f64().unwrap();
+    // c = m omega0^2, R = c r with r = 0.15 mm, d1 = 2 D m omega0.
+    let stiffness = 2.0 * 31.4_f64 * 31.4;
+    assert!((number("c") / stiffness - 1.0).abs() < 1e-3);
+    assert!((number("R") / (stiffness * 0.15e-3) - 1.0).abs() < 0.02);
+    assert!((number("d1") / (2.0 * 0.01 * 2.0 * 31.4) - 1.0).abs() < 0.06);
+    let same = json(&format!("fit {} --stiffness 1971.92N/m --draws 40", path("coulomb_rest")));
+    let mass = same["physical"]["numbers"]["m"]["value"].as_f64().unwrap();
+    assert!((mass - 2.0).abs() < 2e-3, "{mass}");
+}
+
+#[test]
+fn peaks_without_times_tell_all_but_the_frequency() {
+    let text = fs::read_to_string(path("peaks_times")).unwrap();
+    let rows = text.lines().map(|line| line.rsplit(',').next().unwrap());
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("peaks.csv");
+    fs::write(&file, rows.collect::<Vec<_>>().join("\n")).unwrap();
+    let found = json(&format!("fit {} --peaks --draws 40", file.display()));
+    let told: Vec<&String> = found["parameters"].as_object().unwrap().keys().collect();
+    assert_eq!(told, ["D", "D2", "D3", "offset", "r"]);
+    let truth = &truth()["peaks_times"]["parameters"];
+    for number in told {
+        let (lower, upper) = interval(&found["parameters"][number]);
+        assert!((lower..=upper).contains(&truth[number].as_f64().unwrap()), "{number}");
+    }
+}
+
+#[test]
+fn bad_files_and_options_get_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| {
+        let file = folder.path().join(name);
+        fs::write(&file, text).unwrap();
+        file.display().to_string()
+    };
+    let flat: Vec<String> =
+        (0..200).map(|i| format!("{i};{}\n", f64::from(i % 7) * 0.01)).collect();
+    let flat = flat.concat();
+    let good = path("coulomb_rest");
+    let [word, short, noise] = [
+        ("word", "t;x\n0;1\n1;abc\n2;3\n"),
+        ("short", "t;x\n0;1\n1;2\n2;3\n"),
+        ("noise", flat.as_str()),
+    ]
+    .map(|(name, text)| write(name, text));
+    let cases: [(Vec<&str>, i32, &str); 8] = [
+        (vec![&word], 2, "line 3, column 2: \"abc\" is not a number"),
+        (vec![&short], 2, "3 measured numbers cannot tell 8 unknowns"),
+        (vec![&noise], 1, ""),
+        (vec!["/no/such/file.csv"], 2, "No such file"),
+        (
+            vec![&good, "--free", "D,q"],
+            2,
+            "there is no \"q\"; there are omega0, offset, D, D2, D3, r",
+        ),
+        (vec![&good, "--set", "r=-1"], 2, "r=-1 is outside its range; allowed: 0 or more"),
+        (vec![&good, "--free", "D", "--set", "D=0"], 2, "D is both --free and --set"),
+        (vec![&good, "--columns", "t=1,x=7"], 2, "there is no column 7; there are 2"),
+    ];
+    for (arguments, code, message) in cases {
+        let mut words = vec!["fit"];
+        words.extend(arguments);
+        let ran = run(&words);
+        assert_eq!((ran.code, ran.err.lines().count()), (code, 1), "{words:?}: {}", ran.err);
+        assert!(ran.err.contains(message), "{words:?}: {}", ran.err);
+        assert_eq!(ran.out, "");
+    }
+}
+
+#[test]
+fn a_fit_is_the_same_in_any_unit() {
+    // The scaling symmetry: D2 per length, D3 per length squared.
+    let decay = Simulated {
+        p: DECAY,
+        start: Start::Release,
+        seconds: 6.0,
+        samples: 300,
+        noise: 0.05,
+        memory: 0.0,
+    };
+    let record = decay.record(9);
+    let larger = Record { x: record.x.iter().map(|x| 1000.0 * x).collect(), ..record.clone() };
+    let question = Question { choice: Choice::default(), ..Question::default() };
+    let one = estimate(&record, &question, &|| false).unwrap();
+    let other = estimate(&larger, &question, &|| false).unwrap();
+    for row in &NAMES {
+        let scaled = one.p[row.place] * 1000_f64.powi(row.length);
+        let error = one.covariance.error(row.place) * 1000_f64.powi(row.length);
+        assert!((other.p[row.place] - scaled).abs() < 1e-3 * error, "{}", row.name);
+    }
+}
