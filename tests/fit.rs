@@ -92,7 +92,7 @@ fn what_cannot_be_separated_is_told_as_the_combination_that_is_known() {
 #[test]
 fn a_margin_seen_in_the_record_is_found_and_one_beyond_it_is_called_extrapolated() {
     for (name, extrapolated) in [("near_fold", false), ("negative_captured", true)] {
-        let line = format!("fit {}", path(name));
+        let line = format!("fit {} --draws 80", path(name));
         let margin = &json(&line)["margin"];
         let (lower, upper) = interval(&margin["displacement"]);
         let true_margin = truth()[name]["margin"].as_f64().unwrap();
@@ -330,6 +330,46 @@ fn with_a_mass_forces_are_told_in_newtons() {
     let same = json(&format!("fit {} --stiffness 1971.92N/m --draws 40", path("coulomb_rest")));
     let mass = same["physical"]["numbers"]["m"]["value"].as_f64().unwrap();
     assert!((mass - 2.0).abs() < 2e-3, "{mass}");
+}
+
+#[test]
+fn the_zeros_of_the_damping_over_amplitude_are_the_cycles() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("fit.json");
+    let name = file.display().to_string();
+    let found = json(&format!("fit {} --draws 40 --output {name}", path("near_fold")));
+    let drawn: Value = serde_json::from_str(&fs::read_to_string(&file).unwrap()).unwrap();
+    let titles: Vec<&str> = drawn["panels"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|panel| panel["title"].as_str().unwrap())
+        .collect();
+    assert_eq!(
+        titles,
+        [
+            "record and fit",
+            "residuals",
+            "memory of the residuals",
+            "damping over amplitude",
+            "phase plane",
+            "distribution of the margin"
+        ]
+    );
+    let number = |name: &str| found["parameters"][name]["value"].as_f64().unwrap();
+    let set = ["D", "D2", "D3", "r"].map(|name| format!("--set {name}={}", number(name)));
+    let cycles = json(&format!("cycles {}", set.join(" ")));
+    let cycle = &cycles["cycles"][0];
+    let turn = |name: &str| cycle[name].as_f64().unwrap();
+    let amplitude = 0.5 * (turn("q_max") - turn("q_min"));
+    let marks = drawn["panels"][3]["marks"].as_array().unwrap();
+    let zero = marks.iter().find(|mark| mark["name"] == "unstable cycle").unwrap();
+    let off = zero["x"].as_f64().unwrap() / amplitude - 1.0;
+    assert!(off.abs() < 1e-3, "{zero} {amplitude}");
+    // The file is not replaced by another one without being told.
+    let line = format!("fit {} --draws 40 --output {name}", path("d_or_r"));
+    let ran = run(&line.split_whitespace().collect::<Vec<_>>());
+    assert_eq!(ran.code, 2, "{}", ran.err);
 }
 
 #[test]

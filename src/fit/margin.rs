@@ -11,8 +11,9 @@ use super::estimate::Estimate;
 use super::observation::{D, D2, D3, R, Unknowns, parameters};
 use crate::flow::{Limits, Reason};
 use crate::oscillator::Parameters;
-use crate::study::basin::basin;
-use crate::study::cycle::cycles;
+use crate::study::basin::Basin;
+use crate::study::closing::Equation;
+use crate::study::closings::all_closings;
 use crate::study::fold::fold;
 use crate::study::margin::Margin;
 
@@ -102,11 +103,12 @@ struct Answer {
 }
 
 fn answer(parameters: &Parameters, reach: f64, limits: &Limits) -> Result<Answer, Reason> {
-    let found = cycles(parameters, false, limits)?;
-    let stable = found.cycles.iter().find(|cycle| cycle.stable);
+    let mut equation = Equation::new(parameters, f64::EPSILON);
+    let found = all_closings(&mut equation, limits)?;
+    let stable = found.iter().find(|closing| closing.log_multiplier(parameters) < 0.0);
     Ok(Answer {
-        margin: basin(parameters, reach, limits)?.margin(),
-        cycle: stable.map(|cycle| cycle.q_max),
+        margin: Basin::around(parameters, &found, reach, limits)?.margin(),
+        cycle: stable.map(|closing| closing.describe(parameters, equation.side).q_max),
         fold: fold(parameters, limits)?.0.map(|fold| fold.d),
     })
 }

@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 
 use super::levenberg_marquardt::{Optimum, Task};
-use super::observation::{UNKNOWNS, Unknowns};
+use super::observation::{Data, UNKNOWNS, Unknowns};
 
 /// The covariance of the free unknowns about a minimum.
 #[derive(Clone, Debug)]
@@ -64,6 +64,11 @@ impl Covariance {
             (sum + weight * value * value, influence + (weight * value).powi(2))
         });
         let variance = influence / freedom;
+        // The errors of displacements and times of peaks are each known from their own residuals only.
+        let kinds = match &task.observation.data {
+            Data::Peaks { t: Some(_), .. } => 2.0,
+            _ => 1.0,
+        };
         let repeated = 1.0 + 2.0 * autocorrelation.iter().map(|rho| rho * rho).sum::<f64>();
         Some(Covariance {
             columns,
@@ -71,7 +76,7 @@ impl Covariance {
             white: bread * variance,
             deviation: (sum / freedom).sqrt(),
             freedom,
-            independent: freedom / repeated,
+            independent: freedom / (kinds * repeated),
         })
     }
 

@@ -23,6 +23,14 @@ fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
+/// `D and r`, `D, D3 and r`.
+fn listed(names: &[&str]) -> String {
+    match names {
+        [all @ .., last] if !all.is_empty() => format!("{} and {last}", all.join(", ")),
+        _ => names.concat(),
+    }
+}
+
 fn left_out(fitted: &Fitted) -> Vec<String> {
     let counts = [
         (fitted.record.missing, "row", "without a number"),
@@ -57,7 +65,7 @@ fn inseparable(fitted: &Fitted, combination: &Combination) -> String {
     let (low, high) = fitted.estimate.amplitudes();
     format!(
         "{} cannot be told apart: only {} = {} +- {} is known; the amplitudes span a factor of {}",
-        names.join(" and "),
+        listed(&names),
         formula(combination),
         significant(combination.value, 4),
         significant(combination.standard_error, 2),
