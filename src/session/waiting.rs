@@ -30,8 +30,10 @@ pub struct Waiting {
 /// What a command needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Need {
-    /// The answer of a kind for the plot in which it runs.
+    /// The answer of a kind for the plot in which it runs, with its variants.
     Answer(Slot),
+    /// The answer of a kind at the present numbers, whatever the plot varies.
+    Present(Slot),
     /// The motion, where it runs in a plot over time.
     MotionOverTime,
     /// The window of the plot in which it runs, where that is being fitted.
@@ -47,8 +49,9 @@ const COMPARED: [Slot; 2] = [Slot::Trajectory, Slot::Cycles];
 
 /// The commands that need something; all others mean the same at any time.
 #[rustfmt::skip]
-pub const NEEDS: [(Need, &[&str]); 8] = [
-    (Need::Answer(Slot::Cycles), &["start-inside", "start-outside", "start-on-cycle"]),
+pub const NEEDS: [(Need, &[&str]); 9] = [
+    (Need::Present(Slot::Cycles), &["start-inside", "start-outside"]),
+    (Need::Answer(Slot::Cycles), &["start-on-cycle"]),
     (Need::Answer(Slot::Trajectory), &["play-motion", "motion-on", "motion-back"]),
     (Need::Answer(Slot::Trade), &["use-method"]),
     (Need::Answer(Slot::Branch), &[
@@ -137,6 +140,7 @@ impl Session {
         let needs = NEEDS.iter().filter(|(_, names)| names.contains(&name));
         needs.into_iter().find_map(|(need, _)| match need {
             Need::Answer(slot) => self.open(*slot, plot),
+            Need::Present(slot) => self.still_asked(self.request(*slot, plot)),
             Need::MotionOverTime => {
                 let over_time = self.plots.get(plot)?.view == View::TimeSeries;
                 over_time.then(|| self.open(Slot::Trajectory, plot)).flatten()
@@ -152,8 +156,12 @@ impl Session {
 
     /// Today's question of a kind, if it is asked and not answered yet.
     fn open(&self, slot: Slot, plot: usize) -> Option<Request> {
-        let request = self.request(self.slot_in(slot, plot), plot)?;
-        (self.is_open(&request) && self.wants().contains(&request)).then_some(request)
+        self.still_asked(self.request(self.slot_in(slot, plot), plot))
+    }
+
+    /// A question, if it is asked and not answered yet.
+    fn still_asked(&self, request: Option<Request>) -> Option<Request> {
+        request.filter(|request| self.is_open(request) && self.wants().contains(request))
     }
 }
 

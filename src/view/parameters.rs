@@ -296,7 +296,7 @@ fn basin(session: &Session, found: &Cycles, width: usize) -> Vec<String> {
         // Rather fewer digits than a number cut short.
         (1..=5).rev().map(text).find(|text| text.len() < width)
     });
-    let physical = on_the_machine(session, found);
+    let physical = on_the_machine(session, found, width);
     let lines = std::iter::once(edge.to_owned());
     if session.size.height >= DESIGNED {
         // The second status line says the rest.
@@ -306,13 +306,15 @@ fn basin(session: &Session, found: &Cycles, width: usize) -> Vec<String> {
 }
 
 /// The margin on the machine, and which cycles overtake its belt.
-fn on_the_machine(session: &Session, found: &Cycles) -> Vec<String> {
+fn on_the_machine(session: &Session, found: &Cycles, width: usize) -> Vec<String> {
     let Some(running) = session.running() else { return Vec::new() };
     let margin = found.picture.as_ref().map(|picture| picture.margin);
     let margin = margin.map(|margin| PhysicalMargin::new(&margin, &running.reduced.units));
     let kick = margin.and_then(|margin| {
         let (x, impulse) = (margin.displacement?, margin.impulse?);
-        Some(format!("kick {}, {}", with_unit(x, 3, "m"), with_unit(impulse, 3, "N s")))
+        let kick = format!("{}, {}", with_unit(x, 3, "m"), with_unit(impulse, 3, "N s"));
+        // The word goes before a unit does.
+        Some(format!("kick {kick}")).filter(|text| text.len() < width).or(Some(kick))
     });
     let fast = |cycle: &&Cycle| cycle.v_max >= running.reduced.sticking_velocity;
     let alarms = found.cycles.iter().filter(fast).map(|cycle| {
