@@ -95,6 +95,9 @@ const STEPS: u32 = 20_000;
 /// A motion that has shrunk by this factor within one arc turns no more.
 const SETTLED: f64 = 1e-60;
 
+/// A motion this small is at rest: its series would underflow.
+const LEAST: f64 = 1e-250;
+
 /// Velocities that have grown by this factor have run away.
 const ESCAPED: f64 = 1e60;
 
@@ -131,6 +134,9 @@ impl<'a> Flow<'a> {
         let forward = if backward { -1.0 } else { 1.0 };
         let (mut x, mut y) = (x + offset, y);
         let started = x.abs().max(y.abs());
+        if started < LEAST {
+            return Err(Stop::Settled);
+        }
         // On the belt's line at the fold the acceleration vanishes exactly.
         let touching = phase == Phase::Between
             && y == most
@@ -148,7 +154,8 @@ impl<'a> Flow<'a> {
             let entered = *first.get_or_insert(acceleration);
             let length = series.length();
             if !(length > 0.0 && length.is_finite()) {
-                return Err(if y.abs() > started { Stop::Escaped } else { Stop::Settled });
+                // Without terms nothing moves; with terms that overflow it moves beyond all bounds.
+                return Err(if length == f64::INFINITY { Stop::Settled } else { Stop::Escaped });
             }
             let (low, high) = (piece.low.max(least), piece.high.min(most));
             let found = crossing(series, phase, length, (low, high));

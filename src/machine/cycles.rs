@@ -187,11 +187,14 @@ impl Flow<'_> {
             let right = self.right_before(before)?;
             return Ok(right.unwrap_or(f64::INFINITY).max(held * (1.0 + 1e-12)));
         }
+        // Growth below this is on its way to be lost in rounding.
+        const WEAK: f64 = 1e-9;
         let mut x = scale * 1e-3;
         let linear = self.model.linear_growth();
         for _ in 0..12 {
             let here = self.growth((x / scale).ln(), scale)?;
-            if (here.f - linear).abs() <= 0.1 * linear.abs() || !linear.is_finite() {
+            let settled = (here.f - linear).abs() <= 0.1 * linear.abs() || here.f.abs() < WEAK;
+            if settled || !linear.is_finite() {
                 break;
             }
             x *= 0.1;
@@ -203,12 +206,14 @@ impl Flow<'_> {
     fn farthest(&mut self, from: f64, scale: f64, found: &mut FixedPoints) -> Result<Sample, Stop> {
         /// How far beyond.
         const DOUBLINGS: u32 = 10;
+        /// Doublings after which it counts how motions shrink.
+        const ENOUGH: u32 = 3;
         /// Where a swing takes more than half of the amplitude, and more the larger it is, dissipation rules.
         const CONTRACTS: f64 = -0.7;
         let at = |x: f64| (x / scale).ln();
         let mut last = self.growth(at(from), scale)?;
         let mut x = from.max(scale);
-        for _ in 0..DOUBLINGS {
+        for doubling in 0..DOUBLINGS {
             let before = last;
             match self.growth(at(x), scale) {
                 Ok(sample) => last = sample,
@@ -217,7 +222,7 @@ impl Flow<'_> {
                     return Ok(self.edge(last, at(x), scale));
                 }
             }
-            let shrinks = last.f < CONTRACTS && last.f < before.f;
+            let shrinks = doubling > ENOUGH && last.f < CONTRACTS && last.f < before.f;
             if shrinks || last.f.abs() >= FAR {
                 break;
             }

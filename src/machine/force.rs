@@ -12,6 +12,8 @@ pub struct Piece {
     pub high: f64,
     pub center: f64,
     pub coefficients: Vec<f64>,
+    /// Whether the exponential part of the law counts here.
+    pub falls: bool,
 }
 
 impl Piece {
@@ -114,7 +116,9 @@ impl Side {
     /// The force and its derivative; beyond the law the nearest piece goes on.
     pub fn at(&self, y: f64) -> (f64, f64) {
         let found = self.pieces.iter().find(|piece| y <= piece.high).or(self.pieces.last());
-        let (value, slope) = found.map_or((0.0, 0.0), |piece| piece.at(y));
-        self.fall.map_or((value, slope), |fall| (value + fall.value(y), slope + fall.slope(y)))
+        let Some(piece) = found else { return (0.0, 0.0) };
+        let (value, slope) = piece.at(y);
+        let fall = self.fall.filter(|_| piece.falls);
+        fall.map_or((value, slope), |fall| (value + fall.value(y), slope + fall.slope(y)))
     }
 }

@@ -42,10 +42,13 @@ impl Flow<'_> {
         let model = self.model;
         let Some(lines) = model.lines else { return Ok(None) };
         let grazing = self.grazing(&lines)?;
-        let released = self.turn(Place::Sticks, (lines.release, model.speed), &mut ())?;
+        let released = match self.turn(Place::Sticks, (lines.release, model.speed), &mut ()) {
+            Ok(turn) => (!turn.rests).then_some(turn.x),
+            Err(Stop::Settled) => None,
+            Err(stop) => return Err(stop),
+        };
         let low_left = self.left_before(lines.low, model.speed, &mut ())?;
         let beyond = self.beyond(&lines, low_left)?;
-        let released = (!released.rests).then_some(released.x);
         Ok(Some(Landmarks { lines, grazing, released, low_left, beyond }))
     }
 
@@ -53,7 +56,12 @@ impl Flow<'_> {
         let (guide, speed) = (self.model.guide, self.model.speed);
         let mut divergence = Divergence::default();
         let left = self.left_before(lines.fold, speed, &mut divergence)?;
-        let after = self.arc(Phase::Between, (lines.fold, speed), false, &mut divergence)?;
+        // Overdamped, it comes to rest without another turn.
+        let after = match self.arc(Phase::Between, (lines.fold, speed), false, &mut divergence) {
+            Ok(end) => end.x,
+            Err(Stop::Settled) => -guide,
+            Err(stop) => return Err(stop),
+        };
         let left = left.min(-self.model.guide_static);
         let mut before = Divergence::default();
         let (right, ratio) = match self.arc(Phase::Below, (left, 0.0), true, &mut before) {
@@ -62,9 +70,13 @@ impl Flow<'_> {
             Err(Stop::Settled) => (Some(guide), 0.0),
             Err(stop) => return Err(stop),
         };
-        let between = (left + guide) / (after.x + guide);
-        let log_slope = divergence.0 + before.0 + (ratio * between).abs().ln();
-        Ok(Grazing { left, right, image: after.x, log_slope })
+        let between = (left + guide) / (after + guide);
+        let log_slope = if after > -guide {
+            divergence.0 + before.0 + (ratio * between).abs().ln()
+        } else {
+            f64::NEG_INFINITY
+        };
+        Ok(Grazing { left, right, image: after, log_slope })
     }
 
     /// The right turning point beyond which motions overtake the belt and do not come to ride on it.

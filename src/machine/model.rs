@@ -136,10 +136,17 @@ impl fmt::Display for Unfit {
 
 impl std::error::Error for Unfit {}
 
-/// The law as pieces of polynomials in the slip, each about its lower end, and its exponential part.
+/// A piece of a law: from which slip to which, and the coefficients of powers of the distance from its lower
+/// end.
+type Stretch = (f64, f64, Vec<f64>);
+
+/// Beyond this power the exponential part is lost in rounding. It is left out there, because a series cannot
+/// see from far what comes up so steeply; where it ends a step ends too.
+const LOST: f64 = 42.0;
+
+/// The law as pieces of polynomials in the slip, and its exponential part.
 struct Scaled {
-    /// `(from, to, coefficients)`.
-    pieces: Vec<(f64, f64, Vec<f64>)>,
+    pieces: Vec<Stretch>,
     /// Drop, velocity and exponent.
     fall: Option<(f64, f64, f64)>,
 }
@@ -152,16 +159,26 @@ impl Scaled {
             coefficients.iter().enumerate().map(|(k, number)| force * number * power(k)).collect()
         };
         let whole = |coefficients: &[f64]| vec![(0.0, f64::INFINITY, scaled(coefficients))];
+        let straight = |from: f64, to: f64, kinetic: f64, viscous: f64| {
+            let coefficients = scaled(&[kinetic + viscous * from, viscous]);
+            (from / omega_0, to / omega_0, coefficients)
+        };
         match law {
             FrictionLaw::Constant { mu } => Scaled { pieces: whole(&[*mu]), fall: None },
             FrictionLaw::Polynomial { coefficients } => {
                 Scaled { pieces: whole(coefficients), fall: None }
             }
-            FrictionLaw::Stribeck { rest, kinetic, velocity, exponent, viscous } => Scaled {
-                pieces: whole(&[*kinetic, *viscous]),
-                fall: (rest != kinetic)
-                    .then(|| (force * (rest - kinetic), velocity / omega_0, *exponent)),
-            },
+            FrictionLaw::Stribeck { rest, kinetic, velocity, exponent, viscous } => {
+                let end = velocity * LOST.powf(1.0 / exponent);
+                let drop = force * (rest - kinetic);
+                Scaled {
+                    pieces: vec![
+                        straight(0.0, end, *kinetic, *viscous),
+                        straight(end, f64::INFINITY, *kinetic, *viscous),
+                    ],
+                    fall: (drop != 0.0).then_some((drop, velocity / omega_0, *exponent)),
+                }
+            }
             FrictionLaw::Table(spline) => Scaled {
                 pieces: spline
                     .polynomials()
@@ -268,7 +285,7 @@ impl Model {
             lines: None,
             damping: damper.get(1).copied().unwrap_or(0.0),
             slower: Side {
-                pieces: vec![Piece { low, high, center: 0.0, coefficients }],
+                pieces: vec![Piece { low, high, center: 0.0, coefficients, falls: false }],
                 fall: None,
             },
             faster: Side::default(),
@@ -340,7 +357,7 @@ fn added(mut one: Vec<f64>, other: impl Iterator<Item = f64>) -> Vec<f64> {
 /// The force at velocities up to the belt's: `T - x0` less the damper's.
 fn slower(law: &Scaled, damper: &[f64], speed: f64, pull: f64, reach: f64) -> Side {
     let alternating = |(k, number): (usize, f64)| if k % 2 == 0 { number } else { 0.0 - number };
-    let piece = |(from, to, coefficients): &(f64, f64, Vec<f64>)| {
+    let piece = |(from, to, coefficients): &Stretch| {
         let to = to.min(reach);
         if from > &to {
             return None;
@@ -351,7 +368,13 @@ fn slower(law: &Scaled, damper: &[f64], speed: f64, pull: f64, reach: f64) -> Si
         let pull_of = shifted(coefficients, about - from).into_iter().enumerate().map(alternating);
         let mut coefficients = added(damper_about(damper, center), pull_of);
         coefficients[0] = if steady { 0.0 } else { coefficients[0] - pull };
-        Some(Piece { low: speed - to, high: speed - from, center, coefficients })
+        Some(Piece {
+            low: speed - to,
+            high: speed - from,
+            center,
+            coefficients,
+            falls: *from == 0.0,
+        })
     };
     let mut pieces: Vec<Piece> = law.pieces.iter().filter_map(piece).collect();
     pieces.reverse();
@@ -361,12 +384,19 @@ fn slower(law: &Scaled, damper: &[f64], speed: f64, pull: f64, reach: f64) -> Si
 
 /// The force at velocities above the belt's: `-T` less the damper's.
 fn faster(law: &Scaled, damper: &[f64], speed: f64, reach: f64) -> Side {
-    let piece = |(from, to, coefficients): &(f64, f64, Vec<f64>)| {
+    let piece = |(from, to, coefficients): &Stretch| {
         let to = to.min(reach);
         let center = speed + from;
         let pull = coefficients.iter().map(|number| 0.0 - number);
         let coefficients = added(damper_about(damper, center), pull);
-        (from <= &to).then_some(Piece { low: center, high: speed + to, center, coefficients })
+        let falls = *from == 0.0;
+        (from <= &to).then_some(Piece {
+            low: center,
+            high: speed + to,
+            center,
+            coefficients,
+            falls,
+        })
     };
     let fall = |(drop, velocity, exponent)| Fall { drop, velocity, exponent, speed, above: true };
     Side { pieces: law.pieces.iter().filter_map(piece).collect(), fall: law.fall.map(fall) }

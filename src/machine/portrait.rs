@@ -112,6 +112,8 @@ pub struct Portrait {
     pub stop: Option<Stop>,
     /// Steps that it took.
     pub steps: u64,
+    /// Right turning point up to which the return map was looked at.
+    known: f64,
     gaps: Vec<Gap>,
 }
 
@@ -157,6 +159,7 @@ impl Portrait {
             margin: None,
             landmarks,
             stop: found.stop,
+            known: found.end,
             steps: 0,
             gaps: gaps(&marks, &ways, found.stop),
         };
@@ -212,7 +215,18 @@ impl Portrait {
             Err(Stop::Escaped) => return Ok(Fate::Escaped),
             Err(stop) => return Err(stop),
         };
-        Ok(turn.map_or(Fate::Rest, |x| self.fate_of_turn(x)))
+        let Some(mut x) = turn else { return Ok(Fate::Rest) };
+        // Far out every swing is looked at: it may leave what is known.
+        while x > self.known {
+            match flow.returned(x) {
+                Ok(Return::Turns(image)) if image.x < x => x = image.x,
+                Ok(Return::Turns(_)) => break,
+                Ok(Return::Rests(_)) => return Ok(Fate::Rest),
+                Err(Stop::Escaped) => return Ok(Fate::Escaped),
+                Err(stop) => return Err(stop),
+            }
+        }
+        Ok(self.fate_of_turn(x))
     }
 
     /// What becomes of motions far out.

@@ -23,8 +23,11 @@ const DEPTH: u32 = 12;
 /// Part of the distance from zero to which the cubic must foretell the middle.
 const FORETOLD: f64 = 0.05;
 
-/// What is smaller is rounding.
+/// What is smaller is nothing.
 pub const NOTHING: f64 = 1e-12;
+
+/// Rounding of one evaluation.
+const ROUNDING: f64 = 1e-14;
 
 /// The zeros of a function between two samples, in their order.
 ///
@@ -77,6 +80,10 @@ fn leaf(
     evaluate: &mut impl FnMut(f64) -> Result<Sample, Stop>,
     found: &mut Vec<f64>,
 ) -> Result<(), Stop> {
+    // Where all motions are periodic to rounding no zero can be told.
+    if left.f.abs() < ROUNDING || right.f.abs() < ROUNDING {
+        return Ok(());
+    }
     if (left.f > 0.0) != (right.f > 0.0) {
         found.push(zero(left, right, evaluate)?);
         return Ok(());

@@ -87,7 +87,7 @@ impl Series {
             self.rows[row][0] = self.local[row + 1];
         }
         let mut force = self.local[0];
-        if let Some(fall) = &side.fall {
+        if let Some(fall) = side.fall.as_ref().filter(|_| piece.falls) {
             force += fall.value(y);
             self.begin_fall(fall, y);
         }
@@ -103,7 +103,7 @@ impl Series {
             self.x[k + 1] = factor * self.y[k];
             self.y[k + 1] = factor * rate;
             force = self.polynomial(k + 1, degree);
-            if let Some(fall) = &side.fall {
+            if let Some(fall) = side.fall.as_ref().filter(|_| piece.falls) {
                 force += self.next_fall(fall, k + 1);
             }
         }
@@ -185,8 +185,8 @@ impl Series {
 }
 
 /// Where a law with a broken exponent has no derivatives, at slip 0, it is expanded this far beside it, in
-/// units of its own velocity.
-const LEAST_SLIP: f64 = 1e-16;
+/// units of its own velocity: a distance that velocities can still tell.
+const LEAST_SLIP: f64 = 1e-10;
 
 /// The exponent as a whole number, if it is a small one.
 fn whole(fall: &Fall) -> Option<usize> {
