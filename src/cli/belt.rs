@@ -8,8 +8,11 @@ use clap::Args;
 use super::failure::Failure;
 use super::output::{Format, Output, print};
 use super::timing::timed;
+use crate::export::belt::branch::{Borders, Branched};
 use crate::export::belt::{self, Answer, Designed, Sweep, SweepPoint};
 use crate::flow::Limits;
+use crate::machine::Portrait;
+use crate::machine::branch::{borders, branch, spaced};
 use crate::machine::design::friction_for;
 use crate::machine::survey::{Trouble, portrait, survey};
 use crate::machine::varied::Varied;
@@ -39,6 +42,14 @@ pub struct Belt {
     /// Varies a number, such as "v0=0.1 m/s:0.5 m/s:21": margins and cycles along its way
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = range, allow_hyphen_values = true)]
     sweep: Option<Range>,
+    /// Follows the cycles along a number and locates every change of them: Hopf, fold, grazing, annihilation ..
+    #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = range, allow_hyphen_values = true,
+          conflicts_with_all = ["sweep", "design"])]
+    branch: Option<Range>,
+    /// With --branch: the changes at each value of another number
+    #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = range, allow_hyphen_values = true,
+          requires = "branch")]
+    against: Option<Range>,
     /// Asks how much friction R a margin needs: a displacement ("2 mm") or an impulse ("0.1 N s")
     #[arg(long, value_name = "MARGIN", value_parser = margin, allow_hyphen_values = true)]
     design: Option<(Kick, f64)>,
@@ -246,6 +257,9 @@ impl Belt {
     /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
         let machine = self.machine()?;
+        if let Some(range) = self.branch {
+            return self.branched(&machine, range);
+        }
         if let Some(range) = self.sweep {
             let (swept, seconds) = timed(self.output.repeat, || self.swept(&machine, range));
             let answer = Sweep { seconds, ..swept? };
@@ -270,6 +284,32 @@ impl Belt {
         })
     }
 
+    /// The branch, or the changes along it at values of another number.
+    fn branched(&self, machine: &Machine, range: Range) -> Result<(), Failure> {
+        let Range { varied, ends, count } = range;
+        if let Some(other) = self.against {
+            let (rows, seconds) = timed(self.output.repeat, || {
+                let against = (other.varied, other.ends, other.count);
+                borders(&machine.belt, (varied, ends, count), against)
+            });
+            let (rows, varied) = (rows.map_err(Failure::Usage)?, (varied, other.varied));
+            let found = Borders { machine, varied, rows, seconds };
+            return print(&match self.output.format {
+                Format::Table => belt::branch::borders_table(&found),
+                Format::Json => belt::branch::borders_json(&found),
+                Format::Csv => belt::branch::borders_csv(&found),
+            });
+        }
+        let (found, seconds) =
+            timed(self.output.repeat, || branch(&machine.belt, varied, ends, count));
+        let found = Branched { machine, varied, branch: found.map_err(Failure::Usage)?, seconds };
+        print(&match self.output.format {
+            Format::Table => belt::branch::table(&found),
+            Format::Json => belt::branch::json(&found),
+            Format::Csv => belt::branch::csv(&found),
+        })
+    }
+
     /// The friction for the margin, if asked for.
     fn designed(&self, belt: &crate::oscillator::Belt) -> Result<Option<Designed>, Trouble> {
         let Some((kick, wanted)) = self.design else { return Ok(None) };
@@ -281,29 +321,23 @@ impl Belt {
     fn swept<'a>(&self, machine: &'a Machine, range: Range) -> Result<Sweep<'a>, Failure> {
         let Range { varied, ends, count } = range;
         let point = |index: usize| {
-            let value = between(ends, index, count);
+            let value = spaced(ends, index, count);
             let mut here = machine.belt.clone();
             varied.set(&mut here, value).map_err(Failure::Usage)?;
             let found = portrait(&here).map_err(|trouble| trouble.to_string());
+            let share = |portrait: &Portrait| {
+                self.window.map(|window| portrait.rest_share(window.x, window.v))
+            };
+            let rest_share = found.as_ref().ok().and_then(share);
             let design = match &found {
                 Ok(_) => self.designed(&here).map_err(troubled)?,
                 Err(_) => None,
             };
-            Ok(SweepPoint { value, found, design })
+            Ok(SweepPoint { value, found, rest_share, design })
         };
         let points = (0..count).map(point).collect::<Result<_, Failure>>()?;
         Ok(Sweep { machine, varied, points, seconds: 0.0 })
     }
-}
-
-/// Value number `index` of `count` evenly spaced over a range, both ends included to the last bit.
-fn between((from, to): (f64, f64), index: usize, count: usize) -> f64 {
-    if index + 1 == count {
-        return to;
-    }
-    #[expect(clippy::cast_precision_loss, reason = "sweeps have few points")]
-    let part = index as f64 / (count - 1) as f64;
-    from + part * (to - from)
 }
 
 /// A machine that has no answer: its own fault is bad input.

@@ -86,7 +86,7 @@ pub(super) struct Whole {
 }
 
 #[derive(Serialize)]
-struct CycleOf {
+pub(super) struct CycleOf {
     kind: &'static str,
     overtakes: bool,
     stable: bool,
@@ -133,7 +133,7 @@ impl Whole {
 }
 
 impl CycleOf {
-    fn new(cycle: &Cycle) -> Self {
+    pub(super) fn new(cycle: &Cycle) -> Self {
         CycleOf {
             kind: kind(cycle),
             overtakes: cycle.overtakes,

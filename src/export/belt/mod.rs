@@ -1,5 +1,6 @@
 //! What a mass on a belt does, in physical units; beside it the oscillator of the paper.
 
+pub mod branch;
 mod document;
 mod expansion;
 mod sweep;

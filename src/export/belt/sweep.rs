@@ -11,7 +11,7 @@ use crate::machine::varied::Varied;
 use crate::machine::{Border, Portrait};
 use crate::oscillator::Belt;
 use crate::scene::Machine;
-use crate::view::number::duration;
+use crate::view::number::{duration, significant};
 use crate::view::quantity::with_unit;
 
 /// A point of a sweep.
@@ -20,6 +20,8 @@ pub struct SweepPoint {
     pub value: f64,
     /// What the machine does there, or why it does not exist.
     pub found: Result<Portrait, String>,
+    /// The part of a window from which it comes to rest, if asked for.
+    pub rest_share: Option<f64>,
     /// The friction for a margin, if asked for.
     pub design: Option<Designed>,
 }
@@ -54,6 +56,8 @@ struct Point<'a> {
     #[serde(flatten)]
     whole: Option<Whole>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    rest_share: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     design: Option<DesignOf>,
 }
 
@@ -76,6 +80,7 @@ pub fn json(sweep: &Sweep) -> String {
         value: point.value,
         reason: None,
         whole: point.found.as_ref().ok().map(Whole::new),
+        rest_share: point.rest_share,
         design: point
             .design
             .as_ref()
@@ -119,6 +124,10 @@ pub fn table(sweep: &Sweep) -> String {
     let (name, unit) = (sweep.varied.name(), sweep.varied.unit());
     let designs = sweep.points.iter().any(|point| point.design.is_some());
     let mut titles = vec![name, "margin", "impulse", "cycles up to", "on the belt", "regime"];
+    let shares = sweep.points.iter().any(|point| point.rest_share.is_some());
+    if shares {
+        titles.push("rest share");
+    }
     if designs {
         titles.push("R needed");
     }
@@ -138,6 +147,7 @@ pub fn table(sweep: &Sweep) -> String {
                 cells.push(sizes.collect::<Vec<_>>().join(", "));
                 cells.push(ride.unwrap_or_default());
                 cells.push(regime(found));
+                cells.extend(point.rest_share.map(|share| significant(share, 10)));
                 if let Some(designed) = &point.design {
                     let force = designed.force().map(|force| with_unit(force, PLACES, "N"));
                     cells.push(force.unwrap_or_else(|| "any".to_owned()));
@@ -166,7 +176,7 @@ pub fn table(sweep: &Sweep) -> String {
 #[must_use]
 pub fn csv(sweep: &Sweep) -> String {
     let mut out = format!(
-        "{},cycles,x_max_inner,x_max_outer,stick_duration,border,neutral,x_margin,impulse_margin,R_needed\n",
+        "{},cycles,x_max_inner,x_max_outer,stick_duration,border,neutral,x_margin,impulse_margin,rest_share,R_needed\n",
         sweep.varied.name()
     );
     for point in &sweep.points {
@@ -181,9 +191,10 @@ pub fn csv(sweep: &Sweep) -> String {
             cells.push(found.border.kind().to_owned());
             cells.push(found.neutral.to_string());
             cells.extend(margins(found).map(exact_or_empty));
+            cells.push(exact_or_empty(point.rest_share));
             cells.push(exact_or_empty(point.design.as_ref().and_then(Designed::force)));
         } else {
-            cells.extend(std::iter::repeat_n(String::new(), 9));
+            cells.extend(std::iter::repeat_n(String::new(), 10));
         }
         out += &line(&cells);
     }

@@ -1,0 +1,95 @@
+//! What a machine costs by the whole model, beside plain time-stepping: `cargo bench --bench belt`.
+//!
+//! The open benchmark of basin stability (Stribeck friction on a belt): what a start ends as, a portrait with
+//! all cycles, and the share of a window. The comparison integrates the same motion with a fixed step and
+//! sticks where the velocity crosses the belt's; it is no more than plausible, but it is what one would do.
+
+use divan::Bencher;
+use divan::black_box;
+use hopfscope::machine::{Model, Motion, Portrait};
+use hopfscope::oscillator::Belt;
+use hopfscope::oscillator::belt::FrictionLaw;
+
+fn main() {
+    divan::main();
+}
+
+/// The benchmark's oscillator at a belt speed of 1.5.
+fn machine() -> Belt {
+    Belt {
+        mass: 1.0,
+        stiffness: 1.0,
+        damping: 0.1,
+        cubic_damping: 0.0,
+        normal_force: 1.0,
+        friction: 0.0,
+        belt_speed: 1.5,
+        law: FrictionLaw::Stribeck {
+            rest: 1.0,
+            kinetic: 0.5,
+            velocity: 0.5,
+            exponent: 1.0,
+            viscous: 0.0,
+        },
+        static_coefficient: None,
+        static_guide: None,
+    }
+}
+
+fn portrait() -> Portrait {
+    Model::new(&machine())
+        .ok()
+        .and_then(|model| Portrait::new(&model).ok())
+        .unwrap_or_else(|| unreachable!("the machine has a portrait"))
+}
+
+#[divan::bench]
+fn fate_of_a_start(bencher: Bencher) {
+    let found = portrait();
+    bencher.bench_local(|| found.fate(black_box(-0.611), black_box(0.994)));
+}
+
+#[divan::bench]
+fn all_cycles_and_the_border(bencher: Bencher) {
+    bencher.bench_local(portrait);
+}
+
+#[divan::bench]
+fn share_of_a_window(bencher: Bencher) {
+    bencher.bench_local(|| portrait().rest_share(black_box((-2.5, 1.5)), black_box((0.0, 2.0))));
+}
+
+#[divan::bench]
+fn motion_of_a_hundred_time_units(bencher: Bencher) {
+    let model = portrait().model;
+    bencher.bench_local(|| Motion::new(&model, black_box(1.4), black_box(0.0), 100.0).end);
+}
+
+/// The same motion with a fixed step of 1e-3 of classical Runge and Kutta.
+#[divan::bench]
+fn time_stepping_of_a_hundred_time_units(bencher: Bencher) {
+    let steady = 0.5 + 0.5 * (-3.0_f64).exp();
+    let slope = |x: f64, v: f64| {
+        let slip: f64 = 1.5 - v;
+        let pull = slip.signum() * (0.5 + 0.5 * (-2.0 * slip.abs()).exp());
+        (v, pull - 0.1 * v - x - steady)
+    };
+    bencher.bench_local(|| {
+        let (mut x, mut v): (f64, f64) = (black_box(1.4), black_box(0.0));
+        let h = 1e-3;
+        for _ in 0..100_000 {
+            if v == 1.5 && (x + steady + 0.15).abs() <= 1.0 {
+                x += h * v;
+                continue;
+            }
+            let k1 = slope(x, v);
+            let k2 = slope(x + 0.5 * h * k1.0, v + 0.5 * h * k1.1);
+            let k3 = slope(x + 0.5 * h * k2.0, v + 0.5 * h * k2.1);
+            let k4 = slope(x + h * k3.0, v + h * k3.1);
+            let next = v + h / 6.0 * (k1.1 + 2.0 * k2.1 + 2.0 * k3.1 + k4.1);
+            x += h / 6.0 * (k1.0 + 2.0 * k2.0 + 2.0 * k3.0 + k4.0);
+            v = if (v - 1.5) * (next - 1.5) < 0.0 { 1.5 } else { next };
+        }
+        (x, v)
+    });
+}
