@@ -175,6 +175,8 @@ impl Flow<'_> {
     /// The right turning point below which every motion comes to rest; without friction of the guide, one
     /// below which the map is linear.
     fn smallest(&mut self, scale: f64) -> Result<f64, Stop> {
+        /// Growth below this is on its way to be lost in rounding.
+        const WEAK: f64 = 1e-9;
         let (guide, held) = (self.model.guide, self.model.guide_static);
         if held > 0.0 {
             let before = match self.arc(Phase::Between, (held, 0.0), true, &mut ()) {
@@ -187,8 +189,6 @@ impl Flow<'_> {
             let right = self.right_before(before)?;
             return Ok(right.unwrap_or(f64::INFINITY).max(held * (1.0 + 1e-12)));
         }
-        // Growth below this is on its way to be lost in rounding.
-        const WEAK: f64 = 1e-9;
         let mut x = scale * 1e-3;
         let linear = self.model.linear_growth();
         for _ in 0..12 {

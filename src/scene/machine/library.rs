@@ -16,11 +16,12 @@ macro_rules! machine_file {
 }
 
 /// The files, in the order in which they are listed.
-const FILES: [(&str, &str); 4] = [
+const FILES: [(&str, &str); 5] = [
     machine_file!("textbook"),
     machine_file!("clutch"),
     machine_file!("slideway"),
     machine_file!("straight"),
+    machine_file!("bstab"),
 ];
 
 /// The tables that they name.
