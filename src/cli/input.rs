@@ -65,6 +65,22 @@ pub fn interval(text: &str) -> Result<(Symbol, Interval), String> {
     Ok((symbol, interval))
 }
 
+/// A bound on a disturbing force.
+pub fn disturbance(text: &str) -> Result<f64, String> {
+    within("disturbance", (0.0, Symbol::R.spec().max), text)
+}
+
+/// `NAME=HALFWIDTH` of D, D2, D3 or r.
+pub fn half_width(text: &str) -> Result<(Symbol, f64), String> {
+    let form = "expected NAME=HALFWIDTH with D, D2, D3 or r, such as r=0.01";
+    let (name, value) = text.split_once('=').ok_or(form)?;
+    let symbol = symbol(name.trim())?;
+    if matches!(symbol, Symbol::Q0 | Symbol::V0) {
+        return Err(form.to_owned());
+    }
+    Ok((symbol, within(name, (0.0, symbol.spec().max), value)?))
+}
+
 /// A parameter and the values through which it goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Over {

@@ -22,15 +22,11 @@ pub struct Margin {
     #[arg(long, value_name = "NAME=INTERVAL", value_parser = input::interval, allow_hyphen_values = true)]
     set: Vec<(Symbol, Interval)>,
     /// Bound on the disturbing force, in the units of r
-    #[arg(long, value_name = "W", default_value = "0", value_parser = disturbance,
+    #[arg(long, value_name = "W", default_value = "0", value_parser = input::disturbance,
           allow_hyphen_values = true)]
     disturbance: f64,
     #[command(flatten)]
     output: Output,
-}
-
-fn disturbance(text: &str) -> Result<f64, String> {
-    input::within("disturbance", (0.0, Symbol::R.spec().max), text)
 }
 
 impl Margin {

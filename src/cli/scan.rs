@@ -20,9 +20,11 @@ use crate::export::scan::Form;
 use crate::flow::Limits;
 use crate::runtime::scan_file::{Refusal, ScanFile};
 use crate::runtime::scanning::{Effort, rows};
+use crate::oscillator::Symbol;
 use crate::runtime::signals::exit_code;
 use crate::study::basin::Window;
-use crate::study::measure::{MEASURES, Measure};
+use crate::study::kicks::Kicks;
+use crate::study::measure::{Conditions, MEASURES, Measure};
 use crate::study::scan::{Row, Scan, Sweep};
 
 /// Measures at every point of a line or grid of parameters, on all cores, one row a point
@@ -38,11 +40,24 @@ pub struct ScanCommand {
     #[arg(long, value_name = "NAME,..", required = true, value_delimiter = ',',
           value_parser = Measure::named, help = measures_help())]
     measure: Vec<Measure>,
-    /// Displacements and velocities whose captured part is `stability`
+    /// Displacements and velocities of the starts of `stability`, `settling` and `finite-time`
     #[arg(long, value_name = "QMIN:QMAX,VMIN:VMAX", default_value = "-3:3,-3:3",
           value_parser = input::window, allow_hyphen_values = true)]
     window: Window,
-    /// Time at which the motions of `outcome` and `rest` stop (default: that of the scene)
+    /// Bound on the disturbing force of `guaranteed`, in the units of r
+    #[arg(long, value_name = "W", default_value = "0", value_parser = input::disturbance,
+          allow_hyphen_values = true)]
+    disturbance: f64,
+    /// Half width of a parameter for `guaranteed`, such as r=0.01; repeatable
+    #[arg(long, value_name = "NAME=HALFWIDTH", value_parser = input::half_width, allow_hyphen_values = true)]
+    half_width: Vec<(Symbol, f64)>,
+    /// Random kicks of which `lost` is a part, mean and standard deviation; with uniform: before them, mean and
+    /// half width
+    #[arg(long, value_name = "q=MEAN+-SPREAD,v=MEAN+-SPREAD", default_value = "q=0+-1,v=0+-1",
+          allow_hyphen_values = true)]
+    kicks: Kicks,
+    /// Time at which the motions of `outcome`, `rest`, `settling` and `finite-time` stop (default: that of the
+    /// scene)
     #[arg(long, value_name = "T", value_parser = input::until, allow_hyphen_values = true)]
     until: Option<f64>,
     /// Threads (default: as many as there are cores)
@@ -130,7 +145,13 @@ impl ScanCommand {
     pub fn run(&self) -> Result<ExitCode, Failure> {
         let mut base = self.start.problem()?;
         base.until = self.until.unwrap_or(base.until);
-        let scan = Scan::new(base, self.over.clone(), self.measure.clone(), self.window)
+        let conditions = Conditions {
+            window: self.window,
+            half_widths: self.half_width.clone(),
+            disturbance: self.disturbance,
+            kicks: self.kicks,
+        };
+        let scan = Scan::new(base, self.over.clone(), self.measure.clone(), conditions)
             .map_err(Failure::Usage)?;
         let shard = self.shard.unwrap_or(Shard { number: 1, of: 1 });
         let mut points = shard.points(scan.points());

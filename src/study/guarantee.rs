@@ -271,24 +271,24 @@ pub fn guarantee(
         basin(&middle, 0.0, limits)?
     };
     let mut cost = nominal.cost;
-    let reason = uncertain(known, disturbance);
-    let margin = if reason.is_some() {
-        Margin { displacement: None, impulse: None }
-    } else {
-        let (worst, margin) = certain(known, disturbance, limits)?;
-        cost += worst.cost;
-        margin
-    };
-    let guaranteed = Guaranteed { margin, reason };
+    let (guaranteed, spent) = guaranteed(known, disturbance, limits)?;
+    cost += spent;
     Ok(Guarantee { known: *known, disturbance, nominal: nominal.margin(), guaranteed, cost })
 }
 
-/// The worst system's basin, and its margin rounded down.
-fn certain(
+/// The margin that holds for certain, and what it cost.
+///
+/// # Errors
+/// The [`Reason`] why the border could not be computed.
+pub fn guaranteed(
     known: &ParameterBox,
     disturbance: f64,
     limits: &Limits,
-) -> Result<(Basin, Margin), Reason> {
+) -> Result<(Guaranteed, Cost), Reason> {
+    if let Some(reason) = uncertain(known, disturbance) {
+        let margin = Margin { displacement: None, impulse: None };
+        return Ok((Guaranteed { margin, reason: Some(reason) }, Cost::default()));
+    }
     let worst = Sided::worst(known, disturbance);
     let (basin, error) = worst.basin(0.0, limits)?;
     if error > 0.5 {
@@ -302,7 +302,8 @@ fn certain(
     // Of a displacement only the clearance is in error; an impulse comes of an arc from that clearance.
     let shrunk = |length: f64| (length * (1.0 - error)).next_down();
     let displacement = displacement.map(|q| (r + shrunk(q - r)).next_down().max(r.min(q)));
-    Ok((basin, Margin { displacement, impulse: impulse.map(shrunk) }))
+    let margin = Margin { displacement, impulse: impulse.map(shrunk) };
+    Ok((Guaranteed { margin, reason: None }, basin.cost))
 }
 
 /// The starts that are safe for certain, and those that are lost for certain.

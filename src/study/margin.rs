@@ -9,7 +9,7 @@ use super::arc::Arc;
 use super::basin::{Basin, Fate};
 use super::cycle::Edge;
 use crate::closed_form::lyapunov;
-use crate::oscillator::Parameters;
+use crate::oscillator::{Parameters, State};
 
 /// The margins; `None` where every kick is survived.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -56,6 +56,44 @@ impl Basin {
         let Margin { displacement, impulse } = self.margin();
         let margin = displacement?.min(impulse?);
         lyapunov::radius(&self.parameters).map(|radius| radius / margin)
+    }
+
+    /// Radius of the largest circle about the origin that lies within the basin; `None` where nothing borders it.
+    ///
+    /// The least distance of the border, refined between the points of its curve.
+    #[must_use]
+    pub fn inner_radius(&self) -> Option<f64> {
+        /// Points on each integration step, and thirds taken between the neighbours of the nearest.
+        const POINTS: u16 = 24;
+        const THIRDS: usize = 60;
+        if self.edge == Edge::None {
+            return None;
+        }
+        let edge = self.borders.first()?;
+        let curve = edge.curve(POINTS);
+        let far = |state: &State| state.q.hypot(state.v);
+        let nearest =
+            (0..curve.len()).min_by(|one, other| far(&curve[*one]).total_cmp(&far(&curve[*other])))?;
+        let State { v, .. } = curve[nearest];
+        let distance = |q: f64| {
+            let span = edge.span_at(q);
+            span.map_or(f64::INFINITY, |(low, high)| q.hypot(if v < 0.0 { low } else { high }))
+        };
+        let ends = [nearest.saturating_sub(1), (nearest + 1).min(curve.len() - 1)];
+        let [one, other] = ends.map(|index| curve[index].q);
+        let (mut low, mut high) = (one.min(other), one.max(other));
+        for _ in 0..THIRDS {
+            let third = (high - low) / 3.0;
+            if distance(low + third) < distance(high - third) { high -= third } else { low += third }
+        }
+        Some(distance(f64::midpoint(low, high)).min(far(&curve[nearest])))
+    }
+
+    /// The part of the basin's area that this circle fills; `None` where the area is infinite.
+    #[must_use]
+    pub fn integrity(&self) -> Option<f64> {
+        let radius = self.inner_radius()?;
+        Some(std::f64::consts::PI * radius * radius / self.area()?)
     }
 
     /// Area of the basin in the phase plane: the integral of `v^2` over one turn of its edge; `None`

@@ -21,6 +21,7 @@ pub mod fold;
 pub mod guarantee;
 pub mod half_map;
 pub mod harmonic_error;
+pub mod kicks;
 pub mod lift;
 pub mod margin;
 pub mod measure;

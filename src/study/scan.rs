@@ -8,10 +8,11 @@ use std::fmt;
 use std::str::FromStr;
 
 use super::basin::Window;
-use super::measure::{Measure, Need, Value, measure, needs_of};
+use super::kicks::Kicks;
+use super::measure::{Conditions, Measure, Need, Value, measure, needs_of};
 use crate::flow::method::Dial;
 use crate::flow::{Cost, Limits, Problem, Reason};
-use crate::oscillator::{Parameters, State, Symbol};
+use crate::oscillator::{Interval, ParameterBox, Parameters, State, Symbol};
 
 /// How the values of a [`Sweep`] are spaced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -145,8 +146,12 @@ pub struct Scan {
     base: Problem,
     over: Vec<Sweep>,
     measures: Vec<Measure>,
-    window: Window,
+    conditions: Conditions,
 }
+
+/// Columns for the ends of the intervals of D, D2, D3 and r.
+const ENDS: [[&str; 2]; 4] =
+    [["D_from", "D_to"], ["D2_from", "D2_to"], ["D3_from", "D3_to"], ["r_from", "r_to"]];
 
 /// What was measured at a point.
 #[derive(Clone, Debug, PartialEq)]
@@ -168,7 +173,7 @@ impl Scan {
         base: Problem,
         over: Vec<Sweep>,
         measures: Vec<Measure>,
-        window: Window,
+        conditions: impl Into<Conditions>,
     ) -> Result<Self, String> {
         if over.is_empty() || measures.is_empty() {
             return Err("a scan goes over at least one parameter and measures something".to_owned());
@@ -192,7 +197,7 @@ impl Scan {
         if points.is_none_or(|points| points > MOST_POINTS) {
             return Err(format!("too many points; allowed: {MOST_POINTS}"));
         }
-        Ok(Scan { base, over, measures, window })
+        Ok(Scan { base, over, measures, conditions: conditions.into() })
     }
 
     /// The parameters that are scanned over; the last one varies fastest.
@@ -241,10 +246,12 @@ impl Scan {
     /// # Errors
     /// [`Reason::Interrupted`], and no other.
     pub fn row(&self, index: usize, limits: &Limits) -> Result<Row, Reason> {
-        let (values, point) = measure(&self.problem(index), &self.measures, &self.window, limits)?;
+        let problem = self.problem(index);
+        let (values, point) = measure(&problem, &self.measures, &self.conditions, limits)?;
         let reasons =
             point.failures.iter().map(|(need, reason)| format!("{}: {reason}", need.name()));
-        let reasons: Vec<_> = reasons.collect();
+        let uncertain = point.uncertain.iter().map(|why| format!("guaranteed: {why}"));
+        let reasons: Vec<_> = reasons.chain(uncertain).collect();
         let reason = (!reasons.is_empty()).then(|| reasons.join("; "));
         Ok(Row { values, reason, cost: point.cost })
     }
@@ -272,10 +279,14 @@ impl Scan {
         let Parameters { d, d2, d3, r } = parameters;
         let mut inputs: Vec<(&str, Value)> =
             vec![("D", d.into()), ("D2", d2.into()), ("D3", d3.into()), ("r", r.into())];
-        if needs_of(&self.measures).contains(&Need::Motion) {
+        let needs = needs_of(&self.measures);
+        if needs.contains(&Need::Motion) {
             let State { q, v } = initial;
+            inputs.extend([("q0", q.into()), ("v0", v.into())]);
+        }
+        if needs.contains(&Need::Motion) || needs.contains(&Need::Settling) {
             let name = method.spec().name;
-            inputs.extend([("q0", q.into()), ("v0", v.into()), ("until", until.into())]);
+            inputs.push(("until", until.into()));
             inputs.push(("method", Value::Word(name)));
             match method.spec().dial {
                 Dial::Nothing => {}
@@ -284,10 +295,24 @@ impl Scan {
                 Dial::Epsilon => inputs.push(("epsilon", epsilon.into())),
             }
         }
-        if self.measures.contains(&Measure::Stability) {
-            let Window { q, v } = self.window;
+        let windowed = [Measure::Stability, Measure::Settling, Measure::FiniteTime];
+        if windowed.iter().any(|measure| self.measures.contains(measure)) {
+            let Window { q, v } = self.conditions.window;
             inputs.extend([("q_from", q.0.into()), ("q_to", q.1.into())]);
             inputs.extend([("v_from", v.0.into()), ("v_to", v.1.into())]);
+        }
+        if self.measures.contains(&Measure::Guaranteed) {
+            inputs.push(("w", self.conditions.disturbance.into()));
+            let ParameterBox { d, d2, d3, r } = self.conditions.around(&parameters);
+            for ([from, to], Interval { low, high }) in ENDS.into_iter().zip([d, d2, d3, r]) {
+                inputs.extend([(from, low.into()), (to, high.into())]);
+            }
+        }
+        if self.measures.contains(&Measure::Lost) {
+            let Kicks { law, q, v } = self.conditions.kicks;
+            inputs.push(("kick_law", Value::Word(law.name())));
+            inputs.extend([("kick_q", q.0.into()), ("kick_q_spread", q.1.into())]);
+            inputs.extend([("kick_v", v.0.into()), ("kick_v_spread", v.1.into())]);
         }
         inputs
     }

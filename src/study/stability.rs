@@ -47,7 +47,7 @@ impl Basin {
 }
 
 /// The displacements of a range at which some start lies inside the border: around the sticking set.
-fn support(edge: &Border, (from, to): (f64, f64)) -> Option<(f64, f64)> {
+pub(super) fn support(edge: &Border, (from, to): (f64, f64)) -> Option<(f64, f64)> {
     let inside = |q: f64| edge.span_at(q).is_some();
     // Inside lies an interval with 0 in it.
     let nearest = 0.0_f64.clamp(from, to);
@@ -73,7 +73,7 @@ fn last(holds: impl Fn(f64) -> bool, mut yes: f64, mut no: f64) -> f64 {
 }
 
 /// Integrates over a range, halving intervals until both rules agree.
-fn integrate(function: &impl Fn(f64) -> f64, range: (f64, f64)) -> Share {
+pub(super) fn integrate(function: &impl Fn(f64) -> f64, range: (f64, f64)) -> Share {
     /// Intervals are not halved more often: a kink is then 1e-9 of the range wide.
     const DEPTH: u32 = 30;
     let mut total = Share { part: 0.0, error: 0.0 };

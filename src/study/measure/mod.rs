@@ -4,12 +4,15 @@
 //! which computations it [`Need`]s. [`Point`] does each of these at most once for a point, however many
 //! measures ask for it.
 
+mod conditions;
 mod point;
+mod settling;
 
 use std::collections::BTreeSet;
 
 use crate::oscillator::Symbol;
 
+pub use conditions::Conditions;
 pub use point::{Point, measure};
 
 /// A property of the oscillator, or of one motion of it, at given parameters.
@@ -33,6 +36,16 @@ pub enum Measure {
     Fold,
     /// The escape point in D.
     Escape,
+    /// The kicks that are survived for certain.
+    Guaranteed,
+    /// The part of random kicks that is lost.
+    Lost,
+    /// How round the basin is.
+    Integrity,
+    /// How long the starts of a window take to come to rest.
+    Settling,
+    /// The part of a window that is at rest in time.
+    FiniteTime,
 }
 
 /// A computation on which measures rest.
@@ -48,6 +61,10 @@ pub enum Need {
     Fold,
     /// The escape point `D_c`.
     Escape,
+    /// The guaranteed margin.
+    Guarantee,
+    /// The motions from all over the window.
+    Settling,
 }
 
 impl Need {
@@ -60,6 +77,8 @@ impl Need {
             Need::Edge => "edge",
             Need::Fold => "fold",
             Need::Escape => "escape",
+            Need::Guarantee => "guarantee",
+            Need::Settling => "settling",
         }
     }
 
@@ -70,7 +89,7 @@ impl Need {
             [Symbol::D, Symbol::D2, Symbol::D3, Symbol::R, Symbol::Q0, Symbol::V0];
         match self {
             Need::Motion => &ALL,
-            Need::Cycles | Need::Edge => &ALL[..4],
+            Need::Cycles | Need::Edge | Need::Guarantee | Need::Settling => &ALL[..4],
             Need::Fold | Need::Escape => &ALL[1..4],
         }
     }
@@ -95,7 +114,7 @@ pub struct MeasureSpec {
 const CYCLES: usize = 2;
 
 /// Every measure, in the order in which they are listed.
-pub const MEASURES: [MeasureSpec; 9] = [
+pub const MEASURES: [MeasureSpec; 14] = [
     MeasureSpec {
         measure: Measure::Outcome,
         name: "outcome",
@@ -168,6 +187,43 @@ pub const MEASURES: [MeasureSpec; 9] = [
         meaning: "the escape point D_c, where the cycle goes to infinity",
         columns: &["D_c"],
         needs: Need::Escape,
+    },
+    MeasureSpec {
+        measure: Measure::Guaranteed,
+        name: "guaranteed",
+        meaning: "margin that holds for every disturbance and all parameters within their half widths",
+        columns: &["guaranteed_displacement", "guaranteed_impulse"],
+        needs: Need::Guarantee,
+    },
+    MeasureSpec {
+        measure: Measure::Lost,
+        name: "lost",
+        meaning: "the part of random kicks that is not captured, and its error",
+        columns: &["lost_part", "lost_error"],
+        needs: Need::Edge,
+    },
+    MeasureSpec {
+        measure: Measure::Integrity,
+        name: "integrity",
+        meaning: "radius of the largest circle about the origin within the basin, and the part of the basin \
+                  that it fills (integrity factor)",
+        columns: &["circle_radius", "integrity"],
+        needs: Need::Edge,
+    },
+    MeasureSpec {
+        measure: Measure::Settling,
+        name: "settling",
+        meaning: "largest and mean time to rest of 32 x 32 starts of the window, if all are at rest in the end",
+        columns: &["settling_max", "settling_mean"],
+        needs: Need::Settling,
+    },
+    MeasureSpec {
+        measure: Measure::FiniteTime,
+        name: "finite-time",
+        meaning: "finite-time basin stability: the part of 32 x 32 starts of the window at rest in the end, and \
+                  its error as a part of the window",
+        columns: &["rested_part", "rested_error"],
+        needs: Need::Settling,
     },
 ];
 

@@ -1,14 +1,18 @@
 //! One point of a scan: each computation that its measures need, once.
 
-use super::{CYCLES, Measure, Need, Value, needs_of};
+use super::settling::Settling;
+use super::{CYCLES, Conditions, Measure, Need, Value, needs_of};
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Detail, Limits, Outcome, Problem, Reason, Trajectory};
-use crate::study::basin::{Basin, Window};
+use crate::study::basin::Basin;
 use crate::study::closing::Equation;
 use crate::study::closings::{STEP, innermost_closing};
 use crate::study::cycle::{Cycle, Cycles, cycles};
 use crate::study::escape::escape_point;
 use crate::study::fold::{FoldPoint, fold};
+use crate::study::guarantee::{Uncertain, guaranteed};
+use crate::study::margin::Margin;
+use crate::study::stability::Share;
 
 /// What was computed at a point; `None` for what no measure needed.
 #[derive(Clone, Debug, Default)]
@@ -18,14 +22,17 @@ pub struct Point {
     edge: Option<Basin>,
     fold: Option<FoldPoint>,
     escape: Option<f64>,
+    guaranteed: Option<Margin>,
+    settling: Option<Settling>,
     /// What all of it cost.
     pub cost: Cost,
     /// What could not be computed, and why.
     pub failures: Vec<(Need, Reason)>,
+    /// Why nothing is guaranteed.
+    pub uncertain: Option<Uncertain>,
 }
 
-/// Fills the columns of these measures at a point, in their order; `window` is that of
-/// [`Measure::Stability`]. What could not be computed is [`Value::Nothing`], and [`Point::failures`]
+/// Fills the columns of these measures at a point, in their order. What could not be computed is [`Value::Nothing`], and [`Point::failures`]
 /// says why.
 ///
 /// # Errors
@@ -33,21 +40,25 @@ pub struct Point {
 pub fn measure(
     problem: &Problem,
     measures: &[Measure],
-    window: &Window,
+    conditions: &Conditions,
     limits: &Limits,
 ) -> Result<(Vec<Value>, Point), Reason> {
     let mut point = Point::default();
-    // The edge has to be followed as far as the window reaches only if the window matters.
-    let windowed = measures.contains(&Measure::Stability);
-    let reach = if windowed { window.q.0.abs().max(window.q.1.abs()) } else { 0.0 };
+    // The edge has to be followed as far as the window or the kicks reach only if these matter.
+    let far = [
+        (Measure::Stability, conditions.reach()),
+        (Measure::Lost, conditions.kicks.reach()),
+    ];
+    let reaches = far.iter().filter(|(measure, _)| measures.contains(measure));
+    let reach = reaches.map(|(_, reach)| *reach).fold(0.0, f64::max);
     for need in needs_of(measures) {
-        match point.compute(need, problem, reach, limits) {
+        match point.compute(need, problem, (conditions, reach), limits) {
             Ok(()) => {}
             Err(Reason::Interrupted) => return Err(Reason::Interrupted),
             Err(reason) => point.failures.push((need, reason)),
         }
     }
-    let values = measures.iter().flat_map(|&measure| point.columns(measure, window)).collect();
+    let values = measures.iter().flat_map(|&measure| point.columns(measure, conditions)).collect();
     Ok((values, point))
 }
 
@@ -56,7 +67,7 @@ impl Point {
         &mut self,
         need: Need,
         problem: &Problem,
-        reach: f64,
+        (conditions, reach): (&Conditions, f64),
         limits: &Limits,
     ) -> Result<(), Reason> {
         let parameters = &problem.parameters;
@@ -90,12 +101,24 @@ impl Point {
                 self.fold = found;
             }
             Need::Escape => self.escape = escape_point(parameters, limits)?,
+            Need::Guarantee => {
+                let known = conditions.around(parameters);
+                let (found, cost) = guaranteed(&known, conditions.disturbance, limits)?;
+                self.cost += cost;
+                self.guaranteed = Some(found.margin);
+                self.uncertain = found.reason;
+            }
+            Need::Settling => {
+                let (found, cost) = Settling::of(problem, &conditions.window, limits)?;
+                self.cost += cost;
+                self.settling = Some(found);
+            }
         }
         Ok(())
     }
 
     /// The cells of a measure, as many as it has columns.
-    fn columns(&self, measure: Measure, window: &Window) -> Vec<Value> {
+    fn columns(&self, measure: Measure, conditions: &Conditions) -> Vec<Value> {
         match measure {
             Measure::Outcome => self.outcome().to_vec(),
             Measure::Rest => match self.motion.as_ref().map(|motion| motion.outcome) {
@@ -112,15 +135,25 @@ impl Point {
                 [cycle.period.into(), cycle.multiplier.into(), cycle.log_multiplier.into()]
             }),
             Measure::Margin => {
-                let margin = self.edge.as_ref().map(Basin::margin);
-                vec![
-                    margin.and_then(|margin| margin.displacement).into(),
-                    margin.and_then(|margin| margin.impulse).into(),
-                ]
+                kicks_survived(self.edge.as_ref().map(Basin::margin))
             }
+            Measure::Guaranteed => kicks_survived(self.guaranteed),
             Measure::Stability => {
-                let share = self.edge.as_ref().map(|basin| basin.captured_share(window));
-                vec![share.map(|share| share.part).into(), share.map(|share| share.error).into()]
+                part(self.edge.as_ref().map(|basin| basin.captured_share(&conditions.window)))
+            }
+            Measure::Lost => part(self.edge.as_ref().map(|basin| conditions.kicks.lost(basin))),
+            Measure::Integrity => {
+                let radius = self.edge.as_ref().and_then(Basin::inner_radius);
+                let integrity = self.edge.as_ref().and_then(Basin::integrity);
+                vec![radius.into(), integrity.into()]
+            }
+            Measure::Settling => {
+                let times = self.settling.as_ref().and_then(Settling::times);
+                [0, 1].map(|index| times.map(|times| times[index]).into()).to_vec()
+            }
+            Measure::FiniteTime => {
+                let rested = self.settling.as_ref().map(Settling::rested);
+                [0, 1].map(|index| rested.map(|rested| rested[index]).into()).to_vec()
             }
             Measure::Area => vec![self.edge.as_ref().and_then(Basin::area).into()],
             Measure::Fold => {
@@ -152,10 +185,20 @@ impl Point {
     }
 }
 
+fn kicks_survived(margin: Option<Margin>) -> Vec<Value> {
+    let displacement = margin.and_then(|margin| margin.displacement);
+    vec![displacement.into(), margin.and_then(|margin| margin.impulse).into()]
+}
+
+fn part(share: Option<Share>) -> Vec<Value> {
+    vec![share.map(|share| share.part).into(), share.map(|share| share.error).into()]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::oscillator::{Parameters, State};
+    use crate::oscillator::{Parameters, State, Symbol};
+    use crate::study::basin::Window;
     use crate::study::measure::MEASURES;
 
     const WINDOW: Window = Window { q: (-3.0, 3.0), v: (-3.0, 3.0) };
@@ -165,7 +208,7 @@ mod tests {
     }
 
     fn measured(problem: &Problem, measures: &[Measure]) -> (Vec<Value>, Point) {
-        measure(problem, measures, &WINDOW, &Limits::PATIENT).unwrap()
+        measure(problem, measures, &WINDOW.into(), &Limits::PATIENT).unwrap()
     }
 
     #[test]
@@ -219,6 +262,42 @@ mod tests {
     }
 
     #[test]
+    fn a_guaranteed_margin_is_that_of_the_worst_and_says_where_there_is_none() {
+        let problem = problem(-0.3, 0.2, 0.5, 0.1);
+        let at = |conditions: &Conditions| {
+            measure(&problem, &[Measure::Guaranteed], conditions, &Limits::PATIENT).unwrap()
+        };
+        let mut conditions = Conditions { disturbance: 0.02, ..WINDOW.into() };
+        let (values, point) = at(&conditions);
+        // Computed elsewhere.
+        assert!((values[0].number().unwrap() - 0.1743).abs() < 5e-5 && point.uncertain.is_none());
+        conditions.half_widths.push((Symbol::R, 0.09));
+        let (values, point) = at(&conditions);
+        assert_eq!(values, [Value::Nothing; 2]);
+        assert!(point.uncertain.is_some() && point.failures.is_empty());
+    }
+
+    #[test]
+    fn a_circle_fills_a_part_of_the_basin_and_the_starts_settle_where_there_is_no_border() {
+        let linear = problem(-0.1, 0.0, 0.0, 0.1);
+        let (values, _) = measured(&linear, &[Measure::Integrity, Measure::Area, Measure::Settling]);
+        let [radius, integrity, area] = [0, 1, 2].map(|index| values[index].number().unwrap());
+        let filled = std::f64::consts::PI * radius * radius / area;
+        assert!((integrity - filled).abs() < 1e-12 && (0.9..1.0).contains(&integrity));
+        assert_eq!(values[3..], [Value::Nothing; 2], "the window reaches out of the basin");
+        let mut damped = problem(0.1, 0.0, 0.0, 0.1);
+        damped.until = 200.0;
+        let (values, _) = measured(&damped, &[Measure::Settling, Measure::FiniteTime]);
+        let [largest, mean, part, error] =
+            [0, 1, 2, 3].map(|index| values[index].number().unwrap());
+        assert!(mean < largest && largest < 30.0 && part == 1.0 && error == 0.0);
+        damped.until = mean;
+        let (values, _) = measured(&damped, &[Measure::Settling, Measure::FiniteTime]);
+        assert_eq!(values[0], Value::Nothing);
+        assert!((0.2..0.8).contains(&values[2].number().unwrap()));
+    }
+
+    #[test]
     fn a_motion_that_cannot_be_followed_says_why_and_leaves_its_cells_empty() {
         let mut stuck = problem(-0.999_999, 0.0, 0.0, 0.0);
         (stuck.initial, stuck.until) = (State { q: 1.0, v: 0.0 }, 1e5);
@@ -227,7 +306,7 @@ mod tests {
         assert_eq!(values[2], Value::Word("gave-up"));
         assert_eq!(point.failures.len(), 1);
         let limits = Limits { interrupted: &|| true, ..Limits::PATIENT };
-        let ended = measure(&problem(-0.1, 0.1, 0.1, 0.1), &[Measure::Margin], &WINDOW, &limits);
+        let ended = measure(&problem(-0.1, 0.1, 0.1, 0.1), &[Measure::Margin], &WINDOW.into(), &limits);
         assert_eq!(ended.unwrap_err(), Reason::Interrupted);
     }
 }

@@ -1,0 +1,259 @@
+//! Kicks by chance: which part of them is lost.
+//!
+//! A kick displaces the mass from its rest at the origin and gives it a velocity; both are random, independent
+//! and normal or uniform. What is lost is an integral of their density over the exact basin, whose border is a
+//! graph over the displacement ([`super::arc`]): no start is drawn or followed.
+
+use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
+use std::fmt;
+use std::str::FromStr;
+
+use super::basin::{Basin, Fate};
+use super::stability::{Share, integrate, support};
+use crate::oscillator::Interval;
+
+/// How a random number is spread.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Law {
+    /// Normal; the spread is the standard deviation.
+    Normal,
+    /// Evenly within the spread on either side.
+    Uniform,
+}
+
+/// A random kick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Kicks {
+    /// How both parts are spread.
+    pub law: Law,
+    /// Mean and spread of the displacement.
+    pub q: (f64, f64),
+    /// Mean and spread of the velocity.
+    pub v: (f64, f64),
+}
+
+impl Default for Kicks {
+    /// Normal, with standard deviations of 1.
+    fn default() -> Self {
+        Kicks { law: Law::Normal, q: (0.0, 1.0), v: (0.0, 1.0) }
+    }
+}
+
+impl FromStr for Kicks {
+    type Err = String;
+
+    /// Reads `q=0+-0.1,v=0+-0.05`, with `uniform:` before it for a law that is not normal.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let form = || format!("{text:?}: expected kicks such as q=0+-0.1,v=0+-0.05 or uniform:q=0+-0.1,v=0");
+        let (law, parts) = match text.split_once(':') {
+            None => (Law::Normal, text),
+            Some(("normal", parts)) => (Law::Normal, parts),
+            Some(("uniform", parts)) => (Law::Uniform, parts),
+            Some(_) => return Err(form()),
+        };
+        let mut kicks = Kicks { law, q: (0.0, 0.0), v: (0.0, 0.0) };
+        for part in parts.split(',') {
+            let (name, interval) = part.split_once('=').ok_or_else(form)?;
+            let interval: Interval = interval.parse().map_err(|refused| format!("{name}: {refused}"))?;
+            *match name.trim() {
+                "q" => &mut kicks.q,
+                "v" => &mut kicks.v,
+                _ => return Err(form()),
+            } = (interval.middle(), interval.half_width());
+        }
+        Ok(kicks)
+    }
+}
+
+impl fmt::Display for Kicks {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let law = if self.law == Law::Uniform { "uniform:" } else { "" };
+        let (q, v) = (self.q, self.v);
+        write!(out, "{law}q={}+-{},v={}+-{}", q.0, q.1, v.0, v.1)
+    }
+}
+
+impl Law {
+    /// One word.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Law::Normal => "normal",
+            Law::Uniform => "uniform",
+        }
+    }
+
+    /// Probability that a number of mean 0 and this spread is larger than `x`.
+    fn above(self, x: f64, spread: f64) -> f64 {
+        if spread == 0.0 {
+            return f64::from(u8::from(x <= 0.0));
+        }
+        match self {
+            Law::Normal => 0.5 * erfc(x / spread / SQRT_2),
+            Law::Uniform => (0.5 - 0.5 * x / spread).clamp(0.0, 1.0),
+        }
+    }
+
+    /// Density of a number of mean 0 and this spread.
+    fn density(self, x: f64, spread: f64) -> f64 {
+        let scaled = x / spread;
+        match self {
+            Law::Normal => (-0.5 * scaled * scaled).exp() / (spread * (2.0 * PI).sqrt()),
+            Law::Uniform => f64::from(u8::from(scaled.abs() <= 1.0)) / (2.0 * spread),
+        }
+    }
+
+    /// How many times the spread a number can be away from its mean, to 1e-18.
+    fn reach(self) -> f64 {
+        match self {
+            Law::Normal => 9.0,
+            Law::Uniform => 1.0,
+        }
+    }
+}
+
+impl Kicks {
+    /// The largest displacement that matters.
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        self.q.0.abs() + self.law.reach() * self.q.1
+    }
+
+    /// The part of the kicks that is lost: that leads out of the basin of the sticking set.
+    ///
+    /// The basin has to be known as far as [`Kicks::reach`]. Quadrature as in [`Basin::captured_share`].
+    #[must_use]
+    pub fn lost(&self, basin: &Basin) -> Share {
+        let all = |part| Share { part, error: 0.0 };
+        if basin.fates.first() != Some(&Fate::Captured) {
+            return all(1.0);
+        }
+        let Some(edge) = basin.borders.first() else { return all(0.0) };
+        let (law, (mean, spread)) = (self.law, self.q);
+        let lost_at = |q: f64| {
+            let Some((low, high)) = edge.span_at(q) else { return 1.0 };
+            law.above(high - self.v.0, self.v.1) + law.above(self.v.0 - low, self.v.1)
+        };
+        if spread == 0.0 {
+            return all(lost_at(mean).min(1.0));
+        }
+        let far = law.reach() * spread;
+        let Some((left, right)) = support(edge, (mean - far, mean + far)) else { return all(1.0) };
+        let beyond = law.above(right - mean, spread) + law.above(mean - left, spread);
+        let (middle, half) = (0.5 * (left + right), 0.5 * (right - left));
+        let lost = |angle: f64| {
+            let q = middle + half * angle.sin();
+            law.density(q - mean, spread) * lost_at(q) * half * angle.cos()
+        };
+        let inside = integrate(&lost, (-FRAC_PI_2, FRAC_PI_2));
+        Share { part: (beyond + inside.part).clamp(0.0, 1.0), ..inside }
+    }
+}
+
+/// The complementary error function, to some 1e-13 of itself.
+///
+/// The series of erf for small arguments, the continued fraction beyond (DLMF 7.6.1 and 7.9.1).
+fn erfc(x: f64) -> f64 {
+    /// Where the fraction of `DEPTH` terms is as good as the series.
+    const SMALL: f64 = 2.0;
+    const DEPTH: i32 = 60;
+    if x < 0.0 {
+        return 2.0 - erfc(-x);
+    }
+    let square = x * x;
+    if x < SMALL {
+        let (mut term, mut sum, mut index) = (x, x, 0.0);
+        while term.abs() > f64::EPSILON * 0.01 * sum.abs() {
+            index += 1.0;
+            term *= 2.0 * square / (2.0 * index + 1.0);
+            sum += term;
+        }
+        return 1.0 - 2.0 / PI.sqrt() * (-square).exp() * sum;
+    }
+    let fraction = (1..=DEPTH).rev().fold(x, |rest, index| x + 0.5 * f64::from(index) / rest);
+    (-square).exp() / (PI.sqrt() * fraction)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::flow::Limits;
+    use crate::oscillator::{Parameters, State};
+    use crate::study::basin::{Window, basin};
+
+    #[test]
+    fn erfc_has_the_digits_of_the_tables() {
+        // NIST Digital Library, table 7.23, and 30-digit arithmetic.
+        for (x, expected) in [
+            (0.0, 1.0),
+            (0.5, 0.479_500_122_186_953_5),
+            (1.0, 0.157_299_207_050_285_13),
+            (1.999, 0.004_698_443_348_628_49),
+            (2.5, 4.069_520_174_449_589e-4),
+            (5.0, 1.537_459_794_428_035e-12),
+            (-1.0, 1.842_700_792_949_715),
+        ] {
+            assert!((erfc(x) / expected - 1.0_f64).abs() < 1e-11, "{x}: {:e}", erfc(x));
+        }
+    }
+
+    #[test]
+    fn kicks_are_read_and_written() {
+        let kicks: Kicks = "q=0+-0.1,v=0.2+-0.05".parse().unwrap();
+        assert_eq!(kicks.law, Law::Normal);
+        assert!((kicks.q.1 - 0.1).abs() < 1e-15 && (kicks.v.0 - 0.2).abs() < 1e-15);
+        assert_eq!("uniform:v=1+-1".parse::<Kicks>().unwrap().law, Law::Uniform);
+        for text in ["q", "x=1", "cauchy:q=1", "q=1+-"] {
+            assert!(text.parse::<Kicks>().is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn uniform_kicks_over_a_window_lose_what_the_window_does_not_hold() {
+        for (d, d2, d3) in [(-0.2, 0.0, 0.0), (-0.3, 0.4, 0.2), (-0.05, 0.5, 0.0)] {
+            let parameters = Parameters { d, d2, d3, r: 0.1 };
+            let found = basin(&parameters, 2.0, &Limits::PATIENT).unwrap();
+            let window = Window { q: (-0.5, 0.7), v: (-0.6, 0.4) };
+            let kicks = Kicks { law: Law::Uniform, q: (0.1, 0.6), v: (-0.1, 0.5) };
+            let (lost, held) = (kicks.lost(&found), found.captured_share(&window));
+            assert!((lost.part + held.part - 1.0).abs() <= lost.error + held.error + 1e-12);
+        }
+    }
+
+    #[test]
+    fn normal_kicks_are_lost_as_often_as_a_monte_carlo_loses_them() {
+        let parameters = Parameters { d: -0.3, d2: 0.2, d3: 0.5, r: 0.1 };
+        let found = basin(&parameters, 3.0, &Limits::PATIENT).unwrap();
+        let kicks = Kicks { law: Law::Normal, q: (0.02, 0.08), v: (0.0, 0.1) };
+        let lost = kicks.lost(&found);
+        // Points of a lattice in the unit square, made normal by the inverse of the distribution.
+        let inverse = |part: f64| {
+            let (mut low, mut high) = (-9.0, 9.0);
+            for _ in 0..40 {
+                let middle = 0.5 * (low + high);
+                if Law::Normal.above(middle, 1.0) > part { low = middle } else { high = middle }
+            }
+            low
+        };
+        let draws = 20_000;
+        let mut out = 0;
+        for index in 0..draws {
+            let spread = |ratio: f64| (0.5 + ratio * f64::from(index)).fract();
+            let (a, b) = (spread(0.754_877_666_246_693), spread(0.569_840_290_998_053));
+            let start = State { q: 0.02 + 0.08 * inverse(a), v: 0.1 * inverse(b) };
+            out += u32::from(found.fate(start) != Fate::Captured);
+        }
+        let counted = f64::from(out) / f64::from(draws);
+        assert!(lost.part > 0.02 && lost.part < 0.5 && lost.error < 1e-8, "{lost:?}");
+        assert!((counted - lost.part).abs() < 1e-3, "{lost:?} {counted}");
+    }
+
+    #[test]
+    fn kicks_without_spread_are_lost_or_not() {
+        let parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.0, r: 0.1 };
+        let found = basin(&parameters, 3.0, &Limits::PATIENT).unwrap();
+        let margin = found.margin().impulse.unwrap();
+        let lost = |v: f64| Kicks { law: Law::Normal, q: (0.0, 0.0), v: (v, 0.0) }.lost(&found).part;
+        assert_eq!([lost(0.999 * margin), lost(1.001 * margin)], [0.0, 1.0]);
+    }
+}

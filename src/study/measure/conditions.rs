@@ -1,0 +1,53 @@
+//! What some measures depend on beside the parameters and the start.
+
+use crate::oscillator::{Interval, ParameterBox, Parameters, Symbol};
+use crate::study::basin::Window;
+use crate::study::kicks::Kicks;
+
+/// The window of starts, the tolerances, the disturbance and the kicks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Conditions {
+    /// Starts whose part or times are measured.
+    pub window: Window,
+    /// Half widths of parameters, each given once.
+    pub half_widths: Vec<(Symbol, f64)>,
+    /// Bound on the disturbance.
+    pub disturbance: f64,
+    /// Kicks of which a part is lost.
+    pub kicks: Kicks,
+}
+
+impl From<Window> for Conditions {
+    fn from(window: Window) -> Self {
+        let kicks = Kicks::default();
+        Conditions { window, half_widths: Vec::new(), disturbance: 0.0, kicks }
+    }
+}
+
+impl Conditions {
+    /// The box of parameters around these; friction is never negative.
+    #[must_use]
+    pub fn around(&self, parameters: &Parameters) -> ParameterBox {
+        let mut known = ParameterBox::from(*parameters);
+        for &(symbol, half_width) in &self.half_widths {
+            let around = |value: f64| Interval::around(value, half_width);
+            match symbol {
+                Symbol::D => known.d = around(parameters.d),
+                Symbol::D2 => known.d2 = around(parameters.d2),
+                Symbol::D3 => known.d3 = around(parameters.d3),
+                Symbol::R => {
+                    let Interval { low, high } = around(parameters.r);
+                    known.r = Interval { low: low.max(0.0), high };
+                }
+                Symbol::Q0 | Symbol::V0 => {}
+            }
+        }
+        known
+    }
+
+    /// How far the edge of the basin matters.
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        self.window.q.0.abs().max(self.window.q.1.abs())
+    }
+}
