@@ -17,6 +17,7 @@ mod figure;
 mod fit;
 mod input;
 mod keys;
+mod kicks;
 mod look;
 mod margin;
 mod output;
@@ -67,6 +68,7 @@ enum Command {
     Branch(branch::Branch),
     Basin(basin::Basin),
     Margin(margin::Margin),
+    Kicks(kicks::Kicks),
     Border(border::Border),
     Paper(paper::Paper),
     Belt(belt::Belt),
@@ -94,6 +96,7 @@ impl Command {
             Command::Branch(command) => command.run(),
             Command::Basin(command) => command.run(),
             Command::Margin(command) => command.run(),
+            Command::Kicks(command) => command.run(),
             Command::Border(command) => command.run(),
             Command::Paper(command) => command.run(),
             Command::Belt(command) => command.run(),

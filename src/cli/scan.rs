@@ -51,7 +51,7 @@ pub struct ScanCommand {
     /// Half width of a parameter for `guaranteed`, such as r=0.01; repeatable
     #[arg(long, value_name = "NAME=HALFWIDTH", value_parser = input::half_width, allow_hyphen_values = true)]
     half_width: Vec<(Symbol, f64)>,
-    /// Random kicks of which `lost` is a part, mean and standard deviation; with uniform: before them, mean and
+    /// Random kicks of `lost` and `repeated`, mean and standard deviation; with uniform: before them, mean and
     /// half width
     #[arg(long, value_name = "q=MEAN+-SPREAD,v=MEAN+-SPREAD", default_value = "q=0+-1,v=0+-1",
           allow_hyphen_values = true)]

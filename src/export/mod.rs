@@ -10,6 +10,7 @@ pub mod figure;
 pub mod fit;
 pub mod guarantee;
 pub mod json;
+pub mod kicks;
 mod proof;
 pub mod scan;
 pub mod scene_cost;

@@ -90,7 +90,7 @@ fn digits(tolerance: f64) -> usize {
 }
 
 /// `D = -0.1, D2 = 0, ...`.
-fn parameters(parameters: &Parameters, but: Option<Symbol>) -> String {
+pub(super) fn parameters(parameters: &Parameters, but: Option<Symbol>) -> String {
     let initial = State { q: 0.0, v: 0.0 };
     let symbols = PARAMETERS.iter().map(|row| row.symbol);
     let shown =

@@ -95,7 +95,7 @@ impl Law {
     }
 
     /// Density of a number of mean 0 and this spread.
-    fn density(self, x: f64, spread: f64) -> f64 {
+    pub(super) fn density(self, x: f64, spread: f64) -> f64 {
         let scaled = x / spread;
         match self {
             Law::Normal => (-0.5 * scaled * scaled).exp() / (spread * (2.0 * PI).sqrt()),
@@ -104,7 +104,7 @@ impl Law {
     }
 
     /// How many times the spread a number can be away from its mean, to 1e-18.
-    fn reach(self) -> f64 {
+    pub(super) fn reach(self) -> f64 {
         match self {
             Law::Normal => 9.0,
             Law::Uniform => 1.0,

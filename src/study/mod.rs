@@ -27,6 +27,7 @@ pub mod margin;
 pub mod measure;
 pub mod proved;
 pub mod regime;
+pub mod repeated;
 pub mod return_map;
 pub mod scan;
 pub mod search;

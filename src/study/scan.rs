@@ -308,7 +308,7 @@ impl Scan {
                 inputs.extend([(from, low.into()), (to, high.into())]);
             }
         }
-        if self.measures.contains(&Measure::Lost) {
+        if [Measure::Lost, Measure::Repeated].iter().any(|one| self.measures.contains(one)) {
             let Kicks { law, q, v } = self.conditions.kicks;
             inputs.push(("kick_law", Value::Word(law.name())));
             inputs.extend([("kick_q", q.0.into()), ("kick_q_spread", q.1.into())]);

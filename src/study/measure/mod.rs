@@ -46,6 +46,8 @@ pub enum Measure {
     Settling,
     /// The part of a window that is at rest in time.
     FiniteTime,
+    /// How many kicks in a row are survived.
+    Repeated,
 }
 
 /// A computation on which measures rest.
@@ -65,6 +67,8 @@ pub enum Need {
     Guarantee,
     /// The motions from all over the window.
     Settling,
+    /// The Markov chain of repeated kicks.
+    Chain,
 }
 
 impl Need {
@@ -79,6 +83,7 @@ impl Need {
             Need::Escape => "escape",
             Need::Guarantee => "guarantee",
             Need::Settling => "settling",
+            Need::Chain => "repeated kicks",
         }
     }
 
@@ -89,7 +94,7 @@ impl Need {
             [Symbol::D, Symbol::D2, Symbol::D3, Symbol::R, Symbol::Q0, Symbol::V0];
         match self {
             Need::Motion => &ALL,
-            Need::Cycles | Need::Edge | Need::Guarantee | Need::Settling => &ALL[..4],
+            Need::Cycles | Need::Edge | Need::Guarantee | Need::Settling | Need::Chain => &ALL[..4],
             Need::Fold | Need::Escape => &ALL[1..4],
         }
     }
@@ -114,7 +119,7 @@ pub struct MeasureSpec {
 const CYCLES: usize = 2;
 
 /// Every measure, in the order in which they are listed.
-pub const MEASURES: [MeasureSpec; 14] = [
+pub const MEASURES: [MeasureSpec; 15] = [
     MeasureSpec {
         measure: Measure::Outcome,
         name: "outcome",
@@ -224,6 +229,14 @@ pub const MEASURES: [MeasureSpec; 14] = [
                   its error as a part of the window",
         columns: &["rested_part", "rested_error"],
         needs: Need::Settling,
+    },
+    MeasureSpec {
+        measure: Measure::Repeated,
+        name: "repeated",
+        meaning: "mean number of random kicks, each from where the last one came to rest, until one is lost; the \
+                  part that is lost after many; the relative error of both",
+        columns: &["kicks_mean", "kicks_lost", "kicks_error"],
+        needs: Need::Chain,
     },
 ];
 

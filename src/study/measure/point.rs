@@ -12,6 +12,7 @@ use crate::study::escape::escape_point;
 use crate::study::fold::{FoldPoint, fold};
 use crate::study::guarantee::{Uncertain, guaranteed};
 use crate::study::margin::Margin;
+use crate::study::repeated::{Repeated, repeated};
 use crate::study::stability::Share;
 
 /// What was computed at a point; `None` for what no measure needed.
@@ -24,6 +25,7 @@ pub struct Point {
     escape: Option<f64>,
     guaranteed: Option<Margin>,
     settling: Option<Settling>,
+    repeated: Option<Repeated>,
     /// What all of it cost.
     pub cost: Cost,
     /// What could not be computed, and why.
@@ -113,6 +115,13 @@ impl Point {
                 self.cost += cost;
                 self.settling = Some(found);
             }
+            // Without friction there is no set of places to rest.
+            Need::Chain if parameters.r == 0.0 => {}
+            Need::Chain => {
+                let found = repeated(parameters, &conditions.kicks, limits)?;
+                self.cost += found.cost;
+                self.repeated = Some(found);
+            }
         }
         Ok(())
     }
@@ -150,6 +159,11 @@ impl Point {
             Measure::Settling => {
                 let times = self.settling.as_ref().and_then(Settling::times);
                 [0, 1].map(|index| times.map(|times| times[index]).into()).to_vec()
+            }
+            Measure::Repeated => {
+                let chain = self.repeated.as_ref();
+                let columns = |of: fn(&Repeated) -> f64| Value::from(chain.map(of));
+                [columns(|it| it.mean), columns(|it| it.later), columns(|it| it.error)].to_vec()
             }
             Measure::FiniteTime => {
                 let rested = self.settling.as_ref().map(Settling::rested);
@@ -221,14 +235,13 @@ mod tests {
             problem(-0.2, 0.0, 0.3, 0.0),
             problem(-1.5, 0.0, 0.0, 0.2),
         ] {
-            for row in &MEASURES {
-                let (values, point) = measured(&problem, &[row.measure]);
-                assert_eq!(values.len(), row.columns.len(), "{}", row.name);
-                assert!(point.failures.is_empty(), "{}: {:?}", row.name, point.failures);
-                for value in values {
-                    assert!(value.number().is_none_or(f64::is_finite));
-                }
-            }
+            // The chain of kicks follows ten thousands of motions; it has its own tests.
+            let rows = MEASURES.iter().filter(|row| row.needs != Need::Chain);
+            let measures: Vec<_> = rows.clone().map(|row| row.measure).collect();
+            let (values, point) = measured(&problem, &measures);
+            assert_eq!(values.len(), rows.map(|row| row.columns.len()).sum::<usize>());
+            assert!(point.failures.is_empty(), "{problem:?}: {:?}", point.failures);
+            assert!(values.iter().all(|value| value.number().is_none_or(f64::is_finite)));
         }
     }
 

@@ -1,0 +1,43 @@
+//! `hopfscope kicks`: which part of random kicks is lost, and how many in a row are survived.
+
+use clap::Args;
+
+use super::failure::Failure;
+use super::output::{Format, Output, print};
+use super::start::Start;
+use super::timing::timed;
+use crate::export::kicks;
+use crate::flow::Limits;
+use crate::study::kicks::Kicks as Law;
+use crate::study::repeated::repeated;
+
+/// Says which part of random kicks is lost, and how many in a row are survived
+#[derive(Debug, Args)]
+pub struct Kicks {
+    #[command(flatten)]
+    start: Start,
+    #[command(flatten)]
+    output: Output,
+    /// Displacement and velocity of a kick, mean and standard deviation; with uniform: before them, mean and
+    /// half width
+    #[arg(long, value_name = "q=MEAN+-SPREAD,v=MEAN+-SPREAD", allow_hyphen_values = true)]
+    kicks: Law,
+}
+
+impl Kicks {
+    /// Computes and prints.
+    pub fn run(&self) -> Result<(), Failure> {
+        self.start.note_own_method();
+        let parameters = self.start.problem()?.parameters;
+        let follow = || repeated(&parameters, &self.kicks, &Limits::PATIENT);
+        let (found, seconds) = timed(self.output.repeat, follow);
+        let found = found.map_err(|reason| {
+            Failure::Unanswered(format!("the kicks could not be followed: {reason}"))
+        })?;
+        print(&match self.output.format {
+            Format::Table => kicks::table(&parameters, &self.kicks, &found, seconds),
+            Format::Json => kicks::json(&parameters, &self.kicks, &found, seconds),
+            Format::Csv => kicks::csv(&parameters, &found),
+        })
+    }
+}
