@@ -20,8 +20,12 @@ pub struct Kicks {
     output: Output,
     /// Displacement and velocity of a kick, mean and standard deviation; with uniform: before them, mean and
     /// half width
-    #[arg(long, value_name = "q=MEAN+-SPREAD,v=MEAN+-SPREAD", allow_hyphen_values = true)]
-    kicks: Law,
+    #[arg(
+        long = "kicks",
+        value_name = "q=MEAN+-SPREAD,v=MEAN+-SPREAD",
+        allow_hyphen_values = true
+    )]
+    law: Law,
 }
 
 impl Kicks {
@@ -29,14 +33,14 @@ impl Kicks {
     pub fn run(&self) -> Result<(), Failure> {
         self.start.note_own_method();
         let parameters = self.start.problem()?.parameters;
-        let follow = || repeated(&parameters, &self.kicks, &Limits::PATIENT);
+        let follow = || repeated(&parameters, &self.law, &Limits::PATIENT);
         let (found, seconds) = timed(self.output.repeat, follow);
         let found = found.map_err(|reason| {
             Failure::Unanswered(format!("the kicks could not be followed: {reason}"))
         })?;
         print(&match self.output.format {
-            Format::Table => kicks::table(&parameters, &self.kicks, &found, seconds),
-            Format::Json => kicks::json(&parameters, &self.kicks, &found, seconds),
+            Format::Table => kicks::table(&parameters, &self.law, &found, seconds),
+            Format::Json => kicks::json(&parameters, &self.law, &found, seconds),
             Format::Csv => kicks::csv(&parameters, &found),
         })
     }

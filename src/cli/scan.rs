@@ -18,9 +18,9 @@ use super::progress::Progress;
 use super::start::Start;
 use crate::export::scan::Form;
 use crate::flow::Limits;
+use crate::oscillator::Symbol;
 use crate::runtime::scan_file::{Refusal, ScanFile};
 use crate::runtime::scanning::{Effort, rows};
-use crate::oscillator::Symbol;
 use crate::runtime::signals::exit_code;
 use crate::study::basin::Window;
 use crate::study::kicks::Kicks;
@@ -53,8 +53,12 @@ pub struct ScanCommand {
     half_width: Vec<(Symbol, f64)>,
     /// Random kicks of `lost` and `repeated`, mean and standard deviation; with uniform: before them, mean and
     /// half width
-    #[arg(long, value_name = "q=MEAN+-SPREAD,v=MEAN+-SPREAD", default_value = "q=0+-1,v=0+-1",
-          allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "q=MEAN+-SPREAD,v=MEAN+-SPREAD",
+        default_value = "q=0+-1,v=0+-1",
+        allow_hyphen_values = true
+    )]
     kicks: Kicks,
     /// Time at which the motions of `outcome`, `rest`, `settling` and `finite-time` stop (default: that of the
     /// scene)

@@ -54,9 +54,9 @@ pub fn json(parameters: &Parameters, kicks: &Kicks, found: &Repeated, seconds: f
 #[must_use]
 pub fn csv(parameters: &Parameters, found: &Repeated) -> String {
     let titles = ["q", "density"].map(str::to_owned);
-    let rows = found.places(parameters.r).map(|(q, density)| {
-        line(&[exact_or_empty(Some(q)), exact_or_empty(Some(density))])
-    });
+    let rows = found
+        .places(parameters.r)
+        .map(|(q, density)| line(&[exact_or_empty(Some(q)), exact_or_empty(Some(density))]));
     std::iter::once(line(&titles)).chain(rows).collect()
 }
 

@@ -44,7 +44,9 @@ impl FromStr for Kicks {
 
     /// Reads `q=0+-0.1,v=0+-0.05`, with `uniform:` before it for a law that is not normal.
     fn from_str(text: &str) -> Result<Self, String> {
-        let form = || format!("{text:?}: expected kicks such as q=0+-0.1,v=0+-0.05 or uniform:q=0+-0.1,v=0");
+        let form = || {
+            format!("{text:?}: expected kicks such as q=0+-0.1,v=0+-0.05 or uniform:q=0+-0.1,v=0")
+        };
         let (law, parts) = match text.split_once(':') {
             None => (Law::Normal, text),
             Some(("normal", parts)) => (Law::Normal, parts),
@@ -54,7 +56,8 @@ impl FromStr for Kicks {
         let mut kicks = Kicks { law, q: (0.0, 0.0), v: (0.0, 0.0) };
         for part in parts.split(',') {
             let (name, interval) = part.split_once('=').ok_or_else(form)?;
-            let interval: Interval = interval.parse().map_err(|refused| format!("{name}: {refused}"))?;
+            let interval: Interval =
+                interval.parse().map_err(|refused| format!("{name}: {refused}"))?;
             *match name.trim() {
                 "q" => &mut kicks.q,
                 "v" => &mut kicks.v,
@@ -253,7 +256,8 @@ mod tests {
         let parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.0, r: 0.1 };
         let found = basin(&parameters, 3.0, &Limits::PATIENT).unwrap();
         let margin = found.margin().impulse.unwrap();
-        let lost = |v: f64| Kicks { law: Law::Normal, q: (0.0, 0.0), v: (v, 0.0) }.lost(&found).part;
+        let lost =
+            |v: f64| Kicks { law: Law::Normal, q: (0.0, 0.0), v: (v, 0.0) }.lost(&found).part;
         assert_eq!([lost(0.999 * margin), lost(1.001 * margin)], [0.0, 1.0]);
     }
 }

@@ -72,8 +72,8 @@ impl Basin {
         let edge = self.borders.first()?;
         let curve = edge.curve(POINTS);
         let far = |state: &State| state.q.hypot(state.v);
-        let nearest =
-            (0..curve.len()).min_by(|one, other| far(&curve[*one]).total_cmp(&far(&curve[*other])))?;
+        let nearest = (0..curve.len())
+            .min_by(|one, other| far(&curve[*one]).total_cmp(&far(&curve[*other])))?;
         let State { v, .. } = curve[nearest];
         let distance = |q: f64| {
             let span = edge.span_at(q);
@@ -84,7 +84,11 @@ impl Basin {
         let (mut low, mut high) = (one.min(other), one.max(other));
         for _ in 0..THIRDS {
             let third = (high - low) / 3.0;
-            if distance(low + third) < distance(high - third) { high -= third } else { low += third }
+            if distance(low + third) < distance(high - third) {
+                high -= third;
+            } else {
+                low += third;
+            }
         }
         Some(distance(f64::midpoint(low, high)).min(far(&curve[nearest])))
     }

@@ -56,7 +56,9 @@ pub fn repeated(
     limits: &Limits,
 ) -> Result<Repeated, Reason> {
     if parameters.r == 0.0 {
-        return Err(Reason::NotApplicable { needs: "friction, without which nothing comes to rest" });
+        return Err(Reason::NotApplicable {
+            needs: "friction, without which nothing comes to rest",
+        });
     }
     let basin = basin(parameters, kicks.reach() + parameters.r, limits)?;
     let coarse = Chain::new(&basin, kicks, CELLS / 2, limits)?;
@@ -67,7 +69,8 @@ pub fn repeated(
     let (density, later) = fine.settled();
     let (_, before) = coarse.settled();
     let mean = fine.mean(later);
-    let relative = |one: f64, other: f64| if one == other { 0.0 } else { (one / other - 1.0).abs() };
+    let relative =
+        |one: f64, other: f64| if one == other { 0.0 } else { (one / other - 1.0).abs() };
     let error = relative(before, later).max(relative(coarse.mean(before), mean));
     Ok(Repeated { first: from(kicks, 0.0).lost(&basin), later, mean, error, density, cost })
 }
@@ -111,10 +114,16 @@ impl Chain {
                 if basin.fate(start) != Fate::Captured {
                     continue;
                 }
-                let Some(rest) = rest_of(&basin.parameters, start, limits, &mut cost)? else { continue };
+                let Some(rest) = rest_of(&basin.parameters, start, limits, &mut cost)? else {
+                    continue;
+                };
                 // Shared between the two cells whose centres it lies between.
                 let place = ((rest + r) / width - 0.5).clamp(0.0, real(cells - 1));
-                #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a cell")]
+                #[expect(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "a cell"
+                )]
                 let left = (place as usize).min(cells - 2);
                 let part = place - real(left);
                 for &(from, weight) in &column.weights {
@@ -183,10 +192,8 @@ struct Column {
 fn columns(kicks: &Kicks, centres: &[f64], fineness: f64) -> Vec<Column> {
     let (mean, spread) = kicks.q;
     if spread == 0.0 {
-        let column = |(cell, centre): (usize, &f64)| Column {
-            q: centre + mean,
-            weights: vec![(cell, 1.0)],
-        };
+        let column =
+            |(cell, centre): (usize, &f64)| Column { q: centre + mean, weights: vec![(cell, 1.0)] };
         return centres.iter().enumerate().map(column).collect();
     }
     let far = kicks.law.reach().min(FAR) * spread;
@@ -271,7 +278,8 @@ mod tests {
         }
 
         fn pair(&mut self) -> (f64, f64) {
-            let (radius, angle) = ((-2.0 * self.part().ln()).sqrt(), std::f64::consts::TAU * self.part());
+            let (radius, angle) =
+                ((-2.0 * self.part().ln()).sqrt(), std::f64::consts::TAU * self.part());
             (radius * angle.cos(), radius * angle.sin())
         }
     }
@@ -286,10 +294,8 @@ mod tests {
             let (mut place, mut run) = (0.0, 0.0);
             loop {
                 let (a, b) = random.pair();
-                let start = State {
-                    q: place + kicks.q.0 + kicks.q.1 * a,
-                    v: kicks.v.0 + kicks.v.1 * b,
-                };
+                let start =
+                    State { q: place + kicks.q.0 + kicks.q.1 * a, v: kicks.v.0 + kicks.v.1 * b };
                 kicked += 1;
                 run += 1.0;
                 if found.fate(start) != Fate::Captured {
@@ -311,7 +317,12 @@ mod tests {
         let found = repeated(parameters, kicks, &Limits::PATIENT).unwrap();
         let (mean, deviation) = drawn(parameters, kicks, drawn_kicks);
         let error = 3.0 * deviation + found.error * found.mean;
-        assert!((mean - found.mean).abs() < error, "{mean} +- {deviation}, {} {}", found.mean, found.error);
+        assert!(
+            (mean - found.mean).abs() < error,
+            "{mean} +- {deviation}, {} {}",
+            found.mean,
+            found.error
+        );
         assert!(found.error < 0.02, "{}", found.error);
         let width = 2.0 * parameters.r / real(found.density.len());
         assert!((found.density.iter().sum::<f64>() * width - 1.0).abs() < 1e-9);
@@ -327,7 +338,11 @@ mod tests {
     fn kicks_are_lost_after_as_many_as_a_large_monte_carlo_needs() {
         agrees(&PARAMETERS, &KICKS, 1_000_000);
         let impulses = Kicks { q: (0.0, 0.0), ..KICKS };
-        agrees(&Parameters { d: -0.05, d2: 0.5, d3: 0.0, r: 0.2 }, &Kicks { v: (0.0, 0.6), ..impulses }, 1_000_000);
+        agrees(
+            &Parameters { d: -0.05, d2: 0.5, d3: 0.0, r: 0.2 },
+            &Kicks { v: (0.0, 0.6), ..impulses },
+            1_000_000,
+        );
     }
 
     #[test]

@@ -47,10 +47,7 @@ pub fn measure(
 ) -> Result<(Vec<Value>, Point), Reason> {
     let mut point = Point::default();
     // The edge has to be followed as far as the window or the kicks reach only if these matter.
-    let far = [
-        (Measure::Stability, conditions.reach()),
-        (Measure::Lost, conditions.kicks.reach()),
-    ];
+    let far = [(Measure::Stability, conditions.reach()), (Measure::Lost, conditions.kicks.reach())];
     let reaches = far.iter().filter(|(measure, _)| measures.contains(measure));
     let reach = reaches.map(|(_, reach)| *reach).fold(0.0, f64::max);
     for need in needs_of(measures) {
@@ -143,9 +140,7 @@ impl Point {
             Measure::Multipliers => self.each_cycle(|cycle| {
                 [cycle.period.into(), cycle.multiplier.into(), cycle.log_multiplier.into()]
             }),
-            Measure::Margin => {
-                kicks_survived(self.edge.as_ref().map(Basin::margin))
-            }
+            Measure::Margin => kicks_survived(self.edge.as_ref().map(Basin::margin)),
             Measure::Guaranteed => kicks_survived(self.guaranteed),
             Measure::Stability => {
                 part(self.edge.as_ref().map(|basin| basin.captured_share(&conditions.window)))
@@ -293,7 +288,8 @@ mod tests {
     #[test]
     fn a_circle_fills_a_part_of_the_basin_and_the_starts_settle_where_there_is_no_border() {
         let linear = problem(-0.1, 0.0, 0.0, 0.1);
-        let (values, _) = measured(&linear, &[Measure::Integrity, Measure::Area, Measure::Settling]);
+        let (values, _) =
+            measured(&linear, &[Measure::Integrity, Measure::Area, Measure::Settling]);
         let [radius, integrity, area] = [0, 1, 2].map(|index| values[index].number().unwrap());
         let filled = std::f64::consts::PI * radius * radius / area;
         assert!((integrity - filled).abs() < 1e-12 && (0.9..1.0).contains(&integrity));
@@ -319,7 +315,8 @@ mod tests {
         assert_eq!(values[2], Value::Word("gave-up"));
         assert_eq!(point.failures.len(), 1);
         let limits = Limits { interrupted: &|| true, ..Limits::PATIENT };
-        let ended = measure(&problem(-0.1, 0.1, 0.1, 0.1), &[Measure::Margin], &WINDOW.into(), &limits);
+        let ended =
+            measure(&problem(-0.1, 0.1, 0.1, 0.1), &[Measure::Margin], &WINDOW.into(), &limits);
         assert_eq!(ended.unwrap_err(), Reason::Interrupted);
     }
 }

@@ -20,11 +20,7 @@ impl Settling {
     ///
     /// # Errors
     /// The [`Reason`] why one of them was given up.
-    pub fn of(
-        problem: &Problem,
-        window: &Window,
-        limits: &Limits,
-    ) -> Result<(Self, Cost), Reason> {
+    pub fn of(problem: &Problem, window: &Window, limits: &Limits) -> Result<(Self, Cost), Reason> {
         let mut cost = Cost::default();
         let cell = |(from, to): (f64, f64), index: u16| {
             from + (to - from) * (f64::from(index) + 0.5) / f64::from(SIDE)
@@ -66,7 +62,9 @@ impl Settling {
                 resting += u16::from(here);
                 let differs = |other: Option<usize>, line: bool| {
                     let other = other.filter(|index| *index < side);
-                    other.is_some_and(|at| here != if line { rests(at, column) } else { rests(row, at) })
+                    other.is_some_and(|at| {
+                        here != if line { rests(at, column) } else { rests(row, at) }
+                    })
                 };
                 let edge = differs(row.checked_sub(1), true)
                     || differs(Some(row + 1), true)
