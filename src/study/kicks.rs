@@ -10,7 +10,6 @@ use std::str::FromStr;
 
 use super::basin::{Basin, Fate};
 use super::stability::{Share, integrate, support};
-use crate::oscillator::Interval;
 
 /// How a random number is spread.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,13 +55,20 @@ impl FromStr for Kicks {
         let mut kicks = Kicks { law, q: (0.0, 0.0), v: (0.0, 0.0) };
         for part in parts.split(',') {
             let (name, interval) = part.split_once('=').ok_or_else(form)?;
-            let interval: Interval =
-                interval.parse().map_err(|refused| format!("{name}: {refused}"))?;
+            let number = |text: &str| {
+                let value = text.trim().parse().ok().filter(|value: &f64| value.is_finite());
+                value.ok_or_else(|| format!("{name}: {text:?} is not a finite number"))
+            };
+            let (mean, spread) = interval.split_once("+-").unwrap_or((interval, "0"));
+            let (mean, spread) = (number(mean)?, number(spread)?);
+            if spread < 0.0 {
+                return Err(format!("{name}: the spread {spread} is negative"));
+            }
             *match name.trim() {
                 "q" => &mut kicks.q,
                 "v" => &mut kicks.v,
                 _ => return Err(form()),
-            } = (interval.middle(), interval.half_width());
+            } = (mean, spread);
         }
         Ok(kicks)
     }
@@ -204,9 +210,10 @@ mod tests {
     fn kicks_are_read_and_written() {
         let kicks: Kicks = "q=0+-0.1,v=0.2+-0.05".parse().unwrap();
         assert_eq!(kicks.law, Law::Normal);
-        assert!((kicks.q.1 - 0.1).abs() < 1e-15 && (kicks.v.0 - 0.2).abs() < 1e-15);
+        assert_eq!((kicks.q, kicks.v), ((0.0, 0.1), (0.2, 0.05)));
+        assert_eq!(kicks.to_string(), "q=0+-0.1,v=0.2+-0.05");
         assert_eq!("uniform:v=1+-1".parse::<Kicks>().unwrap().law, Law::Uniform);
-        for text in ["q", "x=1", "cauchy:q=1", "q=1+-"] {
+        for text in ["q", "x=1", "cauchy:q=1", "q=1+-", "q=1+--1", "q=inf"] {
             assert!(text.parse::<Kicks>().is_err(), "{text}");
         }
     }
