@@ -151,7 +151,7 @@ fn a_scan_measures_what_the_basin_has() {
         let window = Window { q: (left, right), v: (low, high) };
         let problem = Problem { parameters, ..Problem::default() };
         let measures = [Measure::Margin, Measure::Area, Measure::Stability];
-        let (values, _) = measure(&problem, &measures, &window, &LIMITS).unwrap();
+        let (values, _) = measure(&problem, &measures, &window.into(), &LIMITS).unwrap();
         let found = basin(&parameters, left.abs().max(right.abs()), &LIMITS).unwrap();
         let share = found.captured_share(&window);
         let margin = found.margin();
