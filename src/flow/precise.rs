@@ -122,6 +122,27 @@ pub fn precise(problem: &Problem, grain: Grain, limits: &Limits) -> Result<Preci
     }
 }
 
+/// The half swing from rest at `(-start, 0)`: where it ends, and how long it takes; `None` where its velocity
+/// becomes infinite.
+///
+/// # Errors
+/// As [`precise`].
+pub fn half_swing(
+    field: HalfPlane,
+    start: Twofold,
+    grain: Grain,
+    cost: &mut Cost,
+    limits: &Limits,
+) -> Result<Option<(Twofold, Twofold)>, Reason> {
+    /// No half swing that arrives takes longer.
+    const PATIENCE: f64 = 1e100;
+    let mut swing = Swing::new(field, (start.opposite(), ZERO), grain);
+    Ok(match swing.run(0.0, Twofold::of(PATIENCE), cost, limits)? {
+        Arrival::Standstill => Some((swing.place().0, swing.time)),
+        Arrival::Escape | Arrival::Time => None,
+    })
+}
+
 /// Where a half swing led.
 enum Arrival {
     Standstill,

@@ -11,6 +11,7 @@
 
 use super::closing::{Equation, Route};
 use super::half_map::{HalfMap, Length, NoEnd};
+use super::roundoff::UNIT;
 use crate::flow::scaling::{exponent, field_in_units, times_power};
 use crate::flow::step::Stepper;
 use crate::flow::tableau::GAUSS;
@@ -19,7 +20,7 @@ use crate::oscillator::HalfPlane;
 
 /// The residual of [`Route::Mixed`] at `u = ln c0`, with the digits that a difference would lose.
 ///
-/// `None` where a swing does not end.
+/// Beside it a bound on its error: each work is known to rounding. `None` where a swing does not end.
 ///
 /// # Errors
 /// The [`Reason`] why a swing failed.
@@ -27,7 +28,7 @@ pub fn weighed_residual(
     equation: &mut Equation,
     u: f64,
     limits: &Limits,
-) -> Result<Option<f64>, Reason> {
+) -> Result<Option<(f64, f64)>, Reason> {
     let gap = 2.0 * equation.parameters.r;
     let start = Length::from_log(u);
     // Squares of lengths leave the range of numbers long before lengths do: all in units of the start.
@@ -44,8 +45,10 @@ pub fn weighed_residual(
     let taken = friction(second, gap, d2) + friction(start, gap, -d2);
     let target = second + gap;
     let gained_second = -lost_second;
-    let excess = (gained_first + gained_second - taken) / (target * (2.0 * d2 * target).exp());
-    Ok(Some((excess / target).ln_1p()))
+    let weight = target * target * (2.0 * d2 * target).exp();
+    let excess = (gained_first + gained_second - taken) / weight;
+    let noise = UNIT * (gained_first.abs() + gained_second.abs() + taken) / weight;
+    Ok(Some((excess.ln_1p(), noise)))
 }
 
 /// Swings and integrates `-exp(2 D2 x) (2 D v^2 + D3 v^4)`, lengths measured in units of `2^measure`.

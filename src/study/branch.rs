@@ -12,7 +12,7 @@ use serde::Serialize;
 use super::closing::{Equation, Route, first_side};
 use super::closings::other_closings;
 use super::continuation::{Curve, CurvePoint};
-use super::cycle::Cycle;
+use super::cycle::{Cycle, CycleErrors};
 use super::escape::escape_point;
 use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::{Cost, Limits, Reason};
@@ -197,6 +197,15 @@ const VANISHING: Cycle = Cycle {
     clearance: 0.0,
     log_clearance: f64::NEG_INFINITY,
     error: 0.0,
+    errors: CycleErrors {
+        q_min: 0.0,
+        q_max: 0.0,
+        v_min: 0.0,
+        v_max: 0.0,
+        period: 0.0,
+        log_multiplier: 0.0,
+        log_clearance: 0.0,
+    },
 };
 
 /// A branch in the making.

@@ -13,6 +13,7 @@
 //! second swing run backward can escape.
 
 use super::half_map::{HalfMap, HalfSwing, Length, NoEnd};
+use super::roundoff::{Errors, UNIT};
 use super::search::Node;
 use crate::flow::{Cost, Limits, Reason};
 use crate::oscillator::{HalfPlane, Parameters, Side};
@@ -29,6 +30,17 @@ pub enum Route {
 }
 
 impl Route {
+    /// The route on which rounding grows least, by the logarithms of what each swing makes of a relative
+    /// error of its clearance.
+    #[must_use]
+    pub fn steadiest([first, second]: [f64; 2]) -> Self {
+        match (first > 0.0, second > 0.0) {
+            (false, false) => Route::Forward,
+            (true, true) => Route::Backward,
+            _ => Route::Mixed,
+        }
+    }
+
     /// The route that contracts at a cycle of this multiplier.
     #[must_use]
     pub fn contracting(log_multiplier: f64) -> Self {
@@ -59,6 +71,39 @@ pub struct Closing {
     pub square: f64,
     /// Largest speed in the first and in the second swing, if asked for.
     pub fastest: [f64; 2],
+    /// Logarithms of what each swing, run forward, makes of a relative error of its clearance.
+    pub growth: [f64; 2],
+    /// Bounds on the error of the residual and, relative, of the first clearance, if asked for.
+    pub noise: f64,
+    /// See `noise`.
+    pub uncertainty: f64,
+    /// Errors of the other numbers at exactly this unknown, and those that a relative error 1 of it makes.
+    errors: [Spread; 2],
+}
+
+/// Errors of what a closing gives: of the clearances relative, of all others absolute.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Spread {
+    /// Of the clearances at which the swings start.
+    pub clearance: [f64; 2],
+    /// Of the duration.
+    pub duration: f64,
+    /// Of the integral of `v^2`.
+    pub square: f64,
+    /// Of the largest speeds.
+    pub fastest: [f64; 2],
+}
+
+impl Spread {
+    /// From the relative errors of the clearances and the errors of the two swings.
+    fn new(clearance: [f64; 2], [first, second]: [Errors; 2]) -> Self {
+        Spread {
+            clearance,
+            duration: first.duration + second.duration,
+            square: first.square + second.square,
+            fastest: [first.fastest, second.fastest],
+        }
+    }
 }
 
 /// The half maps of both swings in both directions.
@@ -241,7 +286,19 @@ impl Equation {
     /// # Errors
     /// The [`Reason`] why a swing failed.
     pub fn at(&mut self, route: Route, u: f64, limits: &Limits) -> Result<Closing, Reason> {
-        let start = Length::from_log(u);
+        self.from(route, Length::from_log(u), limits)
+    }
+
+    /// The two swings for `c0`.
+    ///
+    /// # Errors
+    /// The [`Reason`] why a swing failed.
+    pub fn from(
+        &mut self,
+        route: Route,
+        start: Length,
+        limits: &Limits,
+    ) -> Result<Closing, Reason> {
         match route {
             Route::Mixed => self.mixed(start, limits),
             Route::Forward => self.both_forward(start, limits),
@@ -267,13 +324,24 @@ impl Equation {
         };
         let target = second.end.plus(gap);
         let pull = second.log_elasticity.exp() * share(second.end, gap) * share(start, gap);
-        let node = Node {
-            at: start.log,
-            rise: first.end.log,
-            fall: target.log,
-            slope: first.log_elasticity.exp() - pull,
-        };
-        Ok(Closing::of(node, start, second.end, [first, second]))
+        let slope = first.log_elasticity.exp() - pull;
+        let node = Node::new(start.log, first.end.log, target.log, slope);
+        let shares = [share(start, gap), share(second.end, gap)];
+        let [(own, gain), (late, late_gain)] =
+            [first, second].map(|it| (it.errors[0], it.errors[1]));
+        let late = late.plus(late_gain, f64::EPSILON);
+        let errors = [
+            Spread::new([rounding(start), late.end], [own, late]),
+            Spread::new(
+                [1.0, shares[0] * late_gain.end],
+                [gain, Errors::default().plus(late_gain, shares[0])],
+            ),
+        ];
+        let noise = own.end + shares[1] * late.end + rounding(first.end) + rounding(target);
+        let growth =
+            [first.log_elasticity - shares[1].ln(), -(second.log_elasticity + shares[0].ln())];
+        let closing = Closing::of(node, [start, second.end], [first, second]);
+        Ok(closing.with_errors(growth, noise, errors))
     }
 
     fn both_forward(&mut self, start: Length, limits: &Limits) -> Result<Closing, Reason> {
@@ -301,9 +369,20 @@ impl Equation {
         }
         let stretch = (swings[0].log_elasticity + swings[1].log_elasticity).exp()
             / (share(seconds, gap) * share(clearance, gap));
-        let node =
-            Node { at: start.log, rise: clearance.log, fall: start.log, slope: stretch - 1.0 };
-        Ok(Closing::of(node, start, seconds, swings))
+        let node = Node::new(start.log, clearance.log, start.log, stretch - 1.0);
+        let shares = [share(clearance, gap), share(seconds, gap)];
+        let [(own, gain), (late, late_gain)] = swings.map(|it| (it.errors[0], it.errors[1]));
+        // A difference of two lengths keeps their absolute errors.
+        let passed = [own.end + f64::EPSILON, gain.end].map(|error| error / shares[1]);
+        let late = late.plus(late_gain, passed[0]);
+        let errors = [
+            Spread::new([rounding(start), passed[0]], [own, late]),
+            Spread::new([1.0, passed[1]], [gain, Errors::default().plus(late_gain, passed[1])]),
+        ];
+        let noise = (late.end + f64::EPSILON) / shares[0] + rounding(clearance) + rounding(start);
+        let growth =
+            [swings[0].log_elasticity - shares[1].ln(), swings[1].log_elasticity - shares[0].ln()];
+        Ok(Closing::of(node, [start, seconds], swings).with_errors(growth, noise, errors))
     }
 
     fn both_backward(&mut self, start: Length, limits: &Limits) -> Result<Closing, Reason> {
@@ -323,32 +402,65 @@ impl Equation {
             (length, ends[index], swings[index]) = (swing.end, swing.end, swing);
         }
         let [back, second] = ends;
-        let node = Node { at: start.log, rise: start.log, fall: back.log, slope: 1.0 - shrink };
-        Ok(Closing::of(node, start, second, swings))
+        let node = Node::new(start.log, start.log, back.log, 1.0 - shrink);
+        let shares = [share(start, gap), share(second, gap)];
+        let [(last, last_gain), (own, gain)] = swings.map(|it| (it.errors[0], it.errors[1]));
+        let own = own.plus(gain, f64::EPSILON);
+        let last = last.plus(last_gain, shares[1] * own.end + f64::EPSILON);
+        let carried = shares[0] * gain.end * shares[1];
+        let errors = [
+            Spread::new([last.end, own.end], [last, own]),
+            Spread::new(
+                [shrink, shares[0] * gain.end],
+                [
+                    Errors::default().plus(last_gain, carried),
+                    Errors::default().plus(gain, shares[0]),
+                ],
+            ),
+        ];
+        let noise = last.end + rounding(start) + rounding(back);
+        // Where the way back contracts, its end is known better than its start.
+        let growth = [
+            -(swings[0].log_elasticity + shares[1].ln()),
+            -(swings[1].log_elasticity + shares[0].ln()),
+        ];
+        Ok(Closing::of(node, [back, second], swings).with_errors(growth, noise, errors))
     }
 }
 
 /// `d ln(c + gap) / d ln(c)`.
-fn share(clearance: Length, gap: f64) -> f64 {
+#[must_use]
+pub fn share(clearance: Length, gap: f64) -> f64 {
     if gap == 0.0 { 1.0 } else { clearance.value / (clearance.value + gap) }
 }
 
 impl HalfSwing {
     /// The swing that creeps back to the centre for ever: its end is 0.
     fn collapsed(start: Length) -> Self {
+        HalfSwing { duration: f64::INFINITY, ..HalfSwing::nothing(start) }
+    }
+
+    /// No swing at all.
+    fn nothing(start: Length) -> Self {
         HalfSwing {
             start,
             end: Length { value: 0.0, log: f64::NEG_INFINITY },
-            duration: f64::INFINITY,
+            duration: 0.0,
             square: 0.0,
             fastest: 0.0,
             log_elasticity: f64::NEG_INFINITY,
+            errors: [Errors::default(); 2],
         }
     }
 }
 
+/// Relative error that a rounded logarithm leaves of a length.
+fn rounding(length: Length) -> f64 {
+    f64::EPSILON * length.log.abs().max(1.0)
+}
+
 impl Closing {
-    fn of(node: Node, first: Length, second: Length, swings: [HalfSwing; 2]) -> Self {
+    fn of(node: Node, [first, second]: [Length; 2], swings: [HalfSwing; 2]) -> Self {
         Closing {
             node,
             first,
@@ -356,30 +468,91 @@ impl Closing {
             duration: swings[0].duration + swings[1].duration,
             square: swings[0].square + swings[1].square,
             fastest: [swings[0].fastest, swings[1].fastest],
+            growth: [f64::NAN; 2],
+            noise: 0.0,
+            uncertainty: 0.0,
+            errors: [Spread::default(); 2],
         }
     }
 
-    /// The cycle of two mirror-image swings, known in closed form.
+    fn with_errors(self, growth: [f64; 2], noise: f64, errors: [Spread; 2]) -> Self {
+        let uncertainty = (self.node.value().abs() + noise) / self.node.slope.abs();
+        Closing { growth, noise, uncertainty, errors, ..self }
+    }
+
+    /// The same with clearances and duration known to all digits of a double, beyond the relative errors given.
     #[must_use]
-    pub fn symmetric(clearance: Length, duration: f64, fastest: f64) -> Self {
-        let node = Node { at: clearance.log, rise: 0.0, fall: 0.0, slope: f64::NAN };
-        let fastest = [fastest; 2];
-        Closing { node, first: clearance, second: clearance, duration, square: 0.0, fastest }
+    pub fn sharpened(
+        self,
+        (first, second, duration): (f64, f64, f64),
+        [uncertainty, passed]: [f64; 2],
+    ) -> Self {
+        let [mut own, mut gain] = self.errors;
+        (own.clearance, own.duration) = ([0.0, passed], f64::EPSILON * duration);
+        // A plain relative error of the first clearance.
+        gain.clearance[0] = 1.0;
+        let (first, second) = (Length::new(first), Length::new(second));
+        Closing { first, second, duration, uncertainty, errors: [own, gain], ..self }
+    }
+
+    /// How errors of rounding and of the first clearance reach the others.
+    #[must_use]
+    pub fn errors(&self) -> &[Spread; 2] {
+        &self.errors
+    }
+
+    /// Bounds on the errors of its numbers.
+    #[must_use]
+    pub fn spread(&self) -> Spread {
+        let [own, gain] = &self.errors;
+        let sum =
+            |own: f64, gain: f64| own + if gain == 0.0 { 0.0 } else { gain * self.uncertainty };
+        let pair =
+            |of: fn(&Spread) -> [f64; 2]| [0, 1].map(|index| sum(of(own)[index], of(gain)[index]));
+        Spread {
+            clearance: pair(|it| it.clearance),
+            duration: sum(own.duration, gain.duration),
+            square: sum(own.square, gain.square),
+            fastest: pair(|it| it.fastest),
+        }
+    }
+
+    /// The cycle of two swings equally fast, known in closed form to a few units in the last place.
+    #[must_use]
+    pub fn in_closed_form(
+        clearances: [Length; 2],
+        duration: f64,
+        square: f64,
+        fastest: f64,
+    ) -> Self {
+        let [first, second] = clearances;
+        let node = Node::new(first.log, 0.0, 0.0, f64::NAN);
+        let own = Spread {
+            clearance: clearances.map(|clearance| UNIT + rounding(clearance)),
+            duration: UNIT * duration,
+            square: UNIT * square,
+            fastest: [UNIT * fastest; 2],
+        };
+        Closing {
+            node,
+            first,
+            second,
+            duration,
+            square,
+            fastest: [fastest; 2],
+            growth: [f64::NAN; 2],
+            noise: 0.0,
+            uncertainty: own.clearance[0],
+            errors: [own, Spread::default()],
+        }
     }
 
     /// Outside the domain of one of the two functions: it is infinite, the other a bound that says
     /// nothing.
     fn beyond(start: Length, rise: f64, fall: f64) -> Self {
-        let node = Node { at: start.log, rise, fall, slope: f64::NAN };
-        let nothing = Length { value: 0.0, log: f64::NEG_INFINITY };
-        Closing {
-            node,
-            first: start,
-            second: nothing,
-            duration: 0.0,
-            square: 0.0,
-            fastest: [0.0; 2],
-        }
+        let node = Node::new(start.log, rise, fall, f64::NAN);
+        let nothing = HalfSwing::nothing(start);
+        Closing::of(node, [start, nothing.end], [nothing; 2])
     }
 
     /// Logarithm of the Floquet multiplier if this closing is a cycle.
@@ -394,6 +567,16 @@ impl Closing {
         // Three times a damping can be too large a number; times the square, which is then small, it is not.
         let cubic = 3.0 * (parameters.d3 * self.square);
         past_friction - 2.0 * parameters.d * self.duration - cubic
+    }
+}
+
+impl Closing {
+    /// Sum of the magnitudes of the terms of [`Closing::log_multiplier`].
+    #[must_use]
+    pub fn log_terms(&self, parameters: &Parameters) -> f64 {
+        let Parameters { d, d3, r, .. } = *parameters;
+        let shares = [self.first, self.second].map(|it| log_share(it, 2.0 * r).abs());
+        shares[0] + shares[1] + 2.0 * d.abs() * self.duration + 3.0 * (d3.abs() * self.square)
     }
 }
 

@@ -8,9 +8,11 @@
 use super::balance::weighed_residual;
 use super::closing::{Closing, Equation, Route};
 use super::half_map::Length;
+use super::precise_closing::{FINER, PreciseEquation};
 use super::search::{Bracket, Node, search};
 use super::weak::{is_one_way, weak_closing};
 use crate::closed_form::piecewise_linear::LinearCycle;
+use crate::closed_form::twofold::Twofold;
 use crate::flow::{Limits, Reason};
 use crate::oscillator::Parameters;
 
@@ -19,6 +21,10 @@ pub const STEP: f64 = 1e-16;
 
 /// Slope of the residual below which it is weighed as energy.
 const FLAT: f64 = 0.3;
+
+/// Relative error of a clearance above which it is computed to more digits, and above which it is no answer.
+const SHARP: f64 = 1e-10;
+const VAGUE: f64 = 1e-3;
 
 /// Newton steps before giving up; bisection alone needs 60.
 const ITERATIONS: usize = 200;
@@ -63,7 +69,7 @@ fn some_closings(
 impl From<&LinearCycle> for Closing {
     fn from(cycle: &LinearCycle) -> Self {
         let clearance = Length { value: cycle.clearance, log: cycle.log_clearance };
-        Closing::symmetric(clearance, cycle.period, cycle.v_max)
+        Closing::in_closed_form([clearance; 2], cycle.period, 0.0, cycle.v_max)
     }
 }
 
@@ -102,9 +108,10 @@ fn searched(
     if is_one_way(&equation.parameters) {
         return Ok(Vec::new());
     }
+    let sought = "a limit cycle";
     let Some(low) = lower_end(equation, limits)? else { return Ok(Vec::new()) };
-    let brackets = brackets(equation, low, most, known, limits)?;
     equation.want_fastest(true);
+    let brackets = brackets(equation, low, most, known, limits)?;
     let mut found = Vec::new();
     for bracket in brackets {
         let closing = polish(equation, bracket, limits)?;
@@ -113,10 +120,54 @@ fn searched(
             if !closing.log_multiplier(&equation.parameters).is_finite() {
                 return Err(Reason::OutOfRange);
             }
+            if closing.uncertainty > VAGUE {
+                return Err(Reason::NoConvergence { sought, change: closing.uncertainty });
+            }
             found.push(closing);
         }
     }
+    // Between two cycles that both attract, or both repel, lies another one.
+    let stable = |closing: &Closing| closing.log_multiplier(&equation.parameters) < 0.0;
+    let alternate = found.windows(2).all(|pair| stable(&pair[0]) != stable(&pair[1]));
+    if known.is_empty() && !alternate {
+        let change = found.iter().fold(0.0, |most, it| it.uncertainty.max(most));
+        return Err(Reason::NoConvergence { sought, change });
+    }
     Ok(found)
+}
+
+/// The residual of the mixed route, with a sign that can be relied on.
+///
+/// Where rounding reaches it, the works are weighed; where they are not decisive either, the swings are
+/// computed in twice the working precision.
+fn resolved(equation: &mut Equation, u: f64, limits: &Limits) -> Result<Node, Reason> {
+    /// How far beyond its error bound a residual is smooth enough to be interpolated.
+    const SMOOTH: f64 = 32.0;
+    let closing = equation.at(Route::Mixed, u, limits)?;
+    let node = closing.node;
+    let decided = |value: f64, noise: f64| !(value.abs() < SMOOTH * noise);
+    if decided(node.value(), closing.noise) || !closing.duration.is_finite() {
+        return Ok(node);
+    }
+    let (mut difference, mut noise) = (node.value(), closing.noise);
+    if let Some((weighed, bound)) = weighed_residual(equation, u, limits)?
+        && bound < noise
+    {
+        (difference, noise) = (weighed, bound);
+    }
+    if !decided(difference, noise) && FINER * closing.noise < noise {
+        let mut precise = PreciseEquation::new(&equation.parameters, equation.side);
+        let start = Twofold::of(closing.first.value);
+        let found = precise.at(Route::Mixed, start, limits);
+        equation.charge(precise.cost());
+        match found {
+            Ok(found) => difference = found.map_or(difference, |found| found.value),
+            Err(Reason::Interrupted) => return Err(Reason::Interrupted),
+            // Too stiff, or out of range: doubles have to do.
+            Err(_) => {}
+        }
+    }
+    Ok(Node { difference, ..node })
 }
 
 /// Where the search begins, or `None` where no swing passes the sticking set.
@@ -186,8 +237,11 @@ fn brackets(
     let (step, blur) = if parameters.d.abs() < WEAK { (fine, 0.0) } else { (rough, BLUR * rough) };
     let mut rough = equation.again(step);
     let mut function = |u: f64, fine: bool| {
-        let equation = if fine { &mut *equation } else { &mut rough };
-        Ok(equation.at(Route::Mixed, u, limits)?.node)
+        if fine {
+            resolved(equation, u, limits)
+        } else {
+            Ok(rough.at(Route::Mixed, u, limits)?.node)
+        }
     };
     let mut found = Vec::new();
     // Where the next unknown interval begins, at or beyond a place.
@@ -197,13 +251,14 @@ fn brackets(
         }
         at
     };
-    let (mut here, mut stride) = (function(unknown(low), false)?, STRIDES.0);
+    let exact = blur == 0.0;
+    let (mut here, mut stride) = (function(unknown(low), exact)?, STRIDES.0);
     while here.at < high {
         let ahead = known.iter().map(|(from, _)| *from).filter(|from| *from > here.at);
-        let next = function(ahead.fold((here.at + stride).min(high), f64::min), false)?;
+        let next = function(ahead.fold((here.at + stride).min(high), f64::min), exact)?;
         search(here, next, blur, &mut function, &mut found)?;
         let beyond = unknown(next.at);
-        here = if beyond > next.at { function(beyond, false)? } else { next };
+        here = if beyond > next.at { function(beyond, exact)? } else { next };
         // A swing that never starts out, or never ends, is no end of the domain: from further out it may.
         let escapes = here.rise == f64::INFINITY || here.fall == f64::INFINITY;
         // One of them may turn out to be no cycle.
@@ -229,7 +284,7 @@ pub(super) fn innermost_bracket(
     Ok(brackets(equation, low, 1, &[], limits)?.into_iter().next())
 }
 
-/// Newton's method on the contracting route, inside the bracket.
+/// The closing in a bracket, to rounding where doubles allow it, else in twice the working precision.
 ///
 /// # Errors
 /// The [`Reason`] why a swing failed, or [`Reason::NoConvergence`].
@@ -238,6 +293,16 @@ pub fn polish(
     bracket: Bracket,
     limits: &Limits,
 ) -> Result<Closing, Reason> {
+    let rough = newton(equation, bracket, limits)?;
+    let worst = rough.spread().clearance.into_iter().fold(rough.uncertainty, f64::max);
+    if worst <= SHARP {
+        return Ok(rough);
+    }
+    Ok(sharpen(equation, &rough, bracket, limits)?.unwrap_or(rough))
+}
+
+/// Newton's method on the contracting route, inside the bracket.
+fn newton(equation: &mut Equation, bracket: Bracket, limits: &Limits) -> Result<Closing, Reason> {
     let rising = bracket.1.value() > bracket.0.value();
     let (mut low, mut high) = (bracket.0.at, bracket.1.at);
     let mut route = beyond_the_end(&bracket);
@@ -245,7 +310,7 @@ pub fn polish(
     let mut u = secant(&bracket);
     let mut change = f64::INFINITY;
     for _ in 0..ITERATIONS {
-        let closing = equation.at(route, u, limits)?;
+        let mut closing = equation.at(route, u, limits)?;
         let mut node = closing.node;
         let contracting = Route::contracting(closing.log_multiplier(&equation.parameters));
         // Beyond the domain of one swing a route that runs it the other way has a value.
@@ -268,9 +333,10 @@ pub fn polish(
         let flat = route == Route::Mixed && node.slope.abs() < FLAT;
         if flat
             && ends
-            && let Some(weighed) = weighed_residual(equation, u, limits)?
+            && let Some((weighed, noise)) = weighed_residual(equation, u, limits)?
         {
-            node = Node { rise: weighed, fall: 0.0, ..node };
+            node.difference = weighed;
+            closing.uncertainty = (weighed.abs() + noise) / node.slope.abs();
         }
         if (node.value() > 0.0) == rising {
             high = u;
@@ -284,7 +350,8 @@ pub fn polish(
         let rounding = 4.0 * f64::EPSILON * u.abs().max(1.0);
         let blurred = change.is_finite() && change <= rounding / node.slope.abs().min(1.0);
         // Where rounding of the swings is larger than that, Newton's method stops making progress.
-        let stalled = change >= 0.5 * last && change <= 16.0 * rounding;
+        let noise = closing.noise / node.slope.abs();
+        let stalled = change >= 0.5 * last && change <= noise.max(16.0 * rounding);
         let settled = change <= rounding || stalled || (blurred && (!flat || change >= 0.5 * last));
         if settled && node.value().is_finite() {
             return Ok(closing);
@@ -309,27 +376,78 @@ fn beyond_the_end((low, high): &Bracket) -> Route {
     }
 }
 
-/// The closing at an unknown known to rounding, by the route on which it closes best.
+/// The closing at an unknown known to rounding, by the route on which it is known best.
 ///
 /// A swing that magnifies rounding beyond its own size, such as one along the border of escape, is of no
 /// use forward: backward it contracts.
-///
-/// # Errors
-/// The [`Reason`] why a swing failed, or [`Reason::NoConvergence`] where no route closes.
 fn closest(equation: &mut Equation, u: f64, limits: &Limits) -> Result<Closing, Reason> {
-    /// Residual, relative to the clearance, that is rounding seen through a steep map.
-    const CLOSED: f64 = 1e-6;
     let mut best: Option<Closing> = None;
     for route in [Route::Mixed, Route::Backward, Route::Forward] {
         let closing = equation.at(route, u, limits)?;
-        let residual = |closing: &Closing| closing.node.value().abs();
-        if residual(&closing) < best.as_ref().map_or(f64::INFINITY, residual) {
+        let worst =
+            |it: &Closing| if it.node.value().is_finite() { it.uncertainty } else { f64::INFINITY };
+        if best.as_ref().is_none_or(|best| worst(&closing) < worst(best)) {
             best = Some(closing);
         }
     }
-    let change = best.as_ref().map_or(f64::INFINITY, |best| best.node.value().abs());
-    best.filter(|_| change <= CLOSED)
-        .ok_or(Reason::NoConvergence { sought: "a limit cycle", change })
+    best.ok_or(Reason::NoConvergence { sought: "a limit cycle", change: f64::INFINITY })
+}
+
+/// The same closing in twice the working precision; `None` where that is not possible either.
+///
+/// Newton's method, then secants, in the bracket, along the route on which rounding grows least.
+fn sharpen(
+    equation: &mut Equation,
+    rough: &Closing,
+    bracket: Bracket,
+    limits: &Limits,
+) -> Result<Option<Closing>, Reason> {
+    /// Steps, and the relative change of the last one.
+    const STEPS: usize = 60;
+    const SETTLED: f64 = 1e-17;
+    let route = Route::steadiest(rough.growth);
+    let rising = bracket.1.value() > bracket.0.value();
+    let mut precise = PreciseEquation::new(&equation.parameters, equation.side);
+    let seen = equation.at(route, rough.node.at, limits)?;
+    let mut slope = seen.node.slope;
+    // The unknown is the start of the rough closing times e^s.
+    let start = Twofold::of(Length::from_log(rough.node.at).value);
+    // Its ends were decided by doubles, which may have been too few.
+    let slack = 2.0 * rough.uncertainty.min(1.0);
+    let (mut low, mut high) =
+        ((bracket.0.at - rough.node.at).min(-slack), (bracket.1.at - rough.node.at).max(slack));
+    let (mut s, mut before, mut found) = (0.0_f64, None::<(f64, f64)>, None);
+    for _ in 0..STEPS {
+        let here = start.plus(start.times(s.exp_m1()));
+        let residual = match precise.at(route, here, limits) {
+            Err(Reason::Interrupted) => return Err(Reason::Interrupted),
+            Ok(Some(residual)) => residual,
+            Ok(None) | Err(_) => break,
+        };
+        if let Some((there, value)) = before.filter(|(there, _)| *there != s) {
+            slope = (residual.value - value) / (s - there);
+        }
+        before = Some((s, residual.value));
+        if (residual.value > 0.0) == rising {
+            high = s;
+        } else {
+            low = s;
+        }
+        let newton = s - residual.value / slope;
+        let change = (newton - s).abs();
+        if change <= SETTLED || residual.value == 0.0 || high - low <= SETTLED {
+            found = Some((here, residual, change));
+            break;
+        }
+        s = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+    }
+    equation.charge(precise.cost());
+    let Some((first, residual, change)) = found else { return Ok(None) };
+    let closing = equation.from(route, Length::new(first.value()), limits)?;
+    let uncertainty = change + FINER * closing.noise / slope.abs();
+    let passed = FINER * closing.errors()[0].clearance[1];
+    let numbers = (first.value(), residual.second, residual.duration);
+    Ok(Some(closing.sharpened(numbers, [uncertainty, passed])))
 }
 
 /// Where the line through both ends of a bracket vanishes; its middle where an end is infinite.

@@ -4,7 +4,7 @@
 use serde::Serialize;
 
 use super::basin::Basin;
-use super::closing::{Closing, Equation, Route};
+use super::closing::{Closing, Equation, Route, share};
 use super::closings::{STEP, all_closings, polish};
 use super::lift::lifted;
 use super::margin::Margin;
@@ -37,8 +37,29 @@ pub struct Cycle {
     pub clearance: f64,
     /// Natural logarithm of the clearance.
     pub log_clearance: f64,
-    /// Estimated relative error of the clearance.
+    /// Largest relative error of these numbers. A multiplier that under- or overflows counts by its logarithm.
     pub error: f64,
+    /// The error of each.
+    pub errors: CycleErrors,
+}
+
+/// Bounds on the absolute errors of the numbers of a cycle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct CycleErrors {
+    /// Of the left turning point.
+    pub q_min: f64,
+    /// Of the right turning point.
+    pub q_max: f64,
+    /// Of the smallest velocity.
+    pub v_min: f64,
+    /// Of the largest velocity.
+    pub v_max: f64,
+    /// Of the period.
+    pub period: f64,
+    /// Of the logarithm of the multiplier: a relative error of the multiplier.
+    pub log_multiplier: f64,
+    /// Of the logarithm of the clearance: a relative error of the clearance.
+    pub log_clearance: f64,
 }
 
 impl Cycle {
@@ -189,8 +210,10 @@ impl From<&LinearCycle> for Cycle {
             log_multiplier: cycle.log_multiplier,
             clearance: cycle.clearance,
             log_clearance: cycle.log_clearance,
-            error: 4.0 * f64::EPSILON,
+            error: 0.0,
+            errors: CycleErrors::default(),
         }
+        .rounded()
     }
 }
 
@@ -241,30 +264,72 @@ impl Closing {
     /// The cycle that this closed pair of swings is; the first swing runs on `side`.
     #[must_use]
     pub fn describe(&self, parameters: &Parameters, side: Side) -> Cycle {
-        let r = parameters.r;
+        let Parameters { d, d3, r, .. } = *parameters;
         let log_multiplier = self.log_multiplier(parameters);
         let multiplier = log_multiplier.exp();
-        let slope = self.node.slope.abs();
-        let turning = [self.first, self.second];
+        let spread = self.spread();
+        let turning = [(self.first, spread.clearance[0]), (self.second, spread.clearance[1])];
+        let fastest = [(self.fastest[0], spread.fastest[0]), (self.fastest[1], spread.fastest[1])];
         // The first swing starts on the far side of the half plane that it crosses.
         let ([left, right], [up, down]) = match side {
-            Side::Upper => (turning, self.fastest),
-            Side::Lower => ([turning[1], turning[0]], [self.fastest[1], self.fastest[0]]),
+            Side::Upper => (turning, fastest),
+            Side::Lower => ([turning[1], turning[0]], [fastest[1], fastest[0]]),
         };
+        let unshared = turning.map(|(clearance, error)| error * (1.0 - share(clearance, 2.0 * r)));
+        let dampings = 2.0 * d.abs() * spread.duration + 3.0 * (d3.abs() * spread.square);
         Cycle {
             stable: log_multiplier < 0.0,
-            q_min: -(r + left.value),
-            q_max: r + right.value,
-            v_min: -down,
-            v_max: up,
+            q_min: -(r + left.0.value),
+            q_max: r + right.0.value,
+            v_min: -down.0,
+            v_max: up.0,
             period: self.duration,
             multiplier: multiplier.is_finite().then_some(multiplier),
             log_multiplier,
-            clearance: right.value,
-            log_clearance: right.log,
-            // Near critical damping the time next to the centre depends on the last digits of the state.
-            error: 8.0 * f64::EPSILON
-                / (slope.min(1.0) * (1.0 - parameters.d.abs()).abs().min(1.0)),
+            clearance: right.0.value,
+            log_clearance: right.0.log,
+            error: 0.0,
+            errors: CycleErrors {
+                q_min: left.1 * left.0.value,
+                q_max: right.1 * right.0.value,
+                v_min: down.1,
+                v_max: up.1,
+                period: spread.duration,
+                log_multiplier: unshared[0]
+                    + unshared[1]
+                    + dampings
+                    + f64::EPSILON * self.log_terms(parameters),
+                log_clearance: right.1,
+            },
         }
+        .rounded()
+    }
+}
+
+impl Cycle {
+    /// With the rounding of each number itself added to its error, and the largest relative error.
+    fn rounded(mut self) -> Self {
+        let rounded = |value: f64| 2.0 * f64::EPSILON * value.abs();
+        let errors = &mut self.errors;
+        let lengths = [
+            (&mut errors.q_min, self.q_min),
+            (&mut errors.q_max, self.q_max),
+            (&mut errors.v_min, self.v_min),
+            (&mut errors.v_max, self.v_max),
+            (&mut errors.period, self.period),
+        ];
+        let mut largest = 0.0_f64;
+        for (error, value) in lengths {
+            *error += rounded(value);
+            largest = largest.max(*error / value.abs());
+        }
+        errors.log_multiplier += rounded(self.log_multiplier);
+        errors.log_clearance += rounded(self.log_clearance.abs().max(1.0));
+        let multiplier = match self.multiplier {
+            Some(multiplier) if multiplier.is_normal() => errors.log_multiplier.exp_m1(),
+            _ => errors.log_multiplier / self.log_multiplier.abs(),
+        };
+        self.error = largest.max(errors.log_clearance).max(multiplier);
+        self
     }
 }

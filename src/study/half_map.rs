@@ -11,6 +11,7 @@
 
 use std::ops::ControlFlow;
 
+use super::roundoff::{Errors, Roundoff};
 use crate::closed_form::linear::first_standstill;
 use crate::flow::auto::Auto;
 use crate::flow::scaling::times_power;
@@ -85,6 +86,8 @@ pub struct HalfSwing {
     /// From the divergence with the turning points built in (Liouville): `dX/dc = (c/X) exp(integral of
     /// the divergence)`; the D2 part of the integral is exact because the integral of v is `X + c`.
     pub log_elasticity: f64,
+    /// What rounding does to these numbers, and a relative error 1 of the start; zero unless asked for.
+    pub errors: [Errors; 2],
 }
 
 /// Why a half swing has no end.
@@ -107,7 +110,7 @@ pub struct HalfMap {
     tolerance: f64,
     /// States smaller than this move linearly.
     linear_below: f64,
-    /// Whether to find the largest velocity of each swing.
+    /// Whether to find the largest velocity of each swing, and the errors of its numbers.
     pub fastest: bool,
     steps: u64,
     /// Swings computed so far.
@@ -183,22 +186,30 @@ impl HalfMap {
             match Spiral::of(self.field.d).grow(start, self.linear_below) {
                 Growth::Whole(end, duration) => {
                     let fastest = Spiral::of(self.field.d).fastest(start);
-                    return Ok(self.finish(start, end, duration, 0.0, fastest));
+                    let errors = Roundoff::closed(end.log, duration, fastest);
+                    return Ok(self.finish(start, end, duration, 0.0, fastest, errors));
                 }
                 Growth::Until(grown) => leg = grown,
             }
         }
         let (mut square, mut fastest) = (0.0, 0.0_f64);
+        let skipped = (start.log, leg.point, leg.duration);
+        let mut roundoff = self.fastest.then(|| Roundoff::new(self.field, self.tolerance, skipped));
         let nonlinear = !self.field.is_linear();
         // Once small, a decaying motion stays small and is linear to its end.
         let tail = if self.field.d >= 0.0 { self.linear_below } else { 0.0 };
-        let wants_fastest = self.fastest;
         let mut see = |stepper: &mut Auto, _: f64, unit: i32, step: &Step| {
+            let mut squared = 0.0;
             if nonlinear {
-                square += times_power(times_power(stepper.square_integral(), unit), unit);
+                squared = stepper.square_integral();
+                square += times_power(times_power(squared, unit), unit);
             }
-            if wants_fastest && let Some(v) = stepper.fastest() {
-                fastest = fastest.max(times_power(v, unit));
+            if let Some(roundoff) = &mut roundoff {
+                let largest = stepper.fastest();
+                if let Some(v) = largest {
+                    fastest = fastest.max(times_power(v, unit));
+                }
+                roundoff.step(unit, step, squared, largest);
             }
             watch(stepper, unit, step.duration);
             if !step.crossed && times_power(step.end.size(), unit) < tail {
@@ -235,7 +246,9 @@ impl HalfMap {
             }
             End::Stopped { .. } => return Err(NoEnd::Never),
         };
-        Ok(self.finish(start, end, duration + rest, square, fastest))
+        let errors = roundoff.map(|roundoff| roundoff.done(&self.field, end.log, rest));
+        let errors = errors.unwrap_or_default();
+        Ok(self.finish(start, end, duration + rest, square, fastest, errors))
     }
 
     /// Swings from `(-start, 0)`.
@@ -253,12 +266,13 @@ impl HalfMap {
         duration: f64,
         square: f64,
         fastest: f64,
+        errors: [Errors; 2],
     ) -> HalfSwing {
         let HalfPlane { d, d2, d3 } = self.field;
         let path = start.value + end.value;
         let divergence = -2.0 * d * duration - 2.0 * d2 * path - 3.0 * d3 * square;
         let log_elasticity = 2.0 * (start.log - end.log) + divergence;
-        HalfSwing { start, end, duration, square, fastest, log_elasticity }
+        HalfSwing { start, end, duration, square, fastest, log_elasticity, errors }
     }
 }
 

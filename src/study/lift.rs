@@ -4,7 +4,7 @@
 //! by, and differences of them are noise. Motions scale (equation 4), and scaling by a power of two is
 //! exact, so the same cycles are found where numbers have all their digits, and brought back.
 
-use super::cycle::{Cycle, Cycles, Picture};
+use super::cycle::{Cycle, CycleErrors, Cycles, Picture};
 use super::margin::Margin;
 use crate::closed_form::harmonic::Harmonic;
 use crate::oscillator::scaling::{exponent, times_power};
@@ -56,6 +56,13 @@ impl Cycle {
             v_min: length(self.v_min),
             v_max: length(self.v_max),
             clearance: length(self.clearance),
+            errors: CycleErrors {
+                q_min: length(self.errors.q_min),
+                q_max: length(self.errors.q_max),
+                v_min: length(self.errors.v_min),
+                v_max: length(self.errors.v_max),
+                ..self.errors
+            },
             log_clearance: self.log_clearance + f64::from(unit) * std::f64::consts::LN_2,
             ..self
         }

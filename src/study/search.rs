@@ -17,7 +17,7 @@ const FINEST: f64 = 1e-4;
 /// How far the cubic must stay from zero, in units of its error at the middle.
 const SAFETY: f64 = 8.0;
 
-/// Values of the two increasing functions, and the slope of their difference.
+/// Values of the two increasing functions, their difference, and its slope.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
     /// Where.
@@ -26,15 +26,23 @@ pub struct Node {
     pub rise: f64,
     /// The increasing function that counts negative; `+inf` beyond its domain.
     pub fall: f64,
+    /// Their difference, which may be known better than both.
+    pub difference: f64,
     /// Slope of the difference (of no meaning where it is infinite).
     pub slope: f64,
 }
 
 impl Node {
+    /// From the values of both functions.
+    #[must_use]
+    pub fn new(at: f64, rise: f64, fall: f64, slope: f64) -> Self {
+        Node { at, rise, fall, difference: rise - fall, slope }
+    }
+
     /// `rise - fall`: positive outside the domain of `rise`, negative outside that of `fall`.
     #[must_use]
     pub fn value(&self) -> f64 {
-        self.rise - self.fall
+        self.difference
     }
 
     fn is_finite(&self) -> bool {
@@ -47,7 +55,8 @@ pub type Bracket = (Node, Node);
 
 /// Collects brackets of all roots between two nodes.
 ///
-/// `function(at, fine)` may be off by `blur` where it is not asked to be fine; nothing is decided by less.
+/// `function(at, fine)` may be off by `blur` where it is not asked to be fine; where that is too much to decide, it
+/// is asked again. A `blur` of 0 asks it to be fine from the beginning.
 ///
 /// # Errors
 /// Whatever the function fails with.
@@ -58,10 +67,19 @@ pub fn search<E>(
     function: &mut impl FnMut(f64, bool) -> Result<Node, E>,
     found: &mut Vec<Bracket>,
 ) -> Result<(), E> {
-    let surely_negative = high.rise < low.fall - blur;
-    let surely_positive = low.rise > high.fall + blur;
+    /// Beside a blur, values this many times larger decide; bounds below rounding never do.
+    const CLEAR: f64 = 4.0;
+    const ROUNDING: f64 = 1e-12;
+    let bound = blur.max(ROUNDING);
+    let surely_negative = high.rise < low.fall - bound;
+    let surely_positive = low.rise > high.fall + bound;
     if surely_negative || surely_positive {
         return Ok(());
+    }
+    let blurred = |node: &Node| node.value().abs() < CLEAR * blur;
+    if blurred(&low) || blurred(&high) {
+        let (low, high) = (function(low.at, true)?, function(high.at, true)?);
+        return search(low, high, 0.0, function, found);
     }
     let changes = (low.value() > 0.0) != (high.value() > 0.0);
     let width = high.at - low.at;
@@ -75,7 +93,11 @@ pub fn search<E>(
         }
         return Ok(());
     }
-    let middle = function(low.at + 0.5 * width, false)?;
+    let middle = function(low.at + 0.5 * width, blur == 0.0)?;
+    if blurred(&middle) {
+        let (low, high) = (function(low.at, true)?, function(high.at, true)?);
+        return search(low, high, 0.0, function, found);
+    }
     if low.is_finite() && high.is_finite() && middle.is_finite() {
         let error = SAFETY * (middle.value() - cubic(&low, &high, 0.5)).abs() + blur;
         let halves = [(low, middle), (middle, high)];
@@ -174,7 +196,10 @@ mod tests {
     fn parabola(a: f64, b: f64) -> impl FnMut(f64, bool) -> Result<Node, ()> {
         move |u, _| {
             let rise = u * u + 10.0 * u + a * b;
-            Ok(Node { at: u, rise, fall: (a + b + 10.0) * u, slope: 2.0 * u - a - b })
+            Ok(Node {
+                difference: (u - a) * (u - b),
+                ..Node::new(u, rise, (a + b + 10.0) * u, 2.0 * u - a - b)
+            })
         }
     }
 
@@ -200,7 +225,11 @@ mod tests {
         for lift in [1e-1, 1e-4, 1e-9] {
             let mut touching = parabola(2.2, 2.2);
             let lifted = |u: f64, fine: bool| {
-                touching(u, fine).map(|node| Node { rise: node.rise + lift, ..node })
+                touching(u, fine).map(|node| Node {
+                    rise: node.rise + lift,
+                    difference: node.difference + lift,
+                    ..node
+                })
             };
             assert!(roots_of(lifted).is_empty(), "lift {lift}");
         }

@@ -46,7 +46,7 @@ pub fn weak_closing(parameters: &Parameters) -> Option<Closing> {
     // In the frame of the first swing, in which D2 >= 0, the left turning point is the farther one.
     let turning = [1.0, -1.0].map(|sign| amplitude * (1.0 + sign * 2.0 / 3.0 * bend) - r);
     let [first, second] = turning.map(Length::new);
-    Some(Closing { second, square, ..Closing::symmetric(first, TAU, amplitude) })
+    Some(Closing::in_closed_form([first, second], TAU, square, amplitude))
 }
 
 /// Whether energy alone excludes cycles: whatever D2, the first integral K of [`super::balance`] changes the same
