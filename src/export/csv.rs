@@ -103,7 +103,7 @@ pub fn basin(found: &Survey) -> String {
 /// One row for each value of the second parameter.
 #[must_use]
 pub fn border(found: &Border) -> String {
-    let mut out = format!("{},D_F,q_max,period,D_F_harmonic,D_c\n", found.second);
+    let mut out = format!("{},D_F,q_max,period,D_F_harmonic,D_c,reason\n", found.second);
     for point in &found.points {
         let fold = point.fold;
         out.push_str(&line(&[
@@ -113,6 +113,7 @@ pub fn border(found: &Border) -> String {
             exact_or_empty(fold.map(|fold| fold.period)),
             exact_or_empty(point.harmonic_fold),
             exact_or_empty(point.escape),
+            point.reason.clone().unwrap_or_default(),
         ]));
     }
     out

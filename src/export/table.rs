@@ -283,8 +283,14 @@ pub fn border(found: &Border, seconds: f64) -> String {
             rounded(point.escape, PLACES),
         ]);
     }
+    let given_up = found.points.iter().filter_map(|point| {
+        let reason = point.reason.as_ref()?;
+        Some(format!("\n{} = {}: {reason}", found.second, significant(point.value, 10)))
+    });
+    let given_up: String = given_up.collect();
     let fixed = parameters(&found.parameters, Some(found.second));
-    format!("{fixed}\n\n{table}\n{} evaluations, {}\n", found.cost.evaluations, duration(seconds))
+    let cost = format!("{} evaluations, {}", found.cost.evaluations, duration(seconds));
+    format!("{fixed}\n\n{table}{given_up}\n{cost}\n")
 }
 
 /// The cycles along a parameter, piece by piece, and the special points.

@@ -229,6 +229,7 @@ mod tests {
             clearance: 0.9,
             log_clearance: 0.9_f64.ln(),
             error: 0.0,
+            errors: crate::study::cycle::CycleErrors::default(),
         }
     }
 

@@ -10,10 +10,10 @@ use std::f64::consts::PI;
 use serde::Serialize;
 
 use super::closing::{Equation, Route, first_side};
-use super::closings::other_closings;
+use super::closings::{STEP, other_closings, polish_near};
 use super::continuation::{Curve, CurvePoint};
 use super::cycle::{Cycle, CycleErrors};
-use super::escape::escape_point;
+use super::escape::{escape_point, escape_product};
 use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::{Cost, Limits, Reason};
 use crate::oscillator::{Parameters, Side, Symbol};
@@ -163,6 +163,12 @@ pub fn branch(
 /// A branch over D or D3 ends at this part of the range from where its cycle is infinite.
 const NEAREST: f64 = 1e-4;
 
+/// Relative error of a clearance that is good enough, in units of the tolerance.
+const POLISHED: f64 = 100.0;
+
+/// Folds closer than this part of the range are one.
+const SAME: f64 = 1e-9;
+
 /// A branch over r begins at this part of the largest r.
 const LEAST_FRICTION: f64 = 1e-6;
 
@@ -230,7 +236,11 @@ impl Tracer<'_> {
         for fraction in PROBES {
             let p = if fraction == 1.0 { to } else { from + fraction * (to - from) };
             for seed in self.seeds(p, &self.known(&curves))? {
-                if curves.iter().any(|curve| passes(curve, &seed)) {
+                let graph = self.parameter != Symbol::D2;
+                let covered = |curve: &Vec<CurvePoint>| {
+                    (graph && covers(curve, &seed)) || passes(curve, &seed)
+                };
+                if curves.iter().any(covered) {
                     continue;
                 }
                 let mut points = Vec::new();
@@ -311,7 +321,7 @@ impl Tracer<'_> {
             let border = if outside.p > to { to } else { from };
             let fraction = (border - inside.p) / (outside.p - inside.p);
             let u = inside.u + fraction * (outside.u - inside.u);
-            let route = Route::contracting(inside.log_multiplier);
+            let route = inside.route();
             points.extend(self.curve.at_parameter(border, u, route)?);
         }
         Ok(points)
@@ -386,18 +396,48 @@ impl Tracer<'_> {
             if (one.log_multiplier > 0.0) != (other.log_multiplier > 0.0)
                 && let Some(fold) = self.curve.fold_between(one, other)?
             {
-                let cycle = Some(self.describe(&fold));
-                self.found.special.push(Special::new(SpecialKind::Fold, fold.p, cycle));
+                // Next to a fold the multiplier may cross 1 to and fro by rounding.
+                let near = |it: &Special| {
+                    it.kind == SpecialKind::Fold
+                        && (it.value - fold.p).abs() <= SAME * self.curve.scale
+                };
+                if !self.found.special.iter().any(near) {
+                    let cycle = Some(self.describe(&fold));
+                    self.found.special.push(Special::new(SpecialKind::Fold, fold.p, cycle));
+                }
             }
         }
         let spread = match self.points {
-            Points::Even(count) => &self.curve.spread(points, count.max(2))?,
-            Points::Followed => points,
+            Points::Even(count) => self.curve.spread(points, count.max(2))?,
+            Points::Followed => points.to_vec(),
         };
-        let describe =
-            |point: &CurvePoint| BranchPoint { value: point.p, cycle: self.describe(point) };
-        self.found.pieces.push(spread.iter().map(describe).collect());
+        let mut piece = Vec::new();
+        for point in spread {
+            let cycle = match self.points {
+                Points::Even(_) => self.polished(&point)?,
+                Points::Followed => Some(self.describe(&point)),
+            };
+            piece.extend(cycle.map(|cycle| BranchPoint { value: point.p, cycle }));
+        }
+        if !piece.is_empty() {
+            self.found.pieces.push(piece);
+        }
         Ok(())
+    }
+
+    /// The cycle of a point as the search for cycles finds it, to rounding; `None` where it cannot be told.
+    fn polished(&mut self, point: &CurvePoint) -> Result<Option<Cycle>, Reason> {
+        let parameters = self.curve.parameters_at(point.p);
+        let mut equation = Equation::on_side(&parameters, self.curve.side, STEP);
+        let sharp = POLISHED * self.curve.tolerance();
+        let closing =
+            polish_near(&mut equation, point.u, point.log_multiplier, sharp, self.curve.limits());
+        self.curve.cost += equation.cost();
+        match closing {
+            Err(Reason::Interrupted) => Err(Reason::Interrupted),
+            Ok(Some(closing)) => Ok(Some(closing.describe(&parameters, self.curve.side))),
+            Ok(None) | Err(_) => Ok(None),
+        }
     }
 
     fn describe(&self, point: &CurvePoint) -> Cycle {
@@ -415,10 +455,18 @@ impl Tracer<'_> {
     fn special_points(&mut self, from: f64, to: f64) -> Result<(), Reason> {
         let parameters = self.curve.parameters_at(0.0);
         self.hopf(parameters.r, from, to);
-        if self.parameter == Symbol::D
-            && let Some(value) = escape_point(&parameters, self.curve.limits())?
-            && (from..=to).contains(&value)
-        {
+        let values = match self.parameter {
+            Symbol::D => [escape_point(&parameters, self.curve.limits())?, None],
+            Symbol::D2 | Symbol::R if parameters.d3 == 0.0 => {
+                // Only the product of friction and asymmetric damping matters.
+                let other = if self.parameter == Symbol::R { parameters.d2 } else { parameters.r };
+                let product = escape_product(parameters.d, self.curve.limits())?;
+                let value = product.map(|product| product / other.abs());
+                [value, value.filter(|_| self.parameter == Symbol::D2).map(|value| -value)]
+            }
+            _ => [None; 2],
+        };
+        for value in values.into_iter().flatten().filter(|value| (from..=to).contains(value)) {
             self.found.special.push(Special::new(SpecialKind::Escape, value, None));
         }
         Ok(())
@@ -447,6 +495,12 @@ fn linear_branch(r: f64, from: f64, to: f64, points: Points) -> Option<Vec<Branc
         Some(BranchPoint { value: d, cycle: Cycle::from(&cycle) })
     };
     Some((0..count).filter_map(point).collect())
+}
+
+/// Whether a curve that is a graph over the amplitude goes through that of a point.
+fn covers(curve: &[CurvePoint], point: &CurvePoint) -> bool {
+    let beyond = |it: &CurvePoint| it.u > point.u;
+    curve.iter().any(beyond) && !curve.iter().all(beyond)
 }
 
 /// Whether a curve passes a point: between neighbours in p, and close in u.

@@ -34,10 +34,13 @@ impl Route {
     /// error of its clearance.
     #[must_use]
     pub fn steadiest([first, second]: [f64; 2]) -> Self {
-        match (first > 0.0, second > 0.0) {
-            (false, false) => Route::Forward,
-            (true, true) => Route::Backward,
-            _ => Route::Mixed,
+        if first > 0.0 && second > 0.0 || first < 0.0 && second < 0.0 {
+            Route::contracting(first + second)
+        } else if first.is_nan() || second.is_nan() {
+            // The first swing ends, or the second one starts, at the very end of the sticking set.
+            Route::Forward
+        } else {
+            Route::Mixed
         }
     }
 
@@ -242,11 +245,8 @@ impl Equation {
     /// # Errors
     /// The [`Reason`] why a swing failed.
     pub fn rim(&mut self, limits: &Limits) -> Result<Option<f64>, Reason> {
-        /// A start at the rim, as a part of the smallest length there is.
-        const RIM: f64 = 1e-60;
-        let Parameters { d2, d3, r, .. } = self.parameters;
-        let natural = (1.0 / d2.abs()).min(1.0 / d3.abs().sqrt());
-        let rim = Length::new(RIM * natural.min(r));
+        let r = self.parameters.r;
+        let rim = self.rim_start();
         let mut bound = f64::NEG_INFINITY;
         for map in &mut self.forward {
             match map.swing(rim, limits) {
@@ -257,6 +257,44 @@ impl Equation {
             }
         }
         Ok(Some(if bound.is_nan() { f64::NEG_INFINITY } else { bound }))
+    }
+
+    /// Whether motions that leave the end of the sticking set, a node that repels (`D < -1`), come back beyond
+    /// it, on one side at least.
+    ///
+    /// # Errors
+    /// The [`Reason`] why a swing failed.
+    pub fn leaves_rim(&mut self, limits: &Limits) -> Result<bool, Reason> {
+        let gap = 2.0 * self.parameters.r;
+        let rim = self.rim_start();
+        for side in [0, 1] {
+            let mut length = rim;
+            let mut turns = 0;
+            for map in [side, 1 - side] {
+                match self.forward[map].swing(length, limits) {
+                    Ok(swing) if swing.end.value > gap => {
+                        length = Length::new(swing.end.value - gap);
+                    }
+                    Ok(_) | Err(NoEnd::Never) => break,
+                    Err(NoEnd::Escapes) => return Ok(true),
+                    Err(NoEnd::Failed(reason)) => return Err(reason),
+                }
+                turns += 1;
+            }
+            if turns == 2 {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// A start at the end of the sticking set.
+    fn rim_start(&self) -> Length {
+        /// As a part of the smallest length there is.
+        const RIM: f64 = 1e-60;
+        let Parameters { d2, d3, r, .. } = self.parameters;
+        let natural = (1.0 / d2.abs()).min(1.0 / d3.abs().sqrt());
+        Length::new(RIM * natural.min(r))
     }
 
     /// Clearance at which the first swing of a cycle starts whose right turning point is `q_max`.

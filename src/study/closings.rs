@@ -105,7 +105,10 @@ fn searched(
     const BUDGET: u64 = 40_000_000;
     let budget = limits.evaluations.min(BUDGET);
     let limits = &Limits { evaluations: budget, interrupted: limits.interrupted };
-    if is_one_way(&equation.parameters) {
+    let Parameters { d, .. } = equation.parameters;
+    // No swing of an overdamped linear motion comes back.
+    let never_back = equation.parameters.is_piecewise_linear() && d <= -1.0;
+    if never_back || is_one_way(&equation.parameters) {
         return Ok(Vec::new());
     }
     let sought = "a limit cycle";
@@ -120,7 +123,7 @@ fn searched(
             if !closing.log_multiplier(&equation.parameters).is_finite() {
                 return Err(Reason::OutOfRange);
             }
-            if closing.uncertainty > VAGUE {
+            if closing.uncertainty > VAGUE && is_exact(equation) {
                 return Err(Reason::NoConvergence { sought, change: closing.uncertainty });
             }
             found.push(closing);
@@ -136,6 +139,11 @@ fn searched(
     Ok(found)
 }
 
+/// Whether rounding is what limits an equation, so that more digits help.
+fn is_exact(equation: &Equation) -> bool {
+    equation.tolerance() <= 4.0 * f64::EPSILON
+}
+
 /// The residual of the mixed route, with a sign that can be relied on.
 ///
 /// Where rounding reaches it, the works are weighed; where they are not decisive either, the swings are
@@ -146,7 +154,8 @@ fn resolved(equation: &mut Equation, u: f64, limits: &Limits) -> Result<Node, Re
     let closing = equation.at(Route::Mixed, u, limits)?;
     let node = closing.node;
     let decided = |value: f64, noise: f64| !(value.abs() < SMOOTH * noise);
-    if decided(node.value(), closing.noise) || !closing.duration.is_finite() {
+    let known = decided(node.value(), closing.noise) || !closing.duration.is_finite();
+    if known || !is_exact(equation) {
         return Ok(node);
     }
     let (mut difference, mut noise) = (node.value(), closing.noise);
@@ -293,12 +302,47 @@ pub fn polish(
     bracket: Bracket,
     limits: &Limits,
 ) -> Result<Closing, Reason> {
+    polish_within(equation, bracket, SHARP, limits)
+}
+
+/// The same, to more digits only where doubles leave a larger relative error than `sharp`.
+fn polish_within(
+    equation: &mut Equation,
+    bracket: Bracket,
+    sharp: f64,
+    limits: &Limits,
+) -> Result<Closing, Reason> {
     let rough = newton(equation, bracket, limits)?;
     let worst = rough.spread().clearance.into_iter().fold(rough.uncertainty, f64::max);
-    if worst <= SHARP {
+    if worst <= sharp || !is_exact(equation) {
         return Ok(rough);
     }
     Ok(sharpen(equation, &rough, bracket, limits)?.unwrap_or(rough))
+}
+
+/// The closing next to `u`, known to have a multiplier near this one, by [`polish`]; `None` where doubles and thirty
+/// digits leave it vague. More digits than doubles have are asked for a relative error of `sharp` only.
+///
+/// # Errors
+/// As [`polish`].
+pub fn polish_near(
+    equation: &mut Equation,
+    u: f64,
+    log_multiplier: f64,
+    sharp: f64,
+    limits: &Limits,
+) -> Result<Option<Closing>, Reason> {
+    /// How far in `ln c0` the guess may be off: where another cycle may be near, and where none is.
+    const WIDTHS: (f64, f64) = (0.05, 0.5);
+    let width = if log_multiplier.abs() < 1.0 { WIDTHS.0 } else { WIDTHS.1 };
+    let sign = log_multiplier.signum();
+    let end = |sign: f64, side: f64| Node::new(u + side * width, sign * side * width, 0.0, sign);
+    equation.want_fastest(true);
+    let bracket = (end(sign, -1.0), end(sign, 1.0));
+    let closing = polish_within(equation, bracket, sharp, limits)?;
+    let moved = (closing.node.at - u).abs();
+    Ok(Some(closing)
+        .filter(|it| it.uncertainty <= VAGUE && moved < 0.9 * width && it.duration.is_finite()))
 }
 
 /// Newton's method on the contracting route, inside the bracket.
@@ -312,7 +356,7 @@ fn newton(equation: &mut Equation, bracket: Bracket, limits: &Limits) -> Result<
     for _ in 0..ITERATIONS {
         let mut closing = equation.at(route, u, limits)?;
         let mut node = closing.node;
-        let contracting = Route::contracting(closing.log_multiplier(&equation.parameters));
+        let contracting = Route::steadiest(closing.growth);
         // Beyond the domain of one swing a route that runs it the other way has a value.
         if !node.value().is_finite() && !switched {
             if route == Route::Mixed {
@@ -403,7 +447,7 @@ fn sharpen(
     limits: &Limits,
 ) -> Result<Option<Closing>, Reason> {
     /// Steps, and the relative change of the last one.
-    const STEPS: usize = 60;
+    const STEPS: usize = 20;
     const SETTLED: f64 = 1e-17;
     let route = Route::steadiest(rough.growth);
     let rising = bracket.1.value() > bracket.0.value();

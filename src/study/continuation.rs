@@ -27,6 +27,9 @@ const FOLD_TOLERANCE: f64 = 1e-13;
 /// Least logarithm of the multiplier that counts as zero at a fold.
 const LEAST_LOG: f64 = 1e-10;
 
+/// Smallest and largest stride of a difference quotient in p, in parts of the range: rounding stays behind.
+const PROBES: (f64, f64) = (1e-11, 1e-5);
+
 /// Newton steps of a correction before it counts as failed.
 const CORRECTIONS: usize = 8;
 
@@ -41,6 +44,14 @@ pub struct CurvePoint {
     pub closing: Closing,
     /// Logarithm of the Floquet multiplier; it changes its sign at a fold.
     pub log_multiplier: f64,
+}
+
+impl CurvePoint {
+    /// The route on which its swings are computed best.
+    #[must_use]
+    pub fn route(&self) -> Route {
+        Route::steadiest(self.closing.growth)
+    }
 }
 
 /// A direction in the scaled plane, of length 1.
@@ -86,6 +97,8 @@ pub struct Curve<'a> {
     /// Evaluations after which [`Curve::follow`] stops where it is.
     pub budget: u64,
     limits: &'a Limits<'a>,
+    /// Stride of a difference quotient in p, in parts of the range.
+    probe: f64,
     /// Difference quotient in p of the residual of a route, kept from point to point.
     slope_in_p: Option<(Route, f64)>,
     /// What it cost so far.
@@ -104,7 +117,7 @@ impl<'a> Curve<'a> {
         limits: &'a Limits<'a>,
     ) -> Self {
         let (parameters, cost) = (*parameters, Cost::default());
-        let (slope_in_p, strides, budget) = (None, 1.0, u64::MAX);
+        let (probe, slope_in_p, strides, budget) = (PROBES.1, None, 1.0, u64::MAX);
         Curve {
             parameters,
             symbol,
@@ -114,6 +127,7 @@ impl<'a> Curve<'a> {
             strides,
             budget,
             limits,
+            probe,
             slope_in_p,
             cost,
         }
@@ -132,6 +146,12 @@ impl<'a> Curve<'a> {
     #[must_use]
     pub fn fineness(&self) -> f64 {
         (self.tolerance * self.tolerance).max(f64::EPSILON)
+    }
+
+    /// Relative error accepted in the clearance.
+    #[must_use]
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
     }
 
     /// The limits under which it computes.
@@ -156,11 +176,17 @@ impl<'a> Curve<'a> {
         }
     }
 
+    /// Takes difference quotients over a small part of `stride`: next to an escape the curve bends within less
+    /// than a part of the range.
+    fn probe_within(&mut self, stride: f64) {
+        /// Small enough for two digits of the quotient.
+        const PART: f64 = 1e-2;
+        self.probe = (PART * stride).clamp(PROBES.0, PROBES.1);
+    }
+
     /// Renews the difference quotient in p.
     fn renew_slope(&mut self, route: Route, u: f64, p: f64, value: f64) -> Result<f64, Reason> {
-        /// Small enough for two digits of the quotient, large enough to leave rounding behind.
-        const STRIDE: f64 = 1e-5;
-        let stride = STRIDE * self.scale;
+        let stride = self.probe * self.scale;
         let beside = self.closing(route, u, p + stride)?;
         let slope = beside.map_or(f64::NAN, |beside| (beside.node.value() - value) / stride);
         self.slope_in_p = slope.is_finite().then_some((route, slope));
@@ -297,7 +323,8 @@ impl<'a> Curve<'a> {
         while points.len() < MOST && self.cost.evaluations < self.budget {
             let here = points[points.len() - 1];
             let near = self.ahead(&here, tangent, stride);
-            let route = Route::contracting(here.log_multiplier);
+            self.probe_within(stride);
+            let route = here.route();
             let corrected = self.correct(near, tangent, route)?;
             // A bend of more than about 15 degrees a step is taken in smaller steps.
             let next = corrected.map(|next| (next, Tangent::between(&here, &next, self.scale)));
@@ -305,6 +332,11 @@ impl<'a> Curve<'a> {
                 Some((next, chord)) if chord.dot(tangent) > 0.97 || stride < 1e-6 => {
                     let bend = (1.0 - chord.dot(tangent)).max(0.0);
                     tangent = self.tangent_at(&next, chord).unwrap_or(chord);
+                    // Where the parameter stands still, or a swing starts at the very end of the sticking set,
+                    // the branch ends; it may stand still on the way to another size.
+                    if !next.closing.duration.is_finite() || !next.log_multiplier.is_finite() {
+                        break;
+                    }
                     points.push(next);
                     if leaves(&next) {
                         break;
@@ -359,7 +391,7 @@ impl<'a> Curve<'a> {
         start: &CurvePoint,
         direction: f64,
     ) -> Result<Option<Tangent>, Reason> {
-        let route = Route::contracting(start.log_multiplier);
+        let route = start.route();
         let Some(closing) = self.closing(route, start.u, start.p)? else { return Ok(None) };
         let slope_p = self.renew_slope(route, start.u, start.p, closing.node.value())? * self.scale;
         let slope_u = closing.node.slope * UNIT_OF_U;

@@ -5,6 +5,7 @@
 //! side does the same. The cycle exists while the first reaches further out than the second asks for,
 //! and at `D_c` the two motions from and to infinity close the cycle: `X(D_c) = 2 r + c1(D_c)`.
 
+use super::balance::weighed_residual;
 use super::closing::{Equation, Route};
 use crate::flow::{Limits, Reason};
 use crate::oscillator::Parameters;
@@ -56,6 +57,43 @@ pub fn escape_point(parameters: &Parameters, limits: &Limits) -> Result<Option<f
     Ok(Some(0.5 * (low.0 + high.0)))
 }
 
+/// The product `r abs(D2)` at which the cycle of a given damping goes to infinity, or `None` where none does: the
+/// inverse of [`escape_point`] at `r = 1`.
+///
+/// # Errors
+/// The [`Reason`] why a swing failed.
+pub fn escape_product(d: f64, limits: &Limits) -> Result<Option<f64>, Reason> {
+    /// The bracket, in units of the leading order.
+    const AROUND: (f64, f64) = (0.25, 4.0);
+    let excess =
+        |product: f64| excess_at_infinity(&Parameters { d, d2: product, d3: 0.0, r: 1.0 }, limits);
+    if !(d < 0.0 && d > -1.0) {
+        return Ok(None);
+    }
+    let leading = -d * (std::f64::consts::PI / 2.0).sqrt();
+    let ends = [AROUND.0 * leading, AROUND.1 * leading];
+    let (mut low, mut high) = ((ends[0], excess(ends[0])?), (ends[1], excess(ends[1])?));
+    if !(low.1 > 0.0 && high.1 < 0.0) {
+        return Ok(None);
+    }
+    for step in 0..200 {
+        // Infinite values, and secants that crawl, are halved.
+        let secant = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
+        let inside = secant > low.0 && secant < high.0 && step % 3 != 2;
+        let product = if inside { secant } else { 0.5 * (low.0 + high.0) };
+        if product <= low.0 || product >= high.0 {
+            break;
+        }
+        let here = (product, excess(product)?);
+        if here.1 > 0.0 {
+            low = here;
+        } else {
+            high = here;
+        }
+    }
+    Ok(Some(low.0))
+}
+
 /// By how much, as a logarithm, the swing from infinity passes the one to infinity.
 ///
 /// # Errors
@@ -64,9 +102,17 @@ pub fn excess_at_infinity(parameters: &Parameters, limits: &Limits) -> Result<f6
     /// Clearance, in units of `1/abs(D2)`, from which a swing has forgotten its start to rounding: what
     /// is left of it decays as `exp(-2 D2 c)`.
     const FAR: f64 = 40.0;
+    /// Excess below which a difference of logarithms has lost digits.
+    const NEAR: f64 = 1e-2;
     let far = (FAR / parameters.d2.abs() + 2.0 * parameters.r).ln();
     let mut equation = Equation::new(parameters, f64::EPSILON);
-    Ok(equation.at(Route::Mixed, far, limits)?.node.value())
+    let plain = equation.at(Route::Mixed, far, limits)?.node.value();
+    if plain.abs() >= NEAR {
+        return Ok(plain);
+    }
+    // Weighed as energy, it keeps the digits that the difference loses near `D_c`.
+    let weighed = weighed_residual(&mut equation, far, limits)?;
+    Ok(weighed.filter(|(_, noise)| *noise < f64::EPSILON).map_or(plain, |(weighed, _)| weighed))
 }
 
 #[cfg(test)]

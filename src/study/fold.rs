@@ -7,7 +7,8 @@
 use serde::Serialize;
 
 use super::basin::between;
-use super::closing::{Route, first_side};
+use super::closing::{Equation, Route, first_side};
+use super::closings::{STEP, innermost_closing};
 use super::continuation::{Curve, CurvePoint, Tangent};
 use super::escape::escape_point;
 use crate::closed_form::harmonic;
@@ -59,17 +60,67 @@ pub fn fold_within(
         Limits { evaluations: limits.evaluations.min(BUDGET), interrupted: limits.interrupted };
     let curve = Curve::new(parameters, Symbol::D, side, 1.0, tolerance, &limits);
     let mut graph = Graph { curve, parameters: *parameters, d: start.d };
-    let fold = match graph.around_fold(start)? {
-        Around::Plateau(point) => point,
-        Around::Between(low, high) => match graph.curve.fold_between(&low, &high)? {
-            Some(fold) => fold,
-            None => graph.highest(low, high)?,
-        },
+    let met = graph.meeting(start);
+    let lost = match &met {
+        Ok(fold) => fold.p < -1.0 && !(fold.log_multiplier.abs() < 1.0),
+        Err(reason) => *reason != Reason::Interrupted,
     };
+    if lost && let Some((point, mut cost)) = grazing(parameters, &limits)? {
+        cost += graph.curve.cost;
+        return Ok((Some(point), cost));
+    }
+    let fold = met?;
     let cycle = fold.closing.describe(&graph.curve.parameters_at(fold.p), side);
     let grazes = fold.p < -1.0 && cycle.is_stable_beyond_doubt();
     let point = FoldPoint { d: fold.p, q_max: cycle.q_max, period: cycle.period, grazes };
     Ok((Some(point), graph.curve.cost))
+}
+
+/// The damping at which the stable cycle grazes the sticking set, and that cycle; `None` where none does below
+/// `D = -1`.
+///
+/// There the curve along which motions leave one end of the set comes back to it. Bisection, to rounding.
+fn grazing(parameters: &Parameters, limits: &Limits) -> Result<Option<(FoldPoint, Cost)>, Reason> {
+    /// Just beyond critical damping, the largest damping tried, and the width at the end.
+    const CRITICAL: f64 = -1.0 - 1e-3;
+    const LARGEST: f64 = -1e6;
+    const ROUNDING: f64 = 2.0 * f64::EPSILON;
+    let mut cost = Cost::default();
+    let mut leaves = |d: f64| {
+        let mut equation = Equation::new(&Parameters { d, ..*parameters }, STEP);
+        let leaves = equation.leaves_rim(limits);
+        cost += equation.cost();
+        leaves
+    };
+    let (mut above, mut below) = (CRITICAL, 2.0 * CRITICAL);
+    if leaves(above)? {
+        return Ok(None);
+    }
+    while !leaves(below)? {
+        (above, below) = (below, 2.0 * below);
+        if below < LARGEST {
+            return Ok(None);
+        }
+    }
+    while above - below > ROUNDING * -below {
+        let middle = 0.5 * (above + below);
+        if leaves(middle)? {
+            below = middle;
+        } else {
+            above = middle;
+        }
+    }
+    let there = Parameters { d: below, ..*parameters };
+    let mut equation = Equation::new(&there, STEP);
+    let cycle = innermost_closing(&mut equation, limits)
+        .ok()
+        .flatten()
+        .map(|closing| closing.describe(&there, equation.side));
+    cost += equation.cost();
+    // At the grazing itself the cycle starts at the end of the set, and takes for ever to leave it.
+    let (q_max, period) =
+        cycle.map_or((parameters.r, f64::INFINITY), |cycle| (cycle.q_max, cycle.period));
+    Ok(Some((FoldPoint { d: below, q_max, period, grazes: true }, cost)))
 }
 
 /// Most evaluations of one swing: a cycle that takes more is not followed.
@@ -121,6 +172,17 @@ struct Graph<'a> {
 }
 
 impl Graph<'_> {
+    /// The cycle at which two meet.
+    fn meeting(&mut self, start: Start) -> Result<CurvePoint, Reason> {
+        match self.around_fold(start)? {
+            Around::Plateau(point) => Ok(point),
+            Around::Between(low, high) => match self.curve.fold_between(&low, &high)? {
+                Some(fold) => Ok(fold),
+                None => self.highest(low, high),
+            },
+        }
+    }
+
     /// The cycle at `u`; `None` where it cannot be followed that far out.
     fn at(&mut self, u: f64) -> Result<Option<CurvePoint>, Reason> {
         let near = self.curve.correct((u, self.d), Tangent::ACROSS_P, Route::Mixed)?;
@@ -216,7 +278,7 @@ impl Graph<'_> {
 }
 
 /// One value of the second parameter, and where the basin changes its kind along D.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BorderPoint {
     /// Value of the second parameter.
     pub value: f64,
@@ -226,6 +288,8 @@ pub struct BorderPoint {
     pub harmonic_fold: Option<f64>,
     /// `D_c`, where the cycle goes to infinity.
     pub escape: Option<f64>,
+    /// Why one of them could not be computed.
+    pub reason: Option<String>,
 }
 
 /// The fold and the escape point along a second parameter.
@@ -244,7 +308,8 @@ pub struct Border {
 /// Finds the fold and the escape point at `count` values of `second` (D2, D3 or r) over `range`.
 ///
 /// # Errors
-/// The [`Reason`] why a point could not be computed; [`Reason::NotApplicable`] for other parameters.
+/// [`Reason::Interrupted`], or [`Reason::NotApplicable`] for other parameters. A point that cannot be computed
+/// says why.
 pub fn border(
     parameters: &Parameters,
     second: Symbol,
@@ -261,13 +326,20 @@ pub fn border(
         let value = between(range, index, count);
         let mut here = *parameters;
         second.set(&mut here, &mut State { q: 0.0, v: 0.0 }, value);
-        let (fold, cost) = fold(&here, limits)?;
+        let found = fold(&here, limits);
+        let escape = escape_point(&here, limits);
+        let reason = found.as_ref().err().or(escape.as_ref().err()).copied();
+        if reason == Some(Reason::Interrupted) {
+            return Err(Reason::Interrupted);
+        }
+        let (fold, cost) = found.unwrap_or_default();
         border.cost += cost;
         border.points.push(BorderPoint {
             value,
             fold,
             harmonic_fold: harmonic::fold(here.d3, here.r).map(|fold| fold.d),
-            escape: escape_point(&here, limits)?,
+            escape: escape.unwrap_or_default(),
+            reason: reason.map(|reason| reason.to_string()),
         });
     }
     Ok(border)

@@ -149,6 +149,7 @@ fn cycle(stable: bool, r: f64) -> Cycle {
         clearance,
         log_clearance: clearance.ln(),
         error: 0.0,
+        errors: crate::study::cycle::CycleErrors::default(),
     }
 }
 

@@ -40,7 +40,9 @@ impl Curve<'_> {
             let (one, other) = (&points[after - 1], &points[after]);
             let smooth = interpolate(&points[base..base + window], &arc[base..base + window], s);
             let tangent = Tangent::between(one, other, self.scale);
-            let route = Route::contracting(0.5 * (one.log_multiplier + other.log_multiplier));
+            let growth = [0, 1].map(|i| 0.5 * (one.closing.growth[i] + other.closing.growth[i]));
+            let route = Route::steadiest(growth);
+            self.probe_within((other.p - one.p).abs() / self.scale);
             let mut found = self.correct(smooth, tangent, route)?;
             if found.is_none() {
                 // A polynomial may pass beyond where there are cycles; the chord of a bend does not.

@@ -166,6 +166,7 @@ pub(super) fn cycle(radius: f64, stable: bool) -> Cycle {
         clearance: radius - 0.1,
         log_clearance: (radius - 0.1).ln(),
         error: 1e-14,
+        errors: crate::study::cycle::CycleErrors::default(),
     }
 }
 
