@@ -174,6 +174,14 @@ impl Equation {
         Self::on_fields(&self.parameters, self.side, fields, |field| HalfMap::new(field, tolerance))
     }
 
+    /// Whether both fields are those of its parameters.
+    #[must_use]
+    pub fn is_of_one_motion(&self) -> bool {
+        let sides = [self.side, self.side.opposite()];
+        let own = sides.map(|side| HalfPlane::new(&self.parameters, side));
+        own.iter().zip(&self.forward).all(|(own, map)| own == map.field())
+    }
+
     /// Whether to find the largest speeds.
     pub fn want_fastest(&mut self, wanted: bool) {
         for map in self.forward.iter_mut().chain(&mut self.backward) {

@@ -26,6 +26,9 @@ const FLAT: f64 = 0.3;
 const SHARP: f64 = 1e-10;
 const VAGUE: f64 = 1e-3;
 
+/// Newton steps without progress, all within the error bound of the residual, that are enough.
+const STALLS: u8 = 4;
+
 /// Newton steps before giving up; bisection alone needs 60.
 const ITERATIONS: usize = 200;
 
@@ -139,9 +142,9 @@ fn searched(
     Ok(found)
 }
 
-/// Whether rounding is what limits an equation, so that more digits help.
+/// Whether rounding is what limits an equation, so that weighing works and more digits help.
 fn is_exact(equation: &Equation) -> bool {
-    equation.tolerance() <= 4.0 * f64::EPSILON
+    equation.tolerance() <= 4.0 * f64::EPSILON && equation.is_of_one_motion()
 }
 
 /// The residual of the mixed route, with a sign that can be relied on.
@@ -153,7 +156,7 @@ fn resolved(equation: &mut Equation, u: f64, limits: &Limits) -> Result<Node, Re
     const SMOOTH: f64 = 32.0;
     let closing = equation.at(Route::Mixed, u, limits)?;
     let node = closing.node;
-    let decided = |value: f64, noise: f64| !(value.abs() < SMOOTH * noise);
+    let decided = |value: f64, noise: f64| value.is_nan() || value.abs() >= SMOOTH * noise;
     let known = decided(node.value(), closing.noise) || !closing.duration.is_finite();
     if known || !is_exact(equation) {
         return Ok(node);
@@ -352,7 +355,7 @@ fn newton(equation: &mut Equation, bracket: Bracket, limits: &Limits) -> Result<
     let mut route = beyond_the_end(&bracket);
     let mut switched = false;
     let mut u = secant(&bracket);
-    let mut change = f64::INFINITY;
+    let (mut change, mut stalls) = (f64::INFINITY, 0);
     for _ in 0..ITERATIONS {
         let mut closing = equation.at(route, u, limits)?;
         let mut node = closing.node;
@@ -394,8 +397,9 @@ fn newton(equation: &mut Equation, bracket: Bracket, limits: &Limits) -> Result<
         let rounding = 4.0 * f64::EPSILON * u.abs().max(1.0);
         let blurred = change.is_finite() && change <= rounding / node.slope.abs().min(1.0);
         // Where rounding of the swings is larger than that, Newton's method stops making progress.
-        let noise = closing.noise / node.slope.abs();
-        let stalled = change >= 0.5 * last && change <= noise.max(16.0 * rounding);
+        let idle = change >= 0.5 * last;
+        stalls += u8::from(idle && change <= closing.noise / node.slope.abs());
+        let stalled = (idle && change <= 16.0 * rounding) || stalls >= STALLS;
         let settled = change <= rounding || stalled || (blurred && (!flat || change >= 0.5 * last));
         if settled && node.value().is_finite() {
             return Ok(closing);

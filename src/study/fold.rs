@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::basin::between;
 use super::closing::{Equation, Route, first_side};
-use super::closings::{STEP, innermost_closing};
+use super::closings::{STEP, all_closings, innermost_closing};
 use super::continuation::{Curve, CurvePoint, Tangent};
 use super::escape::escape_point;
 use crate::closed_form::harmonic;
@@ -62,7 +62,9 @@ pub fn fold_within(
     let mut graph = Graph { curve, parameters: *parameters, d: start.d };
     let met = graph.meeting(start);
     let lost = match &met {
-        Ok(fold) => fold.p < -1.0 && !(fold.log_multiplier.abs() < 1.0),
+        Ok(fold) => {
+            fold.p < -1.0 && (fold.log_multiplier.is_nan() || fold.log_multiplier.abs() >= 1.0)
+        }
         Err(reason) => *reason != Reason::Interrupted,
     };
     if lost && let Some((point, mut cost)) = grazing(parameters, &limits)? {
@@ -85,6 +87,8 @@ fn grazing(parameters: &Parameters, limits: &Limits) -> Result<Option<(FoldPoint
     const CRITICAL: f64 = -1.0 - 1e-3;
     const LARGEST: f64 = -1e6;
     const ROUNDING: f64 = 2.0 * f64::EPSILON;
+    /// How far above it cycles are looked for, as a part of the damping.
+    const BESIDE: f64 = 1e-9;
     let mut cost = Cost::default();
     let mut leaves = |d: f64| {
         let mut equation = Equation::new(&Parameters { d, ..*parameters }, STEP);
@@ -109,6 +113,11 @@ fn grazing(parameters: &Parameters, limits: &Limits) -> Result<Option<(FoldPoint
         } else {
             above = middle;
         }
+    }
+    // Above it no motion leaves the end of the set; a cycle further out means a fold that was not found.
+    let clear = Parameters { d: (1.0 - BESIDE) * below, ..*parameters };
+    if !all_closings(&mut Equation::new(&clear, STEP), limits)?.is_empty() {
+        return Ok(None);
     }
     let there = Parameters { d: below, ..*parameters };
     let mut equation = Equation::new(&there, STEP);
@@ -157,7 +166,7 @@ fn start(parameters: &Parameters) -> Option<Start> {
 /// What is known of the place of the fold.
 enum Around {
     /// It lies between these.
-    Between(CurvePoint, CurvePoint),
+    Between(Box<[CurvePoint; 2]>),
     /// Cycles grow and grow while D stays the same to rounding: the fold is where they begin to shrink,
     /// and its D is this one. So it is where D3 is much weaker than D2.
     Plateau(CurvePoint),
@@ -176,9 +185,9 @@ impl Graph<'_> {
     fn meeting(&mut self, start: Start) -> Result<CurvePoint, Reason> {
         match self.around_fold(start)? {
             Around::Plateau(point) => Ok(point),
-            Around::Between(low, high) => match self.curve.fold_between(&low, &high)? {
+            Around::Between(ends) => match self.curve.fold_between(&ends[0], &ends[1])? {
                 Some(fold) => Ok(fold),
-                None => self.highest(low, high),
+                None => self.highest(ends[0], ends[1]),
             },
         }
     }
@@ -222,7 +231,7 @@ impl Graph<'_> {
             // next to it it is infinite.
             let inwards = low.log_multiplier <= 0.0;
             if !inwards && high.log_multiplier <= 0.0 {
-                return Ok(Around::Between(low, high));
+                return Ok(Around::Between(Box::new([low, high])));
             }
             let u = if inwards { low.u - stride } else { high.u + stride };
             match self.at(u)? {
