@@ -164,7 +164,10 @@ pub fn branch(
 const NEAREST: f64 = 1e-4;
 
 /// Relative error of a clearance that is good enough, in units of the tolerance.
-const POLISHED: f64 = 100.0;
+const POLISHED: f64 = 1e5;
+
+/// Relative error of a clearance at which a cycle on its way to infinity is followed no further.
+const VAGUE: f64 = 1e-3;
 
 /// Folds closer than this part of the range are one.
 const SAME: f64 = 1e-9;
@@ -310,8 +313,12 @@ impl Tracer<'_> {
         to: f64,
     ) -> Result<Vec<CurvePoint>, Reason> {
         let bounds = self.bounds_of_u();
+        // With D3 = 0 a cycle only ever fades by going to infinity.
+        let fades = self.parameter != Symbol::D3 && self.curve.parameters_at(from).d3 == 0.0;
         let leaves = move |point: &CurvePoint| {
-            !(from..=to).contains(&point.p) || !(bounds.0..=bounds.1).contains(&point.u)
+            (fades && point.closing.uncertainty > VAGUE)
+                || !(from..=to).contains(&point.p)
+                || !(bounds.0..=bounds.1).contains(&point.u)
         };
         let mut points = self.curve.follow(seed, direction, &leaves)?;
         if let [.., inside, outside] = points[..]
