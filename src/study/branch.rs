@@ -314,7 +314,9 @@ impl Tracer<'_> {
     ) -> Result<Vec<CurvePoint>, Reason> {
         let bounds = self.bounds_of_u();
         // With D3 = 0 a cycle only ever fades by going to infinity.
-        let fades = self.parameter != Symbol::D3 && self.curve.parameters_at(from).d3 == 0.0;
+        let fades = matches!(self.points, Points::Even(_))
+            && self.parameter != Symbol::D3
+            && self.curve.parameters_at(from).d3 == 0.0;
         let leaves = move |point: &CurvePoint| {
             (fades && point.closing.uncertainty > VAGUE)
                 || !(from..=to).contains(&point.p)

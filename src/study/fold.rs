@@ -169,7 +169,7 @@ enum Around {
     Between(Box<[CurvePoint; 2]>),
     /// Cycles grow and grow while D stays the same to rounding: the fold is where they begin to shrink,
     /// and its D is this one. So it is where D3 is much weaker than D2.
-    Plateau(CurvePoint),
+    Plateau(Box<CurvePoint>),
 }
 
 /// All cycles as the graph `D(u)`.
@@ -184,7 +184,7 @@ impl Graph<'_> {
     /// The cycle at which two meet.
     fn meeting(&mut self, start: Start) -> Result<CurvePoint, Reason> {
         match self.around_fold(start)? {
-            Around::Plateau(point) => Ok(point),
+            Around::Plateau(point) => Ok(*point),
             Around::Between(ends) => match self.curve.fold_between(&ends[0], &ends[1])? {
                 Some(fold) => Ok(fold),
                 None => self.highest(ends[0], ends[1]),
@@ -244,12 +244,12 @@ impl Graph<'_> {
                     let rise = (next.p - high.p).abs();
                     flat = rise <= 4.0 * self.curve.fineness() * next.p.abs();
                     if flat && stride >= LENGTHS.1 {
-                        return Ok(Around::Plateau(next));
+                        return Ok(Around::Plateau(Box::new(next)));
                     }
                     high = next;
                 }
                 // Nor can it be followed to its end.
-                None if flat => return Ok(Around::Plateau(high)),
+                None if flat => return Ok(Around::Plateau(Box::new(high))),
                 None => stride *= 0.25,
             }
             stride = (1.5 * stride).min(LENGTHS.1);
