@@ -250,6 +250,27 @@ fn a_rest_that_two_numbers_of_half_swings_explain_is_told_with_both() {
 }
 
 #[test]
+fn a_guess_in_the_valley_of_another_number_of_half_swings_is_led_out_of_it() {
+    // Correlated noise and asymmetric damping: the first descent ends with a half swing too many.
+    let p = [8.0, -3.0, 0.01, -0.04, 0.001, 0.15, -6.0, 0.7];
+    let decay = Simulated {
+        p,
+        start: Start::Release,
+        seconds: 14.0,
+        samples: 800,
+        noise: 0.05,
+        memory: 0.6,
+    };
+    let r = named("r").unwrap().place;
+    for seed in [3, 5, 6] {
+        let found = decay.fitted(seed);
+        assert_eq!(found.half_swings, 15, "{:?}", found.rivals);
+        let off = (found.p[r] - p[r]) / found.covariance.error(r);
+        assert!(off.abs() < 3.5, "seed {seed}: r is {off} standard errors off");
+    }
+}
+
+#[test]
 fn a_drift_that_the_model_does_not_know_is_told() {
     let decay = Simulated {
         p: DECAY,

@@ -67,7 +67,7 @@ fn refined(
     effort: &mut Effort,
 ) -> Result<Vec<bool>, NoFit> {
     /// A model that leaves out more than this part of the record does not describe it.
-    const MOST: f64 = 0.1;
+    const MOST: f64 = 0.15;
     const ROUNDS: usize = 4;
     let mut used = vec![true; problem.data.residuals()];
     // The search may have ended with a loss that forgives: then even an unchanged choice is fitted again.

@@ -20,8 +20,8 @@ pub struct Valley {
 impl Problem<'_> {
     /// The minimum, and those of neighbouring numbers of half swings, the lowest first.
     ///
-    /// From the lowest one known, one half swing more and one less are tried, until neither is lower. While the
-    /// residuals are not white, other steps of r are tried too.
+    /// From the lowest one known, one half swing more and one less are tried, and what comes closest to the record
+    /// when r alone is moved and all else follows; until nothing is lower.
     ///
     /// # Errors
     /// [`NoFit::Interrupted`].
@@ -32,31 +32,26 @@ impl Problem<'_> {
         effort: &mut Effort,
     ) -> Result<Vec<Valley>, NoFit> {
         /// Most minima around which others are sought.
-        const MOST: usize = 6;
-        /// Steps of r while the residuals are not white.
-        const STEPS: [f64; 4] = [0.88, 1.14, 0.75, 1.33];
+        const MOST: usize = 8;
         let mut valleys = vec![Valley { half_swings: optimum.seen.turns.len(), optimum }];
         if !self.free[R] || !matches!(self.data, Data::Samples { .. }) {
             return Ok(valleys);
         }
-        let (mut asked, mut stepped) = (Vec::new(), false);
-        while asked.len() < MOST {
+        let mut asked = Vec::new();
+        while asked.len() < MOST && !asked.contains(&valleys[0].half_swings) {
+            asked.push(valleys[0].half_swings);
             let from = valleys[0].optimum.clone();
-            let verdict = self.verdict(&from);
-            let guesses = if !asked.contains(&valleys[0].half_swings) {
-                asked.push(valleys[0].half_swings);
-                beyond_the_rim(task, &from, verdict)
-            } else if verdict != Verdict::Noise && !stepped && from.p[R] > 0.0 && from.seen.rests {
-                stepped = true;
-                let step = |factor: f64| {
-                    let mut p = from.p;
-                    p[R] *= factor;
-                    p
-                };
-                STEPS.map(step).to_vec()
-            } else {
+            let Some(way) = way_of_friction(task, &from) else { break };
+            if !from.seen.rests || from.p[R] == 0.0 {
                 break;
-            };
+            }
+            let verdict = self.verdict(&from);
+            let mut guesses = beyond_the_rim(&from, &way, verdict);
+            guesses.extend(if verdict == Verdict::Noise {
+                along_the_valley(task, &from, &way, &valleys, effort)?
+            } else {
+                through_the_valley(task, &from, &valleys, effort)?
+            });
             for guess in guesses {
                 let Ok(found) = interrupted(task.solve(guess, effort))? else { continue };
                 let half_swings = found.seen.turns.len();
@@ -76,17 +71,13 @@ impl Problem<'_> {
 ///
 /// Along the valley of r, with all other unknowns following as the linear model has it. Where the residuals
 /// are white and even the linear model puts the rim far outside the noise, there is no point worth asking.
-fn beyond_the_rim(task: &Task, optimum: &Optimum, verdict: Verdict) -> Vec<Unknowns> {
+fn beyond_the_rim(optimum: &Optimum, way: &WayOfFriction, verdict: Verdict) -> Vec<Unknowns> {
     /// How far beyond the rim: a part of the way to it, and standard errors.
     const BEYOND: f64 = 0.1;
     const ERRORS: f64 = 0.5;
     /// The farthest rim, in standard errors.
     const FAR: f64 = 30.0;
     let r = optimum.p[R];
-    if !optimum.seen.rests || r == 0.0 {
-        return Vec::new();
-    }
-    let Some(way) = way_of_friction(task, optimum) else { return Vec::new() };
     let turns = &optimum.seen.turns;
     let last = turns.iter().rev().take(2);
     let mut guesses = Vec::new();
@@ -98,20 +89,109 @@ fn beyond_the_rim(task: &Task, optimum: &Optimum, verdict: Verdict) -> Vec<Unkno
         let step = -(turn.q.abs() - r) / slope;
         if step.is_finite() && (verdict != Verdict::Noise || step.abs() <= FAR * way.error) {
             let step = step + (BEYOND * step.abs() + ERRORS * way.error).copysign(step);
-            let p: Unknowns =
-                std::array::from_fn(|place| optimum.p[place] + step * way.along[place]);
-            if p[R] > 0.0 {
-                guesses.push(p);
-            }
+            guesses.push(way.moved(optimum, step));
         }
     }
+    guesses.retain(|p| p[R] > 0.0);
     guesses
+}
+
+/// Of the points along the valley of r, for each number of half swings without a minimum yet, the one that comes
+/// closest to the record; a few of these. Each costs one motion without derivatives. Only points that noise could
+/// nearly explain are worth a descent.
+fn along_the_valley(
+    task: &Task,
+    optimum: &Optimum,
+    way: &WayOfFriction,
+    known: &[Valley],
+    effort: &mut Effort,
+) -> Result<Vec<Unknowns>, NoFit> {
+    /// Steps on each side: parts of r, and standard errors.
+    const PART: f64 = 0.012;
+    const STEPS: u32 = 22;
+    const ERRORS: u32 = 15;
+    /// A rise of chi squared beyond which a point is far off.
+    const FAR: f64 = 500.0;
+    let parts = (1..=STEPS).map(|k| PART * f64::from(k) * optimum.p[R]);
+    let errors = (1..=ERRORS).map(|k| f64::from(k) * way.error);
+    let mut closest = Closest::default();
+    for step in parts.chain(errors).flat_map(|step| [step, -step]) {
+        let p = way.moved(optimum, step);
+        if p[R] > 0.0
+            && let Ok(seen) = interrupted(task.look(&p, false, effort))?
+        {
+            closest.see(seen.turns.len(), task.cost(&seen), p);
+        }
+    }
+    #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
+    let unit = optimum.cost / optimum.seen.residuals.len().max(1) as f64;
+    closest.0.retain(|(_, cost, _)| cost - optimum.cost <= FAR * unit);
+    Ok(closest.beside(known))
+}
+
+/// The same with all else fitted anew at each step of r: while the residuals are not white the right minimum may
+/// be so far that nothing follows linearly.
+fn through_the_valley(
+    task: &Task,
+    optimum: &Optimum,
+    known: &[Valley],
+    effort: &mut Effort,
+) -> Result<Vec<Unknowns>, NoFit> {
+    /// Steps on each side, and their size.
+    const STEPS: u32 = 6;
+    const FACTOR: f64 = 1.04;
+    let mut held = *task;
+    held.free[R] = false;
+    let mut closest = Closest::default();
+    for factor in [FACTOR, 1.0 / FACTOR] {
+        let mut p = optimum.p;
+        for _ in 0..STEPS {
+            p[R] *= factor;
+            let Ok(found) = interrupted(held.solve_roughly(p, effort))? else { break };
+            p = found.p;
+            closest.see(found.seen.turns.len(), found.cost, p);
+        }
+    }
+    Ok(closest.beside(known))
+}
+
+/// For each number of half swings the point that comes closest to the record.
+#[derive(Default)]
+struct Closest(Vec<(usize, f64, Unknowns)>);
+
+impl Closest {
+    fn see(&mut self, half_swings: usize, cost: f64, p: Unknowns) {
+        match self.0.iter_mut().find(|other| other.0 == half_swings) {
+            Some(other) if other.1 <= cost => {}
+            Some(other) => *other = (half_swings, cost, p),
+            None => self.0.push((half_swings, cost, p)),
+        }
+    }
+
+    /// The closest few that are lower than the minimum known for their number of half swings.
+    fn beside(mut self, known: &[Valley]) -> Vec<Unknowns> {
+        /// Most points from which to descend.
+        const MOST: usize = 3;
+        self.0.retain(|(half_swings, cost, _)| {
+            let same = known.iter().find(|valley| valley.half_swings == *half_swings);
+            same.is_none_or(|valley| *cost < valley.optimum.cost)
+        });
+        self.0.sort_by(|one, other| one.1.total_cmp(&other.1));
+        self.0.into_iter().take(MOST).map(|(_, _, p)| p).collect()
+    }
 }
 
 /// How all unknowns follow a change of r, and the standard error of r.
 struct WayOfFriction {
     along: Unknowns,
     error: f64,
+}
+
+impl WayOfFriction {
+    /// The point where r has been moved by this much.
+    fn moved(&self, from: &Optimum, step: f64) -> Unknowns {
+        std::array::from_fn(|place| from.p[place] + step * self.along[place])
+    }
 }
 
 fn way_of_friction(task: &Task, optimum: &Optimum) -> Option<WayOfFriction> {
