@@ -19,10 +19,10 @@ use super::field::Field;
 use crate::numerics::Interval;
 
 /// Degree of the polynomials.
-pub const ORDER: usize = 24;
+pub const ORDER: usize = 28;
 
 /// Length of the arrays: `ORDER + 1` coefficients, filled with zeros to a multiple of [`LANES`].
-const LENGTH: usize = 28;
+const LENGTH: usize = 32;
 
 /// Sums run in this many lanes; the count of roundings does not depend on the order of a sum.
 const LANES: usize = 4;
@@ -45,7 +45,7 @@ const INVERSE: [f64; LENGTH + 1] = {
     let mut table = [0.0; LENGTH + 1];
     let mut k = 1;
     while k <= LENGTH {
-        #[expect(clippy::cast_precision_loss, reason = "k is at most 28")]
+        #[expect(clippy::cast_precision_loss, reason = "k is at most 32")]
         {
             table[k] = 1.0 / k as f64;
         }
@@ -139,19 +139,25 @@ impl Prepared {
         &self.field
     }
 
-    /// The norm in which errors grow least over the next step and a while beyond, the change of norm included.
+    /// The norm in which errors grow least over the next step, between these two velocities, and a while beyond, the
+    /// change of norm included.
     ///
     /// Any answer is right; this one keeps balls small.
     #[must_use]
-    pub fn norm(&self, before: Norm, series: &Series, h: f64) -> Norm {
+    pub fn norm(&self, before: Norm, [now, next]: [f64; 2], h: f64) -> Norm {
         /// How far the present step is taken to go on, in time.
         const WHILE: f64 = 0.6;
         /// A change that gains less than this, in the logarithm of the ball, is left alone.
         const WORTH: f64 = 0.25;
         let slope = |v: f64| self.a + v * (2.0 * self.b + v * 3.0 * self.c);
-        let (start, end) = (slope(series.v[0]), slope(series.velocity(h).0));
+        let (start, end) = (slope(now), slope(next));
         let (low, high) = (start.min(end), start.max(end));
         let time = h.max(WHILE);
+        // No norm grows less than the eigenvalues do.
+        let least = 0.5 * ((low * low - 4.0).max(0.0).sqrt() - low);
+        if (before.rate(low, high) - least) * time < WORTH {
+            return before;
+        }
         let cost = |norm: Norm| before.into(norm).ln() + norm.rate(low, high) * time;
         let candidates = [
             before,
@@ -203,13 +209,25 @@ impl Scalar for f64 {
     }
 }
 
-/// Sum of products, in lanes. Of `k + 1` products each passes at most `k/4 + 3` roundings, and no more than
-/// `k + 1`: one as a product, `k/4` on the way down its lane, two where the lanes meet; adding zeros is exact.
-fn dot<T: Scalar>(one: &[T], other: &[T]) -> T {
+/// Sum of `one[i] other[k - i]` for `2 <= i <= k - 2`, in lanes; `other` holds its factor in reverse, from
+/// place `ORDER` down.
+///
+/// `other` holds nothing for degrees 0 and 1, so that the last lanes add zeros.
+///
+/// Of these `k - 3` products each passes at most `k/4 + 2` roundings: one as a product, the others on the way down its
+/// lane, two where the lanes meet. Adding zeros is exact. Nothing is read that was written in the last two
+/// rounds, because waiting for memory would take longer than the sum.
+fn inner<T: Scalar>(one: &[T; LENGTH], other: &[T; 2 * LENGTH], k: usize) -> T {
     let mut lanes = [T::ZERO; LANES];
-    for (one, other) in one.chunks_exact(LANES).zip(other.chunks_exact(LANES)) {
+    if k < 4 {
+        return T::ZERO;
+    }
+    let length = (k - 3).div_ceil(LANES) * LANES;
+    let first = &one[2..2 + length];
+    let second = &other[ORDER - k + 2..ORDER - k + 2 + length];
+    for (first, second) in first.chunks_exact(LANES).zip(second.chunks_exact(LANES)) {
         for (lane, sum) in lanes.iter_mut().enumerate() {
-            *sum = *sum + one[lane] * other[lane];
+            *sum = *sum + first[lane] * second[lane];
         }
     }
     (lanes[0] + lanes[1]) + (lanes[2] + lanes[3])
@@ -222,24 +240,51 @@ impl<T: Scalar> Series<T> {
 
     /// Fills the coefficients at `(x, v)` of the field `a, b, c`.
     ///
-    /// With `f = b v + c v^2` the damping is `a v + f v`; coefficient k of each product is a sum of `k + 1`
-    /// products. `backward` holds v in reverse, so that both factors run forward through memory.
+    /// With `f = b v + c v^2` the damping is `a v + f v`. The newest coefficient enters `v^2`, f and the damping
+    /// linearly: with `rest` for what the others contribute to `v^2`,
+    /// `f_k = slope v_k + c rest_k`, and the damping is `damping v_k` plus what only earlier ones contribute.
     pub fn expand(&mut self, [a, b, c]: [T; 3], x: T, v: T) {
         let mut force = [T::ZERO; LENGTH];
         let mut backward = [T::ZERO; 2 * LENGTH];
         self.v = [T::ZERO; LENGTH];
         (self.x[0], self.v[0]) = (x, v);
-        for k in 0..ORDER {
-            backward[ORDER - k] = self.v[k];
-            let length = (k / LANES + 1) * LANES;
-            let reversed = &backward[ORDER - k..ORDER - k + length];
-            let square = dot(&self.v[..length], reversed);
-            self.square[k] = square;
-            force[k] = b * self.v[k] + c * square;
-            let product = dot(&force[..length], reversed);
-            let acceleration = -self.x[k] - a * self.v[k] - product;
-            self.x[k + 1] = (self.v[k] * T::inverse(k + 1)).taken();
+        let force0 = v * (b + c * v);
+        let slope = b + (c + c) * v;
+        let damping = (a + force0) + v * slope;
+        let cubic = c * v;
+        self.square[0] = v * v;
+        self.x[1] = v.taken();
+        self.v[1] = (-x - (a + force0) * v).taken();
+        let (v1, twice) = (self.v[1], self.v[1] + self.v[1]);
+        let (mut before, mut newest, mut force_before) = (v, v1, force0);
+        let mut force1 = T::ZERO;
+        for k in 1..ORDER {
+            // Both sums leave out the two outermost products on either side.
+            let (among, product) = (inner(&self.v, &backward, k), inner(&force, &backward, k));
+            let rest = match k {
+                1 => T::ZERO,
+                2 => v1 * v1,
+                _ => twice * before + among,
+            };
+            let pair = match k {
+                1 => T::ZERO,
+                2 => force1 * v1,
+                _ => force1 * before + force_before * v1,
+            };
+            let earlier = cubic * rest + (pair + product);
+            let acceleration = -(self.x[k] + earlier) - damping * newest;
+            self.square[k] = (v + v) * newest + rest;
+            let force_now = slope * newest + c * rest;
+            if k == 1 {
+                force1 = force_now;
+            }
+            force[k] = force_now;
+            if k > 1 {
+                backward[ORDER - k] = newest;
+            }
+            self.x[k + 1] = (newest * T::inverse(k + 1)).taken();
             self.v[k + 1] = (acceleration * T::inverse(k + 1)).taken();
+            (before, newest, force_before) = (newest, self.v[k + 1], force_now);
         }
     }
 
@@ -301,13 +346,13 @@ pub struct Reached {
 /// and of x, of a, of b and of c, those of b and c with a part for each degree.
 ///
 /// - 2: `x_(k+1)` is `v_k` times a rounded inverse.
-/// - 4: x passes two differences, then the inverse and its product.
-/// - 5: so does `a v`, after its own product.
-/// - 8 + k/4: `b v` passes a product and a sum in `f`, `k/4 + 3` in the convolution, one difference and two
-///   for the inverse. The degrees of both factors add up to k, so that half of a quarter goes to each.
-/// - 11 + (i + k)/4: `c v^2` comes after `i/4 + 3` in its own convolution. Of the degrees of three factors two add
-///   up to i, and all to k: five twelfths of each, three times.
-const ROUNDINGS: [f64; 7] = [2.0, 4.0, 5.0, 8.0, 0.5, 11.0, 1.25];
+/// - 4: x passes a sum and a difference, then the inverse and its product.
+/// - 6: a passes two sums in `damping`, its product, a difference, and two for the inverse.
+/// - 11 + k/4: `b v_i` passes 3 on the way into f, `k/4 + 2` in the sum of products, two sums into `earlier`, a sum, a
+///   difference and two for the inverse. Half of a quarter of the degree goes to each of the two factors.
+/// - 13 + (i + k)/4: so does `c v^2`, which passes `i/4 + 5` on the way into f. Of the degrees of three factors two
+///   add up to i, and all to k: five twelfths of each, three times.
+const ROUNDINGS: [f64; 7] = [2.0, 4.0, 6.0, 11.0, 0.5, 13.0, 1.25];
 
 /// The bound of all roundings of the defect over a step, in units of roundoff.
 fn roundings(numbers: &[f64; 7], [a, b, c]: [f64; 3], [x, v, _, degree]: [f64; 4]) -> f64 {
@@ -353,18 +398,14 @@ impl Sums {
         };
         let (mut power, mut degree) = (1.0, 0.0);
         for k in 0..=ORDER {
-            let (x, v) = (series.x[k].abs() * power, series.v[k].abs() * power);
+            let v = series.v[k].abs() * power;
             sums.terms[k] = v;
-            sums.x += x;
-            sums.x_degree += degree * x;
             sums.v_degree += degree * v;
             sums.bend += degree * (degree - 1.0) * v;
             if k < ORDER {
                 let square = series.square[k] * power;
                 sums.squares[k] = square.abs();
                 sums.integral += square * INVERSE[k + 1];
-            } else {
-                sums.last_x = x;
             }
             power *= h;
             degree += 1.0;
@@ -373,6 +414,10 @@ impl Sums {
             sums.tails[k] = sums.tails[k + 1] + sums.terms[k];
         }
         sums.v = sums.tails[0];
+        // `x_(k+1)` is `v_k/(k + 1)` but for two roundings.
+        sums.x_degree = h * sums.v * INFLATE;
+        sums.x = series.x[0].abs() + sums.x_degree;
+        sums.last_x = h * sums.terms[ORDER - 1] * INVERSE[ORDER] * INFLATE;
         sums
     }
 }
@@ -389,7 +434,7 @@ impl Prepared {
         // Lemma 3: terms of degree ORDER and more of w^2 and w^3, times h to their degree.
         let square_tail: f64 = (0..=n).map(|i| terms[i] * tails[n - i]).sum();
         let low_squares: f64 = (0..n).map(|i| sums.squares[i] * tails[n - i]).sum();
-        let cube_tail = low_squares + 75.0 * UNIT * v * v * tails[n / 3] + square_tail * v;
+        let cube_tail = low_squares + 90.0 * UNIT * v * v * tails[n / 3] + square_tail * v;
         let truncation = terms[n] + (sums.last_x + a * terms[n]) + b * square_tail + c * cube_tail;
         let magnitudes = [x, v, x_degree, v_degree];
         let rounding = UNIT * roundings(&ROUNDINGS, self.most, magnitudes);
@@ -418,7 +463,7 @@ impl Prepared {
         let square_error = h
             * (off * (2.0 * v + off)
                 + square_tail
-                + UNIT * (v * v + 30.0 * sums.squares.iter().sum::<f64>())
+                + UNIT * (v * v + 36.0 * sums.squares.iter().sum::<f64>())
                 + UNDERFLOW);
         Some(Reached {
             x: end.0,

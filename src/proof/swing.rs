@@ -70,7 +70,7 @@ impl Passage {
 }
 
 /// Size of the last term of a step relative to the state: below rounding.
-const TOLERANCE: f64 = 1e-18;
+const TOLERANCE: f64 = 2e-17;
 
 /// Steps after which a swing is given up: a smooth one takes ten, a stiff one any number.
 pub const MOST_STEPS: u32 = 250;
@@ -210,7 +210,7 @@ impl Run {
         }
         let ahead = series.velocity(h).0;
         let mut last = false;
-        let norm = self.local.norm(self.norm, series, h);
+        let norm = self.local.norm(self.norm, [self.v, ahead], h);
         self.radius *= self.norm.into(norm) * INFLATE;
         self.norm = norm;
         if !(ahead > 4.0 * norm.stretch * self.radius) {
