@@ -23,7 +23,7 @@ pub const STEP: f64 = 1e-16;
 const FLAT: f64 = 0.3;
 
 /// Relative error of a clearance above which it is computed to more digits, and above which it is no answer.
-const SHARP: f64 = 1e-10;
+const SHARP: f64 = 1e-8;
 const VAGUE: f64 = 1e-3;
 
 /// Newton steps without progress, all within the error bound of the residual, that are enough.

@@ -67,7 +67,11 @@ pub fn fold_within(
         }
         Err(reason) => *reason != Reason::Interrupted,
     };
-    if lost && let Some((point, mut cost)) = grazing(parameters, &limits)? {
+    // A rough fold, one of many on a map, need not be found at such a cost.
+    if lost
+        && tolerance <= TOLERANCE
+        && let Some((point, mut cost)) = grazing(parameters, &limits)?
+    {
         cost += graph.curve.cost;
         return Ok((Some(point), cost));
     }
