@@ -203,6 +203,39 @@ fn static_friction_is_read_and_laws_that_cannot_be_are_refused() {
 }
 
 #[test]
+fn a_mode_is_answered_by_the_same_command() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("blade.toml");
+    // A damping ratio of -0.05 at rest and a friction joint: the closed form of equation 32.
+    let text = "title = \"A blade\"\nfrequency = \"120 1/s\"\nmodal_mass = \"0.2 kg\"\n\
+                damping_ratio = [-0.05]\nR = \"3 N\"\nstart = { x = \"1 mm\" }\n";
+    fs::write(&path, text).unwrap();
+    let name = path.to_str().unwrap();
+    let found = belt(&[name]);
+    let omega = 240.0 * std::f64::consts::PI;
+    let swing = 0.05 * std::f64::consts::PI / (1.0_f64 - 0.0025).sqrt();
+    let amplitude = 3.0 / (0.2 * omega * omega) / (0.5 * swing).tanh();
+    assert!((number(&found["margin"]["displacement"]) / amplitude - 1.0).abs() < 1e-13);
+    assert_eq!(found["cycles"].as_array().unwrap().len(), 1);
+    assert_eq!(found["motion"]["outcome"]["kind"], "escaped");
+    // Damping that grows with the square of the velocity bounds it.
+    let bounded = text.replace("[-0.05]", "[-0.05, 0, \"0.02 s^2/m^2\"]");
+    fs::write(&path, bounded).unwrap();
+    let found = belt(&[name]);
+    assert_eq!(found["motion"]["outcome"]["kind"], "cycle");
+    assert_eq!(found["cycles"].as_array().unwrap().len(), 2);
+    let refused = run(&["belt", name, "--sweep", "v0=1:2:3"]);
+    assert_eq!((refused.code, refused.err.lines().count()), (2, 1));
+    fs::write(&path, text.replace("-0.05", "\"1 kg\"")).unwrap();
+    let refused = run(&["belt", name]);
+    assert!(
+        refused.code == 2 && refused.err.contains("damping_ratio: has another dimension"),
+        "{}",
+        refused.err
+    );
+}
+
+#[test]
 fn a_sweep_is_the_same_machine_at_each_speed() {
     let swept = belt(&["clutch", "--sweep", "v0=0.6:1:3", "--design", "3 mm"]);
     assert_eq!((&swept["quantity"], &swept["unit"]), (&"v0".into(), &"m/s".into()));

@@ -9,16 +9,18 @@ use super::failure::Failure;
 use super::output::{Format, Output, print};
 use super::timing::timed;
 use crate::export::belt::branch::{Borders, Branched};
+use crate::export::belt::mode::ModeAnswer;
 use crate::export::belt::{self, Answer, Designed, Sweep, SweepPoint};
 use crate::flow::Limits;
 use crate::machine::Portrait;
 use crate::machine::branch::{borders, branch, spaced};
 use crate::machine::design::friction_for;
-use crate::machine::survey::{Trouble, portrait, survey};
+use crate::machine::survey::{Course, Trouble, portrait, survey};
 use crate::machine::varied::Varied;
 use crate::oscillator::belt::Dimension;
 use crate::scene::machine::file::{FARTHEST_START, parse};
 use crate::scene::machine::library::{TEXTBOOK, find, machines};
+use crate::scene::machine::mode::{self, Mode, is_mode};
 use crate::scene::machine::unit::{Measured, measured};
 use crate::scene::{Machine, Rig, Scene};
 use crate::study::design::Kick;
@@ -228,6 +230,17 @@ pub fn machine(name: &str) -> Result<Machine, Failure> {
     parse(&title, name, &text, fetch).map_err(|error| Failure::Usage(error.to_string()))
 }
 
+/// The mode of a file, if that is what it holds.
+fn mode(name: &str) -> Result<Option<Mode>, Failure> {
+    let path = Path::new(name);
+    let Ok(text) = std::fs::read_to_string(path) else { return Ok(None) };
+    if !is_mode(&text) {
+        return Ok(None);
+    }
+    let title = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
+    mode::parse(&title, name, &text).map(Some).map_err(|error| Failure::Usage(error.to_string()))
+}
+
 /// The machine of a file, or of the program, to be looked at.
 pub fn scene(name: &str) -> Result<Arc<Scene>, Failure> {
     let rig =
@@ -256,6 +269,9 @@ impl Belt {
 
     /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
+        if let Some(mode) = mode(&self.machine)? {
+            return self.of_mode(mode);
+        }
         let machine = self.machine()?;
         if let Some(range) = self.branch {
             return self.branched(&machine, range);
@@ -272,7 +288,8 @@ impl Belt {
         let start = (machine.displacement, machine.velocity);
         let (found, seconds) = timed(self.output.repeat, || {
             let survey = survey(&machine.belt, start, machine.until, &Limits::PATIENT)?;
-            let share = self.window.map(|window| survey.portrait.rest_share(window.x, window.v));
+            let share =
+                self.window.map(|window| survey.course.portrait.rest_share(window.x, window.v));
             Ok((survey, share, self.designed(&machine.belt)?))
         });
         let (survey, rest_share, design) = found.map_err(troubled)?;
@@ -281,6 +298,28 @@ impl Belt {
             Format::Table => belt::table(&answer),
             Format::Json => belt::json(&answer),
             Format::Csv => belt::csv(&answer),
+        })
+    }
+
+    /// The answer about a vibration mode, which has no belt.
+    fn of_mode(&self, mut mode: Mode) -> Result<(), Failure> {
+        let numbers = !self.set.is_empty() || self.design.is_some();
+        if numbers || self.sweep.is_some() || self.branch.is_some() {
+            let line = "a mode takes --start and --window; --set, --sweep, --branch and --design are for belts";
+            return Err(Failure::Usage(line.to_owned()));
+        }
+        let Start { x, v } = self.start.unwrap_or_default();
+        mode.start = (x.unwrap_or(mode.start.0), v.unwrap_or(mode.start.1));
+        let (found, seconds) =
+            timed(self.output.repeat, || Course::new(&mode.model, mode.start, mode.until));
+        let course = found.map_err(troubled)?;
+        let share = |window: Window| course.portrait.rest_share(window.x, window.v);
+        let rest_share = self.window.map(share);
+        let answer = ModeAnswer { mode: &mode, course: &course, rest_share, seconds };
+        print(&match self.output.format {
+            Format::Table => belt::mode::table(&answer),
+            Format::Json => belt::mode::json(&answer),
+            Format::Csv => belt::mode::csv(&answer),
         })
     }
 

@@ -20,15 +20,41 @@ pub struct Survey {
     /// Its dimensionless form.
     pub reduced: Reduced,
     /// What it does.
+    pub course: Course,
+    /// The same by the cubic expansion of friction, or why that gave up.
+    pub expansion: Result<Cycles, Reason>,
+}
+
+/// What a machine does, and one motion of it.
+#[derive(Clone, Debug)]
+pub struct Course {
+    /// All motions.
     pub portrait: Portrait,
-    /// The motion that was asked for.
+    /// The one that was asked for.
     pub motion: Motion,
     /// What it ends as.
     pub fate: Fate,
     /// Where it comes to rest, in m.
     pub rest: Option<f64>,
-    /// The same by the cubic expansion of friction, or why that gave up.
-    pub expansion: Result<Cycles, Reason>,
+}
+
+impl Course {
+    /// What a model does, and the motion from `start` (m and m/s), followed for `until` seconds.
+    ///
+    /// # Errors
+    /// [`Trouble`] where its motions leave the friction law or cannot be followed.
+    pub fn new(model: &Model, start: (f64, f64), until: f64) -> Result<Self, Trouble> {
+        let portrait = known(model)?;
+        let (x, v) = start;
+        let fate = portrait.fate(x, v)?;
+        if let Fate::Unknown(stop) = fate {
+            return Err(stop.into());
+        }
+        let rest =
+            (fate == Fate::Rest).then(|| Flow::new(model).rest_of(x, model.scaled_velocity(v)));
+        let motion = Motion::new(model, x, v, until);
+        Ok(Course { motion, fate, rest: rest.transpose()?, portrait })
+    }
 }
 
 /// Why a machine has no answer.
@@ -85,7 +111,11 @@ impl From<Stop> for Trouble {
 /// # Errors
 /// [`Trouble`] where it has no model, or where motions just outside the basin of rest leave the law.
 pub fn portrait(belt: &Belt) -> Result<Portrait, Trouble> {
-    let portrait = Portrait::new(&Model::new(belt)?)?;
+    known(&Model::new(belt)?)
+}
+
+fn known(model: &Model) -> Result<Portrait, Trouble> {
+    let portrait = Portrait::new(model)?;
     match (portrait.outermost(), portrait.stop) {
         (Fate::Unknown(_), Some(stop)) => Err(stop.into()),
         _ => Ok(portrait),
@@ -103,21 +133,10 @@ pub fn survey(
     limits: &Limits,
 ) -> Result<Survey, Trouble> {
     let reduced = belt.reduce()?;
-    let portrait = portrait(belt)?;
-    let (x, v) = start;
-    let fate = portrait.fate(x, v)?;
-    if let Fate::Unknown(stop) = fate {
-        return Err(stop.into());
-    }
-    let model = &portrait.model;
-    let rest = (fate == Fate::Rest).then(|| Flow::new(model).rest_of(x, model.scaled_velocity(v)));
     Ok(Survey {
         belt: belt.clone(),
         reduced,
-        motion: Motion::new(model, x, v, until),
-        fate,
-        rest: rest.transpose()?,
+        course: Course::new(&Model::new(belt)?, start, until)?,
         expansion: cycles(&reduced.parameters, true, limits),
-        portrait,
     })
 }

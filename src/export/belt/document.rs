@@ -8,7 +8,7 @@ use super::expansion::Expansion;
 use super::{Answer, Designed, margins};
 use crate::export::json::text;
 use crate::machine::motion::Outcome;
-use crate::machine::survey::Survey;
+use crate::machine::survey::Course;
 use crate::machine::turn::Place;
 use crate::machine::{Cycle, Fate, Ledger, Portrait};
 use crate::oscillator::belt::{Derivatives, FrictionLaw, QUANTITIES, Units};
@@ -27,7 +27,7 @@ struct Document<'a> {
     rest_band: Both,
     #[serde(flatten)]
     whole: Whole,
-    motion: Motion,
+    motion: MotionOf,
     #[serde(skip_serializing_if = "Option::is_none")]
     rest_share: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -155,7 +155,7 @@ pub(super) fn kind(cycle: &Cycle) -> &'static str {
 }
 
 #[derive(Serialize)]
-struct Motion {
+pub(super) struct MotionOf {
     start: Start,
     outcome: OutcomeOf,
     /// How far it was followed, in s.
@@ -201,9 +201,9 @@ struct Energy {
     residual: f64,
 }
 
-impl Motion {
-    fn new(answer: &Answer) -> Self {
-        let Survey { motion, fate, rest, .. } = answer.survey;
+impl MotionOf {
+    pub(super) fn new((x, v): (f64, f64), course: &Course) -> Self {
+        let Course { motion, fate, rest, .. } = course;
         let named = |kind| OutcomeOf { kind, cycle: None, x: None, t: None };
         let outcome = match fate {
             Fate::Rest => OutcomeOf {
@@ -223,8 +223,8 @@ impl Motion {
             Place::Rests => "rest",
             Place::Slips(_) => "slip",
         };
-        Motion {
-            start: Start { x: answer.machine.displacement, v: answer.machine.velocity },
+        MotionOf {
+            start: Start { x, v },
             outcome,
             until: motion.end.t,
             displacement: motion.x,
@@ -290,11 +290,14 @@ pub fn json(answer: &Answer) -> String {
             dimensionless: reduced.parameters.r,
             physical: belt.friction / belt.stiffness,
         },
-        whole: Whole::new(&survey.portrait),
-        motion: Motion::new(answer),
+        whole: Whole::new(&survey.course.portrait),
+        motion: MotionOf::new(
+            (answer.machine.displacement, answer.machine.velocity),
+            &survey.course,
+        ),
         rest_share: answer.rest_share,
         design: answer.design.as_ref().map(|designed| DesignOf::new(designed, belt)),
         expansion: Expansion::new(survey),
-        cost: Cost { steps: survey.portrait.steps, seconds: answer.seconds },
+        cost: Cost { steps: survey.course.portrait.steps, seconds: answer.seconds },
     })
 }

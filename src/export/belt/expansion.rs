@@ -86,7 +86,7 @@ impl<'a> Expansion<'a> {
         };
         let margin = found.picture.as_ref().map(|picture| {
             let physical = PhysicalMargin::new(&picture.margin, &reduced.units);
-            let [displacement, impulse] = margins(&survey.portrait);
+            let [displacement, impulse] = margins(&survey.course.portrait);
             let excess = |own: Option<f64>, whole: Option<f64>| Some(own? - whole?);
             let error = MarginError {
                 displacement: excess(physical.displacement, displacement),
@@ -104,7 +104,7 @@ fn expanded<'a>(cycle: &'a Cycle, survey: &Survey) -> ExpandedCycle<'a> {
     let (x_min, x_max) = (cycle.q_min * units.displacement, cycle.q_max * units.displacement);
     let (v_min, v_max) = (cycle.v_min * units.velocity, cycle.v_max * units.velocity);
     let period = cycle.period * units.time;
-    let alike = survey.portrait.cycles.iter().filter(|whole| whole.stable == cycle.stable);
+    let alike = survey.course.portrait.cycles.iter().filter(|whole| whole.stable == cycle.stable);
     let distance = |whole: &crate::machine::Cycle| (whole.x.1 - x_max).abs();
     let nearest = alike.min_by(|one, other| distance(one).total_cmp(&distance(other)));
     let error = nearest.map(|whole| CycleError {

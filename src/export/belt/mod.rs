@@ -3,6 +3,7 @@
 pub mod branch;
 mod document;
 mod expansion;
+pub mod mode;
 mod sweep;
 mod table;
 

@@ -6,7 +6,8 @@ use super::{Answer, PLACES, margins, quantities};
 use crate::export::csv::{exact_or_empty, line};
 use crate::export::table::Table;
 use crate::machine::motion::Outcome;
-use crate::machine::{Border, Cycle, Fate};
+use crate::machine::survey::Course;
+use crate::machine::{Border, Cycle, Fate, Portrait};
 use crate::oscillator::belt::{Derivatives, FrictionLaw};
 use crate::view::number::{duration, significant};
 use crate::view::quantity::with_unit;
@@ -26,7 +27,7 @@ fn rows(answer: &Answer) -> Vec<Row> {
     let survey = answer.survey;
     let (belt, reduced) = (&survey.belt, &survey.reduced);
     let (parameters, units) = (&reduced.parameters, &reduced.units);
-    let [displacement, impulse] = margins(&survey.portrait);
+    let [displacement, impulse] = margins(&survey.course.portrait);
     let pure = |what, value| Row { what, dimensionless: Some(value), physical: None };
     let scaled = |what, value: Option<f64>, scale: f64, unit| Row {
         what,
@@ -67,9 +68,10 @@ pub fn table(answer: &Answer) -> String {
             physical.map_or_else(String::new, |(value, unit)| with_unit(value, PLACES, unit)),
         ]);
     }
-    out += &format!("{numbers}\n{}\n\n", border(answer));
-    out += &cycles(&survey.portrait.cycles);
-    out += &format!("{}\n", motion(answer));
+    out += &format!("{numbers}\n{}\n\n", border(&survey.course.portrait));
+    out += &cycles(&survey.course.portrait.cycles);
+    let start = (machine.displacement, machine.velocity);
+    out += &format!("{}\n", fate(start, &survey.course));
     if let Some(share) = answer.rest_share {
         out += &format!("of the window, {} comes to rest\n", significant(share, DIGITS));
     }
@@ -77,7 +79,7 @@ pub fn table(answer: &Answer) -> String {
     if let Some(designed) = &answer.design {
         out += &format!("{}\n", designed.sentence(belt));
     }
-    out + &format!("{} steps, {}\n", survey.portrait.steps, duration(answer.seconds))
+    out + &format!("{} steps, {}\n", survey.course.portrait.steps, duration(answer.seconds))
 }
 
 /// The friction law at the belt speed.
@@ -102,8 +104,7 @@ fn friction(law: &FrictionLaw, mu: &Derivatives) -> String {
 }
 
 /// What borders the basin of rest, in a sentence.
-fn border(answer: &Answer) -> &'static str {
-    let portrait = &answer.survey.portrait;
+pub(super) fn border(portrait: &Portrait) -> &'static str {
     match portrait.border {
         Border::None => "every kick is survived: whatever happens, the mass comes to rest",
         Border::NoBasin => "no kick is survived, however small: rest repels",
@@ -116,7 +117,7 @@ fn border(answer: &Answer) -> &'static str {
 }
 
 /// The cycles, a row each.
-fn cycles(cycles: &[Cycle]) -> String {
+pub(super) fn cycles(cycles: &[Cycle]) -> String {
     if cycles.is_empty() {
         return "no cycle\n".to_owned();
     }
@@ -142,27 +143,21 @@ fn cycles(cycles: &[Cycle]) -> String {
 }
 
 /// What becomes of the motion, in a sentence.
-fn motion(answer: &Answer) -> String {
-    let survey = answer.survey;
+pub(super) fn fate((x, v): (f64, f64), course: &Course) -> String {
     let length = |x| with_unit(x, PLACES, "m");
-    let start = answer.machine;
-    let from = format!(
-        "from x = {}, v = {}: ",
-        length(start.displacement),
-        with_unit(start.velocity, PLACES, "m/s")
-    );
-    let end = &survey.motion.end;
-    from + &match survey.fate {
+    let from = format!("from x = {}, v = {}: ", length(x), with_unit(v, PLACES, "m/s"));
+    let end = &course.motion.end;
+    from + &match course.fate {
         Fate::Rest => {
-            let place = survey.rest.map_or_else(String::new, |x| format!(" at x = {}", length(x)));
-            if survey.motion.outcome == Outcome::Rests {
+            let place = course.rest.map_or_else(String::new, |x| format!(" at x = {}", length(x)));
+            if course.motion.outcome == Outcome::Rests {
                 format!("comes to rest{place}, at t = {}", with_unit(end.t, PLACES, "s"))
             } else {
                 format!("comes to rest{place}")
             }
         }
         Fate::Cycle(index) => {
-            let cycle = &survey.portrait.cycles[index];
+            let cycle = &course.portrait.cycles[index];
             format!("ends on the {} cycle up to x = {}", kind(cycle), length(cycle.x.1))
         }
         Fate::Neutral => "is periodic, one of a family".to_owned(),
@@ -202,20 +197,27 @@ fn expansion(answer: &Answer) -> String {
 #[must_use]
 pub fn csv(answer: &Answer) -> String {
     let mut out = String::from("what,dimensionless,physical,unit\n");
-    let mut put = |what: &str, dimensionless: Option<f64>, value: Option<f64>, unit: &str| {
-        let cells = [
-            what.to_owned(),
-            exact_or_empty(dimensionless),
-            exact_or_empty(value),
-            unit.to_owned(),
-        ];
-        out += &line(&cells);
-    };
     for Row { what, dimensionless, physical } in rows(answer) {
         let (value, unit) = physical.map_or((None, ""), |(value, unit)| (Some(value), unit));
-        put(what, dimensionless, value, unit);
+        put(&mut out, what, dimensionless, value, unit);
     }
-    for (index, cycle) in answer.survey.portrait.cycles.iter().enumerate() {
+    csv_rows(&mut out, &answer.survey.course.portrait, answer.rest_share);
+    if let Some(designed) = &answer.design {
+        put(&mut out, "R for the margin", None, designed.force(), "N");
+    }
+    out
+}
+
+/// Adds a row.
+fn put(out: &mut String, what: &str, dimensionless: Option<f64>, value: Option<f64>, unit: &str) {
+    let cells =
+        [what.to_owned(), exact_or_empty(dimensionless), exact_or_empty(value), unit.to_owned()];
+    *out += &line(&cells);
+}
+
+/// Adds a row for each number of each cycle, and the share.
+pub(super) fn csv_rows(out: &mut String, portrait: &Portrait, rest_share: Option<f64>) {
+    for (index, cycle) in portrait.cycles.iter().enumerate() {
         let stability = if cycle.stable { "stable" } else { "unstable" };
         let lead = format!("{stability} {} cycle {index}", kind(cycle));
         for (name, value, unit) in [
@@ -227,14 +229,10 @@ pub fn csv(answer: &Answer) -> String {
             ("stick_duration", cycle.stick_duration, "s"),
             ("multiplier", cycle.multiplier, ""),
         ] {
-            put(&format!("{lead}: {name}"), None, Some(value), unit);
+            put(out, &format!("{lead}: {name}"), None, Some(value), unit);
         }
     }
-    if let Some(share) = answer.rest_share {
-        put("rest share of the window", Some(share), None, "");
+    if let Some(share) = rest_share {
+        put(out, "rest share of the window", Some(share), None, "");
     }
-    if let Some(designed) = &answer.design {
-        put("R for the margin", None, designed.force(), "N");
-    }
-    out
 }

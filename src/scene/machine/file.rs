@@ -63,9 +63,9 @@ struct File {
 /// Where the motion starts.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Start {
-    x: Option<Spanned<Number>>,
-    v: Option<Spanned<Number>>,
+pub(super) struct Start {
+    pub x: Option<Spanned<Number>>,
+    pub v: Option<Spanned<Number>>,
 }
 
 /// A friction law, one of four, and what static friction adds to it.
@@ -112,7 +112,7 @@ struct Table {
 
 /// A number, or a text of a number with a unit.
 #[derive(Clone, Debug)]
-enum Number {
+pub(super) enum Number {
     Plain(f64),
     Text(String),
 }
@@ -231,7 +231,11 @@ fn quantity(quantity: Quantity, given: &Spanned<Number>) -> Result<f64, Complain
 }
 
 /// A value of the kind of a quantity, under a name of its own.
-fn quantity_as(name: &str, quantity: Quantity, given: &Spanned<Number>) -> Result<f64, Complaint> {
+pub(super) fn quantity_as(
+    name: &str,
+    quantity: Quantity,
+    given: &Spanned<Number>,
+) -> Result<f64, Complaint> {
     given
         .get_ref()
         .read()
@@ -255,7 +259,7 @@ fn named(name: &str, message: String) -> String {
 }
 
 /// A number of a dimension within a range, or its default.
-fn number(
+pub(super) fn number(
     name: &str,
     given: Option<&Spanned<Number>>,
     dimension: Dimension,

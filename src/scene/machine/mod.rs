@@ -2,6 +2,7 @@
 
 pub mod file;
 pub mod library;
+pub mod mode;
 pub mod path;
 pub mod unit;
 
