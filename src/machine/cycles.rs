@@ -223,7 +223,7 @@ impl Flow<'_> {
                 }
             }
             let shrinks = doubling > ENOUGH && last.f < CONTRACTS && last.f < before.f;
-            if shrinks || last.f.abs() >= FAR {
+            if shrinks || last.f >= FAR {
                 break;
             }
             x *= 2.0;
