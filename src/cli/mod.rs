@@ -20,9 +20,12 @@ mod keys;
 mod kicks;
 mod look;
 mod margin;
+mod merge;
 mod output;
 mod paper;
+mod part;
 mod places;
+mod plan;
 mod progress;
 mod replay;
 mod scan;
@@ -73,6 +76,7 @@ enum Command {
     Paper(paper::Paper),
     Belt(belt::Belt),
     Scan(scan::ScanCommand),
+    Merge(merge::Merge),
     Trade(trade::Trade),
     Figure(figure::Figure),
     Fit(fit::Fit),
@@ -90,6 +94,7 @@ impl Command {
     fn run(&self) -> Result<ExitCode, Failure> {
         let answered = match self {
             Command::Scan(command) => return command.run(),
+            Command::Merge(command) => return command.run(),
             Command::Tour(command) => return command.run(),
             Command::Trajectory(command) => command.run(),
             Command::Cycles(command) => command.run(),

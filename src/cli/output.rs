@@ -52,7 +52,43 @@ pub fn write(path: &Path, content: &[u8], force: bool) -> Result<(), Failure> {
         .map_err(|error| Failure::Unanswered(format!("{} not written: {error}", path.display())))
 }
 
+/// The arguments of this process.
+pub fn arguments() -> Vec<String> {
+    std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned()).collect()
+}
+
+/// A command line without these options, each with whether it has a value.
+pub fn without(words: &[String], options: &[(&str, bool)]) -> Vec<String> {
+    let mut kept = Vec::new();
+    let mut words = words.iter();
+    while let Some(word) = words.next() {
+        let name = word.split('=').next().unwrap_or_default();
+        match options.iter().find(|(option, _)| *option == name) {
+            Some((_, true)) if word == name => drop(words.next()),
+            Some(_) => {}
+            None => kept.push(word.clone()),
+        }
+    }
+    kept
+}
+
 /// Whether there is a file with something in it; a device or a pipe has nothing to lose.
 pub fn holds_something(path: &Path) -> bool {
     std::fs::metadata(path).is_ok_and(|file| file.is_file() && file.len() > 0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn options_are_taken_out_with_their_values() {
+        let words: Vec<String> =
+            "scan --over D=0:1:2 --output a --resume --shard=1/2 --measure margin"
+                .split(' ')
+                .map(str::to_owned)
+                .collect();
+        let kept = without(&words, &[("--output", true), ("--resume", false), ("--shard", true)]);
+        assert_eq!(kept.join(" "), "scan --over D=0:1:2 --measure margin");
+    }
 }

@@ -7,18 +7,22 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use clap::{Args, ValueEnum};
+use clap::{Args, FromArgMatches, ValueEnum};
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::flag;
 
 use super::failure::Failure;
 use super::input;
-use super::output::holds_something;
+use super::output::{arguments, holds_something};
+use super::part::{Part, Shard};
+use super::plan::Plan;
 use super::progress::Progress;
 use super::start::Start;
+use crate::export::provenance::Provenance;
 use crate::export::scan::Form;
 use crate::flow::Limits;
 use crate::oscillator::Symbol;
+use crate::runtime::provenance_file;
 use crate::runtime::scan_file::{Refusal, ScanFile};
 use crate::runtime::scanning::{Effort, rows};
 use crate::runtime::signals::exit_code;
@@ -79,9 +83,22 @@ pub struct ScanCommand {
     /// Begins anew where FILE holds something
     #[arg(long, requires = "output", conflicts_with = "resume")]
     force: bool,
-    /// Computes part K of N only; the parts, put together in their order, are the whole
-    #[arg(long, value_name = "K/N", value_parser = shard)]
-    shard: Option<Shard>,
+    #[command(flatten)]
+    part: Part,
+    /// Which parts begin with the line of names; merge accepts both
+    #[arg(long, value_enum, value_name = "WHEN", default_value_t = Header::First)]
+    header: Header,
+    #[command(flatten)]
+    plan: Plan,
+}
+
+/// Which parts begin with the line of names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Header {
+    /// The first one, so that cat puts parts together.
+    First,
+    /// All, so that each can be read alone.
+    Always,
 }
 
 /// The form of the rows, by its name on the command line.
@@ -96,34 +113,24 @@ enum Rows {
     Csv,
 }
 
-/// Part `number` (from 1) of `of`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Shard {
-    number: usize,
-    of: usize,
-}
-
 fn measures_help() -> String {
     let names = MEASURES.map(|row| format!("{} ({})", row.name, row.meaning));
     format!("What to measure; repeatable: {}", names.join("; "))
 }
 
-fn shard(text: &str) -> Result<Shard, String> {
-    /// Most parts.
-    const MOST: usize = 1_000_000;
-    let parts = text.split_once('/').and_then(|(number, of)| {
-        let shard = Shard { number: number.parse().ok()?, of: of.parse().ok()? };
-        ((1..=shard.of).contains(&shard.number) && shard.of <= MOST).then_some(shard)
-    });
-    parts.ok_or_else(|| format!("{text:?} is not a part; expected K/N with 1 <= K <= N <= {MOST}"))
-}
-
-impl Shard {
-    /// Its points: the parts are runs of points in order, as long as each other give or take one.
-    fn points(self, all: usize) -> Range<usize> {
-        let end = |number: usize| all / self.of * number + (all % self.of).min(number);
-        end(self.number - 1)..end(self.number)
-    }
+/// What a command line asks for.
+#[derive(Clone, Debug)]
+pub struct Asked {
+    /// The whole scan.
+    pub scan: Scan,
+    /// The form of its rows.
+    pub form: Form,
+    /// The points that are to be computed.
+    pub points: Range<usize>,
+    /// Whether the line of names comes before their rows.
+    pub headed: bool,
+    /// The part that these points are, where it has a number.
+    pub shard: Option<Shard>,
 }
 
 /// Where the rows go.
@@ -145,23 +152,24 @@ impl Sink {
 }
 
 impl ScanCommand {
+    /// The scan that a command line without its program asks for, if it is one of this version.
+    pub fn of_line(arguments: &[String]) -> Option<Self> {
+        arguments.first().filter(|command| *command == "scan")?;
+        let parser = Self::augment_args(clap::Command::new("scan"));
+        Self::from_arg_matches(&parser.try_get_matches_from(arguments).ok()?).ok()
+    }
+
     /// Computes and writes, until it is done or told to stop.
     pub fn run(&self) -> Result<ExitCode, Failure> {
-        let mut base = self.start.problem()?;
-        base.until = self.until.unwrap_or(base.until);
-        let conditions = Conditions {
-            window: self.window,
-            half_widths: self.half_width.clone(),
-            disturbance: self.disturbance,
-            kicks: self.kicks,
-        };
-        let scan = Scan::new(base, self.over.clone(), self.measure.clone(), conditions)
-            .map_err(Failure::Usage)?;
-        let shard = self.shard.unwrap_or(Shard { number: 1, of: 1 });
-        let mut points = shard.points(scan.points());
+        let asked = self.asked()?;
+        if self.plan.is_wanted() {
+            let jobs = self.jobs.unwrap_or(1);
+            return self.plan.run(&arguments(), jobs, self.output.as_deref(), self.force);
+        }
         let stop = Stop::listen()?;
         let interrupted = || stop.signal().is_some();
-        let (mut sink, done) = self.sink(&scan, shard, points.clone(), &interrupted)?;
+        let (mut sink, done) = self.sink(&asked, &interrupted)?;
+        let Asked { scan, mut points, .. } = asked;
         points.start += done;
 
         let mut effort = Effort::whole();
@@ -200,37 +208,61 @@ impl ScanCommand {
         Ok(self.report(&tally, stop.signal().filter(|_| tally.rows < tally.wanted)))
     }
 
+    /// What is to be computed, checked.
+    pub fn asked(&self) -> Result<Asked, Failure> {
+        let mut base = self.start.problem()?;
+        base.until = self.until.unwrap_or(base.until);
+        let conditions = Conditions {
+            window: self.window,
+            half_widths: self.half_width.clone(),
+            disturbance: self.disturbance,
+            kicks: self.kicks,
+        };
+        let scan = Scan::new(base, self.over.clone(), self.measure.clone(), conditions)
+            .map_err(Failure::Usage)?;
+        let points = self.part.points(scan.points())?;
+        // Without further wishes the parts are made to be put together by cat.
+        let headed = points.start == 0 || self.header == Header::Always;
+        Ok(Asked { scan, form: self.form()?, points, headed, shard: self.part.shard() })
+    }
+
     /// Where the rows go, and how many of them are there already.
     fn sink(
         &self,
-        scan: &Scan,
-        shard: Shard,
-        points: Range<usize>,
+        asked: &Asked,
         interrupted: &(dyn Fn() -> bool + Sync),
     ) -> Result<(Sink, usize), Failure> {
-        let form = self.form()?;
-        // The heading belongs to the whole: the other parts follow the first.
-        let headed = shard.number == 1;
+        let &Asked { ref scan, form, ref points, headed, .. } = asked;
         let Some(path) = &self.output else {
             super::output::print(&if headed { form.heading(scan) } else { String::new() })?;
             return Ok((Sink::Standard(form), 0));
         };
+        let name = path.display();
         if !self.resume && !self.force && holds_something(path) {
-            let name = path.display();
             let line =
                 format!("{name} holds something; --resume goes on with it, --force begins anew");
             return Err(Failure::Usage(line));
         }
+        let provenance = Provenance::of(&arguments());
+        let earlier =
+            provenance_file::read(path).ok().filter(|_| self.resume && holds_something(path));
+        if let Some(earlier) = earlier.filter(|earlier| earlier.build() != provenance.build()) {
+            let (earlier, now) = (earlier.build(), provenance.build());
+            let line =
+                format!("{name} was begun by {earlier}, and this is {now}; --force begins anew");
+            return Err(Failure::Usage(line));
+        }
         let limits = Limits { interrupted, ..Limits::PATIENT };
         let opened = if self.resume {
-            ScanFile::resume(path, scan, form, headed, points, &limits)
+            ScanFile::resume(path, scan, form, headed, points.clone(), &limits)
         } else {
             ScanFile::create(path, scan, form, headed).map(|file| (file, 0))
         };
         let (file, done) = opened.map_err(|refusal| match refusal {
             Refusal::Io(error) => Failure::file(path, &error),
-            other => Failure::Usage(format!("{}: {other}", path.display())),
+            other => Failure::Usage(format!("{name}: {other}")),
         })?;
+        provenance_file::write(path, &provenance).map_err(|error| Failure::file(path, &error))?;
         Ok((Sink::File(file), done))
     }
 
@@ -303,31 +335,5 @@ impl Stop {
 
     fn signal(&self) -> Option<i32> {
         i32::try_from(self.0.load(Ordering::Relaxed)).ok().filter(|&signal| signal != 0)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn parts_are_the_whole_in_order_and_as_long_as_each_other() {
-        for all in [2, 7, 100, 101] {
-            for of in [1, 2, 3, 7, 150] {
-                let parts = (1..=of).map(|number| Shard { number, of }.points(all));
-                let lengths: Vec<usize> = parts.clone().map(|part| part.len()).collect();
-                let (least, most) = (lengths.iter().min().unwrap(), lengths.iter().max().unwrap());
-                assert!(most - least <= 1, "{lengths:?}");
-                assert!(parts.flatten().eq(0..all), "{all} in {of}");
-            }
-        }
-    }
-
-    #[test]
-    fn parts_that_are_none_are_refused() {
-        assert_eq!(shard("2/3"), Ok(Shard { number: 2, of: 3 }));
-        for text in ["0/3", "4/3", "1", "1/0", "a/b", "-1/2", "1/2/3"] {
-            assert!(shard(text).unwrap_err().contains("K/N"), "{text}");
-        }
     }
 }

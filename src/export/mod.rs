@@ -12,6 +12,7 @@ pub mod guarantee;
 pub mod json;
 pub mod kicks;
 mod proof;
+pub mod provenance;
 pub mod scan;
 pub mod scene_cost;
 pub mod screen;

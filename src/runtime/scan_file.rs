@@ -121,14 +121,10 @@ impl ScanFile {
         points: Range<usize>,
         limits: &Limits,
     ) -> Result<Option<Kept>, Refusal> {
-        let mut lines = Lines { reader: BufReader::new(&self.file), number: 0, bytes: 0 };
+        let mut lines = Lines::new(&self.file);
         let heading = if headed { self.form.heading(scan) } else { String::new() };
-        if !heading.is_empty() {
-            match lines.next(heading.len())? {
-                Line::Whole(line) if line == heading.as_bytes() => {}
-                Line::Cut(begun) if heading.as_bytes().starts_with(&begun) => return Ok(None),
-                _ => return Err(lines.foreign("names other columns")),
-            }
+        if !lines.heading(&heading)? {
+            return Ok(None);
         }
         let mut kept = Kept { rows: 0, bytes: lines.bytes };
         let mut last = None;
@@ -153,33 +149,32 @@ impl ScanFile {
             }
             kept = Kept { rows: kept.rows + 1, bytes: lines.bytes };
             if kept.rows == 1 {
-                self.compare(scan, index, &line, &lines, limits)?;
+                compare(scan, self.form, (index, &line), lines.number, limits)?;
             } else {
                 last = Some((index, line));
             }
         }
         if let Some((index, line)) = last {
-            lines.number = kept.rows + usize::from(!heading.is_empty());
-            self.compare(scan, index, &line, &lines, limits)?;
+            let number = kept.rows + usize::from(!heading.is_empty());
+            compare(scan, self.form, (index, &line), number, limits)?;
         }
         Ok(Some(kept))
     }
+}
 
-    /// Computes a row anew: the same program on the same scan writes the same line.
-    fn compare(
-        &self,
-        scan: &Scan,
-        index: usize,
-        line: &[u8],
-        lines: &Lines,
-        limits: &Limits,
-    ) -> Result<(), Refusal> {
-        let row = scan.row(index, limits).map_err(|_: Reason| Refusal::Interrupted)?;
-        if self.form.line(scan, index, &row).as_bytes() == line {
-            Ok(())
-        } else {
-            Err(lines.foreign("is different when computed anew"))
-        }
+/// Computes the row that stands in line `number` anew: the same program on the same scan writes the same line.
+pub(super) fn compare(
+    scan: &Scan,
+    form: Form,
+    (index, line): (usize, &[u8]),
+    number: usize,
+    limits: &Limits,
+) -> Result<(), Refusal> {
+    let row = scan.row(index, limits).map_err(|_: Reason| Refusal::Interrupted)?;
+    if form.line(scan, index, &row).as_bytes() == line {
+        Ok(())
+    } else {
+        Err(Refusal::Foreign { line: number, why: "is different when computed anew" })
     }
 }
 
@@ -222,8 +217,8 @@ struct Kept {
 }
 
 /// The lines of a file, counted.
-struct Lines<'a> {
-    reader: BufReader<&'a File>,
+pub(super) struct Lines<R> {
+    reader: BufReader<R>,
     /// The line read last, from 1.
     number: usize,
     /// Bytes up to the end of the last whole line.
@@ -231,16 +226,37 @@ struct Lines<'a> {
 }
 
 /// A line of a file.
-enum Line {
+pub(super) enum Line {
     /// With its end.
     Whole(Vec<u8>),
     /// Without: the last one, perhaps empty.
     Cut(Vec<u8>),
 }
 
-impl Lines<'_> {
+impl<R: Read> Lines<R> {
+    pub(super) fn new(file: R) -> Self {
+        Lines { reader: BufReader::new(file), number: 0, bytes: 0 }
+    }
+
+    /// The number of the line read last, from 1.
+    pub(super) fn number(&self) -> usize {
+        self.number
+    }
+
+    /// Reads this heading, if it is not empty; false where the file ends within it.
+    pub(super) fn heading(&mut self, heading: &str) -> Result<bool, Refusal> {
+        if heading.is_empty() {
+            return Ok(true);
+        }
+        match self.next(heading.len())? {
+            Line::Whole(line) if line == heading.as_bytes() => Ok(true),
+            Line::Cut(begun) if heading.as_bytes().starts_with(&begun) => Ok(false),
+            _ => Err(self.foreign("names other columns")),
+        }
+    }
+
     /// The next line; a line longer than `most` is cut there.
-    fn next(&mut self, most: usize) -> io::Result<Line> {
+    pub(super) fn next(&mut self, most: usize) -> io::Result<Line> {
         let mut line = Vec::new();
         let most = u64::try_from(most).unwrap_or(u64::MAX);
         (&mut self.reader).take(most).read_until(b'\n', &mut line)?;
@@ -253,7 +269,7 @@ impl Lines<'_> {
         }
     }
 
-    fn foreign(&self, why: &'static str) -> Refusal {
+    pub(super) fn foreign(&self, why: &'static str) -> Refusal {
         Refusal::Foreign { line: self.number, why }
     }
 }

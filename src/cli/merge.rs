@@ -1,0 +1,277 @@
+//! `hopfscope merge`: the parts of a scan, put together where they are the whole.
+
+use std::fs::{self, File};
+use std::io::{self, BufRead, BufReader, BufWriter, Write};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Args;
+
+use super::failure::Failure;
+use super::output::{holds_something, without};
+use super::part::Shard;
+use super::scan::{Asked, ScanCommand};
+use crate::export::provenance::Provenance;
+use crate::export::scan::Form;
+use crate::flow::Limits;
+use crate::runtime::merging::{Conflict, Part, merge};
+use crate::runtime::provenance_file;
+
+/// Puts the parts of a scan together, or says which rows are missing and how to compute them
+#[derive(Debug, Args)]
+pub struct Merge {
+    /// Files that scan --output has written, each with its .provenance beside it, or folders of them
+    #[arg(required = true, value_name = "PART")]
+    parts: Vec<PathBuf>,
+    /// Writes the whole to FILE
+    #[arg(long, value_name = "FILE", required_unless_present = "check")]
+    output: Option<PathBuf>,
+    /// Computes the first and the last row of each part anew and compares them
+    #[arg(long)]
+    check: bool,
+    /// Replaces what FILE holds
+    #[arg(long, requires = "output")]
+    force: bool,
+}
+
+/// Options that say which rows a scan computes and where they go, each with whether it has a value.
+const OWN: [(&str, bool); 6] = [
+    ("--shard", true),
+    ("--shard-index0", true),
+    ("--rows", true),
+    ("--output", true),
+    ("--resume", false),
+    ("--force", false),
+];
+
+/// A part, and what its provenance says.
+struct Source {
+    path: PathBuf,
+    provenance: Provenance,
+    arguments: Vec<String>,
+    asked: Asked,
+}
+
+impl Merge {
+    /// Merges; exit code 1 if rows are missing.
+    pub fn run(&self) -> Result<ExitCode, Failure> {
+        let (sources, absent) = self.sources()?;
+        let first = &sources[0];
+        for other in &sources[1..] {
+            other.must_belong_with(first)?;
+        }
+        let parts: Vec<Part> = sources.iter().map(Source::part).collect();
+        let Asked { scan, form, .. } = &first.asked;
+        let anew = self.check.then_some(&Limits::PATIENT);
+        let mut output = self.output.as_deref().map(Output::begin).transpose()?;
+        let mut write = |line: &[u8]| output.as_mut().map_or(Ok(()), |output| output.write(line));
+        let missing =
+            merge(scan, *form, &parts, anew, &mut write).map_err(|conflict| match conflict {
+                Conflict::Output(_) => Failure::Unanswered(conflict.to_string()),
+                _ => Failure::Usage(conflict.to_string()),
+            })?;
+        if !missing.is_empty() {
+            for gap in &missing {
+                report(gap, &missing, &sources);
+            }
+            return Ok(ExitCode::FAILURE);
+        }
+        if let Some(path) = absent.first() {
+            let error = io::Error::from(io::ErrorKind::NotFound);
+            return Err(Failure::file(path, &error));
+        }
+        if let Some(output) = output {
+            let arguments = without(&first.arguments, &OWN);
+            output.end(
+                self.force,
+                &Provenance {
+                    command: Provenance::of(&arguments).command,
+                    ..first.provenance.clone()
+                },
+            )?;
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+
+    /// The parts that are there, at least one, and the paths where there is none.
+    fn sources(&self) -> Result<(Vec<Source>, Vec<&Path>), Failure> {
+        let (mut sources, mut absent) = (Vec::new(), Vec::new());
+        for path in &self.parts {
+            if path.is_dir() {
+                let files =
+                    provenance_file::files_in(path).map_err(|error| Failure::file(path, &error))?;
+                for file in files {
+                    sources.push(Source::read(file)?);
+                }
+            } else if path.exists() {
+                sources.push(Source::read(path.clone())?);
+            } else {
+                absent.push(path.as_path());
+            }
+        }
+        if sources.is_empty() {
+            let line = format!("{}: no part of a scan is there", self.parts[0].display());
+            return Err(Failure::Usage(line));
+        }
+        Ok((sources, absent))
+    }
+}
+
+impl Source {
+    fn read(path: PathBuf) -> Result<Self, Failure> {
+        let beside = provenance_file::beside(&path);
+        let provenance = provenance_file::read(&path).map_err(|error| {
+            let (path, beside) = (path.display(), beside.display());
+            Failure::Usage(format!("{path}: what it is a part of stands in {beside}: {error}"))
+        })?;
+        let arguments = provenance.arguments().unwrap_or_default();
+        let Some(command) = ScanCommand::of_line(&arguments) else {
+            let (beside, command) = (beside.display(), &provenance.command);
+            return Err(Failure::Usage(format!("{beside}: {command:?} is not a scan")));
+        };
+        let asked = command.asked()?;
+        if asked.form == Form::Table {
+            let line =
+                format!("{}: a table rounds its numbers; merge needs csv or json", path.display());
+            return Err(Failure::Usage(line));
+        }
+        Ok(Source { path, provenance, arguments, asked })
+    }
+
+    fn part(&self) -> Part {
+        let Asked { points, headed, .. } = &self.asked;
+        Part { path: self.path.clone(), points: points.clone(), headed: *headed }
+    }
+
+    /// Refuses a part of another scan or from another version.
+    fn must_belong_with(&self, first: &Self) -> Result<(), Failure> {
+        let told = |what: &str, [own, other]: [&str; 2]| {
+            let (path, first) = (self.path.display(), first.path.display());
+            Err(Failure::Usage(format!("{path} and {first} {what}: {own}, and {other}")))
+        };
+        let builds = [self.provenance.build(), first.provenance.build()];
+        if builds[0] != builds[1] {
+            return told("are from different versions", [&builds[0], &builds[1]]);
+        }
+        if self.asked.scan != first.asked.scan || self.asked.form != first.asked.form {
+            let commands = [&self.provenance.command, &first.provenance.command];
+            return told("are parts of different scans", [commands[0], commands[1]]);
+        }
+        Ok(())
+    }
+}
+
+/// Says which rows of a gap are missing, one line for each shard that it meets, and what computes them.
+fn report(gap: &Range<usize>, missing: &[Range<usize>], sources: &[Source]) {
+    let all = sources[0].asked.scan.points();
+    let shard = sources.iter().find_map(|source| source.asked.shard);
+    let shards = shard.into_iter().flat_map(Shard::siblings);
+    let named = shards.map(|shard| (format!("shard {shard}: "), shard.points(all)));
+    let pieces: Vec<_> =
+        if shard.is_some() { named.collect() } else { vec![(String::new(), 0..all)] };
+    for (name, points) in pieces {
+        let piece = gap.start.max(points.start)..gap.end.min(points.end);
+        if !piece.is_empty() {
+            let (first, last) = (piece.start + 1, piece.end);
+            let command = command_for(&piece, missing, sources);
+            eprintln!("hopfscope: {name}rows {first} to {last} are missing: {command}");
+        }
+    }
+}
+
+/// The command that computes just these rows: the one that left them out where it only has to be resumed.
+fn command_for(piece: &Range<usize>, missing: &[Range<usize>], sources: &[Source]) -> String {
+    let stopped_here = |source: &&Source| {
+        let points = &source.asked.points;
+        let earlier = |gap: &Range<usize>| {
+            gap.start.max(points.start) < piece.start && gap.end > points.start
+        };
+        points.end == piece.end && points.start <= piece.start && !missing.iter().any(earlier)
+    };
+    let (mut arguments, path);
+    if let Some(source) = sources.iter().find(stopped_here) {
+        arguments = without(&source.arguments, &OWN[3..]);
+        path = source.path.clone();
+        arguments.push("--resume".to_owned());
+    } else {
+        let first = &sources[0];
+        let ending = if first.asked.form == Form::Json { "json" } else { "csv" };
+        let (from, to) = (piece.start + 1, piece.end);
+        arguments = without(&first.arguments, &OWN);
+        arguments.extend(["--rows".to_owned(), format!("{from}:{to}")]);
+        path = first.path.with_file_name(format!("rows-{from}-{to}.{ending}"));
+    }
+    arguments.extend(["--output".to_owned(), path.to_string_lossy().into_owned()]);
+    Provenance::of(&arguments).command
+}
+
+/// A file that appears under its name once it is complete.
+struct Output<'a> {
+    path: &'a Path,
+    /// Where it grows; it is the file itself if that is a device or a pipe.
+    growing: PathBuf,
+    file: BufWriter<File>,
+}
+
+impl<'a> Output<'a> {
+    fn begin(path: &'a Path) -> Result<Self, Failure> {
+        let (growing, file) = if fs::metadata(path).is_ok_and(|file| !file.is_file()) {
+            (path.to_owned(), File::create(path))
+        } else {
+            let mut name = path.as_os_str().to_owned();
+            name.push(format!(".{}", std::process::id()));
+            let growing = PathBuf::from(name);
+            let file = File::create_new(&growing);
+            (growing, file)
+        };
+        let file = file.map_err(|error| Failure::file(path, &error))?;
+        Ok(Output { path, growing, file: BufWriter::new(file) })
+    }
+
+    fn write(&mut self, line: &[u8]) -> io::Result<()> {
+        self.file.write_all(line)
+    }
+
+    /// Gives the file its name, unless another one has it that holds something else.
+    fn end(mut self, force: bool, provenance: &Provenance) -> Result<(), Failure> {
+        let name = self.path.display();
+        let unwritten = |error| Failure::Unanswered(format!("{name} not written: {error}"));
+        self.file.flush().map_err(unwritten)?;
+        if self.growing != self.path {
+            if !force && holds_something(self.path) && !self.is_there().map_err(unwritten)? {
+                let line = format!("{name} holds something else; --force replaces it");
+                return Err(Failure::Usage(line));
+            }
+            fs::rename(&self.growing, self.path).map_err(unwritten)?;
+        }
+        provenance_file::write(self.path, provenance).map_err(unwritten)
+    }
+
+    /// Whether the file has the same content already.
+    fn is_there(&self) -> io::Result<bool> {
+        let [mut old, mut new] =
+            [File::open(self.path)?, File::open(&self.growing)?].map(BufReader::new);
+        loop {
+            let (one, other) = (old.fill_buf()?, new.fill_buf()?);
+            let length = one.len().min(other.len());
+            if one[..length] != other[..length] {
+                return Ok(false);
+            }
+            if length == 0 {
+                return Ok(one.is_empty() && other.is_empty());
+            }
+            old.consume(length);
+            new.consume(length);
+        }
+    }
+}
+
+/// What was not completed is of no use.
+impl Drop for Output<'_> {
+    fn drop(&mut self) {
+        if self.growing != self.path {
+            drop(fs::remove_file(&self.growing));
+        }
+    }
+}

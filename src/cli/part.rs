@@ -1,0 +1,141 @@
+//! Which rows of a scan one process computes.
+
+use std::ops::Range;
+
+use clap::Args;
+
+use super::failure::Failure;
+
+/// The options that choose rows; at most one of them is given.
+#[derive(Clone, Copy, Debug, Default, Args)]
+#[group(id = "part", multiple = false)]
+pub struct Part {
+    /// Computes part K of N only (1 <= K <= N); the parts, put together in their order, are the whole
+    #[arg(long, value_name = "K/N", value_parser = shard)]
+    shard: Option<Shard>,
+    /// The same where parts are counted from 0 (0 <= K < N)
+    #[arg(long, value_name = "K/N", value_parser = shard_index0)]
+    shard_index0: Option<Shard>,
+    /// Computes these rows only, counted from 1
+    #[arg(long, value_name = "FIRST:LAST", value_parser = rows)]
+    rows: Option<Rows>,
+}
+
+/// Part `number` (from 1) of `of`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    number: usize,
+    of: usize,
+}
+
+/// Rows `first` to `last`, both included, counted from 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Rows {
+    first: usize,
+    last: usize,
+}
+
+/// Most shards.
+pub const MOST: usize = 1_000_000;
+
+fn whole_numbers(text: &str, separator: char) -> Option<(usize, usize)> {
+    let (one, other) = text.split_once(separator)?;
+    Some((one.parse().ok()?, other.parse().ok()?))
+}
+
+fn shard(text: &str) -> Result<Shard, String> {
+    whole_numbers(text, '/')
+        .filter(|(number, of)| (1..=*of).contains(number) && *of <= MOST)
+        .map(|(number, of)| Shard { number, of })
+        .ok_or_else(|| format!("{text:?} is not a part; expected K/N with 1 <= K <= N <= {MOST}"))
+}
+
+fn shard_index0(text: &str) -> Result<Shard, String> {
+    whole_numbers(text, '/')
+        .filter(|(index, of)| index < of && *of <= MOST)
+        .map(|(index, of)| Shard { number: index + 1, of })
+        .ok_or_else(|| format!("{text:?} is not a part; expected K/N with 0 <= K < N <= {MOST}"))
+}
+
+fn rows(text: &str) -> Result<Rows, String> {
+    whole_numbers(text, ':')
+        .filter(|(first, last)| (1..=*last).contains(first))
+        .map(|(first, last)| Rows { first, last })
+        .ok_or_else(|| format!("{text:?} are no rows; expected FIRST:LAST with 1 <= FIRST <= LAST"))
+}
+
+impl Shard {
+    /// Its points: the parts are runs of points in order, as long as each other give or take one.
+    pub fn points(self, all: usize) -> Range<usize> {
+        let end = |number: usize| all / self.of * number + (all % self.of).min(number);
+        end(self.number - 1)..end(self.number)
+    }
+
+    /// All shards of a scan that is cut as this one is.
+    pub fn siblings(self) -> impl Iterator<Item = Shard> {
+        (1..=self.of).map(move |number| Shard { number, of: self.of })
+    }
+}
+
+impl std::fmt::Display for Shard {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(out, "{}/{}", self.number, self.of)
+    }
+}
+
+impl Part {
+    /// The shard that is asked for, if one is.
+    pub fn shard(self) -> Option<Shard> {
+        self.shard.or(self.shard_index0)
+    }
+
+    /// Its points of a scan with this many.
+    pub fn points(self, all: usize) -> Result<Range<usize>, Failure> {
+        match (self.shard(), self.rows) {
+            (Some(shard), _) => Ok(shard.points(all)),
+            (None, Some(Rows { first, last })) if last <= all => Ok(first - 1..last),
+            (None, Some(Rows { first, last })) => {
+                Err(Failure::Usage(format!("--rows {first}:{last}: the scan has {all} rows")))
+            }
+            (None, None) => Ok(0..all),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_are_the_whole_in_order_and_as_long_as_each_other() {
+        for all in [2, 7, 100, 101] {
+            for of in [1, 2, 3, 7, 150] {
+                let parts = Shard { number: 1, of }.siblings().map(|shard| shard.points(all));
+                let parts: Vec<_> = parts.collect();
+                let lengths: Vec<usize> = parts.iter().map(ExactSizeIterator::len).collect();
+                let (least, most) = (lengths.iter().min().unwrap(), lengths.iter().max().unwrap());
+                assert!(most - least <= 1, "{lengths:?}");
+                assert!(parts.into_iter().flatten().eq(0..all), "{all} in {of}");
+            }
+        }
+    }
+
+    #[test]
+    fn parts_that_do_not_exist_are_refused() {
+        assert_eq!(shard("2/3"), Ok(Shard { number: 2, of: 3 }));
+        assert_eq!(shard_index0("1/3"), shard("2/3"));
+        assert_eq!(rows("4:4"), Ok(Rows { first: 4, last: 4 }));
+        for text in ["0/3", "4/3", "1", "1/0", "a/b", "-1/2", "1/2/3", "1/1000001"] {
+            assert!(shard(text).unwrap_err().contains("1 <= K <= N"), "{text}");
+        }
+        for text in ["3/3", "0/0", "-1/3", "0/1000001"] {
+            assert!(shard_index0(text).unwrap_err().contains("0 <= K < N"), "{text}");
+        }
+        for text in ["0:3", "4:3", "1", "1:", "a:b"] {
+            assert!(rows(text).unwrap_err().contains("FIRST:LAST"), "{text}");
+        }
+        let beyond = Part { rows: Some(Rows { first: 3, last: 8 }), ..Part::default() };
+        assert!(beyond.points(7).is_err());
+        assert_eq!(beyond.points(8).unwrap(), 2..8);
+    }
+}

@@ -1,0 +1,147 @@
+//! `hopfscope scan --plan`: the recipe by which a batch engine computes a scan in shards and merges them.
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use clap::{Args, ValueEnum};
+
+use super::failure::Failure;
+use super::output::{print, without, write};
+use super::part::MOST;
+use crate::export::provenance::{Provenance, quoted};
+use crate::export::scan::Form;
+
+/// The options that ask for a recipe.
+#[derive(Clone, Debug, Args)]
+pub struct Plan {
+    /// Prints a recipe that computes the scan in shards and merges them, instead of computing it. The rows go to
+    /// rows.csv, or to an --output that ends in .csv, .json or .jsonl; any other --output is the recipe itself
+    #[arg(long, value_enum, value_name = "ENGINE", requires = "shards",
+          conflicts_with_all = ["part", "resume"])]
+    plan: Option<Engine>,
+    /// Number of shards of the recipe
+    #[arg(long, value_name = "N", requires = "plan", value_parser = shards)]
+    shards: Option<usize>,
+}
+
+/// A batch engine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Engine {
+    /// A Snakefile.
+    Snakemake,
+    /// A script for sbatch: a job array.
+    Slurm,
+    /// A DAG for `condor_submit_dag`.
+    Htcondor,
+    /// A script around GNU parallel.
+    Parallel,
+}
+
+/// How often a shard that fails is tried again.
+const RETRIES: usize = 3;
+
+/// The file of the merged rows, where none is named.
+const ROWS: &str = "rows.csv";
+
+/// Options of the scan that do not belong to its shards, each with whether it has a value.
+const OWN: [(&str, bool); 6] = [
+    ("--plan", true),
+    ("--shards", true),
+    ("--output", true),
+    ("--force", false),
+    ("--jobs", true),
+    ("--header", true),
+];
+
+fn shards(text: &str) -> Result<usize, String> {
+    let number = text.parse().ok().filter(|number| (1..=MOST).contains(number));
+    number.ok_or_else(|| format!("{text:?} is not a number of shards; allowed: 1 .. {MOST}"))
+}
+
+impl Engine {
+    fn template(self) -> &'static str {
+        match self {
+            Engine::Snakemake => include_str!("../../assets/plans/snakemake"),
+            Engine::Slurm => include_str!("../../assets/plans/slurm"),
+            Engine::Htcondor => include_str!("../../assets/plans/htcondor"),
+            Engine::Parallel => include_str!("../../assets/plans/parallel"),
+        }
+    }
+}
+
+impl Plan {
+    /// Whether a recipe is asked for.
+    pub fn is_wanted(&self) -> bool {
+        self.plan.is_some()
+    }
+
+    /// Prints or writes the recipe for the scan of this command line, `jobs` threads a shard.
+    pub fn run(
+        &self,
+        arguments: &[String],
+        jobs: u16,
+        output: Option<&Path>,
+        force: bool,
+    ) -> Result<ExitCode, Failure> {
+        let (Some(engine), Some(shards)) = (self.plan, self.shards) else {
+            return Err(Failure::Usage("--plan needs --shards".to_owned()));
+        };
+        let of_rows = |path: &&Path| {
+            path.extension()
+                .is_some_and(|ending| ["csv", "json", "jsonl"].iter().any(|it| ending == *it))
+        };
+        let rows = output.filter(of_rows);
+        let recipe = recipe(engine, arguments, shards, jobs, rows.unwrap_or(Path::new(ROWS)))?;
+        match output.filter(|path| !of_rows(path)) {
+            Some(path) => write(path, recipe.as_bytes(), force)?,
+            None => print(&recipe)?,
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+/// The template of an engine, filled in.
+fn recipe(
+    engine: Engine,
+    arguments: &[String],
+    shards: usize,
+    jobs: u16,
+    rows: &Path,
+) -> Result<String, Failure> {
+    let scan = without(arguments, &OWN);
+    let rows = rows.to_string_lossy().into_owned();
+    let special =
+        |word: &&String| quoted(std::slice::from_ref(*word)) != **word || word.contains('@');
+    if let Some(word) = scan.iter().chain([&rows]).find(special) {
+        let line = format!(
+            "{word:?} has characters that mean something to a batch engine; allowed: letters, \
+                            digits and -_=+.,:/%"
+        );
+        return Err(Failure::Usage(line));
+    }
+    let parts = format!("{rows}.parts");
+    let ending = if Form::of_file(Path::new(&rows)) == Form::Json { "json" } else { "csv" };
+    let fields = [
+        ("@version@", env!("CARGO_PKG_VERSION").to_owned()),
+        ("@scan@", Provenance::of(&scan).command),
+        ("@merge@", format!("hopfscope merge {parts} --output {rows} --check")),
+        ("@shards@", shards.to_string()),
+        ("@jobs@", jobs.to_string()),
+        ("@retries@", RETRIES.to_string()),
+        ("@rows@", rows),
+        ("@parts@", parts),
+        ("@ending@", ending.to_owned()),
+    ];
+    let fill = |line: &str| {
+        fields.iter().fold(line.to_owned(), |line, (field, value)| line.replace(field, value))
+            + "\n"
+    };
+    let lines = engine.template().lines().map(|line| match line.strip_prefix("@each@ ") {
+        None => fill(line),
+        Some(line) => {
+            let line = fill(line);
+            (0..shards).map(|shard| line.replace("@shard0@", &shard.to_string())).collect()
+        }
+    });
+    Ok(lines.collect())
+}

@@ -1,0 +1,168 @@
+//! Puts the parts of a scan together, row by row.
+//!
+//! Parts are read side by side in the order of their points, so that only one row of each part that is being
+//! read is held. Every row is recognized by its beginning, which names all that it depends on: no row is
+//! trusted because of where it stands.
+
+use std::fmt;
+use std::fs::File;
+use std::io;
+use std::ops::Range;
+use std::path::PathBuf;
+
+use super::scan_file::{Line, Lines, Refusal, compare};
+use crate::export::scan::Form;
+use crate::flow::Limits;
+use crate::study::scan::Scan;
+
+/// A file with some of the rows of a scan.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Part {
+    /// The file.
+    pub path: PathBuf,
+    /// The points it is for.
+    pub points: Range<usize>,
+    /// Whether a line of names comes before its rows.
+    pub headed: bool,
+}
+
+/// Why parts cannot be put together.
+#[derive(Debug)]
+pub enum Conflict {
+    /// A part cannot be read, or holds something else.
+    Part(PathBuf, Refusal),
+    /// Two parts hold the same row.
+    Twice {
+        /// The row, from 1.
+        row: usize,
+        /// The parts.
+        paths: [PathBuf; 2],
+    },
+    /// The whole cannot be written.
+    Output(io::Error),
+}
+
+impl fmt::Display for Conflict {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Conflict::Part(path, refusal) => write!(out, "{}: {refusal}", path.display()),
+            Conflict::Twice { row, paths: [one, other] } => {
+                write!(out, "{} and {} both hold row {row}", one.display(), other.display())
+            }
+            Conflict::Output(error) => write!(out, "{error}"),
+        }
+    }
+}
+
+/// Hands the lines of the whole to `write`, in their order, and returns the points that no part holds; what was
+/// written is the whole where none is missing.
+///
+/// With `anew`, the first and the last row of each part are computed again within these limits and compared.
+///
+/// # Errors
+/// The [`Conflict`].
+pub fn merge(
+    scan: &Scan,
+    form: Form,
+    parts: &[Part],
+    anew: Option<&Limits>,
+    write: &mut dyn FnMut(&[u8]) -> io::Result<()>,
+) -> Result<Vec<Range<usize>>, Conflict> {
+    let mut parts: Vec<&Part> = parts.iter().collect();
+    parts.sort_by_key(|part| part.points.start);
+    let mut waiting = parts.into_iter().peekable();
+    let mut reading: Vec<Reader> = Vec::new();
+    let mut missing = Vec::new();
+    let mut expected = 0;
+    write(form.heading(scan).as_bytes()).map_err(Conflict::Output)?;
+    let task = Task { scan, form, anew };
+    loop {
+        let first = reading.iter().enumerate().min_by_key(|(_, reader)| reader.index);
+        let next = first.map(|(place, reader)| (place, reader.index));
+        let due = |part: &&Part| next.is_none_or(|(_, index)| part.points.start <= index);
+        if let Some(part) = waiting.next_if(due) {
+            let refused = |refusal| Conflict::Part(part.path.clone(), refusal);
+            reading.extend(Reader::open(&task, part).map_err(refused)?);
+            continue;
+        }
+        let Some((place, index)) = next else { break };
+        if let Some(other) = reading[place + 1..].iter().find(|reader| reader.index == index) {
+            let paths = [reading[place].part.path.clone(), other.part.path.clone()];
+            return Err(Conflict::Twice { row: index + 1, paths });
+        }
+        if expected < index {
+            missing.push(expected..index);
+        }
+        expected = index + 1;
+        let reader = &mut reading[place];
+        write(&reader.line).map_err(Conflict::Output)?;
+        let more = reader.advance(&task);
+        if !more.map_err(|refusal| Conflict::Part(reader.part.path.clone(), refusal))? {
+            reading.remove(place);
+        }
+    }
+    if expected < scan.points() {
+        missing.push(expected..scan.points());
+    }
+    Ok(missing)
+}
+
+/// What is put together, and whether rows are computed again.
+struct Task<'a> {
+    scan: &'a Scan,
+    form: Form,
+    anew: Option<&'a Limits<'a>>,
+}
+
+/// A part that is being read, with a row of it that has not been written yet.
+struct Reader<'a> {
+    part: &'a Part,
+    lines: Lines<File>,
+    /// The point of the row.
+    index: usize,
+    /// The row.
+    line: Vec<u8>,
+}
+
+impl<'a> Reader<'a> {
+    /// A part at its first row; nothing if it has none.
+    fn open(task: &Task, part: &'a Part) -> Result<Option<Self>, Refusal> {
+        let mut lines = Lines::new(File::open(&part.path)?);
+        if part.headed && !lines.heading(&task.form.heading(task.scan))? {
+            return Ok(None);
+        }
+        let mut reader = Reader { part, lines, index: part.points.start, line: Vec::new() };
+        let any = reader.read(task, part.points.start)?;
+        if any {
+            reader.compare(task, reader.lines.number())?;
+        }
+        Ok(any.then_some(reader))
+    }
+
+    /// Goes to the next row; false if there is none.
+    fn advance(&mut self, task: &Task) -> Result<bool, Refusal> {
+        let number = self.lines.number();
+        let more = self.read(task, self.index + 1)?;
+        if !more {
+            self.compare(task, number)?;
+        }
+        Ok(more)
+    }
+
+    /// Reads a row of point number `from` or a later one of this part; a line without an end is none.
+    fn read(&mut self, task: &Task, from: usize) -> Result<bool, Refusal> {
+        let Line::Whole(line) = self.lines.next(usize::MAX)? else { return Ok(false) };
+        let is_of =
+            |index: &usize| line.starts_with(task.form.beginning(task.scan, *index).as_bytes());
+        let Some(index) = (from..self.part.points.end).find(is_of) else {
+            return Err(self.lines.foreign("is of no point that is left"));
+        };
+        (self.index, self.line) = (index, line);
+        Ok(true)
+    }
+
+    fn compare(&self, task: &Task, number: usize) -> Result<(), Refusal> {
+        let Some(limits) = task.anew else { return Ok(()) };
+        compare(task.scan, task.form, (self.index, &self.line), number, limits)
+    }
+}

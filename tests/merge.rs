@@ -1,0 +1,309 @@
+//! `hopfscope merge` and `scan --plan`: parts that are the whole, or what they lack.
+
+mod program;
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use program::{Ran, command};
+use serde_json::Value;
+
+/// A scan of 60 rows.
+const SCAN: &str = "scan --over D=-0.6:-0.1:12 --over D3=0.1:0.5:5 --measure margin";
+
+/// Runs the program in a folder.
+fn run_in(folder: &Path, line: &str) -> Ran {
+    let words: Vec<&str> = line.split_whitespace().collect();
+    let output = command(&words).current_dir(folder).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    let code = output.status.code().expect("no signal");
+    Ran { code, out: text(output.stdout), err: text(output.stderr) }
+}
+
+/// A folder with the scan in one piece, `whole.csv`, and in shards, `parts/1.csv` and so on.
+fn folder_with_parts(shards: usize, ending: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("parts")).unwrap();
+    assert_eq!(run_in(folder.path(), &format!("{SCAN} --output whole.{ending}")).code, 0);
+    for shard in 1..=shards {
+        // Every second one has a line of names; the last is counted from 0.
+        let header = if shard % 2 == 0 { "--header always" } else { "" };
+        let own = if shard == shards {
+            format!("--shard-index0 {}/{shards}", shard - 1)
+        } else {
+            format!("--shard {shard}/{shards}")
+        };
+        let line = format!("{SCAN} {own} {header} --output parts/{shard}.{ending}");
+        assert_eq!(run_in(folder.path(), &line).code, 0);
+    }
+    folder
+}
+
+fn read(folder: &Path, name: &str) -> String {
+    fs::read_to_string(folder.join(name)).unwrap()
+}
+
+/// The commands at the ends of the lines that name gaps.
+fn commands(ran: &Ran) -> Vec<&str> {
+    ran.err.lines().map(|line| line.rsplit_once(": hopfscope ").expect(line).1).collect()
+}
+
+#[test]
+fn parts_in_any_order_are_the_whole_to_the_last_byte_and_no_file_is_lost() {
+    for ending in ["csv", "json"] {
+        let folder = folder_with_parts(3, ending);
+        let folder = folder.path();
+        let line = format!("merge parts/3.{ending} parts/1.{ending} parts/2.{ending}");
+        let ran = run_in(folder, &format!("{line} --output all.{ending} --check"));
+        assert_eq!((ran.code, ran.err.as_str(), ran.out.as_str()), (0, "", ""));
+        let whole = read(folder, &format!("whole.{ending}"));
+        assert!(read(folder, &format!("all.{ending}")) == whole);
+        // A folder stands for the parts in it; the same whole again is no loss.
+        assert_eq!(run_in(folder, &format!("merge parts --output all.{ending}")).code, 0);
+        // What a merge has written is a scan in one part.
+        assert_eq!(run_in(folder, &format!("merge all.{ending} --check")).code, 0);
+        let again = run_in(folder, &format!("{SCAN} --output all.{ending} --resume"));
+        assert_eq!((again.code, read(folder, &format!("all.{ending}"))), (0, whole));
+        fs::write(folder.join("mine"), "mine\n").unwrap();
+        let ran = run_in(folder, "merge parts --output mine");
+        assert_eq!((ran.code, ran.err.lines().count()), (2, 1), "{}", ran.err);
+        assert!(ran.err.contains("--force replaces it"), "{}", ran.err);
+        assert_eq!(read(folder, "mine"), "mine\n");
+        assert_eq!(run_in(folder, "merge parts --output mine --force").code, 0);
+        assert_eq!(fs::read_dir(folder).unwrap().count(), 7, "nothing else is left behind");
+    }
+}
+
+#[test]
+fn what_is_missing_is_named_by_shard_and_row_and_the_commands_given_compute_just_that() {
+    let folder = folder_with_parts(4, "csv");
+    let folder = folder.path();
+    // Shards of 15 rows: the first stops after 10, the second has a hole, the third is not there.
+    let lines = |name: &str| read(folder, name).lines().map(|line| format!("{line}\n")).collect();
+    let first: Vec<String> = lines("parts/1.csv");
+    fs::write(folder.join("parts/1.csv"), first[..=10].concat() + "-0.5").unwrap();
+    let mut second: Vec<String> = lines("parts/2.csv");
+    second.drain(4..6);
+    fs::write(folder.join("parts/2.csv"), second.concat()).unwrap();
+    fs::remove_file(folder.join("parts/3.csv")).unwrap();
+    let ran = run_in(folder, "merge parts --output all.csv");
+    assert_eq!((ran.code, ran.out.as_str()), (1, ""));
+    let told: Vec<&str> = ran.err.lines().collect();
+    for (told, expected) in told.iter().zip([
+        "shard 1/4: rows 11 to 15 are missing",
+        "shard 2/4: rows 19 to 20 are missing",
+        "shard 3/4: rows 31 to 45 are missing",
+    ]) {
+        assert!(told.contains(expected), "{told}");
+    }
+    assert_eq!(told.len(), 3, "{}", ran.err);
+    assert!(!folder.join("all.csv").exists());
+    for (line, rows) in commands(&ran).into_iter().zip([5, 2, 15]) {
+        let before = count_rows(folder);
+        assert_eq!(run_in(folder, line).code, 0, "{line}");
+        assert_eq!(count_rows(folder) - before, rows, "{line}");
+    }
+    assert_eq!(run_in(folder, "merge parts --output all.csv --check").code, 0);
+    assert!(read(folder, "all.csv") == read(folder, "whole.csv"));
+}
+
+/// Whole rows in all parts.
+fn count_rows(folder: &Path) -> usize {
+    let paths = fs::read_dir(folder.join("parts")).unwrap().map(|entry| entry.unwrap().path());
+    let texts = paths
+        .filter(|path| path.extension().is_some_and(|ending| ending == "csv"))
+        .map(|path| fs::read_to_string(path).unwrap());
+    texts
+        .map(|text| {
+            let whole = |line: &&str| line.starts_with('-') && line.ends_with('\n');
+            text.split_inclusive('\n').filter(whole).count()
+        })
+        .sum()
+}
+
+#[test]
+fn parts_that_do_not_belong_together_are_refused_in_one_line() {
+    let folder = folder_with_parts(2, "csv");
+    let folder = folder.path();
+    let other = SCAN.replace("0.1:0.5", "0.1:0.6");
+    run_in(folder, &format!("{other} --shard 2/2 --output other.csv"));
+    run_in(folder, &format!("{SCAN} --rows 30:31 --output twice.csv"));
+    let provenance = read(folder, "parts/2.csv.provenance");
+    fs::copy(folder.join("parts/2.csv"), folder.join("old.csv")).unwrap();
+    let old = provenance.replace(env!("CARGO_PKG_VERSION"), "0.0.1");
+    fs::write(folder.join("old.csv.provenance"), old).unwrap();
+    fs::copy(folder.join("parts/2.csv"), folder.join("alone.csv")).unwrap();
+    // A digit of the last row is wrong: only to compute it again shows that.
+    let wrong = read(folder, "parts/2.csv");
+    let digit = wrong.rfind(|char: char| char.is_ascii_digit()).unwrap();
+    let wrong = format!(
+        "{}{}{}",
+        &wrong[..digit],
+        if &wrong[digit..=digit] == "1" { 2 } else { 1 },
+        &wrong[digit + 1..]
+    );
+    fs::write(folder.join("wrong.csv"), wrong).unwrap();
+    fs::write(folder.join("wrong.csv.provenance"), &provenance).unwrap();
+    assert_eq!(run_in(folder, "merge parts/1.csv wrong.csv --output unchecked.csv").code, 0);
+    for (line, names) in [
+        ("parts/1.csv other.csv", &["other.csv", "different scans"][..]),
+        ("parts/1.csv old.csv", &["different versions", "hopfscope 0.0.1"]),
+        ("parts twice.csv", &["twice.csv", "both hold row 30"]),
+        ("parts/1.csv parts/1.csv parts/2.csv", &["both hold row 1"]),
+        ("parts/1.csv alone.csv", &["alone.csv.provenance"]),
+        ("parts/1.csv wrong.csv --check", &["wrong.csv", "different when computed anew"]),
+        ("parts/1.csv parts/2.csv nowhere.csv", &["nowhere.csv"]),
+        ("nowhere.csv", &["nowhere.csv"]),
+    ] {
+        let ran = run_in(folder, &format!("merge {line} --output all.csv"));
+        assert_eq!((ran.code, ran.err.lines().count()), (2, 1), "{line}: {}", ran.err);
+        for name in names {
+            assert!(ran.err.contains(name), "{line}: {}", ran.err);
+        }
+        assert!(!folder.join("all.csv").exists(), "{line}");
+    }
+    // A file that another version has begun is not continued.
+    let ran =
+        run_in(folder, &format!("{SCAN} --shard 2/2 --header always --output old.csv --resume"));
+    assert!(ran.code == 2 && ran.err.contains("begun by hopfscope 0.0.1"), "{}", ran.err);
+}
+
+#[test]
+fn a_part_with_a_header_can_be_read_alone_and_rows_say_where_they_come_from() {
+    let folder = folder_with_parts(2, "csv");
+    let names = |name: &str| read(folder.path(), name).lines().next().unwrap().to_owned();
+    assert_eq!(names("parts/2.csv"), names("whole.csv"));
+    let provenance: Value =
+        serde_json::from_str(&read(folder.path(), "whole.csv.provenance")).unwrap();
+    assert_eq!(provenance["program"], "hopfscope");
+    assert_eq!(provenance["version"], env!("CARGO_PKG_VERSION"));
+    assert_eq!(provenance["command"], format!("hopfscope {SCAN} --output whole.csv"));
+}
+
+/// The recipe of an engine for the scan in 6 shards.
+fn recipe(folder: &Path, engine: &str) -> String {
+    let ran = run_in(folder, &format!("{SCAN} --plan {engine} --shards 6 --output all.csv"));
+    assert_eq!((ran.code, ran.err.as_str()), (0, ""), "{engine}");
+    assert!(!ran.out.contains('@'), "{}", ran.out);
+    ran.out
+}
+
+/// The shell in a folder, with the program on the path.
+fn shell(folder: &Path, arguments: &[&str]) -> Command {
+    let program = Path::new(env!("CARGO_BIN_EXE_hopfscope")).parent().unwrap();
+    let path =
+        format!("{}:{}:{}", folder.display(), program.display(), std::env::var("PATH").unwrap());
+    let mut shell = Command::new("sh");
+    shell.args(arguments).current_dir(folder).env("PATH", path).stdin(Stdio::null());
+    shell
+}
+
+#[test]
+fn the_script_for_slurm_computes_every_shard_and_asks_for_the_merge() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    fs::write(folder.join("job.sh"), recipe(folder, "slurm")).unwrap();
+    // In place of sbatch, a script that keeps what it is asked for.
+    fs::write(folder.join("sbatch"), "#!/bin/sh\nprintf '%s\\n' \"$@\" >> asked\n").unwrap();
+    assert!(shell(folder, &["-c", "chmod +x sbatch"]).status().unwrap().success());
+    assert!(read(folder, "job.sh").contains("#SBATCH --array=1-6\n"));
+    for task in 1..=6 {
+        let mut job = shell(folder, &["job.sh"]);
+        job.env("SLURM_ARRAY_TASK_ID", task.to_string()).env("SLURM_ARRAY_JOB_ID", "77");
+        assert!(job.status().unwrap().success());
+    }
+    let asked = read(folder, "asked");
+    assert!(asked.contains("--dependency=afterany:77\n"), "{asked}");
+    let merge = asked.lines().find(|line| line.starts_with("hopfscope merge")).unwrap();
+    assert!(shell(folder, &["-c", merge]).status().unwrap().success());
+    run_in(folder, &format!("{SCAN} --output whole.csv"));
+    assert!(read(folder, "all.csv") == read(folder, "whole.csv"));
+}
+
+#[test]
+fn the_dag_for_htcondor_names_every_shard_and_its_lines_compute_the_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let dag = recipe(folder, "htcondor");
+    let field = |name: &str, of: &str| {
+        let node = dag.split(&format!("SUBMIT-DESCRIPTION {of} ")).nth(1).unwrap();
+        let line = node.lines().find(|line| line.trim().starts_with(name)).unwrap();
+        line.split_once(" = ").unwrap().1.to_owned()
+    };
+    fs::create_dir(folder.join("all.csv.parts")).unwrap();
+    for shard in 0..6 {
+        assert!(dag.contains(&format!("\nVARS shard{shard} shard=\"{shard}\"\n")), "{dag}");
+        assert!(dag.contains(&format!("\nPARENT shard{shard} CHILD merge\n")), "{dag}");
+        let line = field("arguments", "shard").replace("$(shard)", &shard.to_string());
+        assert!(shell(folder, &["-c", &line]).status().unwrap().success(), "{line}");
+    }
+    assert!(shell(folder, &["-c", &field("arguments", "merge")]).status().unwrap().success());
+    run_in(folder, &format!("{SCAN} --output whole.csv"));
+    assert!(read(folder, "all.csv") == read(folder, "whole.csv"));
+}
+
+#[test]
+fn a_recipe_goes_to_its_file_and_wrong_wishes_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let line = format!("{SCAN} --plan snakemake --shards 40");
+    let printed = run_in(folder, &line).out;
+    assert_eq!(run_in(folder, &format!("{line} --output Snakefile")).code, 0);
+    assert_eq!(read(folder, "Snakefile"), printed);
+    assert!(printed.contains("SHARDS = 40\n") && printed.contains("\"rows.csv\""), "{printed}");
+    for (more, expected) in [
+        ("--plan snakemake", "--shards"),
+        ("--shards 4", "--plan"),
+        ("--plan pbs --shards 4", "snakemake, slurm, htcondor, parallel"),
+        ("--plan slurm --shards 0", "1 .. 1000000"),
+        ("--plan slurm --shards 4 --shard 1/4", "--shard"),
+        ("--plan slurm --shards 4 --output {x}.csv", "batch engine"),
+        ("--header never", "first, always"),
+        ("--rows 60:61", "the scan has 60 rows"),
+        ("--rows 1:2 --shard 1/2", "--shard"),
+    ] {
+        let ran = run_in(folder, &format!("{SCAN} {more}"));
+        assert_eq!((ran.code, ran.err.lines().count()), (2, 1), "{more}: {}", ran.err);
+        assert!(ran.err.contains(expected), "{more}: {}", ran.err);
+    }
+}
+
+/// Runs a recipe with an engine of which one job is killed once, in the middle of its shard.
+fn with_a_kill(engine: &str, line: &str) {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let scan = SCAN.replace(":12", ":200").replace("margin", "margin,cycles");
+    run_in(folder, &format!("{scan} --output whole.csv"));
+    let ran = run_in(folder, &format!("{scan} --plan {engine} --shards 40 --output all.csv"));
+    fs::write(folder.join("recipe"), ran.out).unwrap();
+    // In place of the program, a script that kills it the first time it computes shard 17.
+    let program = env!("CARGO_BIN_EXE_hopfscope");
+    let script = format!(
+        "#!/bin/sh\ncase \"$*\" in *' 17/40 '*) ;; *) exec {program} \"$@\" ;; esac\n\
+         [ -e killed ] && exec {program} \"$@\"\n\
+         {program} \"$@\" &\n\
+         while [ \"$(cat all.csv.parts/17.csv 2>/dev/null | wc -l)\" -lt 3 ]; do :; done\n\
+         kill -9 $!; wc -l < all.csv.parts/17.csv > killed; exit 137\n"
+    );
+    fs::write(folder.join("hopfscope"), script).unwrap();
+    assert!(shell(folder, &["-c", "chmod +x hopfscope"]).status().unwrap().success());
+    let output = shell(folder, &["-c", line]).output().unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{told}");
+    let left: usize = read(folder, "killed").trim().parse().unwrap();
+    assert!((3..26).contains(&left), "{left} lines when it was killed");
+    assert!(read(folder, "all.csv") == read(folder, "whole.csv"), "{told}");
+}
+
+#[test]
+#[ignore = "needs Snakemake: cargo test --test merge -- --ignored snakemake"]
+fn snakemake_computes_the_whole_though_a_job_is_killed() {
+    with_a_kill("snakemake", "snakemake --snakefile recipe --cores 2");
+}
+
+#[test]
+#[ignore = "needs GNU parallel: cargo test --test merge -- --ignored parallel"]
+fn gnu_parallel_computes_the_whole_though_a_job_is_killed() {
+    with_a_kill("parallel", "sh recipe");
+}
