@@ -134,15 +134,13 @@ fn parts_that_do_not_belong_together_are_refused_in_one_line() {
     let old = provenance.replace(env!("CARGO_PKG_VERSION"), "0.0.1");
     fs::write(folder.join("old.csv.provenance"), old).unwrap();
     fs::copy(folder.join("parts/2.csv"), folder.join("alone.csv")).unwrap();
-    // A digit of the last row is wrong: only to compute it again shows that.
-    let wrong = read(folder, "parts/2.csv");
-    let digit = wrong.rfind(|char: char| char.is_ascii_digit()).unwrap();
-    let wrong = format!(
-        "{}{}{}",
-        &wrong[..digit],
-        if &wrong[digit..=digit] == "1" { 2 } else { 1 },
-        &wrong[digit + 1..]
-    );
+    // The last digit of the first row is wrong: only to compute it again shows that.
+    let right = read(folder, "parts/2.csv");
+    let row = right.lines().nth(1).unwrap();
+    let last = row.len() - 2;
+    let digit = if &row[last..=last] == "1" { "2" } else { "1" };
+    let wrong = right.replace(row, &format!("{}{digit},", &row[..last]));
+    assert!(row.ends_with(',') && wrong != right, "{row}");
     fs::write(folder.join("wrong.csv"), wrong).unwrap();
     fs::write(folder.join("wrong.csv.provenance"), &provenance).unwrap();
     assert_eq!(run_in(folder, "merge parts/1.csv wrong.csv --output unchecked.csv").code, 0);

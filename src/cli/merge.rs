@@ -83,13 +83,8 @@ impl Merge {
         }
         if let Some(output) = output {
             let arguments = without(&first.arguments, &OWN);
-            output.end(
-                self.force,
-                &Provenance {
-                    command: Provenance::of(&arguments).command,
-                    ..first.provenance.clone()
-                },
-            )?;
+            let command = command(arguments, *form, output.path);
+            output.end(self.force, &Provenance { command, ..first.provenance.clone() })?;
         }
         Ok(ExitCode::SUCCESS)
     }
@@ -189,18 +184,26 @@ fn command_for(piece: &Range<usize>, missing: &[Range<usize>], sources: &[Source
         };
         points.end == piece.end && points.start <= piece.start && !missing.iter().any(earlier)
     };
-    let (mut arguments, path);
+    let first = &sources[0];
     if let Some(source) = sources.iter().find(stopped_here) {
-        arguments = without(&source.arguments, &OWN[3..]);
-        path = source.path.clone();
+        let mut arguments = without(&source.arguments, &OWN[3..]);
         arguments.push("--resume".to_owned());
-    } else {
-        let first = &sources[0];
-        let ending = if first.asked.form == Form::Json { "json" } else { "csv" };
-        let (from, to) = (piece.start + 1, piece.end);
-        arguments = without(&first.arguments, &OWN);
-        arguments.extend(["--rows".to_owned(), format!("{from}:{to}")]);
-        path = first.path.with_file_name(format!("rows-{from}-{to}.{ending}"));
+        return command(arguments, first.asked.form, &source.path);
+    }
+    let (from, to) = (piece.start + 1, piece.end);
+    let mut arguments = without(&first.arguments, &OWN);
+    arguments.extend(["--rows".to_owned(), format!("{from}:{to}")]);
+    let ending = if first.asked.form == Form::Json { "json" } else { "csv" };
+    let path = first.path.with_file_name(format!("rows-{from}-{to}.{ending}"));
+    command(arguments, first.asked.form, &path)
+}
+
+/// The command line that writes rows of this form to a file, whatever its name ends with.
+fn command(mut arguments: Vec<String>, form: Form, path: &Path) -> String {
+    if form != Form::of_file(path) {
+        arguments = without(&arguments, &[("--format", true)]);
+        let name = if form == Form::Json { "json" } else { "csv" };
+        arguments.extend(["--format", name].map(str::to_owned));
     }
     arguments.extend(["--output".to_owned(), path.to_string_lossy().into_owned()]);
     Provenance::of(&arguments).command
