@@ -100,6 +100,7 @@ fn every_option_that_a_page_names_exists() {
             "array",
             "wrap",
             "ignored",
+            "cores",
         ]
         .map(|option| format!("--{option}")),
     );

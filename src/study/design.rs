@@ -66,6 +66,10 @@ pub struct Design {
 /// Relative width of the bracket at which r is known.
 const WIDTH: f64 = 4.0 * f64::EPSILON;
 
+/// Relative width of a bracket so close to a fold that rounding may hide which of two cycles attracts: they
+/// are apart by its square root.
+const BLUR: f64 = 1e-9;
+
 /// Steps that enclose r, and that narrow it; bisection of the whole range of doubles needs some 2100.
 const STEPS: usize = 2200;
 
@@ -162,7 +166,11 @@ fn smallest(
         if next <= low.0 || next >= high.0 {
             break;
         }
-        let here = excess(next)?;
+        let here = match excess(next) {
+            // The upper end is the safe one, and known.
+            Err(Reason::NoConvergence { .. }) if high.0 - low.0 <= BLUR * high.0 => break,
+            here => here?,
+        };
         if here.abs() <= WIDTH {
             return Ok(Needed::Friction { r: next });
         }

@@ -166,11 +166,11 @@ fn refit(session: &mut Session) {
     }
 }
 
-/// Moves over the points: `right` along the axis to the right, `up` along the other one of a grid. In a
-/// table and along a line both move along the rows.
+/// Moves over the points, computed or not: `right` along the axis to the right, `up` along the other one of a
+/// grid. In a table and along a line both move along the rows.
 pub fn go(session: &mut Session, right: isize, up: isize) -> Vec<Effect> {
     let Some(scanned) = &mut session.scanned else { return none(session) };
-    let last = scanned.rows.len().saturating_sub(1);
+    let last = scanned.scan.points().saturating_sub(1);
     let over = scanned.scan.over();
     if scanned.table || !scanned.is_grid() {
         scanned.at = scanned.at.saturating_add_signed(right.saturating_sub(up)).min(last);
@@ -188,9 +188,6 @@ pub fn go(session: &mut Session, right: isize, up: isize) -> Vec<Effect> {
 /// Gives the motion on show the parameters of the point that is looked at.
 pub fn take(session: &mut Session) -> Vec<Effect> {
     let Some(scanned) = &session.scanned else { return none(session) };
-    if scanned.rows.is_empty() {
-        return none(session);
-    }
     let Problem { parameters, initial, .. } = scanned.scan.problem(scanned.at);
     let mut problem = session.problem;
     let mut said = Vec::new();
