@@ -51,6 +51,19 @@ pub struct History {
 }
 
 impl History {
+    /// Forgets which windows were fitted when they were left: one that was not is fitted when it comes back.
+    #[cfg(test)]
+    pub fn forget_windows(&mut self) {
+        for before in self.past.iter_mut().chain(&mut self.future) {
+            let desk = match before {
+                Before::Stand(_) => continue,
+                Before::Desk(desk) => desk,
+                Before::Scene(snapshot) => &mut snapshot.desk,
+            };
+            desk.plots.iter_mut().for_each(|plot| plot.window = None);
+        }
+    }
+
     /// Notes the state before a change. What had been undone can no longer be redone.
     pub fn record(&mut self, before: Before) {
         self.past.push(before);

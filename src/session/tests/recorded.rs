@@ -50,6 +50,7 @@ fn alike(session: &Session) -> Session {
     session.marks.left.iter_mut().for_each(|mark| mark.answers.clear());
     session.effort.burdens.clear();
     session.interrupted = None;
+    session.history.forget_windows();
     session
 }
 
