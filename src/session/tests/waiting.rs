@@ -148,9 +148,13 @@ proptest! {
         let scene = &library()[scene].name;
         let [mut slow, mut fast] = [(); 2].map(|()| Desk::open(scene));
         let mut pressed = String::new();
-        // The tour expects what a screen shows.
-        for (key, answers) in keys.into_iter().filter(|(key, _)| key.to_string() != "<f6>") {
+        // The tour expects what a screen shows; the form of a scan offers the windows as they are by then.
+        let left_out = |key: &str| ["<f6>", "%"].contains(&key);
+        for (key, answers) in keys {
             let key = key.to_string();
+            if left_out(&key) {
+                continue;
+            }
             slow.press(&key);
             type_ahead(&mut fast, &key);
             // Some of what is asked is answered before the next key.
