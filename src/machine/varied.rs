@@ -13,7 +13,7 @@ pub enum Varied {
     StaticCoefficient,
     /// The static friction of the guide.
     StaticGuide,
-    /// A number of the friction law, by its row in [`LAW_NUMBERS`].
+    /// A number of the friction law, by its row in `LAW_NUMBERS`.
     Law(usize),
     /// A coefficient of a polynomial law.
     Coefficient(usize),
