@@ -418,20 +418,12 @@ fn bad_files_and_options_get_one_line() {
         fs::write(&file, text).unwrap();
         file.display().to_string()
     };
-    let flat: Vec<String> =
-        (0..200).map(|i| format!("{i};{}\n", f64::from(i % 7) * 0.01)).collect();
-    let flat = flat.concat();
     let good = path("coulomb_rest");
-    let [word, short, noise] = [
-        ("word", "t;x\n0;1\n1;abc\n2;3\n"),
-        ("short", "t;x\n0;1\n1;2\n2;3\n"),
-        ("noise", flat.as_str()),
-    ]
-    .map(|(name, text)| write(name, text));
-    let cases: [(Vec<&str>, i32, &str); 8] = [
+    let [word, short] = [("word", "t;x\n0;1\n1;abc\n2;3\n"), ("short", "t;x\n0;1\n1;2\n2;3\n")]
+        .map(|(name, text)| write(name, text));
+    let cases: [(Vec<&str>, i32, &str); 7] = [
         (vec![&word], 2, "line 3, column 2: \"abc\" is not a number"),
         (vec![&short], 2, "3 measured numbers cannot tell 8 unknowns"),
-        (vec![&noise], 1, ""),
         (vec!["/no/such/file.csv"], 2, "No such file"),
         (
             vec![&good, "--free", "D,q"],
