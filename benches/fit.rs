@@ -4,11 +4,11 @@
 //! thousand samples and of a short record; and what a step of a held number takes until all others have followed.
 
 use divan::{Bencher, black_box};
-use hopfscope::fit::chance::Chance;
 use hopfscope::fit::levenberg_marquardt::Effort;
 use hopfscope::fit::observation::{Data, Observation, R, Start, Unknowns};
 use hopfscope::fit::refit::refitted;
 use hopfscope::fit::{Question, Record, estimate};
+use hopfscope::numerics::random::Random;
 
 fn main() {
     divan::main();
@@ -30,7 +30,7 @@ fn observation((_, start, seconds): (Unknowns, Start, f64), samples: u32) -> Obs
 fn record(motion: (Unknowns, Start, f64), samples: u32) -> Record {
     let observation = observation(motion, samples);
     let Data::Samples { t, .. } = observation.data.clone() else { return Record::default() };
-    let mut chance = Chance::new(1);
+    let mut chance = Random::new(1);
     let seen = observation.compare(&motion.0, false).expect("the motion stays");
     let x = seen.residuals.iter().map(|it| 0.01 * chance.normal() - it.value).collect();
     Record { t: Some(t), x, ..Record::default() }

@@ -11,14 +11,15 @@
 //! - [`flow`] computes motions. A motion is a chain of smooth half swings glued at `v = 0`; a
 //!   [`flow::step::Stepper`] takes one step of the smooth field, [`flow::swing`] runs it to the next
 //!   `v = 0`, [`flow::trajectory`] glues. No step ever crosses the discontinuity.
-//! - [`numerics`] is arithmetic for all of them: intervals with outward rounding. [`proof`] encloses half swings
-//!   in it, and proves how many limit cycles there are and where.
+//! - [`numerics`] is the ground floor: roots in brackets, quadrature, cubics, splines, sums, numbers of twice the
+//!   precision, intervals with outward rounding. [`proof`] encloses half swings in intervals, and proves how many
+//!   limit cycles there are and where; [`check`] verifies what it writes down.
 //! - [`study`] asks questions of the flow. Everything rests on the half-swing map
 //!   ([`study::half_map`]), which contains no friction, is increasing, and is inverted by itself with
 //!   the damping reversed. Cycles close two of them ([`study::closing`]); a search that excludes what
 //!   cannot hold a cycle finds all ([`study::search`], [`study::closings`], [`study::cycle`]), energy decides where differences
 //!   lose their digits ([`study::balance`]), continuation follows them ([`study::continuation`],
-//!   [`study::branch`], [`study::fold`], [`study::escape`]). Within a half plane every motion is a graph
+//!   [`study::branch`]), folds are roots of their own ([`study::extended`], [`study::fold`]). Within a half plane every motion is a graph
 //!   over q ([`study::arc`]), so basins, margins and bands of capture are comparisons
 //!   ([`study::basin`], [`study::margin`], [`study::capture`]). [`study::claims`] puts the paper's own
 //!   equations and sentences to the test.
@@ -31,23 +32,61 @@
 //!   [`session`] is a pure machine: `update(&mut Session, Msg) -> Vec<Effect>` and
 //!   `Session::wants() -> Vec<Request>`. What has not changed is not asked again; a hidden layer asks
 //!   nothing. One table of commands feeds keys, footer and help.
-//! - [`view`] draws a session, [`export`] writes answers; both decide nothing.
+//! - [`words`] has the words for numbers and answers. [`picture`] decides what stands in a plot: curves, marks and
+//!   texts with their roles. [`view`] draws it in cells of the terminal, [`figure`] as SVG, PNG and data;
+//!   [`report`] writes answers as tables, CSV and JSON. None of the three knows another.
 //! - [`terminal`], [`runtime`] and [`cli`] have the side effects: the screen, the threads, the files. The
 //!   pump drains messages, gives the worker what the session wants, and draws when something changed;
 //!   the worker's newest wants win.
 
-pub mod cli;
+#![cfg_attr(
+    not(feature = "explorer"),
+    allow(
+        dead_code,
+        reason = "the explorer uses more of the inner rings than their public surface"
+    )
+)]
+
 pub mod closed_form;
-pub mod export;
 pub mod fit;
 pub mod flow;
 pub mod machine;
+#[doc(hidden)]
 pub mod numerics;
 pub mod oscillator;
 pub mod proof;
-pub mod runtime;
-pub mod scene;
-pub mod session;
 pub mod study;
+
+#[cfg(feature = "explorer")]
+#[doc(hidden)]
+pub mod check;
+#[cfg(feature = "explorer")]
+#[doc(hidden)]
+pub mod cli;
+#[cfg(feature = "explorer")]
+#[doc(hidden)]
+pub mod figure;
+#[cfg(feature = "explorer")]
+#[doc(hidden)]
+pub mod picture;
+#[cfg(feature = "explorer")]
+#[doc(hidden)]
+pub mod report;
+#[cfg(feature = "explorer")]
+#[doc(hidden)]
+pub mod runtime;
+#[cfg(feature = "explorer")]
+#[doc(hidden)]
+pub mod scene;
+#[cfg(feature = "explorer")]
+#[doc(hidden)]
+pub mod session;
+#[cfg(feature = "explorer")]
+#[doc(hidden)]
 pub mod terminal;
+#[cfg(feature = "explorer")]
+#[doc(hidden)]
 pub mod view;
+#[cfg(feature = "explorer")]
+#[doc(hidden)]
+pub mod words;

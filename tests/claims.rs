@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use hopfscope::flow::{Limits, Reason};
 use hopfscope::scene::library::library;
-use hopfscope::study::claims::{Examined, Finding, Sense, UNSAID, Verdict, claims, examine};
+use hopfscope::study::claims::{Examined, Finding, Mark, Sense, UNSAID, Verdict, claims, examine};
 
 /// Of the piecewise linear motion with D = -0.1, r = 0.1 from rest at q = 1.5 until tau = 20, from its closed
 /// form in 30 digits.
@@ -134,6 +134,47 @@ fn every_claim_is_decided_by_numbers() {
     };
     within("(48)", "D2 = 0:", 0.006);
     within("D_c", "worst", 0.03);
+
+    check_marks(&all);
+}
+
+/// What proofs reach carries a mark, and no mark contradicts a verdict.
+fn check_marks(all: &[Examined]) {
+    let marked = all.iter().filter(|one| one.finding.as_ref().unwrap().mark.is_some()).count();
+    assert!(marked >= 70, "{marked} claims are marked");
+    for one in all {
+        let finding = one.finding.as_ref().unwrap();
+        let (mark, name) = (finding.mark, one.claim.statement);
+        match finding.verdict() {
+            Verdict::Agrees | Verdict::Approximates { .. } => {
+                assert_ne!(mark, Some(Mark::Refuted), "{name}");
+            }
+            _ => assert!([None, Some(Mark::Refuted)].contains(&mark), "{name}: {mark:?}"),
+        }
+        if let Some(bounds) = finding.computed.bounds {
+            // A number of the search lies within its bounds, up to its own error.
+            let (value, slack) = (finding.computed.value, finding.computed.error);
+            let within = bounds.lower() - slack <= value && value <= bounds.upper() + slack;
+            assert!(within, "{name}: {value} {bounds}");
+        }
+    }
+    for (equation, words, mark) in [
+        ("5", "periodic solution", Mark::Refuted),
+        ("(24)", "D2 acts", Mark::Refuted),
+        ("(30)", "-0.999", Mark::Enclosed),
+        ("(48)", "D2 = 0:", Mark::Proved),
+        ("(48)", "D2 = 0.2", Mark::Proved),
+        ("(48)", "D2 = 0.5", Mark::Refuted),
+        ("Fig. 9", "between", Mark::Refuted),
+        ("Fig. 9", "below both", Mark::Proved),
+        ("Fig. 10", "D3 > 0", Mark::Refuted),
+        ("multiplier", "slope", Mark::Enclosed),
+        ("escape", "D3 < 0", Mark::Proved),
+        ("D_c", "worst", Mark::Proved),
+        ("D_c", "none above", Mark::Proved),
+    ] {
+        assert_eq!(about(all, equation, words).mark, Some(mark), "{equation} {words}");
+    }
 }
 
 #[test]

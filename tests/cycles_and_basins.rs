@@ -4,15 +4,17 @@
 
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, Method, Outcome, Problem};
-use hopfscope::oscillator::scaling::times_power;
+use hopfscope::numerics::scaling::times_power;
 use hopfscope::oscillator::{HalfPlane, Parameters, Side, State, Symbol};
+use hopfscope::study::SpecialKind;
 use hopfscope::study::basin::{Basin, Counts, Fate, Window, basin};
-use hopfscope::study::branch::{Points, SpecialKind, branch};
+use hopfscope::study::branch::{Points, branch};
 use hopfscope::study::closing::{Equation, Route};
-use hopfscope::study::closings::{closings, polish};
+use hopfscope::study::closings::closings;
 use hopfscope::study::cycle::{cycle_near, cycles};
 use hopfscope::study::extremes::sets::{Found, SetAnswer, SetVerdict, judge_set, sets};
 use hopfscope::study::half_map::{HalfMap, Length, NoEnd};
+use hopfscope::study::polish::polish;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{RngAlgorithm, TestRng, TestRunner};

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::f64::consts::PI;
 use std::fs;
 
-use hopfscope::export::figure::{Curve, Figure, Form, file};
+use hopfscope::figure::{Curve, Figure, Form, file};
 use hopfscope::flow::Limits;
 use hopfscope::runtime::print::{self, complete};
 use hopfscope::scene::answer::Fineness;
@@ -506,7 +506,7 @@ fn figures_have_no_two_panels_alike_and_no_circles_that_belong_to_nothing() {
     for scene in scenes().filter(|scene| scene.starts_with("fig")) {
         let drawn = figure(scene, Fineness::SCREEN);
         for (index, panel) in drawn.panels.iter().enumerate() {
-            let alike = |other: &&hopfscope::export::figure::Panel| {
+            let alike = |other: &&hopfscope::figure::Panel| {
                 !panel.curves.is_empty() && other.curves == panel.curves && other.x == panel.x
             };
             assert!(drawn.panels[..index].iter().find(alike).is_none(), "{scene}: panel {index}");

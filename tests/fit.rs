@@ -5,10 +5,10 @@ mod program;
 
 use std::fs;
 
-use hopfscope::fit::chance::Chance;
 use hopfscope::fit::names::{Choice, NAMES, named};
 use hopfscope::fit::observation::{Data, Observation, Start, Unknowns};
 use hopfscope::fit::{Estimate, Question, Record, estimate};
+use hopfscope::numerics::random::Random;
 use program::{json, run};
 use rayon::prelude::*;
 use serde_json::Value;
@@ -124,7 +124,7 @@ impl Simulated {
         let data = Data::Samples { x: vec![0.0; t.len()], t: t.clone() };
         let observation = Observation { data, start: self.start, linear: false, reach: 1e9 };
         let motion = observation.compare(&self.p, false).unwrap().residuals;
-        let mut chance = Chance::new(seed);
+        let mut chance = Random::new(seed);
         let mut error = chance.normal();
         let fresh = (1.0 - self.memory * self.memory).sqrt();
         let noisy = |seen: &hopfscope::fit::observation::Residual| {
@@ -208,7 +208,7 @@ fn impossible_samples_are_left_out_and_the_rest_is_fitted_as_if_they_had_not_bee
     };
     let clean = decay.record(5);
     let mut dirty = clean.clone();
-    let mut chance = Chance::new(77);
+    let mut chance = Random::new(77);
     let mut spoiled = 0;
     for x in &mut dirty.x {
         if chance.even() < 0.02 {
@@ -374,7 +374,8 @@ fn the_zeros_of_the_damping_over_amplitude_are_the_cycles() {
             "memory of the residuals",
             "damping over amplitude",
             "phase plane",
-            "distribution of the margin"
+            "distribution of the margin",
+            "D and r together"
         ]
     );
     let number = |name: &str| found["parameters"][name]["value"].as_f64().unwrap();

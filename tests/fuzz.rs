@@ -9,7 +9,8 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use hopfscope::scene::{file, library, machine, plain};
-use hopfscope::session::{LINES, Msg, Session, Size, config, line, replay, update};
+use hopfscope::session::read::completion::completion;
+use hopfscope::session::{Msg, Session, Size, config, lines, replay, run_line, update};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
@@ -133,7 +134,7 @@ fn settings_files() {
 #[test]
 fn tables_of_friction() {
     fuzz(&files("assets/belts", "csv"), 2_000, |text| {
-        if let Err(refused) = machine::file::table("fuzzed.csv", text) {
+        if let Err(refused) = machine::table::table("fuzzed.csv", text) {
             assert_one_line(&refused, text);
         }
     });
@@ -164,7 +165,7 @@ fn session() -> Session {
 
 #[test]
 fn lines_of_commands() {
-    let mut texts: Vec<String> = LINES.iter().map(|it| it.name.to_owned()).collect();
+    let mut texts: Vec<String> = lines().map(|it| it.name.to_owned()).collect();
     texts.extend(
         [
             "set D -0.3",
@@ -178,8 +179,8 @@ fn lines_of_commands() {
     );
     fuzz(&texts, 2_000, |text| {
         let mut session = session();
-        let _ = line::completion(&session, text);
-        if let Err(refused) = line::run(&mut session, text) {
+        let _ = completion(&session, text);
+        if let Err(refused) = run_line(&mut session, text) {
             assert_one_line(&refused, text);
         }
     });
@@ -249,7 +250,7 @@ fn the_files_that_are_changed_are_understood_unchanged() {
         replay::parse(&text).unwrap();
     }
     for text in files("assets/belts", "csv") {
-        machine::file::table("whole.csv", &text).unwrap();
+        machine::table::table("whole.csv", &text).unwrap();
     }
     assert!(library().len() > 5);
 }

@@ -2,27 +2,12 @@
 //! disturbance leads out from just beyond.
 
 use hopfscope::flow::Limits;
+use hopfscope::numerics::random::Random;
 use hopfscope::oscillator::{Interval, ParameterBox, Parameters, State};
 use hopfscope::study::guarantee::{Sided, guarantee, zones};
 
-/// Random numbers by `SplitMix64`.
-struct Random(u64);
-
-impl Random {
-    /// Evenly spread over 0 .. 1.
-    fn part(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut bits = self.0;
-        bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        #[expect(clippy::cast_precision_loss, reason = "53 bits fit")]
-        let part = ((bits ^ (bits >> 31)) >> 11) as f64 / (1_u64 << 53) as f64;
-        part
-    }
-
-    fn between(&mut self, Interval { low, high }: Interval) -> f64 {
-        low + self.part() * (high - low)
-    }
+fn between(random: &mut Random, Interval { low, high }: Interval) -> f64 {
+    low + random.even() * (high - low)
 }
 
 /// A disturbance, in units of its bound, over time and the sign of the velocity.
@@ -40,16 +25,16 @@ enum Force {
 
 impl Force {
     fn any(random: &mut Random) -> Self {
-        let pick = random.part();
+        let pick = random.even();
         if pick < 0.25 {
             Force::Along
         } else if pick < 0.5 {
-            Force::Mostly(random.part())
+            Force::Mostly(random.even())
         } else if pick < 0.75 {
-            Force::Harmonic(0.2 + 2.0 * random.part(), 6.3 * random.part())
+            Force::Harmonic(0.2 + 2.0 * random.even(), 6.3 * random.even())
         } else {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small")]
-            let steps = [400.0, 30.0].map(|most| (1.0 + most * random.part()) as u32);
+            let steps = [400.0, 30.0].map(|most| (1.0 + most * random.even()) as u32);
             Force::Telegraph(steps[0], steps[1])
         }
     }
@@ -58,7 +43,7 @@ impl Force {
         match self {
             Force::Along => side,
             Force::Mostly(part) => {
-                if random.part() < part {
+                if random.even() < part {
                     side
                 } else {
                     -side
@@ -165,10 +150,10 @@ fn leaving(known: &ParameterBox, w: f64, motions: u32, random: &mut Random) -> u
     // A separatrix goes to infinity on its way out; where it turns is the end that matters.
     let [left, right] = [-turning(-1.0), turning(1.0)];
     let (displacement, impulse) = (margin.displacement.unwrap(), margin.impulse.unwrap());
-    let corner = |random: &mut Random, interval: Interval| match random.part() {
+    let corner = |random: &mut Random, interval: Interval| match random.even() {
         part if part < 0.3 => interval.low,
         part if part < 0.6 => interval.high,
-        _ => random.between(interval),
+        _ => between(random, interval),
     };
     let mut left_behind = 0;
     for _ in 0..motions {
@@ -176,8 +161,8 @@ fn leaving(known: &ParameterBox, w: f64, motions: u32, random: &mut Random) -> u
         let [d, d2, d3, r] = [d, d2, d3, r].map(|interval| corner(random, interval));
         let parameters = Parameters { d, d2, d3, r };
         let system = Sided { upper: parameters, lower: parameters };
-        let sign = if random.part() < 0.5 { 1.0 } else { -1.0 };
-        let start = if random.part() < 0.5 {
+        let sign = if random.even() < 0.5 { 1.0 } else { -1.0 };
+        let start = if random.even() < 0.5 {
             State { q: 0.999 * sign * displacement, v: 0.0 }
         } else {
             State { q: 0.0, v: 0.999 * sign * impulse }
@@ -202,7 +187,7 @@ fn the_margin_known_from_elsewhere() {
 
 #[test]
 fn no_disturbance_leads_out_of_the_guaranteed_margin() {
-    let mut random = Random(1);
+    let mut random = Random::new(1);
     for (known, w) in cases() {
         assert_eq!(leaving(&known, w, 60, &mut random), 0, "{known:?}, w = {w}");
     }
@@ -211,7 +196,7 @@ fn no_disturbance_leads_out_of_the_guaranteed_margin() {
 #[test]
 #[ignore = "1e5 motions: a minute"]
 fn no_disturbance_of_very_many_leads_out_of_the_guaranteed_margin() {
-    let mut random = Random(2);
+    let mut random = Random::new(2);
     for (known, w) in cases() {
         assert_eq!(leaving(&known, w, 20_000, &mut random), 0, "{known:?}, w = {w}");
     }
@@ -219,7 +204,7 @@ fn no_disturbance_of_very_many_leads_out_of_the_guaranteed_margin() {
 
 #[test]
 fn the_worst_disturbance_leads_out_from_just_beyond() {
-    let mut random = Random(3);
+    let mut random = Random::new(3);
     for (known, w) in cases() {
         let margin = guarantee(&known, w, &Limits::PATIENT).unwrap().guaranteed.margin;
         // The disturbance makes up for the friction that the worst system lacks.

@@ -1,5 +1,8 @@
 //! Motions and cycles against reference values with at least twelve digits, computed independently.
 
+mod data;
+
+use data::references;
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, Method, Outcome, Problem, Trajectory};
 use hopfscope::oscillator::{Parameters, State};
@@ -18,25 +21,8 @@ struct Motion {
     turning_points: Vec<(f64, f64)>,
 }
 
-/// A cycle of `data/cycles.json`.
-#[derive(Deserialize)]
-struct Reference {
-    #[serde(flatten)]
-    parameters: Parameters,
-    q_max: f64,
-    q_min: f64,
-    v_max: f64,
-    v_min: f64,
-    period: f64,
-    multiplier: f64,
-}
-
 fn motions() -> Vec<Motion> {
     serde_json::from_str(include_str!("data/trajectories.json")).unwrap()
-}
-
-fn references() -> Vec<Reference> {
-    serde_json::from_str(include_str!("data/cycles.json")).unwrap()
 }
 
 impl Motion {

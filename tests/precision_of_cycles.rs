@@ -4,7 +4,8 @@
 
 use hopfscope::flow::Limits;
 use hopfscope::oscillator::{Parameters, State, Symbol};
-use hopfscope::study::branch::{Branch, Points, SpecialKind, branch};
+use hopfscope::study::SpecialKind;
+use hopfscope::study::branch::{Branch, Points, branch};
 use hopfscope::study::cycle::{Cycle, cycles};
 use hopfscope::study::escape::escape_point;
 use hopfscope::study::fold::{border, fold};

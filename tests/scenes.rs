@@ -2,6 +2,7 @@
 
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, Outcome};
+use hopfscope::machine::Fate;
 use hopfscope::oscillator::Symbol;
 use hopfscope::scene::answer::answer;
 use hopfscope::scene::{Answered, Slot, find};
@@ -305,6 +306,62 @@ fn no_text_contradicts_what_is_on_show_anywhere_in_the_ranges_of_its_scene() {
         "never said: {:?}",
         silent.iter().map(|row| row.0).collect::<Vec<_>>()
     );
+}
+
+/// How many cycles of the whole model stick to the belt, and how many only slip.
+fn sticking(stage: &Stage) -> (usize, usize) {
+    let cycles = &stage.0.kinds().unwrap().cycles;
+    let sticks = cycles.iter().filter(|cycle| cycle.sticks).count();
+    (sticks, cycles.len() - sticks)
+}
+
+#[test]
+fn benchmark_rest_and_stick_slip_are_parted_by_a_cycle_until_the_belt_is_fast() {
+    let stage = Stage::open("benchmark");
+    let kinds = stage.0.kinds().unwrap();
+    assert_eq!((kinds.border, sticking(&stage)), ("cycle", (1, 1)));
+    let [whole, cubic] = kinds.margins.map(|margin| margin.unwrap().displacement.unwrap());
+    assert!(cubic > 1.1 * whole, "{cubic} {whole}");
+    assert_eq!(stage.0.course().unwrap().fate, Fate::Cycle(1));
+    assert!(stage.0.course().unwrap().rides.len() > 3);
+    let end = Stage::open("benchmark").press(":set<space>belt=1.836<enter>");
+    assert_eq!(sticking(&end), (1, 1));
+    let beyond = Stage::open("benchmark").press(":set<space>belt=1.837<enter>");
+    assert_eq!((beyond.0.kinds().unwrap().border, sticking(&beyond)), ("none", (0, 0)));
+    assert_eq!(beyond.0.course().unwrap().fate, Fate::Rest);
+    // One key, and the expansion is drawn: the question is another one, and so is the answer.
+    let cubic = Stage::open("benchmark").press("|");
+    assert!(cubic.0.course().is_none() && !cubic.0.draws_whole());
+    assert!(cubic.cycles()[0].q_max > 1.1 * stage.cycles()[0].q_max);
+}
+
+#[test]
+fn groan_needs_no_cycle_to_be_parted_from_rest() {
+    let stage = Stage::open("groan");
+    let kinds = stage.0.kinds().unwrap();
+    assert_eq!((kinds.border, sticking(&stage)), ("grazing", (1, 0)));
+    assert_eq!(stage.0.course().unwrap().fate, Fate::Cycle(0));
+    assert_eq!(kinds.margins[1].and_then(|margin| margin.displacement), None);
+    assert!(Stage::open("groan").press("i").is_captured());
+    let fast = Stage::open("groan").press(":set<space>belt=0.5<enter>");
+    assert_eq!(sticking(&fast), (0, 0));
+}
+
+#[test]
+fn slow_belt_the_stable_cycle_grows_into_the_line() {
+    assert_eq!(sticking(&Stage::open("slow-belt")), (1, 1));
+    for (speed, sticks) in [("0.2269", 1), ("0.2271", 0)] {
+        let stage = Stage::open("slow-belt").press(&format!(":set<space>belt={speed}<enter>"));
+        assert_eq!(sticking(&stage), (sticks, 2 - sticks), "{speed}");
+    }
+}
+
+#[test]
+fn inside_both_models_agree_about_rest() {
+    let [whole, cubic] = Stage::open("inside").0.kinds().unwrap().margins.map(Option::unwrap);
+    let ratio = |one: Option<f64>, other: Option<f64>| (one.unwrap() / other.unwrap() - 1.0).abs();
+    assert!(ratio(whole.displacement, cubic.displacement) < 1e-12);
+    assert!(ratio(whole.impulse, cubic.impulse) < 1e-12);
 }
 
 #[test]

@@ -438,15 +438,85 @@ fn no_contact_is_too_shallow_to_be_seen() {
 
 #[test]
 fn what_comes_to_ride_on_the_belt_leaves_it_as_one() {
-    let model = Model::new(&machine("stribeck-guide-cubic")).unwrap();
-    let mut flow = Flow::new(&model);
-    let lines = model.lines.unwrap();
-    let marks = flow.landmarks().unwrap().unwrap();
-    let touch = marks.grazing.right.unwrap();
-    for part in [1.001, 1.2, 1.7] {
-        let Ok(Return::Turns(image)) = flow.returned(part * touch) else { panic!("at {part}") };
-        assert_eq!((Some(image.x), image.log_slope), (marks.released, f64::NEG_INFINITY));
-        assert!(image.sticks_from.unwrap() < lines.fold);
+    let mut dice = Dice(0x0dd_ba11_5eed_cafe);
+    let mut merged = 0;
+    for _ in 0..40 {
+        let Ok(model) = Model::new(&dice.machine()) else { continue };
+        let mut flow = Flow::new(&model);
+        let Ok(Some(marks)) = flow.landmarks() else { continue };
+        let (Some(touch), Some(released)) = (marks.grazing.right, marks.released) else { continue };
+        let end = marks.beyond.unwrap_or(3.0 * touch).min(3.0 * touch);
+        for part in [1e-9, 0.1, 0.5, 0.999] {
+            let x = touch + part * (end - touch);
+            let Ok(Return::Turns(image)) = flow.returned(x) else { continue };
+            let from = image.sticks_from.unwrap_or_else(|| panic!("{model:?} at {x}: {image:?}"));
+            assert_eq!((image.x, image.log_slope), (released, f64::NEG_INFINITY), "{model:?}");
+            assert!(from <= marks.lines.release && from >= marks.lines.low, "{model:?}");
+            merged += 1;
+        }
+    }
+    assert!(merged > 60, "{merged}");
+}
+
+/// A machine whose belt is far too fast to be met, with constant friction: the piecewise linear oscillator.
+fn linear(damping: f64, guide: f64) -> Belt {
+    let law = FrictionLaw::Constant { mu: 0.5 };
+    let (mass, stiffness, normal_force) = (1.0, 1.0, 1.0);
+    let base = machine("coulomb-guide");
+    let belt = Belt { mass, stiffness, normal_force, damping, friction: guide, law, ..base };
+    Belt { belt_speed: 1e3, static_coefficient: None, ..belt }
+}
+
+#[test]
+fn a_cycle_that_repels_beyond_all_digits_is_the_border_of_rest() {
+    for d in [-0.1_f64, -0.6, -0.95, -0.99, -0.999, -0.9999] {
+        let found = portrait(&linear(2.0 * d, 0.1));
+        assert!(matches!(found.border, Border::Cycle(0, _)), "{d}: {:?}", found.border.kind());
+        let cycle = &found.cycles[0];
+        // Equations (30) to (33), corrected.
+        let omega = (1.0 - d * d).sqrt();
+        let growth = -PI * d / omega;
+        let amplitude = 0.1 / (0.5 * growth).tanh();
+        let margin = found.margin.unwrap();
+        for size in [cycle.x.1, -cycle.x.0, margin.displacement.0, margin.displacement.1] {
+            assert!(close(size, amplitude, 1e-13), "{d}: {size} {amplitude}");
+        }
+        let fastest = 0.2 / growth.exp_m1() * (-d / omega * omega.atan2(d)).exp();
+        assert!(close(cycle.v.1, fastest, 1e-12), "{d}: {fastest} {cycle:?}");
+        assert!(!cycle.stable && cycle.log_multiplier > 0.0);
+        assert!(close(cycle.log_multiplier, 2.0 * growth, 1e-11), "{d}: {cycle:?}");
+    }
+}
+
+#[test]
+fn a_law_that_ends_far_out_hides_no_margin() {
+    // A polynomial that falls below zero beyond a slip of 1.25 m/s, and the border well within.
+    let law = FrictionLaw::Polynomial { coefficients: vec![0.5, -0.4] };
+    let belt = Belt { law, damping: 0.0, friction: 0.02, ..machine("bstab-1.5") };
+    let belt = Belt { belt_speed: 0.8, ..belt };
+    let found = portrait(&belt);
+    assert_eq!(found.border.kind(), "cycle");
+    let reduced = belt.reduce().unwrap();
+    let limits = hopfscope::flow::Limits::PATIENT;
+    let cubic = hopfscope::study::cycle::cycles(&reduced.parameters, true, &limits).unwrap();
+    let expected = cubic.cycles[0].q_max * reduced.units.displacement;
+    assert!(close(found.margin.unwrap().displacement.0, expected, 1e-13));
+    assert!(matches!(found.fate(3.0, 0.0), Err(_) | Ok(Fate::Unknown(_))));
+    // Where all that the law covers comes to rest, the margin is what it covers, and not everything.
+    let damped = Belt { damping: 0.9, belt_speed: 1.2, ..belt };
+    let found = portrait(&damped);
+    let margin = found.margin.unwrap();
+    assert_eq!(found.border.kind(), "none");
+    let slip = |x: f64| Motion::new(&found.model, x, 0.0, 20.0).v.0.abs() + 1.2;
+    assert!(found.stop.is_some() && close(slip(margin.displacement.0), 1.25, 1e-9), "{margin:?}");
+    assert_eq!(found.fate(0.999 * margin.displacement.0, 0.0), Ok(Fate::Rest));
+    assert_eq!(found.fate(0.0, -0.999 * margin.velocity.1), Ok(Fate::Rest));
+}
+
+#[test]
+fn a_search_for_cycles_that_did_not_settle_says_so() {
+    for name in data()["machines"].as_object().unwrap().keys() {
+        assert_eq!(portrait(&machine(name)).unresolved, [], "{name}");
     }
 }
 

@@ -4,11 +4,13 @@ use clap::Args;
 
 use super::failure::Failure;
 use super::input;
-use super::output::{Format, Output, print};
+use super::output::{Certify, Format, Output, print};
 use super::start::Start;
 use super::timing::timed;
-use crate::export::{csv, json, table};
 use crate::flow::Limits;
+use crate::proof::kicks::kicks;
+use crate::proof::{ParameterBox, prove};
+use crate::report::{basin as report, certified};
 use crate::study::basin::{Survey, Window};
 
 /// Says where the starts of a window end, and the margins of the sticking set
@@ -18,6 +20,8 @@ pub struct Basin {
     start: Start,
     #[command(flatten)]
     output: Output,
+    #[command(flatten)]
+    certify: Certify,
     /// Displacements and velocities of the starts
     #[arg(long, value_name = "QMIN:QMAX,VMIN:VMAX", default_value = "-3:3,-3:3",
           value_parser = input::window, allow_hyphen_values = true)]
@@ -37,10 +41,16 @@ impl Basin {
         let found = found.map_err(|reason| {
             Failure::Unanswered(format!("the basin could not be completed: {reason}"))
         })?;
+        let enclose = || {
+            let proof = prove(&ParameterBox::from(&parameters), &[]);
+            kicks(&proof, [found.margin.displacement, found.margin.impulse])
+        };
+        let certified = self.certify.ask(self.output.format, enclose)?;
+        let lines = certified.as_ref().map(certified::kicks_lines);
         print(&match self.output.format {
-            Format::Table => table::basin(&found, seconds),
-            Format::Json => json::basin(&found, seconds),
-            Format::Csv => csv::basin(&found),
+            Format::Table => report::table(&found, seconds) + &lines.unwrap_or_default(),
+            Format::Json => report::json(&found, certified.as_ref(), seconds),
+            Format::Csv => report::csv(&found),
         })
     }
 }

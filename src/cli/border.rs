@@ -1,15 +1,20 @@
 //! `hopfscope border`: where the basin changes its kind along D, while another parameter varies.
 
 use clap::Args;
+use rayon::prelude::*;
 
 use super::failure::Failure;
 use super::input::{self, Over};
-use super::output::{Format, Output, print};
+use super::output::{Certify, Format, Output, print};
 use super::start::Start;
 use super::timing::timed;
-use crate::export::{csv, json, table};
 use crate::flow::Limits;
-use crate::study::fold::{Border as Found, border};
+use crate::oscillator::{State, Symbol};
+use crate::proof::ParameterBox;
+use crate::proof::range::change_near;
+use crate::report::border as report;
+use crate::report::certified::{self, Bordered};
+use crate::study::fold::{Border as Found, BorderPoint, border};
 
 /// Continues the fold `D_F` and the escape point `D_c` in a second parameter
 #[derive(Debug, Args)]
@@ -18,6 +23,8 @@ pub struct Border {
     start: Start,
     #[command(flatten)]
     output: Output,
+    #[command(flatten)]
+    certify: Certify,
     /// The second parameter (D2, D3 or r), its range, and how many values
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = input::over, allow_hyphen_values = true)]
     over: Over,
@@ -34,10 +41,29 @@ impl Border {
         let found: Found = found.map_err(|reason| {
             Failure::Unanswered(format!("the border could not be completed: {reason}"))
         })?;
+        let certified = self.certify.ask(self.output.format, || enclosed(&found))?;
+        let lines = certified.as_ref().map(|it| certified::border_lines(it, symbol));
         print(&match self.output.format {
-            Format::Table => table::border(&found, seconds),
-            Format::Json => json::border(&found, seconds),
-            Format::Csv => csv::border(&found),
+            Format::Table => report::table(&found, seconds) + &lines.unwrap_or_default(),
+            Format::Json => report::json(&found, certified.as_deref(), seconds),
+            Format::Csv => report::csv(&found),
         })
     }
+}
+
+/// The fold and the escape point in D at each point of a border: between values at which the numbers of cycles are
+/// proved and differ.
+fn enclosed(found: &Found) -> Vec<Bordered> {
+    let nowhere = State { q: 0.0, v: 0.0 };
+    let at = |point: &BorderPoint| {
+        let mut parameters = found.parameters;
+        found.second.set(&mut parameters, &mut nowhere.clone(), point.value);
+        let known = ParameterBox::from(&parameters);
+        let near = |d: f64| Some(change_near(&known, Symbol::D, d)?.between.into());
+        let (fold, escape) = (point.fold.map(|fold| fold.d), point.escape);
+        let [folds, escapes] = [fold, escape].map(|d| d.and_then(near));
+        let proved = fold.is_some() == folds.is_some() && escape.is_some() == escapes.is_some();
+        Bordered { value: point.value, fold: folds, escape: escapes, proved }
+    };
+    found.points.par_iter().map(at).collect()
 }

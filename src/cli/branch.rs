@@ -4,12 +4,13 @@ use clap::Args;
 
 use super::failure::Failure;
 use super::input::{self, Over};
-use super::output::{Format, Output, print};
+use super::output::{Certify, Format, Output, print};
 use super::start::Start;
 use super::timing::timed;
-use crate::export::{csv, json, table};
 use crate::flow::Limits;
 use crate::oscillator::Symbol;
+use crate::proof::{self, ParameterBox};
+use crate::report::{branch as report, certified};
 use crate::study::branch::{Points, branch};
 
 /// Follows the limit cycles along a parameter, with folds and other special points
@@ -19,6 +20,8 @@ pub struct Branch {
     start: Start,
     #[command(flatten)]
     output: Output,
+    #[command(flatten)]
+    certify: Certify,
     /// The parameter (D, D2, D3 or r), its range, and about how many points
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = parameter, allow_hyphen_values = true)]
     over: Over,
@@ -46,10 +49,15 @@ impl Branch {
         let found = found.map_err(|reason| {
             Failure::Unanswered(format!("the branch could not be completed: {reason}"))
         })?;
+        let decide = || proof::range::range(&ParameterBox::from(base), symbol, range);
+        let certified = self.certify.ask(self.output.format, decide)?;
+        let decided = certified.as_ref().map(|it| certified::range_table(it, symbol));
         print(&match self.output.format {
-            Format::Table => table::branch(&found, base, tolerance, seconds),
-            Format::Json => json::branch(&found, seconds),
-            Format::Csv => csv::branch(&found),
+            Format::Table => {
+                report::table(&found, base, tolerance, seconds) + &decided.unwrap_or_default()
+            }
+            Format::Json => report::json(&found, certified.as_ref(), seconds),
+            Format::Csv => report::csv(&found),
         })
     }
 }

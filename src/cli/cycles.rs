@@ -1,16 +1,20 @@
 //! `hopfscope cycles`: every limit cycle.
 
+use std::path::PathBuf;
+
 use clap::Args;
 
 use super::failure::Failure;
-use super::output::{Format, Output, print};
+use super::output::{Format, Output, print, write};
 use super::start::Start;
 use super::timing::timed;
+use crate::check::check;
 use crate::closed_form::harmonics::MOST;
-use crate::export::{balance, csv, json, table};
 use crate::flow::{Limits, Reason};
 use crate::oscillator::Parameters;
-use crate::proof::cycles::Proof;
+use crate::proof::certificate::certificate;
+use crate::proof::{ParameterBox, Proof, prove};
+use crate::report::{certified, cycles as report, harmonic_balance, json};
 use crate::study;
 use crate::study::cycle::cycles;
 use crate::study::harmonic_error::{HarmonicBalance, convergence};
@@ -26,6 +30,12 @@ pub struct Cycles {
     /// Shows the harmonic balance beside the cycles: 1, 3, 5, .. up to N harmonics, and their errors
     #[arg(long, value_name = "N", value_parser = harmonics)]
     harmonics: Option<usize>,
+    /// Writes what is proved, step by step, for `hopfscope check`
+    #[arg(long, value_name = "FILE")]
+    certificate: Option<PathBuf>,
+    /// Replaces a file that holds something else
+    #[arg(long, requires = "certificate")]
+    force: bool,
 }
 
 /// A number of harmonics.
@@ -38,18 +48,47 @@ impl Cycles {
     /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
         self.start.note_own_method();
+        let known = self.start.known()?;
+        if !known.is_point() {
+            return self.run_box(&known);
+        }
         let problem = self.start.problem()?;
         let (found, seconds) = timed(self.output.repeat, || self.find(&problem.parameters));
         let Answer { found, proof, rungs } = found?;
+        self.certify(&proof)?;
         let rungs = rungs.as_deref();
         print(&match self.output.format {
             Format::Table => {
-                table::cycles(&found, &proof, seconds)
-                    + &rungs.map(balance::table).unwrap_or_default()
+                report::table(&found, &proof, seconds)
+                    + &rungs.map(harmonic_balance::table).unwrap_or_default()
             }
-            Format::Json => json::cycles(&found, &proof, rungs, seconds),
-            Format::Csv => rungs.map_or_else(|| csv::cycles(&found), balance::csv),
+            Format::Json => report::json(&found, &proof, rungs, seconds),
+            Format::Csv => rungs.map_or_else(|| report::csv(&found), harmonic_balance::csv),
         })
+    }
+
+    /// What holds for every value in intervals of parameters.
+    fn run_box(&self, known: &ParameterBox) -> Result<(), Failure> {
+        if self.harmonics.is_some() || self.output.format == Format::Csv {
+            let line = "intervals of parameters: --harmonics and csv have no place for them";
+            return Err(Failure::Usage(line.to_owned()));
+        }
+        let proof = prove(known, &[]);
+        self.certify(&proof)?;
+        print(&match self.output.format {
+            Format::Json => json::text(&certified::boxed(&proof)),
+            Format::Table | Format::Csv => certified::box_table(&proof),
+        })
+    }
+
+    /// Writes the certificate if it is wanted.
+    fn certify(&self, proof: &Proof) -> Result<(), Failure> {
+        let Some(path) = &self.certificate else { return Ok(()) };
+        let unwritten = |why: String| Failure::Unanswered(format!("no certificate: {why}"));
+        let made = certificate(proof).map_err(unwritten)?;
+        let text = made.text().map_err(|error| unwritten(error.to_string()))?;
+        check(&text).map_err(|refused| unwritten(refused.to_string()))?;
+        write(path, text.as_bytes(), self.force)
     }
 
     /// The cycles, their proof, and the harmonic balance if asked for.

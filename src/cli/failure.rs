@@ -17,15 +17,8 @@ pub enum Failure {
 
 impl Failure {
     /// What the parser of the command line complains about, as one line.
-    ///
-    /// `None` where it does not complain but shows help or version, which this prints.
-    pub fn from_parser(error: &clap::Error) -> Option<Self> {
-        let text = error.render().to_string();
-        if error.use_stderr() {
-            Some(Failure::Usage(first_paragraphs(&text)))
-        } else {
-            super::output::print(&text).err()
-        }
+    pub fn from_parser(error: &clap::Error) -> Self {
+        Failure::Usage(first_paragraphs(&error.render().to_string()))
     }
 
     /// A file that cannot be read or written.

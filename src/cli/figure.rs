@@ -7,13 +7,13 @@ use clap::{Args, ValueEnum};
 use super::failure::Failure;
 use super::output::{print, write};
 use super::start::Start;
-use crate::export::figure::{self as forms, Form};
-use crate::export::screen;
+use crate::figure::{self as forms, Form};
 use crate::flow::Limits;
 use crate::runtime::print::{complete, figure};
 use crate::scene::answer::Fineness;
 use crate::scene::library::library;
 use crate::session::{Session, Size};
+use crate::view::screen;
 use crate::view::{self, Look};
 
 /// Writes what a scene shows as SVG, PNG, CSV or JSON, or draws it here

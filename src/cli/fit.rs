@@ -10,13 +10,18 @@ use clap::{Args, ValueEnum};
 use super::failure::Failure;
 use super::output::{Format, Output, print, write};
 use super::timing::timed;
-use crate::export::figure::{self, Form};
-use crate::export::fit::{self as forms, Fitted, Inertia, LENGTHS, length_in_metres};
+use crate::figure::{self, Figure, Form};
+use crate::fit::contour::{RISES, contour};
+use crate::fit::levenberg_marquardt::Effort;
 use crate::fit::names::{Choice, NAMES, NameSpec, named};
-use crate::fit::observation::{OMEGA0, R};
-use crate::fit::{Column, DRAWS, LossName, Question, Reading, Unfit, estimate, margins, parse};
+use crate::fit::observation::{D, OMEGA0, R};
+use crate::fit::{
+    Column, DRAWS, Estimate, Fitted, Inertia, LENGTHS, LossName, Question, Reading, Unfit,
+    estimate, length_in_metres, margins, parse,
+};
 use crate::flow::Limits;
 use crate::oscillator::belt::Dimension;
+use crate::report::fit as forms;
 use crate::scene::machine::unit::measured;
 
 /// Estimates omega0, offset, D, D2, D3 and r of a recorded motion, with errors, and the margin that follows
@@ -179,7 +184,7 @@ impl Fit {
         let fitted = self.fitted()?;
         if let Some((path, form)) = &self.pictures {
             let content =
-                figure::file(&forms::figure(&fitted), *form).map_err(Failure::Unanswered)?;
+                figure::file(&Figure::of_fit(&fitted), *form).map_err(Failure::Unanswered)?;
             write(path, &content, self.force)?;
         }
         print(&match self.output.format {
@@ -212,8 +217,9 @@ impl Fit {
             Unfit::TooFew { .. } | Unfit::NotAlternating { .. } => bad(&reason),
             _ => Failure::Unanswered(format!("{name}: {reason}")),
         })?;
+        let contours = if self.pictures.is_some() { contours(&estimate) } else { Vec::new() };
         let name = short_name(&self.file);
-        Ok(Fitted { name, record, estimate, margins, inertia, seconds })
+        Ok(Fitted { name, record, estimate, margins, contours, inertia, seconds })
     }
 
     fn question(&self) -> Result<Question, Failure> {
@@ -242,6 +248,15 @@ impl Fit {
             .ok_or_else(|| format!("{unit:?} is no known unit of length; --unit one of {known}"))?;
         Ok(Some((inertia, metres)))
     }
+}
+
+/// The contours of D and r, where both were estimated.
+fn contours(found: &Estimate) -> Vec<Vec<[f64; 2]>> {
+    if !(found.free[D] && found.free[R]) {
+        return Vec::new();
+    }
+    let mut effort = Effort { with_derivatives: 0, plain: 0, interrupted: &|| false };
+    RISES.iter().filter_map(|rise| contour(found, [D, R], *rise, &mut effort).ok()).collect()
 }
 
 fn short_name(path: &Path) -> String {

@@ -52,6 +52,14 @@ pub fn assignment(text: &str) -> Result<(Symbol, f64), String> {
     Ok((symbol, value_of(symbol, value)?))
 }
 
+/// `NAME=VALUE`, or `NAME=INTERVAL` where there is one.
+pub fn assigned(text: &str) -> Result<(Symbol, Interval), String> {
+    if text.contains("+-") || text.contains("..") {
+        return interval(text);
+    }
+    assignment(text).map(|(symbol, value)| (symbol, Interval::point(value)))
+}
+
 /// `NAME=INTERVAL`: a number, `VALUE+-HALFWIDTH` or `LOW..HIGH`.
 pub fn interval(text: &str) -> Result<(Symbol, Interval), String> {
     let form = "expected NAME=VALUE+-HALFWIDTH or NAME=LOW..HIGH, such as r=0.10+-0.01";

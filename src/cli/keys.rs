@@ -6,11 +6,10 @@ use serde::Serialize;
 use super::config::Settings;
 use super::failure::Failure;
 use super::output::{Format, print};
-use crate::export::csv;
-use crate::export::json;
-use crate::export::table::Table;
-use crate::session::COMMANDS;
-use crate::session::keymap::CONTEXTS;
+use crate::report::table::Table;
+use crate::report::{csv, json};
+use crate::session::commands;
+use crate::session::state::context::{CONTEXTS, ContextSpec};
 
 /// Lists the keys of the explorer, with the changes of the settings file
 #[derive(Debug, Args)]
@@ -23,11 +22,11 @@ pub struct Keys {
 }
 
 /// A command in a context.
-#[derive(Serialize)]
-struct Row {
+#[derive(Default, Serialize)]
+struct Row<K> {
     context: &'static str,
     command: &'static str,
-    keys: Vec<String>,
+    keys: K,
     meaning: &'static str,
 }
 
@@ -36,8 +35,8 @@ impl Keys {
     pub fn run(&self) -> Result<(), Failure> {
         let keymap = self.settings.read()?.keymap;
         let mut rows = Vec::new();
-        for (context, name) in CONTEXTS {
-            let here = COMMANDS.iter().filter(|row| row.keys.iter().any(|(at, _)| *at == context));
+        for ContextSpec { context, name, .. } in CONTEXTS {
+            let here = commands().filter(|row| row.keys.iter().any(|(at, _)| *at == context));
             rows.extend(here.map(|command| Row {
                 context: name,
                 command: command.name,
@@ -45,21 +44,26 @@ impl Keys {
                 meaning: command.doc,
             }));
         }
-        let cells = |row: &Row| {
-            [row.context, row.command, &row.keys.join(" "), row.meaning].map(str::to_owned)
-        };
         print(&match self.format {
             Format::Table => {
-                let mut table = Table::new(&["context", "command", "keys", "meaning"]);
-                for row in &rows {
-                    table.row(cells(row).to_vec());
-                }
+                let table = Table::of(
+                    &rows,
+                    &[
+                        ("context", &|row: &Row<Vec<String>>| row.context.to_owned()),
+                        ("command", &|row| row.command.to_owned()),
+                        ("keys", &|row| row.keys.join(" ")),
+                        ("meaning", &|row| row.meaning.to_owned()),
+                    ],
+                );
                 table.aligned_left()
             }
             Format::Json => json::text(&rows),
             Format::Csv => {
-                let head = csv::line(&["context", "command", "keys", "meaning"].map(str::to_owned));
-                std::iter::once(head).chain(rows.iter().map(|row| csv::line(&cells(row)))).collect()
+                let joined = rows.into_iter().map(|row| {
+                    let Row { context, command, keys, meaning } = row;
+                    Row { context, command, keys: keys.join(" "), meaning }
+                });
+                csv::sheet(&Row::<String>::default(), joined)
             }
         })?;
         if let (Some(path), Format::Table) = (self.settings.path(), self.format) {

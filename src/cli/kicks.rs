@@ -6,8 +6,8 @@ use super::failure::Failure;
 use super::output::{Format, Output, print};
 use super::start::Start;
 use super::timing::timed;
-use crate::export::kicks;
 use crate::flow::Limits;
+use crate::report::kicks;
 use crate::study::kicks::Kicks as Law;
 use crate::study::repeated::repeated;
 

@@ -6,9 +6,9 @@ use super::failure::Failure;
 use super::input;
 use super::output::{Format, Output, print};
 use super::timing::timed;
-use crate::export::guarantee;
 use crate::flow::Limits;
 use crate::oscillator::{Interval, ParameterBox, Symbol};
+use crate::report::guarantee;
 use crate::scene::library::{PLAIN, find};
 use crate::study;
 

@@ -12,9 +12,9 @@ use super::failure::Failure;
 use super::output::{holds_something, without};
 use super::part::Shard;
 use super::scan::{Asked, ScanCommand};
-use crate::export::provenance::Provenance;
-use crate::export::scan::Form;
 use crate::flow::Limits;
+use crate::report::provenance::Provenance;
+use crate::report::scan::Form;
 use crate::runtime::merging::{Conflict, Part, merge};
 use crate::runtime::provenance_file;
 

@@ -8,6 +8,7 @@ mod basin;
 mod belt;
 mod border;
 mod branch;
+mod check;
 mod config;
 mod cycles;
 mod explore;
@@ -68,6 +69,7 @@ struct Cli {
 enum Command {
     Trajectory(trajectory::Trajectory),
     Cycles(cycles::Cycles),
+    Check(check::Check),
     Branch(branch::Branch),
     Basin(basin::Basin),
     Margin(margin::Margin),
@@ -98,6 +100,7 @@ impl Command {
             Command::Tour(command) => return command.run(),
             Command::Trajectory(command) => command.run(),
             Command::Cycles(command) => command.run(),
+            Command::Check(command) => command.run(),
             Command::Branch(command) => command.run(),
             Command::Basin(command) => command.run(),
             Command::Margin(command) => command.run(),
@@ -125,7 +128,8 @@ pub fn main() -> ExitCode {
     let result = match Cli::try_parse() {
         Ok(Cli { command: Some(command), .. }) => command.run(),
         Ok(Cli { command: None, explore }) => explore.run(),
-        Err(error) => Failure::from_parser(&error).map_or(Ok(ExitCode::SUCCESS), Err),
+        Err(error) if error.use_stderr() => Err(Failure::from_parser(&error)),
+        Err(help) => output::print(&help.render().to_string()).map(|()| ExitCode::SUCCESS),
     };
     result.unwrap_or_else(|failure| failure.report())
 }

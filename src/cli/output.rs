@@ -20,6 +20,25 @@ pub struct Output {
     pub repeat: u32,
 }
 
+/// Whether an answer is also enclosed.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct Certify {
+    /// Encloses the answer, whatever the rounding, or says what is open
+    #[arg(long)]
+    certify: bool,
+}
+
+impl Certify {
+    /// Asks for the enclosure if it is wanted.
+    pub fn ask<T>(self, format: Format, ask: impl FnOnce() -> T) -> Result<Option<T>, Failure> {
+        if self.certify && format == Format::Csv {
+            let line = "--certify: csv has no place for bounds; allowed: table, json";
+            return Err(Failure::Usage(line.to_owned()));
+        }
+        Ok(self.certify.then(ask))
+    }
+}
+
 /// The form of an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Format {

@@ -5,8 +5,8 @@ use clap::Args;
 use super::failure::Failure;
 use super::output::{Format, Output, print};
 use super::timing::timed;
-use crate::export::claims;
 use crate::flow::Limits;
+use crate::report::claims;
 use crate::study::claims::examine_all;
 
 /// Puts every equation and claim of the paper that can be tested to the test

@@ -8,8 +8,8 @@ use clap::{Args, ValueEnum};
 use super::failure::Failure;
 use super::output::{print, without, write};
 use super::part::MOST;
-use crate::export::provenance::{Provenance, quoted};
-use crate::export::scan::Form;
+use crate::report::provenance::{Provenance, quoted};
+use crate::report::scan::Form;
 
 /// The options that ask for a recipe.
 #[derive(Clone, Debug, Args)]

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::time::{Duration, Instant};
 
-use crate::view::number::remaining;
+use crate::words::number::remaining;
 
 /// A line that says how many rows are done and how long the rest will take.
 #[derive(Debug)]

@@ -10,12 +10,12 @@ use super::input;
 use super::look::Looks;
 use super::output::print;
 use super::start::Start;
-use crate::export::screen;
 use crate::runtime::replay;
 use crate::session::config::Config;
 use crate::session::replay::{Script, parse};
 use crate::session::{Session, Size};
 use crate::terminal::Environment;
+use crate::view::screen;
 
 /// Runs a keystroke file without a terminal and prints the last screen
 #[derive(Debug, Args)]

@@ -18,10 +18,10 @@ use super::part::{Part, Shard};
 use super::plan::Plan;
 use super::progress::Progress;
 use super::start::Start;
-use crate::export::provenance::Provenance;
-use crate::export::scan::Form;
 use crate::flow::Limits;
 use crate::oscillator::Symbol;
+use crate::report::provenance::Provenance;
+use crate::report::scan::Form;
 use crate::runtime::provenance_file;
 use crate::runtime::scan_file::{Refusal, ScanFile};
 use crate::runtime::scanning::{Effort, rows};
@@ -44,6 +44,9 @@ pub struct ScanCommand {
     #[arg(long, value_name = "NAME,..", required = true, value_delimiter = ',',
           value_parser = Measure::named, help = measures_help())]
     measure: Vec<Measure>,
+    /// Also measures `proved`, which is the same as naming it
+    #[arg(long)]
+    certify: bool,
     /// Displacements and velocities of the starts of `stability`, `settling` and `finite-time`
     #[arg(long, value_name = "QMIN:QMAX,VMIN:VMAX", default_value = "-3:3,-3:3",
           value_parser = input::window, allow_hyphen_values = true)]
@@ -218,8 +221,12 @@ impl ScanCommand {
             disturbance: self.disturbance,
             kicks: self.kicks,
         };
-        let scan = Scan::new(base, self.over.clone(), self.measure.clone(), conditions)
-            .map_err(Failure::Usage)?;
+        let mut measures = self.measure.clone();
+        if self.certify && !measures.contains(&Measure::Proved) {
+            measures.push(Measure::Proved);
+        }
+        let scan =
+            Scan::new(base, self.over.clone(), measures, conditions).map_err(Failure::Usage)?;
         let points = self.part.points(scan.points())?;
         // Without further wishes the parts are made to be put together by cat.
         let headed = points.start == 0 || self.header == Header::Always;

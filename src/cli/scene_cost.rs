@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use super::failure::Failure;
 use super::timing::timed;
-use crate::export::scene_cost::{Question, SceneCost, StepCost};
 use crate::flow::Limits;
+use crate::report::scene_cost::{Question, SceneCost, StepCost};
 use crate::scene::answer::answer;
 use crate::scene::{Answered, Request, Scene, library};
-use crate::session::update::parameters;
+use crate::session::act::parameters;
 use crate::session::{Msg, Row, Session, Size, update};
 
 /// How often a question that is answered quickly is answered for the median of its times.

@@ -5,9 +5,7 @@ use clap::Args;
 use super::failure::Failure;
 use super::output::{Format, print};
 use super::scene_cost;
-use crate::export::csv;
-use crate::export::json;
-use crate::export::scene_cost as export;
+use crate::report::{scene_cost as cost, scenes as report};
 use crate::scene::library::library;
 
 /// Lists the scenes
@@ -27,9 +25,9 @@ impl Scenes {
         if self.cost {
             let found = scene_cost::measured()?;
             return print(&match self.format {
-                Format::Table => export::table(&found),
-                Format::Json => export::json(&found),
-                Format::Csv => export::csv(&found),
+                Format::Table => cost::table(&found),
+                Format::Json => cost::json(&found),
+                Format::Csv => cost::csv(&found),
             });
         }
         let scenes = library();
@@ -39,12 +37,8 @@ impl Scenes {
                 let line = |name: &str, title: &str| format!("{name:width$}  {title}\n");
                 scenes.iter().map(|scene| line(&scene.name, &scene.title)).collect()
             }
-            Format::Json => json::scenes(scenes.iter().map(AsRef::as_ref)),
-            Format::Csv => {
-                let row = |name: &str, title: &str| csv::line(&[name.to_owned(), title.to_owned()]);
-                let rows = scenes.iter().map(|scene| row(&scene.name, &scene.title));
-                std::iter::once(row("name", "title")).chain(rows).collect()
-            }
+            Format::Json => report::json(scenes.iter().map(AsRef::as_ref)),
+            Format::Csv => report::csv(scenes.iter().map(AsRef::as_ref)),
         })
     }
 }

@@ -9,7 +9,8 @@ use super::input;
 use crate::flow::method::{EPSILON_RANGE, STEP_RANGE};
 use crate::flow::quality::TOLERANCE_RANGE;
 use crate::flow::{METHODS, Method, Problem};
-use crate::oscillator::{PARAMETERS, Symbol};
+use crate::oscillator::{Interval, PARAMETERS, ParameterBox as Known, Symbol};
+use crate::proof::ParameterBox;
 use crate::scene::Scene;
 use crate::scene::library::{PLAIN, find};
 
@@ -20,9 +21,9 @@ pub struct Start {
     #[arg(long = "scene", value_name = "NAME")]
     pub scene: Option<String>,
 
-    #[arg(long, value_name = "NAME=VALUE", value_parser = input::assignment, help = parameters_help(),
+    #[arg(long, value_name = "NAME=VALUE", value_parser = input::assigned, help = parameters_help(),
           allow_hyphen_values = true)]
-    set: Vec<(Symbol, f64)>,
+    set: Vec<(Symbol, Interval)>,
 
     #[arg(long, value_name = "NAME", value_parser = input::method, help = methods_help())]
     method: Option<Method>,
@@ -40,7 +41,8 @@ pub struct Start {
     epsilon: Option<f64>,
 }
 
-fn tolerance(text: &str) -> Result<f64, String> {
+/// The relative error of a step.
+pub fn tolerance(text: &str) -> Result<f64, String> {
     input::within("tolerance", TOLERANCE_RANGE, text)
 }
 
@@ -71,6 +73,11 @@ impl Start {
     /// The same with another scene.
     pub fn scene_named(&self, name: &str) -> Result<Arc<Scene>, Failure> {
         let scene = find(name).map_err(|missing| Failure::Usage(missing.to_string()))?;
+        if let Some((symbol, _)) = self.set.iter().find(|(_, value)| !value.is_point()) {
+            let line =
+                format!("{symbol}: an interval is for cycles and margin; here it is a number");
+            return Err(Failure::Usage(line));
+        }
         Ok(self.applied(scene))
     }
 
@@ -83,7 +90,7 @@ impl Start {
         let changed = Arc::make_mut(&mut scene);
         let Problem { parameters, initial, .. } = &mut changed.problem;
         for &(symbol, value) in &self.set {
-            symbol.set(parameters, initial, value);
+            symbol.set(parameters, initial, value.middle());
             if !matches!(symbol, Symbol::Q0 | Symbol::V0) {
                 changed.terms.insert(symbol);
             }
@@ -93,6 +100,19 @@ impl Start {
         changed.problem.step = self.step.unwrap_or(changed.problem.step);
         changed.problem.epsilon = self.epsilon.unwrap_or(changed.problem.epsilon);
         scene
+    }
+
+    /// The parameters, each as the interval in which it was given.
+    pub fn known(&self) -> Result<ParameterBox, Failure> {
+        let name = self.scene.as_deref().unwrap_or(PLAIN);
+        let scene = find(name).map_err(|missing| Failure::Usage(missing.to_string()))?;
+        let mut known = Known::from(scene.problem.parameters);
+        for &(symbol, interval) in &self.set {
+            if !matches!(symbol, Symbol::Q0 | Symbol::V0) {
+                known.set(symbol, interval).map_err(Failure::Usage)?;
+            }
+        }
+        Ok(ParameterBox::from(&known))
     }
 
     /// The motion of the scene with what was set on the command line.

@@ -7,10 +7,11 @@ use super::input;
 use super::output::{Format, Output, print};
 use super::start::Start;
 use super::timing::in_turn;
-use crate::export::trade as export;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits};
+use crate::report::trade as report;
 use crate::study::trade::Trade as Found;
+use crate::view::trade_plot::in_letters;
 
 /// Shows what accuracy costs: every method over its tolerances on the same motion
 #[derive(Debug, Args)]
@@ -44,11 +45,14 @@ impl Trade {
             let row = &trade.rows[index];
             row.error().map(|_| trajectory(&row.problem, Detail::default(), &Limits::PATIENT))
         });
-        let timed = export::Timed { trade, seconds };
+        let timed = report::Timed { trade, seconds };
         print(&match self.output.format {
-            Format::Table => export::table(&timed),
-            Format::Json => export::json(&timed),
-            Format::Csv => export::csv(&timed),
+            Format::Table => {
+                let plot = in_letters(&timed.trade, &timed.seconds);
+                report::table(&timed, &plot)
+            }
+            Format::Json => report::json(&timed),
+            Format::Csv => report::csv(&timed),
         })
     }
 }

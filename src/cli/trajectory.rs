@@ -4,12 +4,16 @@ use clap::Args;
 
 use super::failure::Failure;
 use super::input;
-use super::output::{Format, Output, print};
+use super::output::{Certify, Format, Output, print};
 use super::start::Start;
 use super::timing::timed;
-use crate::export::{csv, json, table};
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits, Outcome, Problem};
+use crate::numerics::Interval;
+use crate::oscillator::State;
+use crate::proof::ParameterBox;
+use crate::proof::motion::{Motion, follow as enclosed};
+use crate::report::{certified, trajectory as report};
 
 /// Follows one motion: its turning points, how it ends, where the energy went
 #[derive(Debug, Args)]
@@ -18,6 +22,8 @@ pub struct Trajectory {
     start: Start,
     #[command(flatten)]
     output: Output,
+    #[command(flatten)]
+    certify: Certify,
     /// Time at which to stop, 0 .. 1e9 (default: that of the scene)
     #[arg(long, value_name = "T", value_parser = input::until, allow_hyphen_values = true)]
     until: Option<f64>,
@@ -37,10 +43,19 @@ impl Trajectory {
         if !matches!(motion.outcome, Outcome::GaveUp { .. }) {
             motion = follow(true);
         }
+        let State { q, v } = problem.initial;
+        let enclose = || {
+            let start = [q, v].map(Interval::point);
+            enclosed(&ParameterBox::from(&problem.parameters), start, problem.until)
+        };
+        let certified = self.certify.ask(self.output.format, enclose)?;
+        let line = |it: &Motion| certified::motion_line(it, problem.until);
         print(&match self.output.format {
-            Format::Table => table::trajectory(&motion, seconds),
-            Format::Json => json::trajectory(&motion, seconds),
-            Format::Csv => csv::trajectory(&motion),
+            Format::Table => {
+                report::table(&motion, seconds) + &certified.as_ref().map(line).unwrap_or_default()
+            }
+            Format::Json => report::json(&motion, certified.as_ref(), seconds),
+            Format::Csv => report::csv(&motion),
         })?;
         match motion.outcome {
             Outcome::GaveUp { tau, reason } => {

@@ -12,8 +12,8 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, PI};
 
-use super::twofold::{self, Twofold};
-use super::wide::Wide;
+use crate::numerics::twofold::{self, Twofold};
+use crate::numerics::wide::Wide;
 
 /// The roots for `D3 > 0`, `r > 0`.
 pub enum Pair {

@@ -19,7 +19,7 @@ use super::cubic::{
     Pair, distance_from_fold, large_root, small_root, subcritical, supercritical,
     zero_crossing_root,
 };
-use super::wide::Wide;
+use crate::numerics::wide::Wide;
 use crate::oscillator::Parameters;
 
 /// A stationary amplitude of the first-order harmonic approximation `q = A0 + A cos(tau)`.

@@ -3,17 +3,16 @@
 //! Nothing here is integrated. [`linear`] and [`piecewise_linear`] are exact for `D2 = D3 = 0`;
 //! [`harmonic`] (with its [`cubic`]) approximates cycles by one harmonic, [`harmonics`] by any number of
 //! them, which takes linear algebra and Newton's method; [`lyapunov`] bounds the basin by a circle.
-//! [`twofold`] and [`wide`] are the two kinds of number that keep the digits and the range which the
-//! formulas as printed lose.
+//! The numbers of [`crate::numerics`] keep the digits and the range which the formulas as printed lose.
 
-pub mod cubic;
+pub(crate) mod cubic;
+#[doc(hidden)]
 pub mod harmonic;
+#[doc(hidden)]
 pub mod harmonics;
-pub mod linear;
-pub mod lyapunov;
+pub(crate) mod linear;
+pub(crate) mod lyapunov;
 pub mod piecewise_linear;
-pub mod twofold;
-pub mod wide;
 
 #[cfg(test)]
 #[rustfmt::skip]

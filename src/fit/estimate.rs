@@ -10,7 +10,7 @@ use super::question::Unfit;
 use super::residuals::{Whiteness, whiteness};
 use super::search::Found;
 use super::turning_points::Extreme;
-use super::uncertainty::Covariance;
+use super::uncertainty::{Covariance, left_over};
 
 /// A minimum that competes with the best one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -112,24 +112,14 @@ pub fn judged(
         }
         Data::Peaks { .. } => 2.0,
     };
-    let judge = |absorbed: f64| match problem.data {
-        Data::Samples { .. } => whiteness(&kept, samples_per_period, absorbed),
+    let mut whiteness = whiteness(&kept, samples_per_period);
+    if problem.data.has_peaks() {
         // Of a few peaks, and of two kinds of residuals, no memory can be told.
-        Data::Peaks { .. } => Whiteness {
-            white: true,
-            autocorrelation: Vec::new(),
-            ..whiteness(&kept, samples_per_period, absorbed)
-        },
-    };
-    let mut whiteness = judge(0.0);
-    let mut covariance =
-        Covariance::at(&task, best, &whiteness.autocorrelation).ok_or(Unfit::Blind)?;
-    if !whiteness.autocorrelation.is_empty() {
-        #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
-        let absorbed = 1.0 - covariance.freedom / kept.len() as f64;
-        whiteness = judge(absorbed);
-        covariance = Covariance::at(&task, best, &whiteness.autocorrelation).ok_or(Unfit::Blind)?;
+        (whiteness.white, whiteness.autocorrelation) = (true, Vec::new());
     }
+    let left_over = |noise: &[f64], lags: usize| left_over(&task, best, noise, lags);
+    let whiteness = whiteness.restored(&kept, samples_per_period, left_over);
+    let covariance = Covariance::at(&task, best, &whiteness.autocorrelation).ok_or(Unfit::Blind)?;
     // Correlated noise makes larger differences of the loss by chance.
     let unit = task.variance(&best.seen, covariance.freedom) * covariance.inflation(R);
     let rivals: Vec<Rival> = found

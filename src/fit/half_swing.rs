@@ -7,6 +7,7 @@
 //! damping is linear and stays so, all of it is a formula; elsewhere the Taylor coefficients of motion and
 //! derivatives obey one recurrence.
 
+use crate::numerics::root::{Bracket, Change, newton};
 use crate::oscillator::HalfPlane;
 
 /// Solutions of the variational equation: across the flow, by D, by D2 of this frame, by D3.
@@ -237,21 +238,5 @@ fn arrival(terms: &[Lanes; ORDER + 1], end: f64) -> f64 {
         let rest = terms[skip..].iter().rev();
         rest.fold((0.0, 0.0), |(value, slope), term| (value * t + term[1], slope * t + value))
     };
-    let (mut low, mut high) = (0.0, end);
-    let mut t = end;
-    for _ in 0..100 {
-        let (v, slope) = value(t);
-        if v > 0.0 {
-            low = t;
-        } else {
-            high = t;
-        }
-        let newton = t - v / slope;
-        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-        if (next - t).abs() <= 2.0 * f64::EPSILON * end {
-            return next;
-        }
-        t = next;
-    }
-    t
+    newton(Bracket::falling(0.0, end), end, Change::Absolute(2.0 * f64::EPSILON * end), value).at
 }

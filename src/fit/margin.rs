@@ -2,13 +2,14 @@
 //!
 //! D, D2, D3 and r are drawn from their joint distribution, and the smallest kick that is not survived is computed
 //! exactly for each draw. The derivative would explode where the margin ends in a fold, or is infinite on one
-//! side of it; quantiles do not. Draws are spread evenly (an additive recurrence) rather than at random, so few of them do.
+//! side of it; quantiles do not. Draws are spread evenly (an additive recurrence) rather than at random, so few of
+//! them suffice. Where the loss is not quadratic they come from the likelihood itself ([`super::posterior`]).
 
-use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::estimate::Estimate;
-use super::observation::{D, D2, D3, R, Unknowns, parameters};
+use super::observation::parameters;
+use super::posterior::{Drawn, drawn};
 use crate::flow::{Limits, Reason};
 use crate::oscillator::Parameters;
 use crate::study::basin::Basin;
@@ -47,6 +48,8 @@ pub struct Margins {
     pub displacements: Vec<f64>,
     /// The parameters drawn.
     pub draws: Vec<Parameters>,
+    /// Where draws were weighted by their likelihood: as many of equal weight would tell as much.
+    pub effective: Option<f64>,
     /// Whether the median displacement lies outside the amplitudes measured.
     pub extrapolated: bool,
     /// Draws whose margin could not be computed.
@@ -56,9 +59,6 @@ pub struct Margins {
 /// How many draws.
 pub const DRAWS: usize = 400;
 
-/// The damping and friction numbers.
-const PLACES: [usize; 4] = [D, D2, D3, R];
-
 /// The distribution of the margins that the estimate leaves.
 ///
 /// # Errors
@@ -66,7 +66,7 @@ const PLACES: [usize; 4] = [D, D2, D3, R];
 pub fn margins(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Margins, Reason> {
     let (smallest, largest) = estimate.amplitudes();
     let ask = |parameters: &Parameters| answer(parameters, largest, limits);
-    let drawn = drawn(estimate, draws);
+    let Drawn { draws: drawn, effective } = drawn(estimate, draws, limits)?;
     let computed: Vec<Result<Answer, Reason>> = drawn.par_iter().map(ask).collect();
     if (limits.interrupted)() {
         return Err(Reason::Interrupted);
@@ -90,6 +90,7 @@ pub fn margins(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Mar
         failed: draws - known.len(),
         displacements,
         draws: drawn,
+        effective,
     })
 }
 
@@ -130,87 +131,9 @@ fn spread(sorted: &[f64]) -> Spread {
     Spread { median: at(0.5), lower: at(0.025), upper: at(0.975), none: share }
 }
 
-/// Draws from the normal distribution of the estimate; with several minima each takes its part. Negative
-/// friction, which the data may allow and the world does not, is none.
-fn drawn(estimate: &Estimate, draws: usize) -> Vec<Parameters> {
-    let covariance = DMatrix::from_fn(4, 4, |i, j| estimate.covariance.of(PLACES[i], PLACES[j]));
-    // Held numbers have no variance, so the root is that of eigenvalues, not Cholesky's; scaled, since units differ.
-    let scale: Vec<f64> = PLACES
-        .iter()
-        .map(|&place| estimate.covariance.error(place))
-        .map(|error| if error > 0.0 { error } else { 1.0 })
-        .collect();
-    let scaled = DMatrix::from_fn(4, 4, |i, j| covariance[(i, j)] / (scale[i] * scale[j]));
-    let eigen = scaled.symmetric_eigen();
-    let centers: Vec<(f64, &Unknowns)> =
-        estimate.contenders().map(|rival| ((-0.5 * rival.delta_chi2).exp(), &rival.p)).collect();
-    let whole: f64 = centers.iter().map(|(weight, _)| weight).sum();
-    let draw = |index: usize| {
-        let even = evenly(index);
-        let normal =
-            DVector::from_fn(4, |i, _| eigen.eigenvalues[i].max(0.0).sqrt() * normal_at(even[i]));
-        let step = &eigen.eigenvectors * normal;
-        let mut left = even[4] * whole;
-        let chosen = centers.iter().find(|(weight, _)| {
-            left -= weight;
-            left < 0.0
-        });
-        let mut p = chosen.map_or(estimate.p, |(_, p)| **p);
-        for (i, &place) in PLACES.iter().enumerate() {
-            p[place] += scale[i] * step[i];
-        }
-        p[R] = p[R].max(0.0);
-        parameters(&p)
-    };
-    (0..draws).map(draw).collect()
-}
-
-/// Point `index` of an evenly spread sequence in five dimensions: multiples of powers of the inverse of the
-/// root of `x^6 = x + 1`, modulo 1 (Roberts, 2018).
-fn evenly(index: usize) -> [f64; 5] {
-    const ROOT: f64 = 1.134_724_138_401_519_5;
-    #[expect(clippy::cast_precision_loss, reason = "a count of draws")]
-    let number = index as f64 + 1.0;
-    let mut power = 1.0;
-    std::array::from_fn(|_| {
-        power /= ROOT;
-        (0.5 + number * power).fract()
-    })
-}
-
-/// The value below which a normal variable lies with this probability, to 4.5e-4 (Abramowitz and Stegun,
-/// 26.2.23).
-fn normal_at(probability: f64) -> f64 {
-    let tail = probability.min(1.0 - probability).max(f64::MIN_POSITIVE);
-    let t = (-2.0 * tail.ln()).sqrt();
-    let above = 2.515_517 + t * (0.802_853 + t * 0.010_328);
-    let below = 1.0 + t * (1.432_788 + t * (0.189_269 + t * 0.001_308));
-    let value = t - above / below;
-    if probability < 0.5 { -value } else { value }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn draws_are_normal_and_independent() {
-        const COUNT: u32 = 400;
-        let drawn: Vec<[f64; 5]> = (0..COUNT as usize).map(evenly).collect();
-        let mean = |value: &dyn Fn(&[f64; 5]) -> f64| {
-            drawn.iter().map(value).sum::<f64>() / f64::from(COUNT)
-        };
-        for i in 0..4 {
-            assert!(mean(&|it| normal_at(it[i])).abs() < 0.03);
-            assert!((mean(&|it| normal_at(it[i]).powi(2)) - 1.0).abs() < 0.04);
-            for j in 0..i {
-                assert!(mean(&|it| normal_at(it[i]) * normal_at(it[j])).abs() < 0.07, "{i} {j}");
-            }
-        }
-        for (probability, value) in [(0.5, 0.0), (0.975, 1.959_964), (0.05, -1.644_854)] {
-            assert!((normal_at(probability) - value).abs() < 5e-4);
-        }
-    }
 
     #[test]
     fn quantiles_of_margins_that_may_be_infinite() {

@@ -9,38 +9,70 @@
 //! what only combinations are known of ([`separable`]), and what all this leaves of the margin ([`margin`]).
 //!
 //! Nothing here touches a file: text goes in, estimates come out.
+//!
+//! ```
+//! use hopfscope::fit::{Question, Reading, estimate, parse};
+//! use hopfscope::flow::{Detail, Limits, Problem, trajectory::trajectory};
+//! use hopfscope::oscillator::{Parameters, State};
+//!
+//! // A free decay, as an instrument would record it: time and displacement, a row each.
+//! let problem = Problem {
+//!     parameters: Parameters { d: 0.02, d2: 0.0, d3: 0.0, r: 0.05 },
+//!     initial: State { q: 1.0, v: 0.0 },
+//!     ..Problem::default()
+//! };
+//! let detail = Detail { samples_per_step: 8, ..Detail::default() };
+//! let motion = trajectory(&problem, detail, &Limits::PATIENT);
+//! let text: String = (0..400)
+//!     .filter_map(|index| motion.at(0.1 * f64::from(index)))
+//!     .map(|sample| format!("{} {}\n", sample.tau, sample.q))
+//!     .collect();
+//! let record = parse(text.as_bytes(), &Reading::default()).unwrap();
+//! let found = estimate(&record, &Question::default(), &|| false).unwrap();
+//! assert!(found.rests && found.half_swings > 5);
+//! ```
 
-pub mod chance;
-pub mod decrements;
+pub(crate) mod contour;
+pub(crate) mod decrements;
+#[doc(hidden)]
 pub mod estimate;
-pub mod guess;
-pub mod half_swing;
-pub mod header;
+pub(crate) mod fitted;
+pub(crate) mod guess;
+pub(crate) mod half_swing;
+pub(crate) mod header;
+#[doc(hidden)]
 pub mod levenberg_marquardt;
-pub mod loss;
-pub mod margin;
-pub mod motion;
+pub(crate) mod loss;
+pub(crate) mod margin;
+pub(crate) mod motion;
+#[doc(hidden)]
 pub mod names;
-pub mod noise;
+pub(crate) mod noise;
+#[doc(hidden)]
 pub mod observation;
-pub mod peaks;
-pub mod problem;
-pub mod profile;
-pub mod question;
-pub mod record;
+pub(crate) mod peaks;
+pub(crate) mod physical;
+pub(crate) mod posterior;
+pub(crate) mod problem;
+pub(crate) mod profile;
+pub(crate) mod question;
+pub(crate) mod record;
+#[doc(hidden)]
 pub mod refit;
-pub mod residuals;
-pub mod samples;
-pub mod search;
-pub mod separable;
-pub mod spectrum;
-pub mod triangle;
-pub mod turning_points;
-pub mod uncertainty;
-pub mod valley;
+pub(crate) mod residuals;
+pub(crate) mod samples;
+pub(crate) mod search;
+pub(crate) mod separable;
+pub(crate) mod spectrum;
+pub(crate) mod triangle;
+pub(crate) mod turning_points;
+pub(crate) mod uncertainty;
+pub(crate) mod valley;
 
 pub use estimate::Estimate;
+pub use fitted::{Fitted, Inertia, LENGTHS, length_in_metres};
 pub use margin::{DRAWS, Margins, margins};
+pub use observation::parameters;
 pub use question::{LossName, Question, Unfit};
 pub use record::{BadRecord, Column, Reading, Record, parse};
 

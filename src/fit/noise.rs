@@ -103,7 +103,7 @@ fn is_saturated(x: &[f64], limit: f64, range: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fit::chance::Chance;
+    use crate::numerics::random::Random;
 
     fn swing(count: u32) -> Vec<f64> {
         (0..count)
@@ -113,7 +113,7 @@ mod tests {
 
     #[test]
     fn noise_is_told_from_the_motion_and_outliers_from_noise() {
-        let mut chance = Chance::new(3);
+        let mut chance = Random::new(3);
         let mut x: Vec<f64> = swing(2000).iter().map(|x| x + 0.02 * chance.normal()).collect();
         let clean = Noise::of(&x);
         assert!((clean.deviation / 0.02 - 1.0).abs() < 0.1 && !clean.has_outliers, "{clean:?}");

@@ -78,7 +78,7 @@ impl Problem<'_> {
             .collect();
         #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
         let rate = t.len() as f64 / (t[t.len() - 1] - t[0]);
-        let found = whiteness(&within, rate * std::f64::consts::TAU / optimum.p[OMEGA0], 0.0);
+        let found = whiteness(&within, rate * std::f64::consts::TAU / optimum.p[OMEGA0]);
         if found.systematic || deviation > HIDDEN * self.noise {
             Verdict::Unexplained
         } else if found.white {

@@ -59,7 +59,7 @@ impl Profile<'_> {
     /// # Errors
     /// [`NoFit::Interrupted`].
     pub fn interval(&self, unknown: usize, effort: &mut Effort) -> Result<Interval, NoFit> {
-        let z = deviation_of_95_percent(self.covariance.independent);
+        let z = deviation_of_95_percent(self.covariance.independent(unknown));
         let reach = z * self.covariance.error(unknown);
         let white = self.covariance.inflation(unknown);
         let variance = self.task.variance(&self.optimum.seen, self.covariance.freedom);

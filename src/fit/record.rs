@@ -5,6 +5,8 @@
 
 use std::fmt;
 
+use serde::{Deserialize, Serialize};
+
 use super::header::{self, Header};
 
 /// A column of a file.
@@ -28,7 +30,7 @@ pub struct Reading {
 }
 
 /// What a file holds.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Record {
     /// Times in s; none where a list of peaks has none.
     pub t: Option<Vec<f64>>,
@@ -81,7 +83,8 @@ enum Cell {
 }
 
 /// The text of a file: UTF-8, UTF-16 with its mark, or else Latin-1.
-fn decoded(bytes: &[u8]) -> String {
+#[must_use]
+pub fn decoded(bytes: &[u8]) -> String {
     let wide = |pair: fn([u8; 2]) -> u16| {
         let units = bytes[2..].chunks_exact(2).map(|two| pair([two[0], two[1]]));
         char::decode_utf16(units).map(|char| char.unwrap_or(char::REPLACEMENT_CHARACTER)).collect()

@@ -22,10 +22,9 @@ const ORDERS: usize = 10;
 /// The longest memory of filtered noise, in periods of the motion.
 const LONG: f64 = 0.25;
 
-/// Judges residuals, in the order of time, of a motion with so many samples a period; `absorbed` is the part of the
-/// noise that the fit has taken up, and with it the same part of what neighbours have in common.
+/// Judges residuals, in the order of time, of a motion with so many samples a period.
 #[must_use]
-pub fn whiteness(residuals: &[f64], samples_per_period: f64, absorbed: f64) -> Whiteness {
+pub fn whiteness(residuals: &[f64], samples_per_period: f64) -> Whiteness {
     /// Fewer residuals say nothing.
     const FEWEST: usize = 24;
     let n = residuals.len();
@@ -33,19 +32,58 @@ pub fn whiteness(residuals: &[f64], samples_per_period: f64, absorbed: f64) -> W
         let correlation = if n > 2 { autocorrelations(residuals, &[1])[0] } else { 0.0 };
         return Whiteness { correlation, white: true, ..Whiteness::default() };
     }
-    let short: Vec<usize> = (1..=ORDERS.min(n / 5)).collect();
-    let rho = autocorrelations(residuals, &short);
+    let rho = autocorrelations(residuals, &short_lags(n));
     let squares: f64 = rho.iter().map(|rho| rho * rho).sum();
-    let limit = chi_squared(count(short.len()), RARE);
+    let limit = chi_squared(count(rho.len()), RARE);
     let white = count(n) * squares <= limit && rho[0].abs() * count(n).sqrt() <= RARE + 0.3;
     let white = white && !is_patchy(residuals, samples_per_period);
-    let restored: Vec<f64> = rho.iter().map(|rho| rho + absorbed * (1.0 - rho)).collect();
-    let autocorrelation = if white { Vec::new() } else { autoregressive(&restored, n) };
-    // A memory as long as a good part of a swing is no filter's: a drift, or what the model leaves out.
-    let memory: f64 = autocorrelation.iter().sum();
-    let systematic = memory > LONG * samples_per_period
-        || swings(residuals, &autocorrelation, samples_per_period);
-    Whiteness { correlation: rho[0], autocorrelation, white, systematic }
+    let autocorrelation = if white { Vec::new() } else { autoregressive(&rho, n) };
+    let found = Whiteness { correlation: rho[0], white, ..Whiteness::default() };
+    found.with_memory(autocorrelation, residuals, samples_per_period)
+}
+
+impl Whiteness {
+    /// Judges what is left beside a noise with these autocorrelations.
+    fn with_memory(self, noise: Vec<f64>, residuals: &[f64], samples_per_period: f64) -> Self {
+        // A memory as long as a good part of a swing is no filter's: a drift, or what the model leaves out.
+        let memory: f64 = noise.iter().sum();
+        let systematic =
+            memory > LONG * samples_per_period || swings(residuals, &noise, samples_per_period);
+        Whiteness { autocorrelation: noise, systematic, ..self }
+    }
+
+    /// The same for the noise before the fit absorbed a part of it: the one whose residuals, by `left_over`,
+    /// have the autocorrelations that are seen.
+    #[must_use]
+    pub fn restored(
+        self,
+        residuals: &[f64],
+        samples_per_period: f64,
+        left_over: impl Fn(&[f64], usize) -> Vec<f64>,
+    ) -> Self {
+        /// Each round leaves a part of the error of the one before.
+        const ROUNDS: usize = 6;
+        if self.autocorrelation.is_empty() {
+            return self;
+        }
+        let seen = autocorrelations(residuals, &short_lags(residuals.len()));
+        let mut noise = self.autocorrelation.clone();
+        for _ in 0..ROUNDS {
+            let expected = left_over(&noise, seen.len());
+            let at = |lag: usize| noise.get(lag).copied().unwrap_or(0.0);
+            let rho = seen.iter().zip(expected).enumerate();
+            let rho: Vec<f64> = rho
+                .map(|(lag, (seen, expected))| (seen + at(lag) - expected).clamp(-0.999, 0.999))
+                .collect();
+            noise = autoregressive(&rho, residuals.len());
+        }
+        self.with_memory(noise, residuals, samples_per_period)
+    }
+}
+
+/// The lags at which autocorrelations of so many residuals are looked at.
+fn short_lags(n: usize) -> Vec<usize> {
+    (1..=ORDERS.min(n / 5)).collect()
 }
 
 /// Whether some half swing is fitted worse than chance has it: a wrong last half swing is lost in the average.
@@ -145,10 +183,10 @@ fn swings(residuals: &[f64], short: &[f64], samples_per_period: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fit::chance::Chance;
+    use crate::numerics::random::Random;
 
     fn noise(n: usize, rho: f64) -> Vec<f64> {
-        let mut chance = Chance::new(7);
+        let mut chance = Random::new(7);
         let mut last = 0.0;
         let next = |_| {
             last = rho * last + (1.0 - rho * rho).sqrt() * chance.normal();
@@ -159,9 +197,9 @@ mod tests {
 
     #[test]
     fn independent_noise_is_white_and_filtered_noise_is_known_by_its_memory() {
-        let found = whiteness(&noise(4000, 0.0), 80.0, 0.0);
+        let found = whiteness(&noise(4000, 0.0), 80.0);
         assert!(found.white && !found.systematic, "{found:?}");
-        let found = whiteness(&noise(4000, 0.9), 80.0, 0.0);
+        let found = whiteness(&noise(4000, 0.9), 80.0);
         assert!(!found.white && !found.systematic, "{found:?}");
         for (lag, rho) in [(1, 0.9_f64), (2, 0.81), (10, 0.349)] {
             assert!((found.autocorrelation[lag - 1] - rho).abs() < 0.05, "{found:?}");
@@ -174,7 +212,7 @@ mod tests {
         for (index, e) in residuals.iter_mut().enumerate() {
             *e += 0.5 * (count(index) * std::f64::consts::TAU / 80.0).sin();
         }
-        let found = whiteness(&residuals, 80.0, 0.0);
+        let found = whiteness(&residuals, 80.0);
         assert!(!found.white && found.systematic, "{found:?}");
     }
 }

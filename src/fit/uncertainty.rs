@@ -1,9 +1,9 @@
 //! How well the unknowns are known: covariance, also for correlated noise.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use super::levenberg_marquardt::{Optimum, Task};
-use super::observation::{Data, UNKNOWNS, Unknowns};
+use super::observation::{Data, Residual, UNKNOWNS, Unknowns};
 
 /// The covariance of the free unknowns about a minimum.
 #[derive(Clone, Debug)]
@@ -18,8 +18,8 @@ pub struct Covariance {
     pub deviation: f64,
     /// Degrees of freedom: residuals less what the unknowns have absorbed of their noise.
     pub freedom: f64,
-    /// As many independent residuals would tell as much about the size of the noise.
-    pub independent: f64,
+    /// Kinds of residuals, of each of which the size is estimated for itself.
+    kinds: f64,
 }
 
 impl Covariance {
@@ -69,14 +69,13 @@ impl Covariance {
             Data::Peaks { t: Some(_), .. } => 2.0,
             _ => 1.0,
         };
-        let repeated = 1.0 + 2.0 * autocorrelation.iter().map(|rho| rho * rho).sum::<f64>();
         Some(Covariance {
             columns,
             matrix: spread * variance,
             white: bread * variance,
             deviation: (sum / freedom).sqrt(),
             freedom,
-            independent: freedom / (kinds * repeated),
+            kinds,
         })
     }
 
@@ -105,6 +104,17 @@ impl Covariance {
         self.place(unknown).map_or(1.0, |at| self.matrix[(at, at)] / self.white[(at, at)])
     }
 
+    /// As many independent residuals would tell as much about the variance of an unknown (Satterthwaite).
+    ///
+    /// Of correlated noise the memory is estimated, too: for an autoregression of first order with the inflation
+    /// `I = (1 + rho)/(1 - rho)` of slow unknowns the relative variance of their variance is `2 (1 + 2 I)/n`.
+    #[must_use]
+    pub fn independent(&self, unknown: usize) -> f64 {
+        let inflation = self.inflation(unknown);
+        let repeated = if inflation == 1.0 { 1.0 } else { 1.0 + 2.0 * inflation.max(1.0) };
+        self.freedom / (self.kinds * repeated)
+    }
+
     /// How all unknowns follow a unit change of one of them when the loss is kept as small as possible.
     #[must_use]
     pub fn along(&self, unknown: usize) -> Unknowns {
@@ -126,14 +136,7 @@ fn size(count: usize) -> f64 {
 /// The sum over all pairs of rows of their correlation times their outer product.
 fn correlated(rows: &[Vec<f64>], autocorrelation: &[f64], width: usize) -> DMatrix<f64> {
     let mut meat = DMatrix::<f64>::zeros(width, width);
-    // For each row, what all later rows weigh in.
-    for (index, row) in rows.iter().enumerate() {
-        let mut ahead: Vec<f64> = row.iter().map(|value| 0.5 * value).collect();
-        for (rho, later) in autocorrelation.iter().zip(&rows[index + 1..]) {
-            for (ahead, value) in ahead.iter_mut().zip(later) {
-                *ahead += rho * value;
-            }
-        }
+    for (row, ahead) in rows.iter().zip(blurred(rows, autocorrelation)) {
         for (i, one) in row.iter().enumerate() {
             for (j, other) in ahead.iter().enumerate() {
                 meat[(i, j)] += one * other;
@@ -141,6 +144,73 @@ fn correlated(rows: &[Vec<f64>], autocorrelation: &[f64], width: usize) -> DMatr
         }
     }
     &meat + meat.transpose()
+}
+
+/// For each row half of itself and what all later rows weigh in by their correlation with it.
+fn blurred(rows: &[Vec<f64>], autocorrelation: &[f64]) -> impl Iterator<Item = Vec<f64>> {
+    rows.iter().enumerate().map(|(index, row)| {
+        let mut ahead: Vec<f64> = row.iter().map(|value| 0.5 * value).collect();
+        for (rho, later) in autocorrelation.iter().zip(&rows[index + 1..]) {
+            for (ahead, value) in ahead.iter_mut().zip(later) {
+                *ahead += rho * value;
+            }
+        }
+        ahead
+    })
+}
+
+/// The autocorrelations at lags 1, 2, .. that the residuals of a fit to noise with these autocorrelations have
+/// on average: with `H = Q Q'`, which the unknowns absorb, the residuals have the covariance `(1 - H) S (1 - H)`.
+#[must_use]
+pub fn left_over(task: &Task, optimum: &Optimum, noise: &[f64], lags: usize) -> Vec<f64> {
+    let columns = task.columns();
+    let width = columns.len();
+    let factor = task.factor(&optimum.seen, &columns);
+    let upper = factor.view((0, 0), (width, width)).transpose();
+    let used = task.used_residuals(&optimum.seen);
+    let row = |it: &&Residual| {
+        let root = task.loss.weight(it.value).sqrt();
+        let row = DVector::from_iterator(width, columns.iter().map(|&c| root * it.by[c]));
+        upper.solve_lower_triangular(&row).map(|row| row.data.into())
+    };
+    let Some(q) = used.iter().map(row).collect::<Option<Vec<Vec<f64>>>>() else {
+        return vec![0.0; lags];
+    };
+    let forward: Vec<Vec<f64>> = blurred(&q, noise).collect();
+    let backward: Vec<Vec<f64>> = {
+        let reversed: Vec<Vec<f64>> = q.iter().rev().cloned().collect();
+        let mut blurred: Vec<Vec<f64>> = blurred(&reversed, noise).collect();
+        blurred.reverse();
+        blurred
+    };
+    // S Q and Q' S Q.
+    let add = |(one, other): (&Vec<f64>, &Vec<f64>)| -> Vec<f64> {
+        one.iter().zip(other).map(|(one, other)| one + other).collect()
+    };
+    let sq: Vec<Vec<f64>> = forward.iter().zip(&backward).map(add).collect();
+    let mut qsq = DMatrix::<f64>::zeros(width, width);
+    for (one, other) in q.iter().zip(&sq) {
+        for i in 0..width {
+            for j in 0..width {
+                qsq[(i, j)] += one[i] * other[j];
+            }
+        }
+    }
+    let dot = |one: &[f64], other: &[f64]| -> f64 {
+        one.iter().zip(other).map(|(one, other)| one * other).sum()
+    };
+    let at = |lag: usize| -> f64 {
+        let rho = if lag == 0 { 1.0 } else { noise.get(lag - 1).copied().unwrap_or(0.0) };
+        let mut sum = rho * size(q.len() - lag);
+        for (t, later) in q.iter().skip(lag).enumerate() {
+            let both: f64 =
+                (0..width).map(|j| later[j] * dot(&q[t], qsq.column(j).as_slice())).sum();
+            sum += both - dot(&sq[t], later) - dot(&q[t], &sq[t + lag]);
+        }
+        sum
+    };
+    let power = at(0);
+    (1..=lags).map(|lag| at(lag) / power).collect()
 }
 
 /// The deviation within which a normal variable, or with few degrees of freedom one of Student's, lies with

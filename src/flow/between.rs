@@ -1,6 +1,7 @@
 //! A computed motion between its samples, for pictures that move.
 
-use super::trajectory::{Outcome, Sample, Trajectory};
+use super::motion::{Outcome, Sample, Trajectory};
+use crate::numerics::hermite::Hermite;
 
 impl Trajectory {
     /// When the motion ended: the time of its outcome.
@@ -31,13 +32,8 @@ impl Trajectory {
         };
         let h = to.tau - from.tau;
         let t = (tau - from.tau) / h;
-        let (rise, a, b) = (to.q - from.q, h * from.v, h * to.v);
-        let (second, third) = (3.0 * rise - 2.0 * a - b, a + b - 2.0 * rise);
-        Some(Sample {
-            tau,
-            q: from.q + t * (a + t * (second + t * third)),
-            v: (a + t * (2.0 * second + t * 3.0 * third)) / h,
-        })
+        let q = Hermite { values: (from.q, to.q), slopes: (h * from.v, h * to.v) };
+        Some(Sample { tau, q: q.at(t), v: q.slope(t) / h })
     }
 }
 

@@ -2,8 +2,8 @@
 
 use super::limits::Reason;
 use super::step::{Point, Powers, Step, Stepper};
-use super::tableau::GAUSS;
 use crate::closed_form::linear::Linear;
+use crate::numerics::quadrature::GAUSS;
 use crate::oscillator::HalfPlane;
 
 /// Most pieces into which a step is cut for drawing and for quadrature; a piece is one unit of time.

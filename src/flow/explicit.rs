@@ -5,13 +5,15 @@
 //! shorter, until it ends there: Newton's method on the step length, so a crossing is as good as a step.
 
 use super::limits::Reason;
-use super::scaling::{rough_exp2, rough_log2};
 use super::step::{ErrorScale, Field, LONGEST, Point, Powers, Step, Stepper, stopping_time};
 use super::tableau::{Estimate, Scheme, dop853, dopri5, rk4};
+use crate::numerics::root::{Bracket, Change, newton};
+use crate::numerics::scaling::{rough_exp2, rough_log2};
 use crate::oscillator::HalfPlane;
 
-/// Newton steps on the length of the last step of a swing; it settles in about four.
-const POLISHING: usize = 30;
+/// Part of the length of the last step by which it may still change; it settles in about four attempts, and
+/// one more would change it by the square of this.
+const SETTLED: f64 = 1e-9;
 
 /// Most slopes that a dense output combines.
 const MOST_SLOPES: usize = 16;
@@ -201,27 +203,23 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
 
     /// Shortens the step until it ends at `v = 0`.
     fn arrive(&mut self, h: f64) -> Step {
-        let (mut low, mut high, mut length) = (0.0, h, h);
-        let mut end = self.end;
-        for _ in 0..POLISHING {
-            let newton = length - end.v / self.field.acceleration(end.x, end.v);
-            // The change after this one would be its square: below rounding.
-            if (newton - length).abs() <= 1e-9 * length {
-                break;
-            }
-            if end.v > 0.0 {
-                low = length;
-            } else {
-                high = length;
-            }
-            length = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            end = self.attempt(length);
+        let field = self.field;
+        let slope = |end: Point| field.acceleration(end.x, end.v);
+        let (mut length, mut end) = (h, self.end);
+        if (end.v / slope(end)).abs() > SETTLED * h {
+            let bracket = Bracket::falling(0.0, h);
+            let start = bracket.inside(h - end.v / slope(end));
+            newton(bracket, start, Change::Relative(SETTLED), |shorter| {
+                (length, end) = (shorter, self.attempt(shorter));
+                (end.v, slope(end))
+            });
         }
-        let slope = self.field.acceleration(end.x, end.v);
+        let slope = slope(end);
         let rest = if slope == 0.0 { 0.0 } else { -end.v / slope };
-        self.duration = (length + rest).max(0.0);
-        self.end = Point { x: end.x + rest * end.v + 0.5 * rest * rest * slope, v: 0.0 };
-        Step { duration: self.duration, end: self.end, crossed: true }
+        // The stages belong to `length`: what is computed from them must not be stretched by `rest`.
+        (self.duration, self.end) = (length, end);
+        let end = Point { x: end.x + rest * end.v + 0.5 * rest * rest * slope, v: 0.0 };
+        Step { duration: (length + rest).max(0.0), end, crossed: true }
     }
 
     /// A first step: the state may change by a hundredth of its size (Hairer, Norsett and Wanner II.4).

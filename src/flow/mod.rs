@@ -3,30 +3,46 @@
 //! A motion is a chain of smooth half swings glued at `v = 0`. Each is integrated in the frame of
 //! [`crate::oscillator::HalfPlane`] by one of the [`Method`]s, and ends at the first root of `v` after
 //! its start. No step ever crosses the switching line, so no method sees the discontinuity.
+//!
+//! ```
+//! use hopfscope::flow::{Detail, Limits, Outcome, Problem, trajectory::trajectory};
+//! use hopfscope::oscillator::{Parameters, State};
+//!
+//! let problem = Problem {
+//!     parameters: Parameters { d: -0.1, d2: 0.0, d3: 0.0, r: 0.5 },
+//!     initial: State { q: 2.0, v: 0.0 },
+//!     ..Problem::default()
+//! };
+//! let motion = trajectory(&problem, Detail::default(), &Limits::PATIENT);
+//! assert_eq!(motion.crossings.len(), 3);
+//! assert!(matches!(motion.outcome, Outcome::Captured { q, .. } if (q + 0.116_144).abs() < 1e-6));
+//! ```
 
-pub mod auto;
+pub(crate) mod auto;
 mod between;
-pub mod exact;
-pub mod explicit;
-pub mod limits;
+pub(crate) mod exact;
+pub(crate) mod explicit;
+pub(crate) mod limits;
+#[doc(hidden)]
 pub mod method;
+pub(crate) mod motion;
+#[doc(hidden)]
 pub mod precise;
+#[doc(hidden)]
 pub mod quality;
-pub mod regularized;
-pub mod run;
-pub mod scaling;
-pub mod step;
-pub mod stiff;
-pub mod stop;
-pub mod swing;
-pub mod tableau;
-pub mod taylor;
-pub mod time;
-pub mod time_stepping;
+pub(crate) mod regularized;
+pub(crate) mod run;
+pub(crate) mod step;
+pub(crate) mod stiff;
+pub(crate) mod stop;
+pub(crate) mod swing;
+pub(crate) mod tableau;
+pub(crate) mod taylor;
+pub(crate) mod time_stepping;
 pub mod trajectory;
-pub mod without_events;
+pub(crate) mod without_events;
 
 pub use limits::{Limits, Reason};
 pub use method::{METHODS, Method, MethodSpec};
+pub use motion::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory};
 pub use quality::{QUALITIES, Quality};
-pub use trajectory::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory};

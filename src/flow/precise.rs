@@ -5,11 +5,11 @@
 //! polynomial. It shares no arithmetic with the methods that it judges. It takes a hundred times their time.
 
 use super::limits::{Limits, Reason};
-use super::scaling::{exponent, field_in_units, times_power};
+use super::motion::{Cost, Problem};
 use super::step::{LONGEST, Point};
 use super::swing::time_to_blow_up;
-use super::trajectory::{Cost, Problem};
-use crate::closed_form::twofold::Twofold;
+use crate::numerics::scaling::{exponent, times_power};
+use crate::numerics::twofold::Twofold;
 use crate::oscillator::sticking::rests;
 use crate::oscillator::{HalfPlane, Side};
 
@@ -168,7 +168,7 @@ impl Swing {
         let unit = exponent(x.high.abs().max(v.high.abs()));
         let mut swing = Swing {
             plane,
-            field: field_in_units(&plane, unit),
+            field: plane.in_units(unit),
             unit,
             grain,
             x: [ZERO; MOST],
@@ -377,7 +377,7 @@ fn product(a: &[Twofold; MOST], b: &[Twofold; MOST], k: usize) -> Twofold {
 mod tests {
     use super::super::Method;
     use super::*;
-    use crate::closed_form::twofold::PI;
+    use crate::numerics::twofold::PI;
     use crate::oscillator::{Parameters, State};
 
     fn problem([d, d2, d3, r]: [f64; 4], q: f64, until: f64) -> Problem {

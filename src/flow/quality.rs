@@ -4,7 +4,7 @@
 //! friction is smoothed. [`Problem::setting`] is that number whatever it is called.
 
 use super::method::{Dial, EPSILON, EPSILON_RANGE, STEP, STEP_RANGE};
-use super::trajectory::Problem;
+use super::motion::Problem;
 
 /// Relative errors of a step that make sense for double precision.
 pub const TOLERANCE_RANGE: (f64, f64) = (1e-15, 1e-2);

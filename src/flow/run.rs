@@ -2,13 +2,14 @@
 
 use std::ops::ControlFlow;
 
-use super::scaling::{field_in_units, times_power};
+use super::limits::{Limits, Reason};
+use super::method::Method;
+use super::motion::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory};
 use super::step::{Field, Point, Powers, Step, Stepper};
 use super::stop::Stop;
 use super::swing::{End, Failed, Swing, glide, swing};
-use super::time::Time;
-use super::trajectory::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory};
-use super::{Limits, Method, Reason};
+use crate::numerics::scaling::times_power;
+use crate::numerics::sum::Sum;
 use crate::oscillator::energy::energy;
 use crate::oscillator::{HalfPlane, Ledger, Side, State};
 
@@ -17,7 +18,7 @@ pub struct Run {
     pub(super) detail: Detail,
     /// What is known so far.
     pub(super) found: Trajectory,
-    pub(super) time: Time,
+    pub(super) time: Sum,
     pub(super) works: Works,
 }
 
@@ -51,7 +52,7 @@ impl Run {
                 samples,
                 cost: Cost::default(),
             },
-            time: Time::default(),
+            time: Sum::default(),
             works: Works::default(),
         }
     }
@@ -59,7 +60,7 @@ impl Run {
     /// No answer.
     #[must_use]
     pub fn give_up(mut self, reason: Reason) -> Trajectory {
-        self.found.outcome = Outcome::GaveUp { tau: self.time.plus(0.0), reason };
+        self.found.outcome = Outcome::GaveUp { tau: self.time.value(), reason };
         self.found
     }
 
@@ -109,7 +110,7 @@ impl Run {
         match self.book(result) {
             Err(failed) => failed,
             Ok(End::Stopped { point }) => self.stopped(State { q: point.x, v: point.v }),
-            Ok(_) => Outcome::Escaped { tau: self.time.plus(0.0) },
+            Ok(_) => Outcome::Escaped { tau: self.time.value() },
         }
     }
 
@@ -142,7 +143,7 @@ impl Run {
                 Err(failed) => return failed,
                 Ok(end) => end,
             };
-            let tau = self.time.plus(0.0);
+            let tau = self.time.value();
             match end {
                 End::Escape => return Outcome::Escaped { tau },
                 End::Stopped { point: end } => {
@@ -208,8 +209,8 @@ impl Run {
             Err(failed) => (failed.duration, failed.steps),
         };
         self.found.cost.steps += steps;
-        self.time.advance(duration);
-        let tau = self.time.plus(0.0);
+        self.time.add(duration);
+        let tau = self.time.value();
         match result {
             Ok(swing) => Ok(swing.end),
             Err(failed) => Err(Outcome::GaveUp { tau, reason: failed.reason }),
@@ -221,7 +222,7 @@ impl Run {
         if q.is_finite() && v.is_finite() {
             Outcome::Moving { tau: self.found.problem.until, q, v }
         } else {
-            Outcome::GaveUp { tau: self.time.plus(0.0), reason: Reason::OutOfRange }
+            Outcome::GaveUp { tau: self.time.value(), reason: Reason::OutOfRange }
         }
     }
 }
@@ -229,7 +230,7 @@ impl Run {
 impl Works {
     /// Books the work of the damping terms over one step measured in units of `2^unit`.
     pub(super) fn add(&mut self, powers: &Powers, field: &HalfPlane, unit: i32) {
-        let field = field_in_units(field, unit);
+        let field = field.in_units(unit);
         let energy = |work: f64| times_power(times_power(work, unit), unit);
         self.linear += energy(-2.0 * field.d * powers.second);
         self.quadratic += energy(-field.d2 * powers.third);

@@ -13,16 +13,14 @@
 mod algebra;
 mod arrival;
 
-use algebra::{differences, interpolated, solve, weighted};
+use algebra::{MOST, differences, interpolated, solve, weighted};
 
 use super::limits::Reason;
-use super::scaling::{rough_exp2, rough_log2};
 use super::step::{ErrorScale, Field, LONGEST, Point, Powers, Step, Stepper, stopping_time};
 use super::tableau::radau::{Collocation, FIVE, SEVEN, THREE};
+use crate::numerics::root::bisect;
+use crate::numerics::scaling::{rough_exp2, rough_log2};
 use crate::oscillator::HalfPlane;
-
-/// Most stages.
-const MOST: usize = 7;
 
 /// The scheme for each tolerance: the first whose bound is not above it.
 static SCHEMES: [(f64, &Collocation); 3] = [(5e-4, &THREE), (1e-8, &FIVE), (0.0, &SEVEN)];
@@ -117,7 +115,7 @@ impl<F: Field> Stiff<F> {
     #[must_use]
     pub fn fastest(&self) -> Option<f64> {
         /// Halvings to half the digits of the time.
-        const HALVINGS: usize = 30;
+        const HALVINGS: u32 = 30;
         let falls = |time: f64| {
             let point = self.at(time);
             self.field.acceleration(point.x, point.v) <= 0.0
@@ -125,16 +123,8 @@ impl<F: Field> Stiff<F> {
         if falls(0.0) || !falls(self.duration) {
             return None;
         }
-        let (mut low, mut high) = (0.0, self.duration);
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            if falls(middle) {
-                high = middle;
-            } else {
-                low = middle;
-            }
-        }
-        Some(self.at(high).v)
+        let (_, time) = bisect(0.0, self.duration, HALVINGS, falls);
+        Some(self.at(time).v)
     }
 
     fn start_at(&mut self, from: Point) {

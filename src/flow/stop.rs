@@ -5,9 +5,9 @@
 //! and where the rim repels (`D <= -1`) it grows for ever. So it is computed by itself, and with its
 //! exponent, because it is quadratic in the velocity.
 
-use super::scaling::{exponent, field_in_units, times_power};
 use super::step::Point;
-use super::tableau::GAUSS;
+use crate::numerics::quadrature::GAUSS;
+use crate::numerics::scaling::{exponent, times_power};
 use crate::oscillator::HalfPlane;
 
 /// How far a motion still moves, and for how long.
@@ -33,7 +33,7 @@ impl Stop {
         /// Largest way as a part of the position: the force of the spring changes by as much.
         const NOTHING: f64 = 1e-12;
         let unit = exponent(point.v);
-        let HalfPlane { d, d2, d3 } = field_in_units(field, unit);
+        let HalfPlane { d, d2, d3 } = field.in_units(unit);
         let x = times_power(point.x, -unit);
         let top = times_power(point.v, -unit);
         let force = |v: f64| v * (2.0 * d.abs() + v * (d2.abs() + v * d3.abs()));

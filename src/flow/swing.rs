@@ -6,9 +6,9 @@
 use std::ops::ControlFlow;
 
 use super::limits::{Limits, Reason};
-use super::scaling::{exponent, field_in_units, times_power};
 use super::step::{Point, Step, Stepper};
-use super::time::Time;
+use crate::numerics::scaling::{exponent, times_power};
+use crate::numerics::sum::Sum;
 use crate::oscillator::HalfPlane;
 
 /// Size, as a power of two, at which the unit is chosen anew.
@@ -105,12 +105,12 @@ fn drive<S: Stepper>(
     let size = exponent(start.size());
     let mut point = Point { x: times_power(start.x, -size), v: times_power(start.v, -size) };
     let mut unit = unit + size;
-    let mut scaled = field_in_units(field, unit);
-    let mut clock = Time::default();
+    let mut scaled = field.in_units(unit);
+    let mut clock = Sum::default();
     let mut steps = 0;
     stepper.begin(&scaled);
     loop {
-        let time = clock.plus(0.0);
+        let time = clock.value();
         let failed = |reason| Failed { reason, duration: time, steps };
         if (limits.interrupted)() {
             return Err(failed(Reason::Interrupted));
@@ -126,8 +126,8 @@ fn drive<S: Stepper>(
         steps += 1;
         let goes_on = watch(stepper, time, unit, &step).is_continue();
         let step = progress(step, point, remaining);
-        clock.advance(step.duration);
-        let time = clock.plus(0.0);
+        clock.add(step.duration);
+        let time = clock.value();
         point = step.end;
         let done = |end| Ok(Swing { end, duration: time, steps });
         if step.crossed {
@@ -147,7 +147,7 @@ fn drive<S: Stepper>(
         let drift = exponent(point.size());
         if drift.abs() > FAR {
             unit += drift;
-            scaled = field_in_units(field, unit);
+            scaled = field.in_units(unit);
             point = Point { x: times_power(point.x, -drift), v: times_power(point.v, -drift) };
             stepper.begin(&scaled);
         }
@@ -173,12 +173,26 @@ fn progress(step: Step, from: Point, longest: f64) -> Step {
 
 /// Time until v becomes infinite, where escape is certain and this time is known to rounding.
 ///
+/// The time is that of the two driving terms alone ([`blow_up`]); it is used when what the others change is
+/// below [`BLOW_UP_ERROR`] of the time so far.
+pub(super) fn time_to_blow_up(field: &HalfPlane, point: Point, elapsed: f64) -> Option<f64> {
+    let (rest, others) = blow_up(field, point)?;
+    (rest * others <= BLOW_UP_ERROR * elapsed).then_some(rest)
+}
+
+/// Whether v is certain to become infinite.
+pub(crate) fn is_escaping(field: &HalfPlane, point: Point) -> bool {
+    blow_up(field, point).is_some()
+}
+
+/// Where escape is certain: the time to it by the terms that drive v alone, and the size of all others as a part
+/// of theirs.
+///
 /// For `v < 0` (met where there is no friction) the mirror image is asked. With `a = -D2` and `b = -D3`
 /// the terms `a v^2 + b v^3` drive v. Escape is certain once they exceed eight times all others together
 /// and x cannot catch up any more, and if `a` brakes, it does so with less than half of what `b` gives:
-/// from then on v grows, and these ratios with it. The time is that of the two terms alone; it is used when
-/// what the others change is below [`BLOW_UP_ERROR`] of the time so far.
-pub(super) fn time_to_blow_up(field: &HalfPlane, point: Point, elapsed: f64) -> Option<f64> {
+/// from then on v grows, and these ratios with it.
+fn blow_up(field: &HalfPlane, point: Point) -> Option<(f64, f64)> {
     let v = point.v.abs();
     let (a, b) = (if point.v < 0.0 { field.d2 } else { -field.d2 }, -field.d3);
     let drives = if a < 0.0 { b * v >= -2.0 * a } else { b >= 0.0 && (a > 0.0 || b > 0.0) };
@@ -186,11 +200,12 @@ pub(super) fn time_to_blow_up(field: &HalfPlane, point: Point, elapsed: f64) -> 
         return None;
     }
     let drive = v * v * (a + b * v);
-    let rest = time_to_infinity(a, b, v);
     let others = point.x.abs() + 2.0 * field.d.abs() * v;
-    let catching_up = rest * v;
-    let certain = drive > 8.0 * (others + catching_up);
-    (certain && rest * (others / drive) <= BLOW_UP_ERROR * elapsed).then_some(rest)
+    if drive <= 8.0 * others {
+        return None;
+    }
+    let rest = time_to_infinity(a, b, v);
+    (drive > 8.0 * (others + rest * v)).then_some((rest, others / drive))
 }
 
 /// The integral of `1/(a v^2 + b v^3)` from v to infinity.

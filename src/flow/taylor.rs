@@ -9,9 +9,13 @@
 //! of a step is about `e h/(rho - h)` of the state.
 
 use super::limits::Reason;
-use super::scaling::{exponent, rough_exp2, rough_log2, times_power};
 use super::step::{LONGEST, Point, Powers, Step, Stepper};
-use super::tableau::GAUSS;
+use crate::numerics::polynomial::{
+    derivative, reciprocals, value_and_slope_in_two as value_and_slope, value_in_two as value,
+};
+use crate::numerics::quadrature::GAUSS;
+use crate::numerics::root::{Bracket, Change, newton};
+use crate::numerics::scaling::{exponent, rough_exp2, rough_log2, times_power};
 use crate::oscillator::HalfPlane;
 
 /// Highest order.
@@ -63,19 +67,8 @@ pub struct Taylor {
     rejected: u64,
 }
 
-/// `1 / k`.
-const INVERSE: [f64; LENGTH] = {
-    let mut table = [0.0; LENGTH];
-    let mut k = 1;
-    while k < LENGTH {
-        #[expect(clippy::cast_precision_loss, reason = "k is below 32")]
-        {
-            table[k] = 1.0 / k as f64;
-        }
-        k += 1;
-    }
-    table
-};
+/// `1/k`.
+const INVERSE: [f64; LENGTH] = reciprocals();
 
 impl Taylor {
     /// A stepper whose relative truncation error a step is about `tolerance`.
@@ -196,33 +189,18 @@ impl Taylor {
 
     /// First root of v in `(0, end]`, in units of the coefficients, given `v(end) <= 0`.
     ///
-    /// Newton's method on the polynomial, from the root of the parabola through both ends with the slope
-    /// of the first, kept inside a bracket that shrinks by bisection wherever a Newton step leaves it.
-    /// `v > 0` just after 0 is known (from the side entered), whatever `v(0)` is.
+    /// Newton's method on the polynomial starts at the root of the parabola through both ends with the slope
+    /// of the first. `v > 0` just after 0 is known (from the side entered), whatever `v(0)` is.
     fn root(&self, end: f64, v_end: f64) -> f64 {
-        /// A Newton step of this relative length leaves an error below rounding: it is squared.
-        const SETTLED: f64 = 1e-9;
+        const SETTLED: Change = Change::Relative(1e-9);
         let (v, slope) = (self.v[0], self.v[1]);
         let bend = ((v_end - v) / end - slope) / end;
         let spread = (slope * slope - 4.0 * bend * v).sqrt();
         let guess =
             if slope > 0.0 { (slope + spread) / (-2.0 * bend) } else { 2.0 * v / (spread - slope) };
-        let (mut low, mut high) = (0.0, end);
-        let mut t = if guess > 0.0 && guess < end { guess } else { end };
-        for _ in 0..200 {
-            let (value, slope) = value_and_slope(&self.v[..=self.order], t);
-            let newton = t - value / slope;
-            if (newton - t).abs() <= SETTLED * t {
-                return newton.clamp(low, high);
-            }
-            if value > 0.0 {
-                low = t;
-            } else {
-                high = t;
-            }
-            t = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-        }
-        t
+        let start = if guess > 0.0 && guess < end { guess } else { end };
+        let v = |t: f64| value_and_slope(&self.v[..=self.order], t);
+        newton(Bracket::falling(0.0, end), start, SETTLED, v).at
     }
 }
 
@@ -236,37 +214,19 @@ impl Taylor {
 
     /// The largest v in the last step, if the acceleration changes its sign there.
     ///
-    /// Newton's method on the slope of the step's polynomial, from the middle, inside a bracket.
     #[must_use]
     pub fn fastest(&self) -> Option<f64> {
         let end = times_power(self.duration, -self.time_exponent);
-        let mut slopes = [0.0; LENGTH];
-        for k in 1..=self.order {
-            #[expect(clippy::cast_precision_loss, reason = "k is below 32")]
-            {
-                slopes[k - 1] = k as f64 * self.v[k];
-            }
-        }
+        let slopes = derivative(&self.v);
         let slopes = &slopes[..self.order];
         if !(slopes[0] > 0.0 && value(slopes, end) <= 0.0) {
             return None;
         }
-        let (mut low, mut high, mut t) = (0.0, end, 0.5 * end);
-        for _ in 0..60 {
-            let (slope, change) = value_and_slope(slopes, t);
-            let newton = t - slope / change;
-            // v is flat here: an error e of the time costs e^2 of v.
-            if (newton - t).abs() <= 1e-9 * end {
-                break;
-            }
-            if slope > 0.0 {
-                low = t;
-            } else {
-                high = t;
-            }
-            t = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-        }
-        Some(value(&self.v[..=self.order], t))
+        // v is flat there: an error e of the time costs e^2 of v.
+        let settled = Change::Absolute(1e-9 * end);
+        let bracket = Bracket::falling(0.0, end);
+        let peak = newton(bracket, 0.5 * end, settled, |t| value_and_slope(slopes, t));
+        Some(value(&self.v[..=self.order], peak.at))
     }
 }
 
@@ -309,39 +269,6 @@ impl Inner {
         }
         (squares[0] + squares[1], products[0] + products[1])
     }
-}
-
-/// A polynomial by Horner's rule in even and odd powers, two chains of half the length.
-fn value(coefficients: &[f64], t: f64) -> f64 {
-    let square = t * t;
-    let (mut even, mut odd) = (0.0, 0.0);
-    let pairs = coefficients.chunks_exact(2);
-    if let [last] = pairs.remainder() {
-        even = *last;
-    }
-    for pair in pairs.rev() {
-        even = even * square + pair[0];
-        odd = odd * square + pair[1];
-    }
-    even + t * odd
-}
-
-/// A polynomial and its derivative by Horner's rule, the even and the odd powers by themselves.
-fn value_and_slope(coefficients: &[f64], t: f64) -> (f64, f64) {
-    let square = t * t;
-    let (mut value, mut slope) = ([0.0; 2], [0.0; 2]);
-    let rows = coefficients.chunks_exact(2);
-    if let [last] = rows.remainder() {
-        value[0] = *last;
-    }
-    for row in rows.rev() {
-        for part in 0..2 {
-            slope[part] = slope[part] * square + value[part];
-            value[part] = value[part] * square + row[part];
-        }
-    }
-    // With p(t) = e(t^2) + t o(t^2): p' = o + 2 t (e' + t o').
-    (value[0] + t * value[1], value[1] + 2.0 * t * (slope[0] + t * slope[1]))
 }
 
 impl Taylor {

@@ -1,10 +1,10 @@
 //! Motions by steps that know no `v = 0`: the driver of the methods that stand here for comparison.
 
 use super::limits::{Limits, Reason};
+use super::motion::{Crossing, Outcome, Problem, Sample, Trajectory};
 use super::run::{Run, sample};
 use super::step::{Field, Point, Step, Stepper};
 use super::swing::time_to_blow_up;
-use super::trajectory::{Crossing, Outcome, Problem, Sample, Trajectory};
 use crate::oscillator::sticking::rests;
 use crate::oscillator::{HalfPlane, Side, State};
 
@@ -24,7 +24,7 @@ impl Run {
         let field = HalfPlane::new(&parameters, Side::Upper);
         let mut point = Point { x: initial.q, v: initial.v };
         let outcome = loop {
-            let tau = self.time.plus(0.0);
+            let tau = self.time.value();
             let here = State { q: point.x, v: point.v };
             if sticks && rests(here, parameters.r) {
                 break Outcome::Captured { tau, q: here.q };
@@ -89,7 +89,7 @@ impl Run {
             self.works.path += (end.x - start.x).abs();
         }
         self.found.cost.steps += 1;
-        self.time.advance(step.duration);
+        self.time.add(step.duration);
     }
 }
 

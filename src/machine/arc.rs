@@ -8,7 +8,9 @@
 use std::fmt;
 
 use super::model::{Model, Phase};
-use super::series::{Series, value, value_and_slope};
+use super::series::Series;
+use crate::numerics::polynomial::{derivative, value, value_and_slope};
+use crate::numerics::root::{Bracket, Change, newton};
 
 /// Why a motion was not followed to the end of its phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,7 +33,7 @@ impl fmt::Display for Stop {
         match self {
             Stop::OutsideLaw { slip } => write!(
                 out,
-                "motions of this machine slip by more than {slip} m/s, where the friction law ends or its \
+                "motions of this machine slip by more than {slip:.6} m/s, where the friction law ends or its \
                  coefficient falls below 0; it must be known and not negative there"
             ),
             Stop::Escaped => write!(out, "the motion runs away"),
@@ -89,11 +91,19 @@ pub struct End {
     pub accelerations: (f64, f64),
 }
 
+impl End {
+    /// Logarithm of the first acceleration over the last, in the direction of integration.
+    #[must_use]
+    pub fn log_ratio(&self) -> f64 {
+        (self.accelerations.0 / self.accelerations.1).abs().ln()
+    }
+}
+
 /// Most steps of an arc.
 const STEPS: u32 = 20_000;
 
 /// A motion that has shrunk by this factor within one arc turns no more.
-const SETTLED: f64 = 1e-60;
+const SETTLED: f64 = 1e-200;
 
 /// A motion this small is at rest: its series would underflow.
 const LEAST: f64 = 1e-250;
@@ -152,7 +162,7 @@ impl<'a> Flow<'a> {
             let series = &self.series;
             let acceleration = forward * series.y[1];
             let entered = *first.get_or_insert(acceleration);
-            let length = series.length();
+            let length = series.length(model.tolerance);
             if !(length > 0.0 && length.is_finite()) {
                 // Without terms nothing moves; with terms that overflow it moves beyond all bounds.
                 return Err(if length == f64::INFINITY { Stop::Settled } else { Stop::Escaped });
@@ -236,53 +246,20 @@ fn crossing(series: &Series, phase: Phase, end: f64, (low, high): (f64, f64)) ->
     Crossing { peak, hit: falls }
 }
 
-/// Root of `y - level` in a bracket on which y is monotone, with the given direction.
-fn root(series: &Series, level: f64, (mut low, mut high): (f64, f64), direction: f64) -> f64 {
-    let mut t = high;
-    for _ in 0..100 {
+/// The time in a bracket on which y is monotone, with the given direction, at which it is at a level.
+fn root(series: &Series, level: f64, (low, high): (f64, f64), direction: f64) -> f64 {
+    let bracket = Bracket { low, high, rising: direction > 0.0 };
+    let settled = Change::Absolute(1e-16 * high);
+    let ahead = |t: f64| {
         let (velocity, slope) = series.velocity(t);
-        let ahead = direction * (velocity - level);
-        if ahead > 0.0 {
-            high = t;
-        } else if ahead < 0.0 {
-            low = t;
-        } else {
-            return t;
-        }
-        let newton = t - (velocity - level) / slope;
-        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-        if (next - t).abs() <= 1e-16 * high || next <= low || next >= high {
-            return next;
-        }
-        t = next;
-    }
-    t
+        (velocity - level, slope)
+    };
+    newton(bracket, high, settled, ahead).at
 }
 
 /// Where the acceleration vanishes between 0 and `end`.
 fn turning(series: &Series, end: f64) -> f64 {
-    let mut slopes = [0.0; super::series::TERMS];
-    for (k, term) in series.y.iter().enumerate().skip(1) {
-        #[expect(clippy::cast_precision_loss, reason = "at most the order")]
-        {
-            slopes[k - 1] = k as f64 * term;
-        }
-    }
-    let sign = slopes[0].signum();
-    let (mut low, mut high, mut t) = (0.0, end, 0.5 * end);
-    for _ in 0..100 {
-        let (slope, bend) = value_and_slope(&slopes, t);
-        if sign * slope > 0.0 {
-            low = t;
-        } else {
-            high = t;
-        }
-        let newton = t - slope / bend;
-        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-        if (next - t).abs() <= 1e-16 * end {
-            return next;
-        }
-        t = next;
-    }
-    t
+    let slopes = derivative(&series.y);
+    let bracket = Bracket { low: 0.0, high: end, rising: slopes[0] < 0.0 };
+    newton(bracket, 0.5 * end, Change::Absolute(1e-16 * end), |t| value_and_slope(&slopes, t)).at
 }

@@ -45,6 +45,20 @@ pub fn branch(
     range: (f64, f64),
     count: usize,
 ) -> Result<Branch, String> {
+    branch_while(belt, varied, range, count, &|| true)
+}
+
+/// The same as long as it is wanted: a branch that is not ends early.
+///
+/// # Errors
+/// One line, where the machine's law has no such number.
+pub fn branch_while(
+    belt: &Belt,
+    varied: Varied,
+    range: (f64, f64),
+    count: usize,
+    wanted: &dyn Fn() -> bool,
+) -> Result<Branch, String> {
     varied.set(&mut belt.clone(), range.0)?;
     let family = |value: f64| {
         let mut here = belt.clone();
@@ -57,9 +71,10 @@ pub fn branch(
         varied.set(&mut here, value)?;
         Ok(BranchPoint { value, found: portrait(&here) })
     };
-    let points = (0..count).map(point).collect::<Result<Vec<_>, String>>()?;
+    let points = (0..count).take_while(|_| wanted()).map(point);
+    let points = points.collect::<Result<Vec<_>, String>>()?;
     let mut special = Vec::new();
-    for pair in points.windows(2) {
+    for pair in points.windows(2).take_while(|_| wanted()) {
         if let (Ok(one), Ok(other)) = (&pair[0].found, &pair[1].found) {
             special.extend(between(&family, (pair[0].value, one), (pair[1].value, other)));
         }

@@ -2,8 +2,10 @@
 
 use super::arc::{Step, Watch};
 use super::model::{Model, Phase};
-use super::series::{Terms, value, value_and_slope};
-use crate::flow::tableau::GAUSS;
+use super::series::Terms;
+use crate::numerics::polynomial::{value, value_and_slope};
+use crate::numerics::quadrature::gauss;
+use crate::numerics::root::{Bracket, Change, newton};
 
 /// One piece of a curve.
 #[derive(Clone, Debug)]
@@ -37,38 +39,28 @@ impl Slip {
     /// Displacement and velocity (divided by the natural frequency) at a time from the start of the step.
     #[must_use]
     pub fn at(&self, t: f64) -> (f64, f64) {
-        (value(&self.x, t) - self.offset, value(&self.y, t))
+        (value(&self.x[..], t) - self.offset, value(&self.y[..], t))
     }
 
     /// The time at which a series takes a value, in an interval at whose ends it lies on both sides.
-    fn when(terms: &Terms, target: f64, (mut low, mut high): (f64, f64)) -> f64 {
-        let rising = value(terms, high) > value(terms, low);
-        let mut t = 0.5 * (low + high);
-        for _ in 0..100 {
+    fn when(terms: &Terms, target: f64, (low, high): (f64, f64)) -> f64 {
+        let bracket = Bracket { low, high, rising: value(terms, high) > value(terms, low) };
+        let settled = Change::Absolute(1e-16 * span(low, high));
+        let height = |t: f64| {
             let (height, slope) = value_and_slope(terms, t);
-            if (height > target) == rising {
-                high = t;
-            } else {
-                low = t;
-            }
-            let newton = t - (height - target) / slope;
-            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            if (next - t).abs() <= 1e-16 * self::span(low, high) {
-                return next;
-            }
-            t = next;
-        }
-        t
+            (height - target, slope)
+        };
+        newton(bracket, bracket.middle(), settled, height).at
     }
 
     /// The velocity where the step passes a displacement; `None` where it does not.
     fn velocity_at(&self, x: f64) -> Option<f64> {
         let target = x + self.offset;
-        let (from, to) = (self.x[0], value(&self.x, self.duration));
+        let (from, to) = (self.x[0], value(&self.x[..], self.duration));
         if from.min(to) > target || from.max(to) < target {
             return None;
         }
-        Some(value(&self.y, Self::when(&self.x, target, (0.0, self.duration))))
+        Some(value(&self.y[..], Self::when(&self.x, target, (0.0, self.duration))))
     }
 
     /// The parts of the step between the places where it passes these values of x and y.
@@ -106,10 +98,10 @@ impl Slip {
                 return 0.0;
             }
             if y > window.y.0 && y < window.y.1 {
-                let square = |node: f64| value(&self.y, from + node * length).powi(2);
-                GAUSS.iter().map(|(node, weight)| weight * square(*node)).sum::<f64>() * length
+                let square = |node: f64| value(&self.y[..], from + node * length).powi(2);
+                gauss(square) * length
             } else {
-                let width = value(&self.x, ends[1]) - value(&self.x, from);
+                let width = value(&self.x[..], ends[1]) - value(&self.x[..], from);
                 y.clamp(window.y.0, window.y.1) * width.abs() * y.signum()
             }
         };

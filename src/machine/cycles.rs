@@ -6,7 +6,8 @@ use super::model::{Model, Phase};
 use super::return_map::{Image, Return};
 use super::search::{NOTHING, Sample, zeros};
 use super::turn::Place;
-use crate::oscillator::scaling::{exponent, times_power};
+use crate::numerics::root::bisect;
+use crate::numerics::scaling::{exponent, times_power};
 
 /// A limit cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,8 +26,10 @@ pub struct Cycle {
     pub period: f64,
     /// How long of it the mass rides on the belt, in s.
     pub stick_duration: f64,
-    /// Floquet multiplier; 0 where it sticks.
+    /// Floquet multiplier; 0 where it sticks, infinite beyond the range of doubles.
     pub multiplier: f64,
+    /// Its logarithm; minus infinity where it sticks.
+    pub log_multiplier: f64,
     /// Where it begins and ends to ride on the belt, in m.
     pub ride: Option<(f64, f64)>,
 }
@@ -73,7 +76,12 @@ pub struct FixedPoints {
     pub end: f64,
     /// See [`Self::end`].
     pub stop: Option<Stop>,
+    /// Intervals in which the search did not settle.
+    pub unresolved: Vec<(f64, f64)>,
 }
+
+/// Logarithm of a multiplier from which on cycles are computed backward in time.
+const STRONG: f64 = 4.0;
 
 /// Stands for what cannot be reckoned: the mass comes to rest, or runs away.
 const FAR: f64 = 1e3;
@@ -103,7 +111,22 @@ impl Flow<'_> {
         let touch = marks.and_then(|marks| marks.grazing.right);
         let scale = self.scale(marks);
         let at = |x: f64| (x / scale).ln();
-        let smallest = self.smallest(scale)?;
+        let mut smallest = match self.smallest(scale) {
+            // What comes to rest does so at once, or leaves the law.
+            Err(stop @ Stop::OutsideLaw { .. }) => {
+                let held = Sample { u: at(self.model.guide_static), f: -FAR, slope: 0.0 };
+                found.stop = Some(stop);
+                found.end = scale * self.edge(held, at(scale), scale).u.exp();
+                return Ok(found);
+            }
+            smallest => smallest?,
+        };
+        if let Some((x, image)) = self.innermost(smallest)? {
+            found.points.push((x, image));
+            smallest = x;
+        }
+        // By rounding a motion from there may still come to rest.
+        smallest *= 1.0 + 1e-12;
         let slipping = match touch {
             _ if smallest.is_infinite() => None,
             Some(touch) if touch > smallest => {
@@ -124,7 +147,7 @@ impl Flow<'_> {
             found.end = scale * last.u.exp();
             found.neutral = self.is_neutral(first, last, scale)?;
             if !found.neutral {
-                roots = zeros((first, last), &mut |u| self.growth(u, scale))?;
+                roots = self.zeros_between(first, last, scale, &mut found)?;
             }
         }
         if let Some(marks) = marks {
@@ -141,15 +164,12 @@ impl Flow<'_> {
                 if let Ok(first) = self.growth(at(start), scale) {
                     let last = self.farthest(start, scale, &mut found)?;
                     found.end = scale * last.u.exp();
-                    roots.extend(zeros((first, last), &mut |u| self.growth(u, scale))?);
+                    roots.extend(self.zeros_between(first, last, scale, &mut found)?);
                 }
             }
         }
         for u in roots {
-            let x = scale * u.exp();
-            if let Return::Turns(image) = self.returned(x)? {
-                found.points.push((x, image));
-            }
+            found.points.extend(self.sharpened(scale * u.exp())?);
         }
         found.points.sort_by(|one, other| one.0.total_cmp(&other.0));
         Ok(found)
@@ -177,17 +197,11 @@ impl Flow<'_> {
     fn smallest(&mut self, scale: f64) -> Result<f64, Stop> {
         /// Growth below this is on its way to be lost in rounding.
         const WEAK: f64 = 1e-9;
-        let (guide, held) = (self.model.guide, self.model.guide_static);
+        let held = self.model.guide_static;
         if held > 0.0 {
-            let before = match self.arc(Phase::Between, (held, 0.0), true, &mut ()) {
-                // What comes to rest there was released by the belt: all that only slips rests before.
-                Ok(end) if end.on_belt => return Ok(f64::INFINITY),
-                Ok(end) => end.x,
-                Err(Stop::Settled) => -guide,
-                Err(stop) => return Err(stop),
-            };
-            let right = self.right_before(before)?;
-            return Ok(right.unwrap_or(f64::INFINITY).max(held * (1.0 + 1e-12)));
+            // What comes to rest there was released by the belt: all that only slips rests before.
+            let before = self.preimage(held)?;
+            return Ok(before.map_or(f64::INFINITY, |before| before.x.max(held * (1.0 + 1e-12))));
         }
         let mut x = scale * 1e-3;
         let linear = self.model.linear_growth();
@@ -200,6 +214,54 @@ impl Flow<'_> {
             x *= 0.1;
         }
         Ok(x)
+    }
+
+    /// The zeros of the growth between two samples.
+    fn zeros_between(
+        &mut self,
+        first: Sample,
+        last: Sample,
+        scale: f64,
+        found: &mut FixedPoints,
+    ) -> Result<Vec<f64>, Stop> {
+        let zeros = zeros((first, last), &mut |u| self.growth(u, scale))?;
+        let turn = |u: f64| scale * u.exp();
+        found.unresolved.extend(zeros.unresolved.iter().map(|(from, to)| (turn(*from), turn(*to))));
+        Ok(zeros.found)
+    }
+
+    /// The innermost cycle, where it repels so strongly that a few turns backward lead to it from rest and
+    /// the map itself cannot tell it from what it repels.
+    fn innermost(&mut self, smallest: f64) -> Result<Option<(f64, Image)>, Stop> {
+        /// Turns at most.
+        const TURNS: usize = 8;
+        if self.model.guide_static == 0.0 || smallest.is_infinite() {
+            return Ok(None);
+        }
+        let mut x = smallest;
+        for _ in 0..TURNS {
+            let Some(image) = self.preimage(x)? else { return Ok(None) };
+            if (image.x - x).abs() <= 2.0 * f64::EPSILON * x {
+                return Ok(Some((x, image)));
+            }
+            if image.log_slope < STRONG {
+                return Ok(None);
+            }
+            x = image.x;
+        }
+        Ok(None)
+    }
+
+    /// The fixed point near `x` with its image; where it repels strongly, by the map backward.
+    fn sharpened(&mut self, x: f64) -> Result<Option<(f64, Image)>, Stop> {
+        let Return::Turns(image) = self.returned(x)? else { return Ok(None) };
+        let slips = image.sticks_from.is_none() && image.overtakes_from.is_none();
+        if !slips || image.log_slope < STRONG {
+            return Ok(Some((x, image)));
+        }
+        let before = self.preimage(x)?;
+        let again = before.map(|before| self.preimage(before.x)).transpose()?.flatten();
+        Ok(Some(again.zip(before).map_or((x, image), |(again, before)| (before.x, again))))
     }
 
     /// A right turning point far beyond `scale`, or as far as motions can be followed.
@@ -232,14 +294,10 @@ impl Flow<'_> {
     }
 
     /// The last place up to which the map is known, between one where it is and one where it is not.
-    fn edge(&mut self, mut known: Sample, mut unknown: f64, unit: f64) -> Sample {
-        for _ in 0..40 {
-            match self.growth(0.5 * (known.u + unknown), unit) {
-                Ok(sample) => known = sample,
-                Err(_) => unknown = 0.5 * (known.u + unknown),
-            }
-        }
-        known
+    fn edge(&mut self, known: Sample, unknown: f64, unit: f64) -> Sample {
+        let mut last = known;
+        bisect(known.u, unknown, 40, |u| self.growth(u, unit).map(|sample| last = sample).is_err());
+        last
     }
 
     /// Whether all motions in between are periodic.
@@ -269,6 +327,7 @@ impl Flow<'_> {
             period: extremes.duration / speed,
             stick_duration: extremes.stick / speed,
             multiplier: if sticks { 0.0 } else { image.log_slope.exp() },
+            log_multiplier: if sticks { f64::NEG_INFINITY } else { image.log_slope },
             ride: extremes.ride,
         })
     }

@@ -3,9 +3,11 @@
 //! As for the oscillator of the paper ([`crate::study::design`]): more friction of the guide turns the field
 //! inwards wherever the mass moves, so that the basin of rest grows with it.
 
+use super::guarantee::guaranteed;
 use super::model::Model;
 use super::portrait::{Border, Portrait};
 use super::survey::{Trouble, portrait};
+use super::tolerance::Tolerances;
 use crate::flow::Reason;
 use crate::oscillator::Belt;
 use crate::study::design::{Kick, Needed, least_friction};
@@ -18,32 +20,69 @@ fn margin(portrait: &Portrait, kick: Kick) -> f64 {
     })
 }
 
-/// The least friction R of the guide, in N, at which the margin is `wanted` (m or N s) or more; `None` where
-/// no bracket of it was found.
+/// The logarithm of the guaranteed margin of this kind, as a part of `wanted`.
+fn guaranteed_excess(
+    belt: &Belt,
+    known: &Tolerances,
+    kick: Kick,
+    wanted: f64,
+) -> Result<f64, Trouble> {
+    let found = guaranteed(belt, known)?.map_or(0.0, |kicks| match kick {
+        Kick::Displacement => kicks.displacement,
+        Kick::Impulse => kicks.impulse,
+    });
+    Ok((found / wanted).ln().max(f64::MIN))
+}
+
+/// The least friction R of the guide, in N, at which the margin, or with tolerances the guaranteed margin, is
+/// `wanted` (m or N s) or more; `None` where no bracket of it was found.
 ///
 /// # Errors
 /// [`Trouble`] where a machine on the way has no portrait.
-pub fn friction_for(belt: &Belt, kick: Kick, wanted: f64) -> Result<Option<Needed>, Trouble> {
+pub fn friction_for(
+    belt: &Belt,
+    known: &Tolerances,
+    kick: Kick,
+    wanted: f64,
+) -> Result<Option<Needed>, Trouble> {
     let model = Model::new(belt)?;
     let mut trouble = None;
+    let machine = |held: f64| {
+        let friction = held * belt.stiffness;
+        let static_guide = belt.static_guide.map(|at_rest| at_rest.max(friction));
+        Belt { friction, static_guide, ..belt.clone() }
+    };
     // As a length: what the guide holds at rest.
     let length = match kick {
         Kick::Displacement => wanted,
         Kick::Impulse => wanted / (model.mass * model.omega_0),
     };
-    let mut excess = |held: f64| {
-        let friction = held * belt.stiffness;
-        let static_guide = belt.static_guide.map(|at_rest| at_rest.max(friction));
-        match portrait(&Belt { friction, static_guide, ..belt.clone() }) {
-            Ok(found) if matches!(found.border, Border::NoBasin) => Ok(f64::MIN),
-            Ok(found) => Ok((margin(&found, kick) / wanted).ln().max(f64::MIN)),
-            Err(found) => {
-                trouble = Some(found);
-                Err(Reason::NotApplicable { needs: "a portrait of the machine" })
-            }
+    let told = |held: f64| {
+        let belt = machine(held);
+        if !known.is_none() {
+            return guaranteed_excess(&belt, known, kick, wanted);
         }
+        let found = portrait(&belt)?;
+        Ok(match found.border {
+            Border::NoBasin => f64::MIN,
+            _ => (margin(&found, kick) / wanted).ln().max(f64::MIN),
+        })
     };
-    let without = (model.damping > 0.0).then_some(0.0);
+    if !known.is_none() {
+        // As much friction holds a displacement by itself; where even that guarantees nothing, no friction does.
+        let half = known.half_widths.get("R").copied().unwrap_or(0.0);
+        let ample = 8.0 * (length + (known.disturbance + half) / belt.stiffness);
+        if told(ample)? < 0.0 {
+            return Ok(None);
+        }
+    }
+    let mut excess = |held: f64| {
+        told(held).map_err(|found| {
+            trouble = Some(found);
+            Reason::NotApplicable { needs: "a portrait of the machine" }
+        })
+    };
+    let without = (model.damping > 0.0 && known.is_none()).then_some(0.0);
     let found = least_friction(length, without, &mut excess);
     if let Some(trouble) = trouble {
         return Err(trouble);

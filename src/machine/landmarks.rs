@@ -63,16 +63,14 @@ impl Flow<'_> {
             Err(stop) => return Err(stop),
         };
         let left = left.min(-self.model.guide_static);
-        let mut before = Divergence::default();
-        let (right, ratio) = match self.arc(Phase::Below, (left, 0.0), true, &mut before) {
-            Ok(end) => (Some(end.x), end.accelerations.1 / end.accelerations.0),
-            Err(Stop::Escaped | Stop::OutsideLaw { .. }) => (None, 1.0),
-            Err(Stop::Settled) => (Some(guide), 0.0),
-            Err(stop) => return Err(stop),
+        let before = match self.right_before(left, &mut divergence) {
+            Err(Stop::OutsideLaw { .. }) => None,
+            before => before?,
         };
+        let (right, ratio) = before.map_or((None, 0.0), |(right, ratio)| (Some(right), ratio));
         let between = (left + guide) / (after + guide);
         let log_slope = if after > -guide {
-            divergence.0 + before.0 + (ratio * between).abs().ln()
+            divergence.0 - ratio + between.abs().ln()
         } else {
             f64::NEG_INFINITY
         };
@@ -93,6 +91,7 @@ impl Flow<'_> {
         };
         let left =
             if rose >= lines.low { low_left } else { self.left_before(rose, speed, &mut ())? };
-        self.right_before(left).or_else(back)
+        let found = self.right_before(left, &mut ()).or_else(|stop| back(stop).map(|_| None))?;
+        Ok(found.map(|(right, _)| right))
     }
 }

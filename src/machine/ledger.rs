@@ -2,8 +2,8 @@
 
 use super::arc::{Step, Watch};
 use super::model::{Model, Phase};
-use super::series::value;
-use crate::flow::tableau::GAUSS;
+use crate::numerics::polynomial::value;
+use crate::numerics::quadrature::GAUSS;
 
 /// Works along a motion, in J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

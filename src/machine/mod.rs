@@ -1,23 +1,58 @@
 //! Machines by the whole model: friction by its own law, sticking to the belt, and overtaking it.
+//!
+//! ```
+//! use hopfscope::machine::{Model, Portrait};
+//! use hopfscope::oscillator::{Belt, belt::FrictionLaw};
+//!
+//! let belt = Belt {
+//!     mass: 1.0,
+//!     stiffness: 1.0,
+//!     damping: 0.0,
+//!     cubic_damping: 0.0,
+//!     normal_force: 1.0,
+//!     friction: 0.0,
+//!     belt_speed: 0.5,
+//!     law: FrictionLaw::Constant { mu: 0.2 },
+//!     static_coefficient: Some(0.4),
+//!     static_guide: None,
+//! };
+//! let model = Model::new(&belt).unwrap();
+//! // Stick-slip: the belt carries the mass until friction at rest no longer holds it.
+//! let lines = model.lines.unwrap();
+//! assert!((lines.release - 0.2).abs() < 1e-15);
+//! let portrait = Portrait::new(&model).unwrap();
+//! assert!(portrait.cycles.iter().any(|cycle| cycle.stable && cycle.sticks));
+//! ```
 
-pub mod arc;
+pub(crate) mod arc;
+#[doc(hidden)]
 pub mod branch;
-pub mod curve;
-pub mod cycles;
-pub mod design;
+pub(crate) mod curve;
+pub(crate) mod cycles;
+pub(crate) mod design;
 mod force;
-pub mod landmarks;
-pub mod ledger;
-pub mod model;
+#[doc(hidden)]
+pub mod guarantee;
+pub(crate) mod landmarks;
+pub(crate) mod law;
+pub(crate) mod ledger;
+pub(crate) mod model;
+#[doc(hidden)]
 pub mod motion;
-pub mod portrait;
+pub(crate) mod portrait;
 mod reach;
+#[doc(hidden)]
 pub mod return_map;
-pub mod search;
+pub(crate) mod search;
 mod series;
+#[doc(hidden)]
 pub mod special;
+#[doc(hidden)]
 pub mod survey;
+pub(crate) mod tolerance;
+#[doc(hidden)]
 pub mod turn;
+#[doc(hidden)]
 pub mod varied;
 
 pub use arc::{Flow, Stop};
@@ -26,3 +61,5 @@ pub use ledger::Ledger;
 pub use model::{Lines, Model, Phase, Unfit};
 pub use motion::Motion;
 pub use portrait::{Border, Fate, Margin, Portrait};
+pub use series::ORDER;
+pub use tolerance::Tolerances;

@@ -104,16 +104,20 @@ pub struct Portrait {
     pub neutral: bool,
     /// The border of the basin of rest; of a neutral family where rest is one of it.
     pub border: Border,
-    /// The kicks that are survived; `None` where every one is.
+    /// The kicks that are survived; `None` where every one is. Where all motions that the law covers come
+    /// to rest, the kicks that it covers.
     pub margin: Option<Margin>,
     /// Where the line of the belt is met.
     pub landmarks: Option<Landmarks>,
-    /// Why motions far out are not known; `None` where all are.
+    /// Why motions that turn beyond [`Self::known`] are not known; `None` where all are.
     pub stop: Option<Stop>,
+    /// Right turning point up to which the return map was looked at.
+    pub known: f64,
+    /// Intervals of right turning points in which the search for cycles did not settle: pairs of cycles may
+    /// hide there.
+    pub unresolved: Vec<(f64, f64)>,
     /// Steps that it took.
     pub steps: u64,
-    /// Right turning point up to which the return map was looked at.
-    known: f64,
     gaps: Vec<Gap>,
 }
 
@@ -160,6 +164,7 @@ impl Portrait {
             landmarks,
             stop: found.stop,
             known: found.end,
+            unresolved: found.unresolved,
             steps: 0,
             gaps: gaps(&marks, &ways, found.stop),
         };
@@ -172,6 +177,9 @@ impl Portrait {
         let model = &self.model;
         let Some(first) = self.gaps.first() else { return Ok(()) };
         let inner = if self.neutral { Fate::Neutral } else { Fate::Rest };
+        if let Fate::Unknown(stop) = first.fate {
+            return Err(stop);
+        }
         if first.fate != inner {
             self.border = Border::NoBasin;
             self.margin = Some(Margin { displacement: (0.0, 0.0), velocity: (0.0, 0.0) });
@@ -179,6 +187,9 @@ impl Portrait {
         }
         let last = self.gaps.iter().take_while(|gap| gap.fate == inner).count();
         let Some((x, mark)) = marks.get(last - 1).filter(|_| last < self.gaps.len()) else {
+            if matches!(self.stop, Some(Stop::OutsideLaw { .. })) {
+                self.margin = Some(self.covered(flow)?);
+            }
             return Ok(());
         };
         let mut curve = Curve::default();
@@ -200,6 +211,22 @@ impl Portrait {
         self.margin =
             Some(Margin { displacement: (*x, -left), velocity: (speed(up), speed(down)) });
         Ok(())
+    }
+
+    /// The kicks whose motions turn within [`Self::known`], where all of these come to rest.
+    fn covered(&self, flow: &mut Flow) -> Result<Margin, Stop> {
+        let (x, model) = (self.known, &self.model);
+        let (mut after, mut before) = (Curve::default(), Curve::default());
+        let next = flow.turn(Place::Slips(Phase::Below), (x, 0.0), &mut after)?.x;
+        let from = match flow.arc(Phase::Between, (x, 0.0), true, &mut before) {
+            Ok(end) if !end.on_belt => end.x,
+            Ok(_) | Err(Stop::Settled) => next,
+            Err(stop) => return Err(stop),
+        };
+        let up = before.velocities_at(0.0, model.speed).0.unwrap_or(model.speed);
+        let down = after.velocities_at(0.0, model.speed).1.unwrap_or(0.0);
+        let velocity = (up * model.omega_0, -down * model.omega_0);
+        Ok(Margin { displacement: (x, -from), velocity })
     }
 
     /// What becomes of a motion that starts at displacement `x` (m) with velocity `v` (m/s).
@@ -229,10 +256,13 @@ impl Portrait {
         Ok(self.fate_of_turn(x))
     }
 
-    /// What becomes of motions far out.
+    /// Why this is not the whole answer: the friction law ends before all motions are known.
     #[must_use]
-    pub fn outermost(&self) -> Fate {
-        self.gaps.last().map_or(Fate::Rest, |gap| gap.fate)
+    pub fn incomplete(&self) -> Option<Stop> {
+        let outermost = self.gaps.last().map(|gap| gap.fate);
+        let open = matches!(outermost, Some(Fate::Unknown(_)));
+        let stop = self.stop.filter(|stop| matches!(stop, Stop::OutsideLaw { .. }));
+        stop.filter(|_| open || matches!(self.border, Border::None))
     }
 
     /// What becomes of a motion that turns on the right at `x`.

@@ -1,6 +1,8 @@
 //! How far a friction law may be believed: up to the slip at which its coefficient falls below zero.
 
 use super::force::shifted;
+use crate::numerics::polynomial;
+use crate::numerics::root::{TO_ROUNDING, bisect};
 use crate::oscillator::belt::FrictionLaw;
 
 /// The smallest slip, in m/s, beyond which the coefficient of friction is negative; infinite where there is
@@ -38,7 +40,7 @@ fn stribeck_zero(mu: impl Fn(f64) -> f64, velocity: f64, kinetic: f64, viscous: 
     let mut below = 0.0;
     for slip in ladder.take_while(|slip| *slip <= 2.0 * last) {
         if mu(slip) < 0.0 {
-            return bisected(below, slip, |at| mu(at) < 0.0);
+            return bisect(below, slip, TO_ROUNDING, |at| mu(at) < 0.0).0;
         }
         below = slip;
     }
@@ -47,7 +49,7 @@ fn stribeck_zero(mu: impl Fn(f64) -> f64, velocity: f64, kinetic: f64, viscous: 
 
 /// Where a polynomial first becomes negative on `0 .. end`.
 fn falls_below_zero(coefficients: &[f64], end: f64) -> Option<f64> {
-    let value = |at: f64| coefficients.iter().rev().fold(0.0, |sum, c| sum * at + c);
+    let value = |at: f64| polynomial::value(coefficients, at);
     if value(0.0) < 0.0 {
         return Some(0.0);
     }
@@ -55,7 +57,7 @@ fn falls_below_zero(coefficients: &[f64], end: f64) -> Option<f64> {
     for turn in zeros(&derivative(coefficients), end).into_iter().chain([end]) {
         let far = if turn.is_finite() { turn } else { beyond_zeros(coefficients).max(2.0 * from) };
         if value(far) < 0.0 {
-            return Some(bisected(from, far, |at| value(at) < 0.0));
+            return Some(bisect(from, far, TO_ROUNDING, |at| value(at) < 0.0).0);
         }
         from = turn;
     }
@@ -65,7 +67,7 @@ fn falls_below_zero(coefficients: &[f64], end: f64) -> Option<f64> {
 /// The zeros in `0 .. end` at which a polynomial changes its sign, in their order: between two zeros of its
 /// derivative there is one at most.
 pub fn zeros(coefficients: &[f64], end: f64) -> Vec<f64> {
-    let value = |at: f64| coefficients.iter().rev().fold(0.0, |sum, c| sum * at + c);
+    let value = |at: f64| polynomial::value(coefficients, at);
     if coefficients.len() < 2 {
         return Vec::new();
     }
@@ -75,7 +77,8 @@ pub fn zeros(coefficients: &[f64], end: f64) -> Vec<f64> {
     for to in zeros(&derivative(coefficients), far).into_iter().chain([far]) {
         let (left, right) = (value(from), value(to));
         if (left < 0.0) != (right < 0.0) {
-            found.push(bisected(from, to, |at| (value(at) < 0.0) != (left < 0.0)));
+            let changed = |at: f64| (value(at) < 0.0) != (left < 0.0);
+            found.push(bisect(from, to, TO_ROUNDING, changed).0);
         }
         from = to;
     }
@@ -93,15 +96,4 @@ fn beyond_zeros(coefficients: &[f64]) -> f64 {
     let Some(last) = coefficients.iter().rposition(|c| *c != 0.0) else { return 1.0 };
     let largest = coefficients[..last].iter().fold(0.0_f64, |most, c| most.max(c.abs()));
     1.0 + largest / coefficients[last].abs()
-}
-
-/// The end of the bracket on which a condition holds, which it does at `high` and not at `low`.
-fn bisected(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
-    loop {
-        let middle = 0.5 * (low + high);
-        if middle <= low || middle >= high {
-            return low;
-        }
-        if holds(middle) { high = middle } else { low = middle }
-    }
 }

@@ -6,9 +6,9 @@
 
 use super::arc::{Flow, Step, Stop, Watch};
 use super::model::{Model, Phase};
-use super::series::value;
 use super::turn::{Place, Turn};
-use crate::flow::tableau::GAUSS;
+use crate::numerics::polynomial::value;
+use crate::numerics::quadrature::gauss;
 
 /// The integral of the divergence of the field along a motion.
 #[derive(Clone, Copy, Debug, Default)]
@@ -18,8 +18,7 @@ impl Watch for Divergence {
     fn step(&mut self, model: &Model, step: &Step) {
         let slope =
             |node: f64| model.force(step.phase, value(&step.series.y, node * step.duration)).1;
-        let sum: f64 = GAUSS.iter().map(|(node, weight)| weight * slope(*node)).sum();
-        self.0 += sum * step.duration;
+        self.0 += gauss(slope) * step.duration;
     }
 }
 
@@ -74,19 +73,47 @@ impl Flow<'_> {
         }
     }
 
-    /// The right turning point from which the next left one is `left`; `None` where there is none, because
-    /// every motion turns before.
+    /// The right turning point before the left one at `left`, with the logarithm of (acceleration before the
+    /// arc's end / after its start); `None` where no motion comes from one.
     ///
     /// # Errors
     /// [`Stop`] where the friction law ends, or steps do.
-    pub fn right_before(&mut self, left: f64) -> Result<Option<f64>, Stop> {
+    pub(super) fn right_before(
+        &mut self,
+        left: f64,
+        watch: &mut impl Watch,
+    ) -> Result<Option<(f64, f64)>, Stop> {
         let left = left.min(-self.model.guide_static);
-        match self.arc(Phase::Below, (left, 0.0), true, &mut ()) {
-            Ok(end) => Ok(Some(end.x)),
+        match self.arc(Phase::Below, (left, 0.0), true, watch) {
+            Ok(end) => Ok(Some((end.x, end.log_ratio()))),
             Err(Stop::Escaped) => Ok(None),
-            Err(Stop::Settled) => Ok(Some(self.model.guide)),
+            Err(Stop::Settled) => Ok(Some((self.model.guide, f64::NEG_INFINITY))),
             Err(stop) => Err(stop),
         }
+    }
+
+    /// The map backward from the right turning point `x`, among motions that slip below the belt's speed
+    /// all the way: [`Image::x`] is the turning point before. It contracts where the map itself expands.
+    /// `None` where no such motion leads to `x`.
+    ///
+    /// # Errors
+    /// [`Stop`] where the friction law ends, or steps do.
+    pub fn preimage(&mut self, x: f64) -> Result<Option<Image>, Stop> {
+        let mut divergence = Divergence::default();
+        let (left, entered) = match self.arc(Phase::Between, (x, 0.0), true, &mut divergence) {
+            Ok(end) if end.on_belt => return Ok(None),
+            Ok(end) => (end.x, end.log_ratio()),
+            Err(Stop::Settled) => (-self.model.guide, f64::NEG_INFINITY),
+            Err(stop) => return Err(stop),
+        };
+        let before = self.right_before(left, &mut divergence)?;
+        Ok(before.map(|(x, ratio)| Image {
+            x,
+            left,
+            log_slope: divergence.0 - entered - ratio,
+            sticks_from: None,
+            overtakes_from: None,
+        }))
     }
 
     /// The left turning point from which a motion between rest and the belt's speed reaches `(x, y)`; where

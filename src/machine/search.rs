@@ -5,6 +5,8 @@
 //! distance from zero cannot hide a pair of zeros.
 
 use super::arc::Stop;
+use crate::numerics::hermite::Hermite;
+use crate::numerics::root::{Bracket, Change, try_newton};
 
 /// A value of the function.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,17 +31,26 @@ pub const NOTHING: f64 = 1e-12;
 /// Rounding of one evaluation.
 const ROUNDING: f64 = 1e-14;
 
-/// The zeros of a function between two samples, in their order.
+/// What a search found.
+#[derive(Clone, Debug, Default)]
+pub struct Zeros {
+    /// The zeros, in their order.
+    pub found: Vec<f64>,
+    /// Intervals in which no cubic foretold the function after all halvings: zeros may be missing there.
+    pub unresolved: Vec<(f64, f64)>,
+}
+
+/// The zeros of a function between two samples.
 ///
 /// # Errors
 /// The [`Stop`] of an evaluation.
 pub fn zeros(
     ends: (Sample, Sample),
     evaluate: &mut impl FnMut(f64) -> Result<Sample, Stop>,
-) -> Result<Vec<f64>, Stop> {
+) -> Result<Zeros, Stop> {
     /// Intervals to begin with.
     const FIRST: i32 = 8;
-    let mut found = Vec::new();
+    let mut found = Zeros::default();
     let mut left = ends.0;
     for part in 1..=FIRST {
         let at = ends.0.u + (ends.1.u - ends.0.u) * f64::from(part) / f64::from(FIRST);
@@ -55,11 +66,12 @@ fn within(
     right: Sample,
     depth: u32,
     evaluate: &mut impl FnMut(f64) -> Result<Sample, Stop>,
-    found: &mut Vec<f64>,
+    found: &mut Zeros,
 ) -> Result<(), Stop> {
     let middle = evaluate(0.5 * (left.u + right.u))?;
     let h = right.u - left.u;
-    let foretold = 0.5 * (left.f + right.f) + h / 8.0 * (left.slope - right.slope);
+    let slopes = (h * left.slope, h * right.slope);
+    let foretold = Hermite { values: (left.f, right.f), slopes }.at(0.5);
     let least = left.f.abs().min(right.f.abs()).min(middle.f.abs());
     let error = (foretold - middle.f).abs();
     // One sign and slopes that all point one way leave no room for zeros, however rough the function.
@@ -69,8 +81,11 @@ fn within(
         within(left, middle, depth - 1, evaluate, found)?;
         return within(middle, right, depth - 1, evaluate, found);
     }
-    leaf(left, middle, evaluate, found)?;
-    leaf(middle, right, evaluate, found)
+    if !settled {
+        found.unresolved.push((left.u, right.u));
+    }
+    leaf(left, middle, evaluate, &mut found.found)?;
+    leaf(middle, right, evaluate, &mut found.found)
 }
 
 /// The zeros where the function is nearly a cubic.
@@ -104,26 +119,22 @@ fn leaf(
 /// # Errors
 /// The [`Stop`] of an evaluation.
 pub fn zero(
-    mut left: Sample,
-    mut right: Sample,
+    left: Sample,
+    right: Sample,
     evaluate: &mut impl FnMut(f64) -> Result<Sample, Stop>,
 ) -> Result<f64, Stop> {
-    let mut here = if left.f.abs() < right.f.abs() { left } else { right };
-    for _ in 0..120 {
-        if here.f == 0.0 {
-            return Ok(here.u);
-        }
-        let newton = here.u - here.f / here.slope;
-        let inside = newton > left.u.min(right.u) && newton < left.u.max(right.u);
-        let next = if inside { newton } else { 0.5 * (left.u + right.u) };
-        let settled = 2.0 * f64::EPSILON * (1.0 + next.abs()).min(2.0);
-        if (next - here.u).abs() <= settled || next == left.u || next == right.u {
-            return Ok(next);
-        }
-        here = evaluate(next)?;
-        if (here.f > 0.0) == (left.f > 0.0) { left = here } else { right = here }
+    let best = if left.f.abs() < right.f.abs() { left } else { right };
+    if best.f == 0.0 {
+        return Ok(best.u);
     }
-    Ok(here.u)
+    let rising = (right.f > 0.0) == (left.u < right.u);
+    let bracket = Bracket { low: left.u.min(right.u), high: left.u.max(right.u), rising };
+    let settled = Change::Absolute(2.0 * f64::EPSILON * (1.0 + best.u.abs()).min(2.0));
+    let start = bracket.inside(best.u - best.f / best.slope);
+    let root = try_newton(bracket, start, settled, |u| {
+        evaluate(u).map(|sample| (sample.f, sample.slope))
+    })?;
+    Ok(root.at)
 }
 
 /// Where the slope vanishes between two samples with slopes of different sign.

@@ -5,6 +5,7 @@
 //! keeps the last terms below rounding (Jorba and Zou, Experimental Mathematics 14, 2005).
 
 use super::force::{Fall, Piece, Side};
+use crate::numerics::polynomial::{reciprocals, value_and_slope};
 
 /// Order of the series; near the one that costs least at full precision.
 pub const ORDER: usize = 20;
@@ -15,22 +16,11 @@ pub const TERMS: usize = ORDER + 1;
 /// Coefficients in powers of time.
 pub type Terms = [f64; TERMS];
 
-/// The last terms of a step are this small against the state.
-const AIM: f64 = 1e-17;
+/// The last terms of a step are this small against the state where nothing else is asked for.
+pub const FINEST: f64 = 1e-17;
 
 /// `1/k`.
-const INVERSE: Terms = {
-    let mut table = [0.0; TERMS];
-    let mut k = 1;
-    while k < TERMS {
-        #[expect(clippy::cast_precision_loss, reason = "at most the order")]
-        {
-            table[k] = 1.0 / k as f64;
-        }
-        k += 1;
-    }
-    table
-};
+const INVERSE: Terms = reciprocals();
 
 /// The series of one step.
 #[derive(Clone, Debug)]
@@ -168,12 +158,13 @@ impl Series {
         self.fall[k]
     }
 
-    /// The longest step that keeps the last terms small; infinite for a state that does not move.
-    pub fn length(&self) -> f64 {
+    /// The longest step that keeps the last terms below `aim`, relative to the state; infinite for a state
+    /// that does not move.
+    pub fn length(&self, aim: f64) -> f64 {
         let size = self.x[0].abs().max(self.y[0].abs());
         let allowed = |k: usize| {
             let term = self.x[k].abs().max(self.y[k].abs());
-            if term > 0.0 { (AIM * size / term).log2() * INVERSE[k] } else { f64::INFINITY }
+            if term > 0.0 { (aim * size / term).log2() * INVERSE[k] } else { f64::INFINITY }
         };
         (ORDER - 2..=ORDER).map(allowed).fold(f64::INFINITY, f64::min).exp2()
     }
@@ -201,17 +192,4 @@ fn count(k: usize) -> f64 {
 /// Coefficient k of the product of a series without its constant and another.
 fn product(one: &Terms, other: &Terms, k: usize) -> f64 {
     one[1..=k].iter().zip(other[..k].iter().rev()).map(|(a, b)| a * b).sum()
-}
-
-/// A polynomial by Horner's rule.
-pub fn value(terms: &Terms, t: f64) -> f64 {
-    terms.iter().rev().fold(0.0, |sum, term| sum * t + term)
-}
-
-/// A polynomial and its derivative.
-pub fn value_and_slope(terms: &Terms, t: f64) -> (f64, f64) {
-    terms
-        .iter()
-        .rev()
-        .fold((0.0, 0.0), |(value, slope), term| (value * t + term, slope * t + value))
 }

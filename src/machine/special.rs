@@ -12,6 +12,7 @@ use super::model::{Model, Phase};
 use super::portrait::{Border, Portrait};
 use super::search::Sample;
 use super::turn::Place;
+use crate::numerics::root::{Change, illinois};
 use crate::oscillator::Belt;
 
 /// A kind of change.
@@ -180,35 +181,11 @@ pub fn between(family: Family, left: (f64, &Portrait), right: (f64, &Portrait)) 
     found
 }
 
-/// The zero of a function between two values of different sign, by the rule of Illinois; `None` where the
-/// function does not exist on the way.
-fn zero(
-    function: &dyn Fn(f64) -> Option<f64>,
-    mut left: (f64, f64),
-    mut right: (f64, f64),
-) -> Option<f64> {
-    let mut stayed = 0;
-    for _ in 0..100 {
-        let width = (right.0 - left.0).abs();
-        if width <= WIDTH * left.0.abs().max(right.0.abs()) || left.1 == 0.0 || right.1 == 0.0 {
-            break;
-        }
-        let secant = left.0 - left.1 * (right.0 - left.0) / (right.1 - left.1);
-        let inside = (secant - left.0) * (secant - right.0) < 0.0;
-        let next = if inside { secant } else { 0.5 * (left.0 + right.0) };
-        if next == left.0 || next == right.0 {
-            break;
-        }
-        let here = (next, function(next)?);
-        if (here.1 > 0.0) == (left.1 > 0.0) {
-            right.1 *= if stayed == 1 { 0.5 } else { 1.0 };
-            (left, stayed) = (here, 1);
-        } else {
-            left.1 *= if stayed == 2 { 0.5 } else { 1.0 };
-            (right, stayed) = (here, 2);
-        }
-    }
-    Some(if left.1.abs() < right.1.abs() { left.0 } else { right.0 })
+/// The zero of a function between two values of different sign; `None` where the function does not exist on
+/// the way.
+fn zero(function: &dyn Fn(f64) -> Option<f64>, left: (f64, f64), right: (f64, f64)) -> Option<f64> {
+    let function = |value| function(value).ok_or(());
+    illinois([left, right], 0.0, Change::Relative(WIDTH), function).ok().map(|ends| ends[0].0)
 }
 
 /// How many cycles there are, of each kind; a fold takes one of each stability.

@@ -42,14 +42,14 @@ impl Course {
     /// What a model does, and the motion from `start` (m and m/s), followed for `until` seconds.
     ///
     /// # Errors
-    /// [`Trouble`] where its motions leave the friction law or cannot be followed.
+    /// [`Trouble`] where motions leave the law before the border of rest is known, or cannot be followed.
     pub fn new(model: &Model, start: (f64, f64), until: f64) -> Result<Self, Trouble> {
-        let portrait = known(model)?;
+        let portrait = Portrait::new(model)?;
         let (x, v) = start;
-        let fate = portrait.fate(x, v)?;
-        if let Fate::Unknown(stop) = fate {
-            return Err(stop.into());
-        }
+        let fate = match portrait.fate(x, v) {
+            Err(stop @ Stop::OutsideLaw { .. }) => Fate::Unknown(stop),
+            fate => fate?,
+        };
         let rest =
             (fate == Fate::Rest).then(|| Flow::new(model).rest_of(x, model.scaled_velocity(v)));
         let motion = Motion::new(model, x, v, until);
@@ -109,34 +109,30 @@ impl From<Stop> for Trouble {
 /// The portrait of a machine whose friction law reaches as far as its motions do.
 ///
 /// # Errors
-/// [`Trouble`] where it has no model, or where motions just outside the basin of rest leave the law.
+/// [`Trouble`] where it has no model, or where motions leave the law before the border of rest is known.
 pub fn portrait(belt: &Belt) -> Result<Portrait, Trouble> {
-    known(&Model::new(belt)?)
+    Ok(Portrait::new(&Model::new(belt)?)?)
 }
 
-fn known(model: &Model) -> Result<Portrait, Trouble> {
-    let portrait = Portrait::new(model)?;
-    match (portrait.outermost(), portrait.stop) {
-        (Fate::Unknown(_), Some(stop)) => Err(stop.into()),
-        _ => Ok(portrait),
-    }
-}
-
-/// Everything about a machine and its motion from `start` (m and m/s), followed for `until` seconds.
+/// Everything about a machine and its motion from `start` (m and m/s), followed for `until` seconds; without
+/// a tolerance, to rounding.
 ///
 /// # Errors
-/// [`Trouble`] where it has no model, or where its motions leave the friction law.
+/// [`Trouble`] where it has no model, or where motions leave the law before the border of rest is known.
 pub fn survey(
     belt: &Belt,
     start: (f64, f64),
     until: f64,
+    tolerance: Option<f64>,
     limits: &Limits,
 ) -> Result<Survey, Trouble> {
     let reduced = belt.reduce()?;
+    let mut model = Model::new(belt)?;
+    model.tolerance = tolerance.unwrap_or(model.tolerance);
     Ok(Survey {
         belt: belt.clone(),
         reduced,
-        course: Course::new(&Model::new(belt)?, start, until)?,
+        course: Course::new(&model, start, until)?,
         expansion: cycles(&reduced.parameters, true, limits),
     })
 }

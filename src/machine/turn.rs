@@ -98,8 +98,7 @@ impl Flow<'_> {
                 }
             };
             let end = self.arc(phase, (x, y), false, watch)?;
-            let (entered, left) = end.accelerations;
-            way.log_ratio += (entered / left).abs().ln();
+            way.log_ratio += end.log_ratio();
             (place, x) = self.after(phase, &end);
             if !end.on_belt {
                 return Ok(Turn { x, rests: place == Place::Rests, way });

@@ -1,5 +1,24 @@
-//! Arithmetic that every other ring may build on.
+//! Arithmetic that every other ring builds on, and that knows nothing of oscillators.
+//!
+//! - Numbers: [`interval`] rounds outwards, [`twofold`] carries twice the digits, [`wide`] a far wider range,
+//!   [`scaling`] multiplies by powers of two without error, [`sum`] remembers what rounding takes, [`random`]
+//!   simulates noise.
+//! - Functions: [`root`] finds zeros inside brackets, [`quadrature`] integrates, [`polynomial`] evaluates,
+//!   [`hermite`] interpolates by cubics, [`spline`] smooths measured points.
 
-pub mod interval;
+pub(crate) mod hermite;
+pub(crate) mod interval;
+pub(crate) mod polynomial;
+pub(crate) mod quadrature;
+#[doc(hidden)]
+pub mod random;
+pub(crate) mod root;
+#[doc(hidden)]
+pub mod scaling;
+pub(crate) mod spline;
+pub(crate) mod sum;
+#[doc(hidden)]
+pub mod twofold;
+pub(crate) mod wide;
 
 pub use interval::Interval;

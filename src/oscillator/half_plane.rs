@@ -10,6 +10,7 @@
 //! and ends at `(X, 0)`; the next clearance is `X - 2 r`.
 
 use super::parameters::{Parameters, State};
+use crate::numerics::scaling::times_power;
 
 /// A side of the switching line `v = 0`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -97,10 +98,15 @@ impl HalfPlane {
         -(2.0 * self.d + v * (2.0 * self.d2 + v * 3.0 * self.d3))
     }
 
-    /// The same field for a motion measured in units of `unit`: `D2` and `D3` take its powers up.
+    /// The same field for a motion measured in units of `2^k`, exactly: D2 is multiplied by `2^k`, D3 by
+    /// `2^(2 k)` (the scaling symmetry of equation 4).
     #[must_use]
-    pub fn in_units_of(&self, unit: f64) -> Self {
-        HalfPlane { d: self.d, d2: self.d2 * unit, d3: self.d3 * unit * unit }
+    pub fn in_units(&self, k: i32) -> Self {
+        HalfPlane {
+            d: self.d,
+            d2: times_power(self.d2, k),
+            d3: times_power(times_power(self.d3, k), k),
+        }
     }
 
     /// The field of motions run backward: with time reversed, `y = -x` obeys the same equation with all

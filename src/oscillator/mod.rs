@@ -3,14 +3,35 @@
 //!
 //! The model is `q'' + 2 D q' + D2 q'^2 + D3 q'^3 + q in f_R` (equations 4 and 5) with set-valued dry
 //! friction of intensity `r`. Everything here is a formula; nothing is integrated.
+//!
+//! ```
+//! use hopfscope::oscillator::{Belt, Parameters, belt::FrictionLaw};
+//!
+//! // A mass of 2 kg on a belt at 0.25 m/s, whose friction falls with the velocity.
+//! let belt = Belt {
+//!     mass: 2.0,
+//!     stiffness: 800.0,
+//!     damping: 3.0,
+//!     cubic_damping: 40.0,
+//!     normal_force: 60.0,
+//!     friction: 1.5,
+//!     belt_speed: 0.25,
+//!     law: FrictionLaw::Polynomial { coefficients: vec![0.5, -0.6, 0.8] },
+//!     static_coefficient: None,
+//!     static_guide: None,
+//! };
+//! let Parameters { d, r, .. } = belt.reduce().unwrap().parameters;
+//! assert!(d < 0.0, "the belt feeds the motion");
+//! // r = R/(F mu(v0)).
+//! assert!((r - 1.5 / (60.0 * 0.4)).abs() < 1e-15);
+//! ```
 
 pub mod belt;
-pub mod energy;
-pub mod half_plane;
-pub mod interval;
-pub mod parameters;
-pub mod scaling;
-pub mod sticking;
+pub(crate) mod energy;
+pub(crate) mod half_plane;
+pub(crate) mod interval;
+pub(crate) mod parameters;
+pub(crate) mod sticking;
 
 pub use belt::Belt;
 pub use energy::Ledger;

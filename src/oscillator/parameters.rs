@@ -7,7 +7,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::scaling::times_power;
+use crate::numerics::scaling::times_power;
 
 /// The parameters of equation (4): damping, asymmetry, cubic damping, friction. All dimensionless.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

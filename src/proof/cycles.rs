@@ -10,7 +10,7 @@ use super::field::{ParameterBox, scaled};
 use super::map::ReturnMap;
 use super::theorems::{Theorem, theorem};
 use crate::numerics::Interval;
-use crate::oscillator::scaling::exponent;
+use crate::numerics::scaling::exponent;
 
 /// A limit cycle that exists and is the only one in an interval of clearances.
 #[derive(Clone, Copy, Debug, PartialEq)]

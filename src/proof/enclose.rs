@@ -66,8 +66,19 @@ pub fn enclose(
 ) -> Option<Enclosure> {
     /// Radii to try, relative to the guess.
     const RADII: [f64; 6] = [1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2];
+    /// Steps of Newton's method before that, and a change after which the next error is rounding.
+    const STEPS: usize = 8;
+    const SMALL: f64 = 1e-8;
     let direction = if stable { Direction::Forward } else { Direction::Backward };
     let mut near = guess;
+    for _ in 0..STEPS {
+        let next = polished(map, near, direction);
+        let change = (next - near).abs();
+        near = next;
+        if change <= SMALL * near {
+            break;
+        }
+    }
     let mut around = None;
     for radius in RADII {
         let wide = Interval::around(near, radius * near);
@@ -75,15 +86,18 @@ pub fn enclose(
             && inner.lower() > wide.lower()
             && inner.upper() < wide.upper()
         {
-            around = Some(inner);
+            around = Some((inner, radius));
             break;
         }
-        near = polished(map, near, direction);
     }
     // The only cycle within an interval lies in every step of the method from there, interior or not.
     let only = |map: &mut ReturnMap| newton(map, within, direction)?.intersection(within);
-    let mut clearance = around.or_else(|| only(map).or(within.is_finite().then_some(within)))?;
-    if let Some(better) = newton(map, clearance, direction) {
+    let known = around.map(|(inner, _)| inner);
+    let mut clearance = known.or_else(|| only(map).or(within.is_finite().then_some(within)))?;
+    // Over so little as the smallest radius the derivative is as good as at a point.
+    if !around.is_some_and(|(_, radius)| radius <= RADII[0])
+        && let Some(better) = newton(map, clearance, direction)
+    {
         clearance = better.intersection(clearance)?;
     }
     describe(map, clearance, direction)
@@ -101,10 +115,10 @@ fn newton(map: &mut ReturnMap, over: Interval, direction: Direction) -> Option<I
 
 /// A step of Newton's method in plain numbers.
 fn polished(map: &mut ReturnMap, near: f64, direction: Direction) -> f64 {
-    let point = Interval::point(near);
-    let off = (map.image(direction, point) - point).middle();
-    let slope = map.slope(direction, point).map_or(f64::NAN, |slope| slope.middle() - 1.0);
-    let next = near - off / slope;
+    let Some((image, slope)) = map.image_and_slope(direction, Interval::point(near)) else {
+        return near;
+    };
+    let next = near - (image.middle() - near) / (slope.middle() - 1.0);
     if next > 0.5 * near && next < 2.0 * near { next } else { near }
 }
 

@@ -42,12 +42,16 @@ pub fn inner_end(map: &mut ReturnMap) -> End {
     }
     let (gap, fields) = (map.gap, map.halves.map(|half| *half.field(Direction::Forward)));
     if fields[0].a.upper() <= -2.0 {
-        let least = fields.map(|field| (Interval::point(least_end(&field)) - gap).lower());
+        let funnels = [0, 1].map(|index| map.funnel(index, Direction::Forward));
+        let least = [0, 1].map(|index| {
+            let end = least_end(&fields[index], funnels[index].as_ref());
+            (Interval::point(end) - gap).lower()
+        });
         let passed = map.half(1, Direction::Forward, Interval::point(least[0])).lower();
         let bound = passed.max(least[1]);
         if bound > 0.0 && bound < f64::INFINITY {
             // No image is smaller, if every motion comes back at all.
-            let returns = map.parameters.d3.lower() > 0.0 && least[0] > 0.0 && passed >= least[1];
+            let returns = map.parameters.d3.lower() > 0.0 && least[0] > 0.0;
             let sign = if returns { Some(Sign::Above) } else { sign_at(map, bound) };
             return sign.map_or(End::Open, |sign| End::At(bound, sign));
         }
@@ -92,6 +96,14 @@ pub fn outer_end(map: &mut ReturnMap, inner: f64) -> End {
         let sign =
             if map.parameters.d3.lower() > 0.0 { Some(Sign::Below) } else { sign_at(map, bound) };
         return sign.map_or(End::Open, |sign| End::At(bound, sign));
+    }
+    // The same for the inverse, which brings everything below its greatest image.
+    let back = map.greatest(1, Direction::Backward);
+    let whole = map.greatest(0, Direction::Backward);
+    let through = map.half(0, Direction::Backward, Interval::point(back)).upper();
+    let bound = through.min(whole);
+    if bound < f64::INFINITY && bound > inner {
+        return End::At(bound, Sign::Above);
     }
     escape(map, inner)
 }

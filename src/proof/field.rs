@@ -1,8 +1,8 @@
 //! The field of a half plane with its coefficients known to lie in intervals.
 
 use crate::numerics::Interval;
-use crate::oscillator::scaling::times_power;
-use crate::oscillator::{Parameters, Side};
+use crate::numerics::scaling::times_power;
+use crate::oscillator::{Parameters, Side, Symbol};
 
 /// The parameters of the oscillator, each an interval: what is proved holds for every value in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,6 +32,20 @@ impl ParameterBox {
     pub fn in_units_of(&self, k: i32) -> Self {
         let d3 = scaled(scaled(self.d3, k), k);
         ParameterBox { d: self.d, d2: scaled(self.d2, k), d3, r: scaled(self.r, -k) }
+    }
+
+    /// The same with one parameter replaced; a start is none of them.
+    #[must_use]
+    pub fn with(&self, symbol: Symbol, value: Interval) -> Self {
+        let mut changed = *self;
+        match symbol {
+            Symbol::D => changed.d = value,
+            Symbol::D2 => changed.d2 = value,
+            Symbol::D3 => changed.d3 = value,
+            Symbol::R => changed.r = value,
+            Symbol::Q0 | Symbol::V0 => {}
+        }
+        changed
     }
 
     /// Whether each parameter is one double.

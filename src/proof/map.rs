@@ -5,9 +5,11 @@
 //! order serves for all of them. It also increases where damping or friction is taken away (lemma 8), so that
 //! bounds over intervals of parameters come from their ends.
 
-use super::barrier::greatest_end;
+use std::cell::OnceCell;
+
 use super::field::{Field, ParameterBox};
-use super::swing::{MOST_STEPS, Passage, Start, Swing, swing};
+use super::funnel::Funnel;
+use super::swing::{MOST_STEPS, Passage, Start, Swing, swing_below};
 use crate::numerics::Interval;
 use crate::oscillator::Side;
 
@@ -16,8 +18,6 @@ use crate::oscillator::Side;
 pub struct Half {
     forward: Field,
     backward: Field,
-    /// Where all swings of either field end at most, once that was asked for.
-    greatest: [Option<f64>; 2],
 }
 
 /// The map from one right turning point to the next.
@@ -29,6 +29,8 @@ pub struct ReturnMap {
     pub parameters: ParameterBox,
     /// The two half maps in the order in which they are run.
     pub halves: [Half; 2],
+    /// Where stiff swings end, for each half and direction, once that was asked for.
+    funnels: [[OnceCell<Option<Funnel>>; 2]; 2],
     /// `2 r`.
     pub gap: Interval,
     /// Half swings computed so far.
@@ -54,6 +56,9 @@ const NARROW: f64 = 1e-9;
 
 /// Starts that differ by rounding only are one ball where the end is asked for.
 const ROUNDED: f64 = 1e-15;
+
+/// A derivative this small need not be known any better.
+const SUPERSTABLE: f64 = 1e-6;
 
 /// Which bound is meant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -81,12 +86,13 @@ impl ReturnMap {
     pub fn new(parameters: &ParameterBox) -> Self {
         let half = |side| {
             let forward = Field::new(parameters, side);
-            Half { forward, backward: forward.reversed(), greatest: [None; 2] }
+            Half { forward, backward: forward.reversed() }
         };
         let halves = [half(Side::Lower), half(Side::Upper)];
         ReturnMap {
             parameters: *parameters,
             halves,
+            funnels: Default::default(),
             gap: parameters.r.twice(),
             swings: 0,
             steps: 0,
@@ -95,59 +101,80 @@ impl ReturnMap {
 
     /// Runs one field from rest.
     pub fn run(&mut self, field: &Field, start: Interval) -> Passage {
+        self.run_below(field, start, f64::INFINITY)
+    }
+
+    /// The same, given up as soon as every motion is faster than the ceiling.
+    fn run_below(&mut self, field: &Field, start: Interval, ceiling: f64) -> Passage {
         if self.steps > MOST_WORK {
             return Passage::Unknown;
         }
-        let passage = swing(field, &Start::at_rest(start), false);
+        let passage = swing_below(field, &Start::at_rest(start), ceiling);
         self.swings += 1;
         self.steps += match passage {
-            Passage::Arrives(swing) => swing.steps,
+            Passage::Arrives(swing) | Passage::Exceeds(swing) => swing.steps,
             Passage::Never => MOST_STEPS / 8,
             Passage::Unknown => MOST_STEPS,
         };
         passage
     }
 
-    /// Upper bound of where all swings of a half end, however far out they start.
-    pub fn greatest(&mut self, index: usize, direction: Direction) -> f64 {
-        let place = usize::from(direction == Direction::Backward);
-        if let Some(known) = self.halves[index].greatest[place] {
-            return known;
-        }
-        let field = *self.halves[index].field(direction);
-        let greatest = greatest_end(&field, &mut self.swings);
-        self.halves[index].greatest[place] = Some(greatest);
-        greatest
+    /// Where stiff swings of a half end.
+    pub fn funnel(&mut self, index: usize, direction: Direction) -> Option<Funnel> {
+        let place = &self.funnels[index][usize::from(direction == Direction::Backward)];
+        let field = self.halves[index].field(direction);
+        let mut swings = 0;
+        let funnel = *place.get_or_init(|| Funnel::new(field, &mut swings));
+        self.swings += swings;
+        funnel
     }
 
-    /// Lower bound of where a swing ends. Where it is too stiff, one that starts further in ends below it.
+    /// Upper bound of where all swings of a half end, however far out they start.
+    pub fn greatest(&mut self, index: usize, direction: Direction) -> f64 {
+        self.greatest_from(index, direction, f64::INFINITY)
+    }
+
+    /// The same for those that start up to this far out.
+    fn greatest_from(&mut self, index: usize, direction: Direction, from: f64) -> f64 {
+        let funnel = self.funnel(index, direction);
+        funnel.filter(|it| from <= it.reach).map_or(f64::INFINITY, |it| it.greatest())
+    }
+
+    /// Lower bound of where a swing ends. Where it can't be had, one that starts further in ends below it.
     fn least(&mut self, index: usize, direction: Direction, start: f64) -> f64 {
         /// How many times a start is quartered in search of one that is not stiff.
         const SHORTENINGS: i32 = 6;
+        let funnel = self.funnel(index, direction);
+        let ceiling = funnel.map_or(f64::INFINITY, |it| it.ceiling);
         let field = self.halves[index].field(direction).strongest();
+        if let Some(far) = funnel
+            && far.climb_from(&field, Interval::point(start)).is_some()
+        {
+            return far.least();
+        }
         let mut from = start;
         for _ in 0..SHORTENINGS {
-            match self.run(&field, Interval::point(from)) {
-                Passage::Arrives(swing) => return swing.end.lower(),
-                Passage::Never => return f64::INFINITY,
+            match self.run_below(&field, Interval::point(from), ceiling) {
                 Passage::Unknown => from *= 0.25,
+                known => return Funnel::least_after(funnel.as_ref(), &field, &known),
             }
         }
         f64::NEG_INFINITY
     }
 
-    /// Upper bound of where a swing ends; where it is too stiff, the barrier above all swings.
+    /// Upper bound of where a swing ends.
     fn most(&mut self, index: usize, direction: Direction, start: f64) -> f64 {
+        let funnel = self.funnel(index, direction);
         let field = self.halves[index].field(direction).weakest();
-        let highest = if start < f64::INFINITY {
-            self.run(&field, Interval::point(start))
-        } else {
-            Passage::Unknown
-        };
-        match highest.arrived() {
-            Some(swing) => swing.end.upper(),
-            None => self.greatest(index, direction),
+        let far = funnel.and_then(|it| it.climb_from(&field, Interval::point(start)));
+        if start < f64::INFINITY && far.is_none() {
+            let ceiling = funnel.map_or(f64::INFINITY, |it| it.ceiling);
+            let passage = self.run_below(&field, Interval::point(start), ceiling);
+            if let Passage::Arrives(swing) = passage {
+                return swing.end.upper();
+            }
         }
+        self.greatest_from(index, direction, start)
     }
 
     /// One half of the map: from the clearances before a swing to those after it.
@@ -228,19 +255,60 @@ impl ReturnMap {
 
     /// The derivative of the map over an interval of clearances; `None` where a swing is not certain.
     pub fn slope(&mut self, direction: Direction, over: Interval) -> Option<Interval> {
+        self.image_and_slope(direction, over).map(|(_, slope)| slope)
+    }
+
+    /// The images of an interval of clearances, and the derivative there.
+    pub fn image_and_slope(
+        &mut self,
+        direction: Direction,
+        over: Interval,
+    ) -> Option<(Interval, Interval)> {
         let mut product = Interval::point(1.0);
         let mut from = over;
         for index in Self::order(direction) {
-            let field = *self.halves[index].field(direction);
             let start = if direction == Direction::Backward { from + self.gap } else { from };
-            let (swing, slope) = self.swing_over(&field, start)?;
+            let (end, slope) = self.half_slope(index, direction, start)?;
             product = product * slope;
-            from = if direction == Direction::Forward { swing.end - self.gap } else { swing.end };
+            from = if direction == Direction::Forward { end - self.gap } else { end };
             if !(from.lower() > 0.0) {
                 return None;
             }
         }
-        Some(product)
+        Some((from, product))
+    }
+
+    /// Where a half swing from an interval of starts ends, and the derivative of that by the start.
+    fn half_slope(
+        &mut self,
+        index: usize,
+        direction: Direction,
+        start: Interval,
+    ) -> Option<(Interval, Interval)> {
+        let field = *self.halves[index].field(direction);
+        let funnel = self.funnel(index, direction);
+        let stiff = |climb| funnel.and_then(|it| it.contraction(&field, start, climb));
+        let far = funnel.and_then(|it| it.climb_from(&field, start)).and_then(stiff);
+        if far.is_some_and(|(_, slope)| slope.upper() < SUPERSTABLE) {
+            return far;
+        }
+        let ceiling = funnel.map_or(f64::INFINITY, |it| it.ceiling);
+        let whole = match self.run_below(&field, start, ceiling) {
+            Passage::Arrives(swing) => swing,
+            Passage::Exceeds(swing) => {
+                let near = funnel.and_then(|it| it.climb_of(&field, &swing)).and_then(stiff);
+                if near.is_some_and(|(_, slope)| slope.upper() < SUPERSTABLE) {
+                    return near;
+                }
+                match self.run(&field, start) {
+                    Passage::Arrives(swing) => swing,
+                    _ => return near,
+                }
+            }
+            _ => return None,
+        };
+        let (swing, slope) = self.swing_over(&field, start, whole)?;
+        Some((swing.end, slope))
     }
 
     /// A swing from an interval of starts at rest, and the derivative of its end by the start:
@@ -248,8 +316,12 @@ impl ReturnMap {
     ///
     /// The end and the integral of `v^2` are increasing functions of the start, and decreasing ones of the
     /// damping: wide intervals take them from two motions, and only the duration from the ball.
-    pub fn swing_over(&mut self, field: &Field, start: Interval) -> Option<(Swing, Interval)> {
-        let mut whole = self.run(field, start).arrived()?;
+    fn swing_over(
+        &mut self,
+        field: &Field,
+        start: Interval,
+        mut whole: Swing,
+    ) -> Option<(Swing, Interval)> {
         if !(field.is_point() && start.radius() <= NARROW * start.lower()) {
             let low = self.run(&field.strongest(), Interval::point(start.lower())).arrived()?;
             let high = self.run(&field.weakest(), Interval::point(start.upper())).arrived()?;

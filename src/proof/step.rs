@@ -13,46 +13,11 @@
 //!
 //! `docs/proofs.md` has the lemmas and the count of every rounding.
 
-use std::ops::{Add, Mul, Neg, Sub};
-
 use super::field::Field;
+use super::norm::Norm;
+use super::rounding::{INFLATE, UNDERFLOW, UNIT};
+use super::series::{INVERSE, ORDER, Series};
 use crate::numerics::Interval;
-
-/// Degree of the polynomials.
-pub const ORDER: usize = 28;
-
-/// Length of the arrays: `ORDER + 1` coefficients, filled with zeros to a multiple of [`LANES`].
-const LENGTH: usize = 32;
-
-/// Sums run in this many lanes; the count of roundings does not depend on the order of a sum.
-const LANES: usize = 4;
-
-/// The unit roundoff of doubles, `2^-53`.
-pub const UNIT: f64 = f64::EPSILON / 2.0;
-
-/// Inflates a bound that is a sum of non-negative terms.
-///
-/// Covers the roundings of that sum itself and all products of two or more roundings in the counts below:
-/// with fewer than 1,000 operations and counts below 200, both are parts below `2e-13` of it.
-pub const INFLATE: f64 = 1.0 + 1e-12;
-
-/// Added to every defect, times `1 + a + b + c`: what underflows loses less than `2^-1074` at a time, and in
-/// the units of a step, in which the start is near 1, fewer than `1e6` of these meet no factor above `1e20`.
-const UNDERFLOW: f64 = 1e-290;
-
-/// `1 / k`, rounded to the nearest double.
-const INVERSE: [f64; LENGTH + 1] = {
-    let mut table = [0.0; LENGTH + 1];
-    let mut k = 1;
-    while k <= LENGTH {
-        #[expect(clippy::cast_precision_loss, reason = "k is at most 32")]
-        {
-            table[k] = 1.0 / k as f64;
-        }
-        k += 1;
-    }
-    table
-};
 
 /// A field prepared for stepping: middles and radii of its coefficients, and the skew of the norm.
 #[derive(Clone, Copy, Debug)]
@@ -66,54 +31,6 @@ pub struct Prepared {
     most: [f64; 3],
     /// All values of a, b, c.
     field: Field,
-}
-
-/// The norm `sqrt(e_x^2 + s e_x e_v + e_v^2)` in which errors are measured.
-///
-/// It is at most `abs(e_x) + abs(e_v)`, because `abs(s) < 2`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Norm {
-    /// `s`.
-    skew: f64,
-    /// Upper bound of `2/sqrt(4 - s^2)`: no component is larger than this many times the norm.
-    pub stretch: f64,
-}
-
-impl Norm {
-    /// The norm with a skew, brought within the range in which it is of use.
-    #[must_use]
-    pub fn new(skew: f64) -> Self {
-        /// Beyond this it is too flat.
-        const FLATTEST: f64 = 1.999;
-        let skew = if skew.is_nan() { 0.0 } else { skew.clamp(-FLATTEST, FLATTEST) };
-        // 4 - s^2 is at least 0.0039; its absolute error of 4.5e-16 is a part 1.2e-13 of it.
-        Norm { skew, stretch: 2.0 / (4.0 - skew * skew).sqrt() * INFLATE }
-    }
-
-    /// The skew in which errors grow least where the damping slope is m: the norm of the eigenvectors.
-    #[must_use]
-    pub fn fitting(m: f64) -> Self {
-        Norm::new(if m.abs() > 2.0 { 4.0 / m } else { m })
-    }
-
-    /// At most how many times larger a vector is in another norm.
-    ///
-    /// The ratio of the squares on the unit circle is `(2 + s' y)/(2 + s y)` with `y = sin 2 phi`, monotone in y. Its
-    /// terms are at least 0.001, and their absolute error of 2.3e-16 is a part 2.3e-13 of them.
-    #[must_use]
-    pub fn into(self, other: Norm) -> f64 {
-        if self.skew == other.skew {
-            return 1.0;
-        }
-        let ends = [(2.0 + other.skew) / (2.0 + self.skew), (2.0 - other.skew) / (2.0 - self.skew)];
-        ends[0].max(ends[1]).sqrt() * INFLATE
-    }
-
-    /// Largest rate of growth for damping slopes from `low` to `high`, up to rounding.
-    fn rate(self, low: f64, high: f64) -> f64 {
-        let (k, s) = (self.stretch, self.skew);
-        0.5 * (((s - low) * (1.0 + k)).max((high - s) * (k - 1.0)).max(0.0) - s)
-    }
 }
 
 impl Prepared {
@@ -173,160 +90,6 @@ impl Prepared {
     }
 }
 
-/// The Taylor polynomials at a point.
-#[derive(Clone, Debug)]
-pub struct Series<T = f64> {
-    /// Coefficients of x.
-    pub x: [T; LENGTH],
-    /// Coefficients of v.
-    pub v: [T; LENGTH],
-    /// Coefficients of `v^2`, below degree [`ORDER`].
-    square: [T; LENGTH],
-}
-
-/// What coefficients are computed in: doubles, and in the tests numbers that count their roundings.
-pub trait Scalar:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
-{
-    /// 0.
-    const ZERO: Self;
-    /// `1 / k`, rounded.
-    fn inverse(k: usize) -> Self;
-    /// A finished coefficient, from now on taken as it is.
-    #[must_use]
-    fn taken(self) -> Self;
-}
-
-impl Scalar for f64 {
-    const ZERO: f64 = 0.0;
-
-    fn inverse(k: usize) -> f64 {
-        INVERSE[k]
-    }
-
-    fn taken(self) -> f64 {
-        self
-    }
-}
-
-/// Sum of `one[i] other[k - i]` for `2 <= i <= k - 2`, in lanes; `other` holds its factor in reverse, from
-/// place `ORDER` down.
-///
-/// `other` holds nothing for degrees 0 and 1, so that the last lanes add zeros.
-///
-/// Of these `k - 3` products each passes at most `k/4 + 2` roundings: one as a product, the others on the way down its
-/// lane, two where the lanes meet. Adding zeros is exact. Nothing is read that was written in the last two
-/// rounds, because waiting for memory would take longer than the sum.
-fn inner<T: Scalar>(one: &[T; LENGTH], other: &[T; 2 * LENGTH], k: usize) -> T {
-    let mut lanes = [T::ZERO; LANES];
-    if k < 4 {
-        return T::ZERO;
-    }
-    let length = (k - 3).div_ceil(LANES) * LANES;
-    let first = &one[2..2 + length];
-    let second = &other[ORDER - k + 2..ORDER - k + 2 + length];
-    for (first, second) in first.chunks_exact(LANES).zip(second.chunks_exact(LANES)) {
-        for (lane, sum) in lanes.iter_mut().enumerate() {
-            *sum = *sum + first[lane] * second[lane];
-        }
-    }
-    (lanes[0] + lanes[1]) + (lanes[2] + lanes[3])
-}
-
-impl<T: Scalar> Series<T> {
-    /// An empty series to be filled.
-    pub const EMPTY: Series<T> =
-        Series { x: [T::ZERO; LENGTH], v: [T::ZERO; LENGTH], square: [T::ZERO; LENGTH] };
-
-    /// Fills the coefficients at `(x, v)` of the field `a, b, c`.
-    ///
-    /// With `f = b v + c v^2` the damping is `a v + f v`. The newest coefficient enters `v^2`, f and the damping
-    /// linearly: with `rest` for what the others contribute to `v^2`,
-    /// `f_k = slope v_k + c rest_k`, and the damping is `damping v_k` plus what only earlier ones contribute.
-    pub fn expand(&mut self, [a, b, c]: [T; 3], x: T, v: T) {
-        let mut force = [T::ZERO; LENGTH];
-        let mut backward = [T::ZERO; 2 * LENGTH];
-        self.v = [T::ZERO; LENGTH];
-        (self.x[0], self.v[0]) = (x, v);
-        let force0 = v * (b + c * v);
-        let slope = b + (c + c) * v;
-        let damping = (a + force0) + v * slope;
-        let cubic = c * v;
-        self.square[0] = v * v;
-        self.x[1] = v.taken();
-        self.v[1] = (-x - (a + force0) * v).taken();
-        let (v1, twice) = (self.v[1], self.v[1] + self.v[1]);
-        let (mut before, mut newest, mut force_before) = (v, v1, force0);
-        let mut force1 = T::ZERO;
-        for k in 1..ORDER {
-            // Both sums leave out the two outermost products on either side.
-            let (among, product) = (inner(&self.v, &backward, k), inner(&force, &backward, k));
-            let rest = match k {
-                1 => T::ZERO,
-                2 => v1 * v1,
-                _ => twice * before + among,
-            };
-            let pair = match k {
-                1 => T::ZERO,
-                2 => force1 * v1,
-                _ => force1 * before + force_before * v1,
-            };
-            let earlier = cubic * rest + (pair + product);
-            let acceleration = -(self.x[k] + earlier) - damping * newest;
-            self.square[k] = (v + v) * newest + rest;
-            let force_now = slope * newest + c * rest;
-            if k == 1 {
-                force1 = force_now;
-            }
-            force[k] = force_now;
-            if k > 1 {
-                backward[ORDER - k] = newest;
-            }
-            self.x[k + 1] = (newest * T::inverse(k + 1)).taken();
-            self.v[k + 1] = (acceleration * T::inverse(k + 1)).taken();
-            (before, newest, force_before) = (newest, self.v[k + 1], force_now);
-        }
-    }
-
-    /// Position and velocity of the polynomial at a time, by Horner's rule: a coefficient of degree k passes
-    /// `2 k + 1` roundings.
-    #[must_use]
-    pub fn at(&self, time: T) -> (T, T) {
-        let mut at = (self.x[ORDER], self.v[ORDER]);
-        for k in (0..ORDER).rev() {
-            at = (at.0 * time + self.x[k], at.1 * time + self.v[k]);
-        }
-        at
-    }
-}
-
-impl Series {
-    /// A step over which the last two terms are about `tolerance` of the state.
-    #[must_use]
-    pub fn step(&self, tolerance: f64) -> f64 {
-        /// Nothing is gained beyond: a half turn takes 3.14.
-        const LONGEST: f64 = 1.6;
-        let size = tolerance * self.x[0].abs().max(self.v[0].abs());
-        let root = |k: usize| {
-            let last = self.x[k].abs().max(self.v[k].abs());
-            (size / last).powf(INVERSE[k])
-        };
-        let step = root(ORDER).min(root(ORDER - 1));
-        if step < LONGEST { step } else { LONGEST }
-    }
-
-    /// Velocity and acceleration of the polynomial at a time, without bounds.
-    #[must_use]
-    pub fn velocity(&self, time: f64) -> (f64, f64) {
-        let (mut value, mut slope) = (self.v[ORDER], 0.0);
-        for k in (0..ORDER).rev() {
-            slope = slope * time + value;
-            value = value * time + self.v[k];
-        }
-        (value, slope)
-    }
-}
-
 /// What a step ends with.
 #[derive(Clone, Copy, Debug)]
 pub struct Reached {
@@ -336,6 +99,8 @@ pub struct Reached {
     pub v: f64,
     /// Norm of the distance between `(x, v)` and the motion.
     pub radius: f64,
+    /// How far any component of the motion is from the polynomial over the step.
+    pub off: f64,
     /// Integral of `v^2` over the step, of the polynomial.
     pub square: f64,
     /// How far that is from the integral along the motion.
@@ -353,6 +118,9 @@ pub struct Reached {
 /// - 13 + (i + k)/4: so does `c v^2`, which passes `i/4 + 5` on the way into f. Of the degrees of three factors two
 ///   add up to i, and all to k: five twelfths of each, three times.
 const ROUNDINGS: [f64; 7] = [2.0, 4.0, 6.0, 11.0, 0.5, 13.0, 1.25];
+
+/// Roundings by Horner's rule: one for each term, and so many for each degree of it.
+const HORNER: [f64; 2] = [1.0, 2.0];
 
 /// The bound of all roundings of the defect over a step, in units of roundoff.
 fn roundings(numbers: &[f64; 7], [a, b, c]: [f64; 3], [x, v, _, degree]: [f64; 4]) -> f64 {
@@ -447,16 +215,18 @@ impl Prepared {
         let tube = 3.0 * pushed;
         let off = norm.stretch * tube * INFLATE;
         let end = series.at(h);
-        let growth = self.growth(norm, velocities(&sums, series.v[0], end.1, off));
+        let speeds = velocities(&sums, series.v[0], end.1, off);
+        let growth = self.growth(norm, speeds);
         let factor = exponential(growth * h * if growth > 0.0 { INFLATE } else { 1.0 / INFLATE })?;
         let carried = (factor.max_inside * pushed) * INFLATE;
-        // Lemma 5: less than half a turn, so that v cannot have left and come back.
+        // Lemma 5: v stays positive, or less than half a turn is made, so that it cannot have left and come back.
         let speed = (v + norm.stretch * tube) * INFLATE;
         let turning = h * (1.0 + 0.5 * (a + speed * (b + speed * c))) * INFLATE;
-        if !(carried < tube && turning < std::f64::consts::PI) {
+        if !(carried < tube && (speeds.lower() > 0.0 || turning < std::f64::consts::PI)) {
             return None;
         }
-        let evaluation = UNIT * (x + 2.0 * x_degree + v + 2.0 * v_degree) + UNDERFLOW;
+        let [once, each] = HORNER;
+        let evaluation = UNIT * (once * (x + v) + each * (x_degree + v_degree)) + UNDERFLOW;
         let at_end = factor.at_end * radius + factor.max_inside * (h * defect);
         let off = norm.stretch * carried;
         // v^2 along the motion against the polynomial, its tail, and the roundings of its coefficients and sum.
@@ -469,6 +239,7 @@ impl Prepared {
             x: end.0,
             v: end.1,
             radius: (at_end + evaluation) * INFLATE,
+            off: off * INFLATE,
             square: sums.integral * h,
             square_error: square_error * INFLATE,
         })
@@ -501,7 +272,8 @@ impl Prepared {
 /// interval from `v0` to `v1`: a function is that close to its chord. `v1` itself is rounded.
 fn velocities(sums: &Sums, v0: f64, v1: f64, off: f64) -> Interval {
     let away = Interval::around(v0, (sums.tails[1] + off) * INFLATE);
-    let bend = (sums.bend / 8.0 + UNIT * (sums.v + 2.0 * sums.v_degree) + off) * INFLATE;
+    let rounded = UNIT * (HORNER[0] * sums.v + HORNER[1] * sums.v_degree);
+    let bend = (sums.bend / 8.0 + rounded + off) * INFLATE;
     let chord = Interval::new(v0.min(v1), v0.max(v1)) + Interval::new(-bend, bend);
     away.intersection(chord).unwrap_or(away)
 }

@@ -1,9 +1,13 @@
 //! The certified half swing: from `(x, v)`, `v >= 0`, to the next `v = 0`, or the proof that there is none.
 
 use super::field::{Field, scaled};
-use super::step::{INFLATE, Norm, Prepared, Reached, Series, UNIT};
+use super::norm::Norm;
+use super::rounding::{INFLATE, UNIT};
+use super::sensitivity::Weighted;
+use super::series::Series;
+use super::step::{Prepared, Reached};
 use crate::numerics::Interval;
-use crate::oscillator::scaling::exponent;
+use crate::numerics::scaling::exponent;
 
 /// Where a half swing starts: any point of a box. On `v = 0` it starts left of the centre, `x < 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,6 +41,8 @@ pub struct Swing {
     pub unit: i32,
     /// Largest velocity, if asked for.
     pub fastest: Option<Interval>,
+    /// Derivatives of `end` by the coefficients a, b and c of the field, if asked for.
+    pub derivatives: Option<[Interval; 3]>,
     /// Steps taken.
     pub steps: u32,
 }
@@ -48,6 +54,8 @@ pub enum Passage {
     Arrives(Swing),
     /// No motion does: the velocity never falls again.
     Never,
+    /// Every motion becomes faster than the ceiling; the swing ends where that is certain.
+    Exceeds(Swing),
     /// Nothing is certain.
     Unknown,
 }
@@ -58,6 +66,14 @@ impl Swing {
     pub fn square_in(&self, unit: i32) -> Interval {
         let k = self.unit - unit;
         scaled(scaled(self.square, k), k)
+    }
+
+    /// The same swing with lengths multiplied by `2^k`.
+    #[must_use]
+    pub fn times_power(self, k: i32) -> Self {
+        let fastest = self.fastest.map(|it| scaled(it, k));
+        let derivatives = self.derivatives.map(|it| by_units(it, k));
+        Swing { end: scaled(self.end, k), unit: self.unit + k, fastest, derivatives, ..self }
     }
 }
 
@@ -84,6 +100,28 @@ const ATTEMPTS: usize = 12;
 /// had: a stiff or a wide motion, or one that arrives within its own error of the centre.
 #[must_use]
 pub fn swing(field: &Field, start: &Start, wants_fastest: bool) -> Passage {
+    run(field, start, f64::INFINITY, wants_fastest, None)
+}
+
+/// The same, given up as soon as every motion is certainly faster than `ceiling`.
+#[must_use]
+pub fn swing_below(field: &Field, start: &Start, ceiling: f64) -> Passage {
+    run(field, start, ceiling, false, None)
+}
+
+/// The same with the derivatives by the coefficients of the field (lemma 21), for four times the cost.
+#[must_use]
+pub fn swing_with_derivatives(field: &Field, start: &Start) -> Passage {
+    run(field, start, f64::INFINITY, false, Some(Weighted::default()))
+}
+
+fn run(
+    field: &Field,
+    start: &Start,
+    ceiling: f64,
+    wants_fastest: bool,
+    weighted: Option<Weighted>,
+) -> Passage {
     let size = start.x.magnitude().max(start.v.magnitude());
     if !(size > 0.0 && size.is_finite() && start.v.lower() >= 0.0) {
         return Passage::Unknown;
@@ -112,17 +150,32 @@ pub fn swing(field: &Field, start: &Start, wants_fastest: bool) -> Passage {
         square: 0.0,
         square_error: 0.0,
         fastest: None,
+        weighted,
+        ceiling: scaled(Interval::point(ceiling), -unit).upper(),
     };
     let mut series = Series::EMPTY;
     for steps in 1..=MOST_STEPS {
         match run.advance(&mut series, wants_fastest) {
             Some(Arrival::Later) => {}
-            Some(Arrival::Now { end, lag }) => return run.finish(&start, end, lag, unit, steps),
+            Some(Arrival::Now { end, lag }) => {
+                let swing = run.finish(&start, end, lag, unit, steps);
+                return swing.map_or(Passage::Unknown, Passage::Arrives);
+            }
+            Some(Arrival::Above(end)) => {
+                let swing = run.finish(&start, end, 0.0, unit, steps);
+                return swing.map_or(Passage::Unknown, Passage::Exceeds);
+            }
             Some(Arrival::Never) => return Passage::Never,
             None => return Passage::Unknown,
         }
     }
     Passage::Unknown
+}
+
+/// The derivatives of a length by a, b and c in units `2^k` times as large.
+fn by_units([a, b, c]: [Interval; 3], k: i32) -> [Interval; 3] {
+    let two = |it| scaled(scaled(it, k), k);
+    [scaled(a, k), two(b), scaled(two(c), k)]
 }
 
 /// Whether no motion from positions up to `x` and velocities from `v` on ever returns to `v = 0` (lemma 7).
@@ -178,6 +231,10 @@ struct Run {
     square: f64,
     square_error: f64,
     fastest: Option<Interval>,
+    /// For the derivatives by the coefficients, if they are wanted.
+    weighted: Option<Weighted>,
+    /// Velocity beyond which nothing more is computed.
+    ceiling: f64,
 }
 
 /// What a step says of the largest velocity.
@@ -198,6 +255,8 @@ enum Arrival {
         /// How far from the end of the last step, in time.
         lag: f64,
     },
+    /// Faster than the ceiling, at this position.
+    Above(Interval),
     Never,
 }
 
@@ -232,6 +291,9 @@ impl Run {
                 Speed::Uncertain => return None,
             }
         }
+        if let Some(weighted) = self.weighted {
+            self.weighted = Some(weighted.after(self.local.field(), series, h, reached.off)?);
+        }
         self.time += h;
         self.time_error += UNIT * self.time;
         self.square += reached.square;
@@ -244,6 +306,9 @@ impl Run {
         // The sign of v at the end of a step must be certain.
         if !(self.v > off) {
             return None;
+        }
+        if self.v - off > self.ceiling {
+            return Some(Arrival::Above(Interval::around(self.x, off)));
         }
         let escapes =
             never_returns(self.local.field(), (self.x + off).next_up(), (self.v - off).next_down());
@@ -308,24 +373,34 @@ impl Run {
         if top <= cap { Speed::Largest(Interval::new(v.lower(), top)) } else { Speed::Uncertain }
     }
 
-    fn finish(&self, start: &Start, end: Interval, lag: f64, unit: i32, steps: u32) -> Passage {
+    fn finish(
+        &self,
+        start: &Start,
+        end: Interval,
+        lag: f64,
+        unit: i32,
+        steps: u32,
+    ) -> Option<Swing> {
         let Field { a, b, c } = *self.local.field();
         let duration = Interval::around(self.time, (self.time_error + lag) * INFLATE);
         // Beyond the end of the step v is below its bound there, whose square times the lag is less than this.
-        let beyond = lag * (self.v.abs() + self.norm.stretch * self.radius).powi(2);
+        let speed = self.v.abs() + self.norm.stretch * self.radius * INFLATE;
+        let beyond = lag * speed.powi(2);
         let square = Interval::around(self.square, (self.square_error + beyond) * INFLATE);
         let divergence =
             -(a * duration + (b * (end - start.x)).twice() + c * square * Interval::point(3.0));
-        if !(duration.is_finite() && divergence.is_finite() && duration.lower() > 0.0) {
-            return Passage::Unknown;
-        }
-        Passage::Arrives(Swing {
+        let known = duration.is_finite() && divergence.is_finite() && duration.lower() > 0.0;
+        known.then(|| Swing {
             end: scaled(end, unit),
             duration,
             divergence,
             square,
             unit,
             fastest: self.fastest.map(|fastest| scaled(fastest, unit)),
+            derivatives: self.weighted.map(|weighted| {
+                let arrived = weighted.within(self.local.field(), lag, speed * INFLATE);
+                by_units(arrived.derivatives(end), unit)
+            }),
             steps,
         })
     }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use crossterm::Command;
 use crossterm::clipboard::CopyToClipboard;
 
+use crate::fit::record::decoded;
 use crate::session::Notice;
 
 /// Where copies go, since no terminal says whether it took one.
@@ -77,7 +78,7 @@ impl Files {
         if !length.is_file() || length.len() > LONGEST {
             return Err(told(&format!("no file of at most {} MB", LONGEST >> 20)));
         }
-        std::fs::read_to_string(&path).map_err(|why| told(&why))
+        std::fs::read(&path).map(|bytes| decoded(&bytes)).map_err(|why| told(&why))
     }
 
     /// Puts a kept session aside: it is not offered again, but not lost before the next one is.

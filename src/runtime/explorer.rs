@@ -14,7 +14,7 @@ use super::launch::{Options, launch};
 use super::machine::Machine;
 use super::worker::Tell;
 use super::{print, scanning};
-use crate::export::figure::{self, Form};
+use crate::figure::{self, Form};
 use crate::flow::{Limits, Reason};
 use crate::scene::{Answer, Request, answer as scene_answer};
 use crate::session::replay::Script;
@@ -130,7 +130,7 @@ pub fn explore(
 }
 
 /// Plays a keystroke file on a session without a terminal. [`headless::play`] says what comes back;
-/// [`crate::export::screen::text`] turns its pictures into text.
+/// [`crate::view::screen::text`] turns its pictures into text.
 ///
 /// # Errors
 /// If the system gives no thread for the worker.

@@ -15,18 +15,18 @@ use super::machine::Machine;
 use super::panics::Notes;
 use super::picture;
 use super::worker::Tell;
-use crate::export;
 use crate::flow::{Limits, Reason};
 use crate::scene::{Answer, Request};
 use crate::session::replay::{Action, Player, Script, Unmet};
 use crate::session::{Effect, Msg, Notice};
+use crate::view;
 
 /// What a keystroke file showed.
 #[derive(Clone, Debug)]
 pub struct Played<M> {
     /// The machine at the end.
     pub machine: M,
-    /// The last picture; [`crate::export::screen::text`] has its characters.
+    /// The last picture; [`crate::view::screen::text`] has its characters.
     pub screen: Buffer,
     /// The pictures that the file names, in its order.
     pub kept: Vec<(String, Buffer)>,
@@ -75,7 +75,7 @@ pub fn play<M: Machine>(
             crew.submit(wanted.clone());
             asked.clone_from(&wanted);
         }
-        let screen = || export::screen::text(&picture::of(&machine, size));
+        let screen = || view::screen::text(&picture::of(&machine, size));
         let next = if machine.is_waiting() {
             Ok(Action::Wait)
         } else {
@@ -153,7 +153,7 @@ mod tests {
     }
 
     fn text(picture: &Buffer) -> String {
-        export::screen::text(picture)
+        view::screen::text(picture)
     }
 
     #[test]

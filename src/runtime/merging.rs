@@ -11,8 +11,8 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use super::scan_file::{Line, Lines, Refusal, compare};
-use crate::export::scan::Form;
 use crate::flow::Limits;
+use crate::report::scan::Form;
 use crate::study::scan::Scan;
 
 /// A file with some of the rows of a scan.

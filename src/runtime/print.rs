@@ -1,6 +1,6 @@
 //! Sessions computed for print: with as many points on their curves as paper can show.
 
-use crate::export::figure::{FAINT, Figure};
+use crate::figure::{FAINT, Figure};
 use crate::flow::{Limits, Reason};
 use crate::scene::answer::{Fineness, answer_for};
 use crate::scene::{Answered, Request, Slot};
@@ -78,7 +78,7 @@ pub fn figure(session: &mut Session, plots: &[usize], limits: &Limits) -> Figure
 
 /// Whether an answer has curves.
 fn is_drawn(slot: Slot) -> bool {
-    !matches!(slot, Slot::Scan | Slot::Trade | Slot::Reference | Slot::Claims)
+    !matches!(slot, Slot::Scan | Slot::Trade | Slot::Reference | Slot::Claims | Slot::Fit)
 }
 
 fn ask(

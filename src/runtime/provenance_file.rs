@@ -7,7 +7,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::export::provenance::Provenance;
+use crate::report::provenance::Provenance;
 
 /// What the name of a file of rows is followed by.
 const ENDING: &str = ".provenance";

@@ -19,12 +19,12 @@ use super::event::{Event, Stop};
 use super::machine::Machine;
 use super::record::Record;
 use super::{picture, scan_file};
-use crate::export;
 use crate::scene::Request;
 use crate::session::replay::{LONGEST, Recorder, Script};
 use crate::session::{Effect, Msg, Notice, Pointed};
 use crate::terminal::Screen;
 use crate::terminal::pacing::FRAME_TIME;
+use crate::view;
 
 mod playing;
 
@@ -257,7 +257,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
                 Effect::Copy(text) => self.copy(&text)?,
                 Effect::CopyScreen => {
                     let picture = picture::of(&self.machine, self.screen.size());
-                    self.copy(&export::screen::text(&picture))?
+                    self.copy(&view::screen::text(&picture))?
                 }
                 Effect::SaveScan { path, scan, rows } => {
                     let notice = scan_file::save(&path, &scan, &rows);

@@ -11,8 +11,8 @@ use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::Path;
 
-use crate::export::scan::Form;
 use crate::flow::{Limits, Reason};
+use crate::report::scan::Form;
 use crate::session::Notice;
 use crate::study::scan::{Row, Scan};
 

@@ -1,6 +1,9 @@
 //! Answers to requests.
 
+use super::recording::Fit;
 use super::request::Request;
+use super::speeds::{Speeds, speeds};
+use super::whole::{self, Course, Kinds};
 use crate::flow::quality::DRAFT;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Detail, Limits, Problem, Reason, Trajectory};
@@ -24,6 +27,10 @@ pub enum Answer {
     Trajectory(Trajectory),
     /// To [`Request::Cycles`].
     Cycles(Cycles),
+    /// To [`Request::Machine`] and [`Request::Portrait`].
+    Whole(Box<Whole>),
+    /// To [`Request::Speeds`].
+    Speeds(Speeds),
     /// To [`Request::Capture`].
     Capture(Borders),
     /// To [`Request::Balance`].
@@ -42,8 +49,21 @@ pub enum Answer {
     Reference(Result<Box<Reference>, Reason>),
     /// To [`Request::Claims`].
     Claims(Vec<Examined>),
+    /// To [`Request::Fit`].
+    Fit(Fit),
     /// To [`Request::Scan`]: some more rows.
     Rows(Rows),
+}
+
+/// An answer by the whole model, with what the paper's oscillator has no place for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Whole {
+    /// The motion or the cycles, as views draw them.
+    pub drawn: Answer,
+    /// What a motion becomes, and where it rides on the belt.
+    pub motion: Option<Course>,
+    /// What the cycles are like; `None` where the whole model has no answer and its expansion is drawn.
+    pub cycles: Option<Kinds>,
 }
 
 /// Rows of a scan that follow each other.
@@ -186,6 +206,7 @@ pub fn answer_for(
 ) -> Result<Answer, Reason> {
     match request {
         Request::Claims => examine_all(limits).map(Answer::Claims),
+        Request::Fit { recording } => Fit::of(recording, limits).map(Answer::Fit),
         Request::Trajectory(problem) => {
             // Without friction nothing happens at v = 0, and nobody looks for it.
             let crossings = problem.parameters.r > 0.0;
@@ -195,6 +216,21 @@ pub fn answer_for(
         }
         Request::Cycles { parameters } => {
             cycles_drawn(parameters, fineness.points_per_step, limits).map(Answer::Cycles)
+        }
+        Request::Machine { belt, problem } => {
+            let between = u32::try_from(fineness.samples_per_step).unwrap_or(u32::MAX);
+            let (found, course) = whole::motion(belt, problem, between)?;
+            let drawn = Answer::Trajectory(found);
+            Ok(Answer::Whole(Box::new(Whole { drawn, motion: Some(course), cycles: None })))
+        }
+        Request::Portrait { belt, parameters, cubic } => {
+            let points = fineness.points_per_step;
+            let (found, cycles) = whole::portrait(belt, parameters, *cubic, points, limits)?;
+            let drawn = Answer::Cycles(found);
+            Ok(Answer::Whole(Box::new(Whole { drawn, motion: None, cycles })))
+        }
+        Request::Speeds { belt, range, count } => {
+            speeds(belt, *range, *count, limits).map(Answer::Speeds)
         }
         Request::Capture { parameters, reach, most } => {
             let found = bands(parameters, *reach, *most, limits)?;
@@ -256,6 +292,8 @@ impl Answer {
         match self {
             Answer::Trajectory(answer) => answer.cost,
             Answer::Cycles(answer) => answer.cost,
+            Answer::Whole(answer) => answer.drawn.cost(),
+            Answer::Speeds(answer) => answer.cost,
             Answer::Capture(answer) => answer.cost,
             Answer::Balance(answer) => answer.cost,
             Answer::Branch(answer) => answer.cost,
@@ -274,7 +312,7 @@ impl Answer {
                 sum += row.cost;
                 sum
             }),
-            Answer::Claims(_) => Cost::default(),
+            Answer::Claims(_) | Answer::Fit(_) => Cost::default(),
         }
     }
 }

@@ -9,12 +9,14 @@ use super::layer::Layer;
 use super::machine::{self, Rig};
 use super::misread::{self, Complaint, Misread};
 use super::ordinate::{ABSCISSAE, Ordinate, Unit};
-use super::scene::{Scene, TOLERANCE, UNTIL, Variant};
+use super::scene::{Scene, Variant};
+use super::usual::{TOLERANCE, UNTIL};
 use super::views::{Arrangement, Axes, Exhibit, MOST_PLOTS, View};
 use super::window::{Span, Window};
 use crate::flow::method::{EPSILON, EPSILON_RANGE, STEP, STEP_RANGE};
 pub use crate::flow::quality::TOLERANCE_RANGE;
 use crate::flow::{Method, Problem};
+use crate::oscillator::belt::Quantity;
 use crate::oscillator::{PARAMETERS, Parameters, State, Symbol};
 
 /// End times up to which motions are computed.
@@ -29,6 +31,8 @@ struct File {
     press: String,
     terms: Option<BTreeSet<Symbol>>,
     machine: Option<Spanned<String>>,
+    /// Speed of the machine's belt in m/s, where it is not its own.
+    belt: Option<Spanned<f64>>,
     #[serde(default)]
     values: BTreeMap<Symbol, Spanned<f64>>,
     #[serde(default)]
@@ -75,7 +79,7 @@ pub fn parse(name: &str, file: &str, text: &str) -> Result<Scene, Misread> {
 }
 
 fn scene(name: &str, read: File) -> Result<Scene, Complaint> {
-    let rig = read.machine.as_ref().map(rig).transpose()?;
+    let rig = read.machine.as_ref().map(|name| rig(name, read.belt.as_ref())).transpose()?;
     let terms = match (&read.terms, &rig) {
         (Some(terms), None) => terms.clone(),
         (None, Some(rig)) => rig.terms(),
@@ -110,6 +114,7 @@ fn scene(name: &str, read: File) -> Result<Scene, Complaint> {
         families,
         arrangement: read.arrange,
         machine: rig,
+        recording: None,
     })
 }
 
@@ -120,15 +125,22 @@ fn either(given: &str) -> Complaint {
     Complaint { at: 0..0, message }
 }
 
-/// The machine of the program with this name.
-fn rig(name: &Spanned<String>) -> Result<Box<Rig>, Complaint> {
+/// The machine of the program with this name, its belt at a speed.
+fn rig(name: &Spanned<String>, speed: Option<&Spanned<f64>>) -> Result<Box<Rig>, Complaint> {
     let complain = |message| Complaint { at: name.span(), message };
     let machine = machine::library::find(name.get_ref()).ok_or_else(|| {
         let known = machine::library::machines().iter().map(|machine| machine.name.as_str());
         let known: Vec<&str> = known.collect();
         complain(format!("no machine {:?}; there are {}", name.get_ref(), known.join(", ")))
     })?;
-    Rig::new(machine.clone()).map(Box::new).map_err(|error| complain(error.to_string()))
+    let mut machine = machine.clone();
+    if let Some(speed) = speed {
+        let at = speed.span();
+        let checked = Quantity::BeltSpeed.check(*speed.get_ref());
+        machine.belt.belt_speed =
+            checked.map_err(|refused| Complaint { at, message: refused.to_string() })?;
+    }
+    Rig::new(machine).map(Box::new).map_err(|error| complain(error.to_string()))
 }
 
 /// The motion of a machine, to the accuracy that the file says.

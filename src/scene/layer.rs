@@ -84,6 +84,14 @@ pub enum Layer {
     Locus,
     /// The path of the machine over the speed of its belt.
     BeltPath,
+    /// Measured displacements over time.
+    Record,
+    /// Measured displacements in the phase plane.
+    Recorded,
+    /// The whole model of the machine in place of its cubic expansion.
+    Whole,
+    /// The cycles over the speed of the belt.
+    Speeds,
 }
 
 /// One row of [`LAYERS`].
@@ -104,7 +112,7 @@ pub struct LayerSpec {
 }
 
 /// Every layer, in the order in which they are listed.
-pub const LAYERS: [LayerSpec; 36] = [
+pub const LAYERS: [LayerSpec; 40] = [
     LayerSpec {
         layer: Layer::Trajectory,
         name: "trajectory",
@@ -149,7 +157,7 @@ pub const LAYERS: [LayerSpec; 36] = [
         layer: Layer::Lyapunov,
         name: "lyapunov",
         view: View::Phase,
-        meaning: "the circle in which a Lyapunov function proves capture",
+        meaning: "the circle of starts whose capture is proved",
         needs: None,
         usual: false,
     },
@@ -157,7 +165,7 @@ pub const LAYERS: [LayerSpec; 36] = [
         layer: Layer::Bands,
         name: "bands",
         view: View::Phase,
-        meaning: "bands of capture: across a border, one half swing more",
+        meaning: "bands of capture: one more half swing in each",
         needs: Some(Slot::Capture),
         usual: false,
     },
@@ -173,7 +181,7 @@ pub const LAYERS: [LayerSpec; 36] = [
         layer: Layer::Ghost,
         name: "ghost",
         view: View::Phase,
-        meaning: "the point left for a mark: its motion and cycles, dim",
+        meaning: "the point left for a mark, its motion and cycles",
         needs: None,
         usual: false,
     },
@@ -181,7 +189,7 @@ pub const LAYERS: [LayerSpec; 36] = [
         layer: Layer::Belt,
         name: "belt",
         view: View::Phase,
-        meaning: "the belt's speed: there the mass sticks, and the model ends",
+        meaning: "the speed of the belt, at which the mass sticks",
         needs: None,
         usual: false,
     },
@@ -389,8 +397,40 @@ pub const LAYERS: [LayerSpec; 36] = [
         layer: Layer::BeltPath,
         name: "belt-path",
         view: View::Regimes,
-        meaning: "the machine over the speed of its belt, round speeds marked",
+        meaning: "the machine over the speed of its belt",
         needs: None,
+        usual: true,
+    },
+    LayerSpec {
+        layer: Layer::Record,
+        name: "record",
+        view: View::TimeSeries,
+        meaning: "measured displacements of the record",
+        needs: Some(Slot::Fit),
+        usual: false,
+    },
+    LayerSpec {
+        layer: Layer::Recorded,
+        name: "recorded",
+        view: View::Phase,
+        meaning: "measured displacements over their fitted velocity",
+        needs: Some(Slot::Fit),
+        usual: false,
+    },
+    LayerSpec {
+        layer: Layer::Whole,
+        name: "whole",
+        view: View::Phase,
+        meaning: "the whole model in place of its cubic expansion",
+        needs: None,
+        usual: false,
+    },
+    LayerSpec {
+        layer: Layer::Speeds,
+        name: "speeds",
+        view: View::Speeds,
+        meaning: "cycles over the belt's speed, and the jumps",
+        needs: Some(Slot::Speeds),
         usual: true,
     },
 ];
@@ -403,15 +443,42 @@ impl Layer {
     }
 }
 
+/// The letters that move in a list or close it.
+const TAKEN: [char; 5] = ['g', 'j', 'k', 'q', 'v'];
+
+/// The layers of a view, each with its letter in the list of layers: the first of its name that no layer
+/// before it has.
+pub fn letters(view: View) -> impl Iterator<Item = (char, Layer)> {
+    let mut taken = TAKEN.to_vec();
+    LAYERS.iter().filter(move |row| row.view == view).filter_map(move |row| {
+        let mut letters = row.name.chars().filter(char::is_ascii_lowercase).chain('a'..='z');
+        let letter = letters.find(|letter| !taken.contains(letter))?;
+        taken.push(letter);
+        Some((letter, row.layer))
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn every_layer_has_a_letter_of_its_own_in_its_view() {
+        for row in &super::super::VIEWS {
+            let letters: Vec<char> = letters(row.view).map(|(letter, _)| letter).collect();
+            let own: std::collections::BTreeSet<_> = letters.iter().collect();
+            let layers = LAYERS.iter().filter(|layer| layer.view == row.view).count();
+            assert_eq!((letters.len(), own.len()), (layers, layers), "{}", row.name);
+        }
+        assert_eq!(letters(View::Phase).next(), Some(('t', Layer::Trajectory)));
+    }
 
     #[test]
     fn every_layer_stands_at_its_own_row_under_the_name_of_scene_files() {
         for row in &LAYERS {
             assert_eq!(row.layer.spec().name, row.name);
             assert_eq!(serde_json::to_value(row.layer).unwrap(), row.name);
+            assert!(row.meaning.len() <= 52, "{} is cut at 80 columns", row.name);
         }
     }
 }

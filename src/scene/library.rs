@@ -17,7 +17,7 @@ macro_rules! scene_file {
 }
 
 /// The files, in the order in which they are listed.
-const FILES: [(&str, &str); 33] = [
+const FILES: [(&str, &str); 37] = [
     scene_file!("plain"),
     scene_file!("capture"),
     scene_file!("linear"),
@@ -31,6 +31,10 @@ const FILES: [(&str, &str); 33] = [
     scene_file!("regimes"),
     scene_file!("energy"),
     scene_file!("belt-speed"),
+    scene_file!("inside"),
+    scene_file!("benchmark"),
+    scene_file!("groan"),
+    scene_file!("slow-belt"),
     scene_file!("fig01"),
     scene_file!("fig02"),
     scene_file!("fig03"),
@@ -207,6 +211,7 @@ mod tests {
                     | View::ReturnMap
                     | View::Trade
                     | View::Eigenvalues
+                    | View::Speeds
                     | View::Scan => {}
                 }
             }

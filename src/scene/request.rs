@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
+use super::recording::Recording;
 use crate::flow::quality::DRAFT;
 use crate::flow::{Method, Problem};
-use crate::oscillator::{Parameters, State, Symbol};
+use crate::oscillator::{Belt, Parameters, State, Symbol};
 use crate::study::chart::Plane;
 use crate::study::scan::Scan;
 
@@ -17,6 +18,31 @@ pub enum Request {
     Cycles {
         /// The parameters.
         parameters: Parameters,
+    },
+    /// The motion of a machine by the whole model, in the units of the paper's oscillator.
+    Machine {
+        /// The machine.
+        belt: Arc<Belt>,
+        /// Start, end time and tolerance; the parameters are those of the cubic expansion.
+        problem: Problem,
+    },
+    /// All cycles of a machine and the border of its basin.
+    Portrait {
+        /// The machine.
+        belt: Arc<Belt>,
+        /// Its cubic expansion.
+        parameters: Parameters,
+        /// Whether the cycles of the expansion are to be drawn, and not those of the whole model.
+        cubic: bool,
+    },
+    /// The cycles of a machine over the speed of its belt.
+    Speeds {
+        /// The machine; its own speed is put to 1 so that stepping it changes nothing here.
+        belt: Arc<Belt>,
+        /// From and to, in m/s.
+        range: (f64, f64),
+        /// Speeds that are looked at.
+        count: usize,
     },
     /// The borders of the bands of capture.
     Capture {
@@ -95,7 +121,16 @@ pub enum Request {
     },
     /// The claims of the paper against computation.
     Claims,
+    /// The oscillator that a record is of, and the margin that follows.
+    Fit {
+        /// The record.
+        recording: Recording,
+    },
 }
+
+/// Speeds of the belt that are looked at, and in a draft.
+pub const SPEEDS: usize = 81;
+const ROUGH: usize = 11;
 
 /// The kind of a request.
 ///
@@ -123,18 +158,23 @@ pub enum Slot {
     VariantCycles,
     /// The diagram of each.
     VariantBranches,
+    /// The cycles over the speed of the belt.
+    Speeds,
     /// What accuracy costs.
     Trade,
     /// The scan.
     Scan,
     /// The claims of the paper.
     Claims,
+    /// The fit of a record.
+    Fit,
     /// What errors are measured against: wanted last of all.
     Reference,
 }
 
 /// Every kind, the most urgent first.
-pub const SLOTS: [Slot; 14] = [
+pub const SLOTS: [Slot; 16] = [
+    Slot::Fit,
     Slot::Trajectory,
     Slot::VariantMotions,
     Slot::Cycles,
@@ -145,6 +185,7 @@ pub const SLOTS: [Slot; 14] = [
     Slot::Balance,
     Slot::ReturnMap,
     Slot::Regimes,
+    Slot::Speeds,
     Slot::Trade,
     Slot::Scan,
     Slot::Claims,
@@ -168,6 +209,7 @@ impl Slot {
                 | Slot::Branch
                 | Slot::ReturnMap
                 | Slot::Regimes
+                | Slot::Speeds
                 | Slot::VariantMotions
                 | Slot::VariantCycles
                 | Slot::VariantBranches
@@ -202,10 +244,12 @@ impl Slot {
             Slot::VariantMotions => "motions",
             Slot::VariantCycles => "cycles each",
             Slot::VariantBranches => "branches",
+            Slot::Speeds => "speeds",
             Slot::Trade => "trade",
             Slot::Reference => "reference",
             Slot::Scan => "scan",
             Slot::Claims => "paper",
+            Slot::Fit => "fit",
         }
     }
 }
@@ -215,18 +259,20 @@ impl Request {
     #[must_use]
     pub fn slot(&self) -> Slot {
         match self {
-            Request::Trajectory(_) => Slot::Trajectory,
-            Request::Cycles { .. } => Slot::Cycles,
+            Request::Trajectory(_) | Request::Machine { .. } => Slot::Trajectory,
+            Request::Cycles { .. } | Request::Portrait { .. } => Slot::Cycles,
             Request::Capture { .. } => Slot::Capture,
             Request::Balance { .. } => Slot::Balance,
             Request::Branch { .. } => Slot::Branch,
             Request::ReturnMap { .. } => Slot::ReturnMap,
             Request::Regimes { .. } => Slot::Regimes,
+            Request::Speeds { .. } => Slot::Speeds,
             Request::Family { slot, .. } => *slot,
             Request::Trade { .. } => Slot::Trade,
             Request::Reference { .. } => Slot::Reference,
             Request::Scan { .. } => Slot::Scan,
             Request::Claims => Slot::Claims,
+            Request::Fit { .. } => Slot::Fit,
         }
     }
 
@@ -255,6 +301,11 @@ impl Request {
                 let (parameters, plane) = (*parameters, *plane);
                 (!rough).then_some(Request::Regimes { parameters, plane, rough: true })
             }
+            Request::Speeds { belt, range, count } => (*count > ROUGH).then(|| Request::Speeds {
+                belt: Arc::clone(belt),
+                range: *range,
+                count: ROUGH,
+            }),
             Request::Family { slot, members } => {
                 let drafts: Vec<_> = members.iter().map(Request::draft).collect();
                 let rough = |(draft, member): (Option<Request>, &Request)| {
@@ -266,12 +317,15 @@ impl Request {
                 })
             }
             Request::Cycles { .. }
+            | Request::Machine { .. }
+            | Request::Portrait { .. }
             | Request::Capture { .. }
             | Request::Balance { .. }
             | Request::ReturnMap { .. }
             | Request::Trade { .. }
             | Request::Scan { .. }
             | Request::Reference { .. }
+            | Request::Fit { .. }
             | Request::Claims => None,
         }
     }

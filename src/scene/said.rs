@@ -22,10 +22,12 @@ pub enum Condition {
     Rests,
     /// The motion on show grows, onto a stable cycle or without bound.
     Grows,
+    /// A cycle of the whole model sticks to the belt.
+    Sticks,
 }
 
 /// Every condition under its name in scene files; `two` is one of both kinds of cycles.
-pub const CONDITIONS: [(&str, &[Condition]); 9] = [
+pub const CONDITIONS: [(&str, &[Condition]); 10] = [
     ("here", &[Condition::Here]),
     ("opened", &[Condition::Opened]),
     ("unstable", &[Condition::Unstable]),
@@ -35,6 +37,7 @@ pub const CONDITIONS: [(&str, &[Condition]); 9] = [
     ("safe", &[Condition::Safe]),
     ("rests", &[Condition::Rests]),
     ("grows", &[Condition::Grows]),
+    ("sticks", &[Condition::Sticks]),
 ];
 
 /// A text without the parts whose conditions do not hold. Brackets that hold no conditions are left as they

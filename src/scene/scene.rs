@@ -10,16 +10,11 @@ use serde::{Deserialize, Serialize};
 
 use super::layer::Layer;
 use super::machine::Rig;
-use super::views::{Arrangement, Exhibit};
+use super::recording::Recording;
+use super::usual::{TOLERANCE, UNTIL};
+use super::views::{Arrangement, Axes, Exhibit, View};
 use crate::flow::Problem;
 use crate::oscillator::Symbol;
-
-/// Relative error of a step where a scene does not say otherwise: ten digits, at a few percent of the
-/// cost of drawing them.
-pub const TOLERANCE: f64 = 1e-10;
-
-/// End time where a scene does not say otherwise: about ten periods of the undamped oscillator.
-pub const UNTIL: f64 = 60.0;
 
 /// A phenomenon, set up to be looked at.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -50,6 +45,9 @@ pub struct Scene {
     pub arrangement: Arrangement,
     /// The machine that the numbers stand for, if they stand for one.
     pub machine: Option<Box<Rig>>,
+    /// The record that it is fitted to, if it is one of a measurement.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub recording: Option<Recording>,
 }
 
 /// Values that are held while the others follow the keys.
@@ -75,5 +73,78 @@ impl Scene {
     #[must_use]
     pub fn declares(&self, symbol: Symbol) -> bool {
         matches!(symbol, Symbol::Q0 | Symbol::V0) || self.terms.contains(&symbol)
+    }
+}
+
+impl Rig {
+    /// A scene of the machine: the mass on its belt beside the phase plane, and the cycles over D below.
+    #[must_use]
+    pub fn scene(self) -> Scene {
+        let layers = [
+            Layer::Whole,
+            Layer::Mass,
+            Layer::Belt,
+            Layer::Trajectory,
+            Layer::Sticking,
+            Layer::Cycles,
+            Layer::Basin,
+            Layer::Branch,
+            Layer::Special,
+        ];
+        let exhibit = |view| Exhibit { view, axes: Axes::default(), window: None, family: None };
+        Scene {
+            name: self.machine.name.clone(),
+            title: self.machine.title.clone(),
+            look: self.machine.look.clone(),
+            press: "{play-motion} plays the motion and holds it, {motion-pace} changes the pace; {step-up} on D adds damping, on r friction."
+                .to_owned(),
+            terms: self.terms(),
+            problem: self.problem(),
+            steps: BTreeMap::new(),
+            layers: layers.into_iter().collect(),
+            plots: [View::Phase, View::Belt].map(exhibit).to_vec(),
+            families: Vec::new(),
+            arrangement: Arrangement::Rows,
+            machine: Some(Box::new(self)),
+            recording: None,
+        }
+    }
+}
+
+impl Recording {
+    /// A scene of the record: over time and in the phase plane, with the motion that the fit will find.
+    #[must_use]
+    pub fn scene(self) -> Scene {
+        let layers = [
+            Layer::Record,
+            Layer::Recorded,
+            Layer::Position,
+            Layer::Trajectory,
+            Layer::Sticking,
+            Layer::Cycles,
+            Layer::Basin,
+        ];
+        let exhibit = |view| Exhibit { view, axes: Axes::default(), window: None, family: None };
+        let unit = self.record().unit.clone().unwrap_or_else(|| "the file's unit".to_owned());
+        Scene {
+            name: self.name().to_owned(),
+            title: format!("{}, fitted", self.name()),
+            look: format!(
+                "Dots are what was measured, the line is the motion that fits best; lengths are in {unit}, times in \
+                 1/omega0. A number whose error is as large as itself is not known from this record."
+            ),
+            press: "{step-up} and {step-down} move a number away from its best value; {reset-scene} goes back. \
+                    {toggle-record} hides the record."
+                .to_owned(),
+            terms: [Symbol::D, Symbol::D2, Symbol::D3, Symbol::R].into_iter().collect(),
+            problem: Problem { until: UNTIL, tolerance: TOLERANCE, ..Problem::default() },
+            steps: BTreeMap::new(),
+            layers: layers.into_iter().collect(),
+            plots: [View::TimeSeries, View::Phase].map(exhibit).to_vec(),
+            families: Vec::new(),
+            arrangement: Arrangement::Rows,
+            machine: None,
+            recording: Some(self),
+        }
     }
 }

@@ -36,6 +36,8 @@ pub enum View {
     EnergyRate,
     /// The eigenvalues of the rest without friction in the complex plane.
     Eigenvalues,
+    /// The cycles of a machine over the speed of its belt.
+    Speeds,
     /// What was measured at each point of a scan.
     Scan,
 }
@@ -56,7 +58,7 @@ pub struct ViewSpec {
 }
 
 /// Every view, in the order in which they are listed and the keys visit them.
-pub const VIEWS: [ViewSpec; 11] = [
+pub const VIEWS: [ViewSpec; 12] = [
     ViewSpec {
         view: View::Phase,
         name: "phase",
@@ -126,6 +128,13 @@ pub const VIEWS: [ViewSpec; 11] = [
         title: "eigenvalues",
         meaning: "of the rest without friction, in the complex plane",
         window: Window { x: Span::known(-1.5, 1.5), y: Span::known(-1.5, 1.5) },
+    },
+    ViewSpec {
+        view: View::Speeds,
+        name: "speeds",
+        title: "belt speeds",
+        meaning: "cycles of the machine over the speed of its belt",
+        window: Window { x: Span::known(0.01, 1.0), y: Span::known(0.0, 1.0) },
     },
     ViewSpec {
         view: View::Scan,

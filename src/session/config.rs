@@ -14,12 +14,13 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::command::{COMMANDS, Command, command};
-use super::key::Key;
-use super::keymap::{CONTEXTS, Context, Keymap};
-use super::settings::{COLORS, Colors, GLYPHS, Glyphs, THEMES, Theme, named};
 use crate::scene::library;
 use crate::scene::misread::{self, Complaint, Misread};
+use crate::session::message::key::Key;
+use crate::session::state::command::Command;
+use crate::session::state::context::{CONTEXTS, Context};
+use crate::session::state::keymap::Keymap;
+use crate::session::state::settings::{COLORS, Colors, GLYPHS, Glyphs, THEMES, Theme, named};
 
 /// What a settings file says; what it does not say is left to the defaults.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -120,12 +121,16 @@ fn keymap(read: &BTreeMap<Spanned<String>, Keys>) -> Result<Keymap, Complaint> {
     let mut keymap = Keymap::default();
     let mut given: Vec<Given> = Vec::new();
     for (context, commands) in read {
-        let names = || CONTEXTS.iter().map(|(_, name)| *name);
-        let known = named(&CONTEXTS, context.get_ref())
+        let names = || CONTEXTS.iter().map(|row| row.name);
+        let known = CONTEXTS
+            .iter()
+            .find(|row| row.name == context.get_ref())
+            .map(|row| row.context)
             .ok_or_else(|| unknown(context, "context", names()))?;
         for (name, keys) in commands {
-            let found = command(name.get_ref())
-                .ok_or_else(|| unknown(name, "command", COMMANDS.iter().map(|row| row.name)))?;
+            let found = keymap
+                .named(name.get_ref())
+                .ok_or_else(|| unknown(name, "command", keymap.commands().map(|row| row.name)))?;
             if !found.keys.iter().any(|(context, _)| *context == known) {
                 let places: Vec<_> = found.keys.iter().map(|(context, _)| context.name()).collect();
                 let message = format!("{} applies in {}", found.name, places.join(", "));
@@ -157,6 +162,8 @@ fn keymap(read: &BTreeMap<Spanned<String>, Keys>) -> Result<Keymap, Complaint> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::session::commands;
+    use crate::session::state::context::ContextSpec;
 
     fn key(text: &str) -> Key {
         text.parse().unwrap()
@@ -223,9 +230,9 @@ mod tests {
     fn every_default_key_can_be_said_in_a_file() {
         use std::fmt::Write;
         let mut text = String::new();
-        for (context, name) in CONTEXTS {
+        for ContextSpec { context, name, .. } in CONTEXTS {
             writeln!(text, "[keys.{name}]").unwrap();
-            for command in COMMANDS {
+            for command in commands() {
                 if let Some((_, keys)) = command.keys.iter().find(|(at, _)| *at == context) {
                     writeln!(text, "{} = {keys:?}", command.name).unwrap();
                 }
@@ -243,7 +250,8 @@ mod tests {
         for scene in library() {
             for text in [&scene.look, &scene.press] {
                 for name in text.split('{').skip(1).map(|rest| rest.split('}').next().unwrap()) {
-                    assert!(command(name).is_some(), "{}: no command {name}", scene.name);
+                    let known = commands().any(|command| command.name == name);
+                    assert!(known, "{}: no command {name}", scene.name);
                 }
             }
         }

@@ -1,52 +1,54 @@
 //! The session: a pure machine of state, commands and keys.
+//!
+//! It stands on floors, and each file uses only files further down:
+//!
+//! - [`message`] is what can happen to a session, [`replay`] the same as text;
+//! - [`state`] is plain data, with [`state::session::Session`] on top;
+//! - [`read`] answers questions about it, and changes nothing;
+//! - [`act`] changes it, one family of commands a file;
+//! - [`save`] and [`opening`] turn a session into text and back;
+//! - `commands` and `lines` are the tables of everything that has a name, with the functions that do it,
+//!   and [`config`] is what a settings file makes of the keys;
+//! - `update` takes a message in.
 
-pub mod belt;
-pub mod command;
+pub(crate) mod act;
+pub mod commands;
 pub mod config;
-pub mod fate;
-pub mod fit;
-pub mod history;
-pub mod input;
-pub mod key;
-pub mod keymap;
-pub mod ledger;
-pub mod line;
+pub mod effect;
+pub mod lines;
 pub mod message;
-pub mod motion;
 pub mod opening;
-pub mod overlay;
-pub mod pending;
-pub mod playback;
-pub mod plot;
+mod press;
+pub mod read;
 pub mod replay;
-pub mod requirement;
 pub mod save;
-pub mod scan;
-pub mod settings;
 pub mod state;
-pub mod step;
 #[cfg(test)]
 mod tests;
-pub mod trade;
 pub mod update;
-pub mod variants;
-pub mod waiting;
-pub mod walk;
-pub mod wants;
 
-pub use belt::Stand;
-pub use command::{COMMANDS, Command};
-pub use input::Input;
-pub use key::{Code, Key};
-pub use keymap::{Context, Hint, Keymap};
-pub use line::{LINES, LineCommand};
-pub use message::{Effect, Gesture, Msg, Place, Pointed, Purpose};
-pub use overlay::{Entry, List, Listed, Overlay, Prompt};
-pub use pending::Pending;
-pub use plot::{Framing, Pane, Plot};
-pub use scan::Scanned;
-pub use state::{Notice, Price, ROWS, Row, Session, Size, Steps};
+pub use commands::commands;
+pub use effect::Effect;
+pub use lines::lines;
+pub use message::key::{self, Code, Key};
+pub use message::pointer::{Gesture, Place, Pointed};
+pub use message::{Msg, Notice, Purpose};
+pub use press::run_line;
+pub use read::contexts::Hint;
+pub use read::variants::Shown;
+pub use read::{fate, ledger, motion, requirement};
+pub use state::command::{Command, LineCommand};
+pub use state::context::Context;
+pub use state::input::Input;
+pub use state::keymap::{self, Keymap};
+pub use state::overlay::{self, Entry, List, Listed, Overlay, Prompt};
+pub use state::pending::Pending;
+pub use state::plot::{Framing, Pane, Plot};
+pub use state::rows::{ROWS, Row, Steps};
+pub use state::scan::{self, Scanned};
+pub use state::session::{Price, Session, Size};
+pub use state::settings;
+pub use state::setup::Stand;
+pub use state::stop::Stop;
+pub use state::waiting::Waiting;
 pub use update::update;
-pub use variants::Shown;
-pub use waiting::Waiting;
-pub use walk::Stop;

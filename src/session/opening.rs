@@ -3,15 +3,15 @@
 //! A scene of the program with other numbers is told in lines that one could type. Anything else, such as a
 //! machine or a saved session, is told as a saved session, which the file carries with it.
 
-use super::replay::Step;
-use super::save;
-use super::settings::{COLORS, GLYPHS, Look, THEMES};
-use super::state::Session;
-use super::step::shortest;
 use crate::flow::method::Dial;
 use crate::flow::{METHODS, Problem};
 use crate::oscillator::{PARAMETERS, Symbol};
 use crate::scene::{Scene, find};
+use crate::session::replay::script::Step;
+use crate::session::save;
+use crate::session::state::session::Session;
+use crate::session::state::settings::{COLORS, GLYPHS, Look, THEMES};
+use crate::session::state::step_size::shortest;
 
 /// The name under which a file carries a session.
 const CARRIED: &str = "start.toml";

@@ -10,13 +10,6 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::belt::Stand;
-use super::history::{Before, Desk, History, Snapshot};
-use super::overlay::Overlay;
-use super::plot::{Framing, Pane, Plot};
-use super::replay::{self, Step};
-use super::state::{ROWS, Row, Session, Steps};
-use super::update::marks::{Mark, Marks};
 use crate::flow::Problem;
 use crate::flow::method::{EPSILON_RANGE, STEP_RANGE};
 use crate::oscillator::PARAMETERS;
@@ -25,6 +18,16 @@ use crate::scene::file::{TOLERANCE_RANGE, UNTIL_RANGE};
 use crate::scene::{
     Answered, Arrangement, Axes, Exhibit, Layer, MOST_PLOTS, Point, Scene, Slot, View, Window, find,
 };
+use crate::session::replay;
+use crate::session::replay::script::Step;
+use crate::session::state::history::{Before, Desk, History, Snapshot};
+use crate::session::state::marks::{Mark, Marks};
+use crate::session::state::overlay::Overlay;
+use crate::session::state::plot::{Framing, Pane, Plot};
+use crate::session::state::rows::{ROWS, Row, Steps};
+use crate::session::state::session::MOST_HARMONICS;
+use crate::session::state::session::Session;
+use crate::session::state::setup::Stand;
 
 /// The format that this program writes; it reads this one and all before.
 const VERSION: u32 = 1;
@@ -222,7 +225,7 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     let row = |row: &Row| row.name() == file.selected;
     let selected = ROWS.into_iter().find(row);
     let selected = selected.ok_or_else(|| format!("no row {:?} to select", file.selected))?;
-    let most = super::update::general::MOST_HARMONICS;
+    let most = MOST_HARMONICS;
     if !(1..=most).contains(&file.harmonics) {
         return Err(format!("harmonics = {}, not 1 to {most}", file.harmonics));
     }

@@ -6,10 +6,10 @@
 //! millions of swings) the closed form takes its place, or else an implicit run near rounding; then another
 //! method's difference from it is the own error, and no smaller error can be measured.
 
-use crate::closed_form::twofold::Twofold;
 use crate::flow::precise::{self, COARSE, FINE, Precise, precise};
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Crossing, Detail, Limits, Method, Outcome, Problem, Reason, Trajectory};
+use crate::numerics::twofold::Twofold;
 
 /// Evaluations in twice the working precision that are spent at most: about a second.
 const MOST: u64 = 1_000_000;

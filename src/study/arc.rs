@@ -8,10 +8,11 @@
 use super::half_map::{HalfMap, HalfSwing, Length, NoEnd};
 use crate::flow::auto::LastStep;
 use crate::flow::exact::Exact;
-use crate::flow::scaling::times_power;
 use crate::flow::step::{Powers, Stepper};
-use crate::flow::tableau::GAUSS;
 use crate::flow::{Cost, Limits, Reason};
+use crate::numerics::quadrature::gauss;
+use crate::numerics::root::{Bracket, Change, newton};
+use crate::numerics::scaling::times_power;
 use crate::oscillator::{HalfPlane, Parameters, Side, State};
 
 /// Integration tolerance of an arc.
@@ -206,8 +207,7 @@ impl Arc {
                 let x = self.direction.sense() * times_power(piece.step.at(time).x, piece.unit);
                 self.side.displacement(x, self.r)
             };
-            let node = |(node, weight): &(f64, f64)| weight * displacement(node * piece.duration);
-            piece.duration * GAUSS.iter().map(node).sum::<f64>()
+            piece.duration * gauss(|part| displacement(part * piece.duration))
         };
         self.pieces.iter().map(piece_integral).sum()
     }
@@ -252,24 +252,15 @@ fn rest(field: &HalfPlane, pieces: &[Piece], detail: f64) -> Option<Piece> {
 impl Piece {
     /// v where the position is `target`, which lies on this piece.
     fn speed_at(&self, target: f64) -> f64 {
-        /// Newton steps; the position is monotone in time, so that a bracket always holds.
-        const STEPS: usize = 60;
+        // The position is monotone in time.
         let target = times_power(target, -self.unit);
-        let (mut low, mut high) = (0.0, self.duration);
-        let mut time = 0.5 * self.duration;
-        for _ in 0..STEPS {
+        let bracket = Bracket::rising(0.0, self.duration);
+        let settled = Change::Absolute(1e-12 * self.duration);
+        let found = newton(bracket, bracket.middle(), settled, |time| {
             let point = self.step.at(time);
-            let newton = time - (point.x - target) / point.v;
-            if (newton - time).abs() <= 1e-12 * self.duration {
-                break;
-            }
-            if point.x > target {
-                high = time;
-            } else {
-                low = time;
-            }
-            time = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-        }
+            (point.x - target, point.v)
+        });
+        let time = found.at;
         times_power(self.step.at(time).v, self.unit).max(0.0)
     }
 }

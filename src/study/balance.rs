@@ -9,14 +9,18 @@
 //!
 //! `integral of x exp(2 D2 x) over [c1, c1 + 2 r] + integral of x exp(-2 D2 x) over [c0, c0 + 2 r] = W`
 
+use super::closed_pair::Closing;
 use super::closing::{Equation, Route};
-use super::half_map::{HalfMap, Length, NoEnd};
+use super::half_map::{HalfMap, HalfSwing, Length, NoEnd};
 use super::roundoff::UNIT;
-use crate::flow::scaling::{exponent, field_in_units, times_power};
 use crate::flow::step::Stepper;
-use crate::flow::tableau::GAUSS;
 use crate::flow::{Limits, Reason};
+use crate::numerics::quadrature::{GAUSS, gauss};
+use crate::numerics::scaling::{exponent, times_power};
 use crate::oscillator::HalfPlane;
+
+/// A residual weighed as energy, and a bound on its error.
+pub type Weighed = (f64, f64);
 
 /// The residual of [`Route::Mixed`] at `u = ln c0`, with the digits that a difference would lose.
 ///
@@ -28,27 +32,40 @@ pub fn weighed_residual(
     equation: &mut Equation,
     u: f64,
     limits: &Limits,
-) -> Result<Option<(f64, f64)>, Reason> {
+) -> Result<Option<Weighed>, Reason> {
+    Ok(weighed_closing(equation, u, limits)?.map(|(_, weighed)| weighed))
+}
+
+/// The same with the pair of swings that was weighed.
+///
+/// # Errors
+/// The [`Reason`] why a swing failed.
+pub fn weighed_closing(
+    equation: &mut Equation,
+    u: f64,
+    limits: &Limits,
+) -> Result<Option<(Closing, Weighed)>, Reason> {
     let gap = 2.0 * equation.parameters.r;
     let start = Length::from_log(u);
     // Squares of lengths leave the range of numbers long before lengths do: all in units of the start.
     let unit = exponent(start.value);
     let [forward, backward] = equation.maps(Route::Mixed);
-    let Some((_, gained_first)) = weigh(forward, start, unit, limits)? else { return Ok(None) };
+    let Some((first, gained_first)) = weigh(forward, start, unit, limits)? else { return Ok(None) };
     // Run backward, positions and damping change their signs; the work is that of the motion forward.
     let Some((second, lost_second)) = weigh(backward, start.plus(gap), unit, limits)? else {
         return Ok(None);
     };
     let d2 = times_power(forward.field().d2, unit);
+    let closing = equation.pair(start, first, second);
     let [start, second, gap] =
-        [start.value, second.value, gap].map(|length| times_power(length, -unit));
+        [start.value, second.end.value, gap].map(|length| times_power(length, -unit));
     let taken = friction(second, gap, d2) + friction(start, gap, -d2);
     let target = second + gap;
     let gained_second = -lost_second;
     let weight = target * target * (2.0 * d2 * target).exp();
     let excess = (gained_first + gained_second - taken) / weight;
     let noise = UNIT * (gained_first.abs() + gained_second.abs() + taken) / weight;
-    Ok(Some((excess.ln_1p(), noise)))
+    Ok(Some((closing, (excess.ln_1p(), noise))))
 }
 
 /// Swings and integrates `-exp(2 D2 x) (2 D v^2 + D3 v^4)`, lengths measured in units of `2^measure`.
@@ -57,8 +74,8 @@ fn weigh(
     start: Length,
     measure: i32,
     limits: &Limits,
-) -> Result<Option<(Length, f64)>, Reason> {
-    let HalfPlane { d, d2, d3 } = field_in_units(map.field(), measure);
+) -> Result<Option<(HalfSwing, f64)>, Reason> {
+    let HalfPlane { d, d2, d3 } = map.field().in_units(measure);
     let mut gained = 0.0;
     // Every part of the swing counts: none may be skipped by a closed form.
     let skipped = map.set_linear_below(0.0);
@@ -74,7 +91,7 @@ fn weigh(
     });
     map.set_linear_below(skipped);
     match swing {
-        Ok(swing) => Ok(Some((swing.end, gained))),
+        Ok(swing) => Ok(Some((swing, gained))),
         Err(NoEnd::Failed(reason)) => Err(reason),
         Err(NoEnd::Escapes | NoEnd::Never) => Ok(None),
     }
@@ -82,9 +99,8 @@ fn weigh(
 
 /// The integral of `x exp(2 d2 x)` over `[start, start + gap]`: what friction takes between two swings.
 fn friction(start: f64, gap: f64, d2: f64) -> f64 {
-    let node = |(node, weight): &(f64, f64)| {
-        let x = start + node * gap;
-        weight * x * (2.0 * d2 * x).exp()
-    };
-    gap * GAUSS.iter().map(node).sum::<f64>()
+    gap * gauss(|part| {
+        let x = start + part * gap;
+        x * (2.0 * d2 * x).exp()
+    })
 }

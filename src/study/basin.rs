@@ -3,14 +3,26 @@
 //! Limit cycles and the escape separatrix are nested orbits around the sticking set. The region between
 //! two of them has one fate. So the basin over a window needs no motion from any of its points: for each
 //! column of starts the orbits' speeds at that displacement ([`super::arc`]) sort all of them.
+//!
+//! ```
+//! use hopfscope::flow::Limits;
+//! use hopfscope::oscillator::{Parameters, State};
+//! use hopfscope::study::basin::{Fate, basin};
+//!
+//! let parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.5, r: 0.1 };
+//! let found = basin(&parameters, 3.0, &Limits::PATIENT)?;
+//! assert_eq!(found.fate(State { q: 0.2, v: 0.0 }), Fate::Captured);
+//! assert_eq!(found.fate(State { q: 0.3, v: 0.0 }), Fate::Cycle);
+//! # Ok::<(), hopfscope::flow::Reason>(())
+//! ```
 
 use serde::Serialize;
 
 use super::border::Border;
-use super::closing::{Closing, Equation, first_side};
+use super::closed_pair::Closing;
+use super::closing::{Equation, first_side};
 use super::closings::{STEP, all_closings};
-use super::cycle::Edge;
-use super::margin::Margin;
+use super::limit_cycle::{Edge, Margin};
 use crate::flow::{Cost, Limits, Reason};
 use crate::oscillator::sticking::rests;
 use crate::oscillator::{Parameters, State};

@@ -5,6 +5,8 @@ use serde::Serialize;
 
 use super::margin::Margin;
 use crate::flow::Trajectory;
+use crate::numerics::hermite::Hermite;
+use crate::numerics::root::{TO_ROUNDING, bisect};
 use crate::oscillator::belt::Units;
 use crate::oscillator::{HalfPlane, Parameters, Side, State};
 
@@ -61,13 +63,14 @@ impl Followed {
             let side = if from.v + to.v >= 0.0 { Side::Upper } else { Side::Lower };
             let slope = |q, v| h * acceleration(parameters, side, q, v);
             let curve = Hermite {
-                ends: (from.v, to.v),
+                values: (from.v, to.v),
                 slopes: (slope(from.q, from.v), slope(to.q, to.v)),
             };
-            for peak in curve.peaks().into_iter().flatten().chain([1.0]) {
+            for peak in curve.extrema().into_iter().flatten().chain([1.0]) {
                 let v = curve.at(peak);
                 if v >= sticking {
-                    let part = curve.first(sticking, peak);
+                    let (_, part) =
+                        bisect(0.0, peak, TO_ROUNDING, |part| curve.at(part) >= sticking);
                     let q = from.q + part * (to.q - from.q);
                     found.velocity.1 = sticking;
                     found.displacement = widened(found.displacement, q);
@@ -91,45 +94,4 @@ fn widened((low, high): (f64, f64), value: f64) -> (f64, f64) {
 fn acceleration(parameters: &Parameters, side: Side, q: f64, v: f64) -> f64 {
     let field = HalfPlane::new(parameters, side);
     side.sign() * field.acceleration(side.position(q, parameters.r), side.sign() * v)
-}
-
-/// A cubic on 0 .. 1 by values and slopes at both ends.
-struct Hermite {
-    ends: (f64, f64),
-    slopes: (f64, f64),
-}
-
-impl Hermite {
-    /// Coefficients of `t`, `t^2`, `t^3`.
-    fn coefficients(&self) -> [f64; 3] {
-        let rise = self.ends.1 - self.ends.0;
-        let (a, b) = self.slopes;
-        [a, 3.0 * rise - 2.0 * a - b, a + b - 2.0 * rise]
-    }
-
-    fn at(&self, t: f64) -> f64 {
-        let [a, b, c] = self.coefficients();
-        if t == 1.0 { self.ends.1 } else { self.ends.0 + t * (a + t * (b + t * c)) }
-    }
-
-    /// Where it has its extrema inside, in their order.
-    fn peaks(&self) -> [Option<f64>; 2] {
-        let [a, b, c] = self.coefficients();
-        let root = (b * b - 3.0 * a * c).sqrt();
-        // The quotient that does not cancel, and the other by the product of both roots.
-        let sum = -(b + root.copysign(b));
-        let (one, other) = (sum / (3.0 * c), a / sum);
-        let inside = |t: f64| (t > 0.0 && t < 1.0).then_some(t);
-        [inside(one.min(other)), inside(one.max(other))]
-    }
-
-    /// Where it first reaches `value` before `end`, at which it has.
-    fn first(&self, value: f64, end: f64) -> f64 {
-        let (mut low, mut high) = (0.0, end);
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            if self.at(middle) >= value { high = middle } else { low = middle }
-        }
-        high
-    }
 }

@@ -13,7 +13,8 @@
 //! and finite, a separatrix where not.
 
 use super::arc::{Arc, Direction};
-use super::closing::{Closing, first_side};
+use super::closed_pair::Closing;
+use super::closing::first_side;
 use super::half_map::{HalfSwing, Length};
 use crate::flow::{Limits, Reason};
 use crate::oscillator::{Parameters, Side, State};

@@ -4,86 +4,45 @@
 //! curve is followed ([`super::continuation`]) until it leaves the range, goes to infinity or shrinks to
 //! nothing. Along D, D3 and r a curve is a graph over the amplitude: each of them changes the energy
 //! balance of a swing in one direction only, so for a given clearance one value closes the cycle.
+//!
+//! ```
+//! use hopfscope::flow::Limits;
+//! use hopfscope::oscillator::{Parameters, Symbol};
+//! use hopfscope::study::SpecialKind;
+//! use hopfscope::study::branch::{Points, branch};
+//!
+//! let parameters = Parameters { d: 0.0, d2: 0.0, d3: 0.01, r: 0.1 };
+//! let range = (-0.1, 0.0);
+//! let found = branch(&parameters, Symbol::D, range, Points::Followed, 1e-8, &Limits::PATIENT)?;
+//! let fold = found.special.iter().find(|special| special.kind == SpecialKind::Fold).unwrap();
+//! assert!((fold.value + 0.046_814_10).abs() < 1e-8);
+//! # Ok::<(), hopfscope::flow::Reason>(())
+//! ```
 
 use std::f64::consts::PI;
 
 use serde::Serialize;
 
 use super::closing::{Equation, Route, first_side};
-use super::closings::{STEP, other_closings, polish_near};
-use super::continuation::{Curve, CurvePoint};
-use super::cycle::{Cycle, CycleErrors};
+use super::closings::{STEP, other_closings};
+use super::continuation::{Curve, CurvePoint, covers, passes};
+use super::cycle::Cycle;
 use super::escape::{escape_point, escape_product};
+use super::polish::polish_near;
+use super::special::{Special, SpecialKind, VANISHING};
+use super::weak::weak_closing;
 use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::{Cost, Limits, Reason};
 use crate::oscillator::{Parameters, Side, Symbol};
 
 /// A cycle and the parameter value at which it lives.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct BranchPoint {
     /// Value of the branch's parameter.
     pub value: f64,
     /// The cycle there.
     #[serde(flatten)]
     pub cycle: Cycle,
-}
-
-/// What makes a point of a branch special.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum SpecialKind {
-    /// Two cycles meet and vanish. Well below `D = -1` the unstable one exists only so close to the sticking
-    /// set that numbers do not tell it from the set: the stable cycle grazes it.
-    Fold,
-    /// The cycle goes to infinity.
-    Escape,
-    /// The steady state changes its stability (r = 0).
-    Hopf,
-    /// The branch crosses the value zero of its parameter.
-    ZeroCrossing,
-}
-
-/// A special point of a branch.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Special {
-    /// What it is.
-    pub kind: SpecialKind,
-    /// Value of the parameter there.
-    pub value: f64,
-    /// Right turning point of the cycle there; `None` where it is infinite.
-    pub q_max: Option<f64>,
-    /// The cycle there, shrunk to a point at the Hopf point; `None` where it is infinite.
-    #[serde(skip)]
-    pub cycle: Option<Cycle>,
-}
-
-impl SpecialKind {
-    /// Whether the branch ends in a stable `cycle` that grazes the sticking set, instead of meeting an unstable
-    /// one.
-    #[must_use]
-    pub fn grazes(self, cycle: Option<&Cycle>) -> bool {
-        self == SpecialKind::Fold && cycle.is_some_and(Cycle::is_stable_beyond_doubt)
-    }
-
-    /// What such a point is called, `cycle` being the one that lives there.
-    #[must_use]
-    pub fn name(self, cycle: Option<&Cycle>) -> &'static str {
-        match self {
-            SpecialKind::Fold if self.grazes(cycle) => "grazing",
-            SpecialKind::Fold => "fold",
-            SpecialKind::Escape => "escape",
-            SpecialKind::Hopf => "Hopf point",
-            SpecialKind::ZeroCrossing => "zero crossing",
-        }
-    }
-}
-
-impl Special {
-    /// A special point at which this cycle lives; `None` where it is infinite.
-    #[must_use]
-    pub fn new(kind: SpecialKind, value: f64, cycle: Option<Cycle>) -> Self {
-        Special { kind, value, q_max: cycle.map(|cycle| cycle.q_max), cycle }
-    }
 }
 
 /// The cycles along a parameter.
@@ -95,6 +54,8 @@ pub struct Branch {
     pub pieces: Vec<Vec<BranchPoint>>,
     /// The special points, by value.
     pub special: Vec<Special>,
+    /// Values at which a point was left out, because doubles and thirty digits leave its cycle vague.
+    pub vague: Vec<f64>,
     /// What it cost.
     pub cost: Cost,
 }
@@ -139,7 +100,13 @@ pub fn branch(
         curve,
         parameter,
         points,
-        found: Branch { parameter, pieces: Vec::new(), special: Vec::new(), cost: Cost::default() },
+        found: Branch {
+            parameter,
+            pieces: Vec::new(),
+            special: Vec::new(),
+            vague: Vec::new(),
+            cost: Cost::default(),
+        },
     };
     if parameter == Symbol::D && parameters.is_piecewise_linear() {
         tracer.found.pieces.extend(linear_branch(parameters.r, from, to, points));
@@ -160,7 +127,8 @@ pub fn branch(
     Ok(found)
 }
 
-/// A branch over D or D3 ends at this part of the range from where its cycle is infinite.
+/// A branch over D or D3 ends at this part of the range from where its cycle is infinite, and at this part of the
+/// natural amplitude where it shrinks to nothing.
 const NEAREST: f64 = 1e-4;
 
 /// Relative error of a clearance that is good enough, in units of the tolerance.
@@ -192,30 +160,6 @@ const LINEAR_POINTS: usize = 40;
 /// millionth.
 const DEEPEST: f64 = -600.0;
 const SHALLOW: f64 = 28.0;
-
-/// The cycle at the Hopf point: the steady state, about to swing at the undamped frequency.
-const VANISHING: Cycle = Cycle {
-    stable: false,
-    q_min: 0.0,
-    q_max: 0.0,
-    v_min: 0.0,
-    v_max: 0.0,
-    period: std::f64::consts::TAU,
-    multiplier: Some(1.0),
-    log_multiplier: 0.0,
-    clearance: 0.0,
-    log_clearance: f64::NEG_INFINITY,
-    error: 0.0,
-    errors: CycleErrors {
-        q_min: 0.0,
-        q_max: 0.0,
-        v_min: 0.0,
-        v_max: 0.0,
-        period: 0.0,
-        log_multiplier: 0.0,
-        log_clearance: 0.0,
-    },
-};
 
 /// A branch in the making.
 struct Tracer<'a> {
@@ -352,7 +296,8 @@ impl Tracer<'_> {
             // Beyond, swings from any start are one (see the search for cycles).
             (deepest, (60.0 / d2.abs() + 2.0 * r).ln())
         } else {
-            let smallest = if r > 0.0 { deepest } else { natural.ln() - LOG_FAR };
+            // Towards a Hopf point D goes to 0 as the square of the amplitude.
+            let smallest = if r > 0.0 { deepest } else { natural.ln() + NEAREST.ln() };
             if self.parameter == Symbol::D3 {
                 let least = NEAREST * self.curve.scale;
                 // Sizes there: by linear and cubic damping alone (52), by friction and cubic damping (50),
@@ -426,7 +371,10 @@ impl Tracer<'_> {
                 Points::Even(_) => self.polished(&point)?,
                 Points::Followed => Some(self.describe(&point)),
             };
-            piece.extend(cycle.map(|cycle| BranchPoint { value: point.p, cycle }));
+            match cycle {
+                Some(cycle) => piece.push(BranchPoint { value: point.p, cycle }),
+                None => self.found.vague.push(point.p),
+            }
         }
         if !piece.is_empty() {
             self.found.pieces.push(piece);
@@ -437,6 +385,9 @@ impl Tracer<'_> {
     /// The cycle of a point as the search for cycles finds it, to rounding; `None` where it cannot be told.
     fn polished(&mut self, point: &CurvePoint) -> Result<Option<Cycle>, Reason> {
         let parameters = self.curve.parameters_at(point.p);
+        if let Some(closing) = weak_closing(&parameters) {
+            return Ok(Some(closing.describe(&parameters, self.curve.side)));
+        }
         let mut equation = Equation::on_side(&parameters, self.curve.side, STEP);
         let sharp = POLISHED * self.curve.tolerance();
         let closing =
@@ -504,25 +455,4 @@ fn linear_branch(r: f64, from: f64, to: f64, points: Points) -> Option<Vec<Branc
         Some(BranchPoint { value: d, cycle: Cycle::from(&cycle) })
     };
     Some((0..count).filter_map(point).collect())
-}
-
-/// Whether a curve that is a graph over the amplitude goes through that of a point.
-fn covers(curve: &[CurvePoint], point: &CurvePoint) -> bool {
-    let beyond = |it: &CurvePoint| it.u > point.u;
-    curve.iter().any(beyond) && !curve.iter().all(beyond)
-}
-
-/// Whether a curve passes a point: between neighbours in p, and close in u.
-fn passes(curve: &[CurvePoint], point: &CurvePoint) -> bool {
-    curve.windows(2).any(|pair| {
-        let (one, other) = (&pair[0], &pair[1]);
-        let (low, high) = (one.p.min(other.p), one.p.max(other.p));
-        let slack = 1e-9 * (high - low);
-        if point.p < low - slack || point.p > high + slack {
-            return false;
-        }
-        let fraction = if one.p == other.p { 0.5 } else { (point.p - one.p) / (other.p - one.p) };
-        let u = one.u + fraction * (other.u - one.u);
-        (u - point.u).abs() <= 0.25 * (other.u - one.u).abs() + 1e-6
-    })
 }

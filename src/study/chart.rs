@@ -6,41 +6,15 @@
 //! line is sought at which the fold comes to the given D. Between two borders one regime holds
 //! ([`Regime::of`]): nothing is scanned.
 
+mod line;
 mod trace;
 
+pub use line::{Band, Line};
 use trace::{HALVINGS, Tracer, values};
 
 use super::regime::Regime;
 use crate::flow::{Cost, Limits, Reason};
 use crate::oscillator::{Parameters, Symbol};
-
-/// A part of a line in which one regime holds; `None` where it could not be found out.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Band {
-    /// Where it begins.
-    pub from: f64,
-    /// Where it ends.
-    pub to: f64,
-    /// What holds there.
-    pub regime: Option<Regime>,
-}
-
-/// The bands at one value of the other parameter, and the borders between them.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Line {
-    /// Value of the other parameter.
-    pub at: f64,
-    /// From one end of the range to the other.
-    pub bands: Vec<Band>,
-    /// The fold, also where it lies outside of the range.
-    pub fold: Option<f64>,
-    /// The fold by one harmonic (48).
-    pub harmonic: Option<f64>,
-    /// The escape point.
-    pub escape: Option<f64>,
-    /// Why the borders could not be computed.
-    pub failure: Option<Reason>,
-}
 
 /// What a chart is drawn over: two different ones of D, D2, D3, r, and their ranges.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -135,6 +109,7 @@ pub fn chart(
         cost: Cost::default(),
         tolerance: resolution.tolerance,
         ratio: 1.0,
+        known: None,
     };
     let mut lines: Vec<Line> = Vec::new();
     for at in values(across, plane.range(across), resolution.lines) {

@@ -12,8 +12,9 @@
 //! The first swing is the one in whose frame `D2 >= 0`, so that with `D3 = 0` neither it nor the
 //! second swing run backward can escape.
 
+use super::closed_pair::{Closing, Spread, rounding, share};
 use super::half_map::{HalfMap, HalfSwing, Length, NoEnd};
-use super::roundoff::{Errors, UNIT};
+use super::roundoff::Errors;
 use super::search::Node;
 use crate::flow::{Cost, Limits, Reason};
 use crate::oscillator::{HalfPlane, Parameters, Side};
@@ -59,56 +60,6 @@ impl Route {
     }
 }
 
-/// The two swings at one value of the unknown, and how far they are from closing.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Closing {
-    /// The unknown, and the residual as a difference of two increasing functions of it.
-    pub node: Node,
-    /// Clearance at which the first swing starts.
-    pub first: Length,
-    /// Clearance at which the second swing starts.
-    pub second: Length,
-    /// Duration of both swings.
-    pub duration: f64,
-    /// Integral of `v^2` over both swings.
-    pub square: f64,
-    /// Largest speed in the first and in the second swing, if asked for.
-    pub fastest: [f64; 2],
-    /// Logarithms of what each swing, run forward, makes of a relative error of its clearance.
-    pub growth: [f64; 2],
-    /// Bounds on the error of the residual and, relative, of the first clearance, if asked for.
-    pub noise: f64,
-    /// See `noise`.
-    pub uncertainty: f64,
-    /// Errors of the other numbers at exactly this unknown, and those that a relative error 1 of it makes.
-    errors: [Spread; 2],
-}
-
-/// Errors of what a closing gives: of the clearances relative, of all others absolute.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Spread {
-    /// Of the clearances at which the swings start.
-    pub clearance: [f64; 2],
-    /// Of the duration.
-    pub duration: f64,
-    /// Of the integral of `v^2`.
-    pub square: f64,
-    /// Of the largest speeds.
-    pub fastest: [f64; 2],
-}
-
-impl Spread {
-    /// From the relative errors of the clearances and the errors of the two swings.
-    fn new(clearance: [f64; 2], [first, second]: [Errors; 2]) -> Self {
-        Spread {
-            clearance,
-            duration: first.duration + second.duration,
-            square: first.square + second.square,
-            fastest: [first.fastest, second.fastest],
-        }
-    }
-}
-
 /// The half maps of both swings in both directions.
 #[derive(Clone, Debug)]
 pub struct Equation {
@@ -116,7 +67,7 @@ pub struct Equation {
     pub parameters: Parameters,
     /// The side of the first swing.
     pub side: Side,
-    forward: [HalfMap; 2],
+    pub(super) forward: [HalfMap; 2],
     backward: [HalfMap; 2],
     charged: Cost,
 }
@@ -244,67 +195,6 @@ impl Equation {
         }
     }
 
-    /// Logarithm of the clearance below which no first swing of a cycle starts where the end of the sticking set
-    /// is a node that repels (`D <= -1`); `None` where no swing from there comes back.
-    ///
-    /// Every second swing, however close to the sticking set it starts, ends beyond the one that creeps out
-    /// from its rim, and the next first swing starts there.
-    ///
-    /// # Errors
-    /// The [`Reason`] why a swing failed.
-    pub fn rim(&mut self, limits: &Limits) -> Result<Option<f64>, Reason> {
-        let r = self.parameters.r;
-        let rim = self.rim_start();
-        let mut bound = f64::NEG_INFINITY;
-        for map in &mut self.forward {
-            match map.swing(rim, limits) {
-                Ok(swing) => bound = (swing.end.value - 2.0 * r).ln(),
-                Err(NoEnd::Escapes) => return Ok(None),
-                Err(NoEnd::Never) => bound = f64::NEG_INFINITY,
-                Err(NoEnd::Failed(reason)) => return Err(reason),
-            }
-        }
-        Ok(Some(if bound.is_nan() { f64::NEG_INFINITY } else { bound }))
-    }
-
-    /// Whether motions that leave the end of the sticking set, a node that repels (`D < -1`), come back beyond
-    /// it, on one side at least.
-    ///
-    /// # Errors
-    /// The [`Reason`] why a swing failed.
-    pub fn leaves_rim(&mut self, limits: &Limits) -> Result<bool, Reason> {
-        let gap = 2.0 * self.parameters.r;
-        let rim = self.rim_start();
-        for side in [0, 1] {
-            let mut length = rim;
-            let mut turns = 0;
-            for map in [side, 1 - side] {
-                match self.forward[map].swing(length, limits) {
-                    Ok(swing) if swing.end.value > gap => {
-                        length = Length::new(swing.end.value - gap);
-                    }
-                    Ok(_) | Err(NoEnd::Never) => break,
-                    Err(NoEnd::Escapes) => return Ok(true),
-                    Err(NoEnd::Failed(reason)) => return Err(reason),
-                }
-                turns += 1;
-            }
-            if turns == 2 {
-                return Ok(true);
-            }
-        }
-        Ok(false)
-    }
-
-    /// A start at the end of the sticking set.
-    fn rim_start(&self) -> Length {
-        /// As a part of the smallest length there is.
-        const RIM: f64 = 1e-60;
-        let Parameters { d2, d3, r, .. } = self.parameters;
-        let natural = (1.0 / d2.abs()).min(1.0 / d3.abs().sqrt());
-        Length::new(RIM * natural.min(r))
-    }
-
     /// Clearance at which the first swing of a cycle starts whose right turning point is `q_max`.
     ///
     /// On the upper side the first swing ends there and is followed back; on the lower it starts there.
@@ -357,17 +247,26 @@ impl Equation {
         // The second swing first: with D3 > 0 it is the one that escapes, and quickly, where the first
         // one would be stiff.
         let second = match self.backward[1].swing(start.plus(gap), limits) {
-            Err(NoEnd::Escapes) => return Ok(Closing::beyond(start, f64::MAX, f64::INFINITY)),
+            Err(NoEnd::Escapes) => {
+                return Ok(Closing::beyond(start, self.reach(start, limits)?, f64::INFINITY));
+            }
             Err(NoEnd::Never) => HalfSwing::collapsed(start.plus(gap)),
             Err(NoEnd::Failed(reason)) => return Err(reason),
             Ok(swing) => swing,
         };
+        let target = second.end.plus(gap);
         let first = match self.forward[0].swing(start, limits) {
-            Err(NoEnd::Escapes) => return Ok(Closing::beyond(start, f64::INFINITY, f64::MAX)),
-            Err(NoEnd::Never) => return Ok(Closing::beyond(start, f64::NEG_INFINITY, f64::MIN)),
+            Err(NoEnd::Escapes) => return Ok(Closing::beyond(start, f64::INFINITY, target.log)),
+            Err(NoEnd::Never) => return Ok(Closing::beyond(start, f64::NEG_INFINITY, target.log)),
             Err(NoEnd::Failed(reason)) => return Err(reason),
             Ok(swing) => swing,
         };
+        Ok(self.pair(start, first, second))
+    }
+
+    /// The pair of a first swing, run forward from `start`, and a second one, run backward.
+    pub(super) fn pair(&self, start: Length, first: HalfSwing, second: HalfSwing) -> Closing {
+        let gap = 2.0 * self.parameters.r;
         let target = second.end.plus(gap);
         let pull = second.log_elasticity.exp() * share(second.end, gap) * share(start, gap);
         let slope = first.log_elasticity.exp() - pull;
@@ -387,7 +286,21 @@ impl Equation {
         let growth =
             [first.log_elasticity - shares[1].ln(), -(second.log_elasticity + shares[0].ln())];
         let closing = Closing::of(node, [start, second.end], [first, second]);
-        Ok(closing.with_errors(growth, noise, errors))
+        closing.with_errors(growth, noise, errors)
+    }
+
+    /// Logarithm of where the first swing from `start` ends, or a bound on it: the largest number where that
+    /// is not known at little cost.
+    fn reach(&mut self, start: Length, limits: &Limits) -> Result<f64, Reason> {
+        /// Evaluations that this is worth.
+        const LITTLE: u64 = 1_000;
+        let map = &mut self.forward[0];
+        let evaluations = limits.evaluations.min(map.cost().evaluations + map.swings + LITTLE);
+        match map.swing(start, &Limits { evaluations, interrupted: limits.interrupted }) {
+            Ok(swing) => Ok(swing.end.log),
+            Err(NoEnd::Failed(Reason::Interrupted)) => Err(Reason::Interrupted),
+            Err(_) => Ok(f64::MAX),
+        }
     }
 
     fn both_forward(&mut self, start: Length, limits: &Limits) -> Result<Closing, Reason> {
@@ -474,165 +387,34 @@ impl Equation {
     }
 }
 
-/// `d ln(c + gap) / d ln(c)`.
-#[must_use]
-pub fn share(clearance: Length, gap: f64) -> f64 {
-    if gap == 0.0 { 1.0 } else { clearance.value / (clearance.value + gap) }
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-impl HalfSwing {
-    /// The swing that creeps back to the centre for ever: its end is 0.
-    fn collapsed(start: Length) -> Self {
-        HalfSwing { duration: f64::INFINITY, ..HalfSwing::nothing(start) }
-    }
-
-    /// No swing at all.
-    fn nothing(start: Length) -> Self {
-        HalfSwing {
-            start,
-            end: Length { value: 0.0, log: f64::NEG_INFINITY },
-            duration: 0.0,
-            square: 0.0,
-            fastest: 0.0,
-            log_elasticity: f64::NEG_INFINITY,
-            errors: [Errors::default(); 2],
-        }
-    }
-}
-
-/// Relative error that a rounded logarithm leaves of a length.
-fn rounding(length: Length) -> f64 {
-    f64::EPSILON * length.log.abs().max(1.0)
-}
-
-impl Closing {
-    fn of(node: Node, [first, second]: [Length; 2], swings: [HalfSwing; 2]) -> Self {
-        Closing {
-            node,
-            first,
-            second,
-            duration: swings[0].duration + swings[1].duration,
-            square: swings[0].square + swings[1].square,
-            fastest: [swings[0].fastest, swings[1].fastest],
-            growth: [f64::NAN; 2],
-            noise: 0.0,
-            uncertainty: 0.0,
-            errors: [Spread::default(); 2],
+    #[test]
+    fn where_one_swing_escapes_the_other_one_still_bounds_what_lies_further_in() {
+        let limits = &Limits::PATIENT;
+        for (d3, finite) in [(0.5, true), (-0.5, false)] {
+            let parameters = Parameters { d: -0.2, d2: 0.2, d3, r: 0.1 };
+            let mut equation = Equation::new(&parameters, 1e-10);
+            let beyond = equation.at(Route::Mixed, 3.0, limits).unwrap().node;
+            let within = equation.at(Route::Mixed, 0.0, limits).unwrap().node;
+            let (known, escaped) =
+                if finite { (beyond.rise, beyond.fall) } else { (beyond.fall, beyond.rise) };
+            assert_eq!(escaped, f64::INFINITY);
+            let inner = if finite { within.rise } else { within.fall };
+            assert!(known > inner && known < 3.0, "{beyond:?} {within:?}");
         }
     }
 
-    fn with_errors(self, growth: [f64; 2], noise: f64, errors: [Spread; 2]) -> Self {
-        let uncertainty = (self.node.value().abs() + noise) / self.node.slope.abs();
-        Closing { growth, noise, uncertainty, errors, ..self }
-    }
-
-    /// The same with clearances and duration known to all digits of a double, beyond the relative errors given.
-    #[must_use]
-    pub fn sharpened(
-        self,
-        (first, second, duration): (f64, f64, f64),
-        [uncertainty, passed]: [f64; 2],
-    ) -> Self {
-        let [mut own, mut gain] = self.errors;
-        (own.clearance, own.duration) = ([0.0, passed], f64::EPSILON * duration);
-        // A plain relative error of the first clearance.
-        gain.clearance[0] = 1.0;
-        let (first, second) = (Length::new(first), Length::new(second));
-        Closing { first, second, duration, uncertainty, errors: [own, gain], ..self }
-    }
-
-    /// How errors of rounding and of the first clearance reach the others.
-    #[must_use]
-    pub fn errors(&self) -> &[Spread; 2] {
-        &self.errors
-    }
-
-    /// Bounds on the errors of its numbers.
-    #[must_use]
-    pub fn spread(&self) -> Spread {
-        let [own, gain] = &self.errors;
-        let sum =
-            |own: f64, gain: f64| own + if gain == 0.0 { 0.0 } else { gain * self.uncertainty };
-        let pair =
-            |of: fn(&Spread) -> [f64; 2]| [0, 1].map(|index| sum(of(own)[index], of(gain)[index]));
-        Spread {
-            clearance: pair(|it| it.clearance),
-            duration: sum(own.duration, gain.duration),
-            square: sum(own.square, gain.square),
-            fastest: pair(|it| it.fastest),
-        }
-    }
-
-    /// The cycle of two swings equally fast, known in closed form to a few units in the last place.
-    #[must_use]
-    pub fn in_closed_form(
-        clearances: [Length; 2],
-        duration: f64,
-        square: f64,
-        fastest: f64,
-    ) -> Self {
-        let [first, second] = clearances;
-        let node = Node::new(first.log, 0.0, 0.0, f64::NAN);
-        let own = Spread {
-            clearance: clearances.map(|clearance| UNIT + rounding(clearance)),
-            duration: UNIT * duration,
-            square: UNIT * square,
-            fastest: [UNIT * fastest; 2],
-        };
-        Closing {
-            node,
-            first,
-            second,
-            duration,
-            square,
-            fastest: [fastest; 2],
-            growth: [f64::NAN; 2],
-            noise: 0.0,
-            uncertainty: own.clearance[0],
-            errors: [own, Spread::default()],
-        }
-    }
-
-    /// Outside the domain of one of the two functions: it is infinite, the other a bound that says
-    /// nothing.
-    fn beyond(start: Length, rise: f64, fall: f64) -> Self {
-        let node = Node::new(start.log, rise, fall, f64::NAN);
-        let nothing = HalfSwing::nothing(start);
-        Closing::of(node, [start, nothing.end], [nothing; 2])
-    }
-
-    /// Logarithm of the Floquet multiplier if this closing is a cycle.
-    ///
-    /// `mu = c0/(c0 + 2 r) c1/(c1 + 2 r) exp(-integral of (2 D + 3 D3 v^2))`: the divergence with the
-    /// turning points built in. The D2 part of the integral vanishes on a closed curve.
-    #[must_use]
-    pub fn log_multiplier(&self, parameters: &Parameters) -> f64 {
-        let gap = 2.0 * parameters.r;
-        let past_friction: f64 =
-            [self.first, self.second].iter().map(|&clearance| log_share(clearance, gap)).sum();
-        // Three times a damping can be too large a number; times the square, which is then small, it is not.
-        let cubic = 3.0 * (parameters.d3 * self.square);
-        past_friction - 2.0 * parameters.d * self.duration - cubic
-    }
-}
-
-impl Closing {
-    /// Sum of the magnitudes of the terms of [`Closing::log_multiplier`].
-    #[must_use]
-    pub fn log_terms(&self, parameters: &Parameters) -> f64 {
-        let Parameters { d, d3, r, .. } = *parameters;
-        let shares = [self.first, self.second].map(|it| log_share(it, 2.0 * r).abs());
-        shares[0] + shares[1] + 2.0 * d.abs() * self.duration + 3.0 * (d3.abs() * self.square)
-    }
-}
-
-/// `ln(c/(c + gap))`, with all digits for large and for underflowing c.
-fn log_share(clearance: Length, gap: f64) -> f64 {
-    if gap == 0.0 {
-        0.0
-    } else if gap / clearance.value < 1e10 {
-        -(gap / clearance.value).ln_1p()
-    } else {
-        clearance.log - (gap + clearance.value).ln()
+    #[test]
+    fn an_escape_is_followed_no_further_than_to_where_it_is_certain() {
+        let field = HalfPlane { d: 0.2, d2: 0.2, d3: -0.5 };
+        let mut map = HalfMap::new(field, 1e-16);
+        let start = Length::new(10.0);
+        assert_eq!(map.swing(start, &Limits::PATIENT), Err(NoEnd::Escapes));
+        let short = map.cost().evaluations;
+        assert_eq!(map.swing_watched(start, &Limits::PATIENT, |_, _, _| {}), Err(NoEnd::Escapes));
+        assert!(3 * short < map.cost().evaluations, "{short} {:?}", map.cost());
     }
 }

@@ -1,36 +1,24 @@
 //! All closed pairs of half swings at given parameters.
 //!
 //! The roots of the closing equation ([`super::closing`]) are searched for between the smallest
-//! clearance that a swing past the sticking set can have and the edge of escape ([`super::search`]),
-//! then polished by Newton's method in the logarithm of the clearance along the route that contracts,
-//! and weighed as energy ([`super::balance`]) where the multiplier is close to 1.
+//! clearance that a swing past the sticking set can have and the edge of escape ([`super::search`]), then polished
+//! ([`super::polish`]).
 
 use super::balance::weighed_residual;
-use super::closing::{Closing, Equation, Route};
+use super::closed_pair::Closing;
+use super::closing::{Equation, Route};
 use super::half_map::Length;
+use super::polish::{VAGUE, is_exact, polish};
 use super::precise_closing::{FINER, PreciseEquation};
 use super::search::{Bracket, Node, search};
 use super::weak::{is_one_way, weak_closing};
 use crate::closed_form::piecewise_linear::LinearCycle;
-use crate::closed_form::twofold::Twofold;
 use crate::flow::{Limits, Reason};
+use crate::numerics::twofold::Twofold;
 use crate::oscillator::Parameters;
 
 /// Tolerance of the integration steps of the search and the polish: rounding.
 pub const STEP: f64 = 1e-16;
-
-/// Slope of the residual below which it is weighed as energy.
-const FLAT: f64 = 0.3;
-
-/// Relative error of a clearance above which it is computed to more digits, and above which it is no answer.
-const SHARP: f64 = 1e-8;
-const VAGUE: f64 = 1e-3;
-
-/// Newton steps without progress, all within the error bound of the residual, that are enough.
-const STALLS: u8 = 4;
-
-/// Newton steps before giving up; bisection alone needs 60.
-const ITERATIONS: usize = 200;
 
 /// All closings, from the closed form where there is one.
 ///
@@ -142,11 +130,6 @@ fn searched(
     Ok(found)
 }
 
-/// Whether rounding is what limits an equation, so that weighing works and more digits help.
-fn is_exact(equation: &Equation) -> bool {
-    equation.tolerance() <= 4.0 * f64::EPSILON && equation.is_of_one_motion()
-}
-
 /// The residual of the mixed route, with a sign that can be relied on.
 ///
 /// Where rounding reaches it, the works are weighed; where they are not decisive either, the swings are
@@ -237,7 +220,7 @@ fn brackets(
     /// Tolerance of the steps of the search where the polish needs no coarser ones, and the blur of a
     /// residual that comes of it, in units of the tolerance; weak damping makes residuals that small and
     /// needs the steps of the polish from the beginning.
-    const ROUGH: f64 = 1e-10;
+    const ROUGH: f64 = 1e-8;
     const BLUR: f64 = 1e3;
     const WEAK: f64 = 0.01;
     /// First stride and longest stride, in `ln c0`.
@@ -294,213 +277,4 @@ pub(super) fn innermost_bracket(
 ) -> Result<Option<Bracket>, Reason> {
     let Some(low) = lower_end(equation, limits)? else { return Ok(None) };
     Ok(brackets(equation, low, 1, &[], limits)?.into_iter().next())
-}
-
-/// The closing in a bracket, to rounding where doubles allow it, else in twice the working precision.
-///
-/// # Errors
-/// The [`Reason`] why a swing failed, or [`Reason::NoConvergence`].
-pub fn polish(
-    equation: &mut Equation,
-    bracket: Bracket,
-    limits: &Limits,
-) -> Result<Closing, Reason> {
-    polish_within(equation, bracket, SHARP, limits)
-}
-
-/// The same, to more digits only where doubles leave a larger relative error than `sharp`.
-fn polish_within(
-    equation: &mut Equation,
-    bracket: Bracket,
-    sharp: f64,
-    limits: &Limits,
-) -> Result<Closing, Reason> {
-    let rough = newton(equation, bracket, limits)?;
-    let worst = rough.spread().clearance.into_iter().fold(rough.uncertainty, f64::max);
-    if worst <= sharp || !is_exact(equation) {
-        return Ok(rough);
-    }
-    Ok(sharpen(equation, &rough, bracket, limits)?.unwrap_or(rough))
-}
-
-/// The closing next to `u`, known to have a multiplier near this one, by [`polish`]; `None` where doubles and thirty
-/// digits leave it vague. More digits than doubles have are asked for a relative error of `sharp` only.
-///
-/// # Errors
-/// As [`polish`].
-pub fn polish_near(
-    equation: &mut Equation,
-    u: f64,
-    log_multiplier: f64,
-    sharp: f64,
-    limits: &Limits,
-) -> Result<Option<Closing>, Reason> {
-    /// How far in `ln c0` the guess may be off: where another cycle may be near, and where none is.
-    const WIDTHS: (f64, f64) = (0.05, 0.5);
-    let width = if log_multiplier.abs() < 1.0 { WIDTHS.0 } else { WIDTHS.1 };
-    let sign = log_multiplier.signum();
-    let end = |sign: f64, side: f64| Node::new(u + side * width, sign * side * width, 0.0, sign);
-    equation.want_fastest(true);
-    let bracket = (end(sign, -1.0), end(sign, 1.0));
-    let closing = polish_within(equation, bracket, sharp, limits)?;
-    let moved = (closing.node.at - u).abs();
-    Ok(Some(closing)
-        .filter(|it| it.uncertainty <= VAGUE && moved < 0.9 * width && it.duration.is_finite()))
-}
-
-/// Newton's method on the contracting route, inside the bracket.
-fn newton(equation: &mut Equation, bracket: Bracket, limits: &Limits) -> Result<Closing, Reason> {
-    let rising = bracket.1.value() > bracket.0.value();
-    let (mut low, mut high) = (bracket.0.at, bracket.1.at);
-    let mut route = beyond_the_end(&bracket);
-    let mut switched = false;
-    let mut u = secant(&bracket);
-    let (mut change, mut stalls) = (f64::INFINITY, 0);
-    for _ in 0..ITERATIONS {
-        let mut closing = equation.at(route, u, limits)?;
-        let mut node = closing.node;
-        let contracting = Route::steadiest(closing.growth);
-        // Beyond the domain of one swing a route that runs it the other way has a value.
-        if !node.value().is_finite() && !switched {
-            if route == Route::Mixed {
-                let first = node.rise == f64::INFINITY;
-                route = if first { Route::Backward } else { Route::Forward };
-                switched = true;
-                continue;
-            }
-            route = Route::Mixed;
-        }
-        // Where two routes contract alike each may say that the other is better: move on regardless.
-        if node.value().is_finite() && contracting != route && !switched {
-            (route, switched) = (contracting, true);
-            continue;
-        }
-        switched = false;
-        let ends = closing.duration.is_finite();
-        let flat = route == Route::Mixed && node.slope.abs() < FLAT;
-        if flat
-            && ends
-            && let Some((weighed, noise)) = weighed_residual(equation, u, limits)?
-        {
-            node.difference = weighed;
-            closing.uncertainty = (weighed.abs() + noise) / node.slope.abs();
-        }
-        if (node.value() > 0.0) == rising {
-            high = u;
-        } else {
-            low = u;
-        }
-        let newton = u - node.value() / node.slope;
-        let last = std::mem::replace(&mut change, (newton - u).abs());
-        // Rounding moves the root by an ulp, divided by the slope where the residual is a plain
-        // difference. A weighed one does better: it goes on while it does.
-        let rounding = 4.0 * f64::EPSILON * u.abs().max(1.0);
-        let blurred = change.is_finite() && change <= rounding / node.slope.abs().min(1.0);
-        // Where rounding of the swings is larger than that, Newton's method stops making progress.
-        let idle = change >= 0.5 * last;
-        stalls += u8::from(idle && change <= closing.noise / node.slope.abs());
-        let stalled = (idle && change <= 16.0 * rounding) || stalls >= STALLS;
-        let settled = change <= rounding || stalled || (blurred && (!flat || change >= 0.5 * last));
-        if settled && node.value().is_finite() {
-            return Ok(closing);
-        }
-        if high - low <= f64::EPSILON * u.abs() {
-            return closest(equation, u, limits);
-        }
-        u = if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
-    }
-    Err(Reason::NoConvergence { sought: "a limit cycle", change })
-}
-
-/// The route to begin with: where one swing has no end on one side of the bracket, the one that runs it the
-/// other way, and contracts there.
-fn beyond_the_end((low, high): &Bracket) -> Route {
-    if low.rise == f64::INFINITY || high.rise == f64::INFINITY {
-        Route::Backward
-    } else if low.fall == f64::INFINITY || high.fall == f64::INFINITY {
-        Route::Forward
-    } else {
-        Route::Mixed
-    }
-}
-
-/// The closing at an unknown known to rounding, by the route on which it is known best.
-///
-/// A swing that magnifies rounding beyond its own size, such as one along the border of escape, is of no
-/// use forward: backward it contracts.
-fn closest(equation: &mut Equation, u: f64, limits: &Limits) -> Result<Closing, Reason> {
-    let mut best: Option<Closing> = None;
-    for route in [Route::Mixed, Route::Backward, Route::Forward] {
-        let closing = equation.at(route, u, limits)?;
-        let worst =
-            |it: &Closing| if it.node.value().is_finite() { it.uncertainty } else { f64::INFINITY };
-        if best.as_ref().is_none_or(|best| worst(&closing) < worst(best)) {
-            best = Some(closing);
-        }
-    }
-    best.ok_or(Reason::NoConvergence { sought: "a limit cycle", change: f64::INFINITY })
-}
-
-/// The same closing in twice the working precision; `None` where that is not possible either.
-///
-/// Newton's method, then secants, in the bracket, along the route on which rounding grows least.
-fn sharpen(
-    equation: &mut Equation,
-    rough: &Closing,
-    bracket: Bracket,
-    limits: &Limits,
-) -> Result<Option<Closing>, Reason> {
-    /// Steps, and the relative change of the last one.
-    const STEPS: usize = 20;
-    const SETTLED: f64 = 1e-17;
-    let route = Route::steadiest(rough.growth);
-    let rising = bracket.1.value() > bracket.0.value();
-    let mut precise = PreciseEquation::new(&equation.parameters, equation.side);
-    let seen = equation.at(route, rough.node.at, limits)?;
-    let mut slope = seen.node.slope;
-    // The unknown is the start of the rough closing times e^s.
-    let start = Twofold::of(Length::from_log(rough.node.at).value);
-    // Its ends were decided by doubles, which may have been too few.
-    let slack = 2.0 * rough.uncertainty.min(1.0);
-    let (mut low, mut high) =
-        ((bracket.0.at - rough.node.at).min(-slack), (bracket.1.at - rough.node.at).max(slack));
-    let (mut s, mut before, mut found) = (0.0_f64, None::<(f64, f64)>, None);
-    for _ in 0..STEPS {
-        let here = start.plus(start.times(s.exp_m1()));
-        let residual = match precise.at(route, here, limits) {
-            Err(Reason::Interrupted) => return Err(Reason::Interrupted),
-            Ok(Some(residual)) => residual,
-            Ok(None) | Err(_) => break,
-        };
-        if let Some((there, value)) = before.filter(|(there, _)| *there != s) {
-            slope = (residual.value - value) / (s - there);
-        }
-        before = Some((s, residual.value));
-        if (residual.value > 0.0) == rising {
-            high = s;
-        } else {
-            low = s;
-        }
-        let newton = s - residual.value / slope;
-        let change = (newton - s).abs();
-        if change <= SETTLED || residual.value == 0.0 || high - low <= SETTLED {
-            found = Some((here, residual, change));
-            break;
-        }
-        s = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-    }
-    equation.charge(precise.cost());
-    let Some((first, residual, change)) = found else { return Ok(None) };
-    let closing = equation.from(route, Length::new(first.value()), limits)?;
-    let uncertainty = change + FINER * closing.noise / slope.abs();
-    let passed = FINER * closing.errors()[0].clearance[1];
-    let numbers = (first.value(), residual.second, residual.duration);
-    Ok(Some(closing.sharpened(numbers, [uncertainty, passed])))
-}
-
-/// Where the line through both ends of a bracket vanishes; its middle where an end is infinite.
-fn secant((low, high): &Bracket) -> f64 {
-    let middle = 0.5 * (low.at + high.at);
-    let secant = low.at - low.value() * (high.at - low.at) / (high.value() - low.value());
-    if secant > low.at && secant < high.at { secant } else { middle }
 }

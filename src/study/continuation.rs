@@ -6,17 +6,19 @@
 //! quotient that is renewed only when the correction converges slowly. Lengths are measured with p in
 //! units of the range and u in units of 4.
 
+mod point;
 mod spread;
 
-use super::closing::{Closing, Equation, Route};
+use point::UNIT_OF_U;
+pub use point::{CurvePoint, Tangent, covers, passes};
+
+use super::closed_pair::Closing;
+use super::closing::{Equation, Route};
 use crate::flow::{Cost, Limits, Reason};
 use crate::oscillator::{Parameters, Side, State, Symbol};
 
 /// Tolerance of the integration steps, in units of that of the points.
 const STEP: f64 = 1e-2;
-
-/// Length of u that counts as much as the whole range of the parameter.
-const UNIT_OF_U: f64 = 4.0;
 
 /// Most evaluations of one swing, a hundred times the usual: beyond, a curve is not followed.
 const SWING_BUDGET: u64 = 60_000;
@@ -32,55 +34,6 @@ const PROBES: (f64, f64) = (1e-11, 1e-5);
 
 /// Newton steps of a correction before it counts as failed.
 const CORRECTIONS: usize = 8;
-
-/// A cycle on the curve.
-#[derive(Clone, Copy, Debug)]
-pub struct CurvePoint {
-    /// The unknown `ln c0`.
-    pub u: f64,
-    /// The parameter.
-    pub p: f64,
-    /// The closed pair of swings.
-    pub closing: Closing,
-    /// Logarithm of the Floquet multiplier; it changes its sign at a fold.
-    pub log_multiplier: f64,
-}
-
-impl CurvePoint {
-    /// The route on which its swings are computed best.
-    #[must_use]
-    pub fn route(&self) -> Route {
-        Route::steadiest(self.closing.growth)
-    }
-}
-
-/// A direction in the scaled plane, of length 1.
-#[derive(Clone, Copy, Debug)]
-pub struct Tangent {
-    /// Component along `u/UNIT_OF_U`.
-    pub u: f64,
-    /// Component along `p/range`.
-    pub p: f64,
-}
-
-impl Tangent {
-    /// Along u: a correction across it changes only the parameter.
-    pub const ACROSS_P: Tangent = Tangent { u: 1.0, p: 0.0 };
-
-    /// Along p: a correction across it changes only u.
-    pub const ACROSS_U: Tangent = Tangent { u: 0.0, p: 1.0 };
-
-    /// From one point to another.
-    fn between(from: &CurvePoint, to: &CurvePoint, scale: f64) -> Self {
-        let (u, p) = ((to.u - from.u) / UNIT_OF_U, (to.p - from.p) / scale);
-        let length = u.hypot(p);
-        Tangent { u: u / length, p: p / length }
-    }
-
-    fn dot(self, other: Tangent) -> f64 {
-        self.u * other.u + self.p * other.p
-    }
-}
 
 /// A family of closing equations along a parameter.
 pub struct Curve<'a> {

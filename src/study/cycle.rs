@@ -1,123 +1,30 @@
 //! Every limit cycle at given parameters, described: extremes, period, multiplier, and what borders the
 //! basin. The closed pairs of half swings behind them are found in [`super::closings`].
-
-use serde::Serialize;
+//!
+//! ```
+//! use hopfscope::flow::Limits;
+//! use hopfscope::oscillator::Parameters;
+//! use hopfscope::study::{Edge, cycle::cycles};
+//!
+//! let parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.5, r: 0.1 };
+//! let found = cycles(&parameters, false, &Limits::PATIENT)?;
+//! let [inner, outer] = &found.cycles[..] else { panic!("two cycles") };
+//! assert!(!inner.stable && outer.stable && inner.q_max < outer.q_max);
+//! assert_eq!(found.edge, Edge::Cycle);
+//! # Ok::<(), hopfscope::flow::Reason>(())
+//! ```
 
 use super::basin::Basin;
-use super::closing::{Closing, Equation, Route, share};
-use super::closings::{STEP, all_closings, polish};
+use super::closed_pair::{Closing, share};
+use super::closing::{Equation, Route};
+use super::closings::{STEP, all_closings};
 use super::lift::lifted;
-use super::margin::Margin;
+pub use super::limit_cycle::{Cycle, CycleErrors, Cycles, Edge, Picture};
+use super::polish::polish;
 use super::works::works as works_over;
-use crate::closed_form::harmonic::{Harmonic, amplitudes};
-use crate::closed_form::piecewise_linear::LinearCycle;
-use crate::flow::{Cost, Limits, Reason};
-use crate::oscillator::{Ledger, Parameters, Side, State};
-
-/// A limit cycle.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Cycle {
-    /// Whether it attracts.
-    pub stable: bool,
-    /// Left turning point.
-    pub q_min: f64,
-    /// Right turning point.
-    pub q_max: f64,
-    /// Smallest velocity.
-    pub v_min: f64,
-    /// Largest velocity.
-    pub v_max: f64,
-    /// Period.
-    pub period: f64,
-    /// Floquet multiplier; `None` where it overflows.
-    pub multiplier: Option<f64>,
-    /// Natural logarithm of the multiplier.
-    pub log_multiplier: f64,
-    /// `q_max - r`, to full relative precision; 0 where it underflows.
-    pub clearance: f64,
-    /// Natural logarithm of the clearance.
-    pub log_clearance: f64,
-    /// Largest relative error of these numbers. A multiplier that under- or overflows counts by its logarithm.
-    pub error: f64,
-    /// The error of each.
-    pub errors: CycleErrors,
-}
-
-/// Bounds on the absolute errors of the numbers of a cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct CycleErrors {
-    /// Of the left turning point.
-    pub q_min: f64,
-    /// Of the right turning point.
-    pub q_max: f64,
-    /// Of the smallest velocity.
-    pub v_min: f64,
-    /// Of the largest velocity.
-    pub v_max: f64,
-    /// Of the period.
-    pub period: f64,
-    /// Of the logarithm of the multiplier: a relative error of the multiplier.
-    pub log_multiplier: f64,
-    /// Of the logarithm of the clearance: a relative error of the clearance.
-    pub log_clearance: f64,
-}
-
-impl Cycle {
-    /// Whether its multiplier is far below the 1 at which two cycles meet.
-    #[must_use]
-    pub fn is_stable_beyond_doubt(&self) -> bool {
-        /// Where two cycles meet, the logarithm vanishes to about half of the digits.
-        const FAR: f64 = -1.0;
-        self.log_multiplier < FAR
-    }
-}
-
-/// What borders the basin of attraction of the sticking set.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Edge {
-    /// Nothing: every motion is captured.
-    None,
-    /// An unstable limit cycle.
-    Cycle,
-    /// A motion that separates capture from escape.
-    Separatrix,
-}
-
-/// What a picture of the basin shows.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Picture {
-    /// The closed curve of each cycle.
-    pub curves: Vec<Vec<State>>,
-    /// What each source does over one turn of each cycle.
-    pub works: Vec<Ledger>,
-    /// The edge of the basin: a closed curve, or the separatrix as far as it was followed; else empty.
-    pub edge: Vec<State>,
-    /// The kicks that are survived.
-    pub margin: Margin,
-    /// Area of the basin, where it is finite.
-    pub area: Option<f64>,
-    /// Radius of Lyapunov's disk (24) as a part of the margin; above 1 it promises too much, because it
-    /// leaves out D2 and D3.
-    pub lyapunov_share: Option<f64>,
-}
-
-/// All limit cycles, by amplitude, and what they imply for the basin.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Cycles {
-    /// The parameters.
-    pub parameters: Parameters,
-    /// The cycles, smallest first.
-    pub cycles: Vec<Cycle>,
-    /// The first-order harmonic answer, for comparison.
-    pub harmonic: Vec<Harmonic>,
-    /// What borders the basin of the sticking set.
-    pub edge: Edge,
-    /// Curves and margins, if asked for.
-    pub picture: Option<Picture>,
-    /// What it cost.
-    pub cost: Cost,
-}
+use crate::closed_form::harmonic::amplitudes;
+use crate::flow::{Limits, Reason};
+use crate::oscillator::{Parameters, Side, State};
 
 /// Points drawn on each integration step of a curve.
 const CURVE_POINTS: u16 = 12;
@@ -148,23 +55,26 @@ pub fn cycles_drawn(
     found(parameters, Some(points), limits)
 }
 
+/// All limit cycles, and the closed pairs of half swings that they are; `None` where these were computed in other units.
+///
+/// # Errors
+/// The [`Reason`] why the search could not be completed.
+pub(super) fn cycles_and_closings(
+    parameters: &Parameters,
+    limits: &Limits,
+) -> Result<(Cycles, Option<Vec<Closing>>), Reason> {
+    if lifted(parameters).is_some() {
+        return Ok((cycles(parameters, false, limits)?, None));
+    }
+    let (found, closings) = searched(parameters, limits)?;
+    Ok((found, Some(closings)))
+}
+
 fn found(parameters: &Parameters, points: Option<u16>, limits: &Limits) -> Result<Cycles, Reason> {
     if let Some((lifted, unit)) = lifted(parameters) {
         return Ok(found(&lifted, points, limits)?.times_power(-unit));
     }
-    let mut equation = Equation::new(parameters, STEP);
-    let closings = all_closings(&mut equation, limits)?;
-    let describe = |closing: &Closing| closing.describe(parameters, equation.side);
-    let stable: Vec<bool> =
-        closings.iter().map(|closing| closing.log_multiplier(parameters) < 0.0).collect();
-    let mut answer = Cycles {
-        parameters: *parameters,
-        cycles: closings.iter().map(describe).collect(),
-        harmonic: amplitudes(parameters),
-        edge: Edge::around(parameters, &stable),
-        picture: None,
-        cost: equation.cost(),
-    };
+    let (mut answer, closings) = searched(parameters, limits)?;
     if let Some(points) = points {
         let reach = PICTURE_REACH / parameters.d2.abs().max(f64::MIN_POSITIVE);
         let basin = Basin::around(parameters, &closings, reach, limits)?;
@@ -172,6 +82,24 @@ fn found(parameters: &Parameters, points: Option<u16>, limits: &Limits) -> Resul
         answer.picture = Some(Picture::of(&basin, points));
     }
     Ok(answer)
+}
+
+/// All limit cycles, without a picture, and their closings.
+fn searched(parameters: &Parameters, limits: &Limits) -> Result<(Cycles, Vec<Closing>), Reason> {
+    let mut equation = Equation::new(parameters, STEP);
+    let closings = all_closings(&mut equation, limits)?;
+    let describe = |closing: &Closing| closing.describe(parameters, equation.side);
+    let stable: Vec<bool> =
+        closings.iter().map(|closing| closing.log_multiplier(parameters) < 0.0).collect();
+    let answer = Cycles {
+        parameters: *parameters,
+        cycles: closings.iter().map(describe).collect(),
+        harmonic: amplitudes(parameters),
+        edge: Edge::around(parameters, &stable),
+        picture: None,
+        cost: equation.cost(),
+    };
+    Ok((answer, closings))
 }
 
 impl Picture {
@@ -192,46 +120,6 @@ impl Picture {
             margin: basin.margin(),
             area: basin.area(),
             lyapunov_share: basin.lyapunov_share(),
-        }
-    }
-}
-
-impl From<&LinearCycle> for Cycle {
-    /// The cycle of the piecewise linear oscillator, in closed form.
-    fn from(cycle: &LinearCycle) -> Self {
-        Cycle {
-            stable: false,
-            q_min: -cycle.q_max,
-            q_max: cycle.q_max,
-            v_min: -cycle.v_max,
-            v_max: cycle.v_max,
-            period: cycle.period,
-            multiplier: cycle.multiplier,
-            log_multiplier: cycle.log_multiplier,
-            clearance: cycle.clearance,
-            log_clearance: cycle.log_clearance,
-            error: 0.0,
-            errors: CycleErrors::default(),
-        }
-        .rounded()
-    }
-}
-
-impl Edge {
-    /// What borders the basin: the innermost cycle, else a separatrix where motions can escape.
-    #[must_use]
-    pub fn around(parameters: &Parameters, stable: &[bool]) -> Self {
-        let self_excited_node = parameters.d <= -1.0 && parameters.r > 0.0;
-        // Without friction a rest that repels has no basin, and nothing borders it.
-        let repels = parameters.r == 0.0 && parameters.d < 0.0;
-        let escapes = parameters.d3 == 0.0 && parameters.d2 != 0.0 && !repels;
-        // Positive cubic damping bounds every motion: where no cycle is left for it, it comes to rest.
-        let bounded = parameters.d3 > 0.0;
-        match stable.first() {
-            Some(false) => Edge::Cycle,
-            Some(true) if !self_excited_node => Edge::None,
-            None if bounded || !(escapes || self_excited_node) => Edge::None,
-            _ => Edge::Separatrix,
         }
     }
 }
@@ -303,33 +191,5 @@ impl Closing {
             },
         }
         .rounded()
-    }
-}
-
-impl Cycle {
-    /// With the rounding of each number itself added to its error, and the largest relative error.
-    fn rounded(mut self) -> Self {
-        let rounded = |value: f64| 2.0 * f64::EPSILON * value.abs();
-        let errors = &mut self.errors;
-        let lengths = [
-            (&mut errors.q_min, self.q_min),
-            (&mut errors.q_max, self.q_max),
-            (&mut errors.v_min, self.v_min),
-            (&mut errors.v_max, self.v_max),
-            (&mut errors.period, self.period),
-        ];
-        let mut largest = 0.0_f64;
-        for (error, value) in lengths {
-            *error += rounded(value);
-            largest = largest.max(*error / value.abs());
-        }
-        errors.log_multiplier += rounded(self.log_multiplier);
-        errors.log_clearance += rounded(self.log_clearance.abs().max(1.0));
-        let multiplier = match self.multiplier {
-            Some(multiplier) if multiplier.is_normal() => errors.log_multiplier.exp_m1(),
-            _ => errors.log_multiplier / self.log_multiplier.abs(),
-        };
-        self.error = largest.max(errors.log_clearance).max(multiplier);
-        self
     }
 }

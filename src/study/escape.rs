@@ -4,10 +4,22 @@
 //! it ends at a finite `X` for every start beyond some clearance. Run backward, the swing on the other
 //! side does the same. The cycle exists while the first reaches further out than the second asks for,
 //! and at `D_c` the two motions from and to infinity close the cycle: `X(D_c) = 2 r + c1(D_c)`.
+//!
+//! ```
+//! use hopfscope::flow::Limits;
+//! use hopfscope::oscillator::Parameters;
+//! use hopfscope::study::escape::escape_point;
+//!
+//! let parameters = Parameters { d: 0.0, d2: 0.5, d3: 0.0, r: 0.2 };
+//! let found = escape_point(&parameters, &Limits::PATIENT)?.unwrap();
+//! assert!((found + 0.079_769).abs() < 1e-6);
+//! # Ok::<(), hopfscope::flow::Reason>(())
+//! ```
 
 use super::balance::weighed_residual;
 use super::closing::{Equation, Route};
 use crate::flow::{Limits, Reason};
+use crate::numerics::root::{Change, illinois};
 use crate::oscillator::Parameters;
 
 /// `D_c` at these values of D2 and r, or `None` where no cycle escapes (`D3 != 0`, `D2 = 0` or `r = 0`).
@@ -39,22 +51,8 @@ pub fn escape_point(parameters: &Parameters, limits: &Limits) -> Result<Option<f
     if !(low.1 > 0.0 && high.1 < 0.0) {
         return Ok(None);
     }
-    for _ in 0..100 {
-        let d = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
-        let here = (d, excess(d)?);
-        if here.1 == 0.0 || d == low.0 || d == high.0 || high.0 - low.0 < 1e-16 * d.abs() {
-            return Ok(Some(d));
-        }
-        if (here.1 > 0.0) == (low.1 > 0.0) {
-            (low, high.1) = (here, 0.5 * high.1);
-        } else {
-            (high, low.1) = (here, 0.5 * low.1);
-        }
-        if (high.0 - low.0).abs() <= 2.0 * f64::EPSILON * d.abs() {
-            return Ok(Some(d));
-        }
-    }
-    Ok(Some(0.5 * (low.0 + high.0)))
+    let [(d, _), _] = illinois([low, high], 0.0, Change::Relative(2.0 * f64::EPSILON), excess)?;
+    Ok(Some(d))
 }
 
 /// The product `r abs(D2)` at which the cycle of a given damping goes to infinity, or `None` where none does: the
@@ -72,26 +70,12 @@ pub fn escape_product(d: f64, limits: &Limits) -> Result<Option<f64>, Reason> {
     }
     let leading = -d * (std::f64::consts::PI / 2.0).sqrt();
     let ends = [AROUND.0 * leading, AROUND.1 * leading];
-    let (mut low, mut high) = ((ends[0], excess(ends[0])?), (ends[1], excess(ends[1])?));
-    if !(low.1 > 0.0 && high.1 < 0.0) {
+    let ends = [(ends[0], excess(ends[0])?), (ends[1], excess(ends[1])?)];
+    if !(ends[0].1 > 0.0 && ends[1].1 < 0.0) {
         return Ok(None);
     }
-    for step in 0..200 {
-        // Infinite values, and secants that crawl, are halved.
-        let secant = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
-        let inside = secant > low.0 && secant < high.0 && step % 3 != 2;
-        let product = if inside { secant } else { 0.5 * (low.0 + high.0) };
-        if product <= low.0 || product >= high.0 {
-            break;
-        }
-        let here = (product, excess(product)?);
-        if here.1 > 0.0 {
-            low = here;
-        } else {
-            high = here;
-        }
-    }
-    Ok(Some(low.0))
+    let [(product, _), _] = illinois(ends, 0.0, Change::Relative(2.0 * f64::EPSILON), excess)?;
+    Ok(Some(product))
 }
 
 /// By how much, as a logarithm, the swing from infinity passes the one to infinity.

@@ -14,10 +14,10 @@ use std::ops::ControlFlow;
 use super::roundoff::{Errors, Roundoff};
 use crate::closed_form::linear::first_standstill;
 use crate::flow::auto::Auto;
-use crate::flow::scaling::times_power;
 use crate::flow::step::{Point, Step, Stepper};
-use crate::flow::swing::{End, Failed, swing};
+use crate::flow::swing::{End, Failed, is_escaping, swing};
 use crate::flow::{Cost, Limits, Reason};
+use crate::numerics::scaling::times_power;
 use crate::oscillator::HalfPlane;
 
 /// Below this part of its natural scale, in units of the tolerance of a step, the damping is linear to far
@@ -170,6 +170,17 @@ impl HalfMap {
         &mut self,
         start: Length,
         limits: &Limits,
+        watch: impl FnMut(&mut Auto, i32, f64),
+    ) -> Result<HalfSwing, NoEnd> {
+        self.run(start, true, limits, watch)
+    }
+
+    /// The same; a motion that is certain to escape is followed further only if its `tail` is wanted.
+    fn run(
+        &mut self,
+        start: Length,
+        tail: bool,
+        limits: &Limits,
         mut watch: impl FnMut(&mut Auto, i32, f64),
     ) -> Result<HalfSwing, NoEnd> {
         self.swings += 1;
@@ -196,8 +207,9 @@ impl HalfMap {
         let skipped = (start.log, leg.point, leg.duration);
         let mut roundoff = self.fastest.then(|| Roundoff::new(self.field, self.tolerance, skipped));
         let nonlinear = !self.field.is_linear();
+        let (field, mut escapes) = (self.field, false);
         // Once small, a decaying motion stays small and is linear to its end.
-        let tail = if self.field.d >= 0.0 { self.linear_below } else { 0.0 };
+        let small = if self.field.d >= 0.0 { self.linear_below } else { 0.0 };
         let mut see = |stepper: &mut Auto, _: f64, unit: i32, step: &Step| {
             let mut squared = 0.0;
             if nonlinear {
@@ -212,7 +224,11 @@ impl HalfMap {
                 roundoff.step(unit, step, squared, largest);
             }
             watch(stepper, unit, step.duration);
-            if !step.crossed && times_power(step.end.size(), unit) < tail {
+            if step.crossed {
+                return ControlFlow::Continue(());
+            }
+            escapes = !tail && is_escaping(&field.in_units(unit), step.end);
+            if escapes || times_power(step.end.size(), unit) < small {
                 return ControlFlow::Break(());
             }
             ControlFlow::Continue(())
@@ -236,7 +252,8 @@ impl HalfMap {
         let (end, rest) = match done.end {
             End::Crossing { x } => (Length::new(x), 0.0),
             End::Escape => return Err(NoEnd::Escapes),
-            End::Stopped { point } if point.size() < tail => {
+            End::Stopped { .. } if escapes => return Err(NoEnd::Escapes),
+            End::Stopped { point } if point.size() < small => {
                 if self.field.d < 1.0 {
                     Spiral::of(self.field.d).arrive(point)
                 } else {
@@ -256,7 +273,7 @@ impl HalfMap {
     /// # Errors
     /// [`NoEnd`] if the motion does not come back to `v = 0`.
     pub fn swing(&mut self, start: Length, limits: &Limits) -> Result<HalfSwing, NoEnd> {
-        self.swing_watched(start, limits, |_, _, _| {})
+        self.run(start, false, limits, |_, _, _| {})
     }
 
     fn finish(

@@ -9,7 +9,8 @@ use std::fmt;
 use std::str::FromStr;
 
 use super::basin::{Basin, Fate};
-use super::stability::{Share, integrate, support};
+use super::stability::{Share, TOLERANCE, support};
+use crate::numerics::quadrature::integrate;
 
 /// How a random number is spread.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -154,8 +155,8 @@ impl Kicks {
             let q = middle + half * angle.sin();
             law.density(q - mean, spread) * lost_at(q) * half * angle.cos()
         };
-        let inside = integrate(&lost, (-FRAC_PI_2, FRAC_PI_2));
-        Share { part: (beyond + inside.part).clamp(0.0, 1.0), ..inside }
+        let inside = integrate(&lost, (-FRAC_PI_2, FRAC_PI_2), TOLERANCE);
+        Share { part: (beyond + inside.value).clamp(0.0, 1.0), error: inside.error }
     }
 }
 
@@ -187,6 +188,7 @@ fn erfc(x: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::flow::Limits;
+    use crate::numerics::root::bisect;
     use crate::oscillator::{Parameters, State};
     use crate::study::basin::{Window, basin};
 
@@ -237,14 +239,7 @@ mod tests {
         let kicks = Kicks { law: Law::Normal, q: (0.02, 0.08), v: (0.0, 0.1) };
         let lost = kicks.lost(&found);
         // Points of a lattice in the unit square, made normal by the inverse of the distribution.
-        let inverse = |part: f64| {
-            let (mut low, mut high) = (-9.0, 9.0);
-            for _ in 0..40 {
-                let middle = 0.5 * (low + high);
-                if Law::Normal.above(middle, 1.0) > part { low = middle } else { high = middle }
-            }
-            low
-        };
+        let inverse = |part: f64| bisect(-9.0, 9.0, 40, |at| Law::Normal.above(at, 1.0) <= part).0;
         let draws = 20_000;
         let mut out = 0;
         for index in 0..draws {

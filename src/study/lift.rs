@@ -4,10 +4,9 @@
 //! by, and differences of them are noise. Motions scale (equation 4), and scaling by a power of two is
 //! exact, so the same cycles are found where numbers have all their digits, and brought back.
 
-use super::cycle::{Cycle, CycleErrors, Cycles, Picture};
-use super::margin::Margin;
+use super::limit_cycle::{Cycle, CycleErrors, Cycles, Margin, Picture};
 use crate::closed_form::harmonic::Harmonic;
-use crate::oscillator::scaling::{exponent, times_power};
+use crate::numerics::scaling::{exponent, times_power};
 use crate::oscillator::{Ledger, Parameters, State};
 
 /// Exponents of r below which it is lifted, and to which: a clearance may be `1e-31 r` or less.

@@ -2,23 +2,27 @@
 //!
 //! The smallest displacement at rest, and the smallest impulse from a point of rest, that does not come
 //! back to the sticking set: where the edge of its basin meets `v = 0`, and its height above the point.
-
-use serde::Serialize;
+//!
+//! ```
+//! use hopfscope::flow::Limits;
+//! use hopfscope::oscillator::Parameters;
+//! use hopfscope::study::basin::basin;
+//!
+//! // A_q = r coth(x/2) with x = -pi D/sqrt(1 - D^2), for D2 = D3 = 0.
+//! let (d, r): (f64, f64) = (-0.4, 0.1);
+//! let found = basin(&Parameters { d, d2: 0.0, d3: 0.0, r }, 3.0, &Limits::PATIENT)?;
+//! let x = -std::f64::consts::PI * d / (1.0 - d * d).sqrt();
+//! let displacement = found.margin().displacement.unwrap();
+//! assert!((displacement - r / (0.5 * x).tanh()).abs() < 1e-12);
+//! # Ok::<(), hopfscope::flow::Reason>(())
+//! ```
 
 use super::arc::Arc;
 use super::basin::{Basin, Fate};
-use super::cycle::Edge;
+use super::limit_cycle::Edge;
+pub use super::limit_cycle::Margin;
 use crate::closed_form::lyapunov;
 use crate::oscillator::{Parameters, State};
-
-/// The margins; `None` where every kick is survived.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Margin {
-    /// Smallest `abs(q)` at `v = 0` that is not captured.
-    pub displacement: Option<f64>,
-    /// Smallest `abs(v)` at the point of rest that is not captured.
-    pub impulse: Option<f64>,
-}
 
 impl Basin {
     /// The margins, with impulses given at the point of rest `q`.

@@ -1,45 +1,67 @@
 //! Questions asked of the flow: limit cycles, branches, folds, the basin of the sticking set.
 
-pub mod accuracy;
-pub mod arc;
-pub mod balance;
+pub(crate) mod accuracy;
+pub(crate) mod arc;
+pub(crate) mod balance;
 pub mod basin;
-pub mod belt;
-pub mod border;
+pub(crate) mod belt;
+pub(crate) mod border;
 pub mod branch;
+#[doc(hidden)]
 pub mod capture;
+#[doc(hidden)]
 pub mod chart;
+#[doc(hidden)]
 pub mod claims;
+pub(crate) mod closed_pair;
+#[doc(hidden)]
 pub mod closing;
+#[doc(hidden)]
 pub mod closings;
-pub mod continuation;
+pub(crate) mod continuation;
 pub mod cycle;
 pub mod design;
 pub mod escape;
+pub(crate) mod extended;
+#[doc(hidden)]
 pub mod extremes;
 pub mod fold;
+#[doc(hidden)]
+pub mod fold_graph;
+pub(crate) mod fold_point;
+pub(crate) mod grazing;
 pub mod guarantee;
+#[doc(hidden)]
 pub mod half_map;
+#[doc(hidden)]
 pub mod harmonic_error;
-pub mod kicks;
-pub mod lift;
+pub(crate) mod kicks;
+pub(crate) mod lift;
+pub(crate) mod limit_cycle;
 pub mod margin;
+#[doc(hidden)]
 pub mod measure;
-pub mod precise_closing;
+#[doc(hidden)]
+pub mod polish;
+pub(crate) mod precise_closing;
+#[doc(hidden)]
 pub mod proved;
 pub mod regime;
-pub mod repeated;
-pub mod return_map;
-pub mod roundoff;
+pub(crate) mod repeated;
+pub(crate) mod return_map;
+pub(crate) mod rim;
+pub(crate) mod roundoff;
+#[doc(hidden)]
 pub mod scan;
-pub mod search;
-pub mod stability;
-pub mod trade;
-pub mod weak;
-pub mod works;
+pub(crate) mod search;
+pub(crate) mod special;
+pub(crate) mod stability;
+pub(crate) mod trade;
+pub(crate) mod weak;
+pub(crate) mod works;
 
-pub use branch::{Branch, BranchPoint, Special, SpecialKind};
-pub use cycle::{Cycle, Cycles, Edge, Picture};
+pub use branch::{Branch, BranchPoint};
 pub use harmonic_error::HarmonicBalance;
-pub use margin::Margin;
+pub use limit_cycle::{Cycle, Cycles, Edge, Margin, Picture};
 pub use return_map::{Return, ReturnMap};
+pub use special::{Special, SpecialKind};

@@ -6,10 +6,10 @@
 //! on which side of each such place a double lies, and fix the cycle itself to all digits of a double.
 
 use super::closing::Route;
-use crate::closed_form::twofold::Twofold;
 use crate::flow::precise::{Grain, half_swing};
 use crate::flow::trajectory::Cost;
 use crate::flow::{Limits, Reason};
+use crate::numerics::twofold::Twofold;
 use crate::oscillator::{HalfPlane, Parameters, Side};
 
 /// Rounding and truncation here, as a part of those of a double, with a few digits to spare.

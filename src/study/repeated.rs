@@ -261,39 +261,19 @@ fn real(count: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numerics::random::Random;
     use crate::study::kicks::Law;
-
-    /// Numbers spread like independent normal ones, by `SplitMix64` and Box and Muller.
-    struct Normal(u64);
-
-    impl Normal {
-        fn part(&mut self) -> f64 {
-            self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-            let mut bits = self.0;
-            bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-            bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-            #[expect(clippy::cast_precision_loss, reason = "53 bits fit")]
-            let part = (((bits ^ (bits >> 31)) >> 11) as f64 + 0.5) / (1_u64 << 53) as f64;
-            part
-        }
-
-        fn pair(&mut self) -> (f64, f64) {
-            let (radius, angle) =
-                ((-2.0 * self.part().ln()).sqrt(), std::f64::consts::TAU * self.part());
-            (radius * angle.cos(), radius * angle.sin())
-        }
-    }
 
     /// Kicks one after the other, each from where the last one came to rest: mean number until one is lost, and
     /// its standard error.
     fn drawn(parameters: &Parameters, kicks: &Kicks, most: u32) -> (f64, f64) {
         let found = basin(parameters, 5.0, &Limits::PATIENT).unwrap();
-        let mut random = Normal(7);
+        let mut random = Random::new(7);
         let (mut kicked, mut runs, mut squares, mut sum) = (0, 0.0, 0.0, 0.0);
         while kicked < most {
             let (mut place, mut run) = (0.0, 0.0);
             loop {
-                let (a, b) = random.pair();
+                let (a, b) = (random.normal(), random.normal());
                 let start =
                     State { q: place + kicks.q.0 + kicks.q.1 * a, v: kicks.v.0 + kicks.v.1 * b };
                 kicked += 1;

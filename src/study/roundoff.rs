@@ -9,8 +9,8 @@
 //!
 //! Assumption: errors are small beside what they are errors of, and a step rounds by [`UNIT`] at most.
 
-use crate::flow::scaling::{exponent, field_in_units, times_power};
 use crate::flow::step::{Field, Point, Step};
+use crate::numerics::scaling::{exponent, times_power};
 use crate::oscillator::HalfPlane;
 
 /// Rounding of one step relative to its terms: some operations each, of which the largest term decides.
@@ -98,7 +98,7 @@ impl Roundoff {
             self.area = self.area.map(|area| scaled(scaled(area)));
             self.unit = unit;
         }
-        let field = field_in_units(&self.field, unit);
+        let field = self.field.in_units(unit);
         let (from, to, time) = (self.from, step.end, step.duration);
         let growth =
             (-2.0 * field.d * time - 2.0 * field.d2 * (to.x - from.x) - 3.0 * field.d3 * square)

@@ -11,6 +11,7 @@
 //! Guarantee: every interval between the roots found is excluded by monotonicity, or by a cubic whose
 //! error was measured. Assumption: the function varies on scales not below 1e-4.
 
+use crate::numerics::hermite::Hermite;
 /// Intervals of this length are not halved any more.
 const FINEST: f64 = 1e-4;
 
@@ -99,7 +100,7 @@ pub fn search<E>(
         return search(low, high, 0.0, function, found);
     }
     if low.is_finite() && high.is_finite() && middle.is_finite() {
-        let error = SAFETY * (middle.value() - cubic(&low, &high, 0.5)).abs() + blur;
+        let error = SAFETY * (middle.value() - cubic(&low, &high).at(0.5)).abs() + blur;
         let halves = [(low, middle), (middle, high)];
         if !changes && halves.iter().all(|(a, b)| stays_away(a, b, error)) {
             return Ok(());
@@ -117,31 +118,19 @@ pub fn search<E>(
     search(middle, high, blur, function, found)
 }
 
-/// The cubic with the values and slopes of two nodes, at a fraction of the way.
-fn cubic(low: &Node, high: &Node, fraction: f64) -> f64 {
-    let (s, t) = (fraction, 1.0 - fraction);
+/// The cubic with the values and slopes of two nodes.
+fn cubic(low: &Node, high: &Node) -> Hermite {
     let width = high.at - low.at;
-    let ends = t * t * (1.0 + 2.0 * s) * low.value() + s * s * (1.0 + 2.0 * t) * high.value();
-    ends + width * s * t * (t * low.slope - s * high.slope)
+    let slopes = (width * low.slope, width * high.slope);
+    Hermite { values: (low.value(), high.value()), slopes }
 }
 
 /// Whether the cubic through two nodes of one sign stays further than `error` from zero between them.
 fn stays_away(low: &Node, high: &Node, error: f64) -> bool {
     let sign = low.value().signum();
-    let width = high.at - low.at;
-    let rise = high.value() - low.value();
-    // Slope of the cubic at fraction t, over the width: linear + 2 square t + 3 cube t^2.
-    let linear = width * low.slope;
-    let square = 3.0 * rise - width * (2.0 * low.slope + high.slope);
-    let cube = width * (low.slope + high.slope) - 2.0 * rise;
-    let root = (square * square - 3.0 * cube * linear).sqrt();
-    // Both roots without cancellation; those outside (0, 1), or not real, are no extrema here.
-    let larger = -(square + root.copysign(square));
-    let extrema = [larger / (3.0 * cube), linear / larger];
-    let inside = extrema.iter().filter(|&&t| t > 0.0 && t < 1.0);
-    let nearest = inside
-        .map(|&t| sign * cubic(low, high, t))
-        .fold((sign * low.value()).min(sign * high.value()), f64::min);
+    let (cubic, ends) = (cubic(low, high), (sign * low.value()).min(sign * high.value()));
+    let extrema = cubic.extrema().into_iter().flatten();
+    let nearest = extrema.map(|t| sign * cubic.at(t)).fold(ends, f64::min);
     nearest > error
 }
 

@@ -6,6 +6,8 @@
 
 use super::basin::{Basin, Fate, Window};
 use super::border::Border;
+use crate::numerics::quadrature::{Integral, integrate};
+use crate::numerics::root::{TO_ROUNDING, bisect};
 
 /// A part of a whole, and a bound on its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,7 +19,13 @@ pub struct Share {
 }
 
 /// Absolute error to which each interval is integrated.
-const TOLERANCE: f64 = 1e-10;
+pub(super) const TOLERANCE: f64 = 1e-10;
+
+impl Share {
+    fn of(Integral { value, error }: Integral) -> Self {
+        Share { part: value.clamp(0.0, 1.0), error }
+    }
+}
 
 impl Basin {
     /// The part of a window's area that belongs to the basin of the sticking set.
@@ -41,8 +49,7 @@ impl Basin {
             inside / height * half / width * angle.cos()
         };
         let quarter = std::f64::consts::FRAC_PI_2;
-        let share = integrate(&density, (-quarter, quarter));
-        Share { part: share.part.clamp(0.0, 1.0), ..share }
+        Share::of(integrate(&density, (-quarter, quarter), TOLERANCE))
     }
 }
 
@@ -52,72 +59,15 @@ pub(super) fn support(edge: &Border, (from, to): (f64, f64)) -> Option<(f64, f64
     // Inside lies an interval with 0 in it.
     let nearest = 0.0_f64.clamp(from, to);
     inside(nearest).then(|| {
-        let end = |outer: f64| if inside(outer) { outer } else { last(inside, nearest, outer) };
+        let end = |outer: f64| {
+            if inside(outer) {
+                outer
+            } else {
+                bisect(nearest, outer, TO_ROUNDING, |q| !inside(q)).0
+            }
+        };
         (end(from), end(to))
     })
-}
-
-/// The last number, going from `yes` to `no`, for which something holds, by bisection to rounding.
-fn last(holds: impl Fn(f64) -> bool, mut yes: f64, mut no: f64) -> f64 {
-    loop {
-        let middle = yes + 0.5 * (no - yes);
-        if middle == yes || middle == no {
-            return yes;
-        }
-        if holds(middle) {
-            yes = middle;
-        } else {
-            no = middle;
-        }
-    }
-}
-
-/// Integrates over a range, halving intervals until both rules agree.
-pub(super) fn integrate(function: &impl Fn(f64) -> f64, range: (f64, f64)) -> Share {
-    /// Intervals are not halved more often: a kink is then 1e-9 of the range wide.
-    const DEPTH: u32 = 30;
-    let mut total = Share { part: 0.0, error: 0.0 };
-    let mut waiting = vec![(range, DEPTH)];
-    while let Some(((from, to), depth)) = waiting.pop() {
-        let share = gauss_kronrod(function, from, to);
-        if share.error <= TOLERANCE || depth == 0 {
-            total.part += share.part;
-            total.error += share.error;
-        } else {
-            let middle = 0.5 * (from + to);
-            waiting.extend([((from, middle), depth - 1), ((middle, to), depth - 1)]);
-        }
-    }
-    total
-}
-
-/// The 15-point rule of Kronrod, and its difference from the 7-point rule of Gauss within it.
-///
-/// Nodes and weights: Piessens et al., QUADPACK (1983), rounded to doubles.
-fn gauss_kronrod(function: &impl Fn(f64) -> f64, from: f64, to: f64) -> Share {
-    /// Node, Kronrod weight, Gauss weight (0 where the node is no node of Gauss).
-    const NODES: [(f64, f64, f64); 8] = [
-        (0.991_455_371_120_812_6, 0.022_935_322_010_529_224, 0.0),
-        (0.949_107_912_342_758_5, 0.063_092_092_629_978_55, 0.129_484_966_168_869_7),
-        (0.864_864_423_359_769_1, 0.104_790_010_322_250_18, 0.0),
-        (0.741_531_185_599_394_4, 0.140_653_259_715_525_92, 0.279_705_391_489_276_64),
-        (0.586_087_235_467_691_1, 0.169_004_726_639_267_9, 0.0),
-        (0.405_845_151_377_397_2, 0.190_350_578_064_785_4, 0.381_830_050_505_118_9),
-        (0.207_784_955_007_898_47, 0.204_432_940_075_298_9, 0.0),
-        (0.0, 0.209_482_141_084_727_83, 0.417_959_183_673_469_4),
-    ];
-    let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-    let (mut kronrod, mut gauss) = (0.0, 0.0);
-    for (node, of_kronrod, of_gauss) in NODES {
-        let value = if node == 0.0 {
-            function(middle)
-        } else {
-            function(middle - half * node) + function(middle + half * node)
-        };
-        kronrod += of_kronrod * value;
-        gauss += of_gauss * value;
-    }
-    Share { part: half * kronrod, error: (half * (kronrod - gauss)).abs() }
 }
 
 #[cfg(test)]

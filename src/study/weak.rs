@@ -14,7 +14,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::closing::Closing;
+use super::closed_pair::Closing;
 use super::half_map::Length;
 use crate::closed_form::harmonic::amplitudes;
 use crate::oscillator::Parameters;

@@ -6,8 +6,9 @@ use ratatui::layout::Rect;
 
 use super::keys;
 use super::lists::frame;
-use super::look::{Look, Role};
+use super::look::Look;
 use super::pane;
+use crate::picture::role::Role;
 use crate::session::Session;
 use crate::session::overlay::Caption;
 

@@ -2,12 +2,13 @@
 
 use ratatui::text::Span;
 
-use super::lists::{Content, Entry};
-use super::look::{Look, Role};
-use super::number::{count, duration};
+use super::content::{Content, Entry};
+use super::look::Look;
+use crate::picture::role::Role;
 use crate::scene::{Answered, Layer, Slot};
 use crate::session::requirement::{CostRow, Requirement};
 use crate::session::{List, Session};
+use crate::words::number::{count, duration};
 
 /// Columns of what a row is about.
 const NAME: usize = 14;
@@ -33,7 +34,7 @@ pub(super) fn content(session: &Session, list: &List, look: &Look) -> Content {
             Span::styled(text, look.style(Role::Text)),
         ]));
     }
-    Content { title: "what the picture costs", rows, about: Vec::new() }
+    Content { title: "what the picture costs", rows, about: Vec::new(), below: 0 }
 }
 
 fn names(layers: &[Layer]) -> String {

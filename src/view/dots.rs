@@ -16,21 +16,9 @@ use ratatui::layout::Rect;
 use ratatui::symbols::braille::BRAILLE;
 use ratatui::symbols::pixel::{OCTANTS, QUADRANTS};
 
-use super::look::{Look, Role};
+use super::look::Look;
+use crate::picture::role::{Dash, Role};
 use crate::session::settings::Glyphs;
-
-/// How a stroke is interrupted; told apart without colour.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Dash {
-    /// Not at all.
-    Solid,
-    /// Long dashes.
-    Dashed,
-    /// Dot by dot.
-    Dotted,
-    /// Few dots.
-    Sparse,
-}
 
 /// What a curve is drawn with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

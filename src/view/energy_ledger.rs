@@ -7,16 +7,16 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::dots::Dash;
-use super::look::{Look, Role};
-use super::number::significant;
+use super::look::Look;
 use super::pane::Heading;
-use super::picture::{Line, Mark, Picture};
 use super::plot::{Names, Plot, rows};
-use super::ticks::{Tick, Ticks};
+use crate::picture::energy_ledger::{middle, reading};
+use crate::picture::role::{Dash, Role};
+use crate::picture::ticks::{Tick, Ticks};
 use crate::scene::{Point, Span, View, Window};
 use crate::session::ledger::{Entry, Owner};
 use crate::session::{self, Pane, Session};
+use crate::words::number::significant;
 
 /// Digits of an energy.
 const DIGITS: usize = 4;
@@ -81,32 +81,6 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
     plot.finish(buffer);
 }
 
-/// The same for a file: each work a bar with its name and number.
-#[must_use]
-pub fn picture(session: &Session, index: usize) -> Picture<'_> {
-    let lines = session.ledger();
-    let spec = View::EnergyLedger.spec();
-    let window = Window {
-        y: Span::new(middle(lines.len()), 0.0).unwrap_or(Span::known(-1.0, 0.0)),
-        ..session.plots[index].window
-    };
-    let mut picture = Picture::new(spec.title, "part of the largest work", "", window);
-    picture.upright(Line::guide(), 0.0);
-    for (line, entry) in lines.iter().enumerate() {
-        let from = Point { x: 0.0, y: middle(line) };
-        if let Entry::Work { source, work, part, so_far } = entry {
-            let role = if *work < 0.0 { Role::Stable } else { Role::Unstable };
-            picture.bar(*source, role, from, Point { x: *part, ..from });
-            if let Some(x) = *so_far {
-                picture.mark(Mark::Head, Point { x, ..from }, Role::Cursor);
-            }
-        }
-        let at = Point { x: window.x.at(0.02), ..from };
-        picture.caption(at, reading(entry), Role::Text);
-    }
-    picture
-}
-
 /// The lines that are seen in `area`, each in whole rows, and the sources at the axis.
 #[must_use]
 pub fn marks(area: Rect, session: &Session, window: Window) -> (Window, Ticks) {
@@ -119,12 +93,6 @@ pub fn marks(area: Rect, session: &Session, window: Window) -> (Window, Ticks) {
     };
     let ticks = session.ledger().iter().enumerate().filter_map(mark).collect();
     (window, Ticks { base: None, ticks })
-}
-
-/// The height in the middle of a line.
-#[expect(clippy::cast_precision_loss, reason = "a few dozen lines")]
-fn middle(line: usize) -> f64 {
-    -(line as f64) - 0.5
 }
 
 /// About the same top, and as many heights as leave each line one or two whole rows.
@@ -152,15 +120,5 @@ fn label(entry: &Entry) -> Option<&'static str> {
         Entry::Work { source, .. } => Some(source),
         Entry::Residual(_) => Some("error"),
         Entry::Title(_) => None,
-    }
-}
-
-/// A line in numbers.
-fn reading(entry: &Entry) -> String {
-    match entry {
-        Entry::Title(Owner::Motion) => "motion".to_owned(),
-        Entry::Title(Owner::Cycle(cycle)) => format!("q_max {}", significant(cycle.q_max, 6)),
-        Entry::Work { source, work, .. } => format!("{source} {}", significant(*work, 6)),
-        Entry::Residual(part) => format!("error {}", significant(*part, 2)),
     }
 }

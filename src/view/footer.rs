@@ -6,12 +6,13 @@ use ratatui::style::Modifier;
 use ratatui::text::Span;
 
 use super::keys;
-use super::look::{Look, Role};
+use super::look::Look;
 use super::pane;
 use crate::flow::QUALITIES;
-use crate::session::keymap::Hint;
-use crate::session::line::described;
-use crate::session::{Entry, Input, Notice, Overlay, Pending, Prompt, Row, Session};
+use crate::picture::role::Role;
+use crate::session::Hint;
+use crate::session::read::completion::described;
+use crate::session::{Entry, Input, Keymap, Notice, Overlay, Pending, Prompt, Row, Session};
 
 /// Hints that are never left out, at the right end of the line.
 const ALWAYS: [&str; 5] = ["help", "accept", "replay", "forget", "quit"];
@@ -31,7 +32,7 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         _ if session.waiting.is_some() => waiting(session, look),
         _ if session.pending.is_some() => vec![pending(session.pending, look)],
         (Some(Overlay::Entry(entry)), _) => self::entry(entry, session, look),
-        (Some(Overlay::Prompt(prompt)), _) => self::prompt(prompt, look),
+        (Some(Overlay::Prompt(prompt)), _) => self::prompt(prompt, &session.keymap, look),
         (Some(Overlay::Offer(script)), _) => {
             let text =
                 format!(" pasted {} steps of a keystroke file: press them?", script.steps.len());
@@ -123,7 +124,7 @@ fn entry(entry: &Entry, session: &Session, look: &Look) -> Vec<Span<'static>> {
 }
 
 /// The command being typed, with what it can become, what it takes, or why it was refused.
-fn prompt(prompt: &Prompt, look: &Look) -> Vec<Span<'static>> {
+fn prompt(prompt: &Prompt, keymap: &Keymap, look: &Look) -> Vec<Span<'static>> {
     let mut line = vec![Span::styled(" :", look.style(Role::Title))];
     line.extend(typed(&prompt.input, look));
     let quiet = |text: &str| Span::styled(format!("  {text}"), look.style(Role::Quiet));
@@ -139,7 +140,7 @@ fn prompt(prompt: &Prompt, look: &Look) -> Vec<Span<'static>> {
                 line.extend([Span::raw(" "), Span::styled(word.clone(), style)]);
             }
         }
-        (None, None) => line.push(match described(prompt.input.text()) {
+        (None, None) => line.push(match described(keymap, prompt.input.text()) {
             Some((arguments, doc)) => quiet(&format!("{arguments} {doc}")),
             None => quiet("the name of a command; Tab completes"),
         }),

@@ -5,11 +5,12 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use super::layout::{Layout, SMALLEST, layout};
-use super::look::{Look, Role};
+use super::look::Look;
 use super::paint::paint;
 use super::pane::Heading;
-use super::picture::Picture;
-use super::{caption, energy_ledger, footer, lists, parameters, picture, scan, scan_form, status};
+use super::{caption, energy_ledger, footer, lists, parameters, scan, scan_form, status};
+use crate::picture::role::Role;
+use crate::picture::{self, items::Picture};
 use crate::scene::View;
 use crate::session::settings::Glyphs;
 use crate::session::{Pane, Session};
@@ -40,12 +41,9 @@ pub fn render(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer)
 fn panes(parts: &Layout, session: &Session, look: &Look, buffer: &mut Buffer) {
     status::title(parts.title, session, look, buffer);
     let shown = parts.plots.iter().enumerate().filter(|(_, area)| !area.is_empty());
-    let pictures: Vec<_> = shown
-        .clone()
-        .map(|(index, _)| (session.plots[index].view, picture::of(session, index)))
-        .collect();
+    let pictures: Vec<_> = shown.clone().map(|(index, _)| picture::of(session, index)).collect();
     parameters::draw(parts.parameters, session, &pictures, look, buffer);
-    for ((index, area), (_, picture)) in shown.zip(pictures) {
+    for ((index, area), picture) in shown.zip(pictures) {
         plot(*area, session, index, picture, look, buffer);
     }
     status::draw(parts.status, session, look, buffer);

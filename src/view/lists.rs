@@ -1,4 +1,4 @@
-//! Lists over the panes: all keys, the scenes, the layers, the views. They scroll so that the selected row is
+//! Lists over the panes: everything, the scenes, the layers, the views. They scroll so that the selected row is
 //! seen, and show what is searched for.
 
 use ratatui::buffer::Buffer;
@@ -7,15 +7,17 @@ use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Paragraph, Widget, Wrap};
 
+use super::content::{Content, Entry, TEXT};
 use super::costs;
 use super::keys;
-use super::look::{Look, Role};
+use super::look::Look;
 use super::pane;
 use super::paper;
-use crate::scene::ViewSpec;
+use crate::picture::role::Role;
 use crate::scene::said::said;
-use crate::session::update::palette::PaletteRow;
-use crate::session::{Context, Key, List, Listed, Overlay, Session};
+use crate::scene::{Layer, ViewSpec, letters};
+use crate::session::read::palette::PaletteRow;
+use crate::session::{List, Listed, Overlay, Session};
 
 /// Widest list.
 const WIDTH: u16 = 90;
@@ -23,33 +25,9 @@ const WIDTH: u16 = 90;
 /// Columns of keys in the help.
 const KEYS: usize = 16;
 
-/// Rows of text below the scene picker.
-const TEXT: u16 = 8;
-
-/// What is listed.
-pub(super) struct Content {
-    /// What is listed.
-    pub title: &'static str,
-    /// The rows.
-    pub rows: Vec<Entry>,
-    /// About the selected row, below the list.
-    pub about: Vec<Line<'static>>,
-}
-
-/// A line of a list.
-pub(super) enum Entry {
-    /// Groups the rows below it.
-    Heading(&'static str),
-    /// Can be selected.
-    Row(Vec<Span<'static>>),
-    /// Belongs to the row above it.
-    More(Vec<Span<'static>>),
-}
-
 /// Draws the open list, if there is one, into the middle of the screen.
 pub fn draw(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let (list, content) = match &session.overlay {
-        Some(Overlay::List(Listed::Help, list)) => (list, help(session, list, look)),
         Some(Overlay::List(Listed::Scenes, list)) => (list, scenes(session, list, look)),
         Some(Overlay::List(Listed::Layers, list)) => (list, layers(session, list, look)),
         Some(Overlay::List(Listed::Views, list)) => (list, views(session, list, look)),
@@ -59,7 +37,7 @@ pub fn draw(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         Some(Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Scan(_) | Overlay::Offer(_))
         | None => return,
     };
-    let below = if content.about.is_empty() { 0 } else { TEXT + 1 };
+    let below = if content.about.is_empty() { 0 } else { content.below + 1 };
     let wanted = u16::try_from(content.rows.len()).unwrap_or(u16::MAX).saturating_add(2 + below);
     // No slivers of panes beside the list; the footer stays in sight.
     let width = if screen.width < WIDTH + 10 { screen.width } else { WIDTH };
@@ -98,11 +76,6 @@ fn rows(area: Rect, rows: &[Entry], selected: usize, look: &Look, buffer: &mut B
     for (y, (place, row)) in (area.y..area.bottom()).zip(rows.iter().enumerate().skip(first)) {
         let line = match row {
             Entry::Heading(text) => Line::styled(*text, look.style(Role::Title)),
-            Entry::More(spans) => {
-                let mut line = vec![Span::raw("  ")];
-                line.extend(spans.iter().cloned());
-                Line::from(line)
-            }
             Entry::Row(spans) => {
                 let pointer = if place == index { look.symbols().pointer } else { " " };
                 let mut line = vec![Span::styled(format!("{pointer} "), look.style(Role::Focus))];
@@ -151,68 +124,52 @@ pub(super) fn frame(area: Rect, heading: &str, remark: &str, look: &Look, buffer
     buffer.set_stringn(right - 1 - length, bottom, remark, room, look.style(Role::Quiet));
 }
 
-/// All commands with their keys, under the place where they apply first.
-fn help(session: &Session, list: &List, look: &Look) -> Content {
+/// Everything that has a name: with headings where nothing is searched, the best first where something is.
+fn palette(session: &Session, list: &List, look: &Look) -> Content {
+    let found = session.palette_rows(list);
     let mut rows = Vec::new();
-    let mut group = None;
-    for row in session.help_rows(list) {
-        let command = match row {
-            PaletteRow::Command(command) => command,
-            PaletteRow::Line(line) => {
-                if group.replace(Context::Prompt) != Some(Context::Prompt) {
-                    rows.push(Entry::Heading(Context::Prompt.title()));
-                }
-                rows.push(Entry::Row(vec![
-                    Span::styled(
-                        format!(":{} {} ", line.name, line.arguments),
-                        look.style(Role::Key),
-                    ),
-                    Span::styled(line.doc, look.style(Role::Text)),
-                ]));
-                continue;
-            }
-        };
-        let mut places = session.keymap.places(command).into_iter();
-        let Some((context, first)) = places.next() else { continue };
-        if group != Some(context) {
-            group = Some(context);
-            rows.push(Entry::Heading(context.title()));
+    let mut group = "";
+    for row in &found {
+        let heading = session.heading(*row);
+        if list.search.is_empty() && group != heading {
+            group = heading;
+            rows.push(Entry::Heading(heading));
         }
-        let keys = |keys: Vec<Key>| {
-            let names: Vec<String> = keys.into_iter().map(|key| keys::name(key, look)).collect();
-            let spaced = names.join(" ");
-            let text = if spaced.chars().count() > KEYS { names.concat() } else { spaced };
-            Span::styled(format!("{text:<KEYS$} "), look.style(Role::Key))
-        };
-        let doc = Span::styled(command.doc, look.style(Role::Text));
-        rows.push(Entry::Row(vec![keys(first), doc]));
-        rows.extend(places.map(|(context, others)| {
-            let place = format!("the same: {}", context.title().to_lowercase());
-            Entry::More(vec![keys(others), Span::styled(place, look.style(Role::Quiet))])
-        }));
+        let keys = keys_of(session, *row, look);
+        let spaced = keys.join(" ");
+        let keys = if spaced.chars().count() > KEYS { keys.concat() } else { spaced };
+        let keys = if keys.is_empty() { row.name().to_owned() } else { keys };
+        rows.push(Entry::Row(vec![
+            Span::styled(format!("{keys:<KEYS$} "), look.style(Role::Key)),
+            Span::styled(row.meaning(), look.style(Role::Text)),
+        ]));
     }
-    Content { title: "keys", rows, about: Vec::new() }
+    let about = found.get(list.selected).map_or(Vec::new(), |row| {
+        let quiet = look.style(Role::Quiet);
+        let name = match row {
+            PaletteRow::Line(line) => format!(":{} {}", line.name, line.arguments),
+            row => row.name().to_owned(),
+        };
+        let name = Span::styled(format!("{name}   "), look.style(Role::Title));
+        let kind = Span::styled(session.heading(*row).to_lowercase(), quiet);
+        vec![Line::from(vec![name, kind]), Line::styled(row.meaning(), quiet)]
+    });
+    Content { title: "everything", rows, about, below: 2 }
 }
 
-/// Every command, with its first keys and what it does.
-fn palette(session: &Session, list: &List, look: &Look) -> Content {
-    let row = |row: PaletteRow| {
-        let (key, doc) = match row {
-            PaletteRow::Command(command) => {
-                let keys = session.keymap.places(command).into_iter().next();
-                let key = keys.and_then(|(_, keys)| keys.first().copied());
-                (key.map(|key| keys::name(key, look)).unwrap_or_default(), command.doc)
-            }
-            PaletteRow::Line(line) => (":".to_owned(), line.doc),
-        };
-        Entry::Row(vec![
-            Span::styled(format!("{:<18} ", row.name()), look.style(Role::Title)),
-            Span::styled(format!("{key:<8} "), look.style(Role::Key)),
-            Span::styled(doc, look.style(Role::Text)),
-        ])
-    };
-    let rows = session.palette_rows(list).into_iter().map(row).collect();
-    Content { title: "commands", rows, about: Vec::new() }
+/// The keys of a row where it is run; the colon of a command that takes words.
+fn keys_of(session: &Session, row: PaletteRow, look: &Look) -> Vec<String> {
+    match row {
+        PaletteRow::Command(command) => {
+            let place = session.place_of(command);
+            let places = session.keymap.places(command);
+            let here = places.into_iter().find(|(context, _)| Some(*context) == place);
+            let keys = here.map(|(_, keys)| keys).unwrap_or_default();
+            keys.into_iter().map(|key| keys::name(key, look)).collect()
+        }
+        PaletteRow::Line(line) => vec![format!(":{}", line.name)],
+        _ => Vec::new(),
+    }
 }
 
 /// The scenes, and what there is to see and to do in the selected one.
@@ -233,28 +190,32 @@ fn scenes(session: &Session, list: &List, look: &Look) -> Content {
         vec![text(&scene.look), Line::default(), text(&scene.press)]
     });
     let rows = found.iter().map(|scene| row(&scene.name, &scene.title)).collect();
-    Content { title: "scenes", rows, about: about.unwrap_or_default() }
+    Content { title: "scenes", rows, about: about.unwrap_or_default(), below: TEXT }
 }
 
-/// The layers, and which of them are on.
+/// The layers, and which of them are on; those of the plot in use with the letter that switches them.
 fn layers(session: &Session, list: &List, look: &Look) -> Content {
     let mut rows = Vec::new();
     let mut group = None;
+    let letters: Vec<(char, Layer)> = letters(session.view_in_use()).collect();
     for spec in session.layer_rows(list) {
         if group != Some(spec.view) {
             group = Some(spec.view);
             rows.push(Entry::Heading(spec.view.spec().title));
         }
+        let letter = letters.iter().find(|(_, layer)| *layer == spec.layer);
+        let letter = letter.map_or(' ', |(letter, _)| *letter);
         let on = if session.layers.contains(&spec.layer) { "[x]" } else { "[ ]" };
         rows.push(Entry::Row(vec![
-            Span::styled(format!("{on} {:<12}", spec.name), look.style(Role::Key)),
+            Span::styled(format!("{letter} "), look.style(Role::Key)),
+            Span::styled(format!("{on} {:<16}", spec.name), look.style(Role::Key)),
             Span::styled(
                 session.not_drawn(spec.layer).unwrap_or(spec.meaning),
                 look.style(Role::Text),
             ),
         ]));
     }
-    Content { title: "layers", rows, about: Vec::new() }
+    Content { title: "layers", rows, about: Vec::new(), below: 0 }
 }
 
 /// The views, with those on show marked.
@@ -268,5 +229,5 @@ fn views(session: &Session, list: &List, look: &Look) -> Content {
         ])
     };
     let rows = session.view_rows(list).into_iter().map(row).collect();
-    Content { title: "show", rows, about: Vec::new() }
+    Content { title: "show", rows, about: Vec::new(), below: 0 }
 }

@@ -9,108 +9,8 @@ use std::str::FromStr;
 
 use ratatui::style::{Color, Modifier, Style};
 
+use crate::picture::role::{ROLES, Role};
 use crate::session::settings::{self, Colors, Glyphs, Theme};
-
-/// What a piece of the screen is, as far as its style goes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Role {
-    /// Ordinary text.
-    Text,
-    /// Text of second rank: labels, units, explanations.
-    Quiet,
-    /// Headings.
-    Title,
-    /// Heading of the pane that the keys go to.
-    Focus,
-    /// The selected row.
-    Selected,
-    /// A value that the last key changed.
-    Changed,
-    /// Keys in footer and help.
-    Key,
-    /// What needs attention: stale, busy, a limit reached.
-    Warning,
-    /// What went wrong.
-    Failure,
-    /// Axes, ticks and their labels.
-    Axis,
-    /// Direction field.
-    Field,
-    /// Shading of the basin of attraction.
-    Basin,
-    /// Borders of the bands of capture.
-    Bands,
-    /// Motion and cycles of the point that is compared with.
-    Ghost,
-    /// Circle of the Lyapunov estimate.
-    Lyapunov,
-    /// The segment of equilibria.
-    Sticking,
-    /// The motion on show.
-    Trajectory,
-    /// Velocity over time.
-    Velocity,
-    /// Energy over time.
-    Energy,
-    /// The return map.
-    Map,
-    /// Stable cycles.
-    Stable,
-    /// Unstable cycles, and the separatrix.
-    Unstable,
-    /// What a map shades, the stronger the more dangerous.
-    Danger,
-    /// First-order harmonic curve.
-    Harmonic,
-    /// Asymptotes.
-    Asymptote,
-    /// Special points and their names.
-    Special,
-    /// The current parameter value in the diagram.
-    Current,
-    /// The cursor and its read-out.
-    Cursor,
-}
-
-/// Name in theme files, and glyph in a plot without dots, of every role in order.
-const ROLES: [(Role, &str, char); 28] = [
-    (Role::Text, "text", '*'),
-    (Role::Quiet, "quiet", '.'),
-    (Role::Title, "title", '*'),
-    (Role::Focus, "focus", '*'),
-    (Role::Selected, "selected", '*'),
-    (Role::Changed, "changed", '*'),
-    (Role::Key, "key", '*'),
-    (Role::Warning, "warning", '!'),
-    (Role::Failure, "failure", '!'),
-    (Role::Axis, "axis", '.'),
-    (Role::Field, "field", '.'),
-    (Role::Basin, "basin", '.'),
-    (Role::Bands, "bands", '-'),
-    (Role::Ghost, "ghost", ','),
-    (Role::Lyapunov, "lyapunov", ':'),
-    (Role::Sticking, "sticking", '='),
-    (Role::Trajectory, "trajectory", '*'),
-    (Role::Velocity, "velocity", 'v'),
-    (Role::Energy, "energy", 'e'),
-    (Role::Map, "map", '#'),
-    (Role::Stable, "stable", '#'),
-    (Role::Unstable, "unstable", 'o'),
-    (Role::Danger, "danger", '#'),
-    (Role::Harmonic, "harmonic", '~'),
-    (Role::Asymptote, "asymptote", '\''),
-    (Role::Special, "special", '*'),
-    (Role::Current, "current", '|'),
-    (Role::Cursor, "cursor", '+'),
-];
-
-impl Role {
-    /// The name in theme files and figures.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        ROLES[self as usize].1
-    }
-}
 
 /// The text of a theme that comes with the program.
 fn text_of(theme: Theme) -> &'static str {
@@ -343,13 +243,6 @@ fn nearest((red, green, blue): (u8, u8, u8)) -> u8 {
 mod tests {
     use super::*;
     use crate::session::settings::THEMES;
-
-    #[test]
-    fn every_role_stands_at_its_own_row() {
-        for (index, (role, ..)) in ROLES.iter().enumerate() {
-            assert_eq!(*role as usize, index);
-        }
-    }
 
     fn look(theme: Theme, glyphs: Glyphs, colors: Colors) -> Look {
         Look::new(settings::Look { glyphs, colors, theme, mouse: false })

@@ -5,18 +5,19 @@ use ratatui::layout::Rect;
 
 use super::look::{Look, Symbols};
 use super::pane::Heading;
-use super::picture::{Item, Mark, Pattern, Picture};
 use super::plot::{Name, Names, Plot};
+use crate::picture::items::{Item, Marks, Pattern, Picture};
+use crate::picture::role::Mark;
 
 /// Plots at least this wide have the long form of captions.
 const WIDE: u16 = 44;
 
-/// Columns between marks of one meaning.
+/// Columns between marks that are left out where they would touch.
 const APART: usize = 4;
 
 /// Paints a picture under its heading.
 pub fn paint(area: Rect, picture: Picture, mut heading: Heading, look: &Look, buffer: &mut Buffer) {
-    let Picture { title, x, y, scales, window, reading, items } = picture;
+    let Picture { title, x, y, scales, window, reading, items, .. } = picture;
     heading.reading = reading;
     let names = Names { title: &title, x: &x, y: &y, scales, marks: None };
     let mut plot = Plot::new(area, window, names, &heading, look, buffer);
@@ -64,11 +65,9 @@ fn put(plot: &mut Plot, item: &Item, look: &Look) {
             at(point).map(|fill| (filling(fill.pattern, symbols), fill.role))
         }),
         Item::Arrows(role, flow) => plot.arrows(*role, flow),
-        Item::Mark(mark, at, role) => plot.mark(*at, symbol(*mark, symbols), *role),
-        Item::Milestone(at, _, role) => plot.mark(*at, symbols.start, *role),
-        Item::Marks(mark, points, role) => {
-            if points.len() * APART <= usize::from(plot.inner().width) {
-                for at in points {
+        Item::Marks(Marks { mark, role, at, sparse, .. }) => {
+            if !sparse || at.len() * APART <= usize::from(plot.inner().width) {
+                for at in at {
                     plot.mark(*at, symbol(*mark, symbols), *role);
                 }
             }

@@ -6,7 +6,8 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Clear, Widget};
 
-use super::look::{Look, Role};
+use super::look::Look;
+use crate::picture::role::Role;
 use crate::scene::Slot;
 use crate::session::{Pane, Session};
 
@@ -171,6 +172,20 @@ pub fn fitted(line: Line<'static>, width: usize, look: &Look) -> Line<'static> {
         Span::styled(letters.by_ref().take(count).collect::<String>(), span.style)
     });
     Line { spans: spans.collect(), ..line }
+}
+
+/// The first of some texts that fits into this width, the last if none does.
+#[must_use]
+pub fn fitting(texts: impl IntoIterator<Item = String>, width: usize) -> String {
+    let mut last = String::new();
+    for text in texts {
+        let fits = text.chars().count() <= width;
+        last = text;
+        if fits {
+            break;
+        }
+    }
+    last
 }
 
 /// Writes a row of `area`: `left` from its left end, as far as it fits, and `right` at its right end where

@@ -2,12 +2,13 @@
 
 use ratatui::text::{Line, Span};
 
-use super::lists::{Content, Entry};
-use super::look::{Look, Role};
-use super::number::significant;
-use crate::export::claims::{summary, words};
+use super::content::{Content, Entry, TEXT};
+use super::look::Look;
+use crate::picture::role::Role;
 use crate::session::{List, Session};
 use crate::study::claims::{Claim, Examined, UNSAID, Verdict};
+use crate::words::claim;
+use crate::words::number::significant;
 
 /// The list, section by section.
 pub(super) fn content(session: &Session, list: &List, look: &Look) -> Content {
@@ -20,7 +21,7 @@ pub(super) fn content(session: &Session, list: &List, look: &Look) -> Content {
             rows.push(Entry::Heading(heading(claim.section)));
         }
         let (verdict, role) = match examined {
-            Some(examined) => (words(examined), role(examined)),
+            Some(examined) => (claim::verdict(examined), role(examined)),
             None => ("computing".to_owned(), Role::Quiet),
         };
         rows.push(Entry::Row(vec![
@@ -32,9 +33,9 @@ pub(super) fn content(session: &Session, list: &List, look: &Look) -> Content {
     let about = found.get(list.selected).map(|(claim, examined)| about(claim, *examined, look));
     let mut about = about.unwrap_or_default();
     if !session.examined().is_empty() {
-        about.push(Line::styled(summary(session.examined()), look.style(Role::Quiet)));
+        about.push(Line::styled(claim::summary(session.examined()), look.style(Role::Quiet)));
     }
-    Content { title: "the paper against computation", rows, about }
+    Content { title: "the paper against computation", rows, about, below: TEXT }
 }
 
 /// What stands above the claims of a section.

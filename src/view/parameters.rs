@@ -8,19 +8,20 @@ use super::caption::wrapped;
 use super::keys;
 use super::layout::DESIGNED;
 use super::legend;
-use super::look::{Look, Role};
-use super::number::{exact, significant};
+use super::look::Look;
 use super::pane::{self, Heading};
-use super::picture::Picture;
-use super::quantity::with_unit;
 use crate::flow::Problem;
 use crate::oscillator::Symbol;
 use crate::oscillator::belt::Quantity;
-use crate::scene::{Layer, View};
+use crate::picture::items::Picture;
+use crate::picture::role::Role;
+use crate::scene::Layer;
 use crate::session::{Pane, Row, Session, Stand};
 use crate::study::belt::PhysicalMargin;
 use crate::study::harmonic_error::Balanced;
 use crate::study::{Cycle, Cycles, Edge};
+use crate::words::number::{exact, significant};
+use crate::words::quantity::with_unit;
 
 /// Columns up to the end of the values.
 const VALUES: usize = 16;
@@ -29,13 +30,7 @@ const VALUES: usize = 16;
 const STEP: usize = 7;
 
 /// Draws the pane.
-pub fn draw(
-    area: Rect,
-    session: &Session,
-    pictures: &[(View, Picture)],
-    look: &Look,
-    buffer: &mut Buffer,
-) {
+pub fn draw(area: Rect, session: &Session, pictures: &[Picture], look: &Look, buffer: &mut Buffer) {
     let heading = Heading::of(session, Pane::Parameters);
     pane::title(area, "parameters", "", &heading, look, buffer);
     let wide = usize::from(area.width) > VALUES + STEP;
@@ -71,13 +66,7 @@ pub fn draw(
 }
 
 /// What to look at in this scene and what to press, and below it what the lines mean.
-fn guide(
-    area: Rect,
-    session: &Session,
-    pictures: &[(View, Picture)],
-    look: &Look,
-    buffer: &mut Buffer,
-) {
+fn guide(area: Rect, session: &Session, pictures: &[Picture], look: &Look, buffer: &mut Buffer) {
     let width = usize::from(area.width.saturating_sub(2));
     let mut lines = Vec::new();
     for (heading, text) in [("look", &session.scene.look), ("press", &session.scene.press)] {
@@ -140,6 +129,8 @@ fn row_line(
     ];
     let step = step.unwrap_or_default();
     let physical = physical(session, row).map(|(name, value)| format!("{name} {value}"));
+    // Of a fitted number its error says more than what the step is.
+    let physical = physical.or_else(|| error(session, row, look));
     let meaning = physical.clone().unwrap_or_else(|| meaning(&session.problem, row).to_owned());
     let whole = format!("{step:<STEP$}  {meaning}");
     // On a narrow pane what the number means on the machine stands in place of the step, of which the
@@ -150,6 +141,13 @@ fn row_line(
     let text = texts.into_iter().find(|text| text.chars().count() <= room).unwrap_or(step);
     line.push(Span::styled(text, look.style(Role::Quiet)));
     line
+}
+
+/// The standard error of a fitted number.
+fn error(session: &Session, row: Row, look: &Look) -> Option<String> {
+    let Row::Parameter(symbol) = row else { return None };
+    let error = session.fitted()?.error(symbol)?;
+    Some(format!("{}{}", look.symbols().plus_minus, significant(error, 2)))
 }
 
 /// What a row means on the machine: the quantity and its value.
@@ -296,13 +294,24 @@ fn basin(session: &Session, found: &Cycles, width: usize) -> Vec<String> {
         // Rather fewer digits than a number cut short.
         (1..=5).rev().map(text).find(|text| text.len() < width)
     });
+    let kicks = kicks.into_iter().chain(spread(session));
     let physical = on_the_machine(session, found, width);
     let lines = std::iter::once(edge.to_owned());
     if session.size.height >= DESIGNED {
         // The second status line says the rest.
-        return lines.chain(physical).chain(area(found)).collect();
+        return lines.chain(spread(session)).chain(physical).chain(area(found)).collect();
     }
     lines.chain(kicks).chain(physical).chain(share(found)).chain(area(found)).collect()
+}
+
+/// Where the smallest displacement that is not survived lies with 95 %, by the record.
+fn spread(session: &Session) -> Option<String> {
+    let spread = session.fitted()?.margins.displacement;
+    let end = |end: Option<f64>| end.map_or("any".to_owned(), |end| significant(end, 3));
+    Some(match spread.lower {
+        None => "95 %: every kick".to_owned(),
+        Some(_) => format!("95 %: q {} .. {}", end(spread.lower), end(spread.upper)),
+    })
 }
 
 /// The margin on the machine, and which cycles overtake its belt.
@@ -316,7 +325,9 @@ fn on_the_machine(session: &Session, found: &Cycles, width: usize) -> Vec<String
         // The word goes before a unit does.
         Some(format!("kick {kick}")).filter(|text| text.len() < width).or(Some(kick))
     });
-    let fast = |cycle: &&Cycle| cycle.v_max >= running.reduced.sticking_velocity;
+    // The whole model knows what happens there.
+    let sticking = running.reduced.sticking_velocity;
+    let fast = |cycle: &&Cycle| !session.draws_whole() && cycle.v_max >= sticking;
     let alarms = found.cycles.iter().filter(fast).map(|cycle| {
         format!("! {} > belt", if cycle.stable { "stable cycle" } else { "unstable cycle" })
     });

@@ -4,9 +4,9 @@ use ratatui::layout::{Position, Rect};
 
 use super::energy_ledger;
 use super::layout::layout;
-use super::picture;
 use super::plot::point_at;
 use super::scan;
+use crate::picture;
 use crate::scene::View;
 use crate::session::{Place, Session};
 

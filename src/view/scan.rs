@@ -8,22 +8,20 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
-use super::dots::Dash;
-use super::look::{Look, Role};
-use super::number::{remaining, significant};
+use super::look::Look;
 use super::pane::{self, Heading};
-use super::picture::{self, Picture};
 use super::plot::{Names, Plot};
 use super::scan_map;
 use super::scan_table;
-use super::ticks::Scale;
-use crate::export::scan::rounded;
+use crate::picture::role::{Dash, Role};
+use crate::picture::scan::{measured, names, scales};
 use crate::scene::{Point, View};
 use crate::session::keymap::Keymap;
 use crate::session::scan::{Progress, Scanned, WORDS};
 use crate::session::{Pane, Session};
 use crate::study::measure::Value;
-use crate::study::scan::{Spacing, Sweep};
+use crate::words::measured::rounded;
+use crate::words::number::{remaining, significant};
 
 /// Digits of a value, as many as fit; the first are those of a table.
 const DIGITS: [usize; 5] = [8, 6, 5, 4, 3];
@@ -77,61 +75,6 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
     }
 }
 
-/// The name of what is plotted.
-pub(super) fn measured(scanned: &Scanned) -> &'static str {
-    scanned.scan.measured().get(scanned.column).copied().unwrap_or_default()
-}
-
-/// The names of both axes.
-fn names(scanned: &Scanned) -> (&'static str, &'static str) {
-    let over = scanned.scan.over();
-    let name = |sweep: &Sweep| sweep.symbol.spec().name;
-    (name(&over[0]), over.get(1).map_or_else(|| measured(scanned), name))
-}
-
-/// What the numbers along both axes stand for.
-#[must_use]
-pub fn scales(scanned: &Scanned) -> [Scale; 2] {
-    let over = scanned.scan.over();
-    [0, 1].map(|axis| match over.get(axis) {
-        Some(Sweep { spacing: Spacing::Logarithmic, from, .. }) if *from < 0.0 => {
-            Scale::NegativeLogarithmic
-        }
-        Some(Sweep { spacing: Spacing::Logarithmic, .. }) => Scale::Logarithmic,
-        _ => Scale::Even,
-    })
-}
-
-/// The first of some texts that fits into this width, the last if none does.
-pub(super) fn fitting(texts: impl IntoIterator<Item = String>, width: usize) -> String {
-    let mut last = String::new();
-    for text in texts {
-        let fits = text.chars().count() <= width;
-        last = text;
-        if fits {
-            break;
-        }
-    }
-    last
-}
-
-/// The curve over one parameter as data; a map of shades is for the screen, and its rows for files.
-#[must_use]
-pub fn picture(session: &Session, index: usize) -> Picture<'_> {
-    let title = View::Scan.spec().title;
-    let window = session.plots[index].window;
-    let Some(scanned) = &session.scanned else { return Picture::new(title, "", "", window) };
-    let (x, y) = names(scanned);
-    let mut picture = Picture::new(title, x, y, window);
-    if !scanned.is_grid() {
-        let line = picture::Line::new(y, Role::Trajectory, Dash::Solid);
-        let nowhere = Point { x: f64::NAN, y: f64::NAN };
-        let points = 0..scanned.rows.len();
-        picture.curve(line, points.map(|index| scanned.place(index).unwrap_or(nowhere)));
-    }
-    picture
-}
-
 /// What stands where there is no scan.
 fn empty(area: Rect, keymap: &Keymap, heading: &Heading, look: &Look, buffer: &mut Buffer) {
     pane::title(area, View::Scan.spec().title, "", heading, look, buffer);
@@ -175,7 +118,7 @@ fn reading(scanned: &Scanned, width: usize) -> String {
         });
         format!(" {name} {} at {}", found(*digits), at.collect::<Vec<_>>().join(" "))
     };
-    fitting(DIGITS.iter().map(text), width)
+    pane::fitting(DIGITS.iter().map(text), width)
 }
 
 /// The measured number over one parameter; where there is none the curve has a gap.
@@ -200,11 +143,11 @@ fn meaning(scanned: &Scanned, width: usize) -> String {
     if scanned.plots_words() {
         let meanings = WORDS.iter().enumerate().map(|(number, word)| format!("{number} {word}"));
         let meanings = meanings.collect::<Vec<_>>().join(", ");
-        return fitting([format!(" {name}: {meanings}"), format!(" {meanings}")], width);
+        return pane::fitting([format!(" {name}: {meanings}"), format!(" {meanings}")], width);
     }
     let Some((low, high)) = scanned.range() else { return format!(" {name}") };
     let range = |digits: &usize| {
         format!(" {name} {} .. {}", significant(low, *digits), significant(high, *digits))
     };
-    fitting(DIGITS[3..].iter().map(range), width)
+    pane::fitting(DIGITS[3..].iter().map(range), width)
 }

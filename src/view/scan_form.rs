@@ -6,9 +6,10 @@ use ratatui::text::Span;
 
 use super::footer::typed;
 use super::lists::frame;
-use super::look::{Look, Role};
+use super::look::Look;
 use super::pane;
-use crate::session::scan::{FIELDS, Field, Form};
+use crate::picture::role::Role;
+use crate::session::state::scan_form::{FIELDS, Field, Form};
 use crate::session::{Overlay, Session};
 use crate::study::measure::MEASURES;
 

@@ -5,14 +5,16 @@
 use ratatui::buffer::Buffer;
 use ratatui::text::{Line, Span};
 
-use super::look::{Look, Role};
-use super::number::significant;
+use super::look::Look;
+use super::pane;
 use super::plot::Plot;
-use super::scan::{fitting, measured};
+use crate::picture::role::Role;
+use crate::picture::scan::measured;
 use crate::scene::Point;
 use crate::session::scan::{Scanned, WORDS};
 use crate::session::settings::Glyphs;
 use crate::study::scan::Sweep;
+use crate::words::number::significant;
 
 /// Columns of measures of which the small values are the dangerous ones; of all others the large are.
 const SMALL_IS_DANGEROUS: [&str; 4] = ["displacement", "impulse", "captured_part", "area"];
@@ -139,7 +141,7 @@ pub fn legend(scanned: &Scanned, width: usize, look: &Look) -> Line<'static> {
     } else {
         vec![format!(" {name}{none}")]
     };
-    let text = fitting(texts, width);
+    let text = pane::fitting(texts, width);
     let role = |letter: char| {
         let word = OF_WORDS.iter().find(|(symbol, _)| *symbol == letter);
         if scanned.plots_words() {

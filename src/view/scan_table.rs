@@ -6,13 +6,14 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::Line;
 
-use super::look::{Look, Role};
-use super::number::significant;
+use super::look::Look;
 use super::pane;
-use crate::export::scan::rounded;
+use crate::picture::role::Role;
 use crate::session::scan::Scanned;
 use crate::study::measure::Value;
 use crate::study::scan::Sweep;
+use crate::words::measured::rounded;
+use crate::words::number::significant;
 
 /// Digits of a number.
 const DIGITS: usize = 8;

@@ -6,17 +6,20 @@ use ratatui::layout::Rect;
 use ratatui::text::Span;
 
 use super::keys;
-use super::look::{Look, Role};
-use super::number::{count, duration, significant};
+use super::look::Look;
+use super::machine;
 use super::pane;
-use super::quantity::with_unit;
 use super::walk;
 use crate::flow::trajectory::choice;
 use crate::flow::{Outcome, Trajectory};
+use crate::picture::role::Role;
 use crate::scene::{Answer, Layer, Slot};
 use crate::session::Session;
 use crate::session::fate::{End, Fate, Place};
 use crate::study::Edge;
+use crate::words::motion::{sentence, swings};
+use crate::words::number::{count, duration, significant};
+use crate::words::quantity::with_unit;
 
 /// Draws the title line: what the scene is, and its name.
 pub fn title(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
@@ -142,6 +145,7 @@ fn outcome(session: &Session) -> (String, Role) {
     }
     match session.trajectory() {
         None => ("computing the motion".into(), Role::Quiet),
+        Some(found) if session.course().is_some() => (machine::outcome(session, found), Role::Text),
         Some(found) => alarm(session).unwrap_or_else(|| {
             let fate = session.fate();
             (fate.map_or_else(|| sentence(found), |fate| verdict(&fate, found)), Role::Text)
@@ -154,7 +158,7 @@ fn held_motions(session: &Session) -> Option<String> {
     let plots = session.on_show().filter(|plot| session.variants(*plot).is_some());
     let found = plots.flat_map(|plot| session.found(Slot::Trajectory, plot));
     let outcomes: Vec<Outcome> = found
-        .filter_map(|(_, answer)| match answer {
+        .filter_map(|(.., answer)| match answer {
             Answer::Trajectory(found) => Some(found.outcome),
             _ => None,
         })
@@ -197,30 +201,6 @@ fn symbol(session: &Session, look: &Look) -> String {
     }
 }
 
-/// How a motion ended, in a sentence.
-#[must_use]
-pub fn sentence(motion: &Trajectory) -> String {
-    let swings = swings(motion);
-    let three = |value| significant(value, 3);
-    match motion.outcome {
-        Outcome::Captured { q, .. } if motion.crossings.is_empty() => {
-            format!("at rest at q = {} from the start", three(q))
-        }
-        Outcome::Captured { tau, q } => {
-            format!("captured at q = {}{swings}, tau = {}", three(q), three(tau))
-        }
-        Outcome::Moving { tau, q, v } => {
-            format!("moving at tau = {}{swings}: q = {}, v = {}", three(tau), three(q), three(v))
-        }
-        Outcome::Escaped { tau } => {
-            format!("escapes at tau = {}{swings}", significant(tau, 4))
-        }
-        Outcome::GaveUp { tau, reason } => {
-            format!("gave up at tau = {}{swings}: {reason}", three(tau))
-        }
-    }
-}
-
 /// What becomes of a motion and why, in a sentence.
 fn verdict(fate: &Fate, motion: &Trajectory) -> String {
     let why = match fate.place {
@@ -258,17 +238,11 @@ fn verdict(fate: &Fate, motion: &Trajectory) -> String {
     end + why
 }
 
-/// After how many half swings.
-fn swings(motion: &Trajectory) -> String {
-    match motion.crossings.len() {
-        0 => String::new(),
-        1 => " after 1 half swing".to_owned(),
-        number => format!(" after {number} half swings"),
-    }
-}
-
 /// What the parameters say about kicks out of rest; `None` where that is not known.
 fn margin(session: &Session) -> Option<String> {
+    if let Some(line) = machine::margin(session) {
+        return Some(line);
+    }
     let found = session.cycles().filter(|_| !session.is_stale(Slot::Cycles, session.plot))?;
     if found.parameters.r == 0.0 {
         return None;

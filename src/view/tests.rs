@@ -7,7 +7,6 @@ mod pictures;
 use super::frame::render;
 use super::layout::layout;
 use super::look::Look;
-use crate::export::screen::text;
 use crate::flow::{Method, Outcome, Problem, Reason, Sample};
 use crate::oscillator::{Parameters, State, Symbol};
 use crate::scene::answer::Failure;
@@ -18,6 +17,7 @@ use crate::scene::{
 use crate::session::settings::{self, Colors, GLYPHS, Glyphs, THEMES};
 use crate::session::{Msg, Notice, Session, Size, Stop, update};
 use crate::study::{BranchPoint, Return};
+use crate::view::screen::text;
 use proptest::prelude::*;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -98,17 +98,20 @@ fn screens_look_as_they_were_approved() {
         ("four", (160, 48), "<tab> <tab> W W W", braille()),
         ("four-small", (80, 24), "<tab> <tab> W W W", letters()),
         ("rows", (100, 40), "Z Z", braille()),
-        ("time-series", (80, 24), "<tab> <tab> ; E z <right>", braille()),
+        ("time-series", (80, 24), "<tab> <tab> ; v n <esc> z <right>", braille()),
         ("energy-ledger", (80, 24), "<tab> <tab> V / l e d <enter> <down>", braille()),
         ("return-map", (80, 24), "<tab> Q V / r e t <enter> <right>", braille()),
         ("trade", (80, 24), "<tab> Q V / t r a d e <enter> <right>", letters()),
         ("costs", (100, 30), "$", letters()),
+        ("everything", (80, 24), "?", letters()),
+        ("everything-wide", (120, 40), "<tab> <space> f o l d", braille()),
+        ("layers", (80, 24), "v", letters()),
         ("dial", (100, 24), "}", letters()),
         ("regimes", (80, 24), "<tab> Q V / r e g <enter> <right>", braille()),
         ("views", (80, 24), "V", letters()),
         ("scan", (80, 24), "% <enter> z <right> <right>", braille()),
         ("scan-form", (80, 24), "% <down> x <enter>", letters()),
-        ("scan-table", (80, 24), "% <enter> z G <down> <down>", braille()),
+        ("scan-table", (80, 24), "% <enter> z t <down> <down>", braille()),
         (
             "scan-map",
             (100, 30),
@@ -162,7 +165,7 @@ fn the_layer_list_says_which_are_on() {
 #[test]
 fn a_search_leaves_what_contains_it() {
     let screen = text(&draw(&settled("plain", 80, 24, "? / z o o m"), letters()));
-    assert!(screen.contains("keys: /zoom_") && screen.contains("Zoom in"), "{screen}");
+    assert!(screen.contains("everything: /zoom_") && screen.contains("Zoom in"), "{screen}");
     assert!(!screen.contains("Undo"));
     let screen = text(&draw(&settled("plain", 80, 24, "? / x q z"), letters()));
     assert!(screen.contains("nothing found"), "{screen}");
@@ -273,8 +276,9 @@ fn the_footer_and_the_help_name_the_keys_that_do_it() {
     assert!(footer("<enter>").contains("enter accept"));
     let help = settled("plain", 100, 500, "?");
     let screen = text(&draw(&help, letters()));
-    for command in crate::session::COMMANDS {
-        assert!(screen.contains(command.doc), "{}", command.name);
+    let list = crate::session::List::default();
+    for row in help.palette_rows(&list) {
+        assert!(screen.contains(row.name()) || screen.contains(row.meaning()), "{}", row.name());
     }
 }
 
@@ -374,10 +378,13 @@ proptest! {
                 Ok(Answer::Capture(found)) => found.curves = vec![states.clone()],
                 Ok(
                     Answer::Family(_)
+                    | Answer::Whole(_)
+                    | Answer::Speeds(_)
                     | Answer::Trade(_)
                     | Answer::Reference(_)
                     | Answer::Rows(_)
-                    | Answer::Claims(_),
+                    | Answer::Claims(_)
+                    | Answer::Fit(_),
                 )
                 | Err(_) => {}
             }

@@ -1,9 +1,9 @@
 //! The point of the branch that is held, in numbers.
 
 use super::look::Look;
-use super::number::significant;
 use crate::session::{Session, Stop};
 use crate::study::{Cycle, SpecialKind};
+use crate::words::number::significant;
 
 /// Significant digits: as many as fit, at most as many as distinguish special points from others.
 const DIGITS: [usize; 5] = [10, 8, 6, 5, 4];

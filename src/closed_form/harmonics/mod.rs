@@ -15,7 +15,6 @@
 //! - [`fourier`]: finite series and their products; [`mod@sign_changes`]: their roots, none missed.
 //! - [`galerkin`]: the equations and their Jacobian; [`newton`]: their solution.
 
-pub mod elimination;
 pub mod fourier;
 pub mod galerkin;
 pub mod newton;
@@ -32,7 +31,7 @@ use self::galerkin::{Ansatz, Basis, Residual};
 use self::newton::{Failure, Solution, solve};
 use self::sign_changes::sign_changes;
 use super::harmonic::Harmonic;
-use crate::oscillator::scaling::{exponent, times_power};
+use crate::numerics::scaling::{exponent, times_power};
 use crate::oscillator::{Parameters, State};
 
 /// Most harmonics: the linear algebra costs as their cube.

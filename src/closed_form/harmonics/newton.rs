@@ -1,8 +1,7 @@
 //! Newton's method on the Galerkin equations, damped so that it cannot overshoot unnoticed.
 
-use nalgebra::DVector;
+use nalgebra::{DVector, Dyn, LU};
 
-use super::elimination::Elimination;
 use super::galerkin::{Ansatz, Basis, Residual};
 use crate::oscillator::Parameters;
 
@@ -38,7 +37,8 @@ const SETTLED: f64 = 1e-12;
 /// Solves the Galerkin equations of a basis near `start`.
 ///
 /// A step is damped until the next one, taken with the same Jacobian, is shorter (the natural
-/// monotonicity test, which does not depend on how the equations are scaled).
+/// monotonicity test, which does not depend on how the equations are scaled). Whether to stop is asked
+/// before each step.
 ///
 /// # Errors
 /// [`Failure`] says why it found no solution.
@@ -57,8 +57,10 @@ pub fn solve(
     let mut part: f64 = 1.0;
     let mut change = f64::INFINITY;
     for _ in 0..ITERATIONS {
-        let jacobian = Elimination::of(residual.jacobian(), interrupted);
-        let jacobian = jacobian.ok_or(Failure::Interrupted)?;
+        if interrupted() {
+            return Err(Failure::Interrupted);
+        }
+        let jacobian = residual.jacobian().lu();
         let step = newton_step(&jacobian, &residual)?;
         change = relative(&step, &ansatz);
         part = (4.0 * part).min(1.0);
@@ -77,8 +79,7 @@ pub fn solve(
             }
         }
         if change < SETTLED {
-            let jacobian = Elimination::of(residual.jacobian(), interrupted);
-            let unstable = jacobian.ok_or(Failure::Interrupted)?.is_positive();
+            let unstable = has_positive_determinant(&residual.jacobian().lu());
             return Ok(Solution { ansatz, residual, unstable });
         }
     }
@@ -86,17 +87,20 @@ pub fn solve(
 }
 
 /// The change of the unknowns that makes the linearised equations vanish.
-fn newton_step(jacobian: &Elimination, residual: &Residual) -> Result<DVector<f64>, Failure> {
+fn newton_step(jacobian: &LU<f64, Dyn, Dyn>, residual: &Residual) -> Result<DVector<f64>, Failure> {
     let values = -residual.values();
     if !values.amax().is_finite() {
         return Err(Failure::OutOfRange);
     }
-    let step = jacobian.solve(&values);
-    if step.iter().all(|change| change.is_finite()) {
-        Ok(step)
-    } else {
-        Err(Failure::Unsettled(f64::INFINITY))
-    }
+    let step = jacobian.solve(&values).filter(|step| step.iter().all(|change| change.is_finite()));
+    step.ok_or(Failure::Unsettled(f64::INFINITY))
+}
+
+/// Whether the determinant is positive; its size may well overflow.
+fn has_positive_determinant(decomposed: &LU<f64, Dyn, Dyn>) -> bool {
+    let pivots = decomposed.u().diagonal();
+    let negative = pivots.iter().filter(|pivot| **pivot < 0.0).count();
+    negative.is_multiple_of(2) == (decomposed.p().determinant::<f64>() > 0.0)
 }
 
 /// The largest change, relative to the amplitude (or to the frequency, about 1 and smaller).

@@ -8,6 +8,7 @@
 use std::f64::consts::TAU;
 
 use super::fourier::{Fourier, factor};
+use crate::numerics::root::{Bracket, Change, newton};
 
 /// A root at which the function changes its sign.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -119,30 +120,16 @@ impl Search<'_> {
         }
     }
 
-    /// Newton's method between two ends of different sign; bisection where it would leave them.
+    /// Adds the sign change between two ends of different sign.
     fn polish(&mut self, left: End, right: End) {
-        /// Bisection alone would need 60.
-        const ITERATIONS: usize = 100;
-        let rising = right.positive;
-        let (mut low, mut high) = (left.angle, right.angle);
-        let mut angle = 0.5 * (low + high);
-        let mut jet = self.function.at(angle);
-        for _ in 0..ITERATIONS {
-            if (jet.value >= 0.0) == rising {
-                high = angle;
-            } else {
-                low = angle;
-            }
-            let newton = angle - jet.value / jet.slope;
-            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            let change = (next - angle).abs();
-            angle = next;
-            jet = self.function.at(angle);
-            if change <= f64::EPSILON * angle || high - low <= f64::EPSILON * high {
-                break;
-            }
-        }
-        self.found.push(SignChange { angle, rising, slope: jet.slope });
+        let bracket = Bracket { low: left.angle, high: right.angle, rising: right.positive };
+        let settled = Change::Relative(f64::EPSILON);
+        let angle = newton(bracket, bracket.middle(), settled, |angle| {
+            let jet = self.function.at(angle);
+            (jet.value, jet.slope)
+        });
+        let slope = self.function.at(angle.at).slope;
+        self.found.push(SignChange { angle: angle.at, rising: right.positive, slope });
     }
 }
 

@@ -1,6 +1,7 @@
 //! The small linear algebra of a collocation step: elimination, and polynomials through its stages.
 
-use super::MOST;
+/// Most stages.
+pub(super) const MOST: usize = 7;
 
 /// The sum of the values of the stages, weighted by a row of the scheme.
 pub(super) fn weighted(weights: &[f64], values: &[f64; MOST]) -> f64 {

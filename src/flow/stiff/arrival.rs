@@ -1,11 +1,12 @@
 //! The last step of a half swing: shortened until it ends at `v = 0`.
 
-use super::algebra::interpolated;
-use super::{MOST, Stiff};
+use super::Stiff;
+use super::algebra::{MOST, interpolated};
 use crate::flow::step::{ErrorScale, Field, Point, Step};
+use crate::numerics::root::{Bracket, Change, bisect, try_newton};
 
-/// Attempts to find the length of the last step; it settles in about four.
-const POLISHING: usize = 60;
+/// Part of the length of the last step by which it may still change; it settles in about four attempts.
+const SETTLED: f64 = 1e-9;
 
 impl<F: Field> Stiff<F> {
     /// Shortens the step just kept until it ends at the first `v = 0`; `None` where that fails.
@@ -13,39 +14,29 @@ impl<F: Field> Stiff<F> {
         let nodes = self.scheme.nodes;
         let (whole, polynomial) = (self.duration, self.dense[1]);
         let at = |length: f64| interpolated(nodes, &polynomial, length / whole);
-        let (mut low, mut high) = self.bracket(whole);
         // The polynomial of the whole step says about where; steps that end there say exactly where.
-        let mut length = 0.5 * (low + high);
-        for _ in 0..10 {
-            if at(length) > 0.0 {
-                low = length;
-            } else {
-                high = length;
-            }
-            length = 0.5 * (low + high);
-        }
-        (low, high) = (0.0, whole);
-        for _ in 0..POLISHING {
+        let (low, high) = self.bracket(whole);
+        let (low, high) = bisect(low, high, 10, |length| at(length) <= 0.0);
+        let mut last = (whole, self.end, 0.0);
+        let bracket = Bracket::falling(0.0, whole);
+        try_newton(bracket, 0.5 * (low + high), Change::Relative(SETTLED), |length| {
             let mut guess = [0.0; MOST];
             for (guess, node) in guess.iter_mut().zip(nodes) {
                 *guess = at(node * length);
             }
-            let end = self.attempt(length, guess)?;
+            let end = self.attempt(length, guess).ok_or(())?;
             let slope = self.field.acceleration(end.x, end.v);
-            let rest = -end.v / slope;
-            if rest.abs() <= 1e-9 * length {
-                self.keep(length + rest, Point { x: end.x + 0.5 * rest * end.v, v: 0.0 });
-                return Some(Step { duration: self.duration, end: self.end, crossed: true });
-            }
-            if end.v > 0.0 {
-                low = length;
-            } else {
-                high = length;
-            }
-            let newton = length + rest;
-            length = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-        }
-        None
+            last = (length, end, -end.v / slope);
+            Ok::<_, ()>((end.v, slope))
+        })
+        .ok()?;
+        let (length, end, rest) = last;
+        (rest.abs() <= SETTLED * length).then(|| {
+            // The stages belong to `length`: what is computed from them must not be stretched by `rest`.
+            self.keep(length, end);
+            let end = Point { x: end.x + 0.5 * rest * end.v, v: 0.0 };
+            Step { duration: length + rest, end, crossed: true }
+        })
     }
 
     /// Whether the place of an arrival is known as a part of itself, not only of the position from which its

@@ -1,7 +1,6 @@
 //! Coefficients, and nothing else: what the methods look up, one file for each.
 //!
-//! [`Scheme`] is the form in which the explicit steppers read theirs; the Gauss-Legendre rule serves
-//! all quadratures.
+//! [`Scheme`] is the form in which the explicit steppers read theirs.
 
 pub mod dop853;
 pub mod dopri5;
@@ -65,20 +64,6 @@ impl<const S: usize, const R: usize> Scheme<S, R> {
     }
 }
 
-/// Nodes and weights of the Gauss-Legendre rule with 10 points on `[0, 1]`, exact to degree 19.
-pub const GAUSS: [(f64, f64); 10] = [
-    (0.013_046_735_741_414_14, 0.033_335_672_154_344_07),
-    (0.067_468_316_655_507_75, 0.074_725_674_575_290_3),
-    (0.160_295_215_850_487_8, 0.109_543_181_257_991_02),
-    (0.283_302_302_935_376_4, 0.134_633_359_654_998_17),
-    (0.425_562_830_509_184_4, 0.147_762_112_357_376_44),
-    (0.574_437_169_490_815_6, 0.147_762_112_357_376_44),
-    (0.716_697_697_064_623_6, 0.134_633_359_654_998_17),
-    (0.839_704_784_149_512_2, 0.109_543_181_257_991_02),
-    (0.932_531_683_344_492_2, 0.074_725_674_575_290_3),
-    (0.986_953_264_258_585_9, 0.033_335_672_154_344_07),
-];
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -102,13 +87,5 @@ mod tests {
         is_consistent(&dop853::SCHEME);
         is_consistent(&dopri5::SCHEME);
         is_consistent(&rk4::SCHEME);
-    }
-
-    #[test]
-    fn gauss_rule_is_exact_to_degree_19() {
-        for degree in 0..=19 {
-            let sum: f64 = GAUSS.iter().map(|&(node, weight)| weight * node.powi(degree)).sum();
-            assert!((sum - 1.0 / f64::from(degree + 1)).abs() < 1e-15, "degree {degree}");
-        }
     }
 }

@@ -3,6 +3,7 @@
 use proptest::prelude::*;
 
 use super::*;
+use crate::oscillator::{Parameters, State};
 
 fn problem(parameters: [f64; 4], initial: (f64, f64), method: Method) -> Problem {
     let [d, d2, d3, r] = parameters;
@@ -174,6 +175,19 @@ fn samples_next_to_the_largest_numbers_are_numbers() {
         for Sample { tau, q, v } in trajectory(&question, detail, &limits).samples {
             assert!(tau.is_finite() && q.is_finite() && v.is_finite(), "{method}: {tau} {q} {v}");
         }
+    }
+}
+
+/// The last step of a swing is found by Newton's method: its works are those of that step, and not of one
+/// that is longer by the last correction.
+#[test]
+fn the_energy_ledger_of_a_short_motion_closes_to_rounding() {
+    let parameters =
+        [-0.365_483_966_295_592_54, -0.346_593_470_898_714_73, 0.0, 0.467_576_433_506_401_7];
+    let start = (0.114_709_554_525_375_17, 0.240_786_143_619_961_45);
+    for method in METHODS_UNDER_TEST {
+        let ledger = run(&problem(parameters, start, method)).ledger.unwrap();
+        assert!(ledger.residual.abs() < 1e-12 * ledger.start, "{method} {ledger:?}");
     }
 }
 

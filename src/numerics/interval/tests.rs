@@ -13,6 +13,21 @@ fn holds(interval: Interval, (high, low): Long) -> bool {
         && (interval.upper > high || (interval.upper == high && low <= 0.0))
 }
 
+#[test]
+fn squares_and_negatives_stay_members() {
+    // The squares of both lie beside the double next to them, one above it and one below.
+    for x in [0.1, 0.3, 1.1, 1.3] {
+        let high = x * x;
+        let exact = (high, f64::mul_add(x, x, -high));
+        for over in [Interval::point(x), Interval::point(-x)] {
+            assert!(exact.1 != 0.0 && holds(over.square(), exact), "{x}");
+        }
+        assert!(Interval::new(-x, x).square().contains(0.0));
+        assert!(holds(Interval::new(-0.05, x).square(), exact));
+    }
+    assert_eq!(-Interval::new(1.0, 2.0), Interval::new(-2.0, -1.0));
+}
+
 /// `x`, `exp(x)` and `exp(x) - 1`, each as a sum of two doubles.
 #[rustfmt::skip]
 #[expect(clippy::unreadable_literal, clippy::approx_constant, reason = "computed to 60 digits")]
@@ -82,6 +97,7 @@ fn functions_beyond_the_range_of_doubles_are_bounded() {
 
 #[test]
 fn what_is_not_a_number_says_nothing() {
+    assert_eq!(Interval::point(f64::INFINITY) * Interval::new(0.0, 1.0), Interval::ALL);
     let nan = Interval::new(f64::NAN, 1.0);
     assert_eq!(nan, Interval::ALL);
     let (zero, all) = (Interval::point(0.0), Interval::ALL);

@@ -6,36 +6,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::spline::SmoothingSpline;
-
-/// A function of velocity and its first three derivatives at one velocity.
-///
-/// For a coefficient of friction: without unit, s/m, s^2/m^2, s^3/m^3.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Derivatives {
-    /// The value.
-    pub value: f64,
-    /// First derivative.
-    pub first: f64,
-    /// Second derivative.
-    pub second: f64,
-    /// Third derivative.
-    pub third: f64,
-}
-
-impl Derivatives {
-    /// The cubic Taylor polynomial with these derivatives, `step` away from its centre.
-    #[must_use]
-    pub fn cubic(&self, step: f64) -> f64 {
-        self.value + step * (self.first + step * (self.second / 2.0 + step * self.third / 6.0))
-    }
-
-    /// Whether all four are numbers.
-    #[must_use]
-    pub fn is_finite(&self) -> bool {
-        [self.value, self.first, self.second, self.third].iter().all(|number| number.is_finite())
-    }
-}
+pub use crate::numerics::polynomial::Derivatives;
+use crate::numerics::polynomial::derivatives;
+use crate::numerics::spline::SmoothingSpline;
 
 /// The coefficient of friction `mu` over the relative velocity `v >= 0`, in m/s.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -81,7 +54,7 @@ impl FrictionLaw {
         }
         Some(match self {
             FrictionLaw::Constant { mu } => Derivatives { value: *mu, ..Derivatives::default() },
-            FrictionLaw::Polynomial { coefficients } => polynomial(coefficients, v),
+            FrictionLaw::Polynomial { coefficients } => derivatives(coefficients, v),
             FrictionLaw::Stribeck { rest, kinetic, velocity, exponent, viscous } => {
                 let fall = stretched_exponential(v / velocity, *exponent);
                 let drop = rest - kinetic;
@@ -123,18 +96,6 @@ impl FrictionLaw {
     }
 }
 
-/// A polynomial by Horner's scheme, its derivatives by the same scheme differentiated.
-fn polynomial(coefficients: &[f64], v: f64) -> Derivatives {
-    let mut mu = Derivatives::default();
-    for coefficient in coefficients.iter().rev() {
-        mu.third = mu.third * v + 3.0 * mu.second;
-        mu.second = mu.second * v + 2.0 * mu.first;
-        mu.first = mu.first * v + mu.value;
-        mu.value = mu.value * v + coefficient;
-    }
-    mu
-}
-
 /// `exp(-u^exponent)` for `u >= 0` with its derivatives.
 fn stretched_exponential(u: f64, exponent: f64) -> Derivatives {
     // Derivatives of the power; a factor of 0 wins over an infinite power (whole exponents at u = 0).
@@ -158,40 +119,11 @@ fn stretched_exponential(u: f64, exponent: f64) -> Derivatives {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+mod tests {
     use proptest::prelude::*;
 
     use super::*;
-
-    /// Value and derivatives by central differences of `mu` with Richardson's extrapolation: they know
-    /// nothing of the formulas.
-    pub fn differences(mu: impl Fn(f64) -> f64, v: f64, scale: f64) -> Derivatives {
-        let stencil = |h: f64| {
-            let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|steps| mu(v + steps * h));
-            let m = mu(v);
-            [
-                (c - b) / (2.0 * h),
-                (c - 2.0 * m + b) / (h * h),
-                (d - 2.0 * (c - b) - a) / (2.0 * h.powi(3)),
-            ]
-        };
-        let h = scale / 16.0;
-        let levels: Vec<[f64; 3]> =
-            (0..4).map(|level| stencil(h / f64::from(1 << level))).collect();
-        let [first, second, third] = std::array::from_fn(|order| {
-            let mut row: Vec<f64> = levels.iter().map(|level| level[order]).collect();
-            let mut power = 4.0;
-            while row.len() > 1 {
-                row = row
-                    .windows(2)
-                    .map(|pair| (power * pair[1] - pair[0]) / (power - 1.0))
-                    .collect();
-                power *= 4.0;
-            }
-            row[0]
-        });
-        Derivatives { value: mu(v), first, second, third }
-    }
+    use crate::oscillator::belt::tests::differences;
 
     fn laws() -> [FrictionLaw; 5] {
         let stribeck = |exponent, viscous| FrictionLaw::Stribeck {

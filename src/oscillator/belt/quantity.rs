@@ -217,7 +217,15 @@ impl fmt::Display for Outside {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let QuantitySpec { name, unit, min, max, .. } = self.quantity.spec();
         let value = self.value;
-        write!(out, "{name} = {value} {unit} is outside its range {min:?} .. {max:?} {unit}")
+        write!(out, "{name} = {value} {unit} is outside its range {min:?} .. {max:?} {unit}")?;
+        if self.quantity == Quantity::BeltSpeed && value == 0.0 {
+            // At v0 = 0 both switching lines are one, and the pull of the belt is only bounded.
+            write!(
+                out,
+                "; a belt at rest only brakes, and holds the mass wherever abs(c X) <= R + F mu_s"
+            )?;
+        }
+        Ok(())
     }
 }
 

@@ -2,7 +2,8 @@
 
 use serde::Serialize;
 
-use super::Belt;
+use super::friction::Derivatives;
+use super::mass::Belt;
 
 /// The largest difference between friction and its cubic Taylor polynomial over the velocities that a
 /// motion reaches.
@@ -38,7 +39,7 @@ impl Belt {
         /// Rounding of a law and of its cubic, relative to them.
         const ROUNDING: f64 = 16.0 * f64::EPSILON;
         let v0 = self.belt_speed;
-        let mu = self.law.at(v0).filter(super::Derivatives::is_finite)?;
+        let mu = self.law.at(v0).filter(Derivatives::is_finite)?;
         let (slowest, fastest) = self.law.range();
         let range = (low.max(v0 - fastest), high.min(v0 - slowest).min(v0));
         if range.0 > range.1 || !(range.0.is_finite() && range.1.is_finite()) {

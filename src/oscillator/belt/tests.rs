@@ -2,9 +2,35 @@
 
 use proptest::prelude::*;
 
-use super::friction::tests::differences;
 use super::*;
+use crate::numerics::spline::SmoothingSpline;
 use crate::oscillator::{HalfPlane, Side};
+
+/// Value and derivatives by central differences of `mu` with Richardson's extrapolation: they know
+/// nothing of the formulas.
+pub(super) fn differences(mu: impl Fn(f64) -> f64, v: f64, scale: f64) -> Derivatives {
+    let stencil = |h: f64| {
+        let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|steps| mu(v + steps * h));
+        let m = mu(v);
+        [
+            (c - b) / (2.0 * h),
+            (c - 2.0 * m + b) / (h * h),
+            (d - 2.0 * (c - b) - a) / (2.0 * h.powi(3)),
+        ]
+    };
+    let h = scale / 16.0;
+    let levels: Vec<[f64; 3]> = (0..4).map(|level| stencil(h / f64::from(1 << level))).collect();
+    let [first, second, third] = std::array::from_fn(|order| {
+        let mut row: Vec<f64> = levels.iter().map(|level| level[order]).collect();
+        let mut power = 4.0;
+        while row.len() > 1 {
+            row = row.windows(2).map(|pair| (power * pair[1] - pair[0]) / (power - 1.0)).collect();
+            power *= 4.0;
+        }
+        row[0]
+    });
+    Derivatives { value: mu(v), first, second, third }
+}
 
 fn stribeck() -> Belt {
     Belt {
@@ -131,7 +157,7 @@ fn the_error_is_measured_only_where_the_model_holds() {
     let beyond = belt.taylor_error((-0.1, 0.4)).unwrap();
     assert_eq!((beyond.range, beyond.complete), ((-0.1, 0.25), false));
     let points: Vec<_> = (1..9).map(|index| (0.05 * f64::from(index), 0.3)).collect();
-    let table = FrictionLaw::Table(spline::SmoothingSpline::new(&points, 0.0).unwrap());
+    let table = FrictionLaw::Table(SmoothingSpline::new(&points, 0.0).unwrap());
     let belt = Belt { law: table, ..belt };
     let inside = belt.taylor_error((-1.0, 0.4)).unwrap();
     assert!((inside.range.0 + 0.15).abs() < 1e-15 && (inside.range.1 - 0.2).abs() < 1e-15);
@@ -144,7 +170,7 @@ fn what_has_no_dimensionless_form_says_why() {
     let none = with(FrictionLaw::Constant { mu: 0.0 }, 0.2).to_string();
     assert!(none.contains("mu = 0 at v0 = 0.2 m/s; it must be positive"), "{none}");
     let points: Vec<_> = (1..9).map(|index| (0.05 * f64::from(index), 0.3)).collect();
-    let table = FrictionLaw::Table(spline::SmoothingSpline::new(&points, 0.0).unwrap());
+    let table = FrictionLaw::Table(SmoothingSpline::new(&points, 0.0).unwrap());
     let outside = with(table, 0.5).to_string();
     assert!(
         outside.contains("outside the friction law; it reaches from 0.05 to 0.4 m/s"),

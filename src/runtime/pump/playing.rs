@@ -7,11 +7,11 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use super::{Files, Machine, Pump, picture};
-use crate::export;
 use crate::runtime::event::{Event, Stop};
+use crate::session::read::waiting::forgets;
 use crate::session::replay::{Action, Player, Recorder, Script};
-use crate::session::waiting::forgets;
 use crate::session::{Code, Key, Msg, Notice};
+use crate::view;
 
 /// Why a play stands still.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -163,7 +163,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
         }
         let (machine, size) = (&self.machine, self.screen.size());
         let idle = machine.wants().is_empty() && !self.writing;
-        let screen = || export::screen::text(&picture::of(machine, size));
+        let screen = || view::screen::text(&picture::of(machine, size));
         let Some(playing) = self.playing.as_mut().filter(|it| it.pause == Pause::Not) else {
             return Ok(None);
         };

@@ -177,7 +177,7 @@ fn play(file: &str) -> String {
     events.send(key("q")).unwrap();
     let (stop, pump) = running.join().unwrap();
     assert_eq!(stop, Stop::Quit);
-    export::screen::text(&picture::of(&pump.machine, size()))
+    view::screen::text(&picture::of(&pump.machine, size()))
 }
 
 #[test]

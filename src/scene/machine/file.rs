@@ -1,5 +1,6 @@
 //! Machine files: TOML in, [`Machine`] out, or one line that names what is wrong and where.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::Range;
 
@@ -8,10 +9,11 @@ use serde::de::{Deserializer, Visitor};
 use toml::Spanned;
 
 use super::Machine;
-use super::unit::{Measured, measured};
-use crate::machine::Model;
+use super::table::table;
+use super::unit::{Measured, Toleranced, measured, toleranced};
+use crate::machine::{Model, Tolerances};
+use crate::numerics::spline::SmoothingSpline;
 use crate::oscillator::Belt;
-use crate::oscillator::belt::spline::SmoothingSpline;
 use crate::oscillator::belt::{Dimension, FrictionLaw, QUANTITIES, Quantity};
 use crate::scene::misread::{self, Complaint, Misread};
 
@@ -40,6 +42,7 @@ const MOST_POINTS: usize = 10_000;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
+    #[serde(default)]
     title: String,
     #[serde(default)]
     look: String,
@@ -55,6 +58,8 @@ struct File {
     r_static: Option<Spanned<Number>>,
     v0: Option<Spanned<Number>>,
     friction: Spanned<Friction>,
+    /// Bound on a force that disturbs the mass.
+    disturbance: Option<Spanned<Number>>,
     #[serde(default)]
     start: Start,
     until: Option<Spanned<Number>>,
@@ -115,6 +120,7 @@ struct Table {
 pub(super) enum Number {
     Plain(f64),
     Text(String),
+    Read(Measured),
 }
 
 impl<'de> Deserialize<'de> for Number {
@@ -149,6 +155,7 @@ impl Number {
         match self {
             Number::Plain(value) => Ok(Measured { value: *value, dimension: None }),
             Number::Text(text) => measured(text),
+            Number::Read(read) => Ok(*read),
         }
     }
 }
@@ -164,13 +171,55 @@ pub fn parse(
     text: &str,
     fetch: impl FnOnce(&str) -> Result<String, String>,
 ) -> Result<Machine, Misread> {
-    let read: File = misread::toml(file, text)?;
-    machine(name, read, fetch).map_err(|complaint| complaint.in_file(file, text))
+    let mut read: File = misread::toml(file, text)?;
+    let half_widths = half_widths(&mut read);
+    half_widths
+        .and_then(|half_widths| machine(name, read, half_widths, fetch))
+        .map_err(|complaint| complaint.in_file(file, text))
+}
+
+/// Takes the tolerances off the numbers of a machine; what is left are the values in the middle.
+fn half_widths(read: &mut File) -> Result<BTreeMap<String, f64>, Complaint> {
+    let File { m, c, d1, d3, f, r, r_static, v0, friction, .. } = read;
+    let Friction { at_rest, constant, polynomial, stribeck, .. } = friction.get_mut();
+    let mut numbers: Vec<(String, &mut Spanned<Number>)> = Vec::new();
+    let mut put = |name: &str, given| numbers.push((name.to_owned(), given));
+    let named = ["m", "c", "d1", "d3", "F", "R", "R_static", "v0", "mu_s"];
+    for (name, given) in named.into_iter().zip([m, c, d1, d3, f, r, r_static, v0, at_rest]) {
+        if let Some(given) = given {
+            put(name, given);
+        }
+    }
+    if let Some(law) = constant {
+        put("mu", &mut law.mu);
+    }
+    for (power, given) in polynomial.iter_mut().flat_map(|law| &mut law.coefficients).enumerate() {
+        put(&format!("mu{power}"), given);
+    }
+    if let Some(Stribeck { rest, kinetic, velocity, exponent, viscous }) = stribeck {
+        [("rest", rest), ("kinetic", kinetic), ("velocity", velocity)]
+            .into_iter()
+            .chain(exponent.as_mut().map(|given| ("exponent", given)))
+            .chain(viscous.as_mut().map(|given| ("viscous", given)))
+            .for_each(|(name, given)| put(name, given));
+    }
+    let mut found = BTreeMap::new();
+    for (name, given) in numbers {
+        let Number::Text(text) = given.get_ref() else { continue };
+        let refuse = |message| Complaint { at: given.span(), message: self::named(&name, message) };
+        let Toleranced { middle, half_width } = toleranced(text).map_err(refuse)?;
+        *given.get_mut() = Number::Read(middle);
+        if half_width > 0.0 {
+            found.insert(name, half_width);
+        }
+    }
+    Ok(found)
 }
 
 fn machine(
     name: &str,
     read: File,
+    half_widths: BTreeMap<String, f64>,
     fetch: impl FnOnce(&str) -> Result<String, String>,
 ) -> Result<Machine, Complaint> {
     let whole = read.friction.span();
@@ -209,6 +258,11 @@ fn machine(
     let unfit = |message| Complaint { at: whole.clone(), message };
     let reduced = belt.reduce().map_err(|error| unfit(error.to_string()))?;
     Model::new(&belt).map_err(|error| unfit(error.to_string()))?;
+    let force = (0.0, FARTHEST_START);
+    let disturbance = read.disturbance.as_ref();
+    let disturbance = number("disturbance", disturbance, Dimension::FORCE, "N", force, 0.0)?;
+    let tolerances = Tolerances { half_widths, disturbance };
+    tolerances.check(&belt).map_err(unfit)?;
     let start = (-FARTHEST_START, FARTHEST_START);
     let displacement = number("x", read.start.x.as_ref(), Dimension::LENGTH, "m", start, 0.0)?;
     let velocity = number("v", read.start.v.as_ref(), Dimension::VELOCITY, "m/s", start, 0.0)?;
@@ -216,9 +270,10 @@ fn machine(
     let until = read.until.as_ref();
     Ok(Machine {
         name: name.to_owned(),
-        title: read.title,
+        title: if read.title.is_empty() { name.to_owned() } else { read.title },
         look: read.look,
         belt,
+        tolerances,
         displacement,
         velocity,
         until: number("until", until, Dimension::TIME, "s", UNTIL_RANGE, periods)?,
@@ -385,50 +440,6 @@ fn listed(points: &Spanned<Vec<(Number, Number)>>) -> Result<Vec<(f64, f64)>, Co
             })
         })
         .collect()
-}
-
-/// Reads a table of comma-separated values: a velocity and a coefficient of friction in each line, `#`
-/// begins a remark, and a line of names may come first. Velocities are in m/s unless they, or the name
-/// of their column in brackets (`v [mm/s]`), say otherwise.
-///
-/// # Errors
-/// One line that names the file, the line and what is expected there.
-pub fn table(file: &str, text: &str) -> Result<Vec<(f64, f64)>, String> {
-    let mut unit = String::new();
-    let mut points = Vec::new();
-    let mut names_allowed = true;
-    for (index, line) in text.lines().enumerate() {
-        let line = line.split('#').next().unwrap_or(line).trim();
-        if line.is_empty() {
-            continue;
-        }
-        let wrong = |what: &str| format!("{file}:{}: {what}", index + 1);
-        let separator = if line.contains(';') { ';' } else { ',' };
-        let cells: Vec<&str> = line.split(separator).map(str::trim).collect();
-        let [v, mu] = cells[..] else {
-            return Err(wrong(&format!(
-                "{line:?} is not a velocity and a coefficient, such as 0.1, 0.35"
-            )));
-        };
-        let names = v.starts_with(|first: char| first.is_alphabetic() || first == '"');
-        if std::mem::take(&mut names_allowed) && names {
-            let bracketed = v.split_once('[').and_then(|(_, rest)| rest.split_once(']'));
-            unit = bracketed.map_or_else(String::new, |(unit, _)| unit.to_owned());
-            continue;
-        }
-        let velocity = if v.ends_with(|last: char| last.is_ascii_digit() || last == '.') {
-            measured(&format!("{v} {unit}"))
-        } else {
-            measured(v)
-        };
-        let velocity = velocity.and_then(|read| read.as_a(Dimension::VELOCITY, "m/s"));
-        let mu = measured(mu).and_then(|read| read.as_a(Dimension::ONE, ""));
-        points.push((
-            velocity.map_err(|message| wrong(&message))?,
-            mu.map_err(|message| wrong(&message))?,
-        ));
-    }
-    Ok(points)
 }
 
 #[cfg(test)]

@@ -16,12 +16,13 @@ macro_rules! machine_file {
 }
 
 /// The files, in the order in which they are listed.
-const FILES: [(&str, &str); 5] = [
+const FILES: [(&str, &str); 6] = [
     machine_file!("textbook"),
     machine_file!("clutch"),
     machine_file!("slideway"),
     machine_file!("straight"),
     machine_file!("bstab"),
+    machine_file!("groan"),
 ];
 
 /// The tables that they name.

@@ -4,44 +4,13 @@ pub mod file;
 pub mod library;
 pub mod mode;
 pub mod path;
+pub mod table;
 pub mod unit;
 
+mod description;
 mod rig;
 mod running;
 
+pub use description::Machine;
 pub use rig::Rig;
 pub use running::Running;
-
-use serde::{Deserialize, Serialize};
-
-use crate::oscillator::Belt;
-use crate::oscillator::belt::{BeltError, Reduced};
-
-/// A machine: a mass on a belt, and the motion of it that is looked at.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Machine {
-    /// The name by which it is opened.
-    pub name: String,
-    /// One line.
-    pub title: String,
-    /// What it is, and what to look at, in a sentence or two.
-    pub look: String,
-    /// The mass on its belt.
-    pub belt: Belt,
-    /// Displacement from the static one at which the motion starts, in m.
-    pub displacement: f64,
-    /// Velocity at which it starts, in m/s.
-    pub velocity: f64,
-    /// How long the motion is followed, in s.
-    pub until: f64,
-}
-
-impl Machine {
-    /// The dimensionless oscillator and its units.
-    ///
-    /// # Errors
-    /// [`BeltError`] where the machine has no dimensionless form.
-    pub fn reduce(&self) -> Result<Reduced, BeltError> {
-        self.belt.reduce()
-    }
-}

@@ -28,6 +28,7 @@ pub struct Mode {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
+    #[serde(default)]
     title: String,
     #[serde(default, rename = "look")]
     _look: String,
@@ -86,5 +87,6 @@ fn mode(name: &str, read: &File) -> Result<Mode, Complaint> {
     let v = number("v", read.start.v.as_ref(), Dimension::VELOCITY, "m/s", far, 0.0)?;
     let periods = PERIODS / frequency;
     let until = number("until", read.until.as_ref(), Dimension::TIME, "s", UNTIL_RANGE, periods)?;
-    Ok(Mode { name: name.to_owned(), title: read.title.clone(), model, start: (x, v), until })
+    let title = if read.title.is_empty() { name } else { &read.title }.to_owned();
+    Ok(Mode { name: name.to_owned(), title, model, start: (x, v), until })
 }

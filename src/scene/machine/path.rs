@@ -2,7 +2,7 @@
 //!
 //! Everything here is a formula of the friction law: a path costs some evaluations of it and no motion.
 
-use super::Running;
+use super::running::Running;
 use crate::oscillator::Parameters;
 
 /// The path covers speeds from this part of the machine's own speed to its reciprocal, as far as the

@@ -1,15 +1,15 @@
-//! A machine set up to be looked at: with its dimensionless form, and as a scene.
+//! A machine set up to be looked at: with its dimensionless form.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Machine, Running};
+use super::description::Machine;
+use super::running::Running;
 use crate::flow::Problem;
 use crate::oscillator::belt::{BeltError, Reduced};
 use crate::oscillator::{State, Symbol};
-use crate::scene::scene::TOLERANCE;
-use crate::scene::{Arrangement, Axes, Exhibit, Layer, Scene, View};
+use crate::scene::usual::TOLERANCE;
 
 /// A machine with its dimensionless form.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -71,37 +71,6 @@ impl Rig {
     pub fn running(&self) -> Running<'_> {
         let Rig { machine, reduced } = self;
         Running { machine, speed: machine.belt.belt_speed, reduced: *reduced }
-    }
-
-    /// A scene of the machine: the mass on its belt beside the phase plane, and the cycles over D below.
-    #[must_use]
-    pub fn scene(self) -> Scene {
-        let layers = [
-            Layer::Mass,
-            Layer::Belt,
-            Layer::Trajectory,
-            Layer::Sticking,
-            Layer::Cycles,
-            Layer::Basin,
-            Layer::Branch,
-            Layer::Special,
-        ];
-        let exhibit = |view| Exhibit { view, axes: Axes::default(), window: None, family: None };
-        Scene {
-            name: self.machine.name.clone(),
-            title: self.machine.title.clone(),
-            look: self.machine.look.clone(),
-            press: "{play-motion} plays the motion and holds it, {motion-pace} changes the pace; {step-up} on D adds damping, on r friction."
-                .to_owned(),
-            terms: self.terms(),
-            problem: self.problem(),
-            steps: BTreeMap::new(),
-            layers: layers.into_iter().collect(),
-            plots: [View::Phase, View::Belt].map(exhibit).to_vec(),
-            families: Vec::new(),
-            arrangement: Arrangement::Rows,
-            machine: Some(Box::new(self)),
-        }
     }
 }
 

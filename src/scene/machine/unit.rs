@@ -79,6 +79,50 @@ pub fn measured(text: &str) -> Result<Measured, String> {
     finite(text, value * factor, Some(dimension))
 }
 
+/// A number with the half width within which it is known, both in SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Toleranced {
+    /// The number in the middle.
+    pub middle: Measured,
+    /// Half of what lies between both ends.
+    pub half_width: f64,
+}
+
+/// Reads a number with a tolerance: `1 N +- 0.2 N`, `1 N +- 5 %`, `0.8 N .. 1.2 N`, or one that is exact.
+///
+/// # Errors
+/// One line that says what cannot be read.
+pub fn toleranced(text: &str) -> Result<Toleranced, String> {
+    let two = |one: &str, other: &str| {
+        let (one, other) = (measured(one)?, measured(other)?);
+        if one.dimension == other.dimension {
+            Ok((one, other.value))
+        } else {
+            Err(format!("{text:?}: both numbers take the same unit, or none (SI units)"))
+        }
+    };
+    let (middle, half_width) = if let Some((value, half)) = text.split_once("+-") {
+        match half.trim().strip_suffix('%') {
+            Some(percent) => {
+                let middle = measured(value)?;
+                (middle, 0.01 * measured(percent)?.value * middle.value.abs())
+            }
+            None => two(value, half)?,
+        }
+    } else if let Some((low, high)) = text.split_once("..") {
+        let (low, high) = two(low, high)?;
+        let middle = Measured { value: 0.5 * low.value + 0.5 * high, ..low };
+        (middle, 0.5 * high - 0.5 * low.value)
+    } else {
+        (measured(text)?, 0.0)
+    };
+    if half_width >= 0.0 {
+        Ok(Toleranced { middle, half_width })
+    } else {
+        Err(format!("{text:?}: a tolerance is 0 or more, and LOW .. HIGH ascend"))
+    }
+}
+
 fn finite(text: &str, value: f64, dimension: Option<Dimension>) -> Result<Measured, String> {
     if value.is_finite() {
         Ok(Measured { value, dimension })
@@ -286,6 +330,26 @@ mod tests {
         ] {
             let error = measured(text).expect_err(text);
             assert!(!error.contains('\n') && error.len() > 10, "{text}: {error}");
+        }
+    }
+
+    #[test]
+    fn tolerances_are_read_in_three_forms() {
+        for (text, middle, half_width) in [
+            ("1 N +- 0.2 N", 1.0, 0.2),
+            ("1 N+-200 mN", 1.0, 0.2),
+            ("-4 N +- 5 %", -4.0, 0.2),
+            ("0.8 N .. 1.2 N", 1.0, 0.2),
+            ("0.8..1.2", 1.0, 0.2),
+            ("1 N", 1.0, 0.0),
+        ] {
+            let found = toleranced(text).unwrap();
+            let off = [found.middle.value - middle, found.half_width - half_width];
+            assert!(off.iter().all(|off| off.abs() < 1e-15), "{text}: {found:?}");
+        }
+        for text in ["1 N +- 0.2", "1 N +- 1 mm", "1 N +- -1 N", "2 N .. 1 N", "1 +-", "1 +- x %"] {
+            let refused = toleranced(text).unwrap_err();
+            assert!(!refused.contains('\n'), "{text}: {refused}");
         }
     }
 

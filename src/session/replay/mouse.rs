@@ -1,9 +1,9 @@
 //! The mouse in keystroke files: where it was on the plots, not on the screen, so that a file does the
 //! same at every size.
 
-use super::Step;
 use crate::scene::Point;
-use crate::session::message::{Gesture, Place, Pointed};
+use crate::session::message::pointer::{Gesture, Place, Pointed};
+use crate::session::replay::script::Step;
 
 /// How the instruction is written.
 pub(super) fn text(Pointed { gesture, place }: &Pointed) -> String {

@@ -2,11 +2,12 @@
 
 use std::fmt;
 
-use super::{LONGEST, Located, Script, Step, mouse};
+use super::mouse;
 use crate::oscillator::PARAMETERS;
 use crate::scene::misread::printable;
-use crate::session::key::{Code, Key};
-use crate::session::message::Gesture;
+use crate::session::message::key::{Code, Key};
+use crate::session::message::pointer::Gesture;
+use crate::session::replay::script::{LONGEST, Located, Script, Step};
 
 /// Text that is no keystroke file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -320,7 +321,7 @@ mod tests {
 
         #[test]
         fn what_is_printed_is_read_back(
-            key in crate::session::key::tests::any_key(),
+            key in crate::session::message::key::tests::any_key(),
             count in 1..=MOST,
             quoted in any::<String>(),
         ) {

@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, VecDeque};
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use super::{Located, Script, Step};
 use crate::session::message::Msg;
+use crate::session::replay::script::{Located, Script, Step};
 
 /// What to do next.
 #[derive(Clone, Debug)]

@@ -1,7 +1,7 @@
 //! Writing a keystroke file from what happens in a live session.
 
-use super::{LONGEST, Step};
 use crate::session::message::Msg;
+use crate::session::replay::script::{LONGEST, Step};
 
 /// Longest line of a recorded file, in characters, unless one step is longer.
 const LINE: usize = 72;
@@ -231,7 +231,7 @@ mod tests {
     proptest! {
         #[test]
         fn a_recording_plays_what_was_recorded(
-            keys in prop::collection::vec((crate::session::key::tests::any_key(), 1..4), 0..60)
+            keys in prop::collection::vec((crate::session::message::key::tests::any_key(), 1..4), 0..60)
         ) {
             let mut recorder = Recorder::default();
             let mut wanted = Vec::new();

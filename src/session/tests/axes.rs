@@ -88,9 +88,9 @@ fn ratios_to_r_are_another_look_at_the_same_branch() {
     let plot = desk.session.plot;
     let axes = desk.session.plots[plot].axes;
     assert_eq!((axes.unit, axes.label()), (Unit::Friction, "A_q/r"));
-    assert_eq!(desk.press("P"), [], "the branch is the same");
+    assert_eq!(desk.press("N"), [], "the branch is the same");
     assert_eq!(desk.session.plots[plot].axes.label(), "q_max");
-    desk.press("P");
+    desk.press("N");
     assert_eq!(desk.notice(), "A_q/r: right turning point of the cycles, in units of r");
     let r = desk.session.problem.parameters.r;
     let height = desk.session.height(plot, 0);
@@ -102,7 +102,7 @@ fn ratios_to_r_are_another_look_at_the_same_branch() {
     let point = desk.branch(plot).pieces[0][1];
     let height = desk.session.height(plot, 0);
     assert_eq!(height.of(point.value, &point.cycle), point.cycle.q_max / point.value);
-    desk.press("Y Y Y Y Y P");
+    desk.press("Y Y Y Y Y N");
     assert_eq!(desk.notice(), "period is no length, and has no unit");
     for (line, words) in [
         (

@@ -161,7 +161,7 @@ fn the_path_over_the_speed_asks_nothing() {
     let with = desk.session.wants();
     assert_eq!(desk.press(":layer<space>belt-path<space>off<enter>"), []);
     assert_eq!(desk.session.wants(), with);
-    assert_eq!(desk.press("<tab> I"), [], "its key shows it again");
+    assert_eq!(desk.press("<tab> <run \"layer belt-path\">"), [], "its name shows it again");
     assert!(desk.session.layers.contains(&Layer::BeltPath));
     // A chart of the same machine over other parameters has it too, and one of no machine says why not.
     assert_eq!(desk.session.not_drawn(Layer::BeltPath), None);

@@ -7,8 +7,8 @@ use crate::flow::{Limits, Method, Reason};
 use crate::oscillator::Symbol;
 use crate::scene::answer::{Failure, answer};
 use crate::scene::{Answer, Answered, Request, SLOTS, Slot, find};
-use crate::session::update::parameters;
-use crate::session::wants::Unmeasured;
+use crate::session::act::parameters;
+use crate::session::read::wants::Unmeasured;
 use crate::session::{Msg, Row, Session, update};
 use crate::study::accuracy::Reference;
 
@@ -193,7 +193,7 @@ fn an_error_is_measured_only_while_the_user_rests_on_the_dial() {
     assert_eq!(desk.press("<down*7>"), [], "known still");
     assert!(desk.session.measures());
     assert_eq!(desk.press("<up*3><right><down*3>"), [Slot::Trajectory, Slot::Reference]);
-    desk.press("t");
+    desk.press("<run \"layer trajectory\">");
     assert!(!desk.session.measures(), "a hidden motion has no error on the screen");
 }
 
@@ -251,7 +251,7 @@ fn a_step_of_each_number_asks_exactly_these_questions_anew() {
     use Slot::{Balance, Branch, Capture, Cycles, Reference, Trajectory};
     use Symbol::{D, D2, D3, Q0, R, V0};
     let mut desk = Desk::open("supercritical");
-    desk.press("f N <down*9>");
+    desk.press("<run \"layer bands\"> <run \"layer balance\"> <down*9>");
     let now = [Trajectory, Cycles, Capture, Branch, Balance, Reference];
     let columns = |row: Row| {
         let mut stepped = desk.session.clone();
@@ -304,7 +304,7 @@ fn what_a_scene_does_not_need_costs_nothing() {
     assert_eq!(linear.cost.evaluations, linear.crossings.len() as u64, "one for each half swing");
 
     let mut desk = Desk::open("supercritical");
-    desk.press("t c b n p");
+    desk.press("<run \"layer trajectory\"><run \"layer cycles\"><run \"layer basin\"><run \"layer branch\"><run \"layer special\">");
     assert_eq!(desk.session.wants(), [], "all layers that ask are hidden");
     assert_eq!(desk.session.requirements(), []);
     assert_eq!(desk.press("<right> <down><right> } <down*7>"), []);

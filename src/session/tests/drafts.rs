@@ -7,7 +7,7 @@ use crate::flow::quality::DRAFT;
 use crate::oscillator::Symbol;
 use crate::scene::answer::{Failure, answer};
 use crate::scene::{Answer, Answered, Request, SLOTS, Slot, library};
-use crate::session::update::parameters;
+use crate::session::act::parameters;
 use crate::session::{Msg, Row, Session, Size, update};
 use crate::study::Branch;
 

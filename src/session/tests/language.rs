@@ -44,7 +44,7 @@ fn where_digits_are_values_they_stay_values_and_where_zero_fits_it_fits() {
 fn a_count_ends_where_the_key_is_refused_or_opens_something() {
     let mut desk = Desk::open("linear");
     desk.press("<tab> *9999?");
-    assert!(matches!(desk.session.overlay, Some(Overlay::List(Listed::Help, _))));
+    assert!(matches!(desk.session.overlay, Some(Overlay::List(Listed::Palette, _))));
     desk.press("5j <esc>");
     desk.press("<S-tab> <right> <right> *50u");
     assert_eq!(desk.notice(), "nothing to undo");

@@ -26,11 +26,12 @@ use std::sync::Arc;
 
 use super::replay::{Action, Player, parse};
 use super::{Effect, Msg, Session, Size, update};
-use crate::closed_form::twofold::Twofold;
-use crate::flow::{Cost, Method, Outcome, Problem, Reason, Sample, Trajectory};
+use crate::flow::{Cost, Limits, Method, Outcome, Problem, Reason, Sample, Trajectory};
+use crate::numerics::twofold::Twofold;
 use crate::oscillator::{Ledger, State};
 use crate::scene::answer::{Borders, Rows};
-use crate::scene::{Answer, Answered, Request, Slot, find};
+use crate::scene::speeds::Speeds;
+use crate::scene::{Answer, Answered, Fit, Request, Slot, find};
 use crate::study::accuracy::{Deviation, Ending, Reference, Source};
 use crate::study::chart::Chart;
 use crate::study::harmonic_error::HarmonicBalance;
@@ -182,7 +183,7 @@ fn trade(cost: Cost) -> Trade {
 fn answered(request: Request) -> Answered {
     let cost = Cost { evaluations: COST, steps: 1, rejected: 0 };
     let answer = match &request {
-        Request::Trajectory(problem) => {
+        Request::Trajectory(problem) | Request::Machine { problem, .. } => {
             let Problem { initial: State { q, v }, until, .. } = *problem;
             Answer::Trajectory(Trajectory {
                 problem: *problem,
@@ -195,21 +196,23 @@ fn answered(request: Request) -> Answered {
                 cost,
             })
         }
-        Request::Cycles { parameters, .. } => Answer::Cycles(Cycles {
-            parameters: *parameters,
-            cycles: vec![cycle(false, parameters.r), cycle(true, parameters.r)],
-            harmonic: Vec::new(),
-            edge: Edge::Cycle,
-            picture: Some(Picture {
-                curves: Vec::new(),
-                works: vec![Ledger { linear: 1.0, friction: -1.0, ..Ledger::default() }; 2],
-                edge: Vec::new(),
-                margin: Margin { displacement: None, impulse: None },
-                area: None,
-                lyapunov_share: None,
-            }),
-            cost,
-        }),
+        Request::Cycles { parameters } | Request::Portrait { parameters, .. } => {
+            Answer::Cycles(Cycles {
+                parameters: *parameters,
+                cycles: vec![cycle(false, parameters.r), cycle(true, parameters.r)],
+                harmonic: Vec::new(),
+                edge: Edge::Cycle,
+                picture: Some(Picture {
+                    curves: Vec::new(),
+                    works: vec![Ledger { linear: 1.0, friction: -1.0, ..Ledger::default() }; 2],
+                    edge: Vec::new(),
+                    margin: Margin { displacement: None, impulse: None },
+                    area: None,
+                    lyapunov_share: None,
+                }),
+                cost,
+            })
+        }
         Request::Trade { .. } => Answer::Trade(Box::new(trade(cost))),
         // Nothing is known better than by hand.
         Request::Reference { .. } => Answer::Reference(Err(Reason::OutOfRange)),
@@ -227,6 +230,12 @@ fn answered(request: Request) -> Answered {
             cost,
         }),
         Request::Claims => Answer::Claims(Vec::new()),
+        Request::Fit { recording } => {
+            Answer::Fit(Fit::of(recording, &Limits::PATIENT).expect("nobody interrupts"))
+        }
+        Request::Speeds { .. } => {
+            Answer::Speeds(Speeds { points: Vec::new(), special: Vec::new(), cost })
+        }
         Request::Regimes { plane, .. } => {
             let along = plane.along();
             Answer::Regimes(Chart { plane: *plane, along, lines: Vec::new(), cost })
@@ -241,6 +250,7 @@ fn answered(request: Request) -> Answered {
                 parameter: *parameter,
                 pieces: vec![vec![point(false), point(true)]],
                 special: vec![Special::new(SpecialKind::Fold, *to, Some(fold))],
+                vague: Vec::new(),
                 cost,
             })
         }

@@ -3,7 +3,10 @@
 use super::Desk;
 use crate::flow::Method;
 use crate::scene::{Layer, Ordinate, Slot, View};
-use crate::session::{COMMANDS, Effect, LINES, Listed, Msg, Overlay, Pane, Prompt, update};
+use crate::session::read::completion::completion;
+use crate::session::{
+    Effect, Listed, Msg, Overlay, Pane, Prompt, commands, lines, run_line, update,
+};
 
 /// Runs a line.
 fn run(desk: &mut Desk, line: &str) -> Vec<Slot> {
@@ -25,11 +28,12 @@ fn every_command_is_reached_from_the_palette_without_a_key_of_its_own() {
     let desk = Desk::open("plain");
     let list = crate::session::List::default();
     let listed: Vec<_> = desk.session.palette_rows(&list).iter().map(|row| row.name()).collect();
-    for command in COMMANDS {
+    for command in commands() {
         let inside = command.keys.iter().all(|(context, _)| context.is_overlay());
-        assert!(inside || listed.contains(&command.name), "{}", command.name);
+        let name = command.name.strip_prefix("toggle-").unwrap_or(command.name);
+        assert!(inside || listed.contains(&name), "{name}");
     }
-    for line in LINES {
+    for line in lines() {
         assert!(listed.contains(&line.name), "{}", line.name);
     }
 }
@@ -43,8 +47,8 @@ fn the_palette_runs_a_command_in_the_pane_that_it_belongs_to() {
     desk.press("<space>step-size-larger<enter>");
     assert_eq!(desk.session.focus, Pane::Parameters);
     desk.press("<space>walk-on<enter>");
-    assert!(desk.notice().contains("Walking along the branch"), "{}", desk.notice());
-    desk.press("<space>nothing<enter>");
+    assert_eq!(desk.notice(), "walk-on needs a branch: w on a diagram takes hold of one");
+    desk.press("<space>no<space>such<space>thing<enter>");
     assert!(matches!(desk.session.overlay, Some(Overlay::List(Listed::Palette, _))));
     desk.press("<esc>");
     assert_eq!(desk.session.overlay, None);
@@ -167,13 +171,14 @@ fn tab_completes_and_goes_through_what_is_possible() {
 
 #[test]
 fn every_line_completes_its_words_to_ones_that_it_accepts() {
-    for line in LINES {
+    for line in lines() {
         let mut desk = Desk::open("linear");
         desk.press("<tab>");
-        let words = (line.complete)(&desk.session, &[""]);
+        let words = completion(&desk.session, &format!("{} ", line.name));
+        let words = words.map_or(Vec::new(), |found| found.words);
         for word in words.iter().filter(|word| !word.ends_with('=')) {
             let mut session = desk.session.clone();
-            let done = (line.run)(&mut session, word);
+            let done = run_line(&mut session, &format!("{} {word}", line.name));
             assert!(done.is_ok(), "{} {word}: {done:?}", line.name);
         }
     }
@@ -216,4 +221,73 @@ fn the_palette_finds_what_has_all_the_words() {
     let names: Vec<_> = rows.iter().map(|row| row.name()).collect();
     assert_eq!(names[0], "go-to-mark");
     assert!(names.contains(&"goto") && !names.contains(&"set-mark"), "{names:?}");
+}
+
+/// What the palette finds for some words.
+fn found(words: &str) -> Vec<(&'static str, &'static str)> {
+    let desk = Desk::open("plain");
+    let list = crate::session::List { search: words.to_owned(), ..Default::default() };
+    let rows = desk.session.palette_rows(&list);
+    rows.iter().map(|row| (desk.session.heading(*row), row.name())).collect()
+}
+
+#[test]
+fn the_palette_knows_other_words_for_the_same() {
+    for (words, heading, name) in [
+        ("fold", "Walking along the branch", "walk-to-next"),
+        ("export", "Everywhere", "save-figure"),
+        ("stable", "Layers", "cycles"),
+        ("animate", "Everywhere", "play-motion"),
+        ("fig 16", "Scenes", "fig16"),
+        ("time series", "Views of a plot", "time-series"),
+        ("48", "Claims of the paper", "(48)"),
+        ("sweep", "Everywhere", "scan-form"),
+    ] {
+        let rows = found(words);
+        assert!(rows.contains(&(heading, name)), "{words}: {rows:?}");
+    }
+    assert_eq!(found("fig 16")[0].1, "fig16");
+    assert_eq!(found("time series")[0].1, "time-series");
+}
+
+#[test]
+fn every_other_word_is_of_something_that_is_listed() {
+    let all: Vec<&str> = found("").into_iter().map(|(_, name)| name).collect();
+    for (name, _) in crate::session::read::palette::ALIASES {
+        assert!(all.contains(name), "{name}");
+    }
+}
+
+#[test]
+fn the_list_begins_with_what_belongs_to_the_pane_in_focus() {
+    let mut desk = Desk::open("plain");
+    for (keys, heading) in [("<esc>", "Parameters"), ("<tab>", "Phase plane")] {
+        desk.press(keys);
+        let rows = desk.session.palette_rows(&crate::session::List::default());
+        assert_eq!(desk.session.heading(rows[0]), heading);
+    }
+    assert!(found("").iter().all(|(_, name)| *name != "caret-left"), "of lines only");
+}
+
+#[test]
+fn scenes_views_layers_and_claims_are_run_from_the_palette() {
+    let mut desk = Desk::open("plain");
+    desk.press("<space>eigenvalues<enter>");
+    let shown = desk.session.plots.iter().any(|plot| plot.view == View::Eigenvalues);
+    assert!(shown, "{}", desk.notice());
+    desk.press("<space>lyapunov<enter>");
+    assert!(desk.session.layers.contains(&crate::scene::Layer::Lyapunov), "{}", desk.notice());
+    desk.press("<space>fig16b<enter>");
+    assert_eq!(desk.session.scene.name, "fig16b");
+}
+
+#[test]
+fn a_key_of_another_plot_on_show_goes_there() {
+    let mut desk = Desk::open("plain");
+    desk.press("<tab> N");
+    assert_eq!(desk.session.focused().map(|plot| plot.view), Some(View::Diagram));
+    assert_ne!(desk.session.focused().map(|plot| plot.axes.unit), Some(crate::scene::Unit::One));
+    let mut desk = Desk::open("energy");
+    desk.press("t");
+    assert!(desk.notice().contains("needs the scan"), "{}", desk.notice());
 }

@@ -99,7 +99,7 @@ fn fit_shows_every_variant_and_not_the_motion_that_none_of_them_is() {
         assert_eq!(desk.session.plots[index].framing, Framing::Fitted, "{scene}");
         let window = desk.session.plots[index].window;
         let mut seen = Vec::new();
-        for (label, answer) in desk.session.found(Slot::Cycles, index) {
+        for (_, label, answer) in desk.session.found(Slot::Cycles, index) {
             let Answer::Cycles(found) = answer else { continue };
             for cycle in &found.cycles {
                 let corners = [(cycle.q_min, cycle.v_min), (cycle.q_max, cycle.v_max)];
@@ -150,8 +150,8 @@ fn the_motion_starts_on_either_side_of_the_unstable_cycle() {
     assert_eq!(desk.session.problem.initial, State { q: 1.15, v: 0.0 });
     desk.press("u");
     assert_eq!(desk.session.problem.initial, State { q: 1.05, v: 0.0 });
-    desk.press("c b <S-tab><right> i");
-    assert_eq!(desk.notice(), "the cycles are not computed: c shows them");
+    desk.press("<run \"layer cycles\"><run \"layer basin\"> <S-tab><right> i");
+    assert_eq!(desk.notice(), "the cycles are not computed: v lists the layers");
 }
 
 #[test]

@@ -48,7 +48,7 @@ fn field(desk: &mut Desk, text: &str) {
 /// A session that scans D over 6 values, with no row yet.
 fn begun() -> (Session, Request) {
     let mut session = Desk::open("plain").session;
-    crate::session::line::run(&mut session, "scan D=-0.6:-0.1:6 margin").unwrap();
+    crate::session::run_line(&mut session, "scan D=-0.6:-0.1:6 margin").unwrap();
     let request = session.scan_request().expect("a question");
     (session, request)
 }
@@ -177,7 +177,7 @@ fn enter_takes_the_point_into_the_phase_plane_and_undo_gives_it_back() {
 #[test]
 fn points_are_walked_over_as_they_stand() {
     let mut session = Desk::open("plain").session;
-    crate::session::line::run(&mut session, "scan D=-0.6:-0.1:6 r=0.1:0.3:3 area").unwrap();
+    crate::session::run_line(&mut session, "scan D=-0.6:-0.1:6 r=0.1:0.3:3 area").unwrap();
     let mut desk = Desk { session, asked: Vec::new(), effects: Vec::new() };
     desk.settle();
     for (keys, at) in [
@@ -188,7 +188,7 @@ fn points_are_walked_over_as_they_stand() {
         ("<end>", 17),
         ("<home>", 2),
         // In the table the arrows go from row to row.
-        ("G <down*2>", 4),
+        ("t <down*2>", 4),
         ("<up> <pgdn>", 13),
         ("<end>", 17),
         ("<home>", 0),
@@ -202,7 +202,7 @@ fn points_are_walked_over_as_they_stand() {
 fn a_key_saves_what_is_there() {
     let (mut session, request) = begun();
     piece(&mut session, &request, 0..3);
-    let effects = update(&mut session, Msg::Key("F".parse().unwrap()));
+    let effects = update(&mut session, Msg::Key("S".parse().unwrap()));
     let scan = Arc::clone(&scanned(&session).scan);
     let rows = rows(&scan, 0..3);
     assert_eq!(effects, [Effect::SaveScan { path: "scan.csv".into(), scan, rows }]);
@@ -213,7 +213,7 @@ fn keys_for_a_scan_that_is_not_there_say_so_and_do_nothing() {
     let mut desk = Desk::open("plain");
     desk.press("V <end> <enter>");
     assert!(desk.session.focuses_scan(), "{:?}", desk.session.focus);
-    for key in ["<right>", "<up>", "<enter>", "Y", "G", "P", "F", "<esc>"] {
+    for key in ["<right>", "<up>", "<enter>", "Y", "t", "P", "S", "<esc>"] {
         desk.press(key);
         assert!(desk.session.scanned.is_none() && desk.session.focus != Pane::Parameters, "{key}");
     }

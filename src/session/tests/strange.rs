@@ -4,13 +4,12 @@ use proptest::prelude::*;
 
 use super::Desk;
 use crate::scene::{Request, library};
-use crate::session::command::COMMANDS;
+use crate::session::commands;
 use crate::session::{Effect, Key, Msg, Plot, Session, update};
 
 /// Keys that mean something somewhere, and some that are only typed.
 pub(super) fn any_key() -> impl Strategy<Value = Key> {
-    let bound: Vec<Key> = COMMANDS
-        .iter()
+    let bound: Vec<Key> = commands()
         .flat_map(|command| command.keys.iter().flat_map(|(_, keys)| keys.iter()))
         .map(|text| text.parse().unwrap())
         .collect();

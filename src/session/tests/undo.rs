@@ -39,7 +39,7 @@ fn undo_and_redo_restore_the_requests_exactly() {
 #[test]
 fn undo_says_what_it_brought_back_and_leaves_the_zoom_alone() {
     let mut desk = Desk::open("plain");
-    desk.press("<right> <tab>++ b");
+    desk.press("<right> <tab>++ <run \"layer basin\">");
     let (window, layers) = (desk.session.plots[0].window, desk.session.layers.clone());
     desk.press("u");
     assert_eq!(desk.notice(), "undo: D = -0.1");
@@ -64,7 +64,7 @@ fn a_repeated_reset_is_one_change() {
     assert_eq!(desk.session.history.depth(), (4, 0));
     desk.press("R R");
     assert_eq!(desk.session.history.depth(), (4, 0), "nothing was left to reset");
-    desk.press("b R R u");
+    desk.press("<run \"layer basin\"> R R u");
     assert!(
         !desk.session.layers.contains(&Layer::Basin),
         "a reset of the scene brings layers back"
@@ -84,7 +84,7 @@ fn reset_gives_a_row_its_value_and_its_step() {
 #[test]
 fn scenes_are_picked_from_a_list_and_undone_as_a_whole() {
     let mut desk = Desk::open("plain");
-    desk.press("<right> <tab>+ b");
+    desk.press("<right> <tab>+ <run \"layer basin\">");
     let before = desk.session.clone();
     desk.press("s/marg<enter>");
     assert_eq!(desk.session.scene.name, "marginal");

@@ -46,7 +46,7 @@ fn the_parameters_of_a_chart_move_its_point_and_nothing_else() {
     assert_eq!((axes.abscissa, axes.against), (Symbol::D, Symbol::R));
     assert_eq!(desk.press("X"), [Slot::Regimes]);
     assert_eq!(desk.session.plots[0].axes.abscissa, Symbol::D2, "r stands upwards already");
-    assert_eq!(desk.press("F G"), []);
+    assert_eq!(desk.press("<run \"layer regimes\"><run \"layer borders\">"), []);
     assert_eq!(desk.press("L"), [], "a chart that is not shown is not computed");
 }
 
@@ -67,11 +67,11 @@ fn views_of_the_same_answers_cost_nothing() {
     let mut desk = Desk::open("supercritical");
     assert_eq!(desk.press("<tab>V/energy<enter>"), [], "the cycles have their works");
     assert_eq!(desk.press("V/time<enter>"), []);
-    assert_eq!(desk.press("F E I P G"), []);
+    assert_eq!(desk.press("v f n e p t <esc>"), []);
     assert_eq!(desk.press("V/return<enter>"), [Slot::ReturnMap], "once, when its window is known");
-    assert_eq!(desk.press("F"), []);
+    assert_eq!(desk.press("<run \"layer map\">"), []);
     assert_eq!(desk.press("L"), [], "a map that is not shown is not computed");
-    assert_eq!(desk.press("F"), [Slot::ReturnMap]);
+    assert_eq!(desk.press("<run \"layer map\">"), [Slot::ReturnMap]);
 }
 
 #[test]
@@ -119,7 +119,7 @@ fn a_view_that_the_scene_does_not_know_opens_with_its_usual_layers() {
     }
     // What is on stays as it is.
     let mut desk = turned_to("time-series");
-    desk.press("P G");
+    desk.press("<run \"layer position\"><run \"layer events\">");
     let layers = desk.session.layers.clone();
     desk.press(", ;");
     assert_eq!(desk.session.layers, layers);

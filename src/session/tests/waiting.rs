@@ -8,8 +8,8 @@ use super::{Desk, answered};
 use crate::flow::Reason;
 use crate::scene::answer::Failure;
 use crate::scene::{Answered, library};
+use crate::session::read::waiting::NEEDS;
 use crate::session::replay::{Action, Player, parse};
-use crate::session::waiting::NEEDS;
 use crate::session::{Effect, Msg, update};
 
 /// Gives a message while nothing is answered but what it waits for; returns whether it waits.

@@ -71,10 +71,10 @@ fn the_cursor_says_where_to_take_hold() {
 #[test]
 fn there_must_be_a_branch_to_hold() {
     let mut desk = Desk::open("supercritical");
-    desk.press("<tab><tab> n p w");
-    assert_eq!(desk.notice(), "the branch is not shown: n shows it");
+    desk.press("<tab><tab> <run \"layer branch\"><run \"layer special\"> w");
+    assert_eq!(desk.notice(), "the branch is not shown: v lists the layers");
     assert_eq!(desk.session.held, None);
-    desk.press("n w<home>");
+    desk.press("<run \"layer branch\"> w<home>");
     assert!(desk.session.held.is_some());
     // Zooming computes the branch anew; the hold stays on it.
     desk.press("+");

@@ -1,4 +1,5 @@
 use super::*;
+use crate::numerics::root::{TO_ROUNDING, bisect};
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits, Problem};
 use crate::oscillator::Belt;
@@ -77,11 +78,7 @@ fn turning_points(belt: &Belt, start: (f64, f64), until: f64) -> Vec<(f64, f64)>
             (t, x, v) = (t + h, next.0, next.1);
             continue;
         }
-        let (mut low, mut high) = (0.0, h);
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            if sign * step(x, v, sign, middle).1 > 0.0 { low = middle } else { high = middle }
-        }
+        let (_, high) = bisect(0.0, h, TO_ROUNDING, |part| sign * step(x, v, sign, part).1 <= 0.0);
         (t, x, v) = (t + high, step(x, v, sign, high).0, 0.0);
         found.push((t, x));
         if belt.stiffness * x.abs() <= belt.friction {

@@ -1,12 +1,14 @@
 //! Drawing the lines of a chart: the borders on each, the bands between them, and further lines where a
 //! border is bent.
 
-use super::{Band, Line};
+use super::line::{Band, Line};
 use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason};
+use crate::numerics::root::{Change, illinois};
 use crate::oscillator::{Parameters, State, Symbol};
 use crate::study::cycle::cycles;
 use crate::study::escape::escape_point;
+use crate::study::extended::{Fold, Guess, fold_near};
 use crate::study::fold::fold_within;
 use crate::study::regime::Regime;
 
@@ -56,6 +58,8 @@ pub(super) struct Tracer<'a> {
     pub tolerance: f64,
     /// The fold in units of the harmonic one, on the line before.
     pub ratio: f64,
+    /// The fold found last.
+    pub known: Option<Fold>,
 }
 
 impl Tracer<'_> {
@@ -125,7 +129,21 @@ impl Tracer<'_> {
         parameters
     }
 
+    /// The fold next to a guess, while `symbol` varies.
+    fn fold_near(&mut self, guess: &Guess, symbol: Symbol) -> Result<Option<Parameters>, Reason> {
+        let (found, cost) = fold_near(guess, symbol, self.tolerance, self.limits)?;
+        self.cost += cost;
+        self.known = found.or(self.known);
+        Ok(found.map(|found| found.parameters))
+    }
+
     fn fold(&mut self, parameters: &Parameters) -> Result<f64, Reason> {
+        let beside = self.known.and_then(|known| Guess::beside(&known, parameters));
+        if let Some(guess) = beside
+            && let Some(found) = self.fold_near(&guess, Symbol::D)?
+        {
+            return Ok(found.d);
+        }
         let (found, cost) = fold_within(parameters, self.tolerance, self.limits)?;
         self.cost += cost;
         found
@@ -201,6 +219,16 @@ impl Tracer<'_> {
         let d = here.d;
         let Some(guess) = self.harmonic(here) else { return Ok(None) };
         let guess = guess * self.ratio;
+        let near = self.with(here, guess);
+        let beside = match &self.known {
+            Some(known) => Guess::beside(known, &near),
+            None => Guess::in_damping(&near),
+        };
+        if let Some(beside) = beside
+            && let Some(found) = self.fold_near(&beside.moved_to(&near), self.along)?
+        {
+            return Ok(Some(self.along.get(&found, &State { q: 0.0, v: 0.0 })));
+        }
         let excess = |tracer: &mut Self, z: f64| -> Result<f64, Reason> {
             let found = tracer.fold(&tracer.with(here, z.exp()))?;
             Ok((found / d).ln())
@@ -307,23 +335,9 @@ fn root(
             return Err(Reason::NoConvergence { sought: "a border", change: stride });
         }
     }
-    for _ in 0..MOST {
-        if low.1.abs() <= small {
-            return Ok(low.0);
-        }
-        if high.1.abs() <= small {
-            return Ok(high.0);
-        }
-        let between = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
-        let here = (between, function(between)?);
-        if here.1.abs() <= small || high.0 - low.0 <= small {
-            return Ok(between);
-        }
-        if here.1 < 0.0 {
-            (low, high.1) = (here, 0.5 * high.1);
-        } else {
-            (high, low.1) = (here, 0.5 * low.1);
-        }
+    let [best, other] = illinois([low, high], small, Change::Absolute(small), function)?;
+    if best.1.abs() <= small || (other.0 - best.0).abs() <= small {
+        return Ok(best.0);
     }
-    Err(Reason::NoConvergence { sought: "a border", change: high.0 - low.0 })
+    Err(Reason::NoConvergence { sought: "a border", change: (other.0 - best.0).abs() })
 }

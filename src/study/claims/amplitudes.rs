@@ -2,16 +2,19 @@
 
 use std::f64::consts::PI;
 
+use super::certain::Found;
 use super::harmonic::largest_amplitude;
 use super::measure::{
-    Known, amplitude, count, cycles, largest, of_cycle, oscillator, place, smallest,
+    Known, amplitude, beside_proof, cycles, largest, last_cycle, of_cycle, oscillator, place,
+    smallest,
 };
 use super::{Claim, Finding};
 use crate::closed_form::harmonic::{self, amplitudes};
 use crate::flow::{Limits, Reason};
 use crate::oscillator::Parameters;
 use crate::study::cycle::cycles as cycles_of;
-use crate::study::fold::{FoldPoint, fold};
+use crate::study::fold::fold;
+use crate::study::fold_point::FoldPoint;
 
 /// The claims.
 pub const CLAIMS: &[Claim] = &[
@@ -49,7 +52,7 @@ pub const CLAIMS: &[Claim] = &[
                 let (cube, square) = (-4.0 * a * a * a, 27.0 * b * b);
                 // What is left of the difference of two terms is uncertain by their rounding.
                 let error = 32.0 * f64::EPSILON * (cube.abs() + square);
-                let computed = Known { value: cube - square, error };
+                let computed = Known::new(cube - square, error);
                 let scale = (16.0 / (3.0 * d3)).powi(2) / 3.0;
                 let formula = scale * (-8.0 * d * d * (d / d3) - (9.0 / PI).powi(2) * r * r);
                 Ok(Finding::equal(formula, computed).at(place(&oscillator(d, 0.0, d3, r))))
@@ -151,9 +154,9 @@ pub const CLAIMS: &[Claim] = &[
                 for part in [0.9, 1.1] {
                     let d = part * printed_fold(0.01, 0.1);
                     let parameters = oscillator(d, d2, 0.01, 0.1);
-                    let finite = count(&parameters, limits)? > 0;
+                    let finite = cycles(&parameters, limits)?.answer(|found| !found.is_empty());
                     let case = format!("D = {part} D_F, D2 = {d2}, D3 = 0.01, r = 0.1");
-                    cases.push((case, finite == (part > 1.0)));
+                    cases.push((case, finite.is(part > 1.0)));
                 }
             }
             Ok(Finding::always(cases))
@@ -197,7 +200,7 @@ pub const CLAIMS: &[Claim] = &[
                 let parameters = oscillator(d, 0.0, 0.0, 0.1);
                 let root = largest_amplitude(&parameters)?;
                 let left = 4.0 * parameters.r / PI + 2.0 * d * root;
-                let computed = Known { value: root - left / (2.0 * d), error: f64::EPSILON * root };
+                let computed = Known::new(root - left / (2.0 * d), f64::EPSILON * root);
                 Ok(Finding::equal(small(&parameters), computed).at(place(&parameters)))
             }))
         },
@@ -286,9 +289,10 @@ pub const CLAIMS: &[Claim] = &[
             let mut cases = Vec::new();
             for d in [-0.9, -0.5, -0.3, -0.2] {
                 let parameters = Parameters { d, ..TWO_CYCLES };
-                let stable: Vec<bool> =
-                    cycles(&parameters, limits)?.iter().map(|cycle| cycle.stable).collect();
-                cases.push((place(&parameters), stable == [false, true]));
+                let found = cycles(&parameters, limits)?;
+                let pair =
+                    |found: &[Found]| found.iter().map(|cycle| cycle.stable).eq([false, true]);
+                cases.push((place(&parameters), found.answer(pair)));
             }
             Ok(Finding::always(cases))
         },
@@ -303,7 +307,8 @@ pub const CLAIMS: &[Claim] = &[
             for d in [-0.8, -0.3, 0.0, 0.3, 0.8] {
                 let parameters = oscillator(d, 0.0, -0.5, 0.1);
                 let found = cycles(&parameters, limits)?;
-                cases.push((place(&parameters), found.iter().all(|cycle| !cycle.stable)));
+                let unstable = |found: &[Found]| found.iter().all(|cycle| !cycle.stable);
+                cases.push((place(&parameters), found.answer(unstable)));
             }
             Ok(Finding::always(cases))
         },
@@ -362,11 +367,11 @@ fn counted(
     for (parameters, expected) in expected {
         // The search has nothing to go by where the motion is linear and no swing ends.
         let found = if parameters.omega().is_none() && parameters.is_piecewise_linear() {
-            cycles_of(&parameters, false, limits)?.cycles.len()
+            beside_proof(&parameters, cycles_of(&parameters, false, limits)?.cycles)
         } else {
-            count(&parameters, limits)?
+            cycles(&parameters, limits)?
         };
-        cases.push((place(&parameters), found == expected));
+        cases.push((place(&parameters), found.are(expected)));
     }
     Ok(Finding::always(cases))
 }
@@ -384,10 +389,11 @@ fn found_fold(parameters: &Parameters, limits: &Limits) -> Result<FoldPoint, Rea
 
 /// (48) against the fold of the cycles.
 fn fold_against(limits: &Limits, d2: f64, d3: f64, r: f64) -> Result<Finding, Reason> {
-    let found = found_fold(&oscillator(0.0, d2, d3, r), limits)?;
+    let parameters = oscillator(0.0, d2, d3, r);
+    let found = found_fold(&parameters, limits)?;
     let asymmetry = if d2 == 0.0 { String::new() } else { format!("D2 = {d2}, ") };
     let at = format!("{asymmetry}D3 = {d3}, r = {r}");
-    Ok(Finding::near(printed_fold(d3, r), Known::relative(found.d, 1e-12)).at(at))
+    Ok(Finding::near(printed_fold(d3, r), last_cycle(&parameters, found.d, 1e-12)).at(at))
 }
 
 /// (51).
@@ -399,6 +405,6 @@ fn small(parameters: &Parameters) -> f64 {
 fn exact_amplitude(limits: &Limits, d: f64) -> Result<Finding, Reason> {
     let parameters = oscillator(d, 0.0, 0.0, 0.1);
     let cycle = smallest(&parameters, limits)?;
-    let computed = of_cycle(&cycle, cycle.q_max);
+    let computed = of_cycle(&cycle, cycle.q_max, |it| it.q_max);
     Ok(Finding::equal(small(&parameters), computed).at(place(&parameters)))
 }

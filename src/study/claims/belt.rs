@@ -8,6 +8,7 @@ use super::measure::{Known, largest, smallest};
 use crate::closed_form::harmonic::amplitudes;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits, Problem, Reason};
+use crate::numerics::root::try_bisect;
 use crate::oscillator::belt::{FrictionLaw, Reduced};
 use crate::oscillator::{Belt, State};
 use crate::study::belt::Followed;
@@ -98,10 +99,7 @@ pub fn contact(limits: &Limits) -> Result<Finding, Reason> {
 fn root(mut function: impl FnMut(f64) -> Result<f64, Reason>) -> Result<f64, Reason> {
     /// Halvings: to the eleventh digit.
     const HALVINGS: u32 = 36;
-    let (mut low, mut high) = (SPEEDS[0], SPEEDS[SPEEDS.len() - 1]);
-    for _ in 0..HALVINGS {
-        let middle = f64::midpoint(low, high);
-        if function(middle)? > 0.0 { low = middle } else { high = middle }
-    }
+    let ends = (SPEEDS[0], SPEEDS[SPEEDS.len() - 1]);
+    let (low, high) = try_bisect(ends.0, ends.1, HALVINGS, |v| Ok(function(v)? <= 0.0))?;
     Ok(f64::midpoint(low, high))
 }

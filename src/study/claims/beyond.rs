@@ -2,14 +2,18 @@
 
 use std::f64::consts::PI;
 
+use super::certain::enclosed;
+use super::known::Answer;
 use super::measure::{
-    Known, at_rest, count, cycles, half_swing, of_cycle, oscillator, outcome, place, smallest,
+    Known, at_rest, cycles, half_swing, last_cycle, of_cycle, oscillator, outcome, place, smallest,
     state_at,
 };
 use super::{Claim, Finding, UNSAID, belt};
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits, Outcome, Problem, Reason};
+use crate::numerics::Interval;
 use crate::oscillator::{Parameters, Side, State};
+use crate::proof::motion::Fate;
 use crate::study::arc::{Arc, Direction};
 use crate::study::basin::basin;
 use crate::study::escape::escape_point;
@@ -33,7 +37,7 @@ pub const CLAIMS: &[Claim] = &[
         scene: Some("supercritical"),
         check: |limits| {
             let parameters = oscillator(-0.3, 0.2, 0.5, 0.1);
-            Finding::worst(cycles(&parameters, limits)?.into_iter().map(|cycle| {
+            Finding::worst(cycles(&parameters, limits)?.cycles.into_iter().map(|cycle| {
                 let arc = |side, clearance| {
                     Arc::new(&parameters, side, Direction::Forward, Length::new(clearance), limits)
                 };
@@ -45,7 +49,8 @@ pub const CLAIMS: &[Claim] = &[
                 let formula = share(-cycle.q_min)
                     * share(cycle.q_max)
                     * (-2.0 * d * cycle.period - 3.0 * d3 * square).exp();
-                let computed = return_slope(&parameters, cycle.q_max, limits)?;
+                let computed = return_slope(&parameters, cycle.q_max, limits)?
+                    .within(cycle.bounds.map(|it| it.multiplier));
                 let at = format!("{}, q_max = {:.6}", place(&parameters), cycle.q_max);
                 Ok(Finding::equal(formula, computed).at(at))
             }))
@@ -60,7 +65,8 @@ pub const CLAIMS: &[Claim] = &[
             let parameters = oscillator(-0.4, 0.0, 0.0, 0.1);
             let cycle = smallest(&parameters, limits)?;
             let omega = (1.0 - parameters.d * parameters.d).sqrt();
-            let computed = return_slope(&parameters, cycle.q_max, limits)?;
+            let computed = return_slope(&parameters, cycle.q_max, limits)?
+                .within(cycle.bounds.map(|it| it.multiplier));
             let formula = (-2.0 * PI * parameters.d / omega).exp();
             Ok(Finding::equal(formula, computed).at(place(&parameters)))
         },
@@ -78,7 +84,9 @@ pub const CLAIMS: &[Claim] = &[
             let after = first_integral(parameters.d2, State { q: q.value, v: v.value });
             let error = 4.0 * (q.error + v.error) + 64.0 * f64::EPSILON;
             let at = format!("{}, from (0.3, 0.6) until tau = 4", place(&parameters));
-            Ok(Finding::equal(before, Known { value: after, error }).at(at))
+            let bounds =
+                q.bounds.zip(v.bounds).map(|(q, v)| enclosed_integral(parameters.d2, q, v));
+            Ok(Finding::equal(before, Known::new(after, error).within(bounds)).at(at))
         },
     },
     Claim {
@@ -97,7 +105,7 @@ pub const CLAIMS: &[Claim] = &[
                 let parameters = oscillator(d, d2, d3, r);
                 for q in [0.2, 1.0, 3.0] {
                     let returned = returns_to(&parameters, q, limits)?;
-                    cases.push((format!("{}, q = {q}", place(&parameters)), !returned));
+                    cases.push((format!("{}, q = {q}", place(&parameters)), returned.is(false)));
                 }
             }
             Ok(Finding::always(cases))
@@ -132,7 +140,10 @@ pub const CLAIMS: &[Claim] = &[
                     let start = at_rest(part * cycle.q_max);
                     let end = outcome(&parameters, start, 1e3, limits)?;
                     let case = format!("{}, q = {:.6}", place(&parameters), start.q);
-                    cases.push((case, matches!(end, Outcome::Escaped { .. })));
+                    let fate = enclosed(&parameters, start, 1e3).fate;
+                    let holds = matches!(end, Outcome::Escaped { .. });
+                    let certain = holds && matches!(fate, Fate::Escaped { .. });
+                    cases.push((case, Answer { holds, certain }));
                 }
             }
             Ok(Finding::always(cases))
@@ -147,7 +158,8 @@ pub const CLAIMS: &[Claim] = &[
         check: |limits| {
             Finding::worst([0.02, 0.05, 0.1, 0.25, 0.5, 1.0].map(|d2| {
                 let parameters = oscillator(0.0, d2, 0.0, 1.0);
-                let computed = Known::relative(end_of_cycle(&parameters, limits)?, 1e-12);
+                let end = end_of_cycle(&parameters, limits)?;
+                let computed = last_cycle(&parameters, end, 1e-12);
                 let formula = -(2.0 / PI).sqrt() * d2;
                 Ok(Finding::near(formula, computed).at(format!("D2 = {d2}, r = 1")))
             }))
@@ -165,7 +177,7 @@ pub const CLAIMS: &[Claim] = &[
                 for (part, expected) in [(1.5, 1), (1.01, 1), (0.99, 0), (0.5, 0)] {
                     let parameters = oscillator(part * end, d2, 0.0, 0.3);
                     let case = format!("D = {part} D_c, D2 = {d2}, r = 0.3");
-                    cases.push((case, count(&parameters, limits)? == expected));
+                    cases.push((case, cycles(&parameters, limits)?.are(expected)));
                 }
             }
             Ok(Finding::always(cases))
@@ -180,7 +192,9 @@ pub const CLAIMS: &[Claim] = &[
             let end = end_of_cycle(&oscillator(0.0, 0.5, 0.0, 0.1), limits)?;
             let extent = |part: f64| {
                 let cycle = smallest(&oscillator(part * end, 0.5, 0.0, 0.1), limits)?;
-                Ok((0.0, of_cycle(&cycle, -1.0 / cycle.q_min)))
+                let nearness =
+                    of_cycle(&cycle, -1.0 / cycle.q_min, |it| Interval::point(-1.0) / it.q_min);
+                Ok((0.0, nearness))
             };
             let finding = Finding::tends(extent(2.0)?, extent(1.000_001)?);
             Ok(finding.at("D = 1.000001 D_c, D2 = 0.5, r = 0.1"))
@@ -189,7 +203,7 @@ pub const CLAIMS: &[Claim] = &[
 ];
 
 /// Whether a motion from rest at `q` is at rest there, or further out, one turn later.
-fn returns_to(parameters: &Parameters, q: f64, limits: &Limits) -> Result<bool, Reason> {
+fn returns_to(parameters: &Parameters, q: f64, limits: &Limits) -> Result<Answer, Reason> {
     let problem = Problem {
         parameters: *parameters,
         initial: at_rest(q),
@@ -198,10 +212,17 @@ fn returns_to(parameters: &Parameters, q: f64, limits: &Limits) -> Result<bool, 
         ..Problem::default()
     };
     let motion = trajectory(&problem, Detail::default(), limits);
-    match motion.outcome {
-        Outcome::GaveUp { reason, .. } => Err(reason),
-        _ => Ok(motion.crossings.get(1).is_some_and(|crossing| crossing.q >= q)),
+    if let Outcome::GaveUp { reason, .. } = motion.outcome {
+        return Err(reason);
     }
+    let holds = motion.crossings.get(1).is_some_and(|crossing| crossing.q >= q);
+    let bounds = enclosed(parameters, at_rest(q), 60.0);
+    let nearer = match (bounds.turns.get(1), bounds.fate) {
+        (Some(turn), _) => turn.q.upper() < q,
+        (None, Fate::Captured { .. } | Fate::Escaped { .. }) => true,
+        (None, _) => false,
+    };
+    Ok(Answer { holds, certain: nearer && !holds })
 }
 
 /// The slope of the return map of `v = 0, q > r` at `q`: central differences of integrated motions.
@@ -218,12 +239,19 @@ fn return_slope(parameters: &Parameters, q: f64, limits: &Limits) -> Result<Know
     let step = 1e-3 * (q - parameters.r);
     let known = Known::twice(slope(step)?, slope(2.0 * step)?);
     // The integrated turns themselves are known to some 1e-14.
-    Ok(Known { error: known.error + 1e-13 * q / step, ..known })
+    Ok(Known::new(known.value, known.error + 1e-13 * q / step))
 }
 
 /// The first integral of the motion with D2 alone.
 fn first_integral(d2: f64, State { q, v }: State) -> f64 {
     (0.5 * v * v + q / (2.0 * d2) - 1.0 / (4.0 * d2 * d2)) * (2.0 * d2 * q).exp()
+}
+
+/// The same, of all states of a box.
+fn enclosed_integral(d2: f64, q: Interval, v: Interval) -> Interval {
+    let [half, one, d2] = [0.5, 1.0, d2].map(Interval::point);
+    let bracket = half * v.square() + q / d2.twice() - one / d2.twice().square();
+    bracket * (d2.twice() * q).exp()
 }
 
 /// `D_c`.

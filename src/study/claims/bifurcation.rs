@@ -2,15 +2,16 @@
 
 use std::f64::consts::PI;
 
+use super::certain::Found;
+use super::known::Answer;
 use super::measure::{
-    Known, amplitude, at_rest, captured, count, cycles, largest, mean, of_cycle, oscillator, place,
-    smallest,
+    Known, amplitude, at_rest, beside_proof, captured, cycles, edge, largest, mean, of_cycle,
+    oscillator, place, smallest,
 };
 use super::{Claim, Finding};
 use crate::flow::{Limits, Reason};
 use crate::oscillator::Parameters;
 use crate::study::Edge;
-use crate::study::basin::basin;
 use crate::study::cycle::cycles as all;
 use crate::study::fold::fold;
 
@@ -30,7 +31,7 @@ pub const CLAIMS: &[Claim] = &[
             let ((small, size), (large, double)) = (at(-0.1)?, at(-0.05)?);
             let exponent = (large.value / small.value).ln() / (double.value / size.value).ln();
             let error = large.error / large.value.abs() + small.error / small.value.abs();
-            let computed = Known { value: exponent, error: 2.0 * error };
+            let computed = Known::new(exponent, 2.0 * error);
             Ok(Finding::near(2.0, computed).at("D = -0.1 .. -0.05, D2 = 0.2, r = 0.01"))
         },
     },
@@ -94,8 +95,7 @@ pub const CLAIMS: &[Claim] = &[
             for d2 in [0.2, 1.0] {
                 for d in [0.01, 0.1, 0.5] {
                     let parameters = oscillator(d, d2, 0.0, 0.1);
-                    let edge = basin(&parameters, 10.0, limits)?.edge;
-                    cases.push((place(&parameters), edge == Edge::None));
+                    cases.push((place(&parameters), edge(&parameters, limits)?.is(Edge::None)));
                 }
             }
             Ok(Finding::always(cases))
@@ -115,9 +115,11 @@ pub const CLAIMS: &[Claim] = &[
                 (0.1, -0.5, vec![false]),
             ] {
                 let parameters = oscillator(d, 0.0, d3, 0.0);
-                let stable: Vec<bool> =
-                    cycles(&parameters, limits)?.iter().map(|cycle| cycle.stable).collect();
-                cases.push((place(&parameters), stable == expected));
+                let found = cycles(&parameters, limits)?;
+                let as_expected = |found: &[Found]| {
+                    found.iter().map(|cycle| cycle.stable).eq(expected.iter().copied())
+                };
+                cases.push((place(&parameters), found.answer(as_expected)));
             }
             Ok(Finding::always(cases))
         },
@@ -131,8 +133,8 @@ pub const CLAIMS: &[Claim] = &[
             let mut cases = Vec::new();
             for (d, d2) in [(-0.5, 0.0), (-0.1, 0.0), (-0.5, 0.3), (-0.1, 0.3), (-0.01, 1.0)] {
                 let parameters = oscillator(d, d2, 0.0, 0.0);
-                cases
-                    .push((place(&parameters), all(&parameters, false, limits)?.cycles.is_empty()));
+                let found = beside_proof(&parameters, all(&parameters, false, limits)?.cycles);
+                cases.push((place(&parameters), found.are(0)));
             }
             Ok(Finding::always(cases))
         },
@@ -174,7 +176,7 @@ pub const CLAIMS: &[Claim] = &[
         check: |limits| {
             let extent = |r: f64| {
                 let cycle = smallest(&oscillator(-0.3, 0.0, 0.5, r), limits)?;
-                Ok((0.0, of_cycle(&cycle, cycle.q_max)))
+                Ok((0.0, of_cycle(&cycle, cycle.q_max, |it| it.q_max)))
             };
             Ok(Finding::tends(extent(1e-2)?, extent(1e-6)?)
                 .at("q_max at D = -0.3, D3 = 0.5, r = 1e-6"))
@@ -190,7 +192,7 @@ pub const CLAIMS: &[Claim] = &[
             let place = |r: f64| fold(&oscillator(0.0, 0.0, 0.5, r), limits)?.0.ok_or(lost);
             let (far, near) = (place(1e-3)?.d, place(1e-6)?.d);
             let exponent = (far / near).ln() / 1e3_f64.ln();
-            Ok(Finding::near(2.0 / 3.0, Known { value: exponent, error: 1e-11 })
+            Ok(Finding::near(2.0 / 3.0, Known::new(exponent, 1e-11))
                 .at("D3 = 0.5, r = 1e-6 .. 1e-3"))
         },
     },
@@ -206,7 +208,7 @@ pub const CLAIMS: &[Claim] = &[
             };
             let (far, near) = (size(1e-3)?, size(1e-6)?);
             let exponent = (far / near).ln() / 1e3_f64.ln();
-            Ok(Finding::near(1.0 / 3.0, Known { value: exponent, error: 1e-12 })
+            Ok(Finding::near(1.0 / 3.0, Known::new(exponent, 1e-12))
                 .at("D3 = -0.5, r = 1e-6 .. 1e-3"))
         },
     },
@@ -218,8 +220,11 @@ fn distortion(limits: &Limits, dampings: &[f64]) -> Result<Finding, Reason> {
     let mut cases = Vec::new();
     for &d in dampings {
         let with = oscillator(d, 0.2, 0.0, 0.5);
-        let without = count(&Parameters { d2: 0.0, ..with }, limits)?;
-        cases.push((place(&with), count(&with, limits)? == without));
+        let without = cycles(&Parameters { d2: 0.0, ..with }, limits)?;
+        let found = cycles(&with, limits)?;
+        let certain = found.certain && without.certain;
+        let same = found.are(without.cycles.len());
+        cases.push((place(&with), Answer { certain, ..same }));
     }
     Ok(Finding::always(cases))
 }
@@ -230,8 +235,8 @@ fn bordered(limits: &Limits, d2: f64) -> Result<Finding, Reason> {
     for d3 in [-0.5, 0.0, 0.5] {
         for d in [-0.8, -0.4, -0.05, -0.01] {
             let parameters = oscillator(d, d2, d3, 0.1);
-            let edge = basin(&parameters, 10.0, limits)?.edge;
-            cases.push((place(&parameters), edge != Edge::Separatrix));
+            let separatrix = edge(&parameters, limits)?.is(Edge::Separatrix);
+            cases.push((place(&parameters), separatrix.is(false)));
         }
     }
     Ok(Finding::always(cases))

@@ -2,14 +2,21 @@
 
 use std::f64::consts::PI;
 
+use super::certain::enclosed;
+use super::known::Answer;
 use super::measure::{
     Known, at_rest, captured, energy_change, half_swing, oscillator, outcome, place,
 };
 use super::{Claim, Finding};
 use crate::closed_form::lyapunov::{self, Disk};
 use crate::flow::{Limits, Outcome, Reason};
+use crate::numerics::Interval;
 use crate::oscillator::{HalfPlane, Parameters, Side, State};
+use crate::proof::kicks::kicks;
+use crate::proof::motion::Fate;
+use crate::proof::{ParameterBox, prove};
 use crate::study::basin::basin;
+use crate::study::margin::Margin;
 
 /// The claims.
 pub const CLAIMS: &[Claim] = &[
@@ -22,7 +29,7 @@ pub const CLAIMS: &[Claim] = &[
             let mut cases = Vec::new();
             for q in displacements() {
                 let rests = captured(&PLAIN, at_rest(q), 1e-3, limits)?;
-                cases.push((format!("q = {q}"), rests == (q.abs() <= PLAIN.r)));
+                cases.push((format!("q = {q}"), rests.is(q.abs() <= PLAIN.r)));
             }
             Ok(Finding::always(cases))
         },
@@ -56,7 +63,7 @@ pub const CLAIMS: &[Claim] = &[
             let start = at_rest(-(parameters.r + 0.01));
             let [full, _] = half_swing(&parameters, start, limits)?;
             let [simple, _] = half_swing(&linear, start, limits)?;
-            let clearance = |end: Known| Known { value: end.value + parameters.r, ..end };
+            let clearance = |end: Known| end.plus(parameters.r);
             let at = format!("{}, from q = {}", place(&parameters), start.q);
             Ok(Finding::near(clearance(simple).value, clearance(full)).at(at))
         },
@@ -93,9 +100,12 @@ pub const CLAIMS: &[Claim] = &[
             let mut cases = Vec::new();
             for part in [-0.8, -0.3, 0.0, 0.5] {
                 let q = part * PLAIN.r;
-                let end = outcome(&PLAIN, State { q, v: 1e-3 }, 10.0, limits)?;
-                let elsewhere = matches!(end, Outcome::Captured { q: end, .. } if end != q);
-                cases.push((format!("q = {q}"), elsewhere));
+                let start = State { q, v: 1e-3 };
+                let end = outcome(&PLAIN, start, 10.0, limits)?;
+                let holds = matches!(end, Outcome::Captured { q: end, .. } if end != q);
+                let fate = enclosed(&PLAIN, start, 10.0).fate;
+                let certain = matches!(fate, Fate::Captured { q: end, .. } if !end.contains(q));
+                cases.push((format!("q = {q}"), Answer { holds, certain: certain && holds }));
             }
             Ok(Finding::always(cases))
         },
@@ -207,6 +217,7 @@ fn crossings(
     crosses: bool,
 ) -> Result<Finding, Reason> {
     let (mut printed, mut corrected, mut computed) = (0.0, 0.0, 0.0);
+    let mut certain = true;
     // At the ends of the set one of the limits vanishes, and neither condition speaks of them.
     for q in displacements().filter(|q| q.abs() != PLAIN.r) {
         let limit = |side: Side| {
@@ -219,12 +230,15 @@ fn crossings(
         // A motion on its way to the place: a little earlier it was a little above or below.
         let from_above = State { q, v: 1e-9 };
         let from_below = State { v: -from_above.v, ..from_above };
-        let stops = captured(&PLAIN, from_above, 1e-3, limits)?
-            && captured(&PLAIN, from_below, 1e-3, limits)?;
-        computed += f64::from(u8::from(stops != crosses));
+        let stops = [from_above, from_below].map(|state| captured(&PLAIN, state, 1e-3, limits));
+        let [above, below] = stops;
+        let (above, below) = (above?, below?);
+        certain &= above.certain && below.certain;
+        computed += f64::from(u8::from((above.holds && below.holds) != crosses));
     }
     let at = format!("{} places beside the ends, {}", 11, place(&PLAIN));
-    Ok(Finding::equal(printed, Known::exact(computed)).corrected(corrected).at(at))
+    let computed = Known::exact(computed).within(certain.then_some(Interval::point(computed)));
+    Ok(Finding::equal(printed, computed).corrected(corrected).at(at))
 }
 
 /// Where a half swing above `v = 0` ends, if the motion is linear in `q - shift r`.
@@ -263,5 +277,13 @@ pub(super) fn least_kick(parameters: &Parameters, limits: &Limits) -> Result<Kno
     let basin = basin(parameters, 10.0, limits)?;
     let border = basin.borders.first().map(|border| border.curve(POINTS.0)).unwrap_or_default();
     let least = border.iter().map(|point| point.q.hypot(point.v)).fold(f64::INFINITY, f64::min);
-    Ok(Known::relative(least, POINTS.1))
+    Ok(Known::relative(least, POINTS.1).within(at_most(parameters, &basin.margin())))
+}
+
+/// The distance of the border is at most that of two of its points, where these are enclosed.
+fn at_most(parameters: &Parameters, margin: &Margin) -> Option<Interval> {
+    let proof = prove(&ParameterBox::from(parameters), &[]);
+    let found = kicks(&proof, [margin.displacement, margin.impulse]);
+    let nearer = found.displacement?.upper().min(found.impulse?.upper());
+    Some(Interval::new(f64::NEG_INFINITY, nearer))
 }

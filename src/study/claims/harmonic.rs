@@ -2,12 +2,16 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::certain::{Found, enclosed};
+use super::known::Answer;
 use super::measure::{
     Known, amplitude, at_rest, half_swing, largest, mean, of_cycle, oscillator, place, smallest,
 };
 use super::{Claim, Finding, UNSAID};
 use crate::closed_form::harmonic::{Harmonic, amplitudes, mean as harmonic_mean};
 use crate::flow::{Limits, Reason};
+use crate::numerics::Interval;
+use crate::numerics::interval::PI as PI_BOUNDS;
 use crate::oscillator::Parameters;
 use crate::study::harmonic_error::harmonic_balance;
 
@@ -67,7 +71,9 @@ pub const CLAIMS: &[Claim] = &[
             let cycle = smallest(&parameters, limits)?;
             let weaker = oscillator(-0.9, 0.0, 0.0, 1.0);
             let other = smallest(&weaker, limits)?;
-            let ratio = |cycle: &crate::study::Cycle| of_cycle(cycle, cycle.v_max / cycle.q_max);
+            let ratio = |cycle: &Found| {
+                of_cycle(cycle, cycle.v_max / cycle.q_max, |it| it.v_max / it.q_max)
+            };
             Ok(Finding::tends((1.0, ratio(&other)), (1.0, ratio(&cycle))).at(place(&parameters)))
         },
     },
@@ -93,7 +99,9 @@ pub const CLAIMS: &[Claim] = &[
             let parameters = oscillator(-1e-3, 0.0, 2e-3, 1e-3);
             let [left, _] = half_swing(&parameters, at_rest(1.0), limits)?;
             let [right, _] = half_swing(&parameters, at_rest(left.value), limits)?;
-            let computed = Known { value: right.value - 1.0, error: right.error + left.error };
+            let turns = enclosed(&parameters, at_rest(1.0), 10.0).turns;
+            let bounds = turns.get(1).map(|turn| turn.q - Interval::point(1.0));
+            let computed = Known::new(right.value - 1.0, right.error + left.error).within(bounds);
             let Parameters { d, d3, r, .. } = parameters;
             let printed = -4.0 * r / PI - 2.0 * d - 0.75 * d3;
             let finding = Finding::near(TAU * printed, computed).corrected(PI * printed);
@@ -120,7 +128,7 @@ pub const CLAIMS: &[Claim] = &[
         check: |limits| {
             let extent = |d: f64| {
                 let cycle = smallest(&oscillator(d, 0.0, 0.0, 1.0), limits)?;
-                Ok((1.0, of_cycle(&cycle, cycle.q_max)))
+                Ok((1.0, of_cycle(&cycle, cycle.q_max, |it| it.q_max)))
             };
             Ok(Finding::tends(extent(-0.7)?, extent(-0.9)?).at("D = -0.9, r = 1"))
         },
@@ -133,7 +141,7 @@ pub const CLAIMS: &[Claim] = &[
         check: |limits| {
             let extents = |d: f64| {
                 let cycle = smallest(&oscillator(d, 0.0, 0.0, 0.1), limits)?;
-                Ok((cycle.v_max, of_cycle(&cycle, cycle.q_max)))
+                Ok((cycle.v_max, of_cycle(&cycle, cycle.q_max, |it| it.q_max)))
             };
             Ok(Finding::tends(extents(-0.4)?, extents(-0.02)?).at("D = -0.02, r = 0.1"))
         },
@@ -160,7 +168,8 @@ pub const CLAIMS: &[Claim] = &[
         check: |limits| {
             let extent = |d: f64| {
                 let cycle = smallest(&oscillator(d, 0.0, 0.0, 1.0), limits)?;
-                Ok((2.0 / std::f64::consts::E, of_cycle(&cycle, cycle.v_max)))
+                let limit = 2.0 / std::f64::consts::E;
+                Ok((limit, of_cycle(&cycle, cycle.v_max, |it| it.v_max)))
             };
             Ok(Finding::tends(extent(-0.9)?, extent(-0.999)?).at("D = -0.999, r = 1"))
         },
@@ -186,7 +195,8 @@ pub(super) fn largest_amplitude(parameters: &Parameters) -> Result<f64, Reason> 
 fn frequency(limits: &Limits, d: f64) -> Result<Finding, Reason> {
     let parameters = oscillator(d, 0.0, 0.0, 0.1);
     let cycle = smallest(&parameters, limits)?;
-    Ok(Finding::near(1.0, of_cycle(&cycle, TAU / cycle.period)).at(place(&parameters)))
+    let computed = of_cycle(&cycle, TAU / cycle.period, |it| PI_BOUNDS.twice() / it.period);
+    Ok(Finding::near(1.0, computed).at(place(&parameters)))
 }
 
 /// Whether the harmonic amplitude lies where `holds` says, given the smaller and the larger extent.
@@ -203,7 +213,19 @@ fn harmonic_against_extents(
         let (low, high) = (cycle.v_max.min(cycle.q_max), cycle.v_max.max(cycle.q_max));
         let place =
             format!("{}: A = {harmonic:.5}, A_v = {low:.5}, A_q = {high:.5}", place(&parameters));
-        cases.push((place, holds(harmonic, low, high)));
+        let decided = holds(harmonic, low, high);
+        let certain = cycle.bounds.is_some_and(|it| {
+            let [v, q] = [it.v_max, it.q_max];
+            // The formula is rounded, and which of both extents is the larger one is certain.
+            let ordered = v.upper() < q.lower() || q.upper() < v.lower();
+            let agrees = |a: f64, v: f64, q: f64| holds(a, v.min(q), v.max(q)) == decided;
+            let formula = [harmonic * (1.0 - 1e-9), harmonic * (1.0 + 1e-9)];
+            ordered
+                && formula
+                    .iter()
+                    .all(|&a| agrees(a, v.lower(), q.lower()) && agrees(a, v.upper(), q.upper()))
+        });
+        cases.push((place, Answer { holds: decided, certain }));
     }
     Ok(Finding::always(cases))
 }

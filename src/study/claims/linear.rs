@@ -2,13 +2,17 @@
 
 use std::f64::consts::PI;
 
+use super::certain::Found;
 use super::equilibria::{least_kick, shifted};
-use super::measure::{Known, at_rest, half_swing, of_cycle, oscillator, place, smallest, state_at};
+use super::measure::{
+    Known, at_rest, edge, half_swing, of_cycle, oscillator, place, smallest, state_at,
+};
 use super::{Claim, Finding};
 use crate::flow::{Limits, Reason};
+use crate::numerics::Interval;
 use crate::oscillator::{Parameters, State};
+use crate::proof::Enclosure;
 use crate::study::Edge;
-use crate::study::basin::basin;
 use crate::study::cycle::Cycle;
 
 /// The claims.
@@ -20,12 +24,13 @@ pub const CLAIMS: &[Claim] = &[
         scene: Some("escape"),
         check: |limits| {
             let parameters = oscillator(-0.02, 0.5, 0.0, 0.1);
-            let found = basin(&parameters, 10.0, limits)?;
-            let cycles = u8::from(found.edge == Edge::Cycle);
+            let found = edge(&parameters, limits)?;
+            let cycles = f64::from(u8::from(found.edge == Edge::Cycle));
             let at = format!("{}, where starts beyond a finite border escape", place(&parameters));
             // A basin without a border would need none.
             let needed = f64::from(u8::from(found.edge != Edge::None));
-            Ok(Finding::equal(needed, Known::exact(f64::from(cycles))).at(at))
+            let bounds = found.certain.then_some(Interval::point(cycles));
+            Ok(Finding::equal(needed, Known::exact(cycles).within(bounds)).at(at))
         },
     },
     Claim {
@@ -37,8 +42,8 @@ pub const CLAIMS: &[Claim] = &[
             let mut cases = Vec::new();
             for d in DAMPINGS {
                 let found = super::measure::cycles(&units_of_friction(d), limits)?;
-                let further = found.len() == 1 && found[0].clearance > 0.0;
-                cases.push((format!("D = {d}"), further));
+                let further = |found: &[Found]| found.len() == 1 && found[0].clearance > 0.0;
+                cases.push((format!("D = {d}"), found.answer(further)));
             }
             Ok(Finding::always(cases))
         },
@@ -96,13 +101,7 @@ pub const CLAIMS: &[Claim] = &[
         section: "5.1",
         statement: "a half swing that starts with clearance c ends at c e^(-pi D/omega_d), counted from -r",
         scene: Some("fig06"),
-        check: |limits| {
-            over_swings(
-                limits,
-                |swing| swing.growth,
-                |[end, _]| Known { value: end.value + 1.0, ..end },
-            )
-        },
+        check: |limits| over_swings(limits, |swing| swing.growth, |[end, _]| end.plus(1.0)),
     },
     Claim {
         equation: "(30)",
@@ -110,7 +109,11 @@ pub const CLAIMS: &[Claim] = &[
         statement: "clearance c of the cycle: how far it passes the sticking set",
         scene: Some("fig07"),
         check: |limits| {
-            over_cycles(limits, |swing| (swing.clearance(), None), |cycle| cycle.clearance)
+            over_cycles(
+                limits,
+                |swing| (swing.clearance(), None),
+                (|cycle| cycle.clearance, |bounds| bounds.clearance),
+            )
         },
     },
     Claim {
@@ -122,7 +125,8 @@ pub const CLAIMS: &[Claim] = &[
             let parameters = units_of_friction(-0.999);
             let cycle = smallest(&parameters, limits)?;
             // An exponential of 70 has as many times the relative error of its exponent.
-            let computed = Known::relative(cycle.clearance, 70.0 * 1e-14);
+            let bounds = cycle.bounds.map(|it| it.clearance);
+            let computed = Known::relative(cycle.clearance, 70.0 * 1e-14).within(bounds);
             Ok(Finding::equal(Swing::new(-0.999).clearance(), computed).at(place(&parameters)))
         },
     },
@@ -149,7 +153,7 @@ pub const CLAIMS: &[Claim] = &[
             over_cycles(
                 limits,
                 |swing| ((swing.growth + 1.0) / (swing.growth - 1.0), None),
-                |cycle| cycle.q_max,
+                (|cycle| cycle.q_max, |bounds| bounds.q_max),
             )
         },
     },
@@ -162,7 +166,7 @@ pub const CLAIMS: &[Claim] = &[
             over_cycles(
                 limits,
                 |swing| (swing.printed_velocity(), Some(swing.largest_velocity())),
-                |cycle| cycle.v_max,
+                (|cycle| cycle.v_max, |bounds| bounds.v_max),
             )
         },
     },
@@ -174,7 +178,11 @@ pub const CLAIMS: &[Claim] = &[
         check: |limits| {
             let cycle = |r: f64| smallest(&oscillator(-0.4, 0.0, 0.0, r), limits);
             let (one, three) = (cycle(1.0)?, cycle(3.0)?);
-            let ratio = of_cycle(&three, three.q_max / one.q_max);
+            let ratio = three.q_max / one.q_max;
+            let ratio = match one.bounds {
+                Some(unit) => of_cycle(&three, ratio, |it| it.q_max / unit.q_max),
+                None => of_cycle(&three, ratio, |_| Interval::ALL),
+            };
             Ok(Finding::equal(3.0, ratio).at("D = -0.4, D2 = D3 = 0"))
         },
     },
@@ -246,17 +254,21 @@ fn over_swings(
     }))
 }
 
+/// How a number is read from a cycle, and its bounds.
+type Reading = (fn(&Cycle) -> f64, fn(&Enclosure) -> Interval);
+
 /// A formula of the cycle against the one found by the search, at the worst of some dampings.
 fn over_cycles(
     limits: &Limits,
     formula: fn(&Swing) -> (f64, Option<f64>),
-    read: fn(&Cycle) -> f64,
+    (read, bounds): Reading,
 ) -> Result<Finding, Reason> {
     Finding::worst(DAMPINGS.map(|d| {
         let parameters = units_of_friction(d);
         let cycle = smallest(&parameters, limits)?;
         let (paper, corrected) = formula(&Swing::new(d));
-        let finding = Finding::equal(paper, of_cycle(&cycle, read(&cycle))).at(place(&parameters));
+        let computed = of_cycle(&cycle, read(&cycle), bounds);
+        let finding = Finding::equal(paper, computed).at(place(&parameters));
         Ok(Finding { corrected, ..finding })
     }))
 }

@@ -3,50 +3,31 @@
 //! A motion is integrated by two methods that share nothing but the field, and the error is what they
 //! differ by. Cycles come from the general search, also where a closed form exists.
 
+use super::certain::{AllFound, CertainEdge, Found, enclosed, enclosed_state};
+use super::known::Answer;
+pub use super::known::Known;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits, Method, Outcome, Problem, Reason};
-use crate::oscillator::{Parameters, Side, State};
+use crate::numerics::Interval;
+use crate::oscillator::{Parameters, Side, State, Symbol};
+use crate::proof::motion::Fate;
+use crate::proof::range::change_within;
+use crate::proof::{Enclosure, ParameterBox, kicks, prove};
+use crate::study::Edge;
 use crate::study::arc::{Arc, Direction};
+use crate::study::basin::basin;
 use crate::study::closing::Equation;
 use crate::study::closings::closings;
 use crate::study::cycle::Cycle;
 use crate::study::half_map::Length;
-
-/// A number and how far it may be off.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Known {
-    /// The number.
-    pub value: f64,
-    /// Bound on its error.
-    pub error: f64,
-}
-
-impl Known {
-    /// A number that is what it is, such as a count.
-    #[must_use]
-    pub fn exact(value: f64) -> Self {
-        Known { value, error: 0.0 }
-    }
-
-    /// A number known to a part of itself.
-    #[must_use]
-    pub fn relative(value: f64, part: f64) -> Self {
-        Known { value, error: part * value.abs() }
-    }
-
-    /// Two answers to one question: the first, with their difference as its error.
-    #[must_use]
-    pub fn twice(value: f64, again: f64) -> Self {
-        Known { value, error: (value - again).abs() + 4.0 * f64::EPSILON * value.abs() }
-    }
-}
+use crate::study::proved::matching;
 
 /// Rounding of a number that several operations made from a computed one.
 const ROUNDED: f64 = 1e-14;
 
-/// A number read out of a cycle.
-pub fn of_cycle(cycle: &Cycle, value: f64) -> Known {
-    Known::relative(value, cycle.error + ROUNDED)
+/// A number made from those of a cycle, and the same from their bounds.
+pub fn of_cycle(cycle: &Found, value: f64, bounds: impl Fn(&Enclosure) -> Interval) -> Known {
+    Known::relative(value, cycle.error + ROUNDED).within(cycle.bounds.as_ref().map(bounds))
 }
 
 /// An oscillator, in the order of the equation.
@@ -125,6 +106,10 @@ pub fn half_swing(
     motions((*parameters, initial, until), limits, |motion| {
         motion.crossings.first().map(|crossing| [crossing.q, crossing.tau])
     })?
+    .map(|[q, tau]| {
+        let turn = enclosed(parameters, initial, until).turns.first().copied();
+        [q.within(turn.map(|turn| turn.q)), tau.within(turn.map(|turn| turn.tau))]
+    })
     .ok_or(missing("an arrival at v = 0"))
 }
 
@@ -142,6 +127,10 @@ pub fn state_at(
         Outcome::Moving { q, v, .. } => Some([q, v]),
         _ => None,
     })?
+    .map(|[q, v]| {
+        let bounds = enclosed_state(parameters, initial, tau);
+        [q.within(bounds.map(|it| it[0])), v.within(bounds.map(|it| it[1]))]
+    })
     .ok_or(missing("a state in motion"))
 }
 
@@ -158,6 +147,13 @@ pub fn energy_change(
     motions((*parameters, initial, until), limits, |motion| {
         motion.ledger.map(|ledger| [ledger.end - ledger.start, ledger.linear, ledger.friction])
     })?
+    .map(|[change, linear, friction]| {
+        let half = Interval::point(0.5);
+        let energy = |[q, v]: [Interval; 2]| (q.square() + v.square()) * half;
+        let start = energy([initial.q, initial.v].map(Interval::point));
+        let end = enclosed_state(parameters, initial, until).map(energy);
+        [change.within(end.map(|end| end - start)), linear, friction]
+    })
     .ok_or(missing("an energy ledger"))
 }
 
@@ -188,48 +184,83 @@ pub fn captured(
     initial: State,
     until: f64,
     limits: &Limits,
-) -> Result<bool, Reason> {
+) -> Result<Answer, Reason> {
     let end = outcome(parameters, initial, until, limits)?;
-    Ok(matches!(end, Outcome::Captured { .. }))
+    let holds = matches!(end, Outcome::Captured { .. });
+    let certain = match enclosed(parameters, initial, until).fate {
+        Fate::Captured { .. } => holds,
+        Fate::Moving { .. } | Fate::Escaped { .. } => !holds,
+        Fate::Open { .. } => false,
+    };
+    Ok(Answer { holds, certain })
 }
 
 /// All cycles by the general search, smallest first, whether or not a closed form exists.
 ///
 /// # Errors
 /// The [`Reason`] why the search failed.
-pub fn cycles(parameters: &Parameters, limits: &Limits) -> Result<Vec<Cycle>, Reason> {
+pub fn cycles(parameters: &Parameters, limits: &Limits) -> Result<AllFound, Reason> {
     let mut equation = Equation::new(parameters, 0.5 * f64::EPSILON);
     let found = closings(&mut equation, limits)?;
-    Ok(found.iter().map(|closing| closing.describe(parameters, equation.side)).collect())
+    let found = found.iter().map(|closing| closing.describe(parameters, equation.side)).collect();
+    Ok(beside_proof(parameters, found))
+}
+
+/// Cycles that were found, with what is proved about them.
+pub fn beside_proof(parameters: &Parameters, found: Vec<Cycle>) -> AllFound {
+    let hints: Vec<f64> = found.iter().map(|cycle| cycle.clearance).collect();
+    let proof = prove(&ParameterBox::from(parameters), &hints);
+    let certain = proof.is_complete() && proof.cycles.len() == found.len();
+    let with_bounds = |cycle: Cycle| {
+        Found::new(cycle, matching(&proof, &cycle).and_then(|proved| proved.enclosure))
+    };
+    AllFound { cycles: found.into_iter().map(with_bounds).collect(), certain }
+}
+
+/// What borders the basin.
+///
+/// # Errors
+/// The [`Reason`] why a border could not be computed.
+pub fn edge(parameters: &Parameters, limits: &Limits) -> Result<CertainEdge, Reason> {
+    let found = basin(parameters, 10.0, limits)?.edge;
+    let proved = kicks::edge(&prove(&ParameterBox::from(parameters), &[]));
+    let certain = match found {
+        Edge::None => proved == Some(kicks::Edge::None),
+        Edge::Cycle => proved == Some(kicks::Edge::Cycle),
+        Edge::Separatrix => proved == Some(kicks::Edge::Separatrix),
+    };
+    Ok(CertainEdge { edge: found, certain })
+}
+
+/// The value of D at which cycles vanish, `found` being where the search says so: enclosed to a thousandth.
+pub fn last_cycle(parameters: &Parameters, found: f64, error: f64) -> Known {
+    /// Next to that value proofs take long.
+    const AWAY: f64 = 1e-3;
+    let between = change_within(&ParameterBox::from(parameters), Symbol::D, found, AWAY);
+    Known::relative(found, error).within(between.map(|change| change.between))
 }
 
 /// The smallest cycle.
 ///
 /// # Errors
 /// The [`Reason`] why there is none.
-pub fn smallest(parameters: &Parameters, limits: &Limits) -> Result<Cycle, Reason> {
-    cycles(parameters, limits)?.first().copied().ok_or(missing("a limit cycle"))
+pub fn smallest(parameters: &Parameters, limits: &Limits) -> Result<Found, Reason> {
+    cycles(parameters, limits)?.cycles.first().copied().ok_or(missing("a limit cycle"))
 }
 
 /// The largest cycle.
 ///
 /// # Errors
 /// The [`Reason`] why there is none.
-pub fn largest(parameters: &Parameters, limits: &Limits) -> Result<Cycle, Reason> {
-    cycles(parameters, limits)?.last().copied().ok_or(missing("a limit cycle"))
-}
-
-/// How many cycles there are.
-///
-/// # Errors
-/// The [`Reason`] why the search failed.
-pub fn count(parameters: &Parameters, limits: &Limits) -> Result<usize, Reason> {
-    cycles(parameters, limits).map(|found| found.len())
+pub fn largest(parameters: &Parameters, limits: &Limits) -> Result<Found, Reason> {
+    cycles(parameters, limits)?.cycles.last().copied().ok_or(missing("a limit cycle"))
 }
 
 /// Half of what lies between the turning points.
-pub fn amplitude(cycle: &Cycle) -> Known {
-    of_cycle(cycle, 0.5 * (cycle.q_max - cycle.q_min))
+pub fn amplitude(cycle: &Found) -> Known {
+    of_cycle(cycle, 0.5 * (cycle.q_max - cycle.q_min), |it| {
+        Interval::point(0.5) * (it.q_max - it.q_min)
+    })
 }
 
 /// Mean displacement of a cycle over its period.
@@ -246,5 +277,5 @@ pub fn mean(parameters: &Parameters, cycle: &Cycle, limits: &Limits) -> Result<K
     let rise = arc(Side::Upper, -cycle.q_min - r)?;
     let fall = arc(Side::Lower, cycle.q_max - r)?;
     let mean = (rise.time_integral() + fall.time_integral()) / cycle.period;
-    Ok(Known { value: mean, error: INTEGRAL * cycle.q_max })
+    Ok(Known::new(mean, INTEGRAL * cycle.q_max))
 }

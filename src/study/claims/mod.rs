@@ -4,21 +4,25 @@
 //! evaluates the paper's formula and computes the same thing without it: by integrating motions, by
 //! searching cycles, by differentiating the physical law. That function returns a [`Finding`], numbers
 //! and nothing else; the [`Verdict`] follows from the numbers by one rule for all claims
-//! ([`Finding::verdict`]).
+//! ([`Finding::verdict`]). Where a proof encloses what was computed, a [`Mark`] says what is certain.
 
 mod amplitudes;
 mod belt;
 mod beyond;
 mod bifurcation;
+mod certain;
 mod equilibria;
 mod harmonic;
+mod known;
 mod linear;
 mod measure;
 mod model;
 mod summary;
 mod verdict;
 
-pub use verdict::{Finding, Sense, Verdict};
+pub use certain::Mark;
+pub use known::Sense;
+pub use verdict::{Finding, Verdict};
 
 use crate::flow::{Limits, Reason};
 

@@ -4,6 +4,7 @@ use super::measure::{Known, at_rest, captured, half_swing, oscillator, place};
 use super::{Claim, Finding, belt};
 use crate::closed_form::linear::first_standstill;
 use crate::flow::{Limits, Reason};
+use crate::numerics::interval::PI;
 use crate::oscillator::Parameters;
 
 /// The claims.
@@ -23,7 +24,7 @@ pub const CLAIMS: &[Claim] = &[
         check: |_| {
             let stiffness = derivatives(|x| -MASS.acceleration(x, 0.0, 0.0))[0];
             let value = stiffness.value.sqrt();
-            let computed = Known { value, error: 0.5 * stiffness.error / value };
+            let computed = Known::new(value, 0.5 * stiffness.error / value);
             let (c, m) = (MASS.c, MASS.m);
             Ok(Finding::equal(c / m, computed).corrected((c / m).sqrt()).at(MASS_PLACE))
         },
@@ -98,7 +99,7 @@ pub const CLAIMS: &[Claim] = &[
         check: |limits| {
             let parameters = oscillator(0.0, 0.0, 0.0, 0.1);
             let [end, _] = half_swing(&parameters, at_rest(1.0), limits)?;
-            let gained = Known { value: -end.value - 1.0, ..end };
+            let gained = (-end).plus(-1.0);
             let fed = 2.0 * parameters.r;
             Ok(Finding::equal(fed, gained).corrected(-fed).at("D = 0, r = 0.1, from q = 1"))
         },
@@ -131,7 +132,8 @@ pub const CLAIMS: &[Claim] = &[
             for d in [-0.9, -0.1, -1e-3, 1e-3, 0.1, 0.9] {
                 let parameters = oscillator(d, 0.2, 0.5, 0.0);
                 let [end, _] = half_swing(&parameters, at_rest(-1e-6), limits)?;
-                cases.push((format!("D = {d}"), (end.value > 1e-6) == (d < 0.0)));
+                let grows = end.exceeds(1e-6);
+                cases.push((format!("D = {d}"), grows.is(d < 0.0)));
             }
             Ok(Finding::always(cases))
         },
@@ -163,8 +165,9 @@ fn over_damping(
         let [end, duration] = half_swing(&parameters, at_rest(-1.0), limits)?;
         let relative = end.error / end.value + duration.error / duration.value;
         let growth = end.value.ln() / duration.value;
-        let growth = Known { value: growth, error: relative * (1.0 + growth.abs()) };
-        let frequency = Known::relative(std::f64::consts::PI / duration.value, relative);
+        let growth = Known::new(growth, relative * (1.0 + growth.abs()));
+        let frequency = Known::relative(std::f64::consts::PI / duration.value, relative)
+            .within(duration.bounds.map(|it| PI / it));
         Ok(compare(d, growth, frequency).at(format!("D = {d}, r = 0")))
     }))
 }
@@ -230,7 +233,7 @@ fn coefficient(order: usize, factor: f64) -> Known {
     let smooth =
         |v: f64| MASS.acceleration(0.0, v * length * omega, 0.0) / (length * omega * omega);
     let derivative = derivatives(smooth)[order];
-    Known { value: factor * derivative.value, error: (factor * derivative.error).abs() }
+    Known::new(factor * derivative.value, (factor * derivative.error).abs())
 }
 
 /// First, second and third derivative at 0: central differences, extrapolated to step 0.
@@ -260,6 +263,6 @@ fn derivatives(function: impl Fn(f64) -> f64) -> [Known; 3] {
         }
         let size = f(STEP).abs() + f(-STEP).abs() + f(0.0).abs();
         let rounding = 8.0 * f64::EPSILON * size / step(LEVELS - 1).powi(order);
-        Known { value: row[0], error: last + rounding }
+        Known::new(row[0], last + rounding)
     })
 }

@@ -1,13 +1,13 @@
 //! Section 7 and the end of 6.4: what friction does at small and at large amplitude.
 
 use super::measure::{
-    Known, amplitude, at_rest, energy_change, largest, of_cycle, oscillator, place, smallest,
+    Known, amplitude, at_rest, edge, energy_change, largest, of_cycle, oscillator, place, smallest,
 };
 use super::{Claim, Finding};
 use crate::flow::{Limits, Reason};
+use crate::numerics::Interval;
 use crate::oscillator::Parameters;
 use crate::study::Edge;
-use crate::study::basin::basin;
 
 /// The claims.
 pub const CLAIMS: &[Claim] = &[
@@ -56,7 +56,7 @@ pub const CLAIMS: &[Claim] = &[
             let smooth = largest(&Parameters { r: 0.0, ..parameters }, limits)?.q_max;
             let with = |r: f64| {
                 let cycle = largest(&Parameters { r, ..parameters }, limits)?;
-                Ok((smooth, of_cycle(&cycle, cycle.q_max)))
+                Ok((smooth, of_cycle(&cycle, cycle.q_max, |it| it.q_max)))
             };
             Ok(Finding::tends(with(0.1)?, with(1e-3)?).at(place(&parameters)))
         },
@@ -71,8 +71,8 @@ pub const CLAIMS: &[Claim] = &[
             for d3 in [-0.5, 0.0, 0.5] {
                 for d in [0.01, 0.1, 0.5] {
                     let parameters = oscillator(d, 0.0, d3, 0.1);
-                    let finite = basin(&parameters, 10.0, limits)?.edge != Edge::None;
-                    cases.push((place(&parameters), finite == (d3 < 0.0)));
+                    let infinite = edge(&parameters, limits)?.is(Edge::None);
+                    cases.push((place(&parameters), infinite.is(d3 >= 0.0)));
                 }
             }
             Ok(Finding::always(cases))
@@ -87,7 +87,10 @@ pub const CLAIMS: &[Claim] = &[
             let size = |d: f64| {
                 let parameters = oscillator(d, 0.0, 0.0, 1e-6);
                 let cycle = smallest(&parameters, limits)?;
-                Ok((2.0 / std::f64::consts::PI, of_cycle(&cycle, -d * cycle.q_max / parameters.r)))
+                let size = of_cycle(&cycle, -d * cycle.q_max / parameters.r, |it| {
+                    Interval::point(-d) * it.q_max / Interval::point(parameters.r)
+                });
+                Ok((2.0 / std::f64::consts::PI, size))
             };
             let finding = Finding::tends(size(-1e-2)?, size(-1e-4)?);
             Ok(finding.at("times abs(D), which makes it 2/pi, at D = -1e-4"))
@@ -103,6 +106,6 @@ fn exponents(limits: &Limits) -> Result<[Known; 3], Reason> {
     Ok(std::array::from_fn(|index| {
         let relative = |known: Known| known.error / known.value.abs();
         let error = relative(one[index]) + relative(two[index]);
-        Known { value: (two[index].value / one[index].value).log2(), error }
+        Known::new((two[index].value / one[index].value).log2(), error)
     }))
 }

@@ -2,36 +2,11 @@
 
 use std::fmt;
 
-use serde::Serialize;
-
-use super::measure::Known;
-
-/// An approximation that misses by more than this part is none. More would let
-/// a fold that D2 moves by an eighth pass as one that D2 does not move.
-const POOR: f64 = 0.1;
+use super::certain::Mark;
+use super::known::{Answer, Known, POOR, Sense};
 
 /// Rounding of a formula, as a part of its value.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
-
-/// What is claimed about the two numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Sense {
-    /// They are equal.
-    Equal,
-    /// The paper's approximates the computed one.
-    Near,
-    /// The paper's is a lower bound of the computed one.
-    AtMost,
-    /// They approach each other in a limit; a relative difference further from it is known.
-    Tends {
-        /// That difference.
-        before: f64,
-    },
-    /// Something holds in all cases: the paper's number is how many cases there are, the computed one in
-    /// how many of them it holds.
-    Always,
-}
 
 /// The numbers that decide a claim.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,6 +23,8 @@ pub struct Finding {
     pub computed: Known,
     /// How many cases this one, the worst, was chosen from.
     pub cases: usize,
+    /// What is certain, of all cases.
+    pub mark: Option<Mark>,
 }
 
 /// What the numbers say about a claim.
@@ -75,44 +52,55 @@ impl Finding {
     /// A formula and what it should be equal to.
     #[must_use]
     pub fn equal(paper: f64, computed: Known) -> Self {
-        let place = String::new();
-        let (paper, corrected) = (Some(paper), None);
-        Finding { sense: Sense::Equal, place, paper, corrected, computed, cases: 1 }
+        Self::new(Sense::Equal, paper, computed)
+    }
+
+    fn new(sense: Sense, paper: f64, computed: Known) -> Self {
+        let mark = Mark::of(sense, paper, &computed);
+        let (place, paper, corrected) = (String::new(), Some(paper), None);
+        Finding { sense, place, paper, corrected, computed, cases: 1, mark }
     }
 
     /// A formula and what it should approximate.
     #[must_use]
     pub fn near(paper: f64, computed: Known) -> Self {
-        Finding { sense: Sense::Near, ..Self::equal(paper, computed) }
+        Self::new(Sense::Near, paper, computed)
     }
 
     /// A formula and what it should be a lower bound of.
     #[must_use]
     pub fn at_most(paper: f64, computed: Known) -> Self {
-        Finding { sense: Sense::AtMost, ..Self::equal(paper, computed) }
+        Self::new(Sense::AtMost, paper, computed)
     }
 
     /// A formula and what it should approach, at two places, the second nearer to the limit.
     #[must_use]
     pub fn tends(far: (f64, Known), near: (f64, Known)) -> Self {
         let before = Self::near(far.0, far.1).miss();
-        Finding { sense: Sense::Tends { before }, ..Self::equal(near.0, near.1) }
+        let mark = Mark::of_limit((far.0, &far.1), (near.0, &near.1));
+        Finding { mark, ..Self::new(Sense::Tends { before }, near.0, near.1) }
     }
 
     /// What should hold in each of these cases; the place becomes the first in which it does not.
     #[must_use]
-    pub fn always(cases: impl IntoIterator<Item = (String, bool)>) -> Self {
+    pub fn always<A: Into<Answer>>(cases: impl IntoIterator<Item = (String, A)>) -> Self {
         let (mut holds, mut all, mut place) = (0_u32, 0_u32, String::new());
-        for (case, does) in cases {
+        let (mut certain, mut refuted) = (true, false);
+        for (case, answer) in cases {
+            let answer: Answer = answer.into();
             all += 1;
-            holds += u32::from(does);
-            if !does && place.is_empty() {
+            holds += u32::from(answer.holds);
+            certain &= answer.certain;
+            refuted |= answer.certain && !answer.holds;
+            if !answer.holds && place.is_empty() {
                 place = format!("first fails at {case}");
             }
         }
         let computed = Known::exact(f64::from(holds));
         let cases = all as usize;
-        Finding { sense: Sense::Always, place, cases, ..Self::equal(f64::from(all), computed) }
+        let mark = if refuted { Some(Mark::Refuted) } else { certain.then_some(Mark::Proved) };
+        let mark = mark.filter(|_| all > 0);
+        Finding { place, cases, mark, ..Self::new(Sense::Always, f64::from(all), computed) }
     }
 
     /// The same, but the paper is silent: its formula is one of ours.
@@ -138,16 +126,17 @@ impl Finding {
     /// # Errors
     /// The first error among them.
     pub fn worst<E>(findings: impl IntoIterator<Item = Result<Self, E>>) -> Result<Self, E> {
-        let mut worst = Self::always([]);
-        let mut cases = 0;
+        let mut worst = Self::always::<bool>([]);
+        let (mut cases, mut mark) = (0, Some(Mark::Proved));
         for finding in findings {
             let finding = finding?;
             cases += 1;
+            mark = Mark::and(mark, finding.mark);
             if cases == 1 || finding.strain() > worst.strain() {
                 worst = finding;
             }
         }
-        Ok(Finding { cases, ..worst })
+        Ok(Finding { cases, mark, ..worst })
     }
 
     /// The paper's number minus the computed one; the corrected one's where the paper is silent.
@@ -258,9 +247,10 @@ impl Verdict {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numerics::Interval;
 
     fn known(value: f64) -> Known {
-        Known { value, error: 1e-9 }
+        Known::new(value, 1e-9)
     }
 
     #[test]
@@ -297,6 +287,37 @@ mod tests {
     fn a_lower_bound_may_lie_far_below_but_not_above() {
         assert_eq!(Finding::at_most(0.1, known(1.0)).verdict(), Verdict::Agrees);
         assert_eq!(Finding::at_most(1.1, known(1.0)).verdict(), Verdict::False);
+    }
+
+    #[test]
+    fn marks_follow_from_bounds() {
+        let known = known(1.0).within(Interval::new(0.99, 1.01));
+        let mark = |finding: Finding| finding.mark.unwrap();
+        assert_eq!(mark(Finding::equal(1.005, known)), Mark::Enclosed);
+        assert_eq!(mark(Finding::equal(1.02, known)), Mark::Refuted);
+        assert_eq!(mark(Finding::near(1.08, known)), Mark::Proved);
+        assert_eq!(mark(Finding::near(1.1, known)), Mark::Enclosed);
+        assert_eq!(mark(Finding::near(1.12, known)), Mark::Refuted);
+        assert_eq!(mark(Finding::at_most(0.98, known)), Mark::Proved);
+        assert_eq!(mark(Finding::at_most(1.0, known)), Mark::Enclosed);
+        assert_eq!(mark(Finding::at_most(1.02, known)), Mark::Refuted);
+        assert_eq!(mark(Finding::tends((1.5, known), (1.1, known))), Mark::Proved);
+        assert_eq!(mark(Finding::tends((1.1, known), (1.5, known))), Mark::Refuted);
+        assert_eq!(Finding::near(1.0, self::known(1.0)).mark, None);
+        // A bound on one side decides or says nothing.
+        let above = self::known(1.0).within(Interval::new(f64::NEG_INFINITY, 1.01));
+        assert_eq!(Finding::at_most(1.02, above).mark, Some(Mark::Refuted));
+        assert_eq!(Finding::at_most(0.5, above).mark, None);
+        // One case that certainly fails refutes, all that certainly hold prove.
+        let case = |holds, certain| (String::new(), Answer { holds, certain });
+        assert_eq!(Finding::always([case(true, true), case(true, true)]).mark, Some(Mark::Proved));
+        assert_eq!(Finding::always([case(true, true), case(true, false)]).mark, None);
+        assert_eq!(
+            Finding::always([case(true, false), case(false, true)]).mark,
+            Some(Mark::Refuted)
+        );
+        let several = [Finding::near(1.0, known), Finding::near(1.12, known)].map(Ok::<_, ()>);
+        assert_eq!(Finding::worst(several).unwrap().mark, Some(Mark::Refuted));
     }
 
     #[test]

@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Detail, Limits, Method, Outcome, Problem, Trajectory};
+use crate::numerics::scaling::times_power;
 use crate::oscillator::energy::energy;
-use crate::oscillator::scaling::times_power;
 use crate::oscillator::{Parameters, State};
 
 /// One of them by one method.

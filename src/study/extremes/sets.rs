@@ -6,7 +6,8 @@ use super::lattice::{D, D2_D3, R};
 use crate::flow::{Cost, Limits, Reason};
 use crate::oscillator::Parameters;
 use crate::study::Cycle;
-use crate::study::closing::{Closing, Equation, Route};
+use crate::study::closed_pair::Closing;
+use crate::study::closing::{Equation, Route};
 use crate::study::closings::{STEP, all_closings};
 use crate::study::lift::lifted;
 

@@ -1,17 +1,23 @@
 //! One point of a scan: each computation that its measures need, once.
 
+use super::conditions::Conditions;
 use super::settling::Settling;
-use super::{CYCLES, Conditions, Measure, Need, Value, needs_of};
+use super::table::{CYCLES, Measure, Need, Value, needs_of};
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Detail, Limits, Outcome, Problem, Reason, Trajectory};
+use crate::numerics::Interval;
+use crate::proof::Proof;
 use crate::study::basin::Basin;
+use crate::study::closed_pair::Closing;
 use crate::study::closing::Equation;
 use crate::study::closings::{STEP, innermost_closing};
-use crate::study::cycle::{Cycle, Cycles, cycles};
+use crate::study::cycle::{Cycle, Cycles, cycles_and_closings};
 use crate::study::escape::escape_point;
-use crate::study::fold::{FoldPoint, fold};
+use crate::study::fold::fold;
+use crate::study::fold_point::FoldPoint;
 use crate::study::guarantee::{Uncertain, guaranteed};
 use crate::study::margin::Margin;
+use crate::study::proved::proved;
 use crate::study::repeated::{Repeated, repeated};
 use crate::study::stability::Share;
 
@@ -20,12 +26,15 @@ use crate::study::stability::Share;
 pub struct Point {
     motion: Option<Trajectory>,
     cycles: Option<Cycles>,
+    /// Those of the cycles, for the edge.
+    closings: Option<Vec<Closing>>,
     edge: Option<Basin>,
     fold: Option<FoldPoint>,
     escape: Option<f64>,
     guaranteed: Option<Margin>,
     settling: Option<Settling>,
     repeated: Option<Repeated>,
+    proof: Option<Proof>,
     /// What all of it cost.
     pub cost: Cost,
     /// What could not be computed, and why.
@@ -81,15 +90,20 @@ impl Point {
                 }
             }
             Need::Cycles => {
-                let found = cycles(parameters, false, limits)?;
+                let (found, closings) = cycles_and_closings(parameters, limits)?;
                 self.cost += found.cost;
-                self.cycles = Some(found);
+                (self.cycles, self.closings) = (Some(found), closings);
             }
             Need::Edge => {
-                let mut equation = Equation::new(parameters, STEP);
                 // What is beyond the edge does not matter here.
-                let inner = innermost_closing(&mut equation, limits)?;
-                self.cost += equation.cost();
+                let inner = if let Some(closings) = self.closings.take() {
+                    closings.into_iter().next()
+                } else {
+                    let mut equation = Equation::new(parameters, STEP);
+                    let inner = innermost_closing(&mut equation, limits);
+                    self.cost += equation.cost();
+                    inner?
+                };
                 let basin = Basin::around(parameters, inner.as_slice(), reach, limits)?;
                 self.cost += basin.cost;
                 self.edge = Some(basin);
@@ -111,6 +125,15 @@ impl Point {
                 let (found, cost) = Settling::of(problem, &conditions.window, limits)?;
                 self.cost += cost;
                 self.settling = Some(found);
+            }
+            Need::Proof => {
+                if self.cycles.is_none() {
+                    self.compute(Need::Cycles, problem, (conditions, reach), limits)?;
+                }
+                let differ =
+                    |_| Reason::NotApplicable { needs: "a search that agrees with its proof" };
+                let found = self.cycles.as_ref().map(proved).transpose().map_err(differ)?;
+                self.proof = found;
             }
             // Without friction there is no set of places to rest.
             Need::Chain if parameters.r == 0.0 => {}
@@ -170,6 +193,16 @@ impl Point {
                 vec![fold.map(|fold| fold.d).into(), fold.map(|fold| fold.q_max).into()]
             }
             Measure::Escape => vec![self.escape.into()],
+            Measure::Proved => {
+                let word = |it: &Proof| Value::Word(if it.is_complete() { "yes" } else { "no" });
+                let bounds = |index: usize| {
+                    let cycle = self.proof.as_ref().and_then(|it| it.cycles.get(index));
+                    let q_max = cycle.and_then(|it| it.enclosure).map(|it| it.q_max);
+                    [q_max.map(Interval::lower), q_max.map(Interval::upper)].map(Value::from)
+                };
+                let proved = self.proof.as_ref().map_or(Value::Nothing, word);
+                std::iter::once(proved).chain((0..CYCLES).flat_map(bounds)).collect()
+            }
         }
     }
 
@@ -208,6 +241,7 @@ mod tests {
     use super::*;
     use crate::oscillator::{Parameters, State, Symbol};
     use crate::study::basin::Window;
+    use crate::study::cycle::cycles;
     use crate::study::measure::MEASURES;
 
     const WINDOW: Window = Window { q: (-3.0, 3.0), v: (-3.0, 3.0) };
@@ -249,6 +283,10 @@ mod tests {
         let edge = [Measure::Margin, Measure::Stability, Measure::Area];
         assert_eq!(cost(&edge), cost(&[Measure::Stability]));
         assert!(cost(&[Measure::Margin]).evaluations > 0);
+        // The edge is one of the cycles: beside them only its two arcs are followed.
+        let [both, cycles] = [&[Measure::Margin, Measure::Cycles][..], &[Measure::Cycles]]
+            .map(|it| cost(it).evaluations);
+        assert!(both < cycles + 800, "{both} {cycles}");
         let mut sum = cost(&[Measure::Cycles]);
         sum += cost(&[Measure::Rest]);
         let all = [Measure::Cycles, Measure::Rest, Measure::Multipliers, Measure::Outcome];

@@ -9,8 +9,8 @@
 use ratatui::layout::Rect;
 
 use super::Plot;
+use crate::picture::role::Role;
 use crate::scene::Point;
-use crate::view::look::Role;
 
 impl Plot<'_> {
     /// Shades the cells that `curve` does not separate from the origin.

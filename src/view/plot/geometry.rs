@@ -8,9 +8,9 @@
 
 use ratatui::layout::{Position, Rect};
 
+use crate::picture::ticks::{Scale, Tick, Ticks};
 use crate::scene::{Point, Span, Window};
-use crate::view::number::resolved;
-use crate::view::ticks::{Scale, Tick, Ticks};
+use crate::words::number::resolved;
 
 /// Smallest area in which axes stand outside the picture; below it labels lie inside.
 const ROOMY: (u16, u16) = (22, 9);

@@ -18,13 +18,12 @@ use ratatui::layout::Rect;
 
 use geometry::{Geometry, centred, column};
 pub use geometry::{point_at, rows};
-pub use text::Name;
 
-use super::dots::{Dash, Dots, Pen};
-use super::look::{Look, Role};
-use super::number::resolved;
+use super::dots::{Dots, Pen};
+use super::look::Look;
 use super::pane;
-use super::ticks::{Scale, Tick, Ticks};
+use crate::picture::role::{Dash, Role};
+use crate::picture::ticks::{Scale, Tick, Ticks};
 use crate::scene::{Point, Window};
 use crate::session::settings::Glyphs;
 
@@ -43,14 +42,16 @@ pub struct Names<'a> {
     pub marks: Option<Ticks>,
 }
 
-/// The coordinates of a point, to the digits that can be told apart in a window.
-#[must_use]
-pub fn reading(point: Point, window: Window) -> (String, String) {
-    (resolved(point.x, window.x.width() / CELLS), resolved(point.y, window.y.width() / CELLS))
+/// The name of a curve.
+#[derive(Clone, Debug)]
+pub struct Name<'a> {
+    /// The name.
+    pub text: &'a str,
+    /// Points of the curve beside which it may stand, the best first.
+    pub points: Vec<Point>,
+    /// What the curve stands for.
+    pub role: Role,
 }
-
-/// Cells of a large plot: what a cursor can tell apart.
-pub(super) const CELLS: f64 = 200.0;
 
 /// A plot being drawn.
 #[derive(Debug)]

@@ -2,11 +2,11 @@
 
 #![expect(clippy::cast_possible_truncation, reason = "lengths of short texts count cells")]
 
-use super::Plot;
+use super::{Name, Plot};
+use crate::picture::role::Role;
 use crate::scene::Point;
 use crate::view::dots::Covering;
-use crate::view::look::Role;
-use crate::view::number::significant;
+use crate::words::number::significant;
 
 /// What a text may hide anywhere, the best first.
 const FREE: [Covering; 2] = [Covering::Texture, Covering::Guide];
@@ -16,17 +16,6 @@ const CLEAR: i32 = 6;
 
 /// Distance from other curves, in rows, below which a name is rather left out.
 const NEAR: i32 = 2;
-
-/// The name of a curve.
-#[derive(Clone, Debug)]
-pub struct Name<'a> {
-    /// The name.
-    pub text: &'a str,
-    /// Points of the curve beside which it may stand, the best first.
-    pub points: Vec<Point>,
-    /// What the curve stands for.
-    pub role: Role,
-}
 
 impl Plot<'_> {
     /// Writes names beside their curves, each where the others are far away.

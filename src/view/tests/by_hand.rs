@@ -4,7 +4,7 @@ use crate::flow::{Cost, Crossing, Limits, Outcome, Problem, Reason, Sample, Traj
 use crate::oscillator::{Ledger, Parameters, State, Symbol};
 use crate::scene::answer::{Borders, Rows};
 use crate::scene::library::find;
-use crate::scene::{Answer, Answered, Layer, Request};
+use crate::scene::{Answer, Answered, Fit, Layer, Request};
 use crate::session::{Key, Msg, Session, Size, update};
 use crate::study::chart::{Band, Chart, Line, Plane};
 use crate::study::harmonic_error::HarmonicBalance;
@@ -52,13 +52,18 @@ pub(super) fn press(session: &mut Session, keys: &str) {
 
 /// Whether a layer belongs to single figures and would be drawn over the others.
 pub(super) fn drawn_over(layer: Layer) -> bool {
-    matches!(layer, Layer::Extents | Layer::Levels | Layer::Spirals)
+    matches!(
+        layer,
+        Layer::Extents | Layer::Levels | Layer::Spirals | Layer::Record | Layer::Recorded
+    )
 }
 
 pub(super) fn by_hand(request: &Request) -> Answer {
     match request {
-        Request::Trajectory(problem) => Answer::Trajectory(spiral(*problem)),
-        Request::Cycles { parameters, .. } => {
+        Request::Trajectory(problem) | Request::Machine { problem, .. } => {
+            Answer::Trajectory(spiral(*problem))
+        }
+        Request::Cycles { parameters } | Request::Portrait { parameters, .. } => {
             let cycles = vec![cycle(0.5, false), cycle(1.2, true)];
             let curves: Vec<Vec<State>> = vec![circle(0.5), circle(1.2)];
             Answer::Cycles(Cycles {
@@ -109,6 +114,14 @@ pub(super) fn by_hand(request: &Request) -> Answer {
         Request::Trade { .. } => Answer::Trade(compared()),
         Request::Reference { .. } => Answer::Reference(Err(Reason::OutOfRange)),
         Request::Claims => Answer::Claims(Vec::new()),
+        Request::Fit { recording } => {
+            Answer::Fit(Fit::of(recording, &Limits::PATIENT).expect("nobody interrupts"))
+        }
+        Request::Speeds { .. } => Answer::Speeds(crate::scene::speeds::Speeds {
+            points: Vec::new(),
+            special: Vec::new(),
+            cost: Cost::default(),
+        }),
     }
 }
 
@@ -225,6 +238,7 @@ pub(super) fn folded(parameter: Symbol) -> Branch {
         parameter,
         pieces: vec![(0..120).map(point).collect()],
         special: vec![fold, escape],
+        vague: Vec::new(),
         cost: Cost { evaluations: 56_000, steps: 900, rejected: 3 },
     }
 }

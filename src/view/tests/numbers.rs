@@ -4,13 +4,13 @@ use std::collections::BTreeSet;
 
 use super::by_hand::{press, settle};
 use super::{braille, draw, letters};
-use crate::export::screen::text;
+use crate::picture::items::Item;
+use crate::picture::ticks::{Scale, Ticks};
 use crate::scene::library::{find, library};
 use crate::scene::{Span, VIEWS};
 use crate::session::{Session, Size};
-use crate::view::number::significant;
-use crate::view::picture::{self, Item};
-use crate::view::ticks::{Scale, Ticks};
+use crate::view::screen::text;
+use crate::words::number::significant;
 
 /// A screen on which everything has room.
 const WIDEST: Size = Size { width: 320, height: 110 };
@@ -72,7 +72,7 @@ fn known(session: &Session) -> BTreeSet<String> {
     widest.size = WIDEST;
     let mut known = numbers(&text(&draw(&widest, braille())));
     for index in 0..session.plots.len() {
-        let picture = picture::of(session, index);
+        let picture = crate::picture::of(session, index);
         let [x, y] = picture.scales;
         known.extend(numbers(&labels(x, picture.window.x)));
         known.extend(numbers(&labels(y, picture.window.y)));

@@ -2,16 +2,17 @@
 
 use super::by_hand::{press, settle};
 use super::{braille, draw, letters, settled};
-use crate::export::screen::text;
 use crate::flow::Limits;
 use crate::oscillator::Symbol;
+use crate::picture::items::{Item, Line};
+use crate::picture::role::Dash;
+use crate::picture::role::Role;
 use crate::scene::answer::answer;
 use crate::scene::library::{find, library};
 use crate::scene::{Answered, Ordinate, Point, View};
 use crate::session::{Msg, Session, Size, update};
-use crate::view::dots::Dash;
-use crate::view::look::{Look, Role};
-use crate::view::picture::{self, Item, Line};
+use crate::view::look::Look;
+use crate::view::screen::text;
 
 /// A scene whose questions about branches are answered by computation.
 fn computed(scene: &str) -> Session {
@@ -26,7 +27,7 @@ fn computed(scene: &str) -> Session {
 
 /// The heights of what is called rest at a value of the parameter of a diagram, with its line.
 fn rests(session: &Session, index: usize, at: f64) -> Vec<(Line, f64)> {
-    let picture = picture::of(session, index);
+    let picture = crate::picture::of(session, index);
     let heights = picture.items.iter().filter_map(|item| match item {
         Item::Graph(line, value) if line.name.starts_with("rest") => {
             Some((line.clone(), value(at)?))
@@ -49,7 +50,8 @@ fn rest_is_in_every_bifurcation_diagram() {
                     .filter(|at| plot.axes.abscissa != Symbol::D || *at != 0.0)
                     .flat_map(|at| {
                         let found = rests(&session, index, at);
-                        let ours = |(line, _): &(Line, f64)| line.name.ends_with(&shown.label);
+                        let ours =
+                            |(line, _): &(Line, f64)| line.full_name().ends_with(&shown.label);
                         found
                             .into_iter()
                             .filter(ours)
@@ -82,7 +84,7 @@ fn rest_is_in_every_bifurcation_diagram() {
 #[test]
 fn an_h_stands_only_where_a_hopf_point_is() {
     let letters_h = |session: &Session| -> Vec<Point> {
-        let pictures = (0..session.plots.len()).map(|index| picture::of(session, index));
+        let pictures = (0..session.plots.len()).map(|index| crate::picture::of(session, index));
         let captions = pictures.flat_map(|picture| {
             let h = |item: &Item| match item {
                 Item::Caption { at, short, .. } if short == "H" => Some(*at),
@@ -153,7 +155,7 @@ fn a_map_labels_decades_and_is_the_stronger_the_more_dangerous_in_one_hue() {
         screen.lines().rfind(|line| line.contains("displacement ") && line.contains('\u{2588}'));
     let legend = legend.unwrap_or_else(|| panic!("{screen}"));
     for value in [low, high] {
-        let three = crate::view::number::significant(value, 3);
+        let three = crate::words::number::significant(value, 3);
         assert!(legend.contains(&three), "{three}: {legend}");
     }
     // The smallest margin is the strongest shade, and comes first.

@@ -55,6 +55,13 @@ fn a_table_may_stand_in_a_file_of_its_own() {
     assert_eq!((spline.points(), spline.range()), (4, (0.0, 0.4)));
     let missing = read(&text).unwrap_err().to_string();
     assert_eq!(missing, "test.toml:7:27: no file");
+    let expected = table("mu.csv", csv).unwrap();
+    for same in [
+        "v [mm/s];mu\n0;0,4\n100,0;0,3\n20 cm/s;0,25\n400;0,2\n",
+        "v [mm/s]\tmu\n0\t0.4\n100\t0,3\n200\t0.25\n400\t0,2\n",
+    ] {
+        assert_eq!(table("mu.csv", same).as_ref(), Ok(&expected), "{same}");
+    }
     for (bad, words) in [
         ("0,0.4\nv,mu\n", "mu.csv:2:"),
         ("0,0.4,5\n", "mu.csv:1: \"0,0.4,5\" is not a velocity and a coefficient"),
@@ -88,6 +95,30 @@ fn static_friction_stands_beside_the_law_and_never_below_it() {
         two.contains("friction takes one law: constant, polynomial, stribeck or table"),
         "{two}"
     );
+}
+
+#[test]
+fn tolerances_and_a_disturbance_stand_beside_the_values() {
+    let text = GOOD.replace("R = 0.5", "R = \"0.5 N +- 10 %\"\ndisturbance = \"50 mN\"");
+    let text =
+        text.replace("mu = 0.25", "mu = \"0.24 .. 0.26\"").replace("title = \"A test\"\n", "");
+    let machine = read(&text).unwrap();
+    assert_eq!((machine.belt.friction, machine.tolerances.disturbance), (0.5, 0.05));
+    assert_eq!(machine.title, "test");
+    let half_widths = &machine.tolerances.half_widths;
+    assert_eq!(half_widths.keys().collect::<Vec<_>>(), ["R", "mu"]);
+    assert!((half_widths["R"] - 0.05).abs() < 1e-15 && (half_widths["mu"] - 0.01).abs() < 1e-15);
+    let stays = serde_json::from_str(&serde_json::to_string(&machine).unwrap()).unwrap();
+    assert_eq!(machine, stays);
+    for (from, to, words) in [
+        ("10 %", "2 N", "R = -1.5 N is outside its range 0.0 .."),
+        ("10 %", "2 mm", "both numbers take the same unit"),
+        ("50 mN", "1 mm", "disturbance: has another dimension; it takes a unit such as N"),
+        ("50 mN", "-1 N", "disturbance = -1 N is outside its range"),
+    ] {
+        let refused = read(&text.replace(from, to)).unwrap_err().to_string();
+        assert!(refused.contains(words), "{to}: {refused}");
+    }
 }
 
 #[test]

@@ -1,0 +1,298 @@
+//! `hopfscope belt`: a machine in physical units.
+
+mod input;
+
+use std::path::Path;
+use std::sync::Arc;
+
+use clap::Args;
+
+use self::input::{
+    Name, Range, Start, Window, assignment, disturbance, margin, range, start, window,
+};
+use super::failure::Failure;
+use super::input::method;
+use super::output::{Format, Output, print};
+use super::start::tolerance;
+use super::timing::timed;
+use crate::flow::Limits;
+use crate::flow::Method;
+use crate::machine::branch::{borders, branch, spaced};
+use crate::machine::design::friction_for;
+use crate::machine::guarantee::guaranteed;
+use crate::machine::survey::{Course, Trouble, portrait, survey};
+use crate::machine::{Portrait, Tolerances};
+use crate::oscillator;
+use crate::report::belt::branch::{Borders, Branched};
+use crate::report::belt::mode::ModeAnswer;
+use crate::report::belt::{self, Answer, Designed, Sweep, SweepPoint};
+use crate::scene::machine::file::parse;
+use crate::scene::machine::library::{TEXTBOOK, find, machines};
+use crate::scene::machine::mode::{self, Mode, is_mode};
+use crate::scene::machine::unit::Toleranced;
+use crate::scene::{Machine, Rig, Scene};
+use crate::study::design::Kick;
+
+/// Says what a mass on a belt does, in physical units
+#[derive(Debug, Args)]
+#[command(long_about = long_about())]
+pub struct Belt {
+    /// File of the machine, or the name of one that comes with the program
+    #[arg(value_name = "FILE", default_value = TEXTBOOK)]
+    machine: String,
+    /// Sets a number of the machine or its friction law, such as "v0=0.2 m/s", or with a tolerance "R=1 N +- 0.2 N";
+    /// repeatable; also the start x, v
+    #[arg(long, value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
+    set: Vec<(Name, Toleranced)>,
+    /// Bound on a force that disturbs the mass in any way, such as "0.1 N": also tells what is survived for certain
+    #[arg(long, value_name = "FORCE", value_parser = disturbance, allow_hyphen_values = true)]
+    disturbance: Option<f64>,
+    /// Start of the motion, such as "x=1 mm,v=0 m/s"
+    #[arg(long, value_name = "x=..,v=..", value_parser = start, allow_hyphen_values = true)]
+    start: Option<Start>,
+    /// Window "XMIN:XMAX,VMIN:VMAX": tells the part of it from which the mass comes to rest
+    #[arg(long, value_name = "WINDOW", value_parser = window, allow_hyphen_values = true)]
+    window: Option<Window>,
+    /// Varies a number, such as "v0=0.1 m/s:0.5 m/s:21": margins and cycles along its way
+    #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = range, allow_hyphen_values = true)]
+    sweep: Option<Range>,
+    /// Follows the cycles along a number and locates every change of them: Hopf, fold, grazing, annihilation ..
+    #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = range, allow_hyphen_values = true,
+          conflicts_with_all = ["sweep", "design"])]
+    branch: Option<Range>,
+    /// With --branch: the changes at each value of another number
+    #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = range, allow_hyphen_values = true,
+          requires = "branch")]
+    against: Option<Range>,
+    /// Asks how much friction R a margin needs: a displacement ("2 mm") or an impulse ("0.1 N s")
+    #[arg(long, value_name = "MARGIN", value_parser = margin, allow_hyphen_values = true)]
+    design: Option<(Kick, f64)>,
+    /// Way of integrating: auto or taylor; each phase is followed by Taylor series
+    #[arg(long, value_name = "NAME", value_parser = method)]
+    method: Option<Method>,
+    /// Size of the last terms of a step, relative to the state, 1e-15 .. 0.01 (default: below rounding)
+    #[arg(long, value_name = "X", value_parser = tolerance, allow_hyphen_values = true,
+          conflicts_with_all = ["sweep", "branch", "design"])]
+    tol: Option<f64>,
+    #[command(flatten)]
+    output: Output,
+}
+
+fn long_about() -> String {
+    let known: Vec<String> = machines()
+        .iter()
+        .map(|machine| format!("  {:9} {}", machine.name, machine.title))
+        .collect();
+    format!(
+        "Says what a mass on a belt does, in physical units: its cycles, slipping and sticking, the border of \
+         what comes to rest and the margins up to it, and by how much the cubic expansion of friction is wrong \
+         about them.\n\nMachines of the program:\n{}",
+        known.join("\n")
+    )
+}
+
+/// The machine of a file, or of the program.
+pub fn machine(name: &str) -> Result<Machine, Failure> {
+    let path = Path::new(name);
+    let text = match std::fs::read_to_string(path) {
+        Ok(text) => text,
+        Err(error) => {
+            return find(name).cloned().ok_or_else(|| {
+                let known: Vec<&str> =
+                    machines().iter().map(|machine| machine.name.as_str()).collect();
+                Failure::Usage(format!(
+                    "{name}: {error}; the machines of the program are {}",
+                    known.join(", ")
+                ))
+            });
+        }
+    };
+    let title = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
+    let fetch = |table: &str| {
+        let beside = path.with_file_name(table);
+        std::fs::read_to_string(&beside).map_err(|error| format!("{}: {error}", beside.display()))
+    };
+    parse(&title, name, &text, fetch).map_err(|error| Failure::Usage(error.to_string()))
+}
+
+/// The mode of a file, if that is what it holds.
+fn mode(name: &str) -> Result<Option<Mode>, Failure> {
+    let path = Path::new(name);
+    let Ok(text) = std::fs::read_to_string(path) else { return Ok(None) };
+    if !is_mode(&text) {
+        return Ok(None);
+    }
+    let title = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
+    mode::parse(&title, name, &text).map(Some).map_err(|error| Failure::Usage(error.to_string()))
+}
+
+/// The machine of a file, or of the program, to be looked at.
+pub fn scene(name: &str) -> Result<Arc<Scene>, Failure> {
+    let rig =
+        Rig::new(machine(name)?).map_err(|error| Failure::Usage(format!("{name}: {error}")))?;
+    Ok(Arc::new(rig.scene()))
+}
+
+impl Belt {
+    /// The machine with what was set on the command line.
+    fn machine(&self) -> Result<Machine, Failure> {
+        let mut machine = machine(&self.machine)?;
+        for &(name, Toleranced { middle, half_width }) in &self.set {
+            match name {
+                Name::Number(varied) => {
+                    varied.set(&mut machine.belt, middle.value).map_err(Failure::Usage)?;
+                    machine.tolerances.half_widths.insert(varied.name().to_owned(), half_width);
+                }
+                Name::Displacement => machine.displacement = middle.value,
+                Name::Velocity => machine.velocity = middle.value,
+            }
+        }
+        let told = &mut machine.tolerances.disturbance;
+        *told = self.disturbance.unwrap_or(*told);
+        machine.tolerances.check(&machine.belt).map_err(Failure::Usage)?;
+        let Start { x, v } = self.start.unwrap_or_default();
+        machine.displacement = x.unwrap_or(machine.displacement);
+        machine.velocity = v.unwrap_or(machine.velocity);
+        Ok(machine)
+    }
+
+    /// Computes and prints.
+    pub fn run(&self) -> Result<(), Failure> {
+        if self.method.is_some_and(|method| !matches!(method, Method::Auto | Method::Taylor)) {
+            eprintln!(
+                "hopfscope: note: a mass on a belt is followed by Taylor series; --method is ignored"
+            );
+        }
+        if let Some(mode) = mode(&self.machine)? {
+            return self.of_mode(mode);
+        }
+        let machine = self.machine()?;
+        if let Some(range) = self.branch {
+            return self.branched(&machine, range);
+        }
+        if let Some(range) = self.sweep {
+            let (swept, seconds) = timed(self.output.repeat, || self.swept(&machine, range));
+            let answer = Sweep { seconds, ..swept? };
+            return print(&match self.output.format {
+                Format::Table => belt::sweep_table(&answer),
+                Format::Json => belt::sweep_json(&answer),
+                Format::Csv => belt::sweep_csv(&answer),
+            });
+        }
+        let start = (machine.displacement, machine.velocity);
+        let (found, seconds) = timed(self.output.repeat, || {
+            let survey = survey(&machine.belt, start, machine.until, self.tol, &Limits::PATIENT)?;
+            let share =
+                self.window.map(|window| survey.course.portrait.rest_share(window.x, window.v));
+            let Machine { belt, tolerances, .. } = &machine;
+            let asked = !tolerances.is_none();
+            let certain = asked.then(|| guaranteed(belt, tolerances)).transpose()?;
+            Ok((survey, share, self.designed(belt, tolerances)?, certain))
+        });
+        let (survey, rest_share, design, certain) = found.map_err(troubled)?;
+        let incomplete = survey.course.portrait.incomplete();
+        let answer =
+            Answer { machine: &machine, survey: &survey, rest_share, design, certain, seconds };
+        print(&match self.output.format {
+            Format::Table => belt::table(&answer),
+            Format::Json => belt::json(&answer),
+            Format::Csv => belt::csv(&answer),
+        })?;
+        incomplete.map_or(Ok(()), |stop| Err(troubled(stop.into())))
+    }
+
+    /// The answer about a vibration mode, which has no belt.
+    fn of_mode(&self, mut mode: Mode) -> Result<(), Failure> {
+        let numbers = !self.set.is_empty() || self.design.is_some() || self.disturbance.is_some();
+        if numbers || self.sweep.is_some() || self.branch.is_some() {
+            let line = "a mode takes --start and --window; --set, --disturbance, --sweep, --branch and --design are \
+                        for belts";
+            return Err(Failure::Usage(line.to_owned()));
+        }
+        let Start { x, v } = self.start.unwrap_or_default();
+        mode.model.tolerance = self.tol.unwrap_or(mode.model.tolerance);
+        mode.start = (x.unwrap_or(mode.start.0), v.unwrap_or(mode.start.1));
+        let (found, seconds) =
+            timed(self.output.repeat, || Course::new(&mode.model, mode.start, mode.until));
+        let course = found.map_err(troubled)?;
+        let share = |window: Window| course.portrait.rest_share(window.x, window.v);
+        let rest_share = self.window.map(share);
+        let incomplete = course.portrait.incomplete();
+        let answer = ModeAnswer { mode: &mode, course: &course, rest_share, seconds };
+        print(&match self.output.format {
+            Format::Table => belt::mode::table(&answer),
+            Format::Json => belt::mode::json(&answer),
+            Format::Csv => belt::mode::csv(&answer),
+        })?;
+        incomplete.map_or(Ok(()), |stop| Err(troubled(stop.into())))
+    }
+
+    /// The branch, or the changes along it at values of another number.
+    fn branched(&self, machine: &Machine, range: Range) -> Result<(), Failure> {
+        let Range { varied, ends, count } = range;
+        if let Some(other) = self.against {
+            let (rows, seconds) = timed(self.output.repeat, || {
+                let against = (other.varied, other.ends, other.count);
+                borders(&machine.belt, (varied, ends, count), against)
+            });
+            let (rows, varied) = (rows.map_err(Failure::Usage)?, (varied, other.varied));
+            let found = Borders { machine, varied, rows, seconds };
+            return print(&match self.output.format {
+                Format::Table => belt::branch::borders_table(&found),
+                Format::Json => belt::branch::borders_json(&found),
+                Format::Csv => belt::branch::borders_csv(&found),
+            });
+        }
+        let (found, seconds) =
+            timed(self.output.repeat, || branch(&machine.belt, varied, ends, count));
+        let found = Branched { machine, varied, branch: found.map_err(Failure::Usage)?, seconds };
+        print(&match self.output.format {
+            Format::Table => belt::branch::table(&found),
+            Format::Json => belt::branch::json(&found),
+            Format::Csv => belt::branch::csv(&found),
+        })
+    }
+
+    /// The friction for the margin, if asked for.
+    fn designed(
+        &self,
+        belt: &oscillator::Belt,
+        known: &Tolerances,
+    ) -> Result<Option<Designed>, Trouble> {
+        let Some((kick, wanted)) = self.design else { return Ok(None) };
+        let needed = friction_for(belt, known, kick, wanted)?;
+        Ok(needed.map(|needed| Designed { kick, wanted, needed }))
+    }
+
+    /// The sweep, with the friction for the margin at each point if asked for.
+    fn swept<'a>(&self, machine: &'a Machine, range: Range) -> Result<Sweep<'a>, Failure> {
+        let Range { varied, ends, count } = range;
+        let point = |index: usize| {
+            let value = spaced(ends, index, count);
+            let mut here = machine.belt.clone();
+            varied.set(&mut here, value).map_err(Failure::Usage)?;
+            let found = portrait(&here).map_err(|trouble| trouble.to_string());
+            let share = |portrait: &Portrait| {
+                self.window.map(|window| portrait.rest_share(window.x, window.v))
+            };
+            let rest_share = found.as_ref().ok().and_then(share);
+            let design = match &found {
+                Ok(_) => self.designed(&here, &machine.tolerances).map_err(troubled)?,
+                Err(_) => None,
+            };
+            Ok(SweepPoint { value, found, rest_share, design })
+        };
+        let points = (0..count).map(point).collect::<Result<_, Failure>>()?;
+        Ok(Sweep { machine, varied, points, seconds: 0.0 })
+    }
+}
+
+/// A machine that has no answer: its own fault is bad input.
+fn troubled(trouble: Trouble) -> Failure {
+    let line = format!("the belt could not be computed: {trouble}");
+    if trouble.is_of_the_machine() {
+        Failure::Usage(trouble.to_string())
+    } else {
+        Failure::Unanswered(line)
+    }
+}

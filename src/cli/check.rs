@@ -1,0 +1,28 @@
+//! `hopfscope check`: whether a certificate of limit cycles holds.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::failure::Failure;
+use super::output::print;
+use crate::check::check;
+use crate::report::certified::certificate_table;
+
+/// Checks a certificate that `cycles --certificate` wrote, step by step
+#[derive(Debug, Args)]
+pub struct Check {
+    /// The certificate
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+}
+
+impl Check {
+    /// Checks and prints what is certain.
+    pub fn run(&self) -> Result<(), Failure> {
+        let text = std::fs::read_to_string(&self.file)
+            .map_err(|error| Failure::file(&self.file, &error))?;
+        let refused = |why| Failure::Unanswered(format!("{}: refused, {why}", self.file.display()));
+        print(&certificate_table(&check(&text).map_err(refused)?))
+    }
+}

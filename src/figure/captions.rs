@@ -1,0 +1,245 @@
+//! Where texts stand beside their points: where they cover nothing, and nobody takes them for the name of
+//! another curve.
+
+use std::fmt::Write;
+
+use super::content::{Caption, Panel};
+use super::ink::{escaped, ink};
+use super::layout::{Frame, PLOT, Spot};
+use crate::scene::Point;
+
+/// Width of a letter and height of a line, in pixels.
+const LETTER: f64 = 5.6;
+const LINE: f64 = 12.0;
+
+/// Room between a text and its point.
+const GAP: f64 = 6.0;
+
+/// Curves are looked at every so many pixels.
+const SPACING: f64 = 3.0;
+
+/// The box of a text, in pixels; y points down.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Place {
+    left: f64,
+    top: f64,
+    width: f64,
+}
+
+impl Place {
+    fn overlaps(&self, other: &Place) -> bool {
+        let beside = self.left > other.left + other.width || other.left > self.left + self.width;
+        !beside && (self.top - other.top).abs() < LINE
+    }
+
+    /// How far a spot is from the box; 0 inside.
+    fn distance(&self, (x, y): Spot) -> f64 {
+        let aside = (self.left - x).max(x - self.left - self.width).max(0.0);
+        aside.hypot((self.top - y).max(y - self.top - LINE).max(0.0))
+    }
+}
+
+/// What a text should keep clear of, on paper.
+struct Surroundings {
+    /// The spots of each curve.
+    curves: Vec<Vec<Spot>>,
+    /// Lines to be read against.
+    guides: Vec<Vec<Spot>>,
+    marks: Vec<Spot>,
+}
+
+impl Surroundings {
+    fn of(panel: &Panel, frame: Frame) -> Self {
+        let spots = |points: &mut dyn Iterator<Item = Point>| -> Vec<Spot> {
+            let inside = |spot: &Spot| {
+                (frame.left..=frame.left + PLOT.0).contains(&spot.0)
+                    && (frame.top..=frame.top + PLOT.1).contains(&spot.1)
+            };
+            let mut spots: Vec<Spot> = Vec::new();
+            let mut last: Option<Spot> = None;
+            for point in points {
+                let here = frame.spot(point);
+                let from = last.replace(here).unwrap_or(here);
+                let length = (here.0 - from.0).hypot(here.1 - from.1);
+                if !length.is_finite() {
+                    last = None;
+                    continue;
+                }
+                // A chord from far outside is looked at in so many places only.
+                let parts = (length / SPACING).ceil().clamp(1.0, 1000.0);
+                let mut part = 0.0;
+                while part < parts {
+                    part += 1.0;
+                    let share = part / parts;
+                    let spot =
+                        (from.0 + share * (here.0 - from.0), from.1 + share * (here.1 - from.1));
+                    let apart = |other: &Spot| (other.0 - spot.0).hypot(other.1 - spot.1);
+                    if inside(&spot) && spots.last().is_none_or(|last| apart(last) >= 0.5 * SPACING)
+                    {
+                        spots.push(spot);
+                    }
+                }
+            }
+            spots
+        };
+        let of_pairs =
+            |points: &Vec<[f64; 2]>| spots(&mut points.iter().map(|[x, y]| Point { x: *x, y: *y }));
+        // Asymptotes and the line of the present value are there to be read against too.
+        let sparse = panel.curves.iter().filter(|curve| curve.style == "sparse");
+        Surroundings {
+            // A bar may run through its own name.
+            curves: panel
+                .curves
+                .iter()
+                .filter(|curve| curve.style != "thick" && curve.style != "sparse")
+                .map(|curve| of_pairs(&curve.points))
+                .collect(),
+            guides: panel
+                .guides
+                .iter()
+                .map(|guide| spots(&mut guide.iter().copied()))
+                .chain(sparse.map(|curve| of_pairs(&curve.points)))
+                .collect(),
+            marks: panel
+                .marks
+                .iter()
+                .map(|mark| frame.spot(Point { x: mark.x, y: mark.y }))
+                .collect(),
+        }
+    }
+
+    /// How bad a place is for a text that belongs to a spot; 0 is perfect.
+    fn harm(&self, place: &Place, spot: Spot, taken: &[Place]) -> f64 {
+        /// Harm of covering another text, a mark, a curve, a line that is there to be read against.
+        const COVERED: [f64; 4] = [1000.0, 12.0, 30.0, 1.0];
+        /// Harm of standing nearer to another curve than to its own, within so many pixels.
+        const MISTAKEN: (f64, f64) = (8.0, 16.0);
+        let nearest = |spots: &[Spot]| {
+            spots.iter().map(|spot| place.distance(*spot)).fold(f64::INFINITY, f64::min)
+        };
+        let count = |of: &[Vec<Spot>]| of.iter().filter(|spots| nearest(spots) < 1.0).count();
+        #[expect(clippy::cast_precision_loss, reason = "a few things")]
+        let weigh = |count: usize, harm: f64| count as f64 * harm;
+        let covered = weigh(taken.iter().filter(|other| place.overlaps(other)).count(), COVERED[0])
+            + weigh(
+                self.marks.iter().filter(|mark| place.distance(**mark) < 3.0).count(),
+                COVERED[1],
+            )
+            + weigh(count(&self.curves), COVERED[2])
+            + weigh(count(&self.guides), COVERED[3]);
+        // Its own curves pass through the spot.
+        let touches = |spots: &&Vec<Spot>| {
+            spots.iter().any(|other| (other.0 - spot.0).hypot(other.1 - spot.1) < 2.0 * SPACING)
+        };
+        let own = place.distance(spot);
+        let others = self.curves.iter().filter(|spots| !touches(spots));
+        let mistaken = others.map(|spots| nearest(spots)).any(|it| it < own.min(MISTAKEN.1));
+        covered + if mistaken { MISTAKEN.0 } else { 0.0 }
+    }
+}
+
+/// The boxes of a text of this width around a spot, the best first: beside it, above and below it, and
+/// further away.
+fn around((x, y): Spot, width: f64) -> impl Iterator<Item = Place> {
+    let rows = [0.0, -1.0, 1.0, -2.0, 2.0, -3.0, 3.0, -4.0, 4.0, -6.0, 6.0, -8.0, 8.0];
+    rows.into_iter().flat_map(move |row: f64| {
+        let top = y + (0.5 * row - 0.5) * LINE * if row.abs() > 4.0 { 2.0 } else { 1.0 };
+        let over = row.abs() > 1.0;
+        let beside = [x + GAP, x - GAP - width];
+        let middle = over.then_some(x - 0.5 * width);
+        beside.into_iter().chain(middle).map(move |left| Place { left, top, width })
+    })
+}
+
+/// A caption with the form of its text that is written, and where.
+type Placed<'a> = (&'a Caption, &'a str, Place);
+
+/// The places of all texts of a panel, those that need none left out. What would cover a curve is written
+/// in its short form, where that covers less.
+fn places<'a>(panel: &'a Panel, frame: Frame) -> Vec<Placed<'a>> {
+    /// Harm from which on the short form is tried: that of a covered curve.
+    const MUCH: f64 = 30.0;
+    let surroundings = Surroundings::of(panel, frame);
+    let mut placed: Vec<Placed<'a>> = Vec::new();
+    let mut taken: Vec<Place> = Vec::new();
+    // What names a point has few places to go to and comes first.
+    let (points, curves): (Vec<_>, Vec<_>) =
+        panel.captions.iter().partition(|caption| caption.or_at.is_empty());
+    for caption in points.into_iter().chain(curves) {
+        let said = |other: &&Placed| (other.0.at, &other.0.text) == (caption.at, &caption.text);
+        if !frame.window.contains(caption.at) || placed.iter().find(said).is_some() {
+            continue;
+        }
+        let find = |text: &'a str| {
+            let (harm, place) = best(caption, text, &surroundings, &taken, frame)?;
+            Some((harm, text, place))
+        };
+        let long = find(&caption.text);
+        let short = long.filter(|(harm, ..)| *harm >= MUCH).and_then(|_| find(&caption.short));
+        let found = [long, short].into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0));
+        if let Some((_, text, place)) = found {
+            taken.push(place);
+            placed.push((caption, text, place));
+        }
+    }
+    placed
+}
+
+/// The best place of a text of a caption and the harm that it does there, if there is one.
+fn best(
+    caption: &Caption,
+    text: &str,
+    surroundings: &Surroundings,
+    taken: &[Place],
+    frame: Frame,
+) -> Option<(f64, Place)> {
+    /// Harm of the next point of a curve, and of the next place around a point.
+    const LESS_GOOD: (f64, f64) = (0.05, 0.1);
+    /// Harm of a pixel further away from a point than needed: what names a curve may be anywhere beside
+    /// it, what names a point stands there.
+    const FAR: (f64, f64) = (0.3, 1.0);
+    let width = LETTER * f64::from(u32::try_from(text.chars().count()).unwrap_or(0));
+    let inside = |place: &Place| {
+        place.left >= frame.left + 2.0
+            && place.left + width <= frame.left + PLOT.0 - 2.0
+            && place.top >= frame.top + 2.0
+            && place.top + LINE <= frame.top + PLOT.1 - 2.0
+    };
+    let far = if caption.or_at.is_empty() { FAR.1 } else { FAR.0 };
+    let mut best: Option<(f64, Place)> = None;
+    let spots = std::iter::once(&caption.at).chain(&caption.or_at);
+    let mut later = 0.0;
+    for spot in spots.map(|at| frame.spot(*at)) {
+        let mut harm = later;
+        for place in around(spot, width) {
+            if inside(&place) && best.is_none_or(|(least, _)| harm < least) {
+                let away = (place.distance(spot) - GAP).max(0.0) * far;
+                let harm = harm + away + surroundings.harm(&place, spot, taken);
+                if best.is_none_or(|(least, _)| harm < least) {
+                    best = Some((harm, place));
+                }
+            }
+            harm += LESS_GOOD.1;
+        }
+        later += LESS_GOOD.0;
+    }
+    best
+}
+
+/// Writes the texts of a panel.
+pub(super) fn write(out: &mut String, panel: &Panel, frame: Frame) {
+    for (Caption { role, .. }, text, Place { left, top, .. }) in places(panel, frame) {
+        let (_, color) = ink(*role);
+        let (text, line) = (escaped(text), top + LINE - 2.5);
+        // First its halo, so that what understands no order of painting shows the letters too.
+        for paint in [
+            "fill=\"none\" stroke=\"#ffffff\" stroke-width=\"2.5\"".to_owned(),
+            format!("fill=\"{color}\""),
+        ] {
+            let _ = writeln!(
+                out,
+                "<text x=\"{left:.2}\" y=\"{line:.2}\" font-size=\"10.5\" {paint}>{text}</text>"
+            );
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! How far the chords of a figure are from the curves that they stand for, and which points nobody sees.
+//!
+//! Between neighbours of a smooth curve the chord misses it by an eighth of the second difference. What
+//! turns by more than [`CORNER`] at a point is a corner that is meant.
+
+use super::content::{Figure, Panel};
+use super::layout::PLOT;
+use crate::scene::Window;
+
+/// What nobody sees, in pixels.
+pub const FAINT: f64 = 0.05;
+
+/// An angle between two chords, in radians, that is no bend of a curve sampled for print.
+const CORNER: f64 = 0.3;
+
+impl Panel {
+    /// The largest distance between a curve and its chords within the window, in pixels; an estimate.
+    #[must_use]
+    pub fn chord(&self) -> f64 {
+        self.lines().map(|line| missed(line, self.window)).fold(0.0, f64::max)
+    }
+
+    /// The lines that were computed.
+    fn lines(&self) -> impl Iterator<Item = &[[f64; 2]]> {
+        let curves = self.curves.iter().map(|curve| curve.points.as_slice());
+        curves.chain(self.areas.iter().map(|area| area.edge.as_slice()))
+    }
+}
+
+impl Figure {
+    /// Leaves out all but one of `times` points where no one looks, so that what was computed for one
+    /// window does not fill a file.
+    #[must_use]
+    pub fn thinned(mut self, times: usize) -> Self {
+        if times > 1 {
+            for panel in &mut self.panels {
+                let window = panel.window;
+                for curve in &mut panel.curves {
+                    curve.points = kept(&curve.points, window, times);
+                }
+                for area in &mut panel.areas {
+                    area.edge = kept(&area.edge, window, times);
+                }
+            }
+        }
+        self
+    }
+}
+
+/// Where a point stands on the paper, in pixels from the lower left corner of its panel.
+fn place([x, y]: [f64; 2], window: Window) -> (f64, f64) {
+    (PLOT.0 * window.x.fraction(x), PLOT.1 * window.y.fraction(y))
+}
+
+/// Whether a box around these points touches the window.
+fn in_sight(points: &[[f64; 2]], window: Window) -> bool {
+    let touches = |axis: usize, (from, to): (f64, f64)| {
+        let values = points.iter().map(|point| point[axis]);
+        let low = values.clone().fold(f64::INFINITY, f64::min);
+        low <= to && values.fold(f64::NEG_INFINITY, f64::max) >= from
+    };
+    touches(0, (window.x.from(), window.x.to())) && touches(1, (window.y.from(), window.y.to()))
+}
+
+fn missed(line: &[[f64; 2]], window: Window) -> f64 {
+    let bend = |three: &[[f64; 2]]| {
+        let [before, here, after] = [0, 1, 2].map(|index| place(three[index], window));
+        let (one, other) =
+            ((here.0 - before.0, here.1 - before.1), (after.0 - here.0, after.1 - here.1));
+        let turn = (one.0 * other.1 - one.1 * other.0).atan2(one.0 * other.0 + one.1 * other.1);
+        // The longer chord, turned by half of the angle at each of its ends.
+        let length = one.0.hypot(one.1).max(other.0.hypot(other.1));
+        if turn.abs() < CORNER { length * turn.abs() / 8.0 } else { 0.0 }
+    };
+    let finite = |three: &&[[f64; 2]]| three.iter().flatten().all(|value| value.is_finite());
+    let seen = line.windows(3).filter(finite).filter(|three| in_sight(three, window));
+    seen.map(bend).fold(0.0, f64::max)
+}
+
+/// The points around the window, and every so many of the others.
+fn kept(line: &[[f64; 2]], window: Window, times: usize) -> Vec<[f64; 2]> {
+    let around = |index: usize| {
+        let near = &line[index.saturating_sub(times)..(index + times + 1).min(line.len())];
+        in_sight(near, window)
+    };
+    let needed = |index: usize, point: &[f64; 2]| {
+        let ends = index == 0 || index + 1 == line.len();
+        ends || index.is_multiple_of(times)
+            || point.iter().any(|value| !value.is_finite())
+            || around(index)
+    };
+    let all = line.iter().enumerate();
+    all.filter(|(index, point)| needed(*index, point)).map(|(_, point)| *point).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Point, Span};
+
+    fn circle(points: u32) -> Vec<[f64; 2]> {
+        let angle = |index: u32| std::f64::consts::TAU * f64::from(index) / f64::from(points);
+        (0..=points).map(angle).map(|angle| [angle.cos(), angle.sin()]).collect()
+    }
+
+    fn window(half: f64) -> Window {
+        let around = |middle: f64| Span::known(middle - half, middle + half);
+        Window { x: around(1.0), y: around(0.0) }
+    }
+
+    #[test]
+    fn the_chords_of_a_circle_miss_it_as_they_should() {
+        for (points, half) in [(200, 1.0), (2000, 0.01)] {
+            // The sagitta is s^2/8 in units of the radius, and at (1, 0) lies along x.
+            let chord = std::f64::consts::TAU / f64::from(points);
+            let sagitta = PLOT.0 * chord * chord / 8.0 / (2.0 * half);
+            let measured = missed(&circle(points), window(half));
+            assert!((0.7..1.5).contains(&(measured / sagitta)), "{measured} for {sagitta}");
+        }
+        let corner = [[0.9, 0.0], [1.0, 0.0], [1.0, 0.1]];
+        assert_eq!(missed(&corner, window(1.0)), 0.0);
+    }
+
+    #[test]
+    fn what_is_out_of_sight_is_thinned_and_what_is_seen_is_not() {
+        let line = circle(2000);
+        let thin = kept(&line, window(0.01), 10);
+        assert!(thin.len() < line.len() / 8, "{}", thin.len());
+        let seen = |line: &[[f64; 2]]| {
+            line.iter().filter(|[x, y]| window(0.01).contains(Point { x: *x, y: *y })).count()
+        };
+        assert!(seen(&line) > 2);
+        assert_eq!(seen(&thin), seen(&line));
+    }
+}

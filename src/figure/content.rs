@@ -1,0 +1,154 @@
+//! A figure as data.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use crate::oscillator::{Parameters, State};
+use crate::picture::items;
+use crate::picture::role::{self, Role};
+use crate::picture::ticks::Scale;
+use crate::scene::{Point, Window};
+
+/// What plots show, as data.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Figure {
+    /// The name of the scene.
+    pub figure: String,
+    /// What the scene is called.
+    pub title: String,
+    /// Name and version of the program.
+    pub program: String,
+    /// What the numbers are measured in.
+    pub units: &'static str,
+    /// Parameters of the present motion; curves have their own.
+    pub parameters: Parameters,
+    /// Where the motion starts.
+    pub initial: State,
+    /// End time of the motion.
+    pub until: f64,
+    /// How motions are integrated.
+    pub method: String,
+    /// Relative error of a step.
+    pub tolerance: f64,
+    /// One for each plot.
+    pub panels: Vec<Panel>,
+}
+
+/// A plot, as data.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Panel {
+    /// What it is called.
+    pub title: String,
+    /// The horizontal axis.
+    pub x: Axis,
+    /// The vertical axis.
+    pub y: Axis,
+    /// Lines, from back to front.
+    pub curves: Vec<Curve>,
+    /// Shaded areas.
+    pub areas: Vec<Area>,
+    /// Points with a meaning.
+    pub marks: Vec<Mark>,
+    /// What stands beside the axes: where they are logarithmic, the quantities themselves.
+    #[serde(skip)]
+    pub names: [String; 2],
+    /// What the numbers along both axes stand for.
+    #[serde(skip)]
+    pub scales: [Scale; 2],
+    /// The part of the world on show.
+    #[serde(skip)]
+    pub window: Window,
+    /// Texts beside points.
+    #[serde(skip)]
+    pub captions: Vec<Caption>,
+    /// Lines to be read against.
+    #[serde(skip)]
+    pub guides: Vec<Vec<Point>>,
+    /// Directions: where, and which way in the world.
+    #[serde(skip)]
+    pub arrows: Vec<(Point, Point)>,
+}
+
+/// A text beside a point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Caption {
+    /// The point.
+    pub at: Point,
+    /// Points beside which it says the same.
+    pub or_at: Vec<Point>,
+    /// What it says.
+    pub text: String,
+    /// What it says where the text would cover a curve.
+    pub short: String,
+    /// What it stands for.
+    pub role: Role,
+}
+
+/// An axis: its name, and the values at its ends.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Axis {
+    /// What stands on it.
+    pub name: String,
+    /// The value at its lower end.
+    pub from: f64,
+    /// The value at its upper end.
+    pub to: f64,
+}
+
+/// A line.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Curve {
+    /// What it is, and which values it has of its own.
+    pub name: String,
+    /// What it stands for.
+    pub role: &'static str,
+    /// How it is drawn: solid, dashed, dotted, sparse or thick.
+    pub style: &'static str,
+    /// The parameters that hold all along it; those on an axis of the panel are left out.
+    pub parameters: BTreeMap<&'static str, f64>,
+    /// Its points; `null` interrupts it.
+    pub points: Vec<[f64; 2]>,
+    /// What it is, whichever variant it belongs to.
+    #[serde(skip)]
+    pub kind: String,
+    /// What it stands for.
+    #[serde(skip)]
+    pub pen: Role,
+}
+
+/// A shaded area.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Area {
+    /// What it is.
+    pub name: String,
+    /// What it stands for.
+    pub role: &'static str,
+    /// The parameters that hold all over it; those on an axis of the panel are left out.
+    pub parameters: BTreeMap<&'static str, f64>,
+    /// Its edge. Where this is not closed, the area is the side of it that holds the origin.
+    pub edge: Vec<[f64; 2]>,
+    /// What it is, whichever variant it belongs to.
+    #[serde(skip)]
+    pub kind: String,
+    /// What it stands for.
+    #[serde(skip)]
+    pub pen: Role,
+}
+
+/// A point with a meaning.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Mark {
+    /// What it says.
+    pub name: items::Text,
+    /// Along the horizontal axis.
+    pub x: f64,
+    /// Along the vertical axis.
+    pub y: f64,
+    /// How it is drawn.
+    #[serde(skip)]
+    pub mark: role::Mark,
+    /// What it stands for.
+    #[serde(skip)]
+    pub pen: Role,
+}

@@ -1,0 +1,77 @@
+//! A figure as data: one JSON document, or one CSV row a point.
+
+use serde::Serialize;
+
+use super::content::{Area, Curve, Figure};
+use crate::report::csv::Sheet;
+use crate::report::json::text;
+
+/// One document; what is not a number is `null`.
+#[must_use]
+pub fn json(figure: &Figure) -> String {
+    text(figure)
+}
+
+/// What it was computed with in lines that begin with `#`, then one row for each point of each curve,
+/// area and mark.
+#[must_use]
+pub fn csv(figure: &Figure) -> String {
+    let mut out = String::new();
+    for remark in remarks(figure) {
+        out += &format!("# {remark}\n");
+    }
+    let mut sheet = Sheet::like(&Row::default(), &[]);
+    for (panel, shown) in (1..).zip(&figure.panels) {
+        let mut add = |row: Row, points: &[[f64; 2]]| {
+            for [x, y] in points {
+                sheet.row(&Row { panel, x: *x, y: *y, ..row });
+            }
+        };
+        for (number, curve) in (1..).zip(&shown.curves) {
+            let Curve { name, role, style, points, .. } = curve;
+            add(Row { kind: "curve", number, name, role, style, ..Row::default() }, points);
+        }
+        for (number, area) in (1..).zip(&shown.areas) {
+            let Area { name, role, edge, .. } = area;
+            add(Row { kind: "area", number, name, role, ..Row::default() }, edge);
+        }
+        for (number, mark) in (1..).zip(&shown.marks) {
+            let (name, role) = (&mark.name, mark.pen.name());
+            add(Row { kind: "mark", number, name, role, ..Row::default() }, &[[mark.x, mark.y]]);
+        }
+    }
+    out + &sheet.into_text()
+}
+
+/// A point of a curve, of the edge of an area, or a mark.
+#[derive(Clone, Copy, Default, Serialize)]
+struct Row<'a> {
+    panel: u32,
+    kind: &'static str,
+    number: u32,
+    name: &'a str,
+    role: &'static str,
+    style: &'static str,
+    x: f64,
+    y: f64,
+}
+
+/// What a figure was computed with, a line each.
+pub(super) fn remarks(figure: &Figure) -> Vec<String> {
+    let p = &figure.parameters;
+    let start = &figure.initial;
+    let mut remarks = vec![
+        format!("{}: {}", figure.figure, figure.title),
+        format!("D = {:?}, D2 = {:?}, D3 = {:?}, r = {:?}", p.d, p.d2, p.d3, p.r),
+        format!("q0 = {:?}, v0 = {:?}, until = {:?}", start.q, start.v, figure.until),
+        format!("method {}, tolerance {:?}, {}", figure.method, figure.tolerance, figure.program),
+        figure.units.to_owned(),
+    ];
+    for (number, panel) in (1..).zip(&figure.panels) {
+        remarks.push(format!(
+            "panel {number}: {}, {} over {}",
+            panel.title, panel.y.name, panel.x.name
+        ));
+    }
+    remarks
+}

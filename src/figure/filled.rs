@@ -1,0 +1,193 @@
+//! What fills a window, as polygons.
+//!
+//! The window is cut into level strips. Along each edge of a strip the places are bisected at which the
+//! filling changes; where all edges have the same fillings in the same order and the places lie on straight
+//! lines, the strip is a row of trapezoids between these places, else it is halved. Trapezoids above each
+//! other become one polygon.
+
+use crate::numerics::root::bisect;
+use crate::picture::items::{Fill, Texture};
+use crate::scene::{Point, Window};
+
+/// Strips that a window is cut into in any case.
+const STRIPS: u32 = 150;
+
+/// Places along an edge that are looked at in any case.
+const PLACES: u32 = 190;
+
+/// How often the way between two places is halved: a border is known to a 1e-7 of the window.
+const BISECTIONS: u32 = 16;
+
+/// How often a strip is halved at most.
+const HALVINGS: u32 = 6;
+
+/// Largest distance between a border and its chord, as a part of the window.
+const CHORD: f64 = 1e-4;
+
+/// How far inside of a strip its edges are looked at, as a part of the window: a border may lie on them.
+const INSIDE: f64 = 1e-9;
+
+/// What fills the window, each part as the corners of a closed polygon.
+pub(super) fn polygons(at: &Texture, window: Window) -> Vec<(Fill, Vec<Point>)> {
+    let mut cutter = Cutter { at, window, open: Vec::new(), done: Vec::new() };
+    for strip in 0..STRIPS {
+        let [low, high] = [strip, strip + 1].map(|edge| f64::from(edge) / f64::from(STRIPS));
+        cutter.strip(low, high, HALVINGS);
+    }
+    cutter.close();
+    cutter.done
+}
+
+/// A part of an edge: where it ends, and what fills it.
+type Run = (f64, Option<Fill>);
+
+/// A polygon that the next strip may go on with.
+struct Open {
+    fill: Option<Fill>,
+    left: Vec<Point>,
+    right: Vec<Point>,
+}
+
+struct Cutter<'a> {
+    at: &'a Texture<'a>,
+    window: Window,
+    open: Vec<Open>,
+    done: Vec<(Fill, Vec<Point>)>,
+}
+
+impl Cutter<'_> {
+    /// Adds the strip between two heights, as parts of the window.
+    fn strip(&mut self, low: f64, high: f64, halvings: u32) {
+        let height = f64::midpoint(low, high);
+        let (lower, upper) = (self.runs(low + INSIDE), self.runs(high - INSIDE));
+        let middle = self.runs(height);
+        if alike(&lower, &middle) && alike(&middle, &upper) && straight(&lower, &middle, &upper) {
+            self.add((low, &lower), (height, &middle));
+            self.add((height, &middle), (high, &upper));
+        } else if halvings > 0 {
+            self.strip(low, height, halvings - 1);
+            self.strip(height, high, halvings - 1);
+        } else {
+            self.add((low, &middle), (high, &middle));
+        }
+    }
+
+    /// What fills the window at a height, from left to right.
+    fn runs(&self, height: f64) -> Vec<Run> {
+        let y = self.window.y.at(height);
+        let fill = |part: f64| (self.at)(Point { x: self.window.x.at(part), y });
+        let mut runs: Vec<Run> = Vec::new();
+        let (mut last, mut filled) = (INSIDE, fill(INSIDE));
+        for place in 1..=PLACES {
+            let part = (f64::from(place) / f64::from(PLACES)).min(1.0 - INSIDE);
+            let here = fill(part);
+            if here != filled {
+                let (before, after) = bisect(last, part, BISECTIONS, |part| fill(part) != filled);
+                runs.push((f64::midpoint(before, after), filled));
+                filled = here;
+            }
+            last = part;
+        }
+        runs.push((1.0, filled));
+        runs
+    }
+
+    /// Adds a row of trapezoids, on top of those below where they fit.
+    fn add(&mut self, lower: (f64, &[Run]), upper: (f64, &[Run])) {
+        let point = |part: f64, height: f64| Point {
+            x: self.window.x.at(part),
+            y: self.window.y.at(height),
+        };
+        let corners = |(height, runs): (f64, &[Run])| -> Vec<Point> {
+            let ends = runs.iter().map(|(end, _)| *end);
+            std::iter::once(0.0).chain(ends).map(|part| point(part, height)).collect()
+        };
+        let (below, above) = (corners(lower), corners(upper));
+        let apart = 0.1 / f64::from(PLACES) * self.window.x.width();
+        let fits = self.open.len() == lower.1.len()
+            && self.open.iter().zip(lower.1).zip(below.windows(2)).all(|((open, run), ends)| {
+                let meets =
+                    |side: &[Point], x: f64| side.last().is_some_and(|at| (at.x - x).abs() < apart);
+                open.fill == run.1 && meets(&open.left, ends[0].x) && meets(&open.right, ends[1].x)
+            });
+        if !fits {
+            self.close();
+            self.open = lower
+                .1
+                .iter()
+                .zip(below.windows(2))
+                .map(|(run, ends)| Open { fill: run.1, left: vec![ends[0]], right: vec![ends[1]] })
+                .collect();
+        }
+        for (open, ends) in self.open.iter_mut().zip(above.windows(2)) {
+            open.left.push(ends[0]);
+            open.right.push(ends[1]);
+        }
+    }
+
+    /// Ends the polygons that are open.
+    fn close(&mut self) {
+        for Open { fill, left, right } in self.open.drain(..) {
+            let Some(fill) = fill else { continue };
+            let mut corners = left;
+            corners.extend(right.into_iter().rev());
+            corners.extend(corners.first().copied());
+            self.done.push((fill, corners));
+        }
+    }
+}
+
+/// Whether two edges have the same fillings in the same order.
+fn alike(lower: &[Run], upper: &[Run]) -> bool {
+    lower.iter().map(|run| run.1).eq(upper.iter().map(|run| run.1))
+}
+
+/// Whether the borders on three edges lie on straight lines, as far as print shows.
+fn straight(lower: &[Run], middle: &[Run], upper: &[Run]) -> bool {
+    let ends = lower.iter().zip(middle).zip(upper).map(|((a, b), c)| (a.0, b.0, c.0));
+    ends.into_iter().all(|(a, b, c)| (b - f64::midpoint(a, c)).abs() <= CHORD)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::picture::items::Pattern;
+    use crate::picture::role::Role;
+    use crate::scene::Span;
+
+    const FILL: Fill = Fill { pattern: Pattern::Shade, role: Role::Stable, name: "inside" };
+
+    /// The area of closed polygons, by the trapezoidal rule.
+    fn area(polygons: &[(Fill, Vec<Point>)]) -> f64 {
+        let of = |corners: &[Point]| -> f64 {
+            corners
+                .windows(2)
+                .map(|pair| 0.5 * (pair[1].y - pair[0].y) * (pair[1].x + pair[0].x))
+                .sum()
+        };
+        polygons.iter().map(|(_, corners)| of(corners).abs()).sum()
+    }
+
+    #[test]
+    fn a_disc_has_its_area_and_a_half_plane_is_one_rectangle() {
+        let span = Span::known(-1.0, 1.0);
+        let window = Window { x: span, y: span };
+        let disc: Texture = Box::new(|at| (at.x.hypot(at.y) < 0.8).then_some(FILL));
+        let found = area(&polygons(&disc, window));
+        assert!((found - std::f64::consts::PI * 0.64).abs() < 2e-4, "{found}");
+        let half: Texture = Box::new(|at| (at.y > 0.0).then_some(FILL));
+        let [(_, corners)] = &polygons(&half, window)[..] else { panic!("one polygon") };
+        assert!((area(&[(FILL, corners.clone())]) - 2.0).abs() < 1e-12);
+        assert_eq!(corners.first(), corners.last());
+    }
+
+    #[test]
+    fn neighbours_share_their_border_and_leave_nothing_between_them() {
+        let other = Fill { name: "outside", ..FILL };
+        let window = Window { x: Span::known(0.0, 0.5), y: Span::known(0.02, 2.0) };
+        let both: Texture =
+            Box::new(|at| Some(if at.x * at.x * at.y < 0.0078 { FILL } else { other }));
+        let found = polygons(&both, window);
+        assert!((area(&found) - 0.5 * 1.98).abs() < 1e-9, "{}", area(&found));
+    }
+}

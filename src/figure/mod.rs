@@ -1,0 +1,106 @@
+//! Figures for papers and for other programs: the pictures of a session as SVG, CSV, JSON and text.
+//!
+//! A [`Figure`] is what the plots of a session show, with every function sampled and every line a list
+//! of points; each form writes the same data, and with it the parameters, method, tolerance and version
+//! that it was computed with. The SVG is written here: the plotting libraries at hand round coordinates
+//! to whole pixels and have no dashed curves, and a picture of lines and letters needs neither. The PNG is
+//! that SVG, painted.
+
+mod captions;
+mod chord;
+mod content;
+mod data;
+mod filled;
+mod fit;
+mod ink;
+mod layout;
+mod panel;
+#[cfg(feature = "png")]
+mod png;
+mod region;
+mod sample;
+mod svg;
+
+pub use chord::FAINT;
+pub use data::{csv, json};
+pub use svg::svg;
+
+pub use content::{Area, Axis, Caption, Curve, Figure, Mark, Panel};
+
+use std::path::Path;
+
+use crate::flow::Problem;
+use crate::picture;
+use crate::session::Session;
+
+/// The form in which a figure is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// A vector picture.
+    Svg,
+    /// The same picture as dots, 288 to the inch.
+    Png,
+    /// One row a point, all digits.
+    Csv,
+    /// One JSON document, all digits.
+    Json,
+}
+
+/// The endings of files, and the forms that they ask for.
+const ENDINGS: [(&str, Form); 4] =
+    [("svg", Form::Svg), ("png", Form::Png), ("csv", Form::Csv), ("json", Form::Json)];
+
+impl Form {
+    /// The form that the ending of a file asks for.
+    ///
+    /// # Errors
+    /// One line with the endings that there are.
+    pub fn of_file(path: &Path) -> Result<Form, String> {
+        let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+        let form = ENDINGS.iter().find(|(known, _)| known.eq_ignore_ascii_case(ending));
+        form.map(|(_, form)| *form)
+            .ok_or_else(|| "a figure ends in .svg, .png, .csv or .json".to_owned())
+    }
+}
+
+/// A figure as the content of a file.
+///
+/// # Errors
+/// One line if the picture cannot be painted; only for [`Form::Png`].
+pub fn file(figure: &Figure, form: Form) -> Result<Vec<u8>, String> {
+    match form {
+        Form::Svg => Ok(svg(figure).into_bytes()),
+        Form::Csv => Ok(csv(figure).into_bytes()),
+        Form::Json => Ok(json(figure).into_bytes()),
+        #[cfg(feature = "png")]
+        Form::Png => png::png(&svg(figure)),
+        #[cfg(not(feature = "png"))]
+        Form::Png => {
+            Err("this program was built without .png; .svg, .csv and .json are there".into())
+        }
+    }
+}
+
+/// What all numbers of a figure are measured in.
+const UNITS: &str =
+    "dimensionless, as in equation (4): time tau in 1/omega_0, q in x0, v in omega_0 x0";
+
+impl Figure {
+    /// What these plots of a session show.
+    #[must_use]
+    pub fn of(session: &Session, plots: impl IntoIterator<Item = usize>) -> Self {
+        let Problem { parameters, initial, until, method, tolerance, .. } = session.problem;
+        Figure {
+            figure: session.scene.name.clone(),
+            title: session.scene.title.clone(),
+            program: format!("hopfscope {}", env!("CARGO_PKG_VERSION")),
+            units: UNITS,
+            parameters,
+            initial,
+            until,
+            method: method.to_string(),
+            tolerance,
+            panels: plots.into_iter().map(|plot| Panel::of(&picture::of(session, plot))).collect(),
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! A picture as data: every function sampled, everything once, and each curve with its parameters.
+
+use std::collections::BTreeMap;
+
+use super::content::{Area, Axis, Caption, Curve, Mark, Panel};
+use super::filled;
+use super::sample;
+use crate::oscillator::{State, Symbol};
+use crate::picture::items::{Item, Line, Marks, Picture, Variant};
+use crate::picture::role::Dash;
+use crate::picture::ticks::Scale;
+use crate::scene::{Point, Span, Window};
+
+/// The parameters that hold all along a curve.
+type Held = BTreeMap<&'static str, f64>;
+
+impl Panel {
+    /// What a picture shows, with every function sampled and everything once.
+    #[must_use]
+    pub fn of(picture: &Picture) -> Self {
+        let Picture { title, x, y, scales, window, .. } = picture;
+        let axis = |name: &str, scale: Scale, span: Span| Axis {
+            name: scale.of_numbers(name),
+            from: span.from(),
+            to: span.to(),
+        };
+        let mut panel = Panel {
+            title: title.to_string(),
+            x: axis(x, scales[0], window.x),
+            y: axis(y, scales[1], window.y),
+            names: [x.to_string(), y.to_string()],
+            scales: *scales,
+            curves: Vec::new(),
+            areas: Vec::new(),
+            marks: Vec::new(),
+            window: *window,
+            captions: Vec::new(),
+            guides: Vec::new(),
+            arrows: Vec::new(),
+        };
+        for item in &picture.items {
+            panel.add(picture, item);
+        }
+        for item in &picture.items {
+            // Along a path other parameters vary than those on the axes, and it lies over the rest.
+            if let Item::Path(line, points) = item {
+                panel.curves.extend(curve(line, points, Held::new()));
+            }
+        }
+        panel
+    }
+
+    fn add(&mut self, picture: &Picture, item: &Item) {
+        let window @ Window { x, y } = self.window;
+        let mut add = |line: &Line, points: &[Point]| {
+            if line.name.is_empty() {
+                // A line without a name is no data.
+                self.guides.push(points.to_vec());
+            } else if let Some(curve) = curve(line, points, held(picture, line.variant.as_ref())) {
+                self.curve(curve);
+            }
+        };
+        match item {
+            Item::Path(..) | Item::Cross(_) => {}
+            Item::Curve(line, points) => add(line, points),
+            Item::Graph(line, value) => add(line, &sample::graph(value, window)),
+            Item::Upright(line, at) => {
+                add(line, &[y.from(), y.to()].map(|y| Point { x: *at, y }));
+            }
+            Item::Bar(line, from, to) => {
+                let curve = curve(line, &[*from, *to], held(picture, line.variant.as_ref()));
+                if let Some(curve) = curve {
+                    self.curve(Curve { style: "thick", ..curve });
+                }
+            }
+            Item::Shade(line, edge) => self.area(picture, line, edge),
+            Item::Columns(line, from, to) => {
+                self.area(picture, line, &rectangle([*from, *to], [y.from(), y.to()]));
+            }
+            Item::Rows(line, from, to) => {
+                self.area(picture, line, &rectangle([x.from(), x.to()], [*from, *to]));
+            }
+            Item::Texture(at) => {
+                for (fill, corners) in filled::polygons(at, self.window) {
+                    self.area(picture, &Line::new(fill.name, fill.role, Dash::Solid), &corners);
+                }
+            }
+            Item::Arrows(_, flow) => {
+                self.arrows.extend(sample::lattice(self.window).map(|at| (at, flow(at))));
+            }
+            Item::Marks(marks) => self.marks(marks),
+            Item::Caption { at, or_at, long, short, role } => self.captions.push(Caption {
+                at: *at,
+                or_at: or_at.clone(),
+                text: long.to_string(),
+                short: short.to_string(),
+                role: *role,
+            }),
+        }
+    }
+
+    /// Adds a curve; of several variants that have it in common it is kept once.
+    fn curve(&mut self, curve: Curve) {
+        let same = |other: &&mut Curve| {
+            (other.pen, other.style, &other.kind) == (curve.pen, curve.style, &curve.kind)
+                && other.points == curve.points
+        };
+        match self.curves.iter_mut().find(same) {
+            Some(known) => {
+                join(&known.kind, &mut known.name, &mut known.parameters, &curve.parameters);
+            }
+            None => self.curves.push(curve),
+        }
+    }
+
+    /// Adds an area in the same way.
+    fn area(&mut self, picture: &Picture, line: &Line, edge: &[Point]) {
+        let area = Area {
+            name: line.full_name().into_owned(),
+            role: line.role.name(),
+            parameters: held(picture, line.variant.as_ref()),
+            edge: pairs(edge),
+            kind: line.name.to_string(),
+            pen: line.role,
+        };
+        let same = |other: &&mut Area| other.kind == area.kind && other.edge == area.edge;
+        match self.areas.iter_mut().find(same) {
+            Some(known) => {
+                join(&known.kind, &mut known.name, &mut known.parameters, &area.parameters);
+            }
+            None => self.areas.push(area),
+        }
+    }
+
+    fn marks(&mut self, marks: &Marks) {
+        for at in &marks.at {
+            let (name, mark, pen) = (marks.name.clone(), marks.mark, marks.role);
+            let mark = Mark { name, x: at.x, y: at.y, mark, pen };
+            if !self.marks.contains(&mark) {
+                self.marks.push(mark);
+            }
+        }
+    }
+}
+
+/// A line as data. One point is no line: a motion at rest has its mark.
+fn curve(line: &Line, points: &[Point], parameters: Held) -> Option<Curve> {
+    let finite = points.iter().filter(|point| point.x.is_finite() && point.y.is_finite());
+    let style = match line.dash {
+        Dash::Solid => "solid",
+        Dash::Dashed => "dashed",
+        Dash::Dotted => "dotted",
+        Dash::Sparse => "sparse",
+    };
+    (finite.count() > 1).then(|| Curve {
+        name: line.full_name().into_owned(),
+        role: line.role.name(),
+        style,
+        parameters,
+        points: pairs(points),
+        kind: line.name.to_string(),
+        pen: line.role,
+    })
+}
+
+/// The parameters of a variant, or of the first where something belongs to all, but for those on the axes.
+fn held(picture: &Picture, variant: Option<&Variant>) -> Held {
+    let index = variant.map_or(0, |variant| variant.index);
+    let Some(parameters) = picture.variants.get(index) else { return Held::new() };
+    let value = |symbol: Symbol| symbol.get(parameters, &State { q: 0.0, v: 0.0 });
+    [Symbol::D, Symbol::D2, Symbol::D3, Symbol::R]
+        .into_iter()
+        .filter(|symbol| !picture.varied.contains(symbol))
+        .map(|symbol| (symbol.spec().name, value(symbol)))
+        .collect()
+}
+
+/// Takes in the same thing of another variant: what is left is what they have in common.
+fn join(kind: &str, name: &mut String, parameters: &mut Held, others: &Held) {
+    kind.clone_into(name);
+    parameters.retain(|symbol, value| others.get(symbol) == Some(value));
+}
+
+fn pairs(points: &[Point]) -> Vec<[f64; 2]> {
+    points.iter().map(|point| [point.x, point.y]).collect()
+}
+
+fn rectangle([left, right]: [f64; 2], [bottom, top]: [f64; 2]) -> Vec<Point> {
+    let corners = [(left, bottom), (right, bottom), (right, top), (left, top), (left, bottom)];
+    corners.map(|(x, y)| Point { x, y }).to_vec()
+}

@@ -1,0 +1,312 @@
+//! A figure as SVG: every line a vector path, every letter text.
+
+use std::fmt::Write;
+
+use super::captions;
+use super::content::{Area, Curve, Figure, Mark, Panel};
+use super::data::remarks;
+use super::ink::{dashes, escaped, ink, shading};
+use super::layout::{self, ENTRY, Frame, HEAD, MARGIN, PLOT};
+use super::region::loops;
+use crate::picture::items::passes;
+use crate::picture::role::{self, Role};
+use crate::picture::ticks::Ticks;
+use crate::scene::Point;
+
+/// The figure as an SVG document.
+#[must_use]
+pub fn svg(figure: &Figure) -> String {
+    let panels = u32::try_from(figure.panels.len()).unwrap_or(u32::MAX).max(1);
+    let (width, height) = layout::panel();
+    let width = width * f64::from(layout::columns(panels));
+    let below = HEAD + height * f64::from(layout::rows(panels));
+    let entries = legend(figure);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few columns")]
+    let across = ((width - 2.0 * MARGIN.1) / ENTRY.0).floor().max(1.0) as usize;
+    let lines = u32::try_from(entries.len().div_ceil(across)).unwrap_or(0);
+    let height = below + f64::from(lines) * ENTRY.1 + 12.0;
+    let mut out = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+         viewBox=\"0 0 {width} {height}\" font-family=\"Helvetica, Arial, sans-serif\" \
+         font-size=\"12\" role=\"img\">\n<title>{}</title>\n<desc>{}</desc>\n\
+         <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n\
+         <text x=\"{}\" y=\"22\" text-anchor=\"middle\" font-size=\"14\">{}</text>\n",
+        escaped(&figure.title),
+        escaped(&remarks(figure).join("\n")),
+        width / 2.0,
+        escaped(&figure.title),
+    );
+    for (number, panel) in (0..).zip(&figure.panels) {
+        draw(&mut out, number, panel, Frame::of(number, panels, panel.window));
+    }
+    for (number, entry) in entries.iter().enumerate() {
+        let place = |count: usize| f64::from(u32::try_from(count).unwrap_or(0));
+        let x = MARGIN.1 + place(number % across) * ENTRY.0;
+        let y = below + place(number / across) * ENTRY.1 + 8.0;
+        sample(&mut out, entry, (x, y));
+    }
+    out + "</svg>\n"
+}
+
+fn draw(out: &mut String, number: u32, panel: &Panel, frame: Frame) {
+    let Frame { left, top, .. } = frame;
+    let (width, height) = PLOT;
+    let clip = format!("panel{number}");
+    let _ = write!(
+        out,
+        "<clipPath id=\"{clip}\"><rect x=\"{left}\" y=\"{top}\" width=\"{width}\" \
+         height=\"{height}\"/></clipPath>\n<g clip-path=\"url(#{clip})\" fill=\"none\" \
+         stroke-linejoin=\"round\">\n"
+    );
+    // Parts of the same area are one path: between two paths a hair of paper would show.
+    for same in panel.areas.chunk_by(|one, other| (&one.name, one.pen) == (&other.name, other.pen))
+    {
+        shade(out, same, frame);
+    }
+    for (at, way) in &panel.arrows {
+        arrow(out, *at, *way, frame);
+    }
+    for guide in &panel.guides {
+        let points = guide.iter().map(|point| [point.x, point.y]).collect::<Vec<_>>();
+        stroke(out, &points, "#b0b0b0", 0.6, "", frame);
+    }
+    for curve in &panel.curves {
+        let (thickness, color) = ink(curve.pen);
+        let thickness = if curve.style == "thick" { 3.0 } else { thickness };
+        stroke(out, &curve.points, color, thickness, dashes(curve.style), frame);
+    }
+    for mark in &panel.marks {
+        dot(out, mark, frame);
+    }
+    out.push_str("</g>\n");
+    axes(out, panel, frame);
+    captions::write(out, panel, frame);
+}
+
+/// A polyline, run by run between points that are not finite.
+fn stroke(
+    out: &mut String,
+    points: &[[f64; 2]],
+    color: &str,
+    thickness: f64,
+    dashes: &str,
+    frame: Frame,
+) {
+    let path = path(points, frame);
+    if !path.is_empty() {
+        let _ = writeln!(
+            out,
+            "<path d=\"{path}\" stroke=\"{color}\" stroke-width=\"{thickness}\"{dashes}/>"
+        );
+    }
+}
+
+/// The commands of a path. What lies far outside of the plot is moved to where its lines still run
+/// where they ran, and left out where they cannot be seen.
+fn path(points: &[[f64; 2]], frame: Frame) -> String {
+    let mut path = String::new();
+    let mut down = false;
+    for (index, [x, y]) in points.iter().enumerate() {
+        let seen = |[x, y]: &[f64; 2]| near(*x, *y, frame);
+        let neighbour = index.checked_sub(1).map(|before| &points[before]);
+        let beside = neighbour.is_some_and(seen) || points.get(index + 1).is_some_and(seen);
+        if !(x.is_finite() && y.is_finite()) || !(near(*x, *y, frame) || beside) {
+            down = false;
+            continue;
+        }
+        let (across, along) = frame.spot(Point { x: *x, y: *y });
+        // Coordinates of paper have six digits; what is far outside keeps its side.
+        let (across, along) = (across.clamp(-1e5, 1e5), along.clamp(-1e5, 1e5));
+        let command = if down { 'L' } else { 'M' };
+        let _ = write!(path, "{command}{across:.3} {along:.3}");
+        down = true;
+    }
+    path
+}
+
+/// Whether a point lies within a few sizes of the plot.
+fn near(x: f64, y: f64, frame: Frame) -> bool {
+    let window = frame.window;
+    (-3.0..=4.0).contains(&window.x.fraction(x)) && (-3.0..=4.0).contains(&window.y.fraction(y))
+}
+
+fn shade(out: &mut String, areas: &[Area], frame: Frame) {
+    let Some(Area { pen, .. }) = areas.first() else { return };
+    let mut path = String::new();
+    for polygon in areas.iter().flat_map(|area| loops(&area.edge, frame.window)) {
+        for (index, [x, y]) in polygon.iter().enumerate() {
+            let (across, along) = frame.spot(Point { x: *x, y: *y });
+            let (across, along) = (across.clamp(-1e5, 1e5), along.clamp(-1e5, 1e5));
+            let _ = write!(path, "{}{across:.3} {along:.3}", if index == 0 { 'M' } else { 'L' });
+        }
+        path.push('Z');
+    }
+    let (color, opacity) = shading(*pen);
+    let _ = writeln!(
+        out,
+        "<path d=\"{path}\" fill=\"{color}\" fill-opacity=\"{opacity}\" fill-rule=\"evenodd\"/>"
+    );
+}
+
+fn arrow(out: &mut String, at: Point, way: Point, frame: Frame) {
+    /// Half the length of an arrow, and the size of its head.
+    const HALF: f64 = 6.0;
+    const TIP: f64 = 3.0;
+    let across = way.x * PLOT.0 / frame.window.x.width();
+    let down = -way.y * PLOT.1 / frame.window.y.width();
+    let length = across.hypot(down);
+    if !(length.is_finite() && length > 0.0) {
+        return;
+    }
+    let (x, y) = frame.spot(at);
+    let (ux, uy) = (across / length, down / length);
+    let (tx, ty) = (x + HALF * ux, y + HALF * uy);
+    let wing = |side: f64| (tx - TIP * (ux + 0.6 * side * uy), ty - TIP * (uy - 0.6 * side * ux));
+    let ((ax, ay), (bx, by)) = (wing(1.0), wing(-1.0));
+    let (fx, fy) = (x - HALF * ux, y - HALF * uy);
+    let _ = writeln!(
+        out,
+        "<path d=\"M{fx:.2} {fy:.2}L{tx:.2} {ty:.2}M{ax:.2} {ay:.2}L{tx:.2} {ty:.2}L{bx:.2} {by:.2}\" \
+         stroke=\"#a8a8a8\" stroke-width=\"0.7\"/>"
+    );
+}
+
+fn dot(out: &mut String, mark: &Mark, frame: Frame) {
+    let (x, y) = frame.spot(Point { x: mark.x, y: mark.y });
+    if !(x.is_finite() && y.is_finite() && near(mark.x, mark.y, frame)) {
+        return;
+    }
+    let (_, color) = ink(mark.pen);
+    let _ = match mark.mark {
+        role::Mark::Rest => writeln!(
+            out,
+            "<rect x=\"{:.3}\" y=\"{:.3}\" width=\"6\" height=\"6\" fill=\"{color}\"/>",
+            x - 3.0,
+            y - 3.0
+        ),
+        role::Mark::Head | role::Mark::Stable => {
+            writeln!(out, "<circle cx=\"{x:.3}\" cy=\"{y:.3}\" r=\"3.2\" fill=\"{color}\"/>")
+        }
+        role::Mark::Start | role::Mark::Turn | role::Mark::Unstable => writeln!(
+            out,
+            "<circle cx=\"{x:.3}\" cy=\"{y:.3}\" r=\"3.2\" fill=\"#ffffff\" stroke=\"{color}\" \
+             stroke-width=\"1.2\"/>"
+        ),
+    };
+}
+
+fn axes(out: &mut String, panel: &Panel, frame: Frame) {
+    let Frame { left, top, window } = frame;
+    let (width, height) = PLOT;
+    let (right, bottom) = (left + width, top + height);
+    let _ = writeln!(
+        out,
+        "<rect x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" fill=\"none\" \
+         stroke=\"#222222\" stroke-width=\"0.9\"/>"
+    );
+    let mut text = |x: f64, y: f64, anchor: &str, more: &str, text: &str| {
+        let text = escaped(text);
+        let _ = writeln!(
+            out,
+            "<text x=\"{x:.2}\" y=\"{y:.2}\" text-anchor=\"{anchor}\"{more}>{text}</text>"
+        );
+    };
+    let rightward = Ticks::on(panel.scales[0], window.x, |ticks| ticks.len() <= 7);
+    let mut upward = Ticks::on(panel.scales[1], window.y, |ticks| ticks.len() <= 7);
+    if panel.y.name.is_empty() {
+        // What has no name is no quantity: a place on paper, the number of a line.
+        upward.ticks.clear();
+    }
+    let based = |name: &str, base: Option<&String>| {
+        base.map_or_else(|| name.to_owned(), |base| format!("{name} - {base}"))
+    };
+    for tick in &rightward.ticks {
+        text(left + tick.fraction * width, bottom + 17.0, "middle", "", &tick.label);
+    }
+    for tick in &upward.ticks {
+        let y = top + (1.0 - tick.fraction) * height + 4.0;
+        text(left - 8.0, y, "end", "", &tick.label);
+    }
+    text(left + width / 2.0, top - 9.0, "middle", " font-size=\"12.5\"", &panel.title);
+    let italic = " font-style=\"italic\"";
+    let name = based(&panel.names[0], rightward.base.as_ref());
+    text(left + width / 2.0, bottom + 35.0, "middle", italic, &name);
+    let (x, y) = (left - 46.0, top + height / 2.0);
+    let turned = format!("{italic} transform=\"rotate(-90 {x:.2} {y:.2})\"");
+    text(x, y, "middle", &turned, &based(&panel.names[1], upward.base.as_ref()));
+    let mut notches = String::new();
+    for tick in &rightward.ticks {
+        let x = left + tick.fraction * width;
+        let _ = write!(notches, "M{x:.2} {bottom}v-5M{x:.2} {top}v5");
+    }
+    for tick in &upward.ticks {
+        let y = top + (1.0 - tick.fraction) * height;
+        let _ = write!(notches, "M{left} {y:.2}h5M{right} {y:.2}h-5");
+    }
+    let _ = writeln!(out, "<path d=\"{notches}\" stroke=\"#222222\" stroke-width=\"0.8\"/>");
+}
+
+/// What the legend explains.
+#[derive(Clone, PartialEq)]
+enum Entry {
+    Line(String, Role, &'static str),
+    Area(String, Role),
+}
+
+/// Everything with a name that is seen, once; which of several variants a curve is stands beside it. An
+/// area whose edge has its name goes without saying.
+fn legend(figure: &Figure) -> Vec<Entry> {
+    let mut entries = Vec::new();
+    let mut add = |entry: Entry| {
+        if !entries.contains(&entry) {
+            entries.push(entry);
+        }
+    };
+    for panel in &figure.panels {
+        for Curve { kind, pen, style, points, .. } in &panel.curves {
+            let points: Vec<Point> = points.iter().map(|[x, y]| Point { x: *x, y: *y }).collect();
+            if passes(&points, panel.window) {
+                add(Entry::Line(kind.clone(), *pen, style));
+            }
+        }
+        panel.areas.iter().for_each(|area| add(Entry::Area(area.kind.clone(), area.pen)));
+    }
+    let lines: Vec<(String, Role)> = entries
+        .iter()
+        .filter_map(|entry| match entry {
+            Entry::Line(name, role, _) => Some((name.clone(), *role)),
+            Entry::Area(..) => None,
+        })
+        .collect();
+    let is_edged =
+        |name: &str, role: Role| lines.iter().any(|line| *line == (name.to_owned(), role));
+    entries.retain(|entry| !matches!(entry, Entry::Area(name, role) if is_edged(name, *role)));
+    entries
+}
+
+fn sample(out: &mut String, entry: &Entry, (x, y): (f64, f64)) {
+    let name = match entry {
+        Entry::Line(name, role, style) => {
+            let (thickness, color) = ink(*role);
+            let thickness = if *style == "thick" { 3.0 } else { thickness };
+            let dashes = dashes(style);
+            let _ = writeln!(
+                out,
+                "<path d=\"M{x:.1} {y:.1}h30\" stroke=\"{color}\" stroke-width=\"{thickness}\"{dashes}/>"
+            );
+            name
+        }
+        Entry::Area(name, role) => {
+            let (color, opacity) = shading(*role);
+            let _ = writeln!(
+                out,
+                "<rect x=\"{x:.1}\" y=\"{:.1}\" width=\"30\" height=\"10\" fill=\"{color}\" \
+                 fill-opacity=\"{opacity}\"/>",
+                y - 5.0
+            );
+            name
+        }
+    };
+    let (x, y, name) = (x + 37.0, y + 4.0, escaped(name));
+    let _ = writeln!(out, "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"11\">{name}</text>");
+}

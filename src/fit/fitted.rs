@@ -1,0 +1,60 @@
+//! A fit with all that is said about it, and what the record itself cannot say: its unit, a mass.
+
+use super::estimate::Estimate;
+use super::margin::Margins;
+use super::record::Record;
+
+/// What the record itself cannot say.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Inertia {
+    /// Mass in kg.
+    Mass(f64),
+    /// Stiffness in N/m.
+    Stiffness(f64),
+}
+
+/// Units of length and how many metres they are.
+pub const LENGTHS: [(&str, f64); 7] = [
+    ("m", 1.0),
+    ("mm", 1e-3),
+    ("um", 1e-6),
+    ("cm", 1e-2),
+    ("nm", 1e-9),
+    ("in", 0.0254),
+    ("km", 1e3),
+];
+
+/// How many metres a unit of length is.
+#[must_use]
+pub fn length_in_metres(unit: &str) -> Option<f64> {
+    let plain = unit.replace(['\u{b5}', '\u{3bc}'], "u");
+    LENGTHS.iter().find(|(name, _)| *name == plain).map(|(_, metres)| *metres)
+}
+
+/// A fit with everything that is said about it.
+#[derive(Clone, Debug)]
+pub struct Fitted {
+    /// The name of the file.
+    pub name: String,
+    /// What was read.
+    pub record: Record,
+    /// What was estimated.
+    pub estimate: Estimate,
+    /// The distribution of the margin.
+    pub margins: Margins,
+    /// For the pictures: where chi-squared has risen by each of [`RISES`](super::contour::RISES) in the plane of D
+    /// and r.
+    pub contours: Vec<Vec<[f64; 2]>>,
+    /// Mass or stiffness, if known, and the unit of the displacements in m.
+    pub inertia: Option<(Inertia, f64)>,
+    /// Wall-clock seconds.
+    pub seconds: f64,
+}
+
+impl Fitted {
+    /// The unit of the displacements as it is written behind numbers.
+    #[must_use]
+    pub fn unit(&self) -> &str {
+        self.record.unit.as_deref().unwrap_or("")
+    }
+}

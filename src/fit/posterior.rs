@@ -1,0 +1,215 @@
+//! Draws of the parameters from what a record says of them.
+//!
+//! Where the loss is quadratic they are normal. Elsewhere draws of all unknowns from the normal distribution are
+//! weighted by the ratio of the likelihood `exp(-delta chi^2/2)` to the density of the draw, and drawn again by
+//! these weights: with friction of less than none ruled out, that is the posterior of an even prior.
+
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use super::estimate::Estimate;
+use super::levenberg_marquardt::Effort;
+use super::observation::{D, D2, D3, R, UNKNOWNS, Unknowns, parameters};
+use super::refit::Refit;
+use crate::flow::{Limits, Reason};
+use crate::oscillator::Parameters;
+
+/// Parameters drawn, all of equal weight.
+pub struct Drawn {
+    /// The parameters.
+    pub draws: Vec<Parameters>,
+    /// Where they were weighted: as many independent draws would tell as much.
+    pub effective: Option<f64>,
+}
+
+/// Weighted draws for each one that is kept.
+const SPARE: usize = 4;
+
+/// With fewer effective draws than this part of those wanted the normal distribution is no guide to the
+/// likelihood, and its own draws stand.
+const FEWEST: f64 = 0.1;
+
+/// Draws from the distribution of an estimate.
+///
+/// # Errors
+/// [`Reason::Interrupted`].
+pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Drawn, Reason> {
+    let places: Vec<usize> =
+        [D, D2, D3, R].into_iter().filter(|&place| estimate.free[place]).collect();
+    if !places.iter().all(|&place| estimate.intervals[place].quadratic) {
+        let normal = Normal::of(estimate, estimate.covariance.columns.clone());
+        let points: Vec<Unknowns> = (0..SPARE * draws).map(|index| normal.point(index)).collect();
+        let weights = weights(estimate, &normal, &points, limits)?;
+        let (sum, squares) = weights
+            .iter()
+            .fold((0.0, 0.0), |(sum, squares), weight| (sum + weight, squares + weight * weight));
+        let effective = sum * sum / squares;
+        #[expect(clippy::cast_precision_loss, reason = "a count of draws")]
+        if effective >= FEWEST * draws as f64 {
+            let draws = resampled(&points, &weights, draws);
+            return Ok(Drawn { draws, effective: Some(effective) });
+        }
+    }
+    let normal = Normal::of(estimate, places);
+    // Negative friction, which the data may allow and the world does not, is none.
+    let draw = |index: usize| {
+        let mut p = normal.point(index);
+        p[R] = p[R].max(0.0);
+        parameters(&p)
+    };
+    Ok(Drawn { draws: (0..draws).map(draw).collect(), effective: None })
+}
+
+/// The ratio of likelihood to density of each point, to a factor.
+fn weights(
+    estimate: &Estimate,
+    normal: &Normal,
+    points: &[Unknowns],
+    limits: &Limits,
+) -> Result<Vec<f64>, Reason> {
+    let refit = Refit::without(estimate, &[]);
+    let effort = || Effort { with_derivatives: 0, plain: 0, interrupted: limits.interrupted };
+    let least = refit.cost(&estimate.p, &mut effort());
+    let (Ok(least), Ok(unit)) = (least, refit.unit(&mut effort())) else {
+        return Err(Reason::Interrupted);
+    };
+    let weight = |p: &Unknowns| {
+        // A motion that escapes is not the one recorded.
+        let cost = refit.cost(p, &mut effort()).unwrap_or(f64::INFINITY);
+        let likelihood = (-0.5 * (cost - least) / unit).exp();
+        let weight = if p[R] >= 0.0 { likelihood / normal.density(p) } else { 0.0 };
+        if weight.is_finite() { weight } else { 0.0 }
+    };
+    let weights: Vec<f64> = points.par_iter().map(weight).collect();
+    if (limits.interrupted)() { Err(Reason::Interrupted) } else { Ok(weights) }
+}
+
+/// Draws by weight, at even steps through their sum.
+fn resampled(points: &[Unknowns], weights: &[f64], draws: usize) -> Vec<Parameters> {
+    let sum: f64 = weights.iter().sum();
+    #[expect(clippy::cast_precision_loss, reason = "a count of draws")]
+    let step = sum / draws as f64;
+    let mut found = Vec::with_capacity(draws);
+    let (mut passed, mut next) = (0.0, 0.5 * step);
+    for (point, weight) in points.iter().zip(weights) {
+        passed += weight;
+        while next < passed && found.len() < draws {
+            found.push(parameters(point));
+            next += step;
+        }
+    }
+    found
+}
+
+/// The normal distribution of the unknowns; with several minima each takes its part.
+struct Normal {
+    columns: Vec<usize>,
+    scale: Vec<f64>,
+    /// Directions, and the deviation along each.
+    directions: DMatrix<f64>,
+    deviations: Vec<f64>,
+    /// Minima with their weights, which sum up to one.
+    centers: Vec<(f64, Unknowns)>,
+}
+
+impl Normal {
+    fn of(estimate: &Estimate, columns: Vec<usize>) -> Self {
+        let scale: Vec<f64> =
+            columns.iter().map(|&place| estimate.covariance.error(place)).collect();
+        let scaled = DMatrix::from_fn(columns.len(), columns.len(), |i, j| {
+            estimate.covariance.of(columns[i], columns[j]) / (scale[i] * scale[j])
+        });
+        let eigen = scaled.symmetric_eigen();
+        let mut centers: Vec<(f64, Unknowns)> =
+            estimate.contenders().map(|it| ((-0.5 * it.delta_chi2).exp(), it.p)).collect();
+        let sum: f64 = centers.iter().map(|(weight, _)| weight).sum();
+        for (weight, _) in &mut centers {
+            *weight /= sum;
+        }
+        let deviations = eigen.eigenvalues.iter().map(|value| value.max(0.0).sqrt()).collect();
+        Normal { columns, scale, directions: eigen.eigenvectors, deviations, centers }
+    }
+
+    /// Draw number `index`.
+    fn point(&self, index: usize) -> Unknowns {
+        let width = self.columns.len();
+        let even = evenly(index, width + 1);
+        let along = |i: usize, _| self.deviations[i] * normal_at(even[i]);
+        let step = &self.directions * DVector::from_fn(width, along);
+        let mut left = even[width];
+        let chosen = self.centers.iter().find(|(weight, _)| {
+            left -= weight;
+            left < 0.0
+        });
+        let mut p = chosen.or(self.centers.last()).map_or([0.0; UNKNOWNS], |(_, p)| *p);
+        for (i, &place) in self.columns.iter().enumerate() {
+            p[place] += self.scale[i] * step[i];
+        }
+        p
+    }
+
+    /// The density at a point, to a factor.
+    fn density(&self, p: &Unknowns) -> f64 {
+        let about = |center: &Unknowns| {
+            let step = DVector::from_fn(self.columns.len(), |i, _| {
+                (p[self.columns[i]] - center[self.columns[i]]) / self.scale[i]
+            });
+            let along = self.directions.tr_mul(&step);
+            let squares = along.iter().zip(&self.deviations).map(|(it, one)| (it / one).powi(2));
+            (-0.5 * squares.sum::<f64>()).exp()
+        };
+        self.centers.iter().map(|(weight, center)| weight * about(center)).sum()
+    }
+}
+
+/// Point `index` of an evenly spread sequence: multiples of powers of the inverse of the root of
+/// `x^(dimensions + 1) = x + 1`, modulo 1 (Roberts, 2018).
+fn evenly(index: usize, dimensions: usize) -> Vec<f64> {
+    /// Each iteration divides the error by the dimensions and more.
+    const ITERATIONS: usize = 60;
+    #[expect(clippy::cast_precision_loss, reason = "counts of draws and dimensions")]
+    let (number, power) = (index as f64 + 1.0, 1.0 / (dimensions as f64 + 1.0));
+    let root = (0..ITERATIONS).fold(1.0_f64, |root, _| (1.0 + root).powf(power));
+    std::iter::successors(Some(1.0 / root), |part| Some(part / root))
+        .take(dimensions)
+        .map(|part| (0.5 + number * part).fract())
+        .collect()
+}
+
+/// The value below which a normal variable lies with this probability, to 4.5e-4 (Abramowitz and Stegun,
+/// 26.2.23).
+fn normal_at(probability: f64) -> f64 {
+    let tail = probability.min(1.0 - probability).max(f64::MIN_POSITIVE);
+    let t = (-2.0 * tail.ln()).sqrt();
+    let above = 2.515_517 + t * (0.802_853 + t * 0.010_328);
+    let below = 1.0 + t * (1.432_788 + t * (0.189_269 + t * 0.001_308));
+    let value = t - above / below;
+    if probability < 0.5 { -value } else { value }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn draws_are_normal_and_independent() {
+        for (count, dimensions) in [(400_u32, 4), (1600, 8)] {
+            let drawn: Vec<Vec<f64>> =
+                (0..count as usize).map(|index| evenly(index, dimensions + 1)).collect();
+            let mean = |value: &dyn Fn(&[f64]) -> f64| {
+                drawn.iter().map(|it| value(it)).sum::<f64>() / f64::from(count)
+            };
+            for i in 0..dimensions {
+                assert!(mean(&|it| normal_at(it[i])).abs() < 0.03);
+                assert!((mean(&|it| normal_at(it[i]).powi(2)) - 1.0).abs() < 0.04);
+                for j in 0..i {
+                    let both = mean(&|it| normal_at(it[i]) * normal_at(it[j]));
+                    assert!(both.abs() < 0.07, "{i} {j}: {both}");
+                }
+            }
+        }
+        for (probability, value) in [(0.5, 0.0), (0.975, 1.959_964), (0.05, -1.644_854)] {
+            assert!((normal_at(probability) - value).abs() < 5e-4);
+        }
+    }
+}

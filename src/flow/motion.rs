@@ -1,0 +1,160 @@
+//! A motion as data: the question, what to keep of the answer, and the answer.
+
+use serde::{Deserialize, Serialize};
+
+use super::limits::Reason;
+use super::method::{EPSILON, Method, STEP};
+use crate::oscillator::{Ledger, Parameters, State};
+
+/// An initial value problem.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Problem {
+    /// Parameters of the oscillator.
+    pub parameters: Parameters,
+    /// Where the motion starts, at `tau = 0`.
+    pub initial: State,
+    /// Time at which to stop.
+    pub until: f64,
+    /// How to integrate.
+    pub method: Method,
+    /// Largest relative error of a step.
+    pub tolerance: f64,
+    /// Length of the step of the methods that keep it fixed.
+    pub step: f64,
+    /// Velocity over which the method `smoothed` smoothes friction.
+    pub epsilon: f64,
+}
+
+impl Default for Problem {
+    /// A motion of the plain oscillator to the end time 60, to ten digits.
+    fn default() -> Self {
+        Problem {
+            parameters: Parameters::default(),
+            initial: State::default(),
+            until: 60.0,
+            method: Method::Auto,
+            tolerance: 1e-10,
+            step: STEP,
+            epsilon: EPSILON,
+        }
+    }
+}
+
+/// What to keep of a motion besides its outcome and its crossings; what is not asked for costs nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Detail {
+    /// Every arrival at `v = 0`. Without friction nothing happens there: if they are not asked for, no
+    /// method looks for them. With friction a motion cannot be followed without them.
+    pub crossings: bool,
+    /// Points for drawing: how many on each integration step (0 for none).
+    pub samples_per_step: usize,
+    /// The energy ledger.
+    pub energy: bool,
+}
+
+impl Default for Detail {
+    /// The crossings only.
+    fn default() -> Self {
+        Detail { crossings: true, samples_per_step: 0, energy: false }
+    }
+}
+
+/// How a motion ended.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case", tag = "kind")]
+pub enum Outcome {
+    /// At rest on the sticking set since `tau`.
+    Captured {
+        /// Time of the arrival.
+        tau: f64,
+        /// Place of rest.
+        q: f64,
+    },
+    /// Still moving at the end time.
+    Moving {
+        /// The end time.
+        tau: f64,
+        /// Displacement then.
+        q: f64,
+        /// Velocity then.
+        v: f64,
+    },
+    /// The velocity runs to infinity in finite time.
+    Escaped {
+        /// Estimated time of the blow-up.
+        tau: f64,
+    },
+    /// No answer.
+    GaveUp {
+        /// How far it came.
+        tau: f64,
+        /// Why.
+        #[serde(serialize_with = "reason_as_text")]
+        reason: Reason,
+    },
+}
+
+fn reason_as_text<S: serde::Serializer>(reason: &Reason, out: S) -> Result<S::Ok, S::Error> {
+    out.collect_str(reason)
+}
+
+/// An arrival at `v = 0`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Crossing {
+    /// Time.
+    pub tau: f64,
+    /// Displacement.
+    pub q: f64,
+}
+
+/// A point of a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Time.
+    pub tau: f64,
+    /// Displacement.
+    pub q: f64,
+    /// Velocity.
+    pub v: f64,
+}
+
+/// What a computation cost, counted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Cost {
+    /// Evaluations of the field; a Taylor series of order N counts as N.
+    pub evaluations: u64,
+    /// Accepted steps.
+    pub steps: u64,
+    /// Rejected steps.
+    pub rejected: u64,
+}
+
+impl std::ops::AddAssign for Cost {
+    fn add_assign(&mut self, other: Self) {
+        self.evaluations += other.evaluations;
+        self.steps += other.steps;
+        self.rejected += other.rejected;
+    }
+}
+
+/// A computed motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trajectory {
+    /// The question.
+    pub problem: Problem,
+    /// The method that answered it: never `Auto`, but the one that took most of its steps.
+    pub method: Method,
+    /// Steps that `Auto` took by the implicit method.
+    pub implicit_steps: u64,
+    /// How the motion ended.
+    pub outcome: Outcome,
+    /// Every arrival at `v = 0` after the start, the last one included.
+    pub crossings: Vec<Crossing>,
+    /// Where the energy went, if asked for.
+    pub ledger: Option<Ledger>,
+    /// Points for drawing, if asked for; the first is the start.
+    pub samples: Vec<Sample>,
+    /// What it cost.
+    pub cost: Cost,
+}

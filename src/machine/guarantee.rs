@@ -1,0 +1,169 @@
+//! Kicks that a machine survives for certain: at all values of its numbers within their tolerances, whatever a
+//! bounded force does.
+//!
+//! In `y dy/dx = h(y) - x - (friction) + u` with lengths for forces, every machine of the tolerances has its own
+//! h and friction. A *worst* machine is one that drives the mass harder at every velocity: `h + e` along the
+//! motion at least as large as that of any other, and friction less by the disturbance. An addition e along the
+//! motion is friction less by e. So where the border of its basin lies below the belts' lines it bounds all
+//! others, by the comparison that proves [`crate::study::guarantee`]. Smaller damping and friction are worst at
+//! every velocity, and need no addition; with these alone the border may touch the belt's line, where the worst
+//! machine is held longest.
+
+use std::fmt;
+
+use super::portrait::{Border, Portrait};
+use super::survey::{Trouble, portrait};
+use super::tolerance::{Corners, MOST, Tolerances, TooMany};
+use crate::oscillator::Belt;
+
+/// Kicks that are survived for certain; infinite where every one is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Kicks {
+    /// Displacement, in m.
+    pub displacement: f64,
+    /// Impulse, in N s.
+    pub impulse: f64,
+}
+
+/// Why no kick is survived for certain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Uncertain {
+    /// The disturbance moves the mass from its rest by itself.
+    Disturbance {
+        /// The disturbance, in N.
+        disturbance: f64,
+        /// The smallest friction, in N.
+        friction: f64,
+    },
+    /// The tolerances leave no friction to count on.
+    Tolerances,
+    /// More numbers are uncertain than are looked at together.
+    TooMany,
+    /// No border below the belts' lines bounds all machines.
+    Unbounded,
+    /// The border leaves the friction law of one of the machines.
+    OutsideLaw,
+}
+
+impl fmt::Display for Uncertain {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Uncertain::Disturbance { disturbance, friction } => write!(
+                out,
+                "the disturbance of {disturbance} N is not below the smallest friction R = {friction} N"
+            ),
+            Uncertain::Tolerances => {
+                write!(out, "the tolerances change the forces by more than the friction holds")
+            }
+            Uncertain::TooMany => write!(
+                out,
+                "tolerances of more than {MOST} numbers beside R, R_static, d1 and d3 are not looked at together"
+            ),
+            Uncertain::Unbounded => write!(
+                out,
+                "no motion slower than the belt bounds the basins of all machines within the tolerances"
+            ),
+            Uncertain::OutsideLaw => {
+                write!(out, "within the tolerances the border leaves the friction law")
+            }
+        }
+    }
+}
+
+/// The kicks that a machine survives for certain, or why none is.
+///
+/// # Errors
+/// [`Trouble`] where a machine within the tolerances has no model, or one that bounds them has no portrait.
+pub fn guaranteed(belt: &Belt, known: &Tolerances) -> Result<Result<Kicks, Uncertain>, Trouble> {
+    let corners = match Corners::new(belt, known)? {
+        Ok(corners) => corners,
+        Err(TooMany) => return Ok(Err(Uncertain::TooMany)),
+    };
+    let least = corners.friction;
+    if least < 0.0 || known.disturbance > 0.0 && least == 0.0 {
+        let friction = corners.belts[0].friction;
+        return Ok(Err(Uncertain::Disturbance { disturbance: known.disturbance, friction }));
+    }
+    if corners.numbers == 0 {
+        return Ok(Ok(corners.kicks(&portrait(&corners.worst(0, 0.0))?)));
+    }
+    corners.bounded(belt)
+}
+
+/// A portrait whose basin of rest is bordered by a cycle of slip.
+struct Bordered {
+    portrait: Portrait,
+    /// The velocities along the border, divided by the natural frequency.
+    velocities: (f64, f64),
+}
+
+/// The velocities along the border of the basin, if it is a cycle of slip; divided by the natural frequency.
+fn slip_border(portrait: &Portrait) -> Option<(f64, f64)> {
+    let Border::Cycle(index, _) = &portrait.border else { return None };
+    let cycle = &portrait.cycles[*index];
+    let omega_0 = portrait.model.omega_0;
+    (!cycle.sticks && !cycle.overtakes).then_some((cycle.v.0 / omega_0, cycle.v.1 / omega_0))
+}
+
+impl Corners {
+    fn kicks(&self, portrait: &Portrait) -> Kicks {
+        let infinite = Kicks { displacement: f64::INFINITY, impulse: f64::INFINITY };
+        portrait.margin.map_or(infinite, |margin| Kicks {
+            displacement: margin.least_displacement(),
+            impulse: margin.least_velocity() / portrait.model.omega_0 * self.lightest(),
+        })
+    }
+
+    /// The kicks within a border that holds for all machines at its own velocities.
+    fn bounded(&self, belt: &Belt) -> Result<Result<Kicks, Uncertain>, Trouble> {
+        /// Ranges of velocities that are tried, each larger than the border of the one before.
+        const ROUNDS: usize = 8;
+        const ROOM: f64 = 1.2;
+        let slowest = self.slowest();
+        let middle = slip_border(&portrait(belt)?).unwrap_or((-slowest, slowest));
+        let mut range = (ROOM * middle.0, (ROOM * middle.1).min(slowest));
+        for _ in 0..ROUNDS {
+            if self.models.iter().any(|model| model.least_velocity() > range.0) {
+                return Ok(Err(Uncertain::OutsideLaw));
+            }
+            let (corner, less) = self.bound(range.0, range.1);
+            if less * self.stiffest >= self.friction {
+                return Ok(Err(Uncertain::Tolerances));
+            }
+            let Some(found) = self.below_the_line(corner, less)? else {
+                return Ok(Err(Uncertain::Unbounded));
+            };
+            let (low, high) = found.velocities;
+            if low >= range.0 && high <= range.1 {
+                return Ok(Ok(self.kicks(&found.portrait)));
+            }
+            range = (range.0.min(ROOM * low), range.1.max(ROOM * high).min(slowest));
+        }
+        Ok(Err(Uncertain::Unbounded))
+    }
+
+    /// The portrait of a worst machine whose border stays below the line of every belt, with as much friction
+    /// as that allows, and the velocities along the border.
+    fn below_the_line(&self, corner: usize, less: f64) -> Result<Option<Bordered>, Trouble> {
+        const HALVINGS: usize = 24;
+        let slowest = self.slowest();
+        let at = |less: f64| -> Result<Option<Bordered>, Trouble> {
+            let portrait = portrait(&self.worst(corner, less))?;
+            let border = slip_border(&portrait).filter(|(_, high)| *high < slowest);
+            Ok(border.map(|velocities| Bordered { portrait, velocities }))
+        };
+        if let Some(found) = at(less)? {
+            return Ok(Some(found));
+        }
+        let (mut beyond, mut within) = (less, self.friction / self.stiffest);
+        let mut best = None;
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (beyond + within);
+            match at(middle)? {
+                Some(found) => (within, best) = (middle, Some(found)),
+                None => beyond = middle,
+            }
+        }
+        Ok(best)
+    }
+}

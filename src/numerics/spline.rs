@@ -1,0 +1,362 @@
+//! The smoothest curve near measured points: a smoothing spline of degree five.
+//!
+//! A table of `mu(v)` has no derivatives; the oscillator needs three. They come from an assumption, which
+//! is said here: of all curves that miss the points by `scatter` in the quadratic mean, take the one
+//! with the least integral of `mu'''^2`. It is a polynomial of degree five between neighbouring points,
+//! continuous with four derivatives, and with `mu''' = 0` at the first and the last point. With a
+//! scatter of 0 it passes through every point, and then every error of a point is an error of the law,
+//! amplified in the third derivative by the cube of the inverse spacing.
+//!
+//! Method (as in Reinsch's for degree three): `mu'''` is a sum of the quadratic B-splines `M_i` over four
+//! neighbouring points, each of integral 1, and `6 [x_i .. x_i+3] mu = integral of M_i mu'''` ties its
+//! coefficients `c` to the values `g` at the points: `G c = 6 Q g` with the Gram matrix `G` and the third
+//! divided differences `Q`. The least `|y - g|^2 + lambda c G c` has `g = y - 6 lambda Q' c` and
+//! `(G + 36 lambda Q Q') c = 6 Q y`, a system of seven diagonals.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use super::polynomial::Derivatives;
+use super::quadrature::gauss;
+use super::root::bisect;
+
+/// Fewest points that have a third derivative.
+pub const FEWEST: usize = 4;
+
+/// What a curve is laid near.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct Points {
+    points: Vec<(f64, f64)>,
+    scatter: f64,
+}
+
+/// A curve near points.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Points", into = "Points")]
+pub struct SmoothingSpline {
+    /// What it is laid near, to be written down.
+    given: Points,
+    /// Abscissae, increasing.
+    x: Vec<f64>,
+    /// Values of the curve there.
+    g: Vec<f64>,
+    /// Its first and second derivatives at the left end of each interval.
+    slopes: Vec<(f64, f64)>,
+    /// Its third derivative on each interval, as a quadratic in the distance from the left end.
+    third: Vec<[f64; 3]>,
+    /// Quadratic mean of the distances from the points.
+    missed: f64,
+}
+
+/// Points through which no curve can be laid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PointsError {
+    /// Too few of them.
+    TooFew {
+        /// How many.
+        count: usize,
+    },
+    /// A number that is none, or a velocity that does not exceed the one before; `index` from 0.
+    Point {
+        /// Which point.
+        index: usize,
+    },
+}
+
+impl fmt::Display for PointsError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            PointsError::TooFew { count } => {
+                write!(out, "{count} points; a table needs {FEWEST} or more")
+            }
+            PointsError::Point { index } => {
+                write!(out, "point {}: numbers must be finite, velocities must increase", index + 1)
+            }
+        }
+    }
+}
+
+impl std::error::Error for PointsError {}
+
+impl TryFrom<Points> for SmoothingSpline {
+    type Error = PointsError;
+
+    fn try_from(given: Points) -> Result<Self, PointsError> {
+        SmoothingSpline::new(&given.points, given.scatter)
+    }
+}
+
+impl From<SmoothingSpline> for Points {
+    fn from(spline: SmoothingSpline) -> Self {
+        spline.given
+    }
+}
+
+impl SmoothingSpline {
+    /// The smoothest curve that misses `points` by `scatter` (at most) in the quadratic mean.
+    ///
+    /// # Errors
+    /// [`PointsError`] for fewer than four points, numbers that are none, or abscissae that do not increase.
+    pub fn new(points: &[(f64, f64)], scatter: f64) -> Result<Self, PointsError> {
+        if points.len() < FEWEST {
+            return Err(PointsError::TooFew { count: points.len() });
+        }
+        let wrong = |index: usize| {
+            let (x, y) = points[index];
+            !(x.is_finite() && y.is_finite()) || (index > 0 && x <= points[index - 1].0)
+        };
+        if let Some(index) = (0..points.len()).find(|&index| wrong(index)) {
+            return Err(PointsError::Point { index });
+        }
+        let (x, y): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();
+        let system = System::new(&x, &y);
+        let smoothing = system.smoothing(scatter);
+        let (c, g) = system.solve(smoothing);
+        let missed = quadratic_mean(&y, &g);
+        let third = third_derivatives(&x, &c);
+        let slopes = slopes(&x, &g, &third);
+        let given = Points { points: points.to_vec(), scatter };
+        Ok(SmoothingSpline { given, x, g, slopes, third, missed })
+    }
+
+    /// First and last abscissa.
+    #[must_use]
+    pub fn range(&self) -> (f64, f64) {
+        (self.x[0], self.x[self.x.len() - 1])
+    }
+
+    /// How many points it has.
+    #[must_use]
+    pub fn points(&self) -> usize {
+        self.x.len()
+    }
+
+    /// By how much it misses the points, in the quadratic mean.
+    #[must_use]
+    pub fn missed(&self) -> f64 {
+        self.missed
+    }
+
+    /// Its pieces in their order: from where to where, and the coefficients of powers of the distance from the
+    /// left end.
+    pub fn polynomials(&self) -> impl Iterator<Item = (f64, f64, [f64; 6])> + '_ {
+        let ends = self.x.windows(2).zip(&self.g).zip(self.slopes.iter().zip(&self.third));
+        ends.map(|((ends, value), ((first, second), [a, b, c]))| {
+            let terms = [*value, *first, second / 2.0, a / 6.0, b / 24.0, c / 60.0];
+            (ends[0], ends[1], terms)
+        })
+    }
+
+    /// The curve and its derivatives at `x`; beyond the ends its last pieces go on.
+    #[must_use]
+    pub fn at(&self, x: f64) -> Derivatives {
+        let after = self.x.partition_point(|&knot| knot <= x);
+        let piece = after.clamp(1, self.x.len() - 1) - 1;
+        let t = x - self.x[piece];
+        let [a, b, c] = self.third[piece];
+        let (first, second) = self.slopes[piece];
+        Derivatives {
+            value: self.g[piece] + t * (first + t * second / 2.0) + thrice(self.third[piece], t),
+            first: first + t * (second + t * (a / 2.0 + t * (b / 6.0 + t * c / 12.0))),
+            second: second + t * (a + t * (b / 2.0 + t * c / 3.0)),
+            third: a + t * (b + t * c),
+        }
+    }
+}
+
+/// A quadratic, integrated three times from 0 to `t`.
+fn thrice([a, b, c]: [f64; 3], t: f64) -> f64 {
+    t.powi(3) * (a / 6.0 + t * (b / 24.0 + t * c / 60.0))
+}
+
+fn quadratic_mean(one: &[f64], other: &[f64]) -> f64 {
+    let squares: f64 = one.iter().zip(other).map(|(one, other)| (one - other).powi(2)).sum();
+    #[expect(clippy::cast_precision_loss, reason = "a number of points")]
+    let count = one.len() as f64;
+    (squares / count).sqrt()
+}
+
+/// Seven diagonals of a symmetric matrix: `row[k]` is the element `k` columns to the right.
+type Band = Vec<[f64; 4]>;
+
+/// What the points make of the problem.
+struct System<'a> {
+    y: &'a [f64],
+    /// Third divided differences: row i acts on the points i to i + 3.
+    q: Vec<[f64; 4]>,
+    gram: Band,
+    penalty: Band,
+}
+
+impl<'a> System<'a> {
+    fn new(x: &[f64], y: &'a [f64]) -> Self {
+        let rows = x.len() - 3;
+        let q: Vec<[f64; 4]> = (0..rows).map(|row| divided_difference(&x[row..row + 4])).collect();
+        let mut gram = vec![[0.0; 4]; rows];
+        let mut penalty = gram.clone();
+        for row in 0..rows {
+            for right in 0..4.min(rows - row) {
+                gram[row][right] = overlap(x, row, row + right);
+                let shared = q[row][right..].iter().zip(&q[row + right]);
+                penalty[row][right] = 36.0 * shared.map(|(one, other)| one * other).sum::<f64>();
+            }
+        }
+        System { y, q, gram, penalty }
+    }
+
+    /// Coefficients of the third derivative and values at the points.
+    fn solve(&self, smoothing: f64) -> (Vec<f64>, Vec<f64>) {
+        let matrix = self.gram.iter().zip(&self.penalty).map(|(gram, penalty)| {
+            std::array::from_fn(|right| gram[right] + smoothing * penalty[right])
+        });
+        let differences = self.q.iter().zip(self.y.windows(4));
+        let right_side = differences
+            .map(|(q, y)| 6.0 * q.iter().zip(y).map(|(q, y)| q * y).sum::<f64>())
+            .collect();
+        let c = solve(matrix.collect(), right_side);
+        let mut g = self.y.to_vec();
+        for (row, (c, q)) in c.iter().zip(&self.q).enumerate() {
+            for (column, q) in q.iter().enumerate() {
+                g[row + column] -= 6.0 * smoothing * c * q;
+            }
+        }
+        (c, g)
+    }
+
+    /// The smoothing at which the curve misses the points by `scatter`.
+    fn smoothing(&self, scatter: f64) -> f64 {
+        /// Range of the logarithm in which it is sought, around that where both matrices weigh the same.
+        const REACH: f64 = 50.0;
+        /// Halvings: to rounding.
+        const HALVINGS: u32 = 60;
+        if scatter <= 0.0 {
+            return 0.0;
+        }
+        let weight = |band: &Band| band.iter().map(|row| row[0]).sum::<f64>();
+        let middle = (weight(&self.gram) / weight(&self.penalty)).ln();
+        let missed = |log: f64| quadratic_mean(self.y, &self.solve(log.exp()).1);
+        let (low, high) = (middle - REACH, middle + REACH);
+        if missed(high) <= scatter {
+            return high.exp();
+        }
+        bisect(low, high, HALVINGS, |log| missed(log) >= scatter).0.exp()
+    }
+}
+
+/// Weights of the divided difference over these points.
+fn divided_difference(x: &[f64]) -> [f64; 4] {
+    std::array::from_fn(|own| {
+        let others = x.iter().enumerate().filter(|(other, _)| *other != own);
+        1.0 / others.map(|(_, other)| x[own] - other).product::<f64>()
+    })
+}
+
+/// The B-spline of integral 1 over `x[0..4]` at `at`: `3 [x0 .. x3] max(x - at, 0)^2`.
+fn bump(x: &[f64], at: f64) -> f64 {
+    // By the recurrence of Cox and de Boor, whose terms are all positive.
+    let hat = |i: usize| {
+        let (a, b, c) = (x[i], x[i + 1], x[i + 2]);
+        if at < a || at > c {
+            0.0
+        } else if at < b {
+            (at - a) / (b - a)
+        } else {
+            (c - at) / (c - b)
+        }
+    };
+    let smooth = (at - x[0]) / (x[2] - x[0]) * hat(0) + (x[3] - at) / (x[3] - x[1]) * hat(1);
+    3.0 * smooth / (x[3] - x[0])
+}
+
+/// Integral of the product of two B-splines, by a rule that is exact for polynomials.
+fn overlap(x: &[f64], one: usize, other: usize) -> f64 {
+    let integral = |interval: usize| {
+        let (left, length) = (x[interval], x[interval + 1] - x[interval]);
+        let product = |at: f64| bump(&x[one..one + 4], at) * bump(&x[other..other + 4], at);
+        length * gauss(|part| product(left + part * length))
+    };
+    (other..one + 3).map(integral).sum()
+}
+
+/// Solves a positive definite system of seven diagonals by `L D L'`.
+fn solve(mut band: Band, mut b: Vec<f64>) -> Vec<f64> {
+    let rows = band.len();
+    for row in 0..rows {
+        let pivot = band[row];
+        for below in 1..4.min(rows - row) {
+            let factor = pivot[below] / pivot[0];
+            for right in below..4 {
+                band[row + below][right - below] -= factor * pivot[right];
+            }
+            b[row + below] -= factor * b[row];
+        }
+    }
+    for row in (0..rows).rev() {
+        let known: f64 =
+            (1..4.min(rows - row)).map(|right| band[row][right] * b[row + right]).sum();
+        b[row] = (b[row] - known) / band[row][0];
+    }
+    b
+}
+
+/// The third derivative on each interval, from its B-spline coefficients.
+fn third_derivatives(x: &[f64], c: &[f64]) -> Vec<[f64; 3]> {
+    let third = |interval: usize, at: f64| -> f64 {
+        let first = interval.saturating_sub(2);
+        let last = interval.min(c.len() - 1);
+        (first..=last).map(|i| c[i] * bump(&x[i..i + 4], at)).sum()
+    };
+    let pieces = x.windows(2).enumerate();
+    pieces
+        .map(|(interval, ends)| {
+            let (left, h) = (ends[0], ends[1] - ends[0]);
+            // The quadratic through three points of the interval.
+            let [a, m, b] = [0.0, 0.5, 1.0].map(|part| third(interval, left + part * h));
+            [a, (4.0 * m - 3.0 * a - b) / h, 2.0 * (a - 2.0 * m + b) / (h * h)]
+        })
+        .collect()
+}
+
+/// First and second derivatives at the left end of each interval: those with which the curve meets the
+/// values at both ends and at the neighbouring point.
+fn slopes(x: &[f64], g: &[f64], third: &[[f64; 3]]) -> Vec<(f64, f64)> {
+    (0..third.len())
+        .map(|interval| {
+            let (left, right) = (x[interval], x[interval + 1]);
+            // A point on the other side, seen from the left end; its value without the third derivative.
+            let (far, rise) = if interval > 0 {
+                let far = x[interval - 1] - left;
+                (far, g[interval - 1] - g[interval] - back(third[interval - 1], -far))
+            } else {
+                let far = x[2] - left;
+                (far, g[2] - g[0] - ahead(third[0], third[1], right - left, far))
+            };
+            let near = right - left;
+            let reach = g[interval + 1] - g[interval] - thrice(third[interval], near);
+            let second = 2.0 * (reach / near - rise / far) / (near - far);
+            (reach / near - second * near / 2.0, second)
+        })
+        .collect()
+}
+
+/// What a third derivative on the interval of length `h` to the left adds to the value at its far end,
+/// seen from its right end.
+fn back([a, b, c]: [f64; 3], h: f64) -> f64 {
+    // The same quadratic in the distance from the right end, mirrored.
+    let mirrored = [a + h * (b + h * c), -(b + 2.0 * h * c), c];
+    -thrice(mirrored, h)
+}
+
+/// What the third derivatives on two neighbouring intervals add to the value at the end of the second,
+/// `far` from the left end of the first, whose length is `h`.
+fn ahead(first: [f64; 3], second: [f64; 3], h: f64, far: f64) -> f64 {
+    let [a, b, c] = first;
+    let slope = h * h * (a / 2.0 + h * (b / 6.0 + h * c / 12.0));
+    let bend = h * (a + h * (b / 2.0 + h * c / 3.0));
+    let rest = far - h;
+    thrice(first, h) + rest * (slope + rest * bend / 2.0) + thrice(second, rest)
+}
+
+#[cfg(test)]
+mod tests;

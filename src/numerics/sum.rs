@@ -1,0 +1,51 @@
+//! A sum that remembers what rounding takes from it.
+
+/// A compensated sum (Neumaier's): terms below its last digit are not lost, however many they are.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Sum {
+    sum: f64,
+    lost: f64,
+}
+
+impl Sum {
+    /// The sum, rounded.
+    #[must_use]
+    pub fn value(self) -> f64 {
+        self.plus(0.0)
+    }
+
+    /// The sum with one more term, rounded.
+    #[must_use]
+    pub fn plus(self, term: f64) -> f64 {
+        self.sum + (self.lost + term)
+    }
+
+    /// `end` less the sum.
+    #[must_use]
+    pub fn until(self, end: f64) -> f64 {
+        (end - self.sum) - self.lost
+    }
+
+    /// Adds a term that is not negative.
+    pub fn add(&mut self, term: f64) {
+        let sum = self.sum + term;
+        self.lost +=
+            if self.sum >= term { (self.sum - sum) + term } else { (term - sum) + self.sum };
+        self.sum = sum;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_million_small_steps_are_not_lost() {
+        let mut sum = Sum::default();
+        sum.add(1.0);
+        for _ in 0..1_000_000 {
+            sum.add(1e-17);
+        }
+        assert_eq!(sum.value(), 1.0 + 1e-11);
+    }
+}

@@ -1,0 +1,185 @@
+//! The mass on its belt (Fig. 1), where the motion has it at the moment that is played.
+//!
+//! Along the horizontal axis everything is in the units of the motion: the mass stands at its displacement
+//! from the static one, the marks of the belt move with its speed. Heights mean nothing.
+
+use super::items::{Line, Picture};
+use super::role::{Dash, Role};
+use crate::flow::Sample;
+use crate::scene::{Layer, Point, Span, View};
+use crate::session::{self, Session};
+use crate::words::number::significant;
+use crate::words::quantity::with_unit;
+
+/// Heights of the surfaces of the belt, from below.
+const BELT: (f64, f64) = (0.12, 0.26);
+
+/// Heights of the mass, which lies on the belt.
+const MASS: (f64, f64) = (BELT.1, 0.88);
+
+/// Height of the axis of the spring.
+const SPRING: f64 = 0.74;
+
+/// Height of the axis of the damper.
+const DAMPER: f64 = 0.48;
+
+/// Height at which it is shown where the mass may rest.
+const REST: f64 = 0.03;
+
+/// Half the height of spring and damper.
+const HALF: f64 = 0.06;
+
+/// Windings of the spring.
+const WINDINGS: u32 = 9;
+
+/// Width of the mass, as a part of the window.
+const WIDTH: f64 = 0.14;
+
+/// Ends of the cylinder of the damper, and its piston at rest, as parts of the way from the wall to the
+/// mass at rest.
+const CYLINDER: (f64, f64) = (0.15, 0.75);
+const PISTON: f64 = 0.45;
+
+/// Marks on each surface of the belt.
+const MARKS: u16 = 8;
+
+/// Gap between the marks of the belt, as a part of the window.
+const GAP: f64 = 1.0 / 8.0;
+
+/// Length of the arrow of the belt's friction at rest, as a part of the window.
+const ARROW: f64 = 0.16;
+
+/// What the plot with this index shows.
+#[must_use]
+pub fn picture(session: &Session, index: usize) -> Picture<'_> {
+    let session::Plot { window, cursor, .. } = session.plots[index];
+    let mut picture = Picture::new(View::Belt.spec().title, "q", "", window);
+    let moment = moment(session);
+    // A cursor reads a place; what moves stands for itself then.
+    let pointed = cursor.map(|Point { x: q, .. }| Sample { tau: 0.0, q, v: 0.0 });
+    picture.reading = pointed.or(moment).map(|moment| reading(session, &moment));
+    if session.layers.contains(&Layer::Mass)
+        && let Some(moment) = moment
+    {
+        machine(&mut picture, session, window.x, &moment);
+    }
+    picture.cross(cursor);
+    picture
+}
+
+/// Where the motion is now; before it is played, at its start.
+fn moment(session: &Session) -> Option<Sample> {
+    session.head().or_else(|| session.trajectory()?.at(0.0))
+}
+
+/// The moment in numbers, physical ones where the scene is of a machine.
+fn reading(session: &Session, moment: &Sample) -> String {
+    let Sample { tau, q, v } = *moment;
+    let Some(running) = session.running() else {
+        let three = |value| significant(value, 3);
+        return format!("tau {}  q {}  v {}", three(tau), three(q), three(v));
+    };
+    let units = &running.reduced.units;
+    format!(
+        "t {}  x {}  v {}",
+        with_unit(tau * units.time, 3, "s"),
+        with_unit(q * units.displacement, 3, "m"),
+        with_unit(v * units.velocity, 3, "m/s")
+    )
+}
+
+fn machine(picture: &mut Picture, session: &Session, across: Span, moment: &Sample) {
+    let (wall, width) = (across.from(), across.width());
+    let sticking = session.running().map(|running| running.reduced.sticking_velocity);
+    belt(picture, across, sticking.unwrap_or(0.0) * moment.tau);
+    let (left, right) = (moment.q - 0.5 * WIDTH * width, moment.q + 0.5 * WIDTH * width);
+    let r = session.problem.parameters.r;
+    let [from, to] = [-r, r].map(|x| Point { x, y: REST });
+    picture.bar(part("where the mass may rest", Role::Sticking), from, to);
+    picture.curve(part("spring", Role::Text), spring(wall, left));
+    for piece in damper(wall, -0.5 * WIDTH * width, left) {
+        picture.curve(part("damper", Role::Text), piece);
+    }
+    picture.curve(part("mass", Role::Trajectory), outline((left, right), MASS));
+    let middle = Point { x: moment.q, y: 0.5 * (MASS.0 + MASS.1) };
+    picture.caption(middle, "m", Role::Trajectory);
+    let rides = |ride: &&[Sample; 2]| (ride[0].tau..=ride[1].tau).contains(&moment.tau);
+    if let Some(ride) = session.course().and_then(|motion| motion.rides.iter().find(rides)) {
+        let [from, to] = [left, right].map(|x| Point { x, y: BELT.1 });
+        picture.bar(part("sticks to the belt", Role::Current), from, to);
+        let below = Point { x: ride[0].q.max(across.from()), y: 0.5 * (BELT.0 + BELT.1) };
+        picture.caption(below, "sticks", Role::Current);
+    }
+    arrow(picture, session, right, width, moment.v);
+}
+
+/// The pull of the belt on the mass, whose right side is at `from`.
+fn arrow(picture: &mut Picture, session: &Session, from: f64, width: f64, v: f64) {
+    let Some(running) = session.running() else { return };
+    let Some(pull) = running.pull(v) else { return };
+    let y = MASS.0 + HALF;
+    let tip = from + pull * ARROW * width;
+    let barb = tip - (0.15 * ARROW * width).copysign(pull);
+    let points = [(from, y), (tip, y), (barb, y + 0.5 * HALF), (tip, y), (barb, y - 0.5 * HALF)];
+    picture.curve(part("friction of the belt", Role::Special), points.map(|(x, y)| Point { x, y }));
+    let text = with_unit(pull * running.reduced.units.force, 3, "N");
+    picture.caption(Point { x: tip, y }, format!(" {text}"), Role::Special);
+}
+
+/// A part of the machine, which anybody recognizes without a legend.
+fn part(name: &'static str, role: Role) -> Line {
+    Line::new(name, role, Dash::Solid).captioned()
+}
+
+/// The belt, its marks moved by `way` to the right above and to the left below.
+fn belt(picture: &mut Picture, across: Span, way: f64) {
+    let (low, high) = BELT;
+    for y in [low, high] {
+        let ends = [across.from(), across.to()].map(|x| Point { x, y });
+        picture.curve(part("belt", Role::Axis), ends);
+    }
+    let gap = GAP * across.width();
+    let tick = 0.35 * (high - low);
+    for (way, from, to) in [(way, high, high - tick), (-way, low, low + tick)] {
+        let first = across.from() + way.rem_euclid(gap);
+        for number in 0..MARKS {
+            let x = first + f64::from(number) * gap;
+            picture.curve(
+                part("mark of the belt", Role::Current),
+                [Point { x, y: from }, Point { x, y: to }],
+            );
+        }
+    }
+}
+
+/// The zigzag of a spring between two places.
+fn spring(from: f64, to: f64) -> Vec<Point> {
+    let windings = f64::from(WINDINGS);
+    let at = |part: f64, y: f64| Point { x: from + part * (to - from), y };
+    let teeth = (0..WINDINGS).map(|tooth| {
+        let side = if tooth % 2 == 0 { HALF } else { -HALF };
+        at((f64::from(tooth) + 1.0) / (windings + 1.0), SPRING + side)
+    });
+    std::iter::once(at(0.0, SPRING)).chain(teeth).chain([at(1.0, SPRING)]).collect()
+}
+
+/// The cylinder of a damper at the wall, and the rod with its piston at the mass, whose left side is at
+/// `mass` and without motion at `rest`.
+fn damper(wall: f64, rest: f64, mass: f64) -> [Vec<Point>; 3] {
+    let at = |x: f64, y: f64| Point { x, y: DAMPER + y };
+    // A window that begins beyond the mass shows no wall.
+    let gap = (rest - wall).max(0.0);
+    let (start, end) = (wall + CYLINDER.0 * gap, wall + CYLINDER.1 * gap);
+    let piston = (wall + PISTON * gap + mass - rest).clamp(start, end);
+    [
+        vec![at(wall, 0.0), at(start, 0.0)],
+        vec![at(end, HALF), at(start, HALF), at(start, -HALF), at(end, -HALF)],
+        vec![at(piston, 0.8 * HALF), at(piston, -0.8 * HALF), at(piston, 0.0), at(mass, 0.0)],
+    ]
+}
+
+/// The outline of a box.
+fn outline((left, right): (f64, f64), (low, high): (f64, f64)) -> [Point; 5] {
+    [(left, low), (right, low), (right, high), (left, high), (left, low)]
+        .map(|(x, y)| Point { x, y })
+}

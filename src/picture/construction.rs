@@ -1,0 +1,140 @@
+//! Formulas drawn into the phase plane: levels of the energy, and the spirals that make the cycle.
+
+use super::items::{Item, Line, Picture};
+use super::role::{Dash, Mark, Role};
+use crate::closed_form::linear::linear_flow;
+use crate::closed_form::lyapunov::energy_rate;
+use crate::closed_form::piecewise_linear::LinearCycle;
+use crate::numerics::root::{TO_ROUNDING, bisect};
+use crate::oscillator::{Parameters, State};
+use crate::scene::{Point, Span};
+
+/// Circles on which the energy V is the same, and shaded the velocities at which it falls.
+pub(super) fn levels(picture: &mut Picture, parameters: &Parameters) {
+    /// Circles in the window.
+    const LEVELS: u8 = 2;
+    const CORNERS: u16 = 240;
+    let y = picture.window.y;
+    for (from, to) in falling(parameters, y) {
+        let line = Line::new("energy falls", Role::Basin, Dash::Solid);
+        picture.items.push(Item::Rows(line, from, to));
+    }
+    for level in 1..=LEVELS {
+        let radius = 0.5 * y.width() * f64::from(level) / f64::from(LEVELS);
+        let circle = (0..=CORNERS).map(|corner| {
+            let angle = std::f64::consts::TAU * f64::from(corner) / f64::from(CORNERS);
+            Point { x: radius * angle.cos(), y: radius * angle.sin() }
+        });
+        picture.curve(Line::new("level of the energy", Role::Field, Dash::Sparse), circle);
+    }
+}
+
+/// The intervals of velocities, within some, at which the energy falls: V' depends on nothing else
+/// (17 to 19). Their ends are exact to rounding.
+fn falling(parameters: &Parameters, among: Span) -> Vec<(f64, f64)> {
+    /// Velocities whose sign of V' is looked at; borders between them are bisected.
+    const VELOCITIES: u16 = 400;
+    let falls = |v: f64| energy_rate(parameters, State { q: 0.0, v }) <= 0.0;
+    let border = |inside: f64, outside: f64| bisect(inside, outside, TO_ROUNDING, |v| !falls(v)).0;
+    let mut found = Vec::new();
+    let mut from = falls(among.from()).then_some(among.from());
+    let mut last = among.from();
+    for index in 1..=VELOCITIES {
+        let v = among.at(f64::from(index) / f64::from(VELOCITIES));
+        match (from, falls(v)) {
+            (None, true) => from = Some(border(v, last)),
+            (Some(start), false) => {
+                found.push((start, border(last, v)));
+                from = None;
+            }
+            _ => {}
+        }
+        last = v;
+    }
+    found.extend(from.map(|start| (start, among.to())));
+    found
+}
+
+/// The half turns of two spirals, one shifted to the left by r and one to the right, whose ends meet
+/// (25, 30), and how each would go on.
+pub(super) fn spirals(picture: &mut Picture, parameters: &Parameters) {
+    /// Points on a half turn.
+    const POINTS: u16 = 160;
+    let Parameters { d, r, .. } = *parameters;
+    let Ok(cycle) = LinearCycle::new(d, r) else { return };
+    if !parameters.is_piecewise_linear() {
+        return;
+    }
+    let duration = 0.5 * cycle.period;
+    let turn = |from: f64, to: f64, side: f64| {
+        (0..=POINTS).map(move |index| {
+            let along = f64::from(index) / f64::from(POINTS);
+            let tau = duration * (from + (to - from) * along);
+            let (x, v) = linear_flow(d, -cycle.clearance, 0.0, tau);
+            Point { x: side * (x - r), y: side * v }
+        })
+    };
+    for (side, name, on) in [
+        (1.0, "half turn about the left end", "the same spiral before and after"),
+        (-1.0, "half turn about the right end", "the same spiral before and after"),
+    ] {
+        for (from, to) in [(-2.0, 0.0), (1.0, 2.0)] {
+            let line = Line::new(on, Role::Asymptote, Dash::Dotted).briefly("how they go on");
+            picture.curve(line, turn(from, to, side));
+        }
+        let line = Line::new(name, Role::Trajectory, Dash::Solid).briefly("half turns");
+        picture.curve(line, turn(0.0, 1.0, side));
+        picture.mark(Mark::Head, Point { x: -side * r, y: 0.0 }, Role::Special);
+        let end = Point { x: side * (r + cycle.clearance), y: 0.0 };
+        picture.mark(Mark::Turn, end, Role::Special);
+        picture.caption(end, if side > 0.0 { "r + c" } else { "-r - c" }, Role::Special);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Window;
+
+    fn picture() -> Picture<'static> {
+        let span = Span::known(-3.0, 3.0);
+        Picture::new("", "q", "v", Window { x: span, y: span })
+    }
+
+    #[test]
+    fn the_energy_falls_within_the_lyapunov_radius() {
+        let mut picture = picture();
+        levels(&mut picture, &Parameters { d: -0.4, d2: 0.0, d3: 0.0, r: 1.0 });
+        let strips: Vec<_> = picture
+            .items
+            .iter()
+            .filter_map(|item| match item {
+                Item::Rows(_, from, to) => Some((*from, *to)),
+                _ => None,
+            })
+            .collect();
+        assert_eq!(strips.len(), 1);
+        assert!((strips[0].0 + 1.25).abs() < 1e-12 && (strips[0].1 - 1.25).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_end_of_each_half_turn_is_the_start_of_the_other() {
+        let mut picture = picture();
+        spirals(&mut picture, &Parameters { d: -0.2, d2: 0.0, d3: 0.0, r: 0.5 });
+        let halves: Vec<_> = picture
+            .items
+            .iter()
+            .filter_map(|item| match item {
+                Item::Curve(line, points) if line.dash == Dash::Solid => Some(points.clone()),
+                _ => None,
+            })
+            .collect();
+        let [upper, lower] = &halves[..] else { panic!("{} halves", halves.len()) };
+        for (end, start) in [(upper.last(), lower.first()), (lower.last(), upper.first())] {
+            let (end, start) = (end.unwrap(), start.unwrap());
+            assert!((end.x - start.x).abs() < 1e-13 && end.y.abs() < 1e-13);
+        }
+        let growth = 0.2 * std::f64::consts::PI / (1.0_f64 - 0.04).sqrt();
+        assert!((upper.last().unwrap().x - 0.5 / (0.5 * growth).tanh()).abs() < 1e-13);
+    }
+}

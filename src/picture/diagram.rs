@@ -1,0 +1,341 @@
+//! The bifurcation diagram: a property of the cycles, over a parameter.
+//!
+//! Computed branches are solid where the cycle is stable and dashed where it is not; the first-order
+//! harmonic answer is dotted beside them. Rest belongs to every diagram (`equilibria`). A dotted upright stands at the present value of the
+//! parameter, and the cycles there are marked. A point of the branch that is held has a cross.
+
+use super::equilibria::{self, at};
+use super::items::{Item, Line, Picture, Text, Variant};
+use super::phase_plane::{stability, variants};
+use super::reading::reading;
+use super::role::{Dash, Mark, Role};
+use crate::closed_form::harmonic::{
+    amplitudes, damping_at, large_asymptote, mean, small_asymptote,
+};
+use crate::numerics::root::bisect;
+use crate::oscillator::{Parameters, Symbol};
+use crate::scene::{Axes, Height, Layer, Ordinate, Point, View};
+use crate::session::{self, Session, Shown};
+use crate::study::{Branch, BranchPoint, Special, SpecialKind};
+use crate::words::number::significant;
+
+/// What the plot with this index shows.
+#[must_use]
+pub fn picture(session: &Session, index: usize) -> Picture<'_> {
+    let diagram = &session.plots[index];
+    let Axes { abscissa, ordinate, .. } = diagram.axes;
+    let (name, label) = (abscissa.spec().name, diagram.axes.label());
+    let velocity = Axes { ordinate: Ordinate::VMax, ..diagram.axes }.label();
+    let beside = session.layers.contains(&Layer::Extents) && velocity != label;
+    let label: Text = if beside { format!("{label}, {velocity}").into() } else { label.into() };
+    let window = diagram.window;
+    let mut picture = Picture::new(View::Diagram.spec().title, name, label.clone(), window);
+    picture.varied = vec![abscissa];
+    let pointed = held(session, index).or(diagram.cursor);
+    picture.reading = pointed.map(|point| {
+        let (value, height) = reading(point, window);
+        format!("{name} {value} {label} {height}")
+    });
+    let shows = |layer| session.layers.contains(&layer);
+    let current = session.value(abscissa);
+    let all = session.shown(index);
+    let found: Vec<Found> = session
+        .branches(index)
+        .into_iter()
+        .filter_map(|(variant, branch)| {
+            let height = session.height(index, variant);
+            let label = all.get(variant)?.label.clone();
+            Some(Found { variant: Variant { index: variant, label }, branch, height })
+        })
+        .collect();
+
+    for (variant, shown) in variants(&all) {
+        let height = diagram.axes.height(shown.problem.parameters.r);
+        equilibria::draw(&mut picture, shown, &variant, abscissa, height);
+    }
+    picture.upright(Line::guide(), 0.0);
+    if window.y.from() < 0.0 && window.y.to() > 0.0 {
+        picture.level(Line::guide(), 0.0);
+    }
+    picture.upright(Line::new("present value", Role::Current, Dash::Sparse), current);
+    if ordinate.spec().harmonic.is_some() {
+        for (variant, shown) in variants(&all) {
+            let height = diagram.axes.height(shown.problem.parameters.r);
+            if shows(Layer::Asymptotes) {
+                asymptotes(&mut picture, shown, &variant, abscissa, height);
+            }
+            if shows(Layer::Harmonic) {
+                let largest = largest_amplitude(diagram, height, &found);
+                harmonic(&mut picture, (shown, &variant), abscissa, height, largest);
+            }
+        }
+    }
+    if shows(Layer::Branch) {
+        for found in &found {
+            for piece in &found.branch.pieces {
+                branch(&mut picture, piece, found);
+            }
+        }
+        for found in &found {
+            for piece in &found.branch.pieces {
+                here(&mut picture, piece, found.height, current);
+            }
+        }
+    }
+    if shows(Layer::Extents) {
+        for found in &found {
+            for piece in &found.branch.pieces {
+                extents(&mut picture, piece, found);
+            }
+        }
+    }
+    if shows(Layer::Special) {
+        let mut named: Vec<&Special> = Vec::new();
+        for Found { branch, height, .. } in &found {
+            for special in &branch.special {
+                // Several variants may have one in common.
+                if !named.contains(&special) {
+                    caption(&mut picture, special, *height, window.y.to());
+                    named.push(special);
+                }
+            }
+        }
+    }
+    picture.cross(pointed);
+    picture
+}
+
+/// A branch that was computed: whose it is, and how high its cycles stand.
+struct Found<'a> {
+    variant: Variant,
+    branch: &'a Branch,
+    height: Height,
+}
+
+/// Where the point that is held stands in a diagram: in every one over its parameter. A cycle that has
+/// gone to infinity stands at the top.
+fn held(session: &Session, index: usize) -> Option<Point> {
+    let (held, diagram) = (session.held?, &session.plots[index]);
+    let over = diagram.axes.abscissa;
+    let same = session.focused().is_some_and(|focused| focused.axes.abscissa == over);
+    let (top, height) = (diagram.window.y.to(), session.height(index, held.variant));
+    let y = held.cycle.map_or(top, |cycle| height.of(held.value, &cycle));
+    same.then_some(Point { x: held.value, y })
+}
+
+/// The asymptotes A1 and A2 (51, 52), their height read out of A0 and A.
+fn asymptotes(
+    picture: &mut Picture,
+    shown: &Shown,
+    variant: &Variant,
+    abscissa: Symbol,
+    height: Height,
+) {
+    let Some(size) = height.ordinate.spec().harmonic else { return };
+    // Of the mean they are asymptotes of their own, with names of their own (53, 54).
+    let names = match height.ordinate {
+        Ordinate::Mean => ["asymptote A01", "asymptote A02"],
+        _ => ["asymptote A1", "asymptote A2"],
+    };
+    let asymptotes = [small_asymptote as fn(&Parameters) -> Option<f64>, large_asymptote];
+    for (name, asymptote) in names.into_iter().zip(asymptotes) {
+        let line = Line::new(name, Role::Asymptote, Dash::Sparse).of(variant);
+        let shown = shown.clone();
+        picture.graph(line, move |value| {
+            let parameters = at(&shown, abscissa, value);
+            let amplitude = asymptote(&parameters)?;
+            Some(height.scaled(value, size(mean(parameters.d2, amplitude), amplitude)))
+        });
+    }
+}
+
+/// The first-order harmonic answer, its height read out of A0 and A.
+///
+/// Over D it is drawn along the amplitude, up to `largest`, which leads through the fold without a gap;
+/// over the other parameters each amplitude is a curve of its own.
+fn harmonic(
+    picture: &mut Picture,
+    (shown, variant): (&Shown, &Variant),
+    abscissa: Symbol,
+    height: Height,
+    largest: f64,
+) {
+    /// Samples along the amplitude: more than any screen has dots.
+    const SAMPLES: u16 = 1000;
+    let Some(size) = height.ordinate.spec().harmonic else { return };
+    let line = Line::new("first harmonic", Role::Harmonic, Dash::Dotted).of(variant);
+    let Parameters { d2, d3, r, .. } = shown.problem.parameters;
+    if abscissa == Symbol::D {
+        let points = (1..=SAMPLES).map(|sample| {
+            let amplitude = largest * f64::from(sample) / f64::from(SAMPLES);
+            let x = damping_at(d3, r, amplitude).unwrap_or(f64::NAN);
+            Point { x, y: height.scaled(x, size(mean(d2, amplitude), amplitude)) }
+        });
+        picture.curve(line, points);
+        return;
+    }
+    for stable in [false, true] {
+        let shown = shown.clone();
+        picture.graph(line.clone(), move |value| {
+            let found = amplitudes(&at(&shown, abscissa, value)).into_iter();
+            let mut found = found.filter(|answer| answer.stable == stable);
+            found.next().map(|answer| height.scaled(value, size(answer.mean, answer.amplitude)))
+        });
+    }
+}
+
+/// Twice the largest amplitude that can be on show: beyond it the harmonic curve need not be followed.
+///
+/// Where the ordinate is no length, that is twice the largest amplitude of the computed branches.
+fn largest_amplitude(diagram: &session::Plot, height: Height, found: &[Found]) -> f64 {
+    let y = diagram.window.y;
+    let unit = height.friction.filter(|_| height.is_ratio()).unwrap_or(1.0);
+    match diagram.axes.ordinate {
+        Ordinate::QMax | Ordinate::QMin | Ordinate::VMax | Ordinate::Amplitude => {
+            2.0 * unit * y.from().abs().max(y.to().abs())
+        }
+        Ordinate::Mean | Ordinate::Period | Ordinate::Multiplier => {
+            let points = found.iter().flat_map(|found| found.branch.pieces.iter().flatten());
+            2.0 * points.map(|point| point.cycle.q_max).fold(0.5, f64::max)
+        }
+    }
+}
+
+/// Adds a piece, run by run of equal stability; neighbouring runs meet at the fold between them. One of
+/// several branches has its label where it is highest in the window.
+fn branch(picture: &mut Picture, piece: &[BranchPoint], found: &Found) {
+    let Found { variant, branch: Branch { special, .. }, height } = found;
+    let place =
+        |point: &BranchPoint| Point { x: point.value, y: height.of(point.value, &point.cycle) };
+    let mut start = None;
+    for run in piece.chunk_by(|one, other| one.cycle.stable == other.cycle.stable) {
+        let (first, last) = (&run[0], &run[run.len() - 1]);
+        let next = piece.iter().skip_while(|point| *point != last).nth(1);
+        let end =
+            next.map(|next| fold_between(last, next, special, *height).unwrap_or(place(next)));
+        let (role, dash) = stability(first.cycle.stable);
+        let name = if first.cycle.stable { "stable cycle" } else { "unstable cycle" };
+        let line = Line::new(name, role, dash).of(variant);
+        picture.curve(line, start.into_iter().chain(run.iter().map(place)).chain(end));
+        // Without a fold the runs share a point, which this one has as its last.
+        start = end.filter(|end| next.is_none_or(|next| *end != place(next)));
+    }
+    let points: Vec<Point> = piece.iter().map(place).collect();
+    picture.name_curve(&points, &variant.label, Role::Special);
+}
+
+/// Where the fold between two neighbours stands.
+fn fold_between(
+    one: &BranchPoint,
+    other: &BranchPoint,
+    special: &[Special],
+    height: Height,
+) -> Option<Point> {
+    let (low, high) =
+        (one.cycle.q_max.min(other.cycle.q_max), one.cycle.q_max.max(other.cycle.q_max));
+    let folds = special.iter().filter(|special| special.kind == SpecialKind::Fold);
+    let mut cycles = folds.filter_map(|fold| Some((fold.value, fold.cycle?)));
+    cycles
+        .find(|(_, cycle)| (low..=high).contains(&cycle.q_max))
+        .map(|(value, cycle)| Point { x: value, y: height.of(value, &cycle) })
+}
+
+/// The largest velocities of a piece.
+fn extents(picture: &mut Picture, piece: &[BranchPoint], found: &Found) {
+    let height = Height { ordinate: Ordinate::VMax, ..found.height };
+    let points =
+        piece.iter().map(|point| Point { x: point.value, y: height.of(point.value, &point.cycle) });
+    let line = Line::new("largest velocity A_v", Role::Velocity, Dash::Dashed);
+    picture.curve(line.of(&found.variant).briefly("largest velocity"), points);
+}
+
+/// Marks the cycles of a piece at the present value.
+fn here(picture: &mut Picture, piece: &[BranchPoint], height: Height, value: f64) {
+    for (index, pair) in piece.windows(2).enumerate() {
+        let (a, b) = (&pair[0], &pair[1]);
+        if (a.value < value) != (b.value < value) {
+            let place = |point: &BranchPoint| [point.value, height.of(point.value, &point.cycle)];
+            let places: Vec<[f64; 2]> = piece.iter().map(place).collect();
+            let y = between(&places, index, value);
+            let mark = if a.cycle.stable { Mark::Stable } else { Mark::Unstable };
+            picture.mark(mark, Point { x: value, y }, Role::Current);
+        }
+    }
+}
+
+/// The height of a curve at `value`, which lies between its points number `index` and `index + 1`: on the
+/// polynomials through six points over their numbers, which also lead around a fold.
+///
+/// Points of a branch are spread evenly, so both coordinates are smooth in the number; the error falls
+/// with the sixth power of their distance.
+fn between(places: &[[f64; 2]], index: usize, value: f64) -> f64 {
+    /// Points that a polynomial goes through.
+    const THROUGH: usize = 6;
+    /// Halvings of a step: as many as a number has digits.
+    const HALVINGS: u32 = 53;
+    let first = (index + 1).saturating_sub(THROUGH / 2).min(places.len().saturating_sub(THROUGH));
+    let near = &places[first..places.len().min(first + THROUGH)];
+    let nodes: Vec<f64> = (0_u8..).take(near.len()).map(f64::from).collect();
+    let at = |number: f64, axis: usize| -> f64 {
+        let weight = |own: f64| -> f64 {
+            let others = nodes.iter().filter(|node| **node != own);
+            others.map(|node| (number - node) / (own - node)).product()
+        };
+        nodes.iter().zip(near).map(|(own, place)| weight(*own) * place[axis]).sum()
+    };
+    let (low, high) = (nodes[index - first], nodes[index + 1 - first]);
+    let rising = places[index][0] < value;
+    at(bisect(low, high, HALVINGS, |number| (at(number, 0) < value) != rising).0, 1)
+}
+
+/// Adds the letter of a special point, and its value where there is room.
+fn caption(picture: &mut Picture, special: &Special, height: Height, top: f64) {
+    let letter = match special.kind {
+        SpecialKind::Fold if special.kind.grazes(special.cycle.as_ref()) => "G",
+        SpecialKind::Fold => "F",
+        SpecialKind::Escape => "Dc",
+        SpecialKind::Hopf => "H",
+        SpecialKind::ZeroCrossing => "Z",
+    };
+    // A cycle that has gone to infinity is named at the top, where its branch leaves.
+    if special.cycle.is_none() {
+        let line = Line::new("escape", Role::Asymptote, Dash::Dotted);
+        picture.upright(line, special.value);
+    }
+    let y = special.cycle.map_or(top, |cycle| height.of(special.value, &cycle));
+    picture.items.push(Item::Caption {
+        at: Point { x: special.value, y },
+        or_at: Vec::new(),
+        long: format!("{letter} {}", significant(special.value, 4)).into(),
+        short: letter.into(),
+        role: Role::Special,
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn between_points_a_curve_is_followed_around_its_fold() {
+        // An arc of a circle that turns back at x = 1, and its ends, where one neighbour is missing.
+        let places: Vec<[f64; 2]> = (0..=128_u32)
+            .map(|step| {
+                let (sin, cos) = (f64::from(step) / 128.0 * 3.0 - 1.5).sin_cos();
+                [cos, sin]
+            })
+            .collect();
+        let mut checked = 0;
+        for (index, pair) in places.windows(2).enumerate() {
+            let value = f64::midpoint(pair[0][0], pair[1][0]);
+            let angle = f64::midpoint(pair[0][1], pair[1][1]);
+            if (pair[0][0] < value) != (pair[1][0] < value) {
+                let expected = (1.0 - value * value).sqrt() * angle.signum();
+                let found = between(&places, index, value);
+                assert!((found - expected).abs() < 1e-10, "{index}: {found} {expected}");
+                checked += 1;
+            }
+        }
+        assert!(checked > 120, "{checked}");
+    }
+}

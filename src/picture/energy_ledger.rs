@@ -1,0 +1,55 @@
+//! The energy ledger: a bar for the work of each source, over one turn of each cycle and along the motion.
+//!
+//! Bars are parts of the largest work of their owner, numbers are energies in the units of the model.
+
+use super::items::{Line, Picture};
+use super::role::{Dash, Mark, Role};
+use crate::scene::{Point, Span, View, Window};
+use crate::session::Session;
+use crate::session::ledger::{Entry, Owner};
+use crate::words::number::significant;
+
+/// The same for a file: each work a bar with its name and number.
+#[must_use]
+pub fn picture(session: &Session, index: usize) -> Picture<'_> {
+    let lines = session.ledger();
+    let spec = View::EnergyLedger.spec();
+    let window = Window {
+        y: Span::new(middle(lines.len()), 0.0).unwrap_or(Span::known(-1.0, 0.0)),
+        ..session.plots[index].window
+    };
+    let mut picture = Picture::new(spec.title, "part of the largest work", "", window);
+    picture.upright(Line::guide(), 0.0);
+    for (line, entry) in lines.iter().enumerate() {
+        let from = Point { x: 0.0, y: middle(line) };
+        if let Entry::Work { source, work, part, so_far } = entry {
+            let role = if *work < 0.0 { Role::Stable } else { Role::Unstable };
+            let line = Line::new(*source, role, Dash::Solid).captioned();
+            picture.bar(line, from, Point { x: *part, ..from });
+            if let Some(x) = *so_far {
+                picture.mark(Mark::Head, Point { x, ..from }, Role::Cursor);
+            }
+        }
+        let at = Point { x: window.x.at(0.02), ..from };
+        picture.caption(at, reading(entry), Role::Text);
+    }
+    picture
+}
+
+/// The height in the middle of a line.
+#[expect(clippy::cast_precision_loss, reason = "a few dozen lines")]
+#[must_use]
+pub fn middle(line: usize) -> f64 {
+    -(line as f64) - 0.5
+}
+
+/// A line in numbers.
+#[must_use]
+pub fn reading(entry: &Entry) -> String {
+    match entry {
+        Entry::Title(Owner::Motion) => "motion".to_owned(),
+        Entry::Title(Owner::Cycle(cycle)) => format!("q_max {}", significant(cycle.q_max, 6)),
+        Entry::Work { source, work, .. } => format!("{source} {}", significant(*work, 6)),
+        Entry::Residual(part) => format!("error {}", significant(*part, 2)),
+    }
+}

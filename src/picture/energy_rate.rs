@@ -1,0 +1,93 @@
+//! The rate V' of the energy over the velocity, of which alone it is a function (17 to 19): what damping
+//! feeds, what friction takes, and between which velocities friction takes more.
+
+use super::items::{Line, Picture};
+use super::reading::{CELLS, reading};
+use super::role::{Dash, Mark, Role};
+use crate::closed_form::lyapunov::{self, energy_rate};
+use crate::oscillator::{Parameters, State};
+use crate::scene::{Layer, Point, View};
+use crate::session::{self, Session};
+use crate::words::number::resolved;
+
+/// What the plot with this index shows.
+#[must_use]
+pub fn picture(session: &Session, index: usize) -> Picture<'_> {
+    let session::Plot { window, cursor, .. } = session.plots[index];
+    let mut picture = Picture::new(View::EnergyRate.spec().title, "v", "V'", window);
+    let parameters = session.problem.parameters;
+    picture.reading = cursor.map(|cursor| {
+        let (v, _) = reading(cursor, window);
+        let rate = resolved(rate(&parameters, cursor.x), window.y.width() / CELLS);
+        format!("v {v} V' {rate}")
+    });
+    if session.layers.contains(&Layer::Rate) {
+        curves(&mut picture, parameters);
+    }
+    let mut at = |mark, v, role| {
+        picture.mark(mark, Point { x: v, y: rate(&parameters, v) }, role);
+    };
+    at(Mark::Start, session.problem.initial.v, Role::Trajectory);
+    if let Some(head) = session.head() {
+        at(Mark::Head, head.v, Role::Cursor);
+    }
+    picture.cross(cursor);
+    picture
+}
+
+/// V' at a velocity.
+fn rate(parameters: &Parameters, v: f64) -> f64 {
+    energy_rate(parameters, State { q: 0.0, v })
+}
+
+fn curves(picture: &mut Picture, parameters: Parameters) {
+    picture.level(Line::guide(), 0.0);
+    picture.upright(Line::guide(), 0.0);
+    let smooth = Parameters { r: 0.0, ..parameters };
+    let dry = Parameters { d: 0.0, d2: 0.0, d3: 0.0, ..parameters };
+    for (name, role, dash, of) in [
+        ("fed by damping", Role::Velocity, Dash::Dashed, smooth),
+        ("taken by friction", Role::Sticking, Dash::Dotted, dry),
+        ("rate of the energy V'", Role::Energy, Dash::Solid, parameters),
+    ] {
+        picture.graph(Line::new(name, role, dash), move |v| Some(rate(&of, v)));
+    }
+    if let Some(radius) = lyapunov::radius(&parameters).filter(|radius| *radius > 0.0) {
+        for (v, name) in [(radius, "l"), (-radius, "-l")] {
+            let at = Point { x: v, y: rate(&parameters, v) };
+            picture.mark(Mark::Turn, at, Role::Lyapunov);
+            picture.caption(at, name, Role::Lyapunov);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::picture::items::Item;
+    use crate::scene::find;
+    use crate::session::Size;
+
+    #[test]
+    fn the_parts_add_up_and_the_energy_falls_within_the_lyapunov_radius() {
+        let scene = find("fig04").unwrap();
+        let session = Session::new(scene, Size { width: 120, height: 40 });
+        let plot = session.plots.iter().position(|plot| plot.view == View::EnergyRate).unwrap();
+        let picture = picture(&session, plot);
+        let radius = lyapunov::radius(&session.problem.parameters).unwrap();
+        let graphs: Vec<_> = picture
+            .items
+            .iter()
+            .filter_map(|item| match item {
+                Item::Graph(line, value) if !line.name.is_empty() => Some(value),
+                _ => None,
+            })
+            .collect();
+        let [fed, taken, whole] = graphs[..] else { panic!("{} graphs", graphs.len()) };
+        for v in [-2.0, -0.3, 0.7, 1.9] {
+            let (fed, taken, whole) = (fed(v).unwrap(), taken(v).unwrap(), whole(v).unwrap());
+            assert!(fed > 0.0 && taken < 0.0 && (fed + taken - whole).abs() < 1e-14);
+            assert_eq!(whole < 0.0, v.abs() < radius);
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! Rest in a bifurcation diagram: with friction the sticking set, a band that attracts; without, the
+//! equilibrium at 0, stable on one side of the Hopf point and unstable on the other.
+
+use super::items::{Fill, Item, Line, Pattern, Picture, Variant};
+use super::phase_plane::stability;
+use super::role::{Dash, Role};
+use crate::oscillator::{Parameters, Symbol};
+use crate::scene::{Height, Ordinate};
+use crate::session::Shown;
+
+/// What stands where the motion rests.
+const REST: &str = "rest (attracts)";
+
+/// Draws where one of the motions of a diagram can rest; nothing where the ordinate is no property of a
+/// rest (its period, its multiplier).
+pub fn draw(
+    picture: &mut Picture,
+    shown: &Shown,
+    variant: &Variant,
+    abscissa: Symbol,
+    height: Height,
+) {
+    let has_band = match height.ordinate {
+        Ordinate::QMax | Ordinate::QMin | Ordinate::Mean => true,
+        Ordinate::VMax | Ordinate::Amplitude => false,
+        Ordinate::Period | Ordinate::Multiplier => return,
+    };
+    if shown.problem.parameters.r == 0.0 && abscissa != Symbol::R {
+        // There is no height in units of a friction that is zero.
+        if !height.is_ratio() {
+            point(picture, shown, variant, abscissa);
+        }
+        return;
+    }
+    let line = Line::new(REST, Role::Sticking, Dash::Solid).of(variant);
+    if !has_band {
+        return picture.level(line, 0.0);
+    }
+    let of = shown.clone();
+    let edge = move |value: f64| {
+        let r = at(&of, abscissa, value).r;
+        let unit = if height.is_ratio() { r } else { 1.0 };
+        (r >= 0.0 && unit > 0.0).then_some(r / unit)
+    };
+    let (upper, lower) = (edge.clone(), edge.clone());
+    let band = edge(picture.window.x.from()).filter(|_| abscissa != Symbol::R);
+    if abscissa == Symbol::R {
+        let fill = Fill { pattern: Pattern::Shade, role: Role::Sticking, name: REST };
+        let within = move |place: crate::scene::Point| {
+            edge(place.x).filter(|edge| place.y.abs() <= *edge).map(|_| fill)
+        };
+        picture.items.push(Item::Texture(Box::new(within)));
+    }
+    picture.graph(line.clone(), upper);
+    if picture.window.y.from() < 0.0 {
+        picture.graph(line.clone(), move |value| lower(value).map(|edge| -edge));
+    }
+    if let Some(edge) = band {
+        picture.items.push(Item::Rows(line, -edge, edge));
+    }
+}
+
+/// The parameters of a motion, with that of a diagram at `value`.
+pub(super) fn at(shown: &Shown, abscissa: Symbol, value: f64) -> Parameters {
+    let (mut parameters, mut initial) = (shown.problem.parameters, shown.problem.initial);
+    abscissa.set(&mut parameters, &mut initial, value);
+    parameters
+}
+
+/// Whether the equilibrium without friction is stable: decided by the eigenvalues (9), on the imaginary axis
+/// by cubic damping, whatever D2 (its first integral grows or falls with D3 alone); `None` for a centre.
+fn is_stable(parameters: &Parameters) -> Option<bool> {
+    let Parameters { d, d3, .. } = *parameters;
+    let decisive = if d == 0.0 { d3 } else { d };
+    (decisive != 0.0).then_some(decisive > 0.0)
+}
+
+/// The equilibrium at 0 without friction.
+fn point(picture: &mut Picture, shown: &Shown, variant: &Variant, abscissa: Symbol) {
+    for stable in [true, false] {
+        let (role, dash) = stability(stable);
+        let name = if stable { "rest (stable)" } else { "rest (unstable)" };
+        let of = shown.clone();
+        picture.graph(Line::new(name, role, dash).of(variant), move |value| {
+            (is_stable(&at(&of, abscissa, value)) == Some(stable)).then_some(0.0)
+        });
+    }
+}

@@ -1,0 +1,8 @@
+//! What a recorded motion says, in pictures.
+
+mod damping;
+mod pictures;
+mod pieces;
+mod sampled;
+
+pub use pictures::pictures;

@@ -1,0 +1,198 @@
+//! The pictures of a fit: record and residuals, damping over amplitude, phase plane, margin, D and r
+//! together.
+
+use std::f64::consts::TAU;
+
+use super::damping::damping;
+use super::pieces::{Curve, at, curve, picture, with_unit};
+use super::sampled::Sampled;
+use crate::fit::Fitted;
+use crate::fit::observation::{D, Data, OFFSET, OMEGA0, Q0, R, parameters};
+use crate::fit::residuals::autocorrelations;
+use crate::flow::Limits;
+use crate::oscillator::Parameters;
+use crate::picture::items::{Item, Line, Marks, Picture};
+use crate::picture::role::{Dash, Mark, Role};
+use crate::scene::{Span, Window};
+use crate::study::basin::{Basin, basin};
+use crate::study::cycle::Edge;
+
+/// Draws whose edge of the basin is drawn.
+const EDGES: usize = 20;
+
+/// All pictures of a fit; peaks alone have no record to be drawn.
+#[must_use]
+pub fn pictures(fitted: &Fitted) -> Vec<Picture<'static>> {
+    let seen = match &fitted.estimate.data {
+        Data::Samples { t, x } => Some(Sampled::of(fitted, t, x)),
+        Data::Peaks { .. } => None,
+    };
+    let of_record = seen.iter().flat_map(|seen| {
+        [record(fitted, seen), residuals(fitted, seen), memory(fitted)].into_iter().flatten()
+    });
+    let others = [damping(fitted), phase(fitted, seen.as_ref()), margin(fitted), together(fitted)];
+    of_record.chain(others.into_iter().flatten()).collect()
+}
+
+fn record(fitted: &Fitted, seen: &Sampled) -> Option<Picture<'static>> {
+    let offset = fitted.estimate.p[OFFSET];
+    let measured = seen.t.iter().zip(&seen.x).map(|(t, x)| at(*t, *x)).collect();
+    let fit = seen.motion.iter().map(|[t, q, _]| at(*t, q + offset)).collect();
+    let curves = vec![
+        curve("record", Role::Ghost, Dash::Solid, measured),
+        curve("fitted motion", Role::Trajectory, Dash::Solid, fit),
+    ];
+    let names = ("t [s]".to_owned(), with_unit("x", fitted.unit()));
+    picture("record and fit", names, curves, None)
+}
+
+fn residuals(fitted: &Fitted, seen: &Sampled) -> Option<Picture<'static>> {
+    let deviation = fitted.estimate.covariance.deviation;
+    let points = seen.t.iter().zip(&seen.residual).map(|(t, e)| at(*t, *e)).collect();
+    let (first, last) = (*seen.t.first()?, *seen.t.last()?);
+    let level = |height: f64| vec![at(first, height), at(last, height)];
+    let curves = vec![
+        curve("residuals", Role::Ghost, Dash::Solid, points),
+        curve("+-2 standard deviations", Role::Current, Dash::Dashed, level(2.0 * deviation)),
+        curve("+-2 standard deviations", Role::Current, Dash::Dashed, level(-2.0 * deviation)),
+    ];
+    let names = ("t [s]".to_owned(), with_unit("measured - fitted", fitted.unit()));
+    picture("residuals", names, curves, None)
+}
+
+/// The autocorrelation of the residuals over two periods.
+fn memory(fitted: &Fitted) -> Option<Picture<'static>> {
+    /// Most lags.
+    const LAGS: usize = 400;
+    let estimate = &fitted.estimate;
+    let Data::Samples { t, .. } = &estimate.data else { return None };
+    let span = t[t.len() - 1] - t[0];
+    #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
+    let step = span / t.len() as f64;
+    let kept: Vec<f64> = estimate
+        .residuals
+        .iter()
+        .zip(&estimate.used)
+        .filter(|(_, used)| **used)
+        .map(|(residual, _)| *residual)
+        .collect();
+    let periods = 2.0 * TAU / estimate.p[OMEGA0];
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "capped by n")]
+    let most = ((periods / step) as usize).clamp(4, (kept.len() / 2).max(4));
+    let lags: Vec<usize> = (1..most).step_by(most.div_ceil(LAGS)).collect();
+    let values = autocorrelations(&kept, &lags);
+    #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
+    let points = lags.iter().zip(values).map(|(lag, rho)| at(*lag as f64 * step, rho)).collect();
+    #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
+    let chance = 2.0 / (kept.len() as f64).sqrt();
+    let level = |height: f64| vec![at(0.0, height), at(periods, height)];
+    let curves = vec![
+        curve("autocorrelation of the residuals", Role::Energy, Dash::Solid, points),
+        curve("+-2 standard deviations", Role::Current, Dash::Dashed, level(chance)),
+        curve("+-2 standard deviations", Role::Current, Dash::Dashed, level(-chance)),
+    ];
+    let window = Window { x: Span::new(0.0, periods).ok()?, y: Span::new(-1.0, 1.0).ok()? };
+    let names = ("lag [s]".to_owned(), "correlation".to_owned());
+    picture("memory of the residuals", names, curves, Some(window))
+}
+
+/// The first border of a basin, thinned, as a curve.
+fn border(found: &Basin, name: &'static str, role: Role, dash: Dash) -> Option<Curve> {
+    const COUNT: u16 = 24;
+    if found.edge == Edge::None {
+        return None;
+    }
+    let points = found.borders.first()?.curve(COUNT);
+    Some(curve(name, role, dash, points.iter().map(|point| at(point.q, point.v)).collect()))
+}
+
+fn phase(fitted: &Fitted, seen: Option<&Sampled>) -> Option<Picture<'static>> {
+    let estimate = &fitted.estimate;
+    let p = &estimate.p;
+    let (_, largest) = estimate.amplitudes();
+    let edge_of = |parameters: &Parameters| basin(parameters, 2.0 * largest, &Limits::PATIENT).ok();
+    let every = (fitted.margins.draws.len() / EDGES).max(1);
+    let drawn = fitted.margins.draws.iter().step_by(every);
+    let mut curves: Vec<Curve> = drawn
+        .filter_map(|draw| {
+            border(&edge_of(draw)?, "edges of twenty drawn basins", Role::Ghost, Dash::Dotted)
+        })
+        .collect();
+    let own = edge_of(&parameters(p));
+    curves
+        .extend(own.and_then(|own| border(&own, "edge of the basin", Role::Unstable, Dash::Solid)));
+    if let Some(seen) = seen {
+        let mut motion = seen.motion.iter().peekable();
+        let mut data = Vec::new();
+        for (t, x) in seen.t.iter().zip(&seen.x) {
+            while motion.next_if(|point| point[0] < *t).is_some() {}
+            if let Some([_, _, v]) = motion.peek() {
+                data.push(at(x - p[OFFSET], *v));
+            }
+        }
+        let fit = seen.motion.iter().map(|[_, q, v]| at(*q, *v)).collect();
+        curves.push(curve("record (velocity by the fit)", Role::Field, Dash::Dotted, data));
+        curves.push(curve("fitted motion", Role::Trajectory, Dash::Solid, fit));
+    }
+    let reach = 1.3 * largest.max(p[Q0].abs());
+    let span = Span::new(-reach, reach).ok()?;
+    let q = with_unit("x - offset", fitted.unit());
+    let v = with_unit("velocity/omega0", fitted.unit());
+    let mut picture = picture("phase plane", (q, v), curves, Some(Window { x: span, y: span }))?;
+    let line = Line::new("sticking set", Role::Sticking, Dash::Solid);
+    picture.bar(line, at(-p[R], 0.0), at(p[R], 0.0));
+    Some(picture)
+}
+
+/// D and r together: where both lie with 68 and 95 %.
+fn together(fitted: &Fitted) -> Option<Picture<'static>> {
+    const LINES: [(&str, Dash); 2] =
+        [("delta chi^2 = 2.3 (68 %)", Dash::Solid), ("delta chi^2 = 6 (95 %)", Dash::Dashed)];
+    let p = &fitted.estimate.p;
+    let contours = fitted.contours.iter().zip(LINES).filter(|(points, _)| !points.is_empty());
+    let contours = contours.map(|(points, (name, dash))| {
+        curve(name, Role::Trajectory, dash, points.iter().map(|[d, r]| at(*d, *r)).collect())
+    });
+    let names = ("D".to_owned(), with_unit("r", fitted.unit()));
+    let mut picture = picture("D and r together", names, contours.collect(), None)?;
+    let marks = Marks::new(Mark::Stable, Role::Stable, vec![at(p[D], p[R])]);
+    picture.items.push(Item::Marks(Marks { name: "estimate".into(), ..marks }));
+    Some(picture)
+}
+
+/// The cumulative distribution of the margin; what is missing to 1 is the share in which every kick is survived.
+fn margin(fitted: &Fitted) -> Option<Picture<'static>> {
+    /// Largest amplitudes up to which margins are shown.
+    const FAR: f64 = 10.0;
+    let margins = &fitted.margins;
+    let (_, largest) = fitted.estimate.amplitudes();
+    let finite: Vec<f64> =
+        margins.displacements.iter().copied().filter(|it| it.is_finite()).collect();
+    #[expect(clippy::cast_precision_loss, reason = "counts of draws")]
+    let share = |count: usize| count as f64 / margins.displacements.len() as f64;
+    let mut steps = vec![at(0.0, 0.0)];
+    for (index, &x) in finite.iter().enumerate() {
+        steps.extend([at(x, share(index)), at(x, share(index + 1))]);
+    }
+    // The tail of margins far beyond the record says no more than that they are.
+    let typical = margins.displacement.upper.or(margins.displacement.median);
+    let far = typical.or(finite.last().copied()).unwrap_or(largest).min(FAR * largest);
+    let to = far.max(largest) + 0.1 * (far.max(largest) - far.min(largest)).max(0.02 * largest);
+    steps.push(at(to.max(finite.last().copied().unwrap_or(0.0)), share(finite.len())));
+    let curves = vec![
+        curve("margin is less than this", Role::Unstable, Dash::Solid, steps),
+        curve(
+            "largest amplitude measured",
+            Role::Current,
+            Dash::Dashed,
+            vec![at(largest, 0.0), at(largest, 1.0)],
+        ),
+    ];
+    // A narrow distribution is looked at closely.
+    let near = margins.displacement.lower.unwrap_or(0.0).min(largest);
+    let from = if near > 0.7 * to { near - 0.3 * (to - near) } else { 0.0 };
+    let window = Window { x: Span::new(from, to).ok()?, y: Span::new(0.0, 1.0).ok()? };
+    let name = with_unit("smallest displacement not survived", fitted.unit());
+    let names = (name, "probability".to_owned());
+    picture("distribution of the margin", names, curves, Some(window))
+}

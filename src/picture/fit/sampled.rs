@@ -1,0 +1,79 @@
+//! What is drawn of a sampled record, and the fitted motion beside it.
+
+use crate::fit::Fitted;
+use crate::fit::motion::{Way, follow};
+use crate::fit::observation::{LAST, OMEGA0, Q0, Start, parameters};
+use crate::oscillator::State;
+
+/// Most points of a record that are drawn; of longer ones every second, third, .. is.
+const POINTS: usize = 4000;
+
+/// What is drawn of a sampled record.
+pub struct Sampled {
+    /// Times in s; not a number in a gap.
+    pub t: Vec<f64>,
+    /// Measured displacements.
+    pub x: Vec<f64>,
+    /// Differences from the fitted motion.
+    pub residual: Vec<f64>,
+    /// The fitted motion: time, displacement from the offset, velocity over omega0.
+    pub motion: Vec<[f64; 3]>,
+}
+
+impl Sampled {
+    /// Of these samples.
+    pub fn of(fitted: &Fitted, t: &[f64], x: &[f64]) -> Self {
+        /// A step of so many usual ones is a gap.
+        const GAP: f64 = 6.0;
+        let every = t.len().div_ceil(POINTS);
+        let mut seen = Sampled {
+            t: Vec::new(),
+            x: Vec::new(),
+            residual: Vec::new(),
+            motion: motion(fitted, t),
+        };
+        #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
+        let step = (t[t.len() - 1] - t[0]) * every as f64 / t.len() as f64;
+        for index in (0..t.len()).step_by(every) {
+            if seen.t.last().is_some_and(|last| t[index] - last > GAP * step) {
+                seen.push([f64::NAN; 3]);
+            }
+            seen.push([t[index], x[index], fitted.estimate.residuals[index]]);
+        }
+        seen
+    }
+
+    fn push(&mut self, [t, x, residual]: [f64; 3]) {
+        self.t.push(t);
+        self.x.push(x);
+        self.residual.push(residual);
+    }
+}
+
+/// The fitted motion, finely.
+fn motion(fitted: &Fitted, t: &[f64]) -> Vec<[f64; 3]> {
+    /// Points on each half swing.
+    const FINE: usize = 40;
+    let estimate = &fitted.estimate;
+    let p = &estimate.p;
+    let (first, last) = (t[0], t[t.len() - 1]);
+    let (origin, velocity) = match estimate.start {
+        Start::Release => (p[LAST], 0.0),
+        Start::Moving => (first, p[LAST]),
+    };
+    let count = (FINE * (estimate.half_swings + 2)).min(4 * POINTS);
+    #[expect(clippy::cast_precision_loss, reason = "counts of points")]
+    let at = |index: usize| origin + (last - origin) * index as f64 / count as f64;
+    let taus: Vec<f64> = (0..=count).map(|index| p[OMEGA0] * (at(index) - origin)).collect();
+    let mut points = Vec::new();
+    if first < origin {
+        points.push([first, p[Q0], 0.0]);
+    }
+    let way = Way { linear: false, with_derivatives: false, reach: f64::MAX, turns: usize::MAX };
+    let start = State { q: p[Q0], v: velocity };
+    // The motion was followed through the record before, so it is not lost now.
+    let _ = follow(&parameters(p), start, &taus, way, |index, point| {
+        points.push([at(index), point.q, point.v]);
+    });
+    points
+}

@@ -1,0 +1,334 @@
+//! The parts of a picture: curves, areas, marks and texts in world coordinates.
+
+use std::borrow::Cow;
+use std::fmt;
+
+use super::role::{Dash, Mark, Role};
+use super::ticks::Scale;
+use crate::oscillator::{Parameters, Symbol};
+use crate::scene::{Point, Window};
+
+/// A text that is a constant or was made for this picture.
+pub type Text = Cow<'static, str>;
+
+/// One of the variants that a plot shows.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Variant {
+    /// Its place in [`Picture::variants`].
+    pub index: usize,
+    /// The values that tell it from the others; empty where the plot shows one motion.
+    pub label: String,
+}
+
+/// How a line looks and what it is called.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Line {
+    /// What it is; empty for lines that need no name.
+    pub name: Text,
+    /// What the legend of the screen says in place of the name; nothing where this is empty.
+    pub brief: Option<&'static str>,
+    /// The variant that it belongs to; `None` where it belongs to all.
+    pub variant: Option<Variant>,
+    /// What it is, as far as its colour goes.
+    pub role: Role,
+    /// How it is interrupted.
+    pub dash: Dash,
+}
+
+impl Line {
+    /// A line of this name and look.
+    pub fn new(name: impl Into<Text>, role: Role, dash: Dash) -> Self {
+        Line { name: name.into(), brief: None, variant: None, role, dash }
+    }
+
+    /// The same line of one of several variants.
+    #[must_use]
+    pub fn of(self, variant: &Variant) -> Self {
+        Line { variant: Some(variant.clone()), ..self }
+    }
+
+    /// The same line with other words in the legend of the screen.
+    #[must_use]
+    pub fn briefly(self, words: &'static str) -> Self {
+        Line { brief: Some(words), ..self }
+    }
+
+    /// The same line with its name beside it: the legend of the screen leaves it out.
+    #[must_use]
+    pub fn captioned(self) -> Self {
+        self.briefly("")
+    }
+
+    /// Its name, and the variant that it belongs to.
+    #[must_use]
+    pub fn full_name(&self) -> Text {
+        match self.variant.as_ref().map(|variant| variant.label.as_str()) {
+            None | Some("") => self.name.clone(),
+            Some(label) => format!("{}, {label}", self.name).into(),
+        }
+    }
+
+    /// An axis or another line that is there to be read against.
+    #[must_use]
+    pub fn guide() -> Self {
+        Line::new("", Role::Axis, Dash::Sparse)
+    }
+}
+
+/// How a part of the world is filled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pattern {
+    /// Shaded.
+    Shade,
+    /// With arrows that lead away.
+    Arrows,
+    /// With stable points.
+    Stable,
+    /// With unstable points.
+    Unstable,
+}
+
+/// What a part of the world is filled with, and what it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Fill {
+    /// How it is filled.
+    pub pattern: Pattern,
+    /// What it is, as far as its colour goes.
+    pub role: Role,
+    /// What it is called.
+    pub name: &'static str,
+}
+
+/// What fills the world at a point, if anything does.
+pub type Texture<'a> = Box<dyn Fn(Point) -> Option<Fill> + 'a>;
+
+/// `y(x)`, or nothing where it has no value.
+pub type Function<'a> = Box<dyn Fn(f64) -> Option<f64> + 'a>;
+
+/// A direction at each point.
+pub type Flow<'a> = Box<dyn Fn(Point) -> Point + 'a>;
+
+/// Marks of one meaning.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Marks {
+    /// How they look.
+    pub mark: Mark,
+    /// What they stand for, as far as their colour goes.
+    pub role: Role,
+    /// Where they stand.
+    pub at: Vec<Point>,
+    /// What files call each of them.
+    pub name: Text,
+    /// What the legend of the screen says about them; empty where it leaves them out.
+    pub brief: &'static str,
+    /// Whether all are left out where they would touch each other.
+    pub sparse: bool,
+}
+
+impl Marks {
+    /// Marks with the usual name, which no legend explains.
+    #[must_use]
+    pub fn new(mark: Mark, role: Role, at: Vec<Point>) -> Self {
+        Marks { mark, role, at, name: mark.name().into(), brief: "", sparse: false }
+    }
+}
+
+/// Something in a picture.
+pub enum Item<'a> {
+    /// A polyline; a point that is not finite interrupts it.
+    Curve(Line, Vec<Point>),
+    /// A polyline along which other parameters than those on the axes vary too.
+    Path(Line, Vec<Point>),
+    /// A graph over the whole window, sampled as finely as whoever draws it needs.
+    Graph(Line, Function<'a>),
+    /// An upright through the whole window.
+    Upright(Line, f64),
+    /// A thick straight line.
+    Bar(Line, Point, Point),
+    /// The area that a curve, closed or with ends outside the window, does not separate from the origin.
+    Shade(Line, Vec<Point>),
+    /// All points whose abscissa lies between two values.
+    Columns(Line, f64, f64),
+    /// All points whose ordinate lies between two values.
+    Rows(Line, f64, f64),
+    /// Parts of the world, each filled with its pattern.
+    Texture(Texture<'a>),
+    /// Directions on a sparse lattice.
+    Arrows(Role, Flow<'a>),
+    /// Marks of one meaning.
+    Marks(Marks),
+    /// A text beside a point, and a shorter one for where there is little room.
+    Caption {
+        /// The point.
+        at: Point,
+        /// Points beside which it says the same, for where there is no room beside the first; the best
+        /// first.
+        or_at: Vec<Point>,
+        /// The text.
+        long: Text,
+        /// The text for small plots.
+        short: Text,
+        /// What it is.
+        role: Role,
+    },
+    /// The cross of the cursor.
+    Cross(Point),
+}
+
+/// What a plot shows, in the order in which it is painted.
+pub struct Picture<'a> {
+    /// What it is called.
+    pub title: Text,
+    /// Name of the horizontal axis.
+    pub x: Text,
+    /// Name of the vertical axis.
+    pub y: Text,
+    /// What the numbers along both axes stand for.
+    pub scales: [Scale; 2],
+    /// The part of the world on show.
+    pub window: Window,
+    /// The parameters of each variant on show; one set where there are no variants.
+    pub variants: Vec<Parameters>,
+    /// The parameters on the axes, which differ along the curves.
+    pub varied: Vec<Symbol>,
+    /// What the cursor reads.
+    pub reading: Option<String>,
+    /// From back to front.
+    pub items: Vec<Item<'a>>,
+}
+
+impl fmt::Debug for Picture<'_> {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            out,
+            "Picture {:?}: {} over {}, {} items",
+            self.title,
+            self.y,
+            self.x,
+            self.items.len()
+        )
+    }
+}
+
+impl Item<'_> {
+    /// The line of a curve, an area or a bar that has a name and is seen in this window.
+    #[must_use]
+    pub fn seen(&self, window: Window) -> Option<&Line> {
+        let (line, seen) = match self {
+            Item::Curve(line, points) | Item::Path(line, points) => (line, passes(points, window)),
+            Item::Graph(line, value) => (line, is_met(value, window)),
+            Item::Upright(line, x) => (line, window.x.contains(*x)),
+            Item::Bar(line, from, to) => (line, passes(&[*from, *to], window)),
+            Item::Shade(line, edge) => (line, !edge.is_empty()),
+            Item::Columns(line, from, to) => (line, *from < window.x.to() && *to > window.x.from()),
+            Item::Rows(line, from, to) => (line, *from < window.y.to() && *to > window.y.from()),
+            Item::Texture(_)
+            | Item::Arrows(..)
+            | Item::Marks(_)
+            | Item::Caption { .. }
+            | Item::Cross(_) => return None,
+        };
+        Some(line).filter(|line| seen && !line.name.is_empty())
+    }
+}
+
+/// Whether a polyline is seen in a window: one of its points, or the middle of one of its chords.
+#[must_use]
+pub fn passes(points: &[Point], window: Window) -> bool {
+    let middle = |pair: &[Point]| Point {
+        x: f64::midpoint(pair[0].x, pair[1].x),
+        y: f64::midpoint(pair[0].y, pair[1].y),
+    };
+    points.iter().any(|point| window.contains(*point))
+        || points.windows(2).any(|pair| window.contains(middle(pair)))
+}
+
+/// Whether a graph is seen in a window.
+fn is_met(value: &Function, window: Window) -> bool {
+    /// Places that are looked at.
+    const PLACES: u16 = 200;
+    (0..=PLACES)
+        .map(|place| window.x.at(f64::from(place) / f64::from(PLACES)))
+        .any(|x| value(x).is_some_and(|y| window.y.contains(y)))
+}
+
+impl<'a> Picture<'a> {
+    /// An empty picture.
+    pub fn new(
+        title: impl Into<Text>,
+        x: impl Into<Text>,
+        y: impl Into<Text>,
+        window: Window,
+    ) -> Self {
+        let (title, x, y) = (title.into(), x.into(), y.into());
+        Picture {
+            title,
+            x,
+            y,
+            scales: [Scale::Even; 2],
+            window,
+            variants: Vec::new(),
+            varied: Vec::new(),
+            reading: None,
+            items: Vec::new(),
+        }
+    }
+
+    /// Adds a polyline.
+    pub fn curve(&mut self, line: Line, points: impl IntoIterator<Item = Point>) {
+        self.items.push(Item::Curve(line, points.into_iter().collect()));
+    }
+
+    /// Adds a graph.
+    pub fn graph(&mut self, line: Line, value: impl Fn(f64) -> Option<f64> + 'a) {
+        self.items.push(Item::Graph(line, Box::new(value)));
+    }
+
+    /// Adds the line on which the ordinate has this value.
+    pub fn level(&mut self, line: Line, y: f64) {
+        self.graph(line, move |_| Some(y));
+    }
+
+    /// Adds an upright.
+    pub fn upright(&mut self, line: Line, x: f64) {
+        self.items.push(Item::Upright(line, x));
+    }
+
+    /// Adds a thick straight line.
+    pub fn bar(&mut self, line: Line, from: Point, to: Point) {
+        self.items.push(Item::Bar(line, from, to));
+    }
+
+    /// Adds a mark.
+    pub fn mark(&mut self, mark: Mark, at: Point, role: Role) {
+        self.items.push(Item::Marks(Marks::new(mark, role, vec![at])));
+    }
+
+    /// Adds a text.
+    pub fn caption(&mut self, at: Point, text: impl Into<Text>, role: Role) {
+        let long = text.into();
+        let or_at = Vec::new();
+        self.items.push(Item::Caption { at, or_at, short: long.clone(), long, role });
+    }
+
+    /// Adds the name of a curve, beside the highest of its points in the window that has room.
+    pub fn name_curve(&mut self, curve: &[Point], name: &str, role: Role) {
+        /// Points that are tried: more than a screen has rows.
+        const PLACES: usize = 60;
+        let mut points: Vec<Point> =
+            curve.iter().copied().filter(|point| self.window.contains(*point)).collect();
+        points.sort_by(|a, b| b.y.total_cmp(&a.y));
+        let step = points.len().div_ceil(PLACES).max(1);
+        let mut places = points.into_iter().step_by(step);
+        if let Some(at) = places.next().filter(|_| !name.is_empty()) {
+            let long: Text = name.to_owned().into();
+            let or_at = places.collect();
+            self.items.push(Item::Caption { at, or_at, short: long.clone(), long, role });
+        }
+    }
+
+    /// Adds the cross of the cursor, if there is one.
+    pub fn cross(&mut self, cursor: Option<Point>) {
+        self.items.extend(cursor.map(Item::Cross));
+    }
+}

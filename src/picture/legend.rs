@@ -1,0 +1,68 @@
+//! What the legend of the screen explains: everything with a name that is seen, once.
+
+use super::items::{Item, Marks, Picture};
+use super::role::{Dash, Role};
+
+/// What a sample in the legend shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Sample {
+    /// A line.
+    Line(Dash),
+    /// A thick line.
+    Bar,
+    /// A shaded area.
+    Shade,
+    /// An arrow.
+    Arrow,
+    /// A point.
+    Point,
+}
+
+/// An entry of the legend.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// How it is drawn.
+    pub sample: Sample,
+    /// What it stands for, as far as its colour goes.
+    pub role: Role,
+    /// What it is.
+    pub text: String,
+}
+
+/// What these pictures have to explain, in the order in which they are painted.
+#[must_use]
+pub fn entries(pictures: &[Picture]) -> Vec<Entry> {
+    let mut entries: Vec<Entry> = Vec::new();
+    for picture in pictures {
+        for entry in picture.items.iter().filter_map(|item| entry(picture, item)) {
+            // An area whose edge has its name goes without saying.
+            let known = |other: &Entry| (other.role, &other.text) == (entry.role, &entry.text);
+            if !entry.text.is_empty() && !entries.iter().any(known) {
+                entries.push(entry);
+            }
+        }
+    }
+    entries
+}
+
+fn entry(picture: &Picture, item: &Item) -> Option<Entry> {
+    let sample = match item {
+        Item::Marks(Marks { role, brief, .. }) => {
+            return Some(Entry { sample: Sample::Point, role: *role, text: (*brief).to_owned() });
+        }
+        Item::Arrows(role, _) => {
+            let text = "direction of flow".to_owned();
+            return Some(Entry { sample: Sample::Arrow, role: *role, text });
+        }
+        Item::Bar(..) => Sample::Bar,
+        Item::Shade(..) | Item::Columns(..) | Item::Rows(..) => Sample::Shade,
+        Item::Curve(line, _)
+        | Item::Path(line, _)
+        | Item::Graph(line, _)
+        | Item::Upright(line, _) => Sample::Line(line.dash),
+        Item::Texture(_) | Item::Caption { .. } | Item::Cross(_) => return None,
+    };
+    let line = item.seen(picture.window)?;
+    let text = line.brief.unwrap_or(&line.name).to_owned();
+    Some(Entry { sample, role: line.role, text })
+}

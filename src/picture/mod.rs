@@ -1,0 +1,71 @@
+//! What stands in a plot, decided once: curves, areas, marks and texts in world coordinates, each with a name
+//! and a role, and the ticks of its axes.
+//!
+//! A [`items::Picture`] knows no terminal and no file format. Each view builds one from the session; the screen
+//! ([`crate::view`]) and files ([`crate::figure`]) draw the same one.
+
+mod belt;
+mod belt_path;
+mod construction;
+mod diagram;
+mod eigenvalues;
+pub mod energy_ledger;
+mod energy_rate;
+mod equilibria;
+pub mod fit;
+pub mod items;
+pub mod legend;
+mod phase_plane;
+mod reading;
+mod regimes;
+mod return_map;
+pub mod role;
+pub mod scan;
+mod speeds;
+pub mod ticks;
+mod time_series;
+pub mod trade;
+
+use items::Picture;
+use ticks::Scale;
+
+use crate::scene::View;
+use crate::session::Session;
+
+/// What the numbers along the axes of the plot with this index stand for.
+#[must_use]
+pub fn scales(session: &Session, index: usize) -> [Scale; 2] {
+    match session.plots[index].view {
+        View::Scan => session.scanned.as_ref().map_or_else(Default::default, scan::scales),
+        View::Trade => [Scale::Logarithmic; 2],
+        _ => [Scale::Even; 2],
+    }
+}
+
+/// What the plot with this index shows.
+#[must_use]
+pub fn of(session: &Session, index: usize) -> Picture<'_> {
+    let mut picture = match session.plots[index].view {
+        View::Phase => phase_plane::picture(session, index),
+        View::Diagram => diagram::picture(session, index),
+        View::TimeSeries => time_series::picture(session, index),
+        View::EnergyLedger => energy_ledger::picture(session, index),
+        View::ReturnMap => return_map::picture(session, index),
+        View::Regimes => regimes::picture(session, index),
+        View::Trade => trade::picture(session, index),
+        View::EnergyRate => energy_rate::picture(session, index),
+        View::Eigenvalues => eigenvalues::picture(session, index),
+        View::Scan => scan::picture(session, index),
+        View::Speeds => speeds::picture(session, index),
+        View::Belt => belt::picture(session, index),
+    };
+    picture.scales = scales(session, index);
+    let shown = session.shown(index);
+    picture.variants = shown.iter().map(|shown| shown.problem.parameters).collect();
+    // What all of a plot is held at stands in its title; what tells several apart, at their curves.
+    let held = session.held_alike(index);
+    if !held.is_empty() {
+        picture.title = format!("{}, {held}", picture.title).into();
+    }
+    picture
+}

@@ -1,0 +1,295 @@
+//! The phase plane: where motions go, where they rest, and what separates those that do.
+//!
+//! Layers from back to front: directions of the flow, shading of the basin, borders of the capture bands,
+//! the point left for a mark, the line `v = 0`, the Lyapunov circle, the motion, cycles, the sticking set, markers, cursor. Formulas show the present
+//! parameters; what had to be computed shows the last answer, and the title says if it is old.
+
+use super::construction;
+use super::items::{Item, Line, Picture, Variant};
+use super::reading::reading;
+use super::role::{Dash, Mark, Role};
+use crate::closed_form::lyapunov;
+use crate::flow::{Outcome, Problem, Sample, Trajectory};
+use crate::machine;
+use crate::oscillator::{HalfPlane, Parameters, Side, State};
+use crate::scene::{Answer, Layer, Point, Slot, View};
+use crate::session::{self, Session, Shown};
+use crate::study::{Cycles, Edge};
+
+/// What the plot with this index shows.
+#[must_use]
+pub fn picture(session: &Session, index: usize) -> Picture<'_> {
+    let session::Plot { window, cursor, .. } = session.plots[index];
+    let mut picture = Picture::new(View::Phase.spec().title, "q", "v", window);
+    if session.scene.machine.is_some() {
+        let model = if session.draws_whole() { "whole model" } else { "cubic expansion" };
+        picture.title = format!("{}, {model}", picture.title).into();
+    }
+    picture.reading = cursor.map(|cursor| {
+        let (q, v) = reading(cursor, window);
+        format!("q {q} v {v}")
+    });
+    let shows = |layer| session.layers.contains(&layer);
+    let shown = session.shown(index);
+    let contact = session.contact();
+
+    if shows(Layer::Field)
+        && let Some(first) = shown.first()
+    {
+        let parameters = first.problem.parameters;
+        picture.items.push(Item::Arrows(Role::Field, Box::new(move |at| flow(&parameters, at))));
+    }
+    if shows(Layer::Levels)
+        && let Some(first) = shown.first()
+    {
+        construction::levels(&mut picture, &first.problem.parameters);
+    }
+    if shows(Layer::Basin) {
+        for (variant, answer) in found(session, Slot::Cycles, index) {
+            if let Answer::Cycles(found) = answer {
+                basin(&mut picture, found, &variant, shows(Layer::Cycles));
+            }
+        }
+    }
+    if shows(Layer::Bands) {
+        for border in session.borders(index).iter().flat_map(|found| &found.curves) {
+            let line = Line::new("border of a band of capture", Role::Bands, Dash::Dotted);
+            let line = line.briefly("one half swing more");
+            picture.curve(line, border.iter().map(point));
+        }
+    }
+    if shows(Layer::Ghost) {
+        ghost(&mut picture, session);
+    }
+    picture.level(Line::guide(), 0.0);
+    if shows(Layer::Lyapunov) {
+        for (variant, shown) in variants(&shown) {
+            circle(&mut picture, &shown.problem.parameters, &variant);
+        }
+    }
+    if let Some(fitted) = session.fitted().filter(|_| shows(Layer::Recorded)) {
+        let points = fitted.points.iter().map(|point| Point { x: point.q, y: point.v });
+        picture.curve(Line::new("record", Role::Ghost, Dash::Dotted), points);
+    }
+    if shows(Layer::Trajectory) {
+        for (variant, answer) in found(session, Slot::Trajectory, index) {
+            if let Answer::Trajectory(found) = answer {
+                let line = Line::new("motion", Role::Trajectory, Dash::Solid).of(&variant);
+                // Where the mass sticks to its belt the model ends, and the curve with it.
+                let last = contact.map_or(f64::INFINITY, |(tau, _)| tau);
+                let samples = found.samples.iter().take_while(|sample| sample.tau <= last);
+                picture.curve(line, samples.map(|sample| Point { x: sample.q, y: sample.v }));
+            }
+        }
+    }
+    // The cycle lies over the half turns that it is made of, so that its dashes are seen.
+    if shows(Layer::Spirals) {
+        for shown in &shown {
+            construction::spirals(&mut picture, &shown.problem.parameters);
+        }
+    }
+    if shows(Layer::Cycles) {
+        for (variant, answer) in found(session, Slot::Cycles, index) {
+            if let Answer::Cycles(found) = answer {
+                let kinds = session.kinds().filter(|_| session.draws_whole());
+                cycles(&mut picture, found, &variant, kinds.map_or(&[], |kinds| &kinds.cycles));
+            }
+        }
+    }
+    if shows(Layer::Balance) {
+        for found in session.balance().iter().flat_map(|balance| &balance.balanced) {
+            let line = Line::new("cycle of N harmonics", Role::Harmonic, Dash::Dotted);
+            picture.curve(line.briefly("N harmonics"), found.curve.iter().map(point));
+        }
+    }
+    if shows(Layer::Sticking) {
+        for (variant, shown) in variants(&shown) {
+            let r = shown.problem.parameters.r;
+            let [from, to] = [-r, r].map(|x| Point { x, y: 0.0 });
+            picture.bar(sticking_set().of(&variant), from, to);
+        }
+    }
+    if shows(Layer::Belt) {
+        belt(&mut picture, session);
+    }
+    if shows(Layer::Trajectory) {
+        ends(&mut picture, session, index, &shown);
+    }
+    if let Some(Sample { q, v, .. }) = session.head() {
+        picture.mark(Mark::Head, Point { x: q, y: v }, Role::Cursor);
+    }
+    picture.cross(cursor);
+    picture
+}
+
+/// The velocity at which the mass sticks to its belt, and where the motion reaches it.
+fn belt(picture: &mut Picture, session: &Session) {
+    let Some(running) = session.running() else { return };
+    let y = running.reduced.sticking_velocity;
+    let left = picture.window.x.from();
+    picture.level(Line::new("speed of the belt", Role::Current, Dash::Dashed), y);
+    picture.caption(Point { x: left, y }, "belt", Role::Current);
+    if session.draws_whole() {
+        rides(picture, session, y);
+    }
+    if let Some((_, q)) = session.contact() {
+        picture.caption(Point { x: q, y }, "sticks to the belt", Role::Warning);
+    }
+}
+
+/// Where the motion and the cycles ride on the belt, at this height: thick pieces of its line.
+fn rides(picture: &mut Picture, session: &Session, y: f64) {
+    let Some(running) = session.running() else { return };
+    let unit = running.reduced.units.displacement;
+    let cycles = session.kinds().filter(|_| session.layers.contains(&Layer::Cycles));
+    for (from, to) in cycles.iter().flat_map(|it| &it.cycles).filter_map(|cycle| cycle.ride) {
+        let [from, to] = [from, to].map(|x| Point { x: x / unit, y });
+        picture.bar(Line::new("cycle sticking to the belt", Role::Stable, Dash::Solid), from, to);
+    }
+    let motion = session.course().filter(|_| session.layers.contains(&Layer::Trajectory));
+    for ride in motion.iter().flat_map(|motion| &motion.rides) {
+        let [from, to] = ride.map(|end| Point { x: end.q, y });
+        picture.bar(
+            Line::new("motion sticking to the belt", Role::Trajectory, Dash::Solid),
+            from,
+            to,
+        );
+    }
+}
+
+/// The kind of a cycle in the words of the legend, and as its own caption where it is no plain slip.
+fn kind(cycle: &machine::Cycle) -> (&'static str, &'static str) {
+    match (cycle.stable, cycle.sticks, cycle.overtakes) {
+        (_, true, false) => ("stick-slip cycle", "stick-slip"),
+        (_, true, true) => ("overtaking stick-slip cycle", "stick-slip, overtaking"),
+        (true, false, false) => ("stable slip cycle", "slip"),
+        (false, false, false) => ("unstable slip cycle", ""),
+        (true, false, true) => ("stable overtaking cycle", "overtaking"),
+        (false, false, true) => ("unstable overtaking cycle", "overtaking, unstable"),
+    }
+}
+
+/// The answers of a kind that a plot has, each with its variant.
+fn found(session: &Session, slot: Slot, index: usize) -> Vec<(Variant, &Answer)> {
+    let found = session.found(slot, index).into_iter();
+    found.map(|(index, label, answer)| (Variant { index, label }, answer)).collect()
+}
+
+/// What a plot shows, each with its variant.
+pub(super) fn variants(shown: &[Shown]) -> impl Iterator<Item = (Variant, &Shown)> {
+    let all = shown.iter().enumerate();
+    all.map(|(index, shown)| (Variant { index, label: shown.label.clone() }, shown))
+}
+
+/// The segment where the mass rests.
+pub(super) fn sticking_set() -> Line {
+    Line::new("sticking set", Role::Sticking, Dash::Solid).briefly("sticking set (at rest)")
+}
+
+fn point(state: &State) -> Point {
+    Point { x: state.q, y: state.v }
+}
+
+/// Direction of the flow (equation 8); on `v = 0` it is that of the upper side.
+fn flow(parameters: &Parameters, Point { x: q, y: v }: Point) -> Point {
+    let side = if v < 0.0 { Side::Lower } else { Side::Upper };
+    let field = HalfPlane::new(parameters, side);
+    let (position, speed) = (side.position(q, parameters.r), side.sign() * v);
+    Point { x: v, y: side.sign() * field.acceleration(position, speed) }
+}
+
+/// The shaded basin of the sticking set, if it has an edge; an edge that is one of the cycles is drawn
+/// with these, where they are, so that its dashes are those of one curve.
+fn basin(picture: &mut Picture, found: &Cycles, variant: &Variant, with_cycles: bool) {
+    let Some(drawn) = found.picture.as_ref().filter(|drawn| !drawn.edge.is_empty()) else { return };
+    let edge: Vec<Point> = drawn.edge.iter().map(point).collect();
+    let area = Line::new("basin of the sticking set", Role::Basin, Dash::Solid).of(variant);
+    picture.items.push(Item::Shade(area.briefly("comes to rest"), edge.clone()));
+    if with_cycles && found.edge == Edge::Cycle {
+        return;
+    }
+    let line = Line::new("edge of the basin", Role::Unstable, Dash::Dashed);
+    picture.curve(line.of(variant), edge);
+}
+
+fn circle(picture: &mut Picture, parameters: &Parameters, variant: &Variant) {
+    /// Corners of the polygon that stands for the circle.
+    const CORNERS: u16 = 180;
+    if let Some(radius) = lyapunov::radius(parameters) {
+        let corners = (0..=CORNERS).map(|corner| {
+            let (sin, cos) =
+                (std::f64::consts::TAU * f64::from(corner) / f64::from(CORNERS)).sin_cos();
+            Point { x: radius * cos, y: radius * sin }
+        });
+        let line = Line::new("Lyapunov circle", Role::Lyapunov, Dash::Dotted);
+        picture.curve(line.of(variant), corners);
+    }
+}
+
+fn cycles(picture: &mut Picture, found: &Cycles, variant: &Variant, kinds: &[machine::Cycle]) {
+    let curves = found.picture.iter().flat_map(|picture| &picture.curves);
+    for (index, (cycle, curve)) in found.cycles.iter().zip(curves).enumerate() {
+        let plain = if cycle.stable { "stable cycle" } else { "unstable cycle" };
+        let (name, own): (_, &str) = match kinds.get(index) {
+            Some(cycle) => kind(cycle),
+            None => (plain, &variant.label),
+        };
+        let (role, dash) = stability(cycle.stable);
+        let points: Vec<Point> = curve.iter().map(point).collect();
+        picture.name_curve(&points, own, role);
+        picture.curve(Line::new(name, role, dash).of(variant), points);
+    }
+}
+
+/// Motion and cycles of the point that was left for a mark.
+fn ghost(picture: &mut Picture, session: &Session) {
+    let Some(left) = &session.marks.left else { return };
+    if let Some(found) = left.trajectory() {
+        let samples = found.samples.iter().map(|sample| Point { x: sample.q, y: sample.v });
+        let line = Line::new("motion left", Role::Ghost, Dash::Dotted);
+        picture.curve(line.briefly("the point left"), samples);
+    }
+    let drawn = left.cycles().and_then(|found| found.picture.as_ref());
+    for curve in drawn.iter().flat_map(|drawn| &drawn.curves) {
+        let line = Line::new("cycle left", Role::Ghost, Dash::Dashed);
+        picture.curve(line.briefly("the point left"), curve.iter().map(point));
+    }
+}
+
+/// How stable and unstable cycles are drawn, here and in the diagram.
+#[must_use]
+pub fn stability(stable: bool) -> (Role, Dash) {
+    if stable { (Role::Stable, Dash::Solid) } else { (Role::Unstable, Dash::Dashed) }
+}
+
+/// Where motions start and where they are in the end. One of a family that rests from the start is there
+/// for its cycles and has no marks; the present motion that does has the one of its rest.
+fn ends(picture: &mut Picture, session: &Session, index: usize, shown: &[Shown]) {
+    let family = session.variants(index).is_some();
+    for (.., answer) in session.found(Slot::Trajectory, index) {
+        if let Answer::Trajectory(found) = answer
+            && session.contact().is_none()
+            && !(family && matches!(found.outcome, Outcome::Captured { tau: 0.0, .. }))
+        {
+            end(picture, found);
+        }
+    }
+    for Problem { parameters, initial, .. } in shown.iter().map(|shown| &shown.problem) {
+        if initial.v != 0.0 || initial.q.abs() > parameters.r {
+            picture.mark(Mark::Start, point(initial), Role::Trajectory);
+        }
+    }
+}
+
+/// Where a motion is in the end.
+fn end(picture: &mut Picture, motion: &Trajectory) {
+    match motion.outcome {
+        Outcome::Captured { q, .. } => {
+            picture.mark(Mark::Rest, Point { x: q, y: 0.0 }, Role::Trajectory);
+        }
+        Outcome::Moving { q, v, .. } => {
+            picture.mark(Mark::Head, Point { x: q, y: v }, Role::Trajectory);
+        }
+        Outcome::Escaped { .. } | Outcome::GaveUp { .. } => {}
+    }
+}

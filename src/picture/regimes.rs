@@ -1,0 +1,138 @@
+//! The chart of regimes: what becomes of kicks, over two parameters.
+//!
+//! Each regime has its texture and its name; computed borders are drawn through, the border by one
+//! harmonic (48) is dotted. Today's point is marked: stepping the two parameters moves it and nothing
+//! else.
+
+use super::belt_path;
+use super::items::{Fill, Item, Line, Pattern, Picture};
+use super::reading::reading;
+use super::role::{Dash, Mark, Role};
+use crate::oscillator::Symbol;
+use crate::scene::{Axes, Layer, Point, View};
+use crate::session::{self, Session};
+use crate::study::chart::{Border, Chart};
+use crate::study::regime::{REGIMES, Regime};
+
+/// What the plot with this index shows.
+#[must_use]
+pub fn picture(session: &Session, index: usize) -> Picture<'_> {
+    let session::Plot { window, cursor, axes, .. } = session.plots[index];
+    let Axes { abscissa, against, .. } = axes;
+    let (right, up) = (abscissa.spec().name, against.spec().name);
+    let today = Point { x: session.value(abscissa), y: session.value(against) };
+    let found = session.chart(index);
+    let mut picture = Picture::new(View::Regimes.spec().title, right, up, window);
+    picture.varied = vec![abscissa, against];
+    let read = |point: Point| found.and_then(|chart| chart.regime_at(point.x, point.y));
+    picture.reading = Some(cursor.map_or_else(
+        || read(today).map_or_else(String::new, |regime| regime.name().into()),
+        |cursor| {
+            let (x, y) = reading(cursor, window);
+            let regime = read(cursor).map_or("", Regime::name);
+            format!("{right} {x} {up} {y} {regime}")
+        },
+    ));
+    let shows = |layer| session.layers.contains(&layer);
+
+    if let Some(chart) = found.filter(|_| shows(Layer::Regimes)) {
+        let texture = |point: Point| chart.regime_at(point.x, point.y).and_then(texture);
+        picture.items.push(Item::Texture(Box::new(texture)));
+    }
+    signs(&mut picture, abscissa, against, session.value(Symbol::R));
+    if let Some(chart) = found {
+        let mut border = |border, line: Line| {
+            for run in chart.border(border) {
+                picture.curve(line.clone(), run.into_iter().map(|(x, y)| Point { x, y }));
+            }
+        };
+        if shows(Layer::Borders) {
+            border(Border::Fold, Line::new("fold", Role::Special, Dash::Solid));
+            border(Border::Escape, Line::new("escape", Role::Unstable, Dash::Solid));
+        }
+        if shows(Layer::HarmonicBorder) {
+            let line = Line::new("fold of the first harmonic", Role::Harmonic, Dash::Dotted);
+            border(Border::Harmonic, line.briefly("fold of one harmonic"));
+        }
+        if shows(Layer::Regimes) {
+            names_of_regimes(&mut picture, chart);
+        }
+    }
+    let present = || Line::new("present value", Role::Current, Dash::Sparse);
+    picture.upright(present(), today.x);
+    let level = [window.x.from(), window.x.to()].map(|x| Point { x, y: today.y });
+    picture.curve(present(), level);
+    if shows(Layer::BeltPath) {
+        belt_path::draw(&mut picture, session, abscissa, against);
+    }
+    picture.mark(Mark::Head, today, Role::Current);
+    picture.cross(cursor);
+    picture
+}
+
+/// What a regime looks like; nothing where every kick is survived.
+fn texture(regime: Regime) -> Option<Fill> {
+    let (pattern, role) = match regime {
+        Regime::Global | Regime::Neutral => return None,
+        Regime::Finite => (Pattern::Shade, Role::Unstable),
+        Regime::Coexisting => (Pattern::Shade, Role::Stable),
+        Regime::Escape => (Pattern::Arrows, Role::Field),
+        Regime::Cycle => (Pattern::Stable, Role::Stable),
+        Regime::Repelling => (Pattern::Unstable, Role::Unstable),
+    };
+    Some(Fill { pattern, role, name: regime.name() })
+}
+
+/// Where a parameter changes its sign; D = 0 is the Hopf point where there is no friction.
+fn signs(picture: &mut Picture, right: Symbol, up: Symbol, friction: f64) {
+    let window = picture.window;
+    picture.upright(Line::guide(), 0.0);
+    let level = [window.x.from(), window.x.to()].map(|x| Point { x, y: 0.0 });
+    picture.curve(Line::guide(), level);
+    let without = friction == 0.0;
+    let hopf = match (right, up) {
+        (Symbol::D, Symbol::R) | (Symbol::R, Symbol::D) => Some(Point { x: 0.0, y: 0.0 }),
+        (Symbol::D, _) if without => Some(Point { x: 0.0, y: window.y.to() }),
+        (_, Symbol::D) if without => Some(Point { x: window.x.from(), y: 0.0 }),
+        _ => None,
+    };
+    if let Some(place) =
+        hopf.filter(|place| window.x.contains(place.x) && window.y.contains(place.y))
+    {
+        picture.caption(place, "H", Role::Quiet);
+    }
+}
+
+/// Cells of a lattice across the window, to find room for names.
+const LATTICE: u8 = 16;
+
+/// Width and height of a name, as parts of a window.
+const NAME: (f64, f64) = (0.2, 0.1);
+
+/// Writes each name where its regime has most room around it.
+fn names_of_regimes(picture: &mut Picture, chart: &Chart) {
+    let window = picture.window;
+    let middle = |index: u8| (f64::from(index) + 0.5) / f64::from(LATTICE);
+    let cells: Vec<(f64, f64, Option<Regime>)> = (0..LATTICE)
+        .flat_map(|row| (0..LATTICE).map(move |column| (middle(column), middle(row))))
+        .map(|(x, y)| (x, y, chart.regime_at(window.x.at(x), window.y.at(y))))
+        .collect();
+    for (regime, name, _) in REGIMES {
+        let room = |x: f64, y: f64| {
+            let others = cells.iter().filter(|cell| cell.2 != Some(regime));
+            let far = |cell: &(f64, f64, Option<Regime>)| {
+                ((cell.0 - x).abs() / NAME.0).max((cell.1 - y).abs() / NAME.1)
+            };
+            // The ends of the window are borders like the others.
+            let ends = (x.min(1.0 - x) / NAME.0).min(y.min(1.0 - y) / NAME.1);
+            others.map(far).fold(ends, f64::min)
+        };
+        let own = cells.iter().filter(|cell| cell.2 == Some(regime));
+        let best = own.map(|&(x, y, _)| (room(x, y), x, y)).max_by(|a, b| a.0.total_cmp(&b.0));
+        if let Some((_, x, y)) = best {
+            // A caption stands beside its point, the name should stand around it.
+            let left = Point { x: window.x.at(x - 0.5 * NAME.0), y: window.y.at(y) };
+            picture.caption(left, name, Role::Text);
+        }
+    }
+}

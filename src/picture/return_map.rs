@@ -1,0 +1,94 @@
+//! The return map: the next turning point on the same side, over a turning point.
+//!
+//! Where the map crosses the diagonal it has a cycle; where it enters the shaded band the motion comes
+//! to rest. The turning points of the motion climb and descend between map and diagonal as a cobweb.
+
+use super::items::{Item, Line, Marks, Picture};
+use super::phase_plane::sticking_set;
+use super::reading::reading;
+use super::role::{Dash, Mark, Role};
+use crate::flow::Outcome;
+use crate::scene::{Layer, Point, View};
+use crate::session::motion::turning_points;
+use crate::session::{self, Session};
+
+/// What the plot with this index shows.
+#[must_use]
+pub fn picture(session: &Session, index: usize) -> Picture<'_> {
+    let session::Plot { window, cursor, .. } = session.plots[index];
+    let mut picture = Picture::new(View::ReturnMap.spec().title, "q", "next q", window);
+    picture.reading = cursor.map(|cursor| {
+        let (q, next) = reading(cursor, window);
+        format!("q {q} next {next}")
+    });
+    let shows = |layer| session.layers.contains(&layer);
+    let r = session.problem.parameters.r;
+
+    if shows(Layer::Map) && r > 0.0 {
+        let rest = || Line::new("at rest there", Role::Basin, Dash::Solid);
+        picture.items.extend([Item::Rows(rest(), -r, r), Item::Columns(rest(), -r, r)]);
+    }
+    picture.graph(Line::new("diagonal", Role::Axis, Dash::Sparse), Some);
+    if shows(Layer::Map)
+        && let Some(found) = session.return_map(index)
+    {
+        for side in &found.sides {
+            let points =
+                side.iter().map(|turn| Point { x: turn.from, y: turn.to.unwrap_or(f64::NAN) });
+            picture.curve(Line::new("next turning point", Role::Map, Dash::Solid), points);
+        }
+        // Whoever rests there stays there.
+        let held = found.parameters.r;
+        let [from, to] = [-held, held].map(|q| Point { x: q, y: q });
+        picture.bar(sticking_set(), from, to);
+    }
+    if shows(Layer::Cobweb) {
+        cobweb(&mut picture, session);
+    }
+    if shows(Layer::FixedPoints) {
+        let cycles = session.cycles().filter(|_| !session.draws_whole());
+        for cycle in cycles.into_iter().flat_map(|found| &found.cycles) {
+            let (mark, role) = if cycle.stable {
+                (Mark::Stable, Role::Stable)
+            } else {
+                (Mark::Unstable, Role::Unstable)
+            };
+            let turning = [cycle.q_min, cycle.q_max].map(|q| Point { x: q, y: q });
+            let marks = Marks { brief: "cycle", ..Marks::new(mark, role, turning.to_vec()) };
+            picture.items.push(Item::Marks(marks));
+        }
+    }
+    picture.cross(cursor);
+    picture
+}
+
+/// The turning points of the motion, each side for itself: up or down to the map, across to the diagonal.
+fn cobweb(picture: &mut Picture, session: &Session) {
+    // The map is that of the cubic expansion.
+    let Some(motion) = session.trajectory().filter(|_| !session.draws_whole()) else { return };
+    let points = turning_points(motion);
+    let rest = match motion.outcome {
+        Outcome::Captured { q, .. } => Some(q),
+        _ => None,
+    };
+    for side in 0..2 {
+        let mut turns: Vec<f64> = points.iter().skip(side).step_by(2).copied().collect();
+        // The side on which the motion does not come to rest learns of it too.
+        if let Some(rest) = rest.filter(|rest| turns.last().is_some_and(|last| last != rest)) {
+            turns.push(rest);
+        }
+        let steps = turns.windows(2).flat_map(|pair| {
+            let [from, to] = [pair[0], pair[1]];
+            [Point { x: from, y: to }, Point { x: to, y: to }]
+        });
+        let first = turns.first().map(|q| Point { x: *q, y: *q });
+        let line = Line::new("motion, turn by turn", Role::Trajectory, Dash::Solid);
+        picture.curve(line.briefly("motion"), first.into_iter().chain(steps));
+        if let Some(start) = first {
+            picture.mark(Mark::Start, start, Role::Trajectory);
+        }
+    }
+    if let Some(q) = rest {
+        picture.mark(Mark::Rest, Point { x: q, y: q }, Role::Trajectory);
+    }
+}

@@ -1,0 +1,54 @@
+//! A scan over one parameter, as a curve. A map of shades over two is drawn by the screen alone.
+
+use super::items::{Line, Picture};
+use super::role::{Dash, Role};
+use super::ticks::Scale;
+use crate::scene::{Point, View};
+use crate::session::Session;
+use crate::session::scan::Scanned;
+use crate::study::scan::{Spacing, Sweep};
+
+/// The name of what is plotted.
+#[must_use]
+pub fn measured(scanned: &Scanned) -> &'static str {
+    scanned.scan.measured().get(scanned.column).copied().unwrap_or_default()
+}
+
+/// The names of both axes.
+#[must_use]
+pub fn names(scanned: &Scanned) -> (&'static str, &'static str) {
+    let over = scanned.scan.over();
+    let name = |sweep: &Sweep| sweep.symbol.spec().name;
+    (name(&over[0]), over.get(1).map_or_else(|| measured(scanned), name))
+}
+
+/// What the numbers along both axes stand for.
+#[must_use]
+pub fn scales(scanned: &Scanned) -> [Scale; 2] {
+    let over = scanned.scan.over();
+    [0, 1].map(|axis| match over.get(axis) {
+        Some(Sweep { spacing: Spacing::Logarithmic, from, .. }) if *from < 0.0 => {
+            Scale::NegativeLogarithmic
+        }
+        Some(Sweep { spacing: Spacing::Logarithmic, .. }) => Scale::Logarithmic,
+        _ => Scale::Even,
+    })
+}
+
+/// The curve over one parameter as data; a map of shades is for the screen, and its rows for files.
+#[must_use]
+pub fn picture(session: &Session, index: usize) -> Picture<'_> {
+    let title = View::Scan.spec().title;
+    let window = session.plots[index].window;
+    let Some(scanned) = &session.scanned else { return Picture::new(title, "", "", window) };
+    let (x, y) = names(scanned);
+    let mut picture = Picture::new(title, x, y, window);
+    picture.varied = scanned.scan.over().iter().map(|sweep| sweep.symbol).collect();
+    if !scanned.is_grid() {
+        let line = Line::new(y, Role::Trajectory, Dash::Solid);
+        let nowhere = Point { x: f64::NAN, y: f64::NAN };
+        let points = 0..scanned.rows.len();
+        picture.curve(line, points.map(|index| scanned.place(index).unwrap_or(nowhere)));
+    }
+    picture
+}

@@ -1,0 +1,334 @@
+//! Round ticks, with labels that say neither too little nor too much.
+//!
+//! Ticks are integers times a power of ten, and labels are written from those integers, so two ticks
+//! never share a label, whatever the rounding of floating point. Where the range is so narrow that
+//! labels would be long rows of equal digits, the common part is split off as [`Ticks::base`].
+
+#![expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    clippy::cast_precision_loss,
+    reason = "powers of ten and counts of ticks are small, whatever the axis"
+)]
+
+use crate::scene::Span;
+
+/// A tick: where it stands and what it says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tick {
+    /// Fraction of the axis, from 0 to 1.
+    pub fraction: f64,
+    /// The label, without the base.
+    pub label: String,
+}
+
+/// Evenly spaced round ticks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ticks {
+    /// What to add to every label, where labels count from a number other than zero.
+    pub base: Option<String>,
+    /// The ticks, from low to high.
+    pub ticks: Vec<Tick>,
+}
+
+/// What the numbers along an axis stand for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Scale {
+    /// Themselves.
+    #[default]
+    Even,
+    /// Decimal logarithms of a quantity, whose own values are labelled.
+    Logarithmic,
+    /// The same of a negative quantity's magnitude.
+    NegativeLogarithmic,
+}
+
+impl Scale {
+    /// What the numbers along the axis of a quantity are called in files.
+    #[must_use]
+    pub fn of_numbers(self, name: &str) -> String {
+        match self {
+            Scale::Even => name.to_owned(),
+            Scale::Logarithmic => format!("log10 {name}"),
+            Scale::NegativeLogarithmic => format!("log10 -{name}"),
+        }
+    }
+}
+
+/// Digits within a decade, and every how many decades they are labelled; the finest first.
+const DECADES: [(&[i64], usize); 8] = [
+    (&[1, 2, 5], 1),
+    (&[1], 1),
+    (&[1], 2),
+    (&[1], 3),
+    (&[1], 5),
+    (&[1], 10),
+    (&[1], 20),
+    (&[1], 100),
+];
+
+/// Most ticks that are ever considered: more than any screen can label.
+const MOST: f64 = 60.0;
+
+/// Part of a step by which rounding may push a tick over the end of the axis.
+const ROUNDING: f64 = 1e-6;
+
+/// Labels of more digits than this are split into a base and an offset.
+const DIGITS: i32 = 6;
+
+impl Ticks {
+    /// The finest ticks on an axis of this scale that `fit`: decades where the axis is logarithmic, and
+    /// round numbers between them where it is too short for two decades.
+    #[must_use]
+    pub fn on(scale: Scale, axis: Span, fit: impl Fn(&[Tick]) -> bool) -> Self {
+        let sign = match scale {
+            Scale::Even => return Ticks::fitting(axis, fit),
+            Scale::Logarithmic => "",
+            Scale::NegativeLogarithmic => "-",
+        };
+        let decades = DECADES.iter().map(|(digits, every)| decades(axis, sign, digits, *every));
+        let fitting = decades.into_iter().find(|ticks| fit(ticks));
+        if let Some(ticks) = fitting.filter(|ticks| ticks.len() > 1) {
+            return Ticks { base: None, ticks };
+        }
+        let Ok(values) = Span::new(10_f64.powf(axis.from()), 10_f64.powf(axis.to())) else {
+            return Ticks { base: None, ticks: Vec::new() };
+        };
+        let bent = |ticks: &[Tick]| -> Vec<Tick> {
+            let place = |tick: &Tick| axis.fraction(values.at(tick.fraction).log10());
+            let label = |tick: &Tick| format!("{sign}{}", tick.label);
+            ticks.iter().map(|tick| Tick { fraction: place(tick), label: label(tick) }).collect()
+        };
+        let even = Ticks::fitting(values, |ticks| fit(&bent(ticks)));
+        Ticks { base: even.base.clone(), ticks: bent(&even.ticks) }
+    }
+
+    /// The finest ticks that `fit`; none at all if not even a single one fits.
+    #[must_use]
+    pub fn fitting(axis: Span, fit: impl Fn(&[Tick]) -> bool) -> Self {
+        let mut step = Step::at_least(axis.width() / MOST);
+        loop {
+            let ticks = step.ticks(axis);
+            if ticks.ticks.is_empty() || fit(&ticks.ticks) {
+                return ticks;
+            }
+            step = step.coarser();
+        }
+    }
+}
+
+/// Ticks at these digits of every so many decades, on an axis of decimal logarithms.
+fn decades(axis: Span, sign: &str, digits: &[i64], every: usize) -> Vec<Tick> {
+    let (first, last) = (axis.from().floor() as i32, axis.to().ceil() as i32);
+    let numbers = (first..=last)
+        .filter(|power| (power.unsigned_abs() as usize).is_multiple_of(every))
+        .flat_map(|power| digits.iter().map(move |digit| (*digit, power)));
+    let tick = |(digit, power): (i64, i32)| Tick {
+        fraction: axis.fraction(f64::from(power) + (digit as f64).log10()),
+        label: format!("{sign}{}", label(digit, power, digit, false)),
+    };
+    let on_the_axis = |tick: &Tick| (-ROUNDING..=1.0 + ROUNDING).contains(&tick.fraction);
+    let clamped = |tick: Tick| Tick { fraction: tick.fraction.clamp(0.0, 1.0), ..tick };
+    numbers.map(tick).filter(on_the_axis).map(clamped).collect()
+}
+
+/// A distance between ticks: `digit * 10^power` with digit 1, 2 or 5.
+#[derive(Clone, Copy)]
+struct Step {
+    digit: i64,
+    power: i32,
+}
+
+impl Step {
+    /// The smallest round step not below `width`.
+    fn at_least(width: f64) -> Self {
+        let mut step = Step { digit: 1, power: decade(width) };
+        while decimal(step.digit, step.power) < width {
+            step = step.coarser();
+        }
+        step
+    }
+
+    fn coarser(self) -> Self {
+        match self.digit {
+            1 => Step { digit: 2, ..self },
+            2 => Step { digit: 5, ..self },
+            _ => Step { digit: 1, power: self.power + 1 },
+        }
+    }
+
+    /// All multiples of this step on the axis.
+    fn ticks(self, axis: Span) -> Ticks {
+        let origin = Origin::of(axis, self.power);
+        let (low, high) = (axis.from() - origin.value, axis.to() - origin.value);
+        let width = decimal(self.digit, self.power);
+        let first = (low / width - ROUNDING).ceil() as i64;
+        let last = (high / width + ROUNDING).floor() as i64;
+        let place = |number| ((decimal(number, self.power) - low) / axis.width()).clamp(0.0, 1.0);
+        let numbers: Vec<i64> = (first..=last).map(|count| count * self.digit).collect();
+        let largest = numbers.iter().map(|number| number.abs()).max().unwrap_or(0);
+        let tick = |number| Tick {
+            fraction: place(number),
+            label: label(number, self.power, largest, origin.text.is_some()),
+        };
+        Ticks { ticks: numbers.into_iter().map(tick).collect(), base: origin.text }
+    }
+}
+
+/// The number from which labels count: zero, unless that would make them long.
+struct Origin {
+    value: f64,
+    text: Option<String>,
+}
+
+impl Origin {
+    fn of(axis: Span, power: i32) -> Self {
+        let largest = axis.from().abs().max(axis.to().abs());
+        if decade(largest) - power < DIGITS {
+            return Origin { value: 0.0, text: None };
+        }
+        // A round number inside the axis or just below it, with as few digits as tell it apart.
+        let coarse = decade(axis.width()) + 1;
+        let digits = (decade(axis.from().abs()) - coarse).clamp(0, 16);
+        let text = format!("{:.*e}", usize::try_from(digits).unwrap_or(0), axis.from());
+        match text.parse::<f64>() {
+            Ok(value) => Origin { value, text: Some(crate::words::number::exact(value, 24)) },
+            Err(_) => Origin { value: 0.0, text: None },
+        }
+    }
+}
+
+/// The power of ten at or below a positive number; far below all others for zero.
+fn decade(value: f64) -> i32 {
+    value.log10().floor().max(-400.0) as i32
+}
+
+/// `number * 10^power`, correctly rounded.
+fn decimal(number: i64, power: i32) -> f64 {
+    format!("{number}e{power}").parse().unwrap_or(0.0)
+}
+
+/// Writes `number * 10^power`: plainly while the largest of its kind stays short, else with exponent.
+fn label(number: i64, power: i32, largest: i64, signed: bool) -> String {
+    let sign = match number.signum() {
+        0 => return "0".into(),
+        1 if signed => "+",
+        1 => "",
+        _ => "-",
+    };
+    let digits = number.unsigned_abs().to_string();
+    let order = power + largest.max(1).ilog10() as i32;
+    if (-4..0).contains(&power) && order < DIGITS {
+        let decimals = power.unsigned_abs() as usize;
+        let padded = format!("{digits:0>width$}", width = decimals + 1);
+        let (whole, part) = padded.split_at(padded.len() - decimals);
+        return format!("{sign}{whole}.{part}");
+    }
+    if (0..DIGITS - 1).contains(&power) && order < DIGITS - 1 {
+        return format!("{sign}{digits}{}", "0".repeat(power.unsigned_abs() as usize));
+    }
+    let exponent = power + digits.len() as i32 - 1;
+    let (lead, rest) = digits.split_at(1);
+    match rest.trim_end_matches('0') {
+        "" => format!("{sign}{lead}e{exponent}"),
+        rest => format!("{sign}{lead}.{rest}e{exponent}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn span(low: f64, high: f64) -> Span {
+        Span::covering([low, high]).unwrap()
+    }
+
+    fn labels(low: f64, high: f64, most: usize) -> Vec<String> {
+        let ticks = Ticks::fitting(span(low, high), |ticks| ticks.len() <= most);
+        ticks.ticks.into_iter().map(|tick| tick.label).collect()
+    }
+
+    #[test]
+    fn labels_have_just_the_digits_needed() {
+        assert_eq!(labels(-1.0, 1.0, 5), ["-1.0", "-0.5", "0", "0.5", "1.0"]);
+        assert_eq!(labels(0.0, 10.0, 6), ["0", "2", "4", "6", "8", "10"]);
+        assert_eq!(labels(-0.012, 0.001, 4), ["-0.010", "-0.005", "0"]);
+        assert_eq!(labels(0.0, 40_000.0, 5), ["0", "10000", "20000", "30000", "40000"]);
+    }
+
+    #[test]
+    fn decades_of_a_logarithmic_axis_are_labelled_by_their_values() {
+        let on = |scale, low: f64, high: f64, most: usize| {
+            let ticks = Ticks::on(scale, span(low, high), |ticks| ticks.len() <= most).ticks;
+            ticks.into_iter().map(|tick| (tick.label, tick.fraction)).collect::<Vec<_>>()
+        };
+        let names = |ticks: &[(String, f64)]| -> Vec<String> {
+            ticks.iter().map(|(label, _)| label.clone()).collect()
+        };
+        let scale = Scale::Logarithmic;
+        assert_eq!(names(&on(scale, -2.0, 0.0, 4)), ["0.01", "0.1", "1"]);
+        assert_eq!(names(&on(Scale::NegativeLogarithmic, -2.0, 0.0, 4)), ["-0.01", "-0.1", "-1"]);
+        assert_eq!(names(&on(scale, -1.0, 0.0, 4)), ["0.1", "0.2", "0.5", "1"]);
+        assert_eq!(
+            names(&on(scale, -6.0, 4.0, 6)),
+            ["1e-6", "0.0001", "0.01", "1", "100", "10000"]
+        );
+        // Too short for two decades or their parts: round values.
+        assert_eq!(names(&on(scale, 0.1, 0.28, 4)), ["1.4", "1.6", "1.8"]);
+        for (label, fraction) in on(scale, -3.3, 2.2, 9) {
+            let value: f64 = label.parse().unwrap();
+            assert!((value.log10() - (-3.3 + 5.5 * fraction)).abs() < 1e-9, "{label} {fraction}");
+        }
+    }
+
+    #[test]
+    fn extremes_are_written_with_exponents() {
+        assert_eq!(labels(0.0, 2e-31, 3), ["0", "1e-31", "2e-31"]);
+        assert_eq!(labels(0.0, 2e12, 5), ["0", "5e11", "1e12", "1.5e12", "2e12"]);
+    }
+
+    #[test]
+    fn a_narrow_range_splits_off_what_all_labels_share() {
+        let ticks = Ticks::fitting(span(0.109_64, 0.109_64 + 3e-9), |ticks| ticks.len() <= 4);
+        assert_eq!(ticks.base.as_deref(), Some("0.10964"));
+        let labels: Vec<&str> = ticks.ticks.iter().map(|tick| tick.label.as_str()).collect();
+        assert_eq!(labels, ["0", "+1e-9", "+2e-9", "+3e-9"]);
+    }
+
+    proptest! {
+        #[test]
+        fn ticks_lie_on_the_axis_evenly_with_distinct_labels(
+            low in -1e300..1e300_f64, high in -1e300..1e300_f64, scale in -300..0_i32, most in 1_usize..30) {
+            let scale = 10_f64.powi(scale);
+            let ticks = Ticks::fitting(span(low * scale, high * scale), |ticks| ticks.len() <= most).ticks;
+            prop_assert!(ticks.len() <= most);
+            prop_assert!(ticks.iter().all(|tick| (0.0..=1.0).contains(&tick.fraction)));
+            let gaps: Vec<f64> = ticks.windows(2).map(|pair| pair[1].fraction - pair[0].fraction).collect();
+            prop_assert!(gaps.iter().all(|gap| (gap - gaps[0]).abs() < 1e-3 && *gap > 0.0), "{:?}", gaps);
+            let mut labels: Vec<String> = ticks.into_iter().map(|tick| tick.label).collect();
+            let count = labels.len();
+            labels.sort();
+            labels.dedup();
+            prop_assert_eq!(labels.len(), count);
+        }
+
+        #[test]
+        fn a_label_and_its_base_say_where_the_tick_stands(low in -1e6..1e6_f64, exponent in -12..6_i32) {
+            let axis = span(low, low + 10_f64.powi(exponent));
+            let ticks = Ticks::fitting(axis, |ticks| ticks.len() <= 8);
+            let base: f64 = ticks.base.map_or(0.0, |base| base.parse().unwrap());
+            for tick in ticks.ticks {
+                let value = base + tick.label.parse::<f64>().unwrap();
+                prop_assert!((axis.fraction(value) - tick.fraction).abs() < 1e-3, "{:?} {}", tick, value);
+            }
+        }
+
+        #[test]
+        fn every_wide_enough_axis_has_ticks(low in -10.0..10.0_f64, width in 0.001..20.0_f64) {
+            let ticks = Ticks::fitting(span(low, low + width), |ticks| ticks.len() <= 6).ticks;
+            prop_assert!(ticks.len() >= 2, "{} .. {}: {:?}", low, low + width, ticks);
+        }
+    }
+}

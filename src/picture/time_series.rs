@@ -1,0 +1,157 @@
+//! The motion over time: displacement, velocity, force of dry friction, energy.
+//!
+//! Displacement and energy change smoothly through the turning points, where the force of friction
+//! jumps from one end of `[-r, r]` to the other; at rest it is what the spring asks for.
+
+use super::items::{Item, Line, Marks, Picture};
+use super::reading::CELLS;
+use super::role::{Dash, Mark, Role};
+use crate::flow::{Outcome, Trajectory};
+use crate::oscillator::State;
+use crate::oscillator::energy::energy;
+use crate::scene::{Layer, Point, View};
+use crate::session::motion::friction_force;
+use crate::session::{self, Session};
+use crate::words::number::resolved;
+
+/// A quantity over time: its layer, its letter, its name, how it is drawn, and how it is read from a
+/// state.
+type Quantity = (Layer, &'static str, &'static str, Role, Dash, fn(State) -> f64);
+
+/// The smooth quantities.
+const QUANTITIES: [Quantity; 3] = [
+    (Layer::Energy, "V", "energy V", Role::Energy, Dash::Dotted, energy),
+    (Layer::Velocity, "v", "velocity v", Role::Velocity, Dash::Dashed, |state| state.v),
+    (Layer::Position, "q", "displacement q", Role::Trajectory, Dash::Solid, |state| state.q),
+];
+
+/// What the plot with this index shows.
+#[must_use]
+pub fn picture(session: &Session, index: usize) -> Picture<'_> {
+    let session::Plot { window, cursor, .. } = session.plots[index];
+    let shows = |layer| session.layers.contains(&layer);
+    let shown = || QUANTITIES.iter().rev().filter(|(layer, ..)| shows(*layer));
+    let friction = shows(Layer::Friction).then_some("f");
+    let letters: Vec<&str> = shown().map(|(_, letter, ..)| *letter).chain(friction).collect();
+    let title = View::TimeSeries.spec().title;
+    let mut picture = Picture::new(title, "tau", letters.join(" "), window);
+    picture.reading = cursor.map(|Point { x: tau, .. }| {
+        let time = format!("tau {}", resolved(tau, window.x.width() / CELLS));
+        let value = |value: f64| resolved(value, window.y.width() / CELLS);
+        let Some(state) = session.state_at(tau) else { return time };
+        shown().fold(time, |line, (_, letter, .., read)| {
+            format!("{line} {letter} {}", value(read(state)))
+        })
+    });
+    picture.level(Line::guide(), 0.0);
+    if let Some(fitted) = session.fitted().filter(|_| shows(Layer::Record)) {
+        let points = fitted.points.iter().map(|point| Point { x: point.tau, y: point.q });
+        picture.curve(Line::new("record", Role::Ghost, Dash::Solid), points);
+    }
+    // The force of the guide on a mass that is held by the belt too is another story.
+    let whole = session.draws_whole();
+    let force = session.trajectory().filter(|_| shows(Layer::Friction) && !whole);
+    let force = force.map(|motion| friction_force(motion, motion.problem.until));
+    if let Some(motion) = session.trajectory() {
+        let end = motion.problem.until;
+        if let Some(force) = force.clone() {
+            let points: Vec<Point> = force.into_iter().map(|(x, y)| Point { x, y }).collect();
+            let first = points.first().copied();
+            picture.curve(Line::new("friction force f", Role::Sticking, Dash::Solid), points);
+            label(&mut picture, first, "f", Role::Sticking);
+        }
+        for (layer, letter, name, role, dash, read) in QUANTITIES {
+            if shows(layer) {
+                picture.curve(Line::new(name, role, dash), curve(motion, end, read));
+                let first = motion.samples.first();
+                let first = first.map(|s| Point { x: s.tau, y: read(State { q: s.q, v: s.v }) });
+                label(&mut picture, first, letter, role);
+            }
+        }
+        for ride in session.course().iter().flat_map(|motion| &motion.rides) {
+            for (.., read) in QUANTITIES.iter().filter(|(layer, ..)| shows(*layer)) {
+                let [from, to] =
+                    ride.map(|end| Point { x: end.tau, y: read(State { q: end.q, v: end.v }) });
+                picture.bar(Line::new("sticks to the belt", Role::Current, Dash::Solid), from, to);
+            }
+        }
+        if shows(Layer::Events) {
+            events(&mut picture, motion);
+        }
+    }
+    if let Some(head) = session.head() {
+        picture.upright(Line::new("", Role::Cursor, Dash::Sparse), head.tau);
+        for (.., read) in QUANTITIES.iter().filter(|(layer, ..)| shows(*layer)) {
+            let y = read(State { q: head.q, v: head.v });
+            picture.mark(Mark::Head, Point { x: head.tau, y }, Role::Cursor);
+        }
+        if let Some(y) = force.and_then(|force| force_at(&force, head.tau)) {
+            picture.mark(Mark::Head, Point { x: head.tau, y }, Role::Cursor);
+        }
+    }
+    picture.cross(cursor);
+    picture
+}
+
+/// The force at a time on its polyline; where it jumps, the force after the jump.
+fn force_at(force: &[(f64, f64)], tau: f64) -> Option<f64> {
+    let after = force.partition_point(|(at, _)| *at <= tau);
+    let (before, next) = (force.get(after.checked_sub(1)?)?, force.get(after));
+    let part = next.map_or(0.0, |next| (tau - before.0) / (next.0 - before.0));
+    Some(before.1 + part * next.map_or(0.0, |next| next.1 - before.1))
+}
+
+/// A quantity along a motion, and on while it rests.
+fn curve(motion: &Trajectory, end: f64, read: fn(State) -> f64) -> Vec<Point> {
+    let mut points: Vec<Point> = motion
+        .samples
+        .iter()
+        .map(|sample| Point { x: sample.tau, y: read(State { q: sample.q, v: sample.v }) })
+        .collect();
+    if let Outcome::Captured { tau, q } = motion.outcome {
+        let y = read(State { q, v: 0.0 });
+        points.extend([Point { x: tau, y }, Point { x: end, y }]);
+    }
+    points
+}
+
+/// The letter of a curve, where it begins.
+fn label(picture: &mut Picture, first: Option<Point>, letter: &'static str, role: Role) {
+    if let Some(first) = first {
+        picture.caption(first, letter, role);
+    }
+}
+
+/// The turning points, where they stand apart, and how the motion ends.
+fn events(picture: &mut Picture, motion: &Trajectory) {
+    let turns = motion.crossings.iter().map(|turn| Point { x: turn.tau, y: turn.q });
+    let marks = Marks::new(Mark::Turn, Role::Trajectory, turns.collect());
+    picture.items.push(Item::Marks(Marks { sparse: true, ..marks }));
+    match motion.outcome {
+        Outcome::Captured { tau, q } => {
+            picture.mark(Mark::Rest, Point { x: tau, y: q }, Role::Trajectory);
+        }
+        Outcome::Moving { tau, q, .. } => {
+            picture.mark(Mark::Head, Point { x: tau, y: q }, Role::Trajectory);
+        }
+        Outcome::Escaped { tau } => {
+            picture.upright(Line::new("escapes", Role::Unstable, Dash::Sparse), tau);
+        }
+        Outcome::GaveUp { .. } => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_force_is_read_between_its_corners_and_after_its_jumps() {
+        let force = [(0.0, 0.5), (2.0, 0.5), (2.0, -0.5), (3.0, -0.5), (3.0, 0.1), (9.0, 0.1)];
+        for (tau, expected) in [(0.0, 0.5), (1.9, 0.5), (2.0, -0.5), (3.0, 0.1), (9.0, 0.1)] {
+            assert_eq!(force_at(&force, tau), Some(expected), "{tau}");
+        }
+        assert_eq!(force_at(&[(1.0, 0.2), (3.0, 0.6)], 2.0), Some(0.4));
+        assert_eq!((force_at(&force, -1.0), force_at(&[], 1.0)), (None, None));
+    }
+}

@@ -1,0 +1,82 @@
+//! What accuracy costs: the error of every method over its evaluations, both as powers of ten.
+//!
+//! Each method is a curve through its tolerances, steps or widths, with its name at the finest; the best
+//! choices stand out, and so does the row that is nearest to the method in use.
+
+use super::items::{Item, Line, Marks, Picture};
+use super::role::{Dash, Mark, Role};
+use crate::flow::{METHODS, Method};
+use crate::scene::{Layer, Point, View};
+use crate::session::{self, Session};
+use crate::study::trade::{Row, Trade};
+use crate::words::number::{count, significant};
+
+/// What the plot with this index shows.
+#[must_use]
+pub fn picture(session: &Session, index: usize) -> Picture<'_> {
+    let session::Plot { window, cursor, .. } = session.plots[index];
+    let title = View::Trade.spec().title;
+    let mut picture = Picture::new(title, "evaluations", "error", window);
+    picture.reading = session.row_under_cursor(index).map(words);
+    if let Some(found) = session.trade() {
+        if session.layers.contains(&Layer::Rows) {
+            curves(&mut picture, found);
+        }
+        if session.layers.contains(&Layer::Front) {
+            let front = found.front(&found.evaluations());
+            let best = found.rows.iter().zip(front).filter(|(_, front)| *front);
+            let at: Vec<Point> = best.filter_map(|(row, _)| place(row)).collect();
+            if !at.is_empty() {
+                let marks = Marks::new(Mark::Stable, Role::Stable, at);
+                picture.items.push(Item::Marks(Marks { brief: "best choices", ..marks }));
+            }
+        }
+        if session.layers.contains(&Layer::Rows) {
+            names(&mut picture, found);
+        }
+        if let Some(at) = found.nearest_to(&session.problem).and_then(place) {
+            picture.mark(Mark::Head, at, Role::Cursor);
+            picture.caption(at, "now", Role::Cursor);
+        }
+    }
+    picture.cross(cursor);
+    picture
+}
+
+fn curves(picture: &mut Picture, found: &Trade) {
+    for spec in METHODS {
+        let (role, dash) = if spec.events {
+            (Role::Trajectory, Dash::Solid)
+        } else {
+            (Role::Unstable, Dash::Dotted)
+        };
+        let own = found.rows.iter().filter(|row| row.problem.method == spec.method);
+        let points: Vec<Point> = own.filter_map(place).collect();
+        picture.curve(Line::new(spec.name, role, dash).captioned(), points.iter().copied());
+        picture.items.push(Item::Marks(Marks::new(Mark::Turn, role, points)));
+    }
+}
+
+/// The names of the methods at their finest rows, over everything else.
+fn names(picture: &mut Picture, found: &Trade) {
+    // Where auto does as another method, that one's curve lies over its own.
+    for spec in METHODS.iter().filter(|spec| spec.method != Method::Auto) {
+        let role = if spec.events { Role::Trajectory } else { Role::Unstable };
+        let own = found.rows.iter().filter(|row| row.problem.method == spec.method);
+        if let Some(finest) = own.filter_map(place).next_back() {
+            picture.caption(finest, spec.name, role);
+        }
+    }
+}
+
+/// Where a row lies; nowhere if it has no error, or none that can be told from zero.
+fn place(row: &Row) -> Option<Point> {
+    row.place().map(|(x, y)| Point { x, y })
+}
+
+/// The row under the cursor, in words.
+fn words(row: &Row) -> String {
+    let error = row.error().map_or_else(String::new, |error| significant(error, 2));
+    let (method, evaluations) = (row.problem.method, count(row.cost.evaluations));
+    format!("{method} {:e}: error {error}, {evaluations} ev", row.problem.setting())
+}

@@ -1,0 +1,92 @@
+//! The fold of limit cycles, enclosed in a parameter, by signs alone.
+//!
+//! On one side of a fold the displacement `G(z) - z` has two zeros near its clearance, on the other none. If both
+//! are proved at two values of a parameter, and the displacement keeps one sign at the ends of an interval of clearances
+//! for all values between, then between the two values two cycles meet and vanish there (lemma 19). No derivative by the
+//! parameter is needed; where that has one sign, for D, D3 and r, there is one such value only.
+
+use super::bracket::bracket;
+use super::count::Count;
+use super::ends::{Sign, sign_at};
+use super::field::ParameterBox;
+use super::map::{Direction, ReturnMap};
+use crate::numerics::Interval;
+use crate::oscillator::Symbol;
+
+/// A fold of limit cycles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fold {
+    /// The parameter at which two cycles meet.
+    pub value: Interval,
+    /// Their common clearance `q_max - r`.
+    pub clearance: Interval,
+}
+
+/// Encloses the fold that is near a value of the parameter `symbol` and a clearance; the other parameters are those of
+/// `parameters`, which may be intervals. `None` where nothing could be proved.
+///
+/// The bounds of the value are about as close as rounding allows: a few units of 1e-15.
+#[must_use]
+pub fn enclose_fold(
+    parameters: &ParameterBox,
+    symbol: Symbol,
+    near: f64,
+    clearance: f64,
+) -> Option<Fold> {
+    /// Half the width of the interval of clearances, relative to the clearance.
+    const WIDTHS: [f64; 6] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
+    /// Halvings of the first, and how many more each takes: nearer to the fold than 1e-8 all is rounding.
+    const HALVINGS: u32 = 6;
+    const MORE: usize = 3;
+    let place = |at: Interval| parameters.with(symbol, at);
+    WIDTHS.into_iter().zip((HALVINGS..).step_by(MORE)).find_map(|(width, halvings)| {
+        let gap = Interval::new(clearance * (1.0 - width), clearance * (1.0 + width));
+        let value =
+            bracket(near, |at| inside(&place(Interval::point(at)), gap, clearance, halvings))?;
+        let around = place(value);
+        sides(&mut ReturnMap::new(&around), gap)?;
+        Some(Fold { value, clearance: touching(&around, gap) })
+    })
+}
+
+/// The sign at both ends of a gap, if it is the same.
+fn sides(map: &mut ReturnMap, gap: Interval) -> Option<Sign> {
+    let low = sign_at(map, gap.lower())?;
+    (sign_at(map, gap.upper())? == low).then_some(low)
+}
+
+/// Whether there are two cycles in a gap, one of them on either side of a clearance, or none; `None` if neither is certain.
+fn inside(parameters: &ParameterBox, gap: Interval, near: f64, halvings: u32) -> Option<bool> {
+    if !(parameters.r.lower() >= 0.0) {
+        return None;
+    }
+    let mut map = ReturnMap::new(parameters);
+    let sign = sides(&mut map, gap)?;
+    if sign_at(&mut map, near).is_some_and(|middle| middle != sign) {
+        return Some(true);
+    }
+    let mut count = Count::default();
+    count.decide(&mut map, (gap.lower(), sign), (gap.upper(), sign), halvings);
+    (count.open.is_empty() && count.unique.is_empty()).then_some(false)
+}
+
+/// All clearances in a gap at which the derivative of the return map may be 1: where two cycles meet it is.
+fn touching(parameters: &ParameterBox, gap: Interval) -> Interval {
+    /// The part of the interval that is tried at either end: a smaller one where a larger one is not certain.
+    const PARTS: [f64; 4] = [0.3, 0.1, 0.03, 0.01];
+    let mut map = ReturnMap::new(parameters);
+    let mut regular = |lower: f64, upper: f64| {
+        let slope = map.slope(Direction::Forward, Interval::new(lower, upper));
+        upper > lower && slope.is_some_and(|slope| !slope.contains(1.0))
+    };
+    let (mut low, mut high) = (gap.lower(), gap.upper());
+    let mut tried = 0;
+    while tried < PARTS.len() {
+        let part = PARTS[tried] * (high - low);
+        let (from, to) = (low + part, high - part);
+        let (left, right) = (regular(low, from), regular(to, high));
+        (low, high) = (if left { from } else { low }, if right { to } else { high });
+        tried += usize::from(!(left || right));
+    }
+    Interval::new(low, high)
+}

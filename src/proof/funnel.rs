@@ -1,0 +1,344 @@
+//! Stiff half swings: between two fences they follow a slow manifold, and forget where they started.
+//!
+//! Where the slope `f'(v) = a + 2 b v + 3 c v^2` of the damping is large, a motion drops onto the curve
+//! `x = -f(v)`, along which it then creeps: no explicit step may be long there. But there is nothing to compute either.
+//! All motions that were faster than some `speed` fall through it within a short piece of the line
+//! `v = speed` (lemma 11), and motions from its two ends, which are no longer stiff, arrive almost together.
+
+use super::field::{Field, scaled};
+use super::swing::{Passage, Start, Swing, swing};
+use crate::numerics::Interval;
+use crate::numerics::scaling::exponent;
+
+/// The beginning of motions, until they are all faster than the funnel's speed.
+#[derive(Clone, Copy, Debug)]
+pub struct Climb {
+    /// Upper bound of where that is.
+    position: f64,
+    /// Upper bound of the integral of the divergence of the field until then.
+    divergence: f64,
+}
+
+/// Where the motions of a field that were faster than `speed` fall through it, and arrive.
+#[derive(Clone, Copy, Debug)]
+pub struct Funnel {
+    /// The velocity at which the fences end.
+    speed: f64,
+    /// A velocity from which motions certainly reach that.
+    pub ceiling: f64,
+    /// Starts at rest up to this far from the centre stay between the fences; may be infinite.
+    pub reach: f64,
+    /// Positions at which motions fall through `speed`.
+    entry: Interval,
+    /// Lower bound of `f'(v)/v` between the fences, 0 if not positive.
+    rate: f64,
+    /// The motion from the left end of `entry`, of the field that damps most.
+    low: Option<Swing>,
+    /// The motion from the right end, of the field that damps least.
+    high: Option<Swing>,
+    /// Where motions arrive that fall off a fold of the slow manifold.
+    beyond_fold: Interval,
+}
+
+/// The velocities between which the fences run, chosen but not verified.
+#[derive(Clone, Copy, Debug)]
+struct Fences {
+    speed: f64,
+    fastest: f64,
+}
+
+impl Funnel {
+    /// The funnel of a field, if it has one: for `c > 0`, or `b > 0`.
+    #[must_use]
+    pub fn new(field: &Field, swings: &mut u32) -> Option<Self> {
+        // In units in which b, or c, is about 1.
+        let (b, c) = (field.b.magnitude(), field.c.magnitude());
+        let unit = if b > 0.0 { -exponent(b) } else { -exponent(c) / 2 };
+        let local = field.in_units_of(unit);
+        let mut funnel = Self::in_units(&local, Fences::place(&local)?)?;
+        let mut follow = |field: &Field, x: f64| {
+            *swings += 1;
+            let [x, v] = [x, funnel.speed].map(Interval::point);
+            swing(field, &Start { x, v }, false).arrived().map(|it| it.times_power(unit))
+        };
+        funnel.low = follow(&local.strongest(), funnel.entry.lower());
+        funnel.high = follow(&local.weakest(), funnel.entry.upper());
+        let length = |it: f64| scaled(Interval::point(it), unit);
+        Some(Funnel {
+            speed: length(funnel.speed).upper(),
+            ceiling: length(funnel.ceiling).upper(),
+            reach: length(funnel.reach).lower(),
+            entry: scaled(funnel.entry, unit),
+            rate: scaled(Interval::point(funnel.rate), -unit).lower(),
+            beyond_fold: scaled(funnel.beyond_fold, unit),
+            ..funnel
+        })
+    }
+
+    /// Verifies the conditions of lemma 11 in intervals.
+    fn in_units(field: &Field, fences: Fences) -> Option<Self> {
+        let Field { a, b, c } = *field;
+        let [four, three, two] = [4.0, 3.0, 2.0].map(Interval::point);
+        let Fences { speed, fastest } = fences;
+        let v = Interval::point(speed);
+        let force = |v: Interval| v * (a + v * (b + v * c));
+        let (top, reach) = if c.lower() >= 0.0 {
+            // The slope is convex, and increases from the speed on.
+            let convex = (b + three * c * v).lower() >= 0.0;
+            (if convex { v } else { return None }, f64::INFINITY)
+        } else if c.upper() < 0.0 && fastest > speed {
+            let top = Interval::point(fastest);
+            (top, force(top).lower())
+        } else {
+            return None;
+        };
+        // Piece by piece, because the slope, which is smallest at an end of each, varies much.
+        let fenced = |from: f64, to: f64| {
+            let [from, to] = [from, to].map(Interval::point);
+            let least = Interval::point(field.slope(from).lower().min(field.slope(to).lower()));
+            let excess = four * (a - three * c * to.square());
+            least.lower() > 0.0 && excess.upper() <= (least * least.square()).lower()
+        };
+        let mut from = speed;
+        loop {
+            let to = (2.0 * from).min(top.lower());
+            if !fenced(from, to) {
+                return None;
+            }
+            if to >= top.lower() {
+                break;
+            }
+            from = to;
+        }
+        let least = Interval::point(field.slope(v).lower());
+        let force = force(v);
+        let entry = Interval::new(
+            -force.upper(),
+            (Interval::point(-force.lower()) + two * v / least).upper(),
+        );
+        let rate = Interval::point(a.lower().min(0.0)) / v + b.twice() + three * c * top;
+        let rate = rate.lower().max(0.0);
+        let known = entry.is_finite() && speed > 0.0 && reach > 0.0;
+        let beyond_fold = beyond_fold(field, entry, v).unwrap_or(Interval::ALL);
+        // Beyond a thousand times their own length motions run away, as far as the other branch.
+        let ceiling = if beyond_fold.is_finite() {
+            speed.min(1e3 * (1.0 + a.magnitude()) / b.magnitude())
+        } else {
+            speed
+        };
+        known.then_some(Funnel {
+            speed,
+            ceiling,
+            reach,
+            entry,
+            rate,
+            low: None,
+            high: None,
+            beyond_fold,
+        })
+    }
+
+    /// Lower bound of where all motions arrive that were faster than `speed`.
+    #[must_use]
+    pub fn least(&self) -> f64 {
+        let low = self.low.map_or(f64::NEG_INFINITY, |low| low.end.lower());
+        low.max(self.beyond_fold.lower())
+    }
+
+    /// Lower bound of where a motion arrives that has this passage below the ceiling.
+    #[must_use]
+    pub fn least_after(funnel: Option<&Self>, field: &Field, passage: &Passage) -> f64 {
+        match passage {
+            Passage::Arrives(swing) => swing.end.lower(),
+            Passage::Never => f64::INFINITY,
+            Passage::Exceeds(swing) => funnel
+                .filter(|it| it.climb_of(field, swing).is_some())
+                .map_or(f64::NEG_INFINITY, Funnel::least),
+            Passage::Unknown => f64::NEG_INFINITY,
+        }
+    }
+
+    /// Upper bound of where motions arrive that start at rest, up to `reach` away.
+    #[must_use]
+    pub fn greatest(&self) -> f64 {
+        let high = self.high.map_or(f64::INFINITY, |high| high.end.upper());
+        high.min(self.beyond_fold.upper())
+    }
+
+    /// The climb from rest far out, where nothing slows motions down yet (lemma 12).
+    #[must_use]
+    pub fn climb_from(&self, field: &Field, start: Interval) -> Option<Climb> {
+        let positive = |it: Interval| Interval::point(it.upper().max(0.0));
+        let v = Interval::point(self.ceiling);
+        let [a, b, c] = [field.a, field.b, field.c];
+        let drag = v * (positive(a) + v * (positive(b) + v * positive(c)));
+        let half = Interval::point(start.lower()) / Interval::point(2.0);
+        let rate = Interval::point((half - drag).lower());
+        if !(rate.lower() > 0.0) {
+            return None;
+        }
+        let time = v / rate;
+        let way = v * time;
+        if !(way.upper() <= half.lower()) {
+            return None;
+        }
+        let push =
+            positive(-a) + v * (positive(-b).twice() + v * positive(-c) * Interval::point(3.0));
+        self.run_away(field, (way - Interval::point(start.lower())).upper(), (push * time).upper())
+    }
+
+    /// The climb of motions that were found to be faster than the ceiling.
+    #[must_use]
+    pub fn climb_of(&self, field: &Field, swing: &Swing) -> Option<Climb> {
+        self.run_away(field, swing.end.upper(), swing.divergence.upper())
+    }
+
+    /// From the ceiling on to the speed (lemma 12).
+    fn run_away(&self, field: &Field, position: f64, divergence: f64) -> Option<Climb> {
+        let (speed, v) = (Interval::point(self.speed), Interval::point(self.ceiling));
+        if speed == v {
+            return Some(Climb { position, divergence });
+        }
+        let Field { a, b, c } = *field;
+        let two = Interval::point(2.0);
+        // Half of what the square gains over the cube remains beside all the rest.
+        let half = (-b - c * speed) / two;
+        let half = Interval::point(half.lower());
+        // At least the logarithm of the ratio of both velocities.
+        let doublings = f64::from(exponent((speed / v).upper()) + 1);
+        let logarithm = Interval::point(0.7) * Interval::point(doublings);
+        if !(half.lower() > 0.0) {
+            return None;
+        }
+        let position = Interval::point(position) + logarithm / half;
+        let brake =
+            Interval::point(position.upper().max(0.0)) + v * Interval::point(a.upper().max(0.0));
+        if !(brake.upper() <= (half * v.square()).lower()) {
+            return None;
+        }
+        let push = Interval::point((-a).upper().max(0.0));
+        let gained = push / (half * v) + (-b).twice() * logarithm / half;
+        Some(Climb {
+            position: position.upper(),
+            divergence: (Interval::point(divergence) + gained).upper(),
+        })
+    }
+
+    /// Where motions arrive, and an upper bound of the derivative of that by their start; `climb` is the part until
+    /// they were all faster than `speed` (lemma 12).
+    #[must_use]
+    pub fn contraction(
+        &self,
+        field: &Field,
+        start: Interval,
+        climb: Climb,
+    ) -> Option<(Interval, Interval)> {
+        if !(start.upper() <= self.reach) {
+            return None;
+        }
+        let end = Interval::new(self.least(), self.greatest());
+        let after = self.damping_after(field, end).or_else(|| self.damping_beyond_fold(field))?;
+        let creep = Interval::point(self.entry.lower()) - Interval::point(climb.position);
+        let creep = Interval::point(self.rate) * Interval::point(creep.lower().max(0.0));
+        let exponent = Interval::point(climb.divergence) - creep - after;
+        let slope = (start / end * exponent.exp()).upper();
+        (slope < f64::INFINITY).then(|| (end, Interval::new(0.0, slope)))
+    }
+
+    /// The integral of the slope of the damping over time from the line `v = speed` on.
+    fn damping_after(&self, field: &Field, end: Interval) -> Option<Interval> {
+        let (low, high) = (self.low?, self.high?);
+        let unit = exponent(self.speed);
+        let Field { a, b, c } = field.in_units_of(unit);
+        let [end, entry, speed] =
+            [end, self.entry, Interval::point(self.speed)].map(|it| scaled(it, -unit));
+        let apart = Interval::point(end.width());
+        // How fast a motion can still be that has reached the first of the two ends, and for how long.
+        let speed_left = (Interval::point(3.0 * end.upper()) * apart).sqrt().upper();
+        let left = Interval::new(0.0, speed_left);
+        let drag = Interval::point((left * (a + left * (b + left * c))).magnitude());
+        let rate = Interval::point(end.lower()) - drag;
+        if !(rate.lower() > 0.0 && drag.upper() <= 0.49 * end.upper()) {
+            return None;
+        }
+        let late = (Interval::point(speed_left) / Interval::point(rate.lower())).upper();
+        let late = Interval::new(-late, late);
+        let duration =
+            Interval::new(high.duration.lower(), low.duration.upper().max(high.duration.lower()))
+                + late;
+        let rim = (speed * Interval::point(entry.width())).upper();
+        let squares = low.square_in(unit).hull(high.square_in(unit));
+        let squares = squares + Interval::new(-rim, rim);
+        Some(a * duration + (b * (end - entry)).twice() + c * squares * Interval::point(3.0))
+    }
+
+    /// Lower bound of the same for motions that fall off a fold.
+    ///
+    /// The slope is never below `a - b^2/(3 c)`; what moves faster than half the velocity of the fold has only the way
+    /// to the end to go, and what is slower falls at a certain rate at least.
+    fn damping_beyond_fold(&self, field: &Field) -> Option<Interval> {
+        if !self.beyond_fold.is_finite() {
+            return None;
+        }
+        let unit = exponent(self.speed);
+        let Field { a, b, c } = field.in_units_of(unit);
+        let [entry, end] = [self.entry, self.beyond_fold].map(|it| scaled(it, -unit));
+        let three = Interval::point(3.0);
+        let least = (a - b.square() / (three * c)).lower().min(0.0);
+        let turning = -b / (three * c);
+        let half = Interval::point(turning.upper());
+        // The force falls as far as the fold, so that it is not below this up to half of the velocity there.
+        let force = half.square() * (b + c * half) + half * Interval::point(a.lower().min(0.0));
+        let rate = Interval::point(entry.lower()) + force;
+        let way = Interval::point((end - entry).upper());
+        let within = half.upper() <= turning.twice().lower()
+            && half.upper() < scaled(Interval::point(self.speed), -unit).lower();
+        if !(rate.lower() > 0.0 && within) {
+            return None;
+        }
+        let time = way / half + half / Interval::point(rate.lower());
+        Some(Interval::point(least) * Interval::new(0.0, time.upper()))
+    }
+}
+
+/// Where motions arrive that fall through `speed` at `entry`, right of the centre, for `b < 0 < c` (lemma 12).
+fn beyond_fold(field: &Field, entry: Interval, speed: Interval) -> Option<Interval> {
+    let Field { a, b, c } = *field;
+    if !(b.upper() < 0.0 && c.lower() > 0.0 && entry.lower() > 0.0) {
+        return None;
+    }
+    let pull = Interval::point(a.lower().min(0.0)) * speed;
+    // The least value of b v^2 + c v^3.
+    let least = Interval::point(4.0) * b * b.square() / (Interval::point(27.0) * c.square());
+    let fold = -(least + pull);
+    let last = Interval::point(fold.upper().max(entry.upper())) + speed.twice();
+    Some(Interval::new(entry.lower(), last.upper()))
+}
+
+impl Fences {
+    /// Chooses where the fences end, in plain numbers: the slope of the damping is as large there as it takes to make
+    /// the two motions meet.
+    fn place(field: &Field) -> Option<Self> {
+        /// The slope at which a motion is no longer stiff.
+        const SLOPE: f64 = 8.0;
+        /// The same next to a fold of the slow manifold, by the cube root of its stiffness.
+        const AT_FOLD: f64 = 6.0;
+        /// Stays on the safe side of the roots.
+        const ROOM: f64 = 1e-9;
+        let Field { a, b, c } = field.weakest();
+        let [a, b, c] = [a, b, c].map(Interval::lower);
+        let gentle = SLOPE.max(4.0 * a);
+        let at_fold = gentle.max(AT_FOLD * (b * b / c.abs()).cbrt());
+        // The roots of f' = slope: the larger one for c > 0, both for c < 0.
+        let root = |slope: f64| (b * b + 3.0 * c * (slope - a)).sqrt();
+        let speed = if b >= 0.0 {
+            (gentle - a) / (b + root(gentle))
+        } else {
+            (root(at_fold) - b) / (3.0 * c)
+        };
+        let fastest =
+            if c < 0.0 { (b + root(at_fold)) / (-3.0 * c) * (1.0 - ROOM) } else { f64::INFINITY };
+        let speed = speed * (1.0 + ROOM);
+        (speed > 0.0 && speed.is_finite()).then_some(Fences { speed, fastest })
+    }
+}

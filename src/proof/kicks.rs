@@ -1,0 +1,224 @@
+//! The edge of the basin of the sticking set, and the smallest kicks that are not captured, enclosed.
+//!
+//! By lemma 8 the starts at rest on one side that are captured are those nearer to the sticking set than some
+//! clearance: that of the innermost cycle if this one repels. Where there is no cycle the clearance lies between
+//! one that certainly comes to rest and one that certainly does not. An impulse is captured if the half swing
+//! that it begins ends nearer than this.
+
+use super::cycles::{Proof, ProvedCycle};
+use super::field::ParameterBox;
+use super::map::{Direction, ReturnMap};
+use super::swing::{Passage, Start, swing};
+use super::theorems::Theorem;
+use crate::numerics::Interval;
+
+/// What is proved to border the basin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Edge {
+    /// Nothing: every motion comes to rest.
+    None,
+    /// The innermost cycle.
+    Cycle,
+    /// An orbit that is no cycle.
+    Separatrix,
+}
+
+/// The smallest kicks that are not captured: what is below the lower bound comes to rest, what is above the upper
+/// one does not.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Kicks {
+    /// What borders the basin, where that is proved.
+    pub edge: Option<Edge>,
+    /// Smallest displacement at rest; `None` where all are captured or nothing is known.
+    pub displacement: Option<Interval>,
+    /// Smallest impulse at `q = 0`; likewise.
+    pub impulse: Option<Interval>,
+    /// Why something is open.
+    pub open: Option<&'static str>,
+}
+
+const NO_FRICTION: &str = "without friction nothing comes to rest in a finite time";
+const NO_EDGE: &str = "no start is certain not to come to rest";
+const ATTRACTS: &str = "the innermost cycle attracts";
+
+/// Turns that a motion is followed before its fate is left open.
+const TURNS: usize = 300;
+
+/// Bounds of the kicks, `proof` being about the cycles at the same parameters; `hints` are kicks near them, of
+/// displacements and of impulses.
+#[must_use]
+pub fn kicks(proof: &Proof, hints: [Option<f64>; 2]) -> Kicks {
+    let parameters = &proof.parameters;
+    let open = |reason| Kicks { edge: None, displacement: None, impulse: None, open: Some(reason) };
+    if !(parameters.r.lower() > 0.0) {
+        return open(NO_FRICTION);
+    }
+    let mut map = ReturnMap::new(parameters);
+    if proof.is_complete() && proof.cycles.is_empty() && is_bounded(&mut map, proof) {
+        return Kicks { edge: Some(Edge::None), displacement: None, impulse: None, open: None };
+    }
+    let r = parameters.r;
+    let (edge, clearances) = match innermost(proof) {
+        Some(cycle) if cycle.stable => return open(ATTRACTS),
+        Some(cycle) if let Some(it) = cycle.enclosure => {
+            (Some(Edge::Cycle), [it.clearance, -it.q_min - r])
+        }
+        _ => {
+            let guess = hints[0].map(|hint| hint - r.middle());
+            let sides = [0, 1].map(|side| {
+                let mut known = Interval::new(0.0, f64::INFINITY);
+                threshold(guess, |clearance| at_rest(&mut map, side, clearance, &mut known))
+            });
+            let [Some(right), Some(left)] = sides else { return open(NO_EDGE) };
+            if right.upper().min(left.upper()) == f64::INFINITY {
+                return open(NO_EDGE);
+            }
+            let none = proof.is_complete() && proof.cycles.is_empty();
+            (none.then_some(Edge::Separatrix), [right, left])
+        }
+    };
+    let displacement = smaller(clearances[0] + r, clearances[1] + r);
+    let [below, above] =
+        [0, 1].map(|half| threshold(hints[1], |speed| pushed(&mut map, half, speed, clearances)));
+    let impulse = below.zip(above).map(|(below, above)| smaller(below, above));
+    let open = impulse.is_none().then_some(NO_EDGE);
+    Kicks { edge, displacement: Some(displacement), impulse, open }
+}
+
+/// What certainly borders the basin.
+#[must_use]
+pub fn edge(proof: &Proof) -> Option<Edge> {
+    /// Clearances at which to look for a motion that does not come to rest, in units of r.
+    const FAR: [f64; 6] = [1e-3, 0.1, 1.0, 10.0, 1e2, 1e4];
+    if !(proof.parameters.r.lower() > 0.0) {
+        return None;
+    }
+    if let Some(innermost) = innermost(proof) {
+        return (!innermost.stable).then_some(Edge::Cycle);
+    }
+    if !(proof.is_complete() && proof.cycles.is_empty()) {
+        return None;
+    }
+    let mut map = ReturnMap::new(&proof.parameters);
+    if is_bounded(&mut map, proof) {
+        return Some(Edge::None);
+    }
+    let unit = map.gap.upper();
+    let starts = FAR.iter().flat_map(|far| [(0, far * unit), (1, far * unit)]);
+    let lost = starts.into_iter().any(|(half, clearance)| {
+        let mut known = Interval::new(0.0, f64::INFINITY);
+        at_rest(&mut map, half, clearance, &mut known) == Some(false)
+    });
+    lost.then_some(Edge::Separatrix)
+}
+
+/// The innermost cycle, if it is certain that there is none within it.
+fn innermost(proof: &Proof) -> Option<&ProvedCycle> {
+    let first = proof.cycles.first()?;
+    proof.open.iter().all(|gap| gap.lower >= first.within.upper()).then_some(first)
+}
+
+/// The smaller of two numbers.
+fn smaller(one: Interval, other: Interval) -> Interval {
+    Interval::new(one.lower().min(other.lower()), one.upper().min(other.upper()))
+}
+
+/// Whether no motion grows beyond all bounds.
+fn is_bounded(map: &mut ReturnMap, proof: &Proof) -> bool {
+    let ParameterBox { d2, d3, .. } = proof.parameters;
+    // Of the first integral of lemma 13 for D2 = 0, the energy, every motion loses.
+    let energy = proof.theorem == Some(Theorem::OneWay) && d2 == Interval::point(0.0);
+    let barred = [0, 1]
+        .iter()
+        .all(|&half| d3.lower() > 0.0 && map.greatest(half, Direction::Forward) < f64::INFINITY);
+    energy || barred
+}
+
+/// Whether a start at rest with this clearance is captured, where that is certain; `half` is its first half swing.
+///
+/// `known` are clearances up to which all are, and from which on none is; it learns from the answer.
+fn at_rest(map: &mut ReturnMap, half: usize, from: f64, known: &mut Interval) -> Option<bool> {
+    let mut at = Interval::point(from);
+    for _ in 0..TURNS {
+        let before = at;
+        for index in [half, 1 - half] {
+            map.steps = 0;
+            at = map.half(index, Direction::Forward, at);
+        }
+        // What has not come nearer in a turn never will.
+        if at.lower() >= from.min(known.upper()) {
+            *known = Interval::new(known.lower(), known.upper().min(from));
+            return Some(false);
+        }
+        if at.upper() <= known.lower() {
+            *known = Interval::new(known.lower().max(from), known.upper());
+            return Some(true);
+        }
+        if at.upper() >= before.upper() {
+            return None;
+        }
+    }
+    None
+}
+
+/// Whether an impulse at `q = 0` is captured, where that is certain, given the clearances of the edge on the right
+/// and on the left.
+fn pushed(map: &mut ReturnMap, half: usize, speed: f64, edge: [Interval; 2]) -> Option<bool> {
+    let field = *map.halves[half].field(Direction::Forward);
+    let start = Start { x: map.parameters.r, v: Interval::point(speed) };
+    let passage = swing(&field, &start, false);
+    let Passage::Arrives(swing) = passage else {
+        return (passage == Passage::Never).then_some(false);
+    };
+    let (after, edge) = (swing.end - map.gap, edge[1 - half]);
+    if after.upper() < edge.lower() {
+        Some(true)
+    } else if after.lower() > edge.upper() {
+        Some(false)
+    } else {
+        None
+    }
+}
+
+/// Between the largest number that is certain to be captured and the smallest that is certain not to be, which is
+/// infinite where none is found.
+fn threshold(hint: Option<f64>, mut captured: impl FnMut(f64) -> Option<bool>) -> Option<Interval> {
+    /// Ever larger strides away from the hint, up to a factor of `1.5^255`.
+    const STRIDES: i32 = 8;
+    let hint = hint.filter(|hint| *hint > 0.0 && hint.is_finite()).unwrap_or(1.0);
+    let stride = |index: i32| 1.5_f64.powi(2_i32.pow(index.unsigned_abs()));
+    let inward = |index| hint / stride(index);
+    let low = (0..STRIDES).map(inward).find(|&at| captured(at) == Some(true))?;
+    let mut high = f64::INFINITY;
+    let mut safe = low;
+    for at in (0..STRIDES).map(|index| hint * stride(index)) {
+        match captured(at) {
+            Some(true) => safe = at,
+            Some(false) => {
+                high = at;
+                break;
+            }
+            None => {}
+        }
+    }
+    if high == f64::INFINITY {
+        return Some(Interval::new(safe, high));
+    }
+    let low = safe;
+    let mut bisect = |mut low: f64, mut high: f64, counts: fn(Option<bool>) -> Option<bool>| loop {
+        let middle = if high > 4.0 * low { (low * high).sqrt() } else { 0.5 * (low + high) };
+        if !(middle > low && middle < high) {
+            return (low, high);
+        }
+        match counts(captured(middle)) {
+            Some(true) => low = middle,
+            Some(false) => high = middle,
+            None => return (low, high),
+        }
+    };
+    let (low, high) = bisect(low, high, |answer| answer);
+    // What is not certain counts as lost for the lower bound, and as captured for the upper.
+    let lower = bisect(low, high, |answer| Some(answer == Some(true))).0;
+    let upper = bisect(low, high, |answer| Some(answer != Some(false))).1;
+    Some(Interval::new(lower, upper))
+}

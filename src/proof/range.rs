@@ -1,0 +1,142 @@
+//! A range of a parameter, piece by piece: how many cycles there are for every value in a piece, and between
+//! which values their number changes.
+
+use super::cycles::prove;
+use super::field::ParameterBox;
+use crate::numerics::Interval;
+use crate::oscillator::{self, Symbol};
+
+/// Part of a range with what is proved for all values in it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Piece {
+    /// The values.
+    pub over: Interval,
+    /// Whether each cycle attracts, smallest first; `None` where their number is open.
+    pub cycles: Option<Vec<bool>>,
+}
+
+impl From<&oscillator::ParameterBox> for ParameterBox {
+    fn from(known: &oscillator::ParameterBox) -> Self {
+        let oscillator::ParameterBox { d, d2, d3, r } = *known;
+        let [d, d2, d3, r] = [d, d2, d3, r].map(|it| Interval::new(it.low, it.high));
+        ParameterBox { d, d2, d3, r }
+    }
+}
+
+/// Whether each cycle attracts, at all values; `None` where that is not proved.
+#[must_use]
+pub fn cycles_at(parameters: &ParameterBox) -> Option<Vec<bool>> {
+    let proof = prove(parameters, &[]);
+    proof.is_complete().then(|| proof.cycles.iter().map(|cycle| cycle.stable).collect())
+}
+
+/// A range of a parameter, decided piece by piece.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Range {
+    /// Its pieces, in order.
+    pub pieces: Vec<Piece>,
+    /// Where the number of cycles changes.
+    pub changes: Vec<Change>,
+}
+
+/// Values of a parameter between which cycles appear or vanish.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Change {
+    /// The number is proved at both ends.
+    pub between: Interval,
+    /// Whether each cycle attracts, at the lower end.
+    pub below: Vec<bool>,
+    /// And at the upper one.
+    pub above: Vec<bool>,
+}
+
+/// Decides a range of values.
+#[must_use]
+pub fn range(base: &ParameterBox, symbol: Symbol, (low, high): (f64, f64)) -> Range {
+    /// Parts of the range that are tried as a whole.
+    const PARTS: i32 = 16;
+    /// Halvings of a part.
+    const HALVINGS: u32 = 10;
+    let mut ask = |value: Interval| cycles_at(&base.with(symbol, value));
+    let mut pieces = Vec::new();
+    let mut from = low;
+    for part in 1..=PARTS {
+        let to = low + (high - low) * f64::from(part) / f64::from(PARTS);
+        let to = if part == PARTS { high } else { to };
+        split(&mut ask, Interval::new(from, to), HALVINGS, &mut pieces);
+        from = to;
+    }
+    let mut changes = Vec::new();
+    for three in pieces.windows(3) {
+        let [before, open, after] = three else { continue };
+        if let (Some(below), None, Some(above)) = (&before.cycles, &open.cycles, &after.cycles)
+            && below != above
+        {
+            let between = narrowed(&mut ask, open.over, [below, above]);
+            changes.push(Change { between, below: below.clone(), above: above.clone() });
+        }
+    }
+    Range { pieces, changes }
+}
+
+/// Decides an interval of values, or its halves.
+fn split(
+    ask: &mut impl FnMut(Interval) -> Option<Vec<bool>>,
+    over: Interval,
+    halvings: u32,
+    pieces: &mut Vec<Piece>,
+) {
+    let middle = over.middle();
+    let cycles = ask(over);
+    if cycles.is_none() && halvings > 0 && middle > over.lower() && middle < over.upper() {
+        split(ask, Interval::new(over.lower(), middle), halvings - 1, pieces);
+        return split(ask, Interval::new(middle, over.upper()), halvings - 1, pieces);
+    }
+    match pieces.last_mut() {
+        Some(last) if last.cycles == cycles => last.over = last.over.hull(over),
+        _ => pieces.push(Piece { over, cycles }),
+    }
+}
+
+/// Narrows values between which the cycles change from one number to another, both being proved at the ends.
+fn narrowed(
+    ask: &mut impl FnMut(Interval) -> Option<Vec<bool>>,
+    over: Interval,
+    [below, above]: [&Vec<bool>; 2],
+) -> Interval {
+    let (mut low, mut high) = (over.lower(), over.upper());
+    while let middle = Interval::new(low, high).middle()
+        && middle > low
+        && middle < high
+    {
+        match ask(Interval::point(middle)) {
+            Some(cycles) if cycles == *below => low = middle,
+            Some(cycles) if cycles == *above => high = middle,
+            _ => break,
+        }
+    }
+    Interval::new(low, high)
+}
+
+/// The change between two values a part `away` of a third below and above it, if there is one.
+#[must_use]
+pub fn change_within(base: &ParameterBox, symbol: Symbol, at: f64, away: f64) -> Option<Change> {
+    let ask = |value: f64| cycles_at(&base.with(symbol, Interval::point(value)));
+    let (low, high) = (at - away * at.abs(), at + away * at.abs());
+    let (below, above) = (ask(low)?, ask(high)?);
+    let between = Interval::new(low, high);
+    (below != above).then_some(Change { between, below, above })
+}
+
+/// The change nearest to a value, if there is one: between values on both sides at which the numbers of cycles are
+/// proved and differ.
+#[must_use]
+pub fn change_near(base: &ParameterBox, symbol: Symbol, hint: f64) -> Option<Change> {
+    /// Powers of ten, as parts of the value, at which to ask.
+    const AWAY: std::ops::RangeInclusive<i32> = -12..=-3;
+    let mut ask = |value: Interval| cycles_at(&base.with(symbol, value));
+    let mut found = AWAY.map(|power| 10.0_f64.powi(power));
+    let found = found.find_map(|away| change_within(base, symbol, hint, away))?;
+    let between = narrowed(&mut ask, found.between, [&found.below, &found.above]);
+    Some(Change { between, ..found })
+}

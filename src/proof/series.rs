@@ -1,0 +1,183 @@
+//! Taylor polynomials of a motion, and in which order their coefficients are computed.
+//!
+//! The order matters: lemma 2 counts the roundings that each term passes, so that every change here
+//! changes the numbers there. A test computes with numbers that count theirs.
+
+use std::ops::{Add, Mul, Neg, Sub};
+
+/// Degree of the polynomials.
+pub const ORDER: usize = 28;
+
+/// Length of the arrays: `ORDER + 1` coefficients, filled with zeros to a multiple of [`LANES`].
+pub(super) const LENGTH: usize = 32;
+
+/// Sums run in this many lanes; the count of roundings does not depend on the order of a sum.
+const LANES: usize = 4;
+
+/// `1 / k`, rounded to the nearest double.
+pub(super) const INVERSE: [f64; LENGTH + 1] = {
+    let mut table = [0.0; LENGTH + 1];
+    let mut k = 1;
+    while k <= LENGTH {
+        #[expect(clippy::cast_precision_loss, reason = "k is at most 32")]
+        {
+            table[k] = 1.0 / k as f64;
+        }
+        k += 1;
+    }
+    table
+};
+
+/// The Taylor polynomials at a point.
+#[derive(Clone, Debug)]
+pub struct Series<T = f64> {
+    /// Coefficients of x.
+    pub x: [T; LENGTH],
+    /// Coefficients of v.
+    pub v: [T; LENGTH],
+    /// Coefficients of `v^2`, below degree [`ORDER`].
+    pub(super) square: [T; LENGTH],
+}
+
+/// What coefficients are computed in: doubles, and in the tests numbers that count their roundings.
+pub trait Scalar:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
+{
+    /// 0.
+    const ZERO: Self;
+    /// `1 / k`, rounded.
+    fn inverse(k: usize) -> Self;
+    /// A finished coefficient, from now on taken as it is.
+    #[must_use]
+    fn taken(self) -> Self;
+}
+
+impl Scalar for f64 {
+    const ZERO: f64 = 0.0;
+
+    fn inverse(k: usize) -> f64 {
+        INVERSE[k]
+    }
+
+    fn taken(self) -> f64 {
+        self
+    }
+}
+
+/// Sum of `one[i] other[k - i]` for `2 <= i <= k - 2`, in lanes; `other` holds its factor in reverse, from
+/// place `ORDER` down.
+///
+/// `other` holds nothing for degrees 0 and 1, so that the last lanes add zeros.
+///
+/// Of these `k - 3` products each passes at most `k/4 + 2` roundings: one as a product, the others on the way down its
+/// lane, two where the lanes meet. Adding zeros is exact. Nothing is read that was written in the last two
+/// rounds, because waiting for memory would take longer than the sum.
+fn inner<T: Scalar>(one: &[T; LENGTH], other: &[T; 2 * LENGTH], k: usize) -> T {
+    let mut lanes = [T::ZERO; LANES];
+    if k < 4 {
+        return T::ZERO;
+    }
+    let length = (k - 3).div_ceil(LANES) * LANES;
+    let first = &one[2..2 + length];
+    let second = &other[ORDER - k + 2..ORDER - k + 2 + length];
+    for (first, second) in first.chunks_exact(LANES).zip(second.chunks_exact(LANES)) {
+        for (lane, sum) in lanes.iter_mut().enumerate() {
+            *sum = *sum + first[lane] * second[lane];
+        }
+    }
+    (lanes[0] + lanes[1]) + (lanes[2] + lanes[3])
+}
+
+impl<T: Scalar> Series<T> {
+    /// An empty series to be filled.
+    pub const EMPTY: Series<T> =
+        Series { x: [T::ZERO; LENGTH], v: [T::ZERO; LENGTH], square: [T::ZERO; LENGTH] };
+
+    /// Fills the coefficients at `(x, v)` of the field `a, b, c`.
+    ///
+    /// With `f = b v + c v^2` the damping is `a v + f v`. The newest coefficient enters `v^2`, f and the damping
+    /// linearly: with `rest` for what the others contribute to `v^2`,
+    /// `f_k = slope v_k + c rest_k`, and the damping is `damping v_k` plus what only earlier ones contribute.
+    pub fn expand(&mut self, [a, b, c]: [T; 3], x: T, v: T) {
+        let mut force = [T::ZERO; LENGTH];
+        let mut backward = [T::ZERO; 2 * LENGTH];
+        self.v = [T::ZERO; LENGTH];
+        (self.x[0], self.v[0]) = (x, v);
+        let force0 = v * (b + c * v);
+        let slope = b + (c + c) * v;
+        let damping = (a + force0) + v * slope;
+        let cubic = c * v;
+        self.square[0] = v * v;
+        self.x[1] = v.taken();
+        self.v[1] = (-x - (a + force0) * v).taken();
+        let (v1, twice) = (self.v[1], self.v[1] + self.v[1]);
+        let (mut before, mut newest, mut force_before) = (v, v1, force0);
+        let mut force1 = T::ZERO;
+        for k in 1..ORDER {
+            // Both sums leave out the two outermost products on either side.
+            let (among, product) = (inner(&self.v, &backward, k), inner(&force, &backward, k));
+            let rest = match k {
+                1 => T::ZERO,
+                2 => v1 * v1,
+                _ => twice * before + among,
+            };
+            let pair = match k {
+                1 => T::ZERO,
+                2 => force1 * v1,
+                _ => force1 * before + force_before * v1,
+            };
+            let earlier = cubic * rest + (pair + product);
+            let acceleration = -(self.x[k] + earlier) - damping * newest;
+            self.square[k] = (v + v) * newest + rest;
+            let force_now = slope * newest + c * rest;
+            if k == 1 {
+                force1 = force_now;
+            }
+            force[k] = force_now;
+            if k > 1 {
+                backward[ORDER - k] = newest;
+            }
+            self.x[k + 1] = (newest * T::inverse(k + 1)).taken();
+            self.v[k + 1] = (acceleration * T::inverse(k + 1)).taken();
+            (before, newest, force_before) = (newest, self.v[k + 1], force_now);
+        }
+    }
+
+    /// Position and velocity of the polynomial at a time, by Horner's rule: a coefficient of degree k passes
+    /// `2 k + 1` roundings.
+    #[must_use]
+    pub fn at(&self, time: T) -> (T, T) {
+        let mut at = (self.x[ORDER], self.v[ORDER]);
+        for k in (0..ORDER).rev() {
+            at = (at.0 * time + self.x[k], at.1 * time + self.v[k]);
+        }
+        at
+    }
+}
+
+impl Series {
+    /// A step over which the last two terms are about `tolerance` of the state.
+    #[must_use]
+    pub fn step(&self, tolerance: f64) -> f64 {
+        /// Nothing is gained beyond: a half turn takes 3.14.
+        const LONGEST: f64 = 1.6;
+        let size = tolerance * self.x[0].abs().max(self.v[0].abs());
+        let root = |k: usize| {
+            let last = self.x[k].abs().max(self.v[k].abs());
+            (size / last).powf(INVERSE[k])
+        };
+        let step = root(ORDER).min(root(ORDER - 1));
+        if step < LONGEST { step } else { LONGEST }
+    }
+
+    /// Velocity and acceleration of the polynomial at a time, without bounds.
+    #[must_use]
+    pub fn velocity(&self, time: f64) -> (f64, f64) {
+        let (mut value, mut slope) = (self.v[ORDER], 0.0);
+        for k in (0..ORDER).rev() {
+            slope = slope * time + value;
+            value = value * time + self.v[k];
+        }
+        (value, slope)
+    }
+}

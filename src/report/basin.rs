@@ -1,0 +1,92 @@
+//! A basin over a window of starts.
+
+use serde::Serialize;
+
+use super::certified::{Survived, survived};
+use super::csv;
+use super::json::{self, Price};
+use super::table::{Table, parameters, rounded};
+use crate::proof::kicks::Kicks;
+use crate::study::basin::{Counts, Survey};
+use crate::study::{Edge, Margin};
+use crate::words::number::{duration, significant};
+
+#[derive(Serialize)]
+struct Document<'a> {
+    #[serde(flatten)]
+    found: &'a Survey,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    certified: Option<Survived>,
+    cost: Price,
+}
+
+#[derive(Serialize)]
+struct Row {
+    #[serde(flatten)]
+    counts: Counts,
+    #[serde(flatten)]
+    margin: Margin,
+    area: Option<f64>,
+    captured_part: f64,
+    lyapunov_share: Option<f64>,
+}
+
+/// One document.
+#[must_use]
+pub fn json(found: &Survey, certified: Option<&Kicks>, seconds: f64) -> String {
+    json::text(&Document {
+        found,
+        certified: certified.map(survived),
+        cost: Price { counted: found.cost, seconds },
+    })
+}
+
+/// One row.
+#[must_use]
+pub fn csv(found: &Survey) -> String {
+    let row = Row {
+        counts: found.counts,
+        margin: found.margin,
+        area: found.area,
+        captured_part: found.captured,
+        lyapunov_share: found.lyapunov_share,
+    };
+    csv::sheet(&row, [&row])
+}
+
+/// What borders the basin of the sticking set.
+pub(super) fn edge(edge: Edge) -> &'static str {
+    match edge {
+        Edge::None => "edge of the basin of the sticking set: none\n",
+        Edge::Cycle => "edge of the basin of the sticking set: the smallest cycle\n",
+        Edge::Separatrix => "edge of the basin of the sticking set: a separatrix\n",
+    }
+}
+
+/// The counts, the margins and the area.
+#[must_use]
+pub fn table(found: &Survey, seconds: f64) -> String {
+    const PLACES: usize = 10;
+    let mut out = format!("{}\n{}\n", parameters(&found.parameters, None), edge(found.edge));
+    let Counts { captured, cycle, escaped, undecided } = found.counts;
+    let mut counts = Table::new(&["starts that", "count"]);
+    for (fate, count) in [
+        ("are captured", captured),
+        ("end on a stable cycle", cycle),
+        ("run away", escaped),
+        ("stay undecided", undecided),
+    ] {
+        counts.row(vec![fate.to_owned(), count.to_string()]);
+    }
+    let mut kicks = Table::new(&["smallest kick that is not captured", "size"]);
+    kicks.row(vec!["displacement".to_owned(), rounded(found.margin.displacement, PLACES)]);
+    kicks.row(vec!["impulse".to_owned(), rounded(found.margin.impulse, PLACES)]);
+    out += &format!("{counts}\n{kicks}\n");
+    out += &format!("area of the basin: {}\n", rounded(found.area, PLACES));
+    if let Some(share) = found.lyapunov_share {
+        let verdict =
+            if share > 1.0 { ": too much is promised, D2 and D3 are left out" } else { "" };
+        out += &format!("Lyapunov's disk (24): {} of the margin{verdict}\n", significant(share, 4));
+    }
+    out + &format!("{} evaluations, {}\n", found.cost.evaluations, duration(seconds))
+}

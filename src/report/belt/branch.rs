@@ -1,0 +1,286 @@
+//! The cycles of a machine along one of its numbers, and where they change.
+
+use serde::Serialize;
+
+use super::document::{Cost, CycleOf, kind};
+use super::{PLACES, quantities};
+use crate::machine::branch::Branch;
+use crate::machine::special::{Kind, Special};
+use crate::machine::varied::Varied;
+use crate::report::csv::Sheet;
+use crate::report::json::text;
+use crate::report::table::Table;
+use crate::scene::Machine;
+use crate::words::number::{duration, significant};
+use crate::words::quantity::with_unit;
+
+/// A branch with what it is a branch of.
+pub struct Branched<'a> {
+    /// The machine.
+    pub machine: &'a Machine,
+    /// The number that varies.
+    pub varied: Varied,
+    /// What was found.
+    pub branch: Branch,
+    /// What it took.
+    pub seconds: f64,
+}
+
+/// The changes along one number at values of another.
+pub struct Borders<'a> {
+    /// The machine.
+    pub machine: &'a Machine,
+    /// The number along which the changes lie, and the other.
+    pub varied: (Varied, Varied),
+    /// The changes at each value of the other.
+    pub rows: Vec<(f64, Vec<Special>)>,
+    /// What it took.
+    pub seconds: f64,
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    machine: &'a str,
+    model: &'static str,
+    quantity: &'static str,
+    unit: &'static str,
+    points: Vec<Point>,
+    special: &'a [Special],
+    cost: Cost,
+}
+
+/// A cycle at a value; a value without cycles has one row that says so.
+#[derive(Serialize)]
+struct Point {
+    value: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<String>,
+    #[serde(flatten)]
+    cycle: Option<CycleOf>,
+}
+
+fn points(branched: &Branched) -> Vec<Point> {
+    let mut points = Vec::new();
+    for point in &branched.branch.points {
+        let value = point.value;
+        match &point.found {
+            Ok(found) => points.extend(found.cycles.iter().map(|cycle| Point {
+                value,
+                reason: None,
+                cycle: Some(CycleOf::new(cycle)),
+            })),
+            Err(trouble) => {
+                points.push(Point { value, reason: Some(trouble.to_string()), cycle: None });
+            }
+        }
+    }
+    points
+}
+
+/// The branch as a document.
+#[must_use]
+pub fn json(branched: &Branched) -> String {
+    let found = branched.branch.points.iter().filter_map(|point| point.found.as_ref().ok());
+    text(&Document {
+        machine: &branched.machine.name,
+        model: "whole",
+        quantity: branched.varied.name(),
+        unit: branched.varied.unit(),
+        points: points(branched),
+        special: &branched.branch.special,
+        cost: Cost { steps: found.map(|found| found.steps).sum(), seconds: branched.seconds },
+    })
+}
+
+/// What happens at a change, in a few words.
+fn words(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Hopf => "Hopf: rest changes its stability",
+        Kind::Grazing => "grazing: a slip cycle touches the belt's line",
+        Kind::Annihilation => "annihilation: the stick-slip cycle meets the border of rest",
+        Kind::Overtaking => "the stick-slip cycle comes to overtake the belt",
+        Kind::Unsticking => "the cycle overtakes the belt without sticking",
+        Kind::Fold => "fold: two cycles meet",
+    }
+}
+
+/// The branch, to read.
+#[must_use]
+pub fn table(branched: &Branched) -> String {
+    let (name, unit) = (branched.varied.name(), branched.varied.unit());
+    let titles =
+        [name, "cycle", "x from", "to", "v from", "to", "period", "on the belt", "multiplier"];
+    let mut rows = Table::new(&titles);
+    for point in &branched.branch.points {
+        let value = with_unit(point.value, PLACES, unit);
+        match &point.found {
+            Ok(found) => {
+                for cycle in &found.cycles {
+                    let stability = if cycle.stable { "stable" } else { "unstable" };
+                    let over = if cycle.overtakes { ", overtaking" } else { "" };
+                    rows.row(vec![
+                        value.clone(),
+                        format!("{stability} {}{over}", kind(cycle)),
+                        with_unit(cycle.x.0, PLACES, "m"),
+                        with_unit(cycle.x.1, PLACES, "m"),
+                        with_unit(cycle.v.0, PLACES, "m/s"),
+                        with_unit(cycle.v.1, PLACES, "m/s"),
+                        with_unit(cycle.period, PLACES, "s"),
+                        with_unit(cycle.stick_duration, PLACES, "s"),
+                        significant(cycle.multiplier, PLACES),
+                    ]);
+                }
+            }
+            Err(trouble) => rows.row(vec![value, trouble.to_string()]),
+        }
+    }
+    let mut changes = Table::new(&[name, "x", "what happens"]);
+    for special in &branched.branch.special {
+        let x = special.x_max.map_or_else(String::new, |x| with_unit(x, PLACES, "m"));
+        changes.row(vec![with_unit(special.value, 13, unit), x, words(special.kind).to_owned()]);
+    }
+    let machine = branched.machine;
+    format!(
+        "{}: {}\n{}\n\n{}\n{}\n{}\n",
+        machine.name,
+        machine.title,
+        quantities(&machine.belt, Some(name)),
+        rows.aligned_left(),
+        changes.aligned_left(),
+        duration(branched.seconds)
+    )
+}
+
+/// A cycle at a value, or a change.
+#[derive(Default, Serialize)]
+struct Row {
+    value: f64,
+    what: String,
+    stable: Option<bool>,
+    overtakes: Option<bool>,
+    x_min: Option<f64>,
+    x_max: Option<f64>,
+    v_min: Option<f64>,
+    v_max: Option<f64>,
+    period: Option<f64>,
+    stick_duration: Option<f64>,
+    multiplier: Option<f64>,
+}
+
+/// One row for each cycle, then one for each change, in SI units.
+#[must_use]
+pub fn csv(branched: &Branched) -> String {
+    let mut sheet = Sheet::like(&Row::default(), &[("value", branched.varied.name())]);
+    for point in &branched.branch.points {
+        for cycle in point.found.iter().flat_map(|found| &found.cycles) {
+            sheet.row(&Row {
+                value: point.value,
+                what: kind(cycle).to_owned(),
+                stable: Some(cycle.stable),
+                overtakes: Some(cycle.overtakes),
+                x_min: Some(cycle.x.0),
+                x_max: Some(cycle.x.1),
+                v_min: Some(cycle.v.0),
+                v_max: Some(cycle.v.1),
+                period: Some(cycle.period),
+                stick_duration: Some(cycle.stick_duration),
+                multiplier: Some(cycle.multiplier),
+            });
+        }
+    }
+    for special in &branched.branch.special {
+        let (what, x_max) = (name_of(special.kind), special.x_max);
+        sheet.row(&Row { value: special.value, what, x_max, ..Row::default() });
+    }
+    sheet.into_text()
+}
+
+/// The name of a kind as in documents.
+fn name_of(kind: Kind) -> String {
+    serde_json::to_value(kind)
+        .ok()
+        .and_then(|value| value.as_str().map(str::to_owned))
+        .unwrap_or_default()
+}
+
+#[derive(Serialize)]
+struct BordersDocument<'a> {
+    machine: &'a str,
+    model: &'static str,
+    quantity: &'static str,
+    unit: &'static str,
+    against: &'static str,
+    against_unit: &'static str,
+    rows: Vec<BorderRow<'a>>,
+    cost: Seconds,
+}
+
+#[derive(Serialize)]
+struct BorderRow<'a> {
+    value: f64,
+    special: &'a [Special],
+}
+
+#[derive(Serialize)]
+struct Seconds {
+    seconds: f64,
+}
+
+/// The changes as a document.
+#[must_use]
+pub fn borders_json(borders: &Borders) -> String {
+    let rows = borders.rows.iter().map(|(value, special)| BorderRow { value: *value, special });
+    text(&BordersDocument {
+        machine: &borders.machine.name,
+        model: "whole",
+        quantity: borders.varied.0.name(),
+        unit: borders.varied.0.unit(),
+        against: borders.varied.1.name(),
+        against_unit: borders.varied.1.unit(),
+        rows: rows.collect(),
+        cost: Seconds { seconds: borders.seconds },
+    })
+}
+
+/// The changes, to read.
+#[must_use]
+pub fn borders_table(borders: &Borders) -> String {
+    let (along, against) = borders.varied;
+    let mut table = Table::new(&[against.name(), along.name(), "what happens"]);
+    for (value, special) in &borders.rows {
+        for special in special {
+            table.row(vec![
+                with_unit(*value, PLACES, against.unit()),
+                with_unit(special.value, 13, along.unit()),
+                words(special.kind).to_owned(),
+            ]);
+        }
+    }
+    let machine = borders.machine;
+    let seconds = duration(borders.seconds);
+    format!("{}: {}\n\n{}\n{seconds}\n", machine.name, machine.title, table.aligned_left())
+}
+
+/// A change along one number at a value of the other.
+#[derive(Default, Serialize)]
+struct Change {
+    against: f64,
+    value: f64,
+    what: String,
+    x_max: Option<f64>,
+}
+
+/// One row for each change, in SI units.
+#[must_use]
+pub fn borders_csv(borders: &Borders) -> String {
+    let (along, against) = borders.varied;
+    let called = [("against", against.name()), ("value", along.name())];
+    let mut sheet = Sheet::like(&Change::default(), &called);
+    for (against, special) in &borders.rows {
+        for special in special {
+            let (what, x_max) = (name_of(special.kind), special.x_max);
+            sheet.row(&Change { against: *against, value: special.value, what, x_max });
+        }
+    }
+    sheet.into_text()
+}

@@ -1,0 +1,78 @@
+//! What a vibration mode does, in physical units.
+
+use serde::Serialize;
+
+use super::document::{Cost, MotionOf, Whole};
+use super::table::{border, csv_rows, cycles, fate, gaps, sheet};
+use super::{PLACES, margins};
+use crate::machine::survey::Course;
+use crate::report::json::text;
+use crate::scene::machine::mode::Mode;
+use crate::words::number::{duration, significant};
+use crate::words::quantity::with_unit;
+
+/// Everything that is said about a mode.
+pub struct ModeAnswer<'a> {
+    /// The mode.
+    pub mode: &'a Mode,
+    /// What it does.
+    pub course: &'a Course,
+    /// The part of a window from which it comes to rest, if asked for.
+    pub rest_share: Option<f64>,
+    /// What it took.
+    pub seconds: f64,
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    machine: &'a str,
+    model: &'static str,
+    #[serde(flatten)]
+    whole: Whole,
+    motion: MotionOf,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rest_share: Option<f64>,
+    cost: Cost,
+}
+
+/// The answer as a document, in SI units.
+#[must_use]
+pub fn json(answer: &ModeAnswer) -> String {
+    let course = answer.course;
+    text(&Document {
+        machine: &answer.mode.name,
+        model: "whole",
+        whole: Whole::new(&course.portrait),
+        motion: MotionOf::new(answer.mode.start, course),
+        rest_share: answer.rest_share,
+        cost: Cost { steps: course.portrait.steps, seconds: answer.seconds },
+    })
+}
+
+/// The answer, to read.
+#[must_use]
+pub fn table(answer: &ModeAnswer) -> String {
+    let (mode, course) = (answer.mode, answer.course);
+    let [displacement, impulse] = margins(&course.portrait);
+    let all = |value: Option<f64>, unit| {
+        value.map_or_else(|| "every one".to_owned(), |value| with_unit(value, PLACES, unit))
+    };
+    let mut out = format!("{}: {}\n\n", mode.name, mode.title);
+    out += &format!("survives displacements up to: {}\n", all(displacement, "m"));
+    out += &format!("survives impulses up to: {}\n", all(impulse, "N s"));
+    out += &format!("{}\n\n{}", border(&course.portrait), cycles(&course.portrait.cycles));
+    out += &gaps(&course.portrait);
+    out += &format!("{}\n", fate(mode.start, course));
+    if let Some(share) = answer.rest_share {
+        out += &format!("of the window, {} comes to rest\n", significant(share, 10));
+    }
+    out + &format!("{} steps, {}\n", course.portrait.steps, duration(answer.seconds))
+}
+
+/// One row for each number, in SI units.
+#[must_use]
+pub fn csv(answer: &ModeAnswer) -> String {
+    let mut out = sheet();
+    csv_rows(&mut out, &answer.course.portrait, answer.rest_share);
+    out.into_text()
+}

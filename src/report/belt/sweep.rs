@@ -1,0 +1,219 @@
+//! A machine along one of its quantities, point by point.
+
+use serde::Serialize;
+
+use super::document::{Cost, DesignOf, Whole};
+use super::{Designed, PLACES, margins, quantities};
+use crate::machine::varied::Varied;
+use crate::machine::{Border, Portrait};
+use crate::oscillator::Belt;
+use crate::report::csv::Sheet;
+use crate::report::json::text;
+use crate::report::table::Table;
+use crate::scene::Machine;
+use crate::words::number::{duration, significant};
+use crate::words::quantity::with_unit;
+
+/// A point of a sweep.
+pub struct SweepPoint {
+    /// Value of the quantity, in SI units.
+    pub value: f64,
+    /// What the machine does there, or why it does not exist.
+    pub found: Result<Portrait, String>,
+    /// The part of a window from which it comes to rest, if asked for.
+    pub rest_share: Option<f64>,
+    /// The friction for a margin, if asked for.
+    pub design: Option<Designed>,
+}
+
+/// A sweep with what is asked about it.
+pub struct Sweep<'a> {
+    /// The machine.
+    pub machine: &'a Machine,
+    /// The number that varies.
+    pub varied: Varied,
+    /// The points.
+    pub points: Vec<SweepPoint>,
+    /// What it took.
+    pub seconds: f64,
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    machine: &'a str,
+    model: &'static str,
+    quantity: &'static str,
+    unit: &'static str,
+    points: Vec<Point<'a>>,
+    cost: Cost,
+}
+
+#[derive(Serialize)]
+struct Point<'a> {
+    value: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<&'a String>,
+    #[serde(flatten)]
+    whole: Option<Whole>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rest_share: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    design: Option<DesignOf>,
+}
+
+/// The belt at a point of the sweep.
+fn belt_at(sweep: &Sweep, value: f64) -> Belt {
+    let mut belt = sweep.machine.belt.clone();
+    // A sweep has points only where this can be done.
+    let _ = sweep.varied.set(&mut belt, value);
+    belt
+}
+
+fn steps(sweep: &Sweep) -> u64 {
+    sweep.points.iter().filter_map(|point| point.found.as_ref().ok()).map(|found| found.steps).sum()
+}
+
+/// The sweep as a document.
+#[must_use]
+pub fn json(sweep: &Sweep) -> String {
+    let point = |point: &'_ SweepPoint| Point {
+        value: point.value,
+        reason: None,
+        whole: point.found.as_ref().ok().map(Whole::new),
+        rest_share: point.rest_share,
+        design: point
+            .design
+            .as_ref()
+            .map(|designed| DesignOf::new(designed, &belt_at(sweep, point.value))),
+    };
+    let points = sweep.points.iter();
+    let points = points.map(|one| Point { reason: one.found.as_ref().err(), ..point(one) });
+    text(&Document {
+        machine: &sweep.machine.name,
+        model: "whole",
+        quantity: sweep.varied.name(),
+        unit: sweep.varied.unit(),
+        points: points.collect(),
+        cost: Cost { steps: steps(sweep), seconds: sweep.seconds },
+    })
+}
+
+/// What becomes of motions, in a few words.
+fn regime(found: &Portrait) -> String {
+    let rest = match found.border {
+        Border::NoBasin => "no basin",
+        _ if found.neutral => "periodic",
+        Border::None => "all come to rest",
+        Border::Cycle(..) => "basin within a cycle",
+        Border::Grazing(_) => "basin up to the belt",
+    };
+    let stable = found.cycles.iter().filter(|cycle| cycle.stable);
+    let kinds = stable.map(|cycle| match (cycle.sticks, cycle.overtakes) {
+        (false, false) => "slip",
+        (true, false) => "stick-slip",
+        (false, true) => "overtaking slip",
+        (true, true) => "overtaking stick-slip",
+    });
+    let kinds: Vec<&str> = kinds.collect();
+    if kinds.is_empty() { rest.to_owned() } else { format!("{rest}, {}", kinds.join(", ")) }
+}
+
+/// The sweep, to read.
+#[must_use]
+pub fn table(sweep: &Sweep) -> String {
+    let (name, unit) = (sweep.varied.name(), sweep.varied.unit());
+    let designs = sweep.points.iter().any(|point| point.design.is_some());
+    let mut titles = vec![name, "margin", "impulse", "cycles up to", "on the belt", "regime"];
+    let shares = sweep.points.iter().any(|point| point.rest_share.is_some());
+    if shares {
+        titles.push("rest share");
+    }
+    if designs {
+        titles.push("R needed");
+    }
+    let mut table = Table::new(&titles);
+    let or_all = |value: Option<f64>, unit| {
+        value.map_or_else(|| "all".to_owned(), |value| with_unit(value, PLACES, unit))
+    };
+    for point in &sweep.points {
+        let mut cells = vec![with_unit(point.value, PLACES, unit)];
+        match &point.found {
+            Ok(found) => {
+                let [displacement, impulse] = margins(found);
+                let sizes = found.cycles.iter().map(|cycle| with_unit(cycle.x.1, PLACES, "m"));
+                let rides = found.cycles.iter().find(|cycle| cycle.sticks);
+                let ride = rides.map(|cycle| with_unit(cycle.stick_duration, PLACES, "s"));
+                cells.extend([or_all(displacement, "m"), or_all(impulse, "N s")]);
+                cells.push(sizes.collect::<Vec<_>>().join(", "));
+                cells.push(ride.unwrap_or_default());
+                cells.push(regime(found));
+                cells.extend(point.rest_share.map(|share| significant(share, 10)));
+                if let Some(designed) = &point.design {
+                    let force = designed.force().map(|force| with_unit(force, PLACES, "N"));
+                    cells.push(force.unwrap_or_else(|| "any".to_owned()));
+                }
+            }
+            Err(reason) => {
+                cells.extend(std::iter::repeat_n("-".to_owned(), 4));
+                cells.push(reason.clone());
+            }
+        }
+        table.row(cells);
+    }
+    let machine = sweep.machine;
+    format!(
+        "{}: {}\n{}\n\n{}\n{} steps, {}\n",
+        machine.name,
+        machine.title,
+        quantities(&machine.belt, Some(name)),
+        table.aligned_left(),
+        steps(sweep),
+        duration(sweep.seconds)
+    )
+}
+
+/// What a machine does at a value.
+#[derive(Default, Serialize)]
+struct Row {
+    value: f64,
+    cycles: Option<usize>,
+    x_max_inner: Option<f64>,
+    x_max_outer: Option<f64>,
+    stick_duration: Option<f64>,
+    border: Option<&'static str>,
+    neutral: Option<bool>,
+    x_margin: Option<f64>,
+    impulse_margin: Option<f64>,
+    rest_share: Option<f64>,
+    #[serde(rename = "R_needed")]
+    needed: Option<f64>,
+}
+
+/// One row for each point, in SI units.
+#[must_use]
+pub fn csv(sweep: &Sweep) -> String {
+    let mut sheet = Sheet::like(&Row::default(), &[("value", sweep.varied.name())]);
+    for point in &sweep.points {
+        let value = point.value;
+        let Ok(found) = &point.found else {
+            sheet.row(&Row { value, ..Row::default() });
+            continue;
+        };
+        let all = &found.cycles;
+        let [x_margin, impulse_margin] = margins(found);
+        sheet.row(&Row {
+            value,
+            cycles: Some(all.len()),
+            x_max_inner: all.first().map(|cycle| cycle.x.1),
+            x_max_outer: all.last().map(|cycle| cycle.x.1),
+            stick_duration: all.iter().find(|it| it.sticks).map(|it| it.stick_duration),
+            border: Some(found.border.kind()),
+            neutral: Some(found.neutral),
+            x_margin,
+            impulse_margin,
+            rest_share: point.rest_share,
+            needed: point.design.as_ref().and_then(Designed::force),
+        });
+    }
+    sheet.into_text()
+}

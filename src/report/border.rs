@@ -1,0 +1,92 @@
+//! The fold and the escape point along a second parameter.
+
+use serde::Serialize;
+
+use super::certified::Bordered;
+use super::csv::Sheet;
+use super::json::{self, Price};
+use super::table::{Table, parameters, rounded};
+use crate::oscillator::{Parameters, Symbol};
+use crate::study::fold::{Border, BorderPoint};
+use crate::words::number::{duration, significant};
+
+#[derive(Serialize)]
+struct Document<'a> {
+    parameters: &'a Parameters,
+    parameter: Symbol,
+    points: &'a [BorderPoint],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    certified: Option<&'a [Bordered]>,
+    cost: Price,
+}
+
+/// What is known at a value of the second parameter.
+#[derive(Default, Serialize)]
+struct Row<'a> {
+    value: f64,
+    #[serde(rename = "D_F")]
+    fold: Option<f64>,
+    q_max: Option<f64>,
+    period: Option<f64>,
+    #[serde(rename = "D_F_harmonic")]
+    harmonic_fold: Option<f64>,
+    #[serde(rename = "D_c")]
+    escape: Option<f64>,
+    reason: Option<&'a str>,
+}
+
+/// One document.
+#[must_use]
+pub fn json(found: &Border, certified: Option<&[Bordered]>, seconds: f64) -> String {
+    json::text(&Document {
+        parameters: &found.parameters,
+        parameter: found.second,
+        points: &found.points,
+        certified,
+        cost: Price { counted: found.cost, seconds },
+    })
+}
+
+/// One row for each value of the second parameter.
+#[must_use]
+pub fn csv(found: &Border) -> String {
+    let mut sheet = Sheet::like(&Row::default(), &[("value", found.second.spec().name)]);
+    for point in &found.points {
+        sheet.row(&Row {
+            value: point.value,
+            fold: point.fold.map(|fold| fold.d),
+            q_max: point.fold.map(|fold| fold.q_max),
+            period: point.fold.map(|fold| fold.period),
+            harmonic_fold: point.harmonic_fold,
+            escape: point.escape,
+            reason: point.reason.as_deref(),
+        });
+    }
+    sheet.into_text()
+}
+
+/// One row for each value of the second parameter, to read.
+#[must_use]
+pub fn table(found: &Border, seconds: f64) -> String {
+    const PLACES: usize = 12;
+    let kind = |grazes: bool| if grazes { "grazing" } else { "fold" };
+    let table = Table::of(
+        &found.points,
+        &[
+            (found.second.spec().name, &|point| significant(point.value, 10)),
+            ("D_F", &|point| rounded(point.fold.map(|fold| fold.d), PLACES)),
+            ("is a", &|point| point.fold.map_or("-", |fold| kind(fold.grazes)).to_owned()),
+            ("q_max there", &|point| rounded(point.fold.map(|fold| fold.q_max), 8)),
+            ("D_F of (48)", &|point| rounded(point.harmonic_fold, 8)),
+            ("D_c", &|point| rounded(point.escape, PLACES)),
+        ],
+    );
+    let given_up = found.points.iter().filter_map(|point| {
+        let reason = point.reason.as_ref()?;
+        Some(format!("\n{} = {}: {reason}", found.second, significant(point.value, 10)))
+    });
+    let given_up: String = given_up.collect();
+    let fixed = parameters(&found.parameters, Some(found.second));
+    let cost = format!("{} evaluations, {}", found.cost.evaluations, duration(seconds));
+    format!("{fixed}\n\n{table}{given_up}\n{cost}\n")
+}

@@ -1,0 +1,352 @@
+//! What is enclosed or proved, for tables and documents.
+
+use serde::Serialize;
+
+use super::proof::certain;
+use super::table::Table;
+use crate::check::{Bounds as Pair, Certificate, Step};
+use crate::numerics::Interval;
+use crate::oscillator::Symbol;
+use crate::proof::cycles::Proof;
+use crate::proof::kicks::{Edge, Kicks};
+use crate::proof::motion::{Fate, Motion};
+use crate::proof::range::{Change, Range};
+use crate::words::number::significant;
+
+/// Digits for reading.
+const PLACES: usize = 12;
+
+/// An interval as a document has it; what is infinite is null.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Bounds {
+    lower: f64,
+    upper: f64,
+}
+
+impl From<Interval> for Bounds {
+    fn from(it: Interval) -> Self {
+        Bounds { lower: it.lower(), upper: it.upper() }
+    }
+}
+
+#[derive(Serialize)]
+struct Turn {
+    tau: Bounds,
+    q: Bounds,
+}
+
+/// A motion, enclosed.
+#[derive(Serialize)]
+pub struct Followed {
+    outcome: &'static str,
+    half_swings: usize,
+    tau: Bounds,
+    q: Option<Bounds>,
+    v: Option<Bounds>,
+    turns: Vec<Turn>,
+    proved: bool,
+    open: Option<&'static str>,
+}
+
+/// A motion until a time, for documents.
+#[must_use]
+pub fn followed(motion: &Motion, until: f64) -> Followed {
+    let turns = motion.turns.iter().map(|turn| Turn { tau: turn.tau.into(), q: turn.q.into() });
+    let (outcome, tau, q, v, open) = match motion.fate {
+        Fate::Captured { tau, q } => ("captured", tau, Some(q), None, None),
+        Fate::Moving { q, v } => ("moving", Interval::point(until), Some(q), Some(v), None),
+        Fate::Escaped { tau } => ("escaped", tau, None, None, None),
+        Fate::Open { tau, reason } => ("open", tau, None, None, Some(reason)),
+    };
+    Followed {
+        outcome,
+        half_swings: motion.turns.len(),
+        tau: tau.into(),
+        q: q.map(Bounds::from),
+        v: v.map(Bounds::from),
+        turns: turns.collect(),
+        proved: open.is_none(),
+        open,
+    }
+}
+
+/// The same in a line.
+#[must_use]
+pub fn motion_line(motion: &Motion, until: f64) -> String {
+    let number = |it| certain(it, PLACES);
+    let swings = match motion.turns.len() {
+        1 => "1 half swing".to_owned(),
+        more => format!("{more} half swings"),
+    };
+    let sentence = match motion.fate {
+        Fate::Captured { tau, q } => {
+            format!("captured after {swings} at q = {}, tau = {}", number(q), number(tau))
+        }
+        Fate::Moving { q, v } => {
+            let (q, v) = (number(q), number(v));
+            format!("moving at tau = {until}, after {swings}: q = {q}, v = {v}")
+        }
+        Fate::Escaped { tau } => format!("escapes after {swings}, at tau = {}", number(tau)),
+        Fate::Open { tau, reason } => {
+            return format!("open from tau = {} on, after {swings}: {reason}\n", number(tau));
+        }
+    };
+    format!("proved: {sentence}\n")
+}
+
+/// The kicks that are survived, enclosed.
+#[derive(Serialize)]
+pub struct Survived {
+    edge: Option<&'static str>,
+    displacement: Option<Bounds>,
+    impulse: Option<Bounds>,
+    proved: bool,
+    open: Option<&'static str>,
+}
+
+fn name(edge: Edge) -> &'static str {
+    match edge {
+        Edge::None => "none",
+        Edge::Cycle => "cycle",
+        Edge::Separatrix => "separatrix",
+    }
+}
+
+/// Kicks, for documents.
+#[must_use]
+pub fn survived(kicks: &Kicks) -> Survived {
+    Survived {
+        edge: kicks.edge.map(name),
+        displacement: kicks.displacement.map(Bounds::from),
+        impulse: kicks.impulse.map(Bounds::from),
+        proved: kicks.open.is_none() && kicks.edge.is_some(),
+        open: kicks.open.or_else(|| kicks.edge.is_none().then_some("what borders the basin")),
+    }
+}
+
+/// The same in lines.
+#[must_use]
+pub fn kicks_lines(kicks: &Kicks) -> String {
+    let edge = match kicks.edge {
+        Some(Edge::None) => "proved: every start is captured\n".to_owned(),
+        Some(edge) => format!("proved: the edge of the basin is a {}\n", name(edge)),
+        None => "open: what borders the basin\n".to_owned(),
+    };
+    let line = |(what, bounds): (&str, Option<Interval>)| {
+        bounds.map(|it| {
+            format!("proved: smallest {what} that is not captured {}\n", certain(it, PLACES))
+        })
+    };
+    let kicked = [("displacement", kicks.displacement), ("impulse", kicks.impulse)];
+    let lines: String = kicked.into_iter().filter_map(line).collect();
+    edge + &lines + &kicks.open.map(|why| format!("open: {why}\n")).unwrap_or_default()
+}
+
+#[derive(Serialize)]
+struct PieceRow {
+    #[serde(flatten)]
+    over: Bounds,
+    cycles: Option<usize>,
+    stable: Option<Vec<bool>>,
+    proved: bool,
+}
+
+#[derive(Serialize)]
+struct ChangeRow {
+    #[serde(flatten)]
+    between: Bounds,
+    below: usize,
+    above: usize,
+}
+
+/// A range of a parameter, decided.
+#[derive(Serialize)]
+pub struct Decided {
+    pieces: Vec<PieceRow>,
+    changes: Vec<ChangeRow>,
+    open: Vec<Bounds>,
+    proved: bool,
+}
+
+/// A range, for documents.
+#[must_use]
+pub fn decided(range: &Range) -> Decided {
+    let piece = |piece: &crate::proof::range::Piece| PieceRow {
+        over: piece.over.into(),
+        cycles: piece.cycles.as_ref().map(Vec::len),
+        stable: piece.cycles.clone(),
+        proved: piece.cycles.is_some(),
+    };
+    let change = |change: &Change| ChangeRow {
+        between: change.between.into(),
+        below: change.below.len(),
+        above: change.above.len(),
+    };
+    let open = range.pieces.iter().filter(|piece| piece.cycles.is_none());
+    let open: Vec<Bounds> = open.map(|piece| piece.over.into()).collect();
+    Decided {
+        pieces: range.pieces.iter().map(piece).collect(),
+        changes: range.changes.iter().map(change).collect(),
+        proved: open.is_empty(),
+        open,
+    }
+}
+
+/// The same as a table.
+#[must_use]
+pub fn range_table(range: &Range, symbol: Symbol) -> String {
+    let name = symbol.spec().name;
+    let mut table = Table::new(&["from", "to", "cycles"]);
+    for piece in &range.pieces {
+        let cycles =
+            piece.cycles.as_ref().map_or("open".to_owned(), |it| format!("{}, proved", it.len()));
+        let ends = [piece.over.lower(), piece.over.upper()].map(|end| significant(end, 10));
+        table.row([ends.as_slice(), &[cycles]].concat());
+    }
+    let changes = range.changes.iter().map(|change| {
+        let (below, above) = (change.below.len(), change.above.len());
+        let at = certain(change.between, PLACES);
+        format!("proved: from {below} to {above} cycles at {name} = {at}\n")
+    });
+    let changes: String = changes.collect();
+    format!("\nfor every value of {name} in\n{table}{changes}")
+}
+
+/// A value of a second parameter, and where in D the cycles change.
+#[derive(Serialize)]
+pub struct Bordered {
+    /// The value.
+    pub value: f64,
+    /// The fold.
+    pub fold: Option<Bounds>,
+    /// The escape point.
+    pub escape: Option<Bounds>,
+    /// Whether what the search found is proved.
+    pub proved: bool,
+}
+
+/// Points of a border as lines.
+#[must_use]
+pub fn border_lines(points: &[Bordered], symbol: Symbol) -> String {
+    let mut table = Table::new(&[symbol.spec().name, "D_F, proved", "D_c, proved"]);
+    let cell = |it: Option<Bounds>| {
+        it.map_or("-".to_owned(), |it| certain(Interval::new(it.lower, it.upper), PLACES))
+    };
+    for point in points {
+        table.row(vec![significant(point.value, 10), cell(point.fold), cell(point.escape)]);
+    }
+    format!("\n{table}")
+}
+
+/// What holds for every value in an interval of parameters, as a table.
+#[must_use]
+pub fn box_table(proof: &Proof) -> String {
+    let mut table =
+        Table::new(&["cycle", "q_min", "q_max", "v_min", "v_max", "period", "multiplier"]);
+    for cycle in &proof.cycles {
+        let kind = if cycle.stable { "stable" } else { "unstable" };
+        let mut cells = vec![kind.to_owned()];
+        let ends = |it: Interval| {
+            let [lower, upper] = outward(it);
+            format!("{lower} .. {upper}")
+        };
+        match cycle.enclosure {
+            Some(it) => cells.extend(
+                [it.q_min, it.q_max, it.v_min, it.v_max, it.period, it.multiplier].map(ends),
+            ),
+            None => cells.extend(std::iter::repeat_n("?".to_owned(), 6)),
+        }
+        table.row(cells);
+    }
+    let p = proof.parameters;
+    let parameters = [("D", p.d), ("D2", p.d2), ("D3", p.d3), ("r", p.r)];
+    let heading = parameters.map(|(name, it)| {
+        if it.is_point() {
+            format!("{name} = {}", it.lower())
+        } else {
+            format!("{name} = {} .. {}", it.lower(), it.upper())
+        }
+    });
+    let text =
+        if proof.cycles.is_empty() { String::new() } else { format!("{}\n", table.aligned_left()) };
+    let line = super::proof::sentence(proof.cycles.len(), proof);
+    let line = line.replace("for the parameters as doubles", "for all of these parameters");
+    format!("{}\n\n{text}{line}", heading.join(", "))
+}
+
+/// The ends of an interval in six digits, rounded outwards.
+fn outward(it: Interval) -> [String; 2] {
+    let step = |value: f64| {
+        let digits = 10.0_f64.powf(value.abs().log10().floor() - 5.0);
+        if digits.is_finite() { digits } else { 0.0 }
+    };
+    let end = |value: f64, sign: f64| {
+        let near = significant(value, 6);
+        let read: f64 = near.parse().unwrap_or(f64::NAN);
+        let inside = sign * (value - read) > 0.0;
+        if inside { significant(value + sign * step(value), 6) } else { near }
+    };
+    [end(it.lower(), -1.0), end(it.upper(), 1.0)]
+}
+
+#[derive(Serialize)]
+struct BoxCycle {
+    stable: bool,
+    proved: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    enclosure: Option<crate::proof::Enclosure>,
+}
+
+#[derive(Serialize)]
+struct BoxDocument<'a> {
+    cycles: Vec<BoxCycle>,
+    count: super::proof::Count<'a>,
+}
+
+/// The same for documents.
+#[must_use]
+pub fn boxed(proof: &Proof) -> impl Serialize {
+    let cycles = proof.cycles.iter().map(|cycle| BoxCycle {
+        stable: cycle.stable,
+        proved: true,
+        enclosure: cycle.enclosure,
+    });
+    BoxDocument { cycles: cycles.collect(), count: super::proof::count(proof) }
+}
+
+/// What a checked certificate says.
+#[must_use]
+pub fn certificate_table(certificate: &Certificate) -> String {
+    let interval = |[lower, upper]: Pair| Interval::new(lower, upper);
+    let parameters = certificate.parameters;
+    let values =
+        [("D", parameters.d), ("D2", parameters.d2), ("D3", parameters.d3), ("r", parameters.r)];
+    let value = |(name, it): (&str, Pair)| {
+        if it[0] == it[1] {
+            format!("{name} = {:?}", it[0])
+        } else {
+            format!("{name} in {}", interval(it))
+        }
+    };
+    let mut table =
+        Table::new(&["cycle", "right clearance", "left clearance", "period", "multiplier"]);
+    let mut some = false;
+    for step in &certificate.steps {
+        if let Step::Cycle { numbers, .. } = step {
+            some = true;
+            let kind = if numbers.stable { "stable" } else { "unstable" };
+            let cells = [numbers.clearance, numbers.left, numbers.period, numbers.multiplier];
+            let cells = cells.map(|it| certain(interval(it), PLACES));
+            table.row([&[kind.to_owned()], cells.as_slice()].concat());
+        }
+    }
+    let count = match certificate.cycles {
+        0 => "no limit cycle".to_owned(),
+        1 => "1 limit cycle".to_owned(),
+        more => format!("{more} limit cycles"),
+    };
+    let table = if some { format!("{table}\n") } else { String::new() };
+    let steps = certificate.steps.len();
+    let values = values.map(value).join(", ");
+    format!("{values}\n\n{table}{count} and no other, at any amplitude: {steps} steps checked\n")
+}

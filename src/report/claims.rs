@@ -1,0 +1,154 @@
+//! The paper against computation, as text: one row for each claim.
+
+use serde::Serialize;
+
+use super::csv;
+use crate::flow::Reason;
+use crate::numerics::Interval;
+use crate::study::claims::{Examined, Finding, Mark, Sense, Verdict};
+use crate::words::claim;
+use crate::words::number::{duration, significant};
+
+/// One claim.
+#[derive(Default, Serialize)]
+struct Row<'a> {
+    equation: &'a str,
+    section: &'a str,
+    claim: &'a str,
+    at: Option<&'a str>,
+    sense: Option<&'static str>,
+    cases: Option<usize>,
+    paper: Option<f64>,
+    corrected: Option<f64>,
+    computed: Option<f64>,
+    error: Option<f64>,
+    difference: Option<f64>,
+    bound: Option<f64>,
+    verdict: &'static str,
+    within: Option<f64>,
+    scene: Option<&'a str>,
+    /// What is certain: `proved`, `refuted` or `enclosed`.
+    proof: Option<&'static str>,
+    /// Bounds of the computed number.
+    lower: Option<f64>,
+    upper: Option<f64>,
+}
+
+/// One claim of a document.
+#[derive(Serialize)]
+struct Claim<'a> {
+    #[serde(flatten)]
+    row: Row<'a>,
+    reason: Option<String>,
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    claims: Vec<Claim<'a>>,
+    cost: Cost,
+}
+
+#[derive(Serialize)]
+struct Cost {
+    seconds: f64,
+}
+
+fn sense(sense: Sense) -> &'static str {
+    match sense {
+        Sense::Equal => "equal",
+        Sense::Near => "near",
+        Sense::AtMost => "at-most",
+        Sense::Tends { .. } => "tends",
+        Sense::Always => "always",
+    }
+}
+
+fn row(examined: &Examined) -> Row<'_> {
+    let claim = examined.claim;
+    let finding = examined.finding.as_ref().ok();
+    let verdict = finding.map(Finding::verdict);
+    let bounds = finding.and_then(|finding| finding.computed.bounds);
+    Row {
+        equation: claim.equation,
+        section: claim.section,
+        claim: claim.statement,
+        at: finding.map(|finding| finding.place.as_str()).filter(|place| !place.is_empty()),
+        sense: finding.map(|finding| sense(finding.sense)),
+        cases: finding.map(|finding| finding.cases),
+        paper: finding.and_then(|finding| finding.paper),
+        corrected: finding.and_then(|finding| finding.corrected),
+        computed: finding.map(|finding| finding.computed.value),
+        error: finding.map(|finding| finding.computed.error),
+        difference: finding.and_then(Finding::difference),
+        bound: finding.map(Finding::bound),
+        proof: finding.and_then(|finding| finding.mark).map(Mark::name),
+        lower: bounds.map(Interval::lower).filter(|end| end.is_finite()),
+        upper: bounds.map(Interval::upper).filter(|end| end.is_finite()),
+        verdict: claim::name(examined),
+        within: verdict.and_then(Verdict::within),
+        scene: claim.scene,
+    }
+}
+
+/// One document with every claim.
+#[must_use]
+pub fn json(examined: &[Examined], seconds: f64) -> String {
+    let reason = |examined: &Examined| examined.finding.as_ref().err().map(Reason::to_string);
+    let claim = |examined| Claim { row: row(examined), reason: reason(examined) };
+    let claims = examined.iter().map(claim).collect();
+    super::json::text(&Document { claims, cost: Cost { seconds } })
+}
+
+/// One row for each claim.
+#[must_use]
+pub fn csv(examined: &[Examined]) -> String {
+    csv::sheet(&Row::default(), examined.iter().map(row))
+}
+
+/// Columns for reading: the numbers first, because what is claimed has no fixed length.
+#[must_use]
+pub fn table(examined: &[Examined], seconds: f64) -> String {
+    let titles = ["where", "verdict", "proof", "paper", "corrected", "computed", "claim"];
+    let rows = examined.iter().map(|examined| {
+        let number =
+            |value: Option<f64>| value.map_or("-".to_owned(), |value| significant(value, 6));
+        let finding = examined.finding.as_ref().ok();
+        [
+            examined.claim.equation.to_owned(),
+            claim::verdict(examined),
+            mark(finding),
+            number(finding.and_then(|finding| finding.paper)),
+            number(finding.and_then(|finding| finding.corrected)),
+            number(finding.map(|finding| finding.computed.value)),
+            sentence(examined),
+        ]
+    });
+    let rows: Vec<_> = std::iter::once(titles.map(str::to_owned)).chain(rows).collect();
+    let width =
+        |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+    let widths = [0, 1, 2, 3, 4, 5].map(width);
+    let mut out = String::new();
+    for [place, verdict, proof, paper, corrected, computed, claim] in &rows {
+        let [a, b, c, d, e, f] = widths;
+        out += &format!(
+            "{place:a$}  {verdict:b$}  {proof:c$}  {paper:>d$}  {corrected:>e$}  {computed:>f$}  {claim}\n"
+        );
+    }
+    out + &format!("\n{}, {}\n", claim::summary(examined), duration(seconds))
+}
+
+/// What is certain, or a dash.
+fn mark(finding: Option<&Finding>) -> String {
+    finding.and_then(|finding| finding.mark).map_or("-", Mark::name).to_owned()
+}
+
+/// The claim, and where it was tested.
+#[must_use]
+pub fn sentence(examined: &Examined) -> String {
+    let statement = examined.claim.statement;
+    match &examined.finding {
+        Ok(finding) if finding.place.is_empty() => statement.to_owned(),
+        Ok(finding) => format!("{statement} [{}]", finding.place),
+        Err(reason) => format!("{statement} [not computed: {reason}]"),
+    }
+}

@@ -1,0 +1,8 @@
+//! What a recorded motion says: as a table to read, a document and rows.
+
+mod document;
+mod table;
+mod words;
+
+pub use document::{csv, json};
+pub use table::table;

@@ -1,0 +1,164 @@
+//! A fit to read.
+
+use super::words::sentences;
+use crate::fit::Fitted;
+use crate::fit::margin::Spread;
+use crate::fit::names::{NAMES, NameSpec};
+use crate::fit::observation::{Data, LAST, Q0, Start};
+use crate::fit::physical::{kicks, rows};
+use crate::report::table::Table;
+use crate::words::number::{duration, resolved, significant};
+
+/// The unit of a number: powers of the record's unit of length and of a second.
+fn unit(row: &NameSpec, length: &str) -> String {
+    let length = if length.is_empty() { "unit" } else { length };
+    let power = |name: &str, power: i32| match power {
+        0 => String::new(),
+        1 => name.to_owned(),
+        -1 => format!("1/{name}"),
+        _ => format!("1/{name}^{}", -power),
+    };
+    power(length, row.length) + &power("s", row.time)
+}
+
+/// Everything that is said about a fit.
+#[must_use]
+pub fn table(fitted: &Fitted) -> String {
+    let estimate = &fitted.estimate;
+    let mut out = format!("{}: {}\n\n", fitted.name, subject(fitted));
+    let mut numbers = Table::new(&["number", "value", "error", "from", "to", "unit"]);
+    for row in &NAMES {
+        if !estimate.free[row.place] || !estimate.choice.is_wanted(row) {
+            continue;
+        }
+        let (value, error) = (estimate.p[row.place], estimate.covariance.error(row.place));
+        let interval = estimate.intervals[row.place];
+        let end = |end: Option<f64>| end.map_or("-".to_owned(), |end| resolved(end, 0.05 * error));
+        numbers.row(vec![
+            row.name.to_owned(),
+            resolved(value, 0.05 * error),
+            significant(error, 2),
+            end(interval.lower),
+            end(interval.upper),
+            unit(row, fitted.unit()),
+        ]);
+    }
+    out += &format!("{numbers}standard errors; 95 % lie from .. to\n\n");
+    out += &start(fitted);
+    out += &correlations(fitted);
+    out += &forces(fitted);
+    out += &margins(fitted);
+    for sentence in sentences(fitted) {
+        out += &format!("{sentence}\n");
+    }
+    let (with, plain) = estimate.motions;
+    out + &format!(
+        "{with} motions with derivatives, {plain} without, {}\n",
+        duration(fitted.seconds)
+    )
+}
+
+fn subject(fitted: &Fitted) -> String {
+    let estimate = &fitted.estimate;
+    let what = match &estimate.data {
+        Data::Samples { t, .. } => {
+            let span = t.last().zip(t.first()).map_or(0.0, |(last, first)| last - first);
+            let begin = match estimate.start {
+                Start::Release => "released within it",
+                Start::Moving => "in motion from its beginning",
+            };
+            format!("{} samples over {} s, {begin}", t.len(), significant(span, 4))
+        }
+        Data::Peaks { t, x, .. } => {
+            let times = if t.is_some() { "with" } else { "without" };
+            format!("{} peaks {times} times", x.len())
+        }
+    };
+    let end = if estimate.rests { ", at rest at its end" } else { "" };
+    format!("{what}, {} half swings{end}", estimate.half_swings)
+}
+
+fn start(fitted: &Fitted) -> String {
+    let estimate = &fitted.estimate;
+    let number = |name: &str, place: usize, unit: &str| {
+        let error = estimate.covariance.error(place);
+        let value = resolved(estimate.p[place], 0.05 * error);
+        format!("{name} = {value} +- {} {unit}", significant(error, 2)).trim_end().to_owned()
+    };
+    let unit = fitted.unit();
+    let mut parts = vec![number("q0", Q0, unit)];
+    if estimate.free[LAST] {
+        parts.push(match estimate.start {
+            Start::Release => number("t0", LAST, "s"),
+            Start::Moving => number("v0/omega0", LAST, unit),
+        });
+    }
+    let noise = significant(estimate.covariance.deviation, 3);
+    format!("start: {}; noise {noise} {unit}", parts.join(", ")).trim_end().to_owned() + "\n\n"
+}
+
+fn correlations(fitted: &Fitted) -> String {
+    let estimate = &fitted.estimate;
+    let wanted: Vec<&NameSpec> = estimate.wanted().collect();
+    if wanted.len() < 2 {
+        return String::new();
+    }
+    let mut titles = vec!["correlation"];
+    titles.extend(wanted.iter().map(|row| row.name));
+    let mut table = Table::new(&titles);
+    for one in &wanted {
+        let mut cells = vec![one.name.to_owned()];
+        for other in &wanted {
+            let both =
+                estimate.covariance.error(one.place) * estimate.covariance.error(other.place);
+            cells.push(format!("{:.3}", estimate.covariance.of(one.place, other.place) / both));
+        }
+        table.row(cells);
+    }
+    format!("{table}\n")
+}
+
+fn forces(fitted: &Fitted) -> String {
+    let rows = rows(fitted);
+    if rows.is_empty() {
+        return String::new();
+    }
+    let mut table = Table::new(&["physical", "value", "error", "unit"]);
+    for row in rows {
+        table.row(vec![
+            row.name.to_owned(),
+            resolved(row.value, 0.05 * row.standard_error.max(1e-6 * row.value.abs())),
+            significant(row.standard_error, 2),
+            row.unit.to_owned(),
+        ]);
+    }
+    format!("{table}\n")
+}
+
+fn margins(fitted: &Fitted) -> String {
+    let margins = &fitted.margins;
+    let mut table = Table::new(&["what follows", "median", "from", "to", "none", "unit"]);
+    let shown = |value: Option<f64>, scale: f64| {
+        value.map_or("none".to_owned(), |value| significant(value * scale, 4))
+    };
+    let mut row = |what: &str, spread: &Spread, scale: f64, unit: &str| {
+        table.row(vec![
+            what.to_owned(),
+            shown(spread.median, scale),
+            shown(spread.lower, scale),
+            shown(spread.upper, scale),
+            format!("{} %", significant(100.0 * spread.none, 2)),
+            unit.to_owned(),
+        ]);
+    };
+    row("smallest displacement not survived", &margins.displacement, 1.0, fitted.unit());
+    match kicks(fitted) {
+        Some((_, impulse)) => {
+            row("smallest impulse not survived", &margins.impulse, impulse, "N s");
+        }
+        None => row("smallest velocity/omega0 not survived", &margins.impulse, 1.0, fitted.unit()),
+    }
+    row("stable cycle, right turning point", &margins.cycle, 1.0, fitted.unit());
+    row("D of the fold, above which all is survived", &margins.fold, 1.0, "");
+    format!("{table}95 % lie from .. to; none: the share of the draws without\n\n")
+}

@@ -1,0 +1,148 @@
+//! What a fit has to say in sentences: what it cannot tell, what it left out, whether the model holds.
+
+use crate::fit::Fitted;
+use crate::fit::names::NAMES;
+use crate::fit::observation::R;
+use crate::fit::separable::{Combination, combinations};
+use crate::words::number::significant;
+
+/// The sentences.
+#[must_use]
+pub fn sentences(fitted: &Fitted) -> Vec<String> {
+    let mut all = left_out(fitted);
+    all.extend(combinations(&fitted.estimate).iter().map(|one| inseparable(fitted, one)));
+    all.extend(bounds(fitted));
+    all.extend(rivals(fitted));
+    all.push(residuals(fitted));
+    all.push(margin(fitted));
+    all
+}
+
+/// `12 samples` or `1 sample`.
+fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
+/// `D and r`, `D, D3 and r`.
+fn listed(names: &[&str]) -> String {
+    match names {
+        [all @ .., last] if !all.is_empty() => format!("{} and {last}", all.join(", ")),
+        _ => names.concat(),
+    }
+}
+
+fn left_out(fitted: &Fitted) -> Vec<String> {
+    let counts = [
+        (fitted.record.missing, "row", "without a number"),
+        (fitted.record.repeated, "row", "repeating another one"),
+        (fitted.estimate.saturated, "sample", "flattened at full scale"),
+        (
+            fitted.estimate.outliers(),
+            "sample",
+            "impossible for this motion and noise (4.5 deviations)",
+        ),
+    ];
+    let said = counts.iter().filter(|(count, ..)| *count > 0);
+    said.map(|(count, what, why)| format!("left out: {} {why}", counted(*count, what))).collect()
+}
+
+/// `D + 0.069 r`.
+fn formula(combination: &Combination) -> String {
+    let term = |(index, (row, weight)): (usize, &(&crate::fit::names::NameSpec, f64))| {
+        let sign = match (index, *weight < 0.0) {
+            (0, _) => "",
+            (_, true) => " - ",
+            (_, false) => " + ",
+        };
+        let factor = if index == 0 { String::new() } else { significant(weight.abs(), 3) + " " };
+        format!("{sign}{factor}{}", row.name)
+    };
+    combination.terms.iter().enumerate().map(term).collect()
+}
+
+fn inseparable(fitted: &Fitted, combination: &Combination) -> String {
+    let names: Vec<&str> = combination.terms.iter().map(|(row, _)| row.name).collect();
+    let (low, high) = fitted.estimate.amplitudes();
+    format!(
+        "{} cannot be told apart: only {} = {} +- {} is known; the amplitudes span a factor of {}",
+        listed(&names),
+        formula(combination),
+        significant(combination.value, 4),
+        significant(combination.standard_error, 2),
+        significant(high / low, 2),
+    )
+}
+
+fn bounds(fitted: &Fitted) -> Vec<String> {
+    let estimate = &fitted.estimate;
+    let interval = estimate.intervals[R];
+    let mut said = Vec::new();
+    if let Some(upper) = interval.upper
+        && estimate.free[R]
+        && interval.lower == Some(0.0)
+    {
+        said.push(format!("no friction is shown: r is at most {} (95 %)", significant(upper, 3)));
+    }
+    let bent: Vec<&str> = NAMES
+        .iter()
+        .filter(|row| estimate.free[row.place] && !estimate.intervals[row.place].quadratic)
+        .map(|row| row.name)
+        .collect();
+    if !bent.is_empty() {
+        said.push(format!(
+            "intervals of {} by the profile of the likelihood, which is not quadratic there",
+            bent.join(", ")
+        ));
+    }
+    said
+}
+
+fn rivals(fitted: &Fitted) -> Vec<String> {
+    let others = fitted.estimate.contenders().skip(1);
+    others
+        .map(|rival| {
+            format!(
+                "{} half swings explain the record as well (delta chi^2 = {}): the intervals cover both",
+                rival.half_swings,
+                significant(rival.delta_chi2, 2)
+            )
+        })
+        .collect()
+}
+
+fn residuals(fitted: &Fitted) -> String {
+    let found = &fitted.estimate.whiteness;
+    let correlation = significant(found.correlation, 2);
+    if found.systematic {
+        return format!(
+            "the residuals swing with the motion (correlation {correlation}): the model leaves something out, and the \
+             errors do not cover that"
+        );
+    }
+    if found.white {
+        return format!("the residuals are white noise (correlation {correlation})");
+    }
+    format!(
+        "the residuals are correlated from sample to sample ({correlation}) as filtered noise is; the errors allow for it"
+    )
+}
+
+fn margin(fitted: &Fitted) -> String {
+    let margins = &fitted.margins;
+    let share = significant(100.0 * margins.displacement.none, 2);
+    let (low, high) = fitted.estimate.amplitudes();
+    let unit = fitted.unit();
+    let range = format!("{} .. {} {unit}", significant(low, 3), significant(high, 3));
+    let range = range.trim_end();
+    match margins.displacement.median {
+        None => format!(
+            "every kick is survived in {share} % of what the record allows; amplitudes were {range}"
+        ),
+        Some(_) if margins.extrapolated => {
+            format!(
+                "the margin lies outside the amplitudes measured ({range}): it is extrapolated by the model"
+            )
+        }
+        Some(_) => format!("the margin lies within the amplitudes measured ({range})"),
+    }
+}

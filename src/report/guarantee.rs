@@ -1,0 +1,89 @@
+//! Guaranteed margins as text.
+
+use serde::Serialize;
+
+use super::csv;
+use super::json::{Price, text};
+use crate::oscillator::{Interval, ParameterBox, Symbol};
+use crate::study::Margin;
+use crate::study::guarantee::{Guarantee, Guaranteed};
+use crate::words::number::{duration, significant};
+
+#[derive(Serialize)]
+struct Document<'a> {
+    nominal: Margin,
+    guaranteed: Guaranteed,
+    disturbance: f64,
+    parameters: &'a ParameterBox,
+    cost: Price,
+}
+
+/// One of the two margins.
+#[derive(Serialize)]
+struct Row {
+    margin: &'static str,
+    #[serde(flatten)]
+    found: Margin,
+    reason: Option<String>,
+}
+
+/// One document.
+#[must_use]
+pub fn json(found: &Guarantee, seconds: f64) -> String {
+    text(&Document {
+        nominal: found.nominal,
+        guaranteed: found.guaranteed,
+        disturbance: found.disturbance,
+        parameters: &found.known,
+        cost: Price { counted: found.cost, seconds },
+    })
+}
+
+/// One row for the nominal and one for the guaranteed margin.
+#[must_use]
+pub fn csv(found: &Guarantee) -> String {
+    let nominal = Row { margin: "nominal", found: found.nominal, reason: None };
+    let Guaranteed { margin, reason } = found.guaranteed;
+    let reason = reason.map(|reason| reason.to_string());
+    csv::sheet(&nominal, [&nominal, &Row { margin: "guaranteed", found: margin, reason }])
+}
+
+/// What keeps a number of 12 digits from being rounded up.
+const BELOW: f64 = 1.0 - 5e-12;
+
+/// Sentences for reading; the guaranteed numbers are not rounded up.
+#[must_use]
+pub fn table(found: &Guarantee, seconds: f64) -> String {
+    let ParameterBox { d, d2, d3, r } = found.known;
+    let names = [Symbol::D, Symbol::D2, Symbol::D3, Symbol::R].map(|symbol| symbol.spec().name);
+    let parameters = names.iter().zip([d, d2, d3, r]).map(|(name, value)| interval(name, value));
+    let parameters = parameters.collect::<Vec<_>>().join(", ");
+    let margin = |Margin { displacement, impulse }: Margin, part| match (displacement, impulse) {
+        (None, None) => "every kick is survived".to_owned(),
+        _ => [("displacement", displacement), ("impulse", impulse)]
+            .map(|(name, value)| {
+                let value = value.map_or("any".to_owned(), |value| significant(part * value, 12));
+                format!("{name} {value}")
+            })
+            .join(", "),
+    };
+    let guaranteed = match found.guaranteed.reason {
+        Some(reason) => format!("nothing: {reason}"),
+        None => margin(found.guaranteed.margin, BELOW),
+    };
+    format!(
+        "{parameters}; disturbance {}\n\nnominal     {}\nguaranteed  {guaranteed}\n\n{} evaluations, {}\n",
+        significant(found.disturbance, 12),
+        margin(found.nominal, 1.0),
+        found.cost.evaluations,
+        duration(seconds)
+    )
+}
+
+fn interval(name: &str, interval: Interval) -> String {
+    if interval.is_point() {
+        format!("{name} = {}", significant(interval.low, 12))
+    } else {
+        format!("{name} in {} .. {}", significant(interval.low, 12), significant(interval.high, 12))
+    }
+}

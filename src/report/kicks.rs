@@ -1,0 +1,87 @@
+//! What random kicks do, as text.
+
+use serde::Serialize;
+
+use super::csv;
+use super::json::{Price, text};
+use super::table::parameters as named;
+use crate::oscillator::Parameters;
+use crate::study::kicks::Kicks;
+use crate::study::repeated::Repeated;
+use crate::words::number::{duration, significant};
+
+#[derive(Serialize)]
+struct Document<'a> {
+    parameters: &'a Parameters,
+    kicks: String,
+    lost: Lost,
+    repeated: Again<'a>,
+    cost: Price,
+}
+
+#[derive(Serialize)]
+struct Lost {
+    part: f64,
+    error: f64,
+}
+
+#[derive(Serialize)]
+struct Again<'a> {
+    lost: f64,
+    mean: Option<f64>,
+    error: f64,
+    density: &'a [f64],
+}
+
+/// How dense the places of rest are at one of them.
+#[derive(Default, Serialize)]
+struct Row {
+    q: f64,
+    density: f64,
+}
+
+/// One document; `mean` is null where no kick is ever lost.
+#[must_use]
+pub fn json(parameters: &Parameters, kicks: &Kicks, found: &Repeated, seconds: f64) -> String {
+    text(&Document {
+        parameters,
+        kicks: kicks.to_string(),
+        lost: Lost { part: found.first.part, error: found.first.error },
+        repeated: Again {
+            lost: found.later,
+            mean: found.mean.is_finite().then_some(found.mean),
+            error: found.error,
+            density: &found.density,
+        },
+        cost: Price { counted: found.cost, seconds },
+    })
+}
+
+/// The density of the places of rest, one cell a row.
+#[must_use]
+pub fn csv(parameters: &Parameters, found: &Repeated) -> String {
+    let row = |(q, density)| Row { q, density };
+    csv::sheet(&Row::default(), found.places(parameters.r).map(row))
+}
+
+/// Sentences for reading.
+#[must_use]
+pub fn table(parameters: &Parameters, kicks: &Kicks, found: &Repeated, seconds: f64) -> String {
+    let Repeated { first, later, mean, error, cost, .. } = found;
+    let number = |value: f64| significant(value, 6);
+    let mean = if mean.is_finite() { number(*mean) } else { "none is ever lost".to_owned() };
+    format!(
+        "{}; kicks {kicks}\n\n\
+         lost, of kicks from the middle of the rest  {} +- {}\n\
+         lost, of kicks after many                   {}\n\
+         mean number until one is lost               {mean}\n\
+         relative error of the last two              {}\n\n{} evaluations, {}\n",
+        named(parameters, None),
+        number(first.part),
+        significant(first.error, 2),
+        number(*later),
+        significant(*error, 2),
+        cost.evaluations,
+        duration(seconds)
+    )
+}

@@ -1,0 +1,27 @@
+//! Answers as text, one file for each subject: to read, as comma-separated values and as JSON.
+//!
+//! A subject has its rows once; [`csv`], [`json`] and [`table`] are the forms.
+
+pub mod basin;
+pub mod belt;
+pub mod border;
+pub mod branch;
+pub mod certified;
+pub mod claims;
+pub mod csv;
+pub mod cycles;
+pub mod extreme_cycles;
+pub mod extremes;
+pub mod fit;
+pub mod guarantee;
+pub mod harmonic_balance;
+pub mod json;
+pub mod kicks;
+mod proof;
+pub mod provenance;
+pub mod scan;
+pub mod scene_cost;
+pub mod scenes;
+pub mod table;
+pub mod trade;
+pub mod trajectory;

@@ -1,0 +1,109 @@
+//! What is proved about limit cycles, for tables and documents.
+
+use serde::Serialize;
+
+use crate::numerics::Interval;
+use crate::proof::cycles::{Open, Proof};
+use crate::proof::enclose::Enclosure;
+use crate::proof::field::ParameterBox;
+use crate::study::Cycle;
+use crate::study::proved::matching;
+use crate::words::number::significant;
+
+/// A cycle with what is proved about it.
+#[derive(Serialize)]
+pub(super) struct Row<'a> {
+    #[serde(flatten)]
+    cycle: &'a Cycle,
+    /// Whether it exists, is the only one near by, and is enclosed.
+    proved: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    enclosure: Option<Enclosure>,
+}
+
+/// The number of cycles, with what is proved about it.
+#[derive(Serialize)]
+pub(super) struct Count<'a> {
+    /// Whether there are these cycles and no others.
+    proved: bool,
+    /// Clearances about which nothing is known.
+    open: &'a [Open],
+    /// The parameters for which this holds: the doubles nearest to the decimal numbers given.
+    parameters: Bounds,
+}
+
+/// Bounds of the parameters.
+#[derive(Serialize)]
+struct Bounds {
+    #[serde(rename = "D")]
+    d: Interval,
+    #[serde(rename = "D2")]
+    d2: Interval,
+    #[serde(rename = "D3")]
+    d3: Interval,
+    r: Interval,
+}
+
+/// The rows of a document.
+pub(super) fn rows<'a>(cycles: &'a [Cycle], proof: &Proof) -> Vec<Row<'a>> {
+    let row = |cycle| {
+        let enclosure = enclosure(proof, cycle);
+        Row { cycle, proved: enclosure.is_some(), enclosure }
+    };
+    cycles.iter().map(row).collect()
+}
+
+/// What encloses a cycle.
+pub(super) fn enclosure(proof: &Proof, cycle: &Cycle) -> Option<Enclosure> {
+    matching(proof, cycle).and_then(|proved| proved.enclosure)
+}
+
+/// The count of a document.
+pub(super) fn count(proof: &Proof) -> Count<'_> {
+    let ParameterBox { d, d2, d3, r } = proof.parameters;
+    Count { proved: proof.is_complete(), open: &proof.open, parameters: Bounds { d, d2, d3, r } }
+}
+
+/// `2 cycles, proved`, or what is open.
+pub(super) fn sentence(found: usize, proof: &Proof) -> String {
+    let cycles = match found {
+        0 => "no limit cycle".to_owned(),
+        1 => "1 cycle".to_owned(),
+        more => format!("{more} cycles"),
+    };
+    if proof.is_complete() {
+        return format!("{cycles}, proved for the parameters as doubles\n");
+    }
+    let mut out = format!("{cycles} found; not proved that there are no others:\n");
+    for open in &proof.open {
+        let (lower, upper) = (significant(open.lower, 6), significant(open.upper, 6));
+        let range = if open.upper.is_finite() {
+            let width = significant(open.upper - open.lower, 2);
+            format!("from {lower} to {upper} (width {width})")
+        } else {
+            format!("from {lower} on")
+        };
+        out += &format!("  clearances {range} are open: {}\n", open.reason);
+    }
+    out
+}
+
+/// The digits on which both ends of an enclosure agree, at most `most`; `?` if there are none.
+pub(super) fn certain(value: Interval, most: usize) -> String {
+    let ends = |digits| [value.lower(), value.upper()].map(|end| significant(end, digits));
+    let agreed = (1..=most).rev().map(ends).find(|[lower, upper]| lower == upper);
+    agreed.map_or_else(|| "?".to_owned(), |[digits, _]| digits)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_digits_on_which_both_ends_agree_are_shown() {
+        assert_eq!(certain(Interval::new(0.123_449, 0.123_451), 10), "0.12345");
+        assert_eq!(certain(Interval::new(0.123_44, 0.123_46), 10), "0.123");
+        assert_eq!(certain(Interval::new(1.0, 3.0), 10), "?");
+        assert_eq!(certain(Interval::point(0.1), 10), "0.1");
+    }
+}

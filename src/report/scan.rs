@@ -1,0 +1,113 @@
+//! Rows of a scan as text, one line each: the one writer of the command line, of files and of the
+//! explorer.
+//!
+//! A line states all that its row depends on before what was measured, so that lines can be checked,
+//! sorted, and put together with those of other scans, whatever file they come from.
+
+use super::csv;
+use crate::study::measure::Value;
+use crate::study::scan::{Row, Scan};
+use crate::words::measured::{exact, rounded};
+
+/// The form of the rows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// Names in the first line, then one row a line, all digits.
+    Csv,
+    /// One JSON object a line, all digits.
+    Json,
+    /// Aligned columns, to read.
+    Table,
+}
+
+/// Width of a column of the table: eight digits, sign, point and exponent.
+const WIDTH: usize = 14;
+
+impl Form {
+    /// The form that the name of a file asks for: JSON where it ends so, else CSV.
+    #[must_use]
+    pub fn of_file(path: &std::path::Path) -> Self {
+        let ending = path.extension();
+        let json = ending.is_some_and(|ending| ending == "json" || ending == "jsonl");
+        if json { Form::Json } else { Form::Csv }
+    }
+
+    /// The line before the rows; empty where there is none.
+    #[must_use]
+    pub fn heading(self, scan: &Scan) -> String {
+        let inputs = scan.inputs(0).into_iter().map(|(name, _)| name);
+        let names = inputs.chain(scan.measured()).chain(["reason"]);
+        match self {
+            Form::Csv => names.collect::<Vec<_>>().join(",") + "\n",
+            Form::Json => String::new(),
+            Form::Table => {
+                let varied: Vec<_> =
+                    scan.over().iter().map(|sweep| sweep.symbol.spec().name).collect();
+                let names = varied.into_iter().chain(scan.measured());
+                names.map(column).collect::<String>().trim_end().to_owned() + "\n"
+            }
+        }
+    }
+
+    /// How the row of point number `index` begins, whatever is measured there.
+    #[must_use]
+    pub fn beginning(self, scan: &Scan, index: usize) -> String {
+        let inputs = scan.inputs(index).into_iter();
+        match self {
+            Form::Csv => inputs.map(|(_, value)| exact(value) + ",").collect(),
+            Form::Json => {
+                let fields = inputs.map(|(name, value)| field(name, value) + ",");
+                std::iter::once("{".to_owned()).chain(fields).collect()
+            }
+            Form::Table => {
+                let varies =
+                    |name: &str| scan.over().iter().any(|sweep| sweep.symbol.spec().name == name);
+                inputs
+                    .filter(|(name, _)| varies(name))
+                    .map(|(_, value)| column(&rounded(value)))
+                    .collect()
+            }
+        }
+    }
+
+    /// The row of point number `index`.
+    #[must_use]
+    pub fn line(self, scan: &Scan, index: usize, row: &Row) -> String {
+        let mut line = self.beginning(scan, index);
+        let values = row.values.iter().copied();
+        match self {
+            Form::Csv => {
+                let cells = values.map(exact).chain([row.reason.clone().unwrap_or_default()]);
+                line += &csv::line(&cells.collect::<Vec<_>>());
+            }
+            Form::Json => {
+                for (name, value) in scan.measured().into_iter().zip(values) {
+                    line += &(field(name, value) + ",");
+                }
+                let reason = serde_json::Value::from(row.reason.clone());
+                line += &format!("\"reason\":{reason}}}\n");
+            }
+            Form::Table => {
+                line.extend(values.map(|value| column(&rounded(value))));
+                if let Some(reason) = &row.reason {
+                    line += &format!("  {reason}");
+                }
+                line.truncate(line.trim_end().len());
+                line.push('\n');
+            }
+        }
+        line
+    }
+}
+
+fn field(name: &str, value: Value) -> String {
+    match value {
+        Value::Nothing => format!("\"{name}\":null"),
+        Value::Word(word) => format!("\"{name}\":\"{word}\""),
+        Value::Number(_) | Value::Count(_) => format!("\"{name}\":{}", exact(value)),
+    }
+}
+
+fn column(text: &str) -> String {
+    format!("{text:>WIDTH$}  ")
+}

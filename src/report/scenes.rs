@@ -1,0 +1,54 @@
+//! The list of scenes.
+
+use serde::Serialize;
+
+use super::csv;
+use super::json;
+use crate::oscillator::{Parameters, State};
+use crate::scene::Scene;
+use crate::scene::said::{Condition, said};
+use crate::session::Keymap;
+
+#[derive(Serialize)]
+struct Document<'a> {
+    name: &'a str,
+    title: &'a str,
+    look: String,
+    press: String,
+    parameters: &'a Parameters,
+    initial: &'a State,
+    until: f64,
+}
+
+/// A scene and what it is called.
+#[derive(Default, Serialize)]
+struct Row<'a> {
+    name: &'a str,
+    title: &'a str,
+}
+
+/// One document.
+#[must_use]
+pub fn json<'a>(scenes: impl IntoIterator<Item = &'a Scene>) -> String {
+    let keymap = Keymap::default();
+    // What always holds, and what holds of the numbers given here.
+    let here = |one| matches!(one, Condition::Here | Condition::Opened);
+    let sentence = |text: &str| keymap.fill(&said(text, here), |key| key.to_string());
+    let document = |scene: &'a Scene| Document {
+        name: &scene.name,
+        title: &scene.title,
+        look: sentence(&scene.look),
+        press: sentence(&scene.press),
+        parameters: &scene.problem.parameters,
+        initial: &scene.problem.initial,
+        until: scene.problem.until,
+    };
+    json::text(&scenes.into_iter().map(document).collect::<Vec<_>>())
+}
+
+/// One row for each scene.
+#[must_use]
+pub fn csv<'a>(scenes: impl IntoIterator<Item = &'a Scene>) -> String {
+    let row = |scene: &'a Scene| Row { name: &scene.name, title: &scene.title };
+    csv::sheet(&Row::default(), scenes.into_iter().map(row))
+}

@@ -1,0 +1,145 @@
+//! Aligned columns of text, for reading.
+
+use std::fmt;
+
+use crate::flow::Problem;
+use crate::oscillator::{PARAMETERS, Parameters, State, Symbol};
+use crate::words::number::{exact, significant};
+
+/// A table: titles, and rows of as many cells; numbers stand with their points above each other.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Table {
+    titles: Vec<&'static str>,
+    rows: Vec<Vec<String>>,
+}
+
+/// A column: its title, and what stands in it for a row.
+pub type Column<'a, R> = (&'static str, &'a dyn Fn(&R) -> String);
+
+impl Table {
+    /// Whether there are no rows.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+
+    /// A table with these titles and no rows.
+    #[must_use]
+    pub fn new(titles: &[&'static str]) -> Self {
+        Table { titles: titles.to_vec(), rows: Vec::new() }
+    }
+
+    /// Columns by their titles, and what stands in each for a row.
+    #[must_use]
+    pub fn of<R>(rows: &[R], columns: &[Column<R>]) -> Self {
+        let cells = |row: &R| columns.iter().map(|(_, cell)| cell(row)).collect();
+        let titles = columns.iter().map(|(title, _)| *title).collect();
+        Table { titles, rows: rows.iter().map(cells).collect() }
+    }
+
+    /// Adds a row.
+    pub fn row(&mut self, cells: Vec<String>) {
+        self.rows.push(cells);
+    }
+
+    /// The table as text with every column aligned at its left end: for words.
+    #[must_use]
+    pub fn aligned_left(&self) -> String {
+        let titles = self.titles.iter().map(|title| (*title).to_owned()).collect();
+        let rows: Vec<&Vec<String>> = std::iter::once(&titles).chain(&self.rows).collect();
+        let width = |column: usize| {
+            let cells = rows.iter().filter_map(|row| row.get(column));
+            cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+        };
+        let widths: Vec<usize> = (0..titles.len()).map(width).collect();
+        let line = |row: &&Vec<String>| {
+            let cells = row.iter().zip(&widths).map(|(cell, width)| format!("{cell:width$}"));
+            cells.collect::<Vec<_>>().join("  ").trim_end().to_owned() + "\n"
+        };
+        rows.iter().map(line).collect()
+    }
+
+    /// Width of a column before and from the point on.
+    fn widths(&self, column: usize) -> (usize, usize) {
+        let cells = self.rows.iter().filter_map(|row| row.get(column));
+        let (whole, part) = cells.map(|cell| split(cell)).fold((0, 0), |widest, (whole, part)| {
+            (widest.0.max(whole.chars().count()), widest.1.max(part.chars().count()))
+        });
+        let title = self.titles.get(column).map_or(0, |title| title.chars().count());
+        (whole.max(title.saturating_sub(part)), part)
+    }
+}
+
+/// A cell before and from its decimal point on.
+fn split(cell: &str) -> (&str, &str) {
+    cell.split_at(cell.find('.').unwrap_or(cell.len()))
+}
+
+impl fmt::Display for Table {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let widths: Vec<_> = (0..self.titles.len()).map(|column| self.widths(column)).collect();
+        let titles = self.titles.iter().zip(&widths);
+        let titles = titles.map(|(title, (whole, part))| format!("{title:>0$}", whole + part));
+        writeln!(out, "{}", titles.collect::<Vec<_>>().join("  "))?;
+        for row in &self.rows {
+            let cells = row.iter().zip(&widths).map(|(cell, &(before, after))| {
+                let (whole, part) = split(cell);
+                format!("{whole:>before$}{part:<after$}")
+            });
+            writeln!(out, "{}", cells.collect::<Vec<_>>().join("  ").trim_end())?;
+        }
+        Ok(())
+    }
+}
+
+/// How many digits a tolerance makes trustworthy, 3 to 16.
+pub(super) fn digits(tolerance: f64) -> usize {
+    (3..16)
+        .find(|&digits| 10.0_f64.powi(-digits) <= tolerance * 1.5)
+        .map_or(16, |digits| usize::try_from(digits).unwrap_or(16))
+}
+
+/// `D = -0.1, D2 = 0, ...`.
+pub(super) fn parameters(parameters: &Parameters, but: Option<Symbol>) -> String {
+    let initial = State { q: 0.0, v: 0.0 };
+    let symbols = PARAMETERS.iter().map(|row| row.symbol);
+    let shown =
+        symbols.filter(|&symbol| !matches!(symbol, Symbol::Q0 | Symbol::V0) && Some(symbol) != but);
+    let one =
+        |symbol: Symbol| format!("{symbol} = {}", exact(symbol.get(parameters, &initial), 24));
+    shown.map(one).collect::<Vec<_>>().join(", ")
+}
+
+/// A number, or `-` where there is none.
+pub(super) fn rounded(value: Option<f64>, digits: usize) -> String {
+    value.map_or_else(|| "-".to_owned(), |value| significant(value, digits))
+}
+
+/// Which motion: parameters and start.
+pub(super) fn motion(problem: &Problem) -> String {
+    let State { q, v } = problem.initial;
+    let parameters = parameters(&problem.parameters, None);
+    format!("{parameters}; from q = {}, v = {}", exact(q, 24), exact(v, 24))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_of_numbers_stand_above_each_other() {
+        let mut table = Table::new(&["tau", "q"]);
+        table.row(vec!["1.5".to_owned(), "-0.25".to_owned()]);
+        table.row(vec!["10.25".to_owned(), "1".to_owned()]);
+        table.row(vec!["100".to_owned(), "-".to_owned()]);
+        assert_eq!(table.to_string(), "   tau      q\n  1.5   -0.25\n 10.25   1\n100      -\n");
+    }
+
+    #[test]
+    fn a_tolerance_says_how_many_digits_count() {
+        let expected = [(1e-10, 10), (3e-11, 11), (1e-2, 3), (1e-15, 15), (1e-30, 16)];
+        for (tolerance, places) in expected {
+            assert_eq!(digits(tolerance), places, "{tolerance}");
+        }
+    }
+}

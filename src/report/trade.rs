@@ -1,0 +1,321 @@
+//! Error against cost, in every form of output: one row for each method and accuracy.
+
+use serde::Serialize;
+
+use super::csv::{self, Sheet};
+use super::table::{Table, motion};
+use crate::flow::method::Dial;
+use crate::flow::{METHODS, Method, MethodSpec, Outcome};
+use crate::oscillator::{Parameters, State};
+use crate::study::accuracy::{Ending, Reference, Source};
+use crate::study::trade::{self, Trade};
+use crate::words::number::{count, duration, significant};
+
+/// A trade with the seconds that each row took, measured by someone with a clock.
+#[derive(Clone, Debug)]
+pub struct Timed {
+    /// The rows.
+    pub trade: Trade,
+    /// Seconds of each row.
+    pub seconds: Vec<f64>,
+}
+
+/// One method at one accuracy that has an error.
+#[derive(Clone, Debug, Serialize)]
+#[expect(clippy::struct_excessive_bools, reason = "fields of a document")]
+struct Row {
+    method: Method,
+    /// The method that `auto` chose.
+    used: Method,
+    tolerance: Option<f64>,
+    step: Option<f64>,
+    epsilon: Option<f64>,
+    error: f64,
+    evaluations: u64,
+    seconds: f64,
+    steps: u64,
+    rejected: u64,
+    outcome: Outcome,
+    turns: usize,
+    time_error: f64,
+    /// Whether the motion ends as the reference does.
+    agrees: bool,
+    /// Whether no other row has a smaller error in less time, and for fewer evaluations.
+    front: bool,
+    front_by_evaluations: bool,
+    /// Whether this is the method and the accuracy that were asked for.
+    own: bool,
+}
+
+/// One method at one accuracy that has no error, and why.
+#[derive(Clone, Debug, Serialize)]
+struct Unanswered {
+    method: Method,
+    tolerance: Option<f64>,
+    step: Option<f64>,
+    epsilon: Option<f64>,
+    reason: String,
+    evaluations: u64,
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    parameters: &'a Parameters,
+    initial: &'a State,
+    until: f64,
+    reference: String,
+    reference_error: f64,
+    scale: f64,
+    turns: usize,
+    rows: Vec<Row>,
+    unanswered: Vec<Unanswered>,
+}
+
+/// All columns: those of a row, and why there is none.
+#[derive(Serialize)]
+struct Line<'a> {
+    #[serde(flatten)]
+    row: &'a Row,
+    reason: Option<&'a str>,
+}
+
+/// What sets the accuracy of a row: tolerance, step and epsilon, those that do.
+fn dials(row: &trade::Row) -> [Option<f64>; 3] {
+    let problem = &row.problem;
+    let dial = problem.method.spec().dial;
+    let number = |wanted: Dial, value: f64| (dial == wanted).then_some(value);
+    let tolerance = matches!(dial, Dial::Tolerance | Dial::Epsilon).then_some(problem.tolerance);
+    [tolerance, number(Dial::Step, problem.step), number(Dial::Epsilon, problem.epsilon)]
+}
+
+impl Timed {
+    /// The rows that have an error.
+    fn rows(&self) -> Vec<Row> {
+        let trade = &self.trade;
+        let by_time = trade.front(&self.seconds);
+        let by_evaluations = trade.front(&trade.evaluations());
+        let judged =
+            trade.rows.iter().zip(&self.seconds).zip(by_time.into_iter().zip(by_evaluations));
+        judged
+            .filter_map(|((row, &seconds), (front, front_by_evaluations))| {
+                let deviation = row.deviation.ok()?;
+                let [tolerance, step, epsilon] = dials(row);
+                Some(Row {
+                    method: row.problem.method,
+                    used: row.method,
+                    tolerance,
+                    step,
+                    epsilon,
+                    error: deviation.error,
+                    evaluations: row.cost.evaluations,
+                    seconds,
+                    steps: row.cost.steps,
+                    rejected: row.cost.rejected,
+                    outcome: row.outcome,
+                    turns: row.turns,
+                    time_error: deviation.time,
+                    agrees: deviation.agrees,
+                    front,
+                    front_by_evaluations,
+                    own: trade.is_own(row),
+                })
+            })
+            .collect()
+    }
+
+    /// The rows that have none.
+    fn unanswered(&self) -> Vec<Unanswered> {
+        let rows = self.trade.rows.iter();
+        rows.filter_map(|row| {
+            let reason = row.deviation.err()?.to_string();
+            let [tolerance, step, epsilon] = dials(row);
+            let (method, evaluations) = (row.problem.method, row.cost.evaluations);
+            Some(Unanswered { method, tolerance, step, epsilon, reason, evaluations })
+        })
+        .collect()
+    }
+}
+
+/// Where the reference comes from and how good it is, in a sentence.
+#[must_use]
+pub fn reference(trade: &Trade) -> String {
+    let reference = &trade.reference;
+    let (first, second) = match reference.source {
+        Source::TwicePrecision => (
+            "Taylor series of order 32 in twice the working precision",
+            "another of order 28 with other steps",
+        ),
+        Source::ClosedForm => ("closed form", "taylor at 1e-13"),
+        Source::Implicit => ("stiff at 1e-14", "auto at 1e-13"),
+    };
+    let differs = if reference.error.is_finite() {
+        format!("differs by {}", significant(reference.error, 1))
+    } else {
+        "ends otherwise: no error is certain".to_owned()
+    };
+    let closed = trade.rows.iter().find(|row| row.problem.method == Method::Exact);
+    let closed = closed.filter(|_| reference.source == Source::TwicePrecision);
+    let closed = closed.and_then(trade::Row::error).map_or_else(String::new, |error| {
+        format!(", the closed form in doubles by {}", significant(error, 1))
+    });
+    format!("{first}; {second} {differs}{closed}")
+}
+
+/// The document.
+#[must_use]
+pub fn json(timed: &Timed) -> String {
+    let Trade { problem, reference: known, .. } = &timed.trade;
+    super::json::text(&Document {
+        parameters: &problem.parameters,
+        initial: &problem.initial,
+        until: problem.until,
+        reference: reference(&timed.trade),
+        reference_error: known.error,
+        scale: known.scale,
+        turns: known.turns.len(),
+        rows: timed.rows(),
+        unanswered: timed.unanswered(),
+    })
+}
+
+/// One line for each method and accuracy, those without an error at the end.
+#[must_use]
+pub fn csv(timed: &Timed) -> String {
+    let (rows, unanswered) = (timed.rows(), timed.unanswered());
+    let Some(first) = rows.first() else { return csv::sheet(&unanswered.first(), &unanswered) };
+    let mut sheet = Sheet::like(&Line { row: first, reason: None }, &[]);
+    for row in &rows {
+        sheet.row(row);
+    }
+    for row in &unanswered {
+        sheet.row(row);
+    }
+    sheet.into_text()
+}
+
+/// Every row to read, and below them a plot of them: the best choices are marked with `*`, the method in use
+/// with `<`.
+#[must_use]
+pub fn table(timed: &Timed, plot: &str) -> String {
+    let Trade { problem, reference: known, .. } = &timed.trade;
+    let mut out = format!(
+        "{}; until tau = {}\n{}\nreference: {}\n\n",
+        motion(problem),
+        significant(problem.until, 6),
+        ending(known),
+        reference(&timed.trade)
+    );
+    let rows = Table::of(
+        &timed.rows(),
+        &[
+            ("method", &|row| row.method.to_string()),
+            ("set to", &|row| {
+                let setting = row.step.or(row.epsilon).or(row.tolerance);
+                setting.map_or_else(|| "-".to_owned(), |setting| format!("{setting:e}"))
+            }),
+            ("error", &|row| format!("{:.1e}", row.error)),
+            ("evaluations", &|row| count(row.evaluations)),
+            ("time", &|row| duration(row.seconds)),
+            ("half swings", &|row| row.turns.to_string()),
+            ("ends", &|row| end_of(&row.outcome)),
+            ("", &|row| {
+                let best = if row.front { "*" } else { "" };
+                let own = if row.own { "<" } else { "" };
+                format!("{best} {own}").trim().to_owned()
+            }),
+        ],
+    );
+    out += &rows.to_string();
+    for row in timed.unanswered() {
+        let setting = row.step.or(row.epsilon).or(row.tolerance);
+        let setting = setting.map_or_else(String::new, |setting| format!(" at {setting:e}"));
+        out += &format!("{}{setting}: {}\n", row.method, row.reason);
+    }
+    out += "\n*: nothing else is better for less time; <: the method in use\n\n";
+    out += &format!("{plot}\n");
+    out + &digits(timed)
+}
+
+/// How the motion ends, in a sentence.
+fn ending(reference: &Reference) -> String {
+    let turns = reference.turns.len();
+    let swings = match turns {
+        1 => "1 half swing".to_owned(),
+        number => format!("{number} half swings"),
+    };
+    match reference.end {
+        Ending::Rest { q } => format!("rests at q = {} after {swings}", significant(q.high, 12)),
+        Ending::Moving { q, v } => {
+            let [q, v] = [q, v].map(|number| significant(number.high, 12));
+            format!("moving still after {swings}: q = {q}, v = {v}")
+        }
+        Ending::Escape { tau } => {
+            format!("escapes at tau = {} after {swings}", significant(tau.high, 12))
+        }
+    }
+}
+
+/// How a row ends, in a few words.
+fn end_of(outcome: &Outcome) -> String {
+    match outcome {
+        Outcome::Captured { q, .. } => format!("rests at {}", significant(*q, 6)),
+        Outcome::Moving { q, .. } => format!("moving at {}", significant(*q, 6)),
+        Outcome::Escaped { tau } => format!("escapes at {}", significant(*tau, 6)),
+        Outcome::GaveUp { .. } => "gave up".to_owned(),
+    }
+}
+
+/// Errors for which [`digits`] says what they cost.
+const LEVELS: [(f64, &str); 5] =
+    [(1e-2, "1e-2"), (1e-4, "1e-4"), (1e-6, "1e-6"), (1e-9, "1e-9"), (1e-12, "1e-12")];
+
+/// What digits cost: for each method its cheapest row with at most an error, and what one digit more adds.
+#[must_use]
+pub fn digits(timed: &Timed) -> String {
+    let mut titles = vec!["evaluations (time) for an error of"];
+    titles.extend(LEVELS.map(|level| level.1));
+    titles.extend(["a digit more", "ends right"]);
+    let mut table = Table::new(&titles);
+    let rows = timed.rows();
+    for spec in METHODS {
+        let own: Vec<&Row> = rows.iter().filter(|row| row.method == spec.method).collect();
+        if own.is_empty() {
+            continue;
+        }
+        table.row(line_of_digits(spec, &own));
+    }
+    table.to_string()
+}
+
+fn line_of_digits(spec: &MethodSpec, rows: &[&Row]) -> Vec<String> {
+    let cheapest = |error: f64| {
+        let good = rows.iter().filter(|row| row.error <= error);
+        good.min_by_key(|row| row.evaluations)
+    };
+    let mut cells = vec![spec.name.to_owned()];
+    for (error, _) in LEVELS {
+        cells.push(cheapest(error).map_or_else(
+            || "-".to_owned(),
+            |row| format!("{} ({})", count(row.evaluations), duration(row.seconds)),
+        ));
+    }
+    cells.push(growth(rows).map_or_else(|| "-".to_owned(), |factor| format!("x{factor:.2}")));
+    let right = rows.iter().filter(|row| row.agrees).count();
+    cells.push(match right {
+        0 => "never".to_owned(),
+        all if all == rows.len() => "always".to_owned(),
+        some => format!("{some} of {}", rows.len()),
+    });
+    cells
+}
+
+/// By what factor one digit more multiplies the evaluations, from the worst row to the best.
+fn growth(rows: &[&Row]) -> Option<f64> {
+    let known = || rows.iter().filter(|row| row.error > 0.0 && row.evaluations > 0);
+    let worst = known().max_by(|one, other| one.error.total_cmp(&other.error))?;
+    let best = known().min_by(|one, other| one.error.total_cmp(&other.error))?;
+    let digits = (worst.error / best.error).log10();
+    #[expect(clippy::cast_precision_loss, reason = "counts far below 2^53")]
+    let factor = best.evaluations as f64 / worst.evaluations as f64;
+    (digits >= 1.0).then(|| factor.powf(1.0 / digits))
+}

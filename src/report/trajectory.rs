@@ -1,0 +1,122 @@
+//! A motion.
+
+use serde::Serialize;
+
+use super::certified::{Followed, followed};
+use super::csv;
+use super::json::{self, Price};
+use super::table::{Table, digits, motion as question};
+use crate::flow::{Crossing, Method, Outcome, Trajectory};
+use crate::oscillator::{Ledger, Parameters, State};
+use crate::proof::motion::Motion;
+use crate::words::motion::sentence;
+use crate::words::number::{duration, exact, significant};
+
+#[derive(Serialize)]
+struct Document<'a> {
+    parameters: &'a Parameters,
+    initial: &'a State,
+    method: Method,
+    tolerance: f64,
+    outcome: &'a Outcome,
+    events: &'a [Crossing],
+    energy: Option<&'a Ledger>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    certified: Option<Followed>,
+    cost: Price,
+}
+
+/// A point of a motion: its start, every arrival at `v = 0`, and its end.
+#[derive(Default, Serialize)]
+struct Row {
+    what: &'static str,
+    tau: f64,
+    q: Option<f64>,
+    v: Option<f64>,
+}
+
+/// One document.
+#[must_use]
+pub fn json(motion: &Trajectory, certified: Option<&Motion>, seconds: f64) -> String {
+    json::text(&Document {
+        parameters: &motion.problem.parameters,
+        initial: &motion.problem.initial,
+        method: motion.method,
+        tolerance: motion.problem.tolerance,
+        outcome: &motion.outcome,
+        events: &motion.crossings,
+        energy: motion.ledger.as_ref(),
+        certified: certified.map(|certified| followed(certified, motion.problem.until)),
+        cost: Price { counted: motion.cost, seconds },
+    })
+}
+
+/// One row for each point.
+#[must_use]
+pub fn csv(motion: &Trajectory) -> String {
+    let State { q, v } = motion.problem.initial;
+    let start = Row { what: "start", tau: 0.0, q: Some(q), v: Some(v) };
+    let turns = motion.crossings.iter().map(|crossing| Row {
+        what: "turn",
+        tau: crossing.tau,
+        q: Some(crossing.q),
+        v: Some(0.0),
+    });
+    let end = match motion.outcome {
+        Outcome::Captured { tau, q } => Row { what: "captured", tau, q: Some(q), v: Some(0.0) },
+        Outcome::Moving { tau, q, v } => Row { what: "moving", tau, q: Some(q), v: Some(v) },
+        Outcome::Escaped { tau } => Row { what: "escaped", tau, ..Row::default() },
+        Outcome::GaveUp { tau, .. } => Row { what: "gave-up", tau, ..Row::default() },
+    };
+    csv::sheet(&Row::default(), std::iter::once(start).chain(turns).chain([end]))
+}
+
+/// The question, every turning point, the outcome, where the energy went, the cost.
+#[must_use]
+pub fn table(motion: &Trajectory, seconds: f64) -> String {
+    let problem = &motion.problem;
+    let places = digits(problem.tolerance);
+    let number = |value: f64| significant(value, places);
+    let numbered: Vec<(usize, &Crossing)> = (1..).zip(&motion.crossings).collect();
+    let turns = Table::of(
+        &numbered,
+        &[
+            ("half swing", &|(number, _)| number.to_string()),
+            ("tau", &|(_, crossing)| number(crossing.tau)),
+            ("q", &|(_, crossing)| number(crossing.q)),
+        ],
+    );
+    let mut out = format!("{}\n{}\n\n", question(problem), sentence(motion));
+    if !turns.is_empty() {
+        out += &format!("{turns}\n");
+    }
+    if let Some(energy) = &motion.ledger {
+        let amounts = [
+            ("at the start", energy.start),
+            ("from linear damping", energy.linear),
+            ("from quadratic damping", energy.quadratic),
+            ("from cubic damping", energy.cubic),
+            ("from friction", energy.friction),
+            ("at the end", energy.end),
+            ("unaccounted for", energy.residual),
+        ];
+        let ledger = Table::of(
+            &amounts,
+            &[
+                ("energy", &|(name, _)| (*name).to_owned()),
+                ("amount", &|(_, value)| significant(*value, 6)),
+            ],
+        );
+        out += &format!("{ledger}\n");
+    }
+    let cost = motion.cost;
+    out + &format!(
+        "method {}, tolerance {}: {} evaluations, {} steps, {} rejected, {}\n",
+        motion.method,
+        exact(problem.tolerance, 24),
+        cost.evaluations,
+        cost.steps,
+        cost.rejected,
+        duration(seconds),
+    )
+}

@@ -1,0 +1,39 @@
+//! What is known of a machine: its name, its numbers, and the motion of it that is looked at.
+
+use serde::{Deserialize, Serialize};
+
+use crate::machine::Tolerances;
+use crate::oscillator::Belt;
+use crate::oscillator::belt::{BeltError, Reduced};
+
+/// A machine: a mass on a belt, and the motion of it that is looked at.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Machine {
+    /// The name by which it is opened.
+    pub name: String,
+    /// One line.
+    pub title: String,
+    /// What it is, and what to look at, in a sentence or two.
+    pub look: String,
+    /// The mass on its belt.
+    pub belt: Belt,
+    /// How exactly its numbers are known, and what disturbs it.
+    #[serde(default, skip_serializing_if = "Tolerances::is_none")]
+    pub tolerances: Tolerances,
+    /// Displacement from the static one at which the motion starts, in m.
+    pub displacement: f64,
+    /// Velocity at which it starts, in m/s.
+    pub velocity: f64,
+    /// How long the motion is followed, in s.
+    pub until: f64,
+}
+
+impl Machine {
+    /// The dimensionless oscillator and its units.
+    ///
+    /// # Errors
+    /// [`BeltError`] where the machine has no dimensionless form.
+    pub fn reduce(&self) -> Result<Reduced, BeltError> {
+        self.belt.reduce()
+    }
+}

@@ -1,0 +1,53 @@
+//! Tables of friction, as measurements are written down.
+
+use super::unit::measured;
+use crate::oscillator::belt::Dimension;
+
+/// Reads a table: a velocity and a coefficient of friction in each line, between them a semicolon or a tab
+/// (then numbers may have a decimal comma) or a comma. `#` begins a comment, and a line of names may come
+/// first. Velocities are in m/s unless they, or the name of their column in brackets (`v [mm/s]`), say
+/// otherwise.
+///
+/// # Errors
+/// One line that names the file, the line and what is expected there.
+pub fn table(file: &str, text: &str) -> Result<Vec<(f64, f64)>, String> {
+    let mut unit = String::new();
+    let mut points = Vec::new();
+    let mut names_allowed = true;
+    for (index, line) in text.lines().enumerate() {
+        let line = line.split('#').next().unwrap_or(line).trim();
+        if line.is_empty() {
+            continue;
+        }
+        let wrong = |what: &str| format!("{file}:{}: {what}", index + 1);
+        let separator = [';', '\t'].into_iter().find(|sign| line.contains(*sign));
+        let cell = |text: &str| match separator {
+            Some(_) => text.trim().replace(',', "."),
+            None => text.trim().to_owned(),
+        };
+        let cells: Vec<String> = line.split(separator.unwrap_or(',')).map(cell).collect();
+        let [v, mu] = &cells[..] else {
+            return Err(wrong(&format!(
+                "{line:?} is not a velocity and a coefficient, such as 0.1, 0.35"
+            )));
+        };
+        let names = v.starts_with(|first: char| first.is_alphabetic() || first == '"');
+        if std::mem::take(&mut names_allowed) && names {
+            let bracketed = v.split_once('[').and_then(|(_, rest)| rest.split_once(']'));
+            unit = bracketed.map_or_else(String::new, |(unit, _)| unit.to_owned());
+            continue;
+        }
+        let velocity = if v.ends_with(|last: char| last.is_ascii_digit() || last == '.') {
+            measured(&format!("{v} {unit}"))
+        } else {
+            measured(v)
+        };
+        let velocity = velocity.and_then(|read| read.as_a(Dimension::VELOCITY, "m/s"));
+        let mu = measured(mu).and_then(|read| read.as_a(Dimension::ONE, ""));
+        points.push((
+            velocity.map_err(|message| wrong(&message))?,
+            mu.map_err(|message| wrong(&message))?,
+        ));
+    }
+    Ok(points)
+}

@@ -1,0 +1,257 @@
+//! A machine by the whole model as it is drawn: in the units of the paper's oscillator, so that every view
+//! that draws a motion or cycles draws these as well.
+
+use crate::flow::trajectory::{Crossing, Outcome, Sample, Trajectory};
+use crate::flow::{Cost, Limits, Method, Problem, Reason};
+use crate::machine::curve::{Curve, Piece};
+use crate::machine::motion::{self, Motion};
+use crate::machine::turn::Place;
+use crate::machine::{Fate, Flow, Model, Phase, Portrait, Stop};
+use crate::oscillator::{Belt, Parameters, State};
+use crate::study::cycle::CycleErrors;
+use crate::study::{Cycle, Cycles, Edge, Margin, cycle};
+
+/// What a motion becomes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Course {
+    /// What it ends as; a cycle by its place in [`Self::cycles`].
+    pub fate: Fate,
+    /// The cycles of the machine, in SI units.
+    pub cycles: Vec<crate::machine::Cycle>,
+    /// Name of the kind of border of the basin.
+    pub border: &'static str,
+    /// From where to where it rides on the belt.
+    pub rides: Vec<[Sample; 2]>,
+}
+
+/// What cycles are like.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Kinds {
+    /// The cycles by the whole model, in SI units.
+    pub cycles: Vec<crate::machine::Cycle>,
+    /// Name of the kind of border of the basin.
+    pub border: &'static str,
+    /// Kicks that are survived by the whole model and by the cubic expansion, without units; `None` where
+    /// every kick is, or where one of the two has no answer.
+    pub margins: [Option<Margin>; 2],
+    /// Whether all that slips is periodic.
+    pub neutral: bool,
+    /// Why motions further out are not known.
+    pub stop: Option<Stop>,
+}
+
+/// What 1 stands for, in SI units.
+#[derive(Clone, Copy)]
+struct Units {
+    x: f64,
+    v: f64,
+    t: f64,
+}
+
+impl Units {
+    fn of(model: &Model) -> Self {
+        Units { x: model.pull, v: model.pull * model.omega_0, t: 1.0 / model.omega_0 }
+    }
+
+    fn sample(self, state: &motion::State) -> Sample {
+        Sample { tau: state.t / self.t, q: state.x / self.x, v: state.v / self.v }
+    }
+}
+
+/// Why the whole model has no answer.
+fn reason(stop: Stop) -> Reason {
+    Reason::NotApplicable {
+        needs: match stop {
+            Stop::OutsideLaw { .. } => "a friction law that reaches the slips of these motions",
+            Stop::Escaped | Stop::Settled => "motions that turn",
+            Stop::Steps => "motions that turn within some thousand steps",
+        },
+    }
+}
+
+fn model(belt: &Belt) -> Result<Model, Reason> {
+    Model::new(belt).map_err(|_| Reason::NotApplicable {
+        needs: "a friction law that reaches the belt's speed and static friction above the kinetic one",
+    })
+}
+
+/// The motion of a machine, with so many places between the ends of each step.
+///
+/// # Errors
+/// The [`Reason`] why there is none.
+pub fn motion(
+    belt: &Belt,
+    problem: &Problem,
+    between: u32,
+) -> Result<(Trajectory, Course), Reason> {
+    let mut model = model(belt)?;
+    let portrait = Portrait::new(&model).map_err(reason)?;
+    model.tolerance = problem.tolerance;
+    let units = Units::of(&model);
+    let (x, v) = (problem.initial.q * units.x, problem.initial.v * units.v);
+    let found = Motion::new(&model, x, v, problem.until * units.t);
+    let fate = match portrait.fate(x, v) {
+        Err(stop @ Stop::OutsideLaw { .. }) => Fate::Unknown(stop),
+        fate => fate.map_err(reason)?,
+    };
+    let course = Course {
+        fate,
+        cycles: portrait.cycles.clone(),
+        border: portrait.border.kind(),
+        rides: rides(&found, model.speed * model.omega_0, units),
+    };
+    Ok((trajectory(&found, problem, between, units), course))
+}
+
+fn trajectory(found: &Motion, problem: &Problem, between: u32, units: Units) -> Trajectory {
+    let start = Sample { tau: 0.0, q: problem.initial.q, v: problem.initial.v };
+    let sampled = found.samples(between);
+    let samples = std::iter::once(start).chain(sampled.iter().skip(1).map(|at| units.sample(at)));
+    let Sample { tau, q, v } = units.sample(&found.end);
+    let outcome = match found.outcome {
+        motion::Outcome::Rests => Outcome::Captured { tau, q },
+        motion::Outcome::Moves => Outcome::Moving { tau, q, v },
+        motion::Outcome::Stops(Stop::Escaped) => Outcome::Escaped { tau },
+        motion::Outcome::Stops(stop) => Outcome::GaveUp { tau, reason: reason(stop) },
+    };
+    // A leg begins at a turning point unless it begins on the belt's line.
+    let turns = found.legs.windows(2).filter(|pair| match pair[1].place {
+        Place::Slips(Phase::Between) => pair[0].place == Place::Slips(Phase::Below),
+        Place::Slips(Phase::Below) | Place::Rests => true,
+        Place::Slips(Phase::Above) | Place::Sticks => false,
+    });
+    let crossing =
+        |pair: &[motion::Leg]| Crossing { tau: pair[1].t / units.t, q: pair[1].x / units.x };
+    let steps = found.curve.pieces.len() as u64;
+    Trajectory {
+        problem: *problem,
+        method: Method::Taylor,
+        implicit_steps: 0,
+        outcome,
+        crossings: turns.map(crossing).collect(),
+        ledger: None,
+        samples: samples.collect(),
+        cost: cost(steps),
+    }
+}
+
+fn cost(steps: u64) -> Cost {
+    Cost { evaluations: steps * crate::machine::ORDER as u64, steps, rejected: 0 }
+}
+
+/// Where a motion rides on the belt, whose speed is `v0`.
+fn rides(found: &Motion, v0: f64, units: Units) -> Vec<[Sample; 2]> {
+    let ends = found.legs.iter().skip(1).map(|leg| (leg.t, leg.x));
+    let ends = ends.chain([(found.end.t, found.end.x)]);
+    let legs = found.legs.iter().zip(ends).filter(|(leg, _)| leg.place == Place::Sticks);
+    let at = |t, x| units.sample(&motion::State { t, x, v: v0 });
+    legs.map(|(leg, (t, x))| [at(leg.t, leg.x), at(t, x)]).collect()
+}
+
+/// The cycles of a machine with their curves, so many points on each step, and the border of the basin;
+/// `cubic` draws those of the cubic expansion in their place.
+///
+/// # Errors
+/// The [`Reason`] why there are none.
+pub fn portrait(
+    belt: &Belt,
+    parameters: &Parameters,
+    cubic: bool,
+    points: u16,
+    limits: &Limits,
+) -> Result<(Cycles, Option<Kinds>), Reason> {
+    let expansion = cycle::cycles_drawn(parameters, points, limits);
+    let found = model(belt).and_then(|model| Portrait::new(&model).map_err(reason));
+    let expanded = expansion.as_ref().ok().and_then(|found| found.picture.as_ref());
+    let expanded = expanded.map(|picture| picture.margin);
+    let kinds = found.as_ref().ok().map(|found| Kinds {
+        cycles: found.cycles.clone(),
+        border: found.border.kind(),
+        margins: [margin(found), expanded],
+        neutral: found.neutral,
+        stop: found.stop,
+    });
+    let drawn = if cubic { expansion? } else { drawn(&found?, parameters, points)? };
+    Ok((drawn, kinds))
+}
+
+fn margin(found: &Portrait) -> Option<Margin> {
+    let units = Units::of(&found.model);
+    found.margin.map(|margin| Margin {
+        displacement: Some(margin.least_displacement() / units.x),
+        impulse: Some(margin.least_velocity() / units.v),
+    })
+}
+
+fn drawn(found: &Portrait, parameters: &Parameters, points: u16) -> Result<Cycles, Reason> {
+    let (model, units) = (&found.model, Units::of(&found.model));
+    let mut flow = Flow::new(model);
+    let mut curves = Vec::new();
+    for cycle in &found.cycles {
+        let mut curve = Curve::default();
+        let backward = !cycle.stable && !cycle.sticks && !cycle.overtakes;
+        flow.around(cycle.x.1, backward, &mut curve).map_err(reason)?;
+        curves.push(places(&curve, model, points));
+    }
+    let edge = found.border.curve().map(|curve| places(curve, model, points));
+    let margin = margin(found).unwrap_or(Margin { displacement: None, impulse: None });
+    let picture = cycle::Picture {
+        curves,
+        works: Vec::new(),
+        edge: edge.unwrap_or_default(),
+        margin,
+        area: None,
+        lyapunov_share: None,
+    };
+    Ok(Cycles {
+        parameters: *parameters,
+        cycles: found.cycles.iter().map(|cycle| scaled(cycle, model, units)).collect(),
+        harmonic: Vec::new(),
+        edge: match found.border.kind() {
+            "cycle" => Edge::Cycle,
+            "grazing" => Edge::Separatrix,
+            _ => Edge::None,
+        },
+        picture: Some(picture),
+        cost: cost(found.steps),
+    })
+}
+
+/// A closed curve as points.
+fn places(curve: &Curve, model: &Model, points: u16) -> Vec<State> {
+    let state = |x: f64, y: f64| State { q: x / model.pull, v: y / model.pull };
+    let mut found = Vec::new();
+    for piece in &curve.pieces {
+        match piece {
+            Piece::Slip(slip) => found.extend((0..=points).map(|point| {
+                let (x, y) = slip.at(slip.duration * f64::from(point) / f64::from(points.max(1)));
+                state(x, y)
+            })),
+            Piece::Line { from, to } => {
+                found.extend([*from, *to].map(|x| state(x, model.speed)));
+            }
+        }
+    }
+    found.extend(found.first().copied());
+    found
+}
+
+fn scaled(cycle: &crate::machine::Cycle, model: &Model, units: Units) -> Cycle {
+    /// What all numbers of the reference machines keep, generously.
+    const ERROR: f64 = 1e-12;
+    let clearance = (cycle.x.1 - model.guide) / units.x;
+    Cycle {
+        stable: cycle.stable,
+        q_min: cycle.x.0 / units.x,
+        q_max: cycle.x.1 / units.x,
+        v_min: cycle.v.0 / units.v,
+        v_max: cycle.v.1 / units.v,
+        period: cycle.period / units.t,
+        multiplier: Some(cycle.multiplier).filter(|it| it.is_finite()),
+        log_multiplier: cycle.log_multiplier,
+        clearance,
+        log_clearance: clearance.ln(),
+        error: ERROR,
+        errors: CycleErrors::default(),
+    }
+}

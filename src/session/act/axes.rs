@@ -1,0 +1,99 @@
+//! Commands that change what stands on the diagram's axes.
+
+use crate::scene::ordinate::usual_values;
+use crate::scene::{ABSCISSAE, Axes, Exhibit, ORDINATES, Span, Unit, View, Window};
+use crate::session::act::notice::{inform, refuse};
+use crate::session::effect::Effect;
+use crate::session::state::session::Session;
+
+/// Room beside today's value where it lies outside of the values first looked at, as a factor.
+const ROOM: f64 = 1.25;
+
+/// Draws the diagram in focus over the next parameter, around its end; the branch is another one.
+pub fn next_abscissa(session: &mut Session) -> Vec<Effect> {
+    let Some(plot) = session.focused() else { return Vec::new() };
+    let axes = plot.axes;
+    let at = ABSCISSAE.iter().position(|(symbol, _)| *symbol == axes.abscissa).unwrap_or(0);
+    let (symbol, _) = ABSCISSAE[(at + 1) % ABSCISSAE.len()];
+    set(session, Axes { abscissa: symbol, ..axes });
+    inform(session, format!("over {}: {}", symbol.spec().name, symbol.spec().meaning));
+    Vec::new()
+}
+
+/// Draws the chart in focus over the next parameter to the right or upwards, never one over the other's.
+pub fn next_of_chart(session: &mut Session, upwards: bool) -> Vec<Effect> {
+    let Some(plot) = session.focused_mut() else { return Vec::new() };
+    let Axes { abscissa, against, .. } = plot.axes;
+    let (present, other) = if upwards { (against, abscissa) } else { (abscissa, against) };
+    let at = ABSCISSAE.iter().position(|(symbol, _)| *symbol == present).unwrap_or(0);
+    let later = (1..ABSCISSAE.len()).map(|step| ABSCISSAE[(at + step) % ABSCISSAE.len()].0);
+    let Some(symbol) = later.into_iter().find(|symbol| *symbol != other) else { return Vec::new() };
+    let axis = if upwards { &mut plot.axes.against } else { &mut plot.axes.abscissa };
+    *axis = symbol;
+    // The chart of these parameters is nobody's yet: its window is the usual one, today's point in it.
+    plot.fit_from(
+        Exhibit { view: plot.view, axes: plot.axes, window: None, family: plot.family }.opening(),
+    );
+    inform(session, format!("over {}: {}", symbol.spec().name, symbol.spec().meaning));
+    Vec::new()
+}
+
+/// Gives the diagram in focus these axes.
+pub fn set(session: &mut Session, axes: Axes) {
+    let Some(plot) = session.focused() else { return };
+    let symbol = axes.abscissa;
+    if symbol == plot.axes.abscissa {
+        let x = plot.window.x;
+        reframe(session, axes, x);
+        return;
+    }
+    let usual = usual_values(symbol);
+    let today = ROOM * session.value(symbol);
+    let around = Span::covering([usual.from(), usual.to(), today]).unwrap_or(usual);
+    let of_scene = of_scene(session).filter(|exhibit| exhibit.axes.abscissa == symbol);
+    let x = of_scene.map_or(around, |exhibit| exhibit.opening().x);
+    reframe(session, axes, x);
+}
+
+/// Shows the next property of the cycles, around its end; the branch is the same.
+pub fn next_ordinate(session: &mut Session) -> Vec<Effect> {
+    let Some(plot) = session.focused() else { return Vec::new() };
+    let row = &ORDINATES[(plot.axes.ordinate as usize + 1) % ORDINATES.len()];
+    let axes = Axes { ordinate: row.ordinate, ..plot.axes };
+    set(session, axes);
+    inform(session, format!("{}: {}", axes.label(), row.meaning));
+    Vec::new()
+}
+
+/// Measures lengths of the cycles in units of r, or as the equation does; the branch is the same.
+pub fn next_unit(session: &mut Session) -> Vec<Effect> {
+    let Some(plot) = session.focused() else { return Vec::new() };
+    let (spec, unit) = (plot.axes.ordinate.spec(), plot.axes.unit);
+    if spec.ratio.is_none() {
+        refuse(session, format!("{} is no length, and has no unit", spec.label));
+        return Vec::new();
+    }
+    let unit = if unit == Unit::One { Unit::Friction } else { Unit::One };
+    let axes = Axes { unit, ..plot.axes };
+    set(session, axes);
+    let units = if unit == Unit::One { "" } else { ", in units of r" };
+    inform(session, format!("{}: {}{units}", axes.label(), spec.meaning));
+    Vec::new()
+}
+
+/// The diagram that the scene has in the place of the one in focus.
+fn of_scene(session: &Session) -> Option<Exhibit> {
+    session.exhibit_of_scene(session.plot, View::Diagram)
+}
+
+/// The scene's window where the axes are the scene's, else one fitted to the branch.
+fn reframe(session: &mut Session, axes: Axes, x: Span) {
+    let of_scene = of_scene(session).filter(|exhibit| exhibit.axes == axes);
+    let Some(plot) = session.focused_mut() else { return };
+    if let Some(exhibit) = of_scene.filter(|exhibit| exhibit.opening().x == x) {
+        plot.show(&exhibit);
+    } else {
+        plot.axes = axes;
+        plot.fit_from(Window { x, y: plot.window.y });
+    }
+}

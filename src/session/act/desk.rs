@@ -1,0 +1,142 @@
+//! Commands that change what is on show: which view a plot shows, how many plots there are, and how
+//! they share the screen. Each is a change that can be undone.
+
+use crate::scene::{ARRANGEMENTS, Exhibit, LAYERS, MOST_PLOTS, VIEWS, View};
+use crate::session::act::focus::focus_on;
+use crate::session::act::notice::{inform, refuse};
+use crate::session::effect::Effect;
+use crate::session::state::history::{Before, Desk};
+use crate::session::state::plot::{Pane, Plot};
+use crate::session::state::session::Session;
+
+/// Puts plots on show; those that stay what they are keep their answers.
+pub(in crate::session) fn set_up(session: &mut Session, desk: &Desk) {
+    session.arrangement = desk.arrangement;
+    session.plots.truncate(desk.plots.len());
+    for (index, exhibit) in desk.plots.iter().enumerate() {
+        match session.plots.get_mut(index) {
+            Some(plot) => plot.show(exhibit),
+            None => session.plots.push(Plot::opened(exhibit)),
+        }
+    }
+    let last = session.plots.len().saturating_sub(1);
+    session.plot = session.plot.min(last);
+    if let Pane::Plot(index) = session.focus {
+        session.focus = Pane::Plot(index.min(last));
+    }
+    session.held = None;
+}
+
+/// Notes what is on show before it is changed.
+fn record(session: &mut Session) {
+    let before = Before::Desk(session.desk());
+    session.history.record(before);
+    session.held = None;
+}
+
+/// What a plot shows of a view when it is turned to it: what the scene has of that and no other plot
+/// shows; else the same as another plot, for another look at it; else all there is.
+fn exhibit(session: &Session, plot: usize, view: View) -> Exhibit {
+    let others: Vec<Exhibit> = (0..session.plots.len())
+        .filter(|other| *other != plot && session.plots[*other].view == view)
+        .filter_map(|other| session.exhibit(other))
+        .collect();
+    let absent = |exhibit: &Exhibit| others.iter().all(|other| other.axes != exhibit.axes);
+    let here = session.scene.plots.get(plot);
+    let of_scene = here.into_iter().chain(&session.scene.plots);
+    let mut of_scene = of_scene.filter(|exhibit| exhibit.view == view);
+    let axes = session.plots.get(plot).map(|plot| plot.axes).unwrap_or_default();
+    let all = Exhibit { view, axes, window: None, family: None };
+    of_scene.find(|exhibit| absent(exhibit)).or(others.first()).copied().unwrap_or(all)
+}
+
+/// Switches the usual layers of a view on where none of its layers is.
+fn switch_on(session: &mut Session, view: View) {
+    let of_view = || LAYERS.iter().filter(|row| row.view == view);
+    if of_view().all(|row| !session.layers.contains(&row.layer)) {
+        let usual = of_view().filter(|row| row.usual).map(|row| row.layer);
+        session.layers.extend(usual);
+    }
+}
+
+/// Lets the plot in use show a view.
+pub fn show(session: &mut Session, view: View) -> Vec<Effect> {
+    let index = session.plot;
+    if session.plots[index].view != view {
+        let exhibit = exhibit(session, index, view);
+        record(session);
+        session.plots[index].show(&exhibit);
+        switch_on(session, view);
+    }
+    focus_on(session, Pane::Plot(index));
+    let spec = view.spec();
+    inform(session, format!("{}: {}", spec.title, spec.meaning));
+    Vec::new()
+}
+
+/// Lets the plot in use show the next view of the list, around its end.
+pub fn next_view(session: &mut Session, by: isize) -> Vec<Effect> {
+    let at = session.plots[session.plot].view as usize;
+    let next = at.checked_add_signed(by).unwrap_or(VIEWS.len() - 1) % VIEWS.len();
+    show(session, VIEWS[next].view)
+}
+
+/// Adds a plot beside the one in use: the first view that is not on show, else another of the same.
+pub fn add(session: &mut Session) -> Vec<Effect> {
+    if session.plots.len() >= MOST_PLOTS {
+        refuse(session, format!("there are {MOST_PLOTS} plots, and no more fit"));
+        return Vec::new();
+    }
+    let index = session.plot;
+    let absent = |view: &View| session.plots.iter().all(|plot| plot.view != *view);
+    let view = VIEWS.iter().map(|row| row.view).find(absent);
+    let exhibit = match view {
+        Some(view) => exhibit(session, session.plots.len(), view),
+        None => session.exhibit(index).unwrap_or_else(|| session.scene.plots[0]),
+    };
+    record(session);
+    session.plots.insert(index + 1, Plot::opened(&exhibit));
+    switch_on(session, exhibit.view);
+    session.enlarged = false;
+    focus_on(session, Pane::Plot(index + 1));
+    inform(session, format!("{} more: {}", exhibit.view.spec().title, exhibit.view.spec().meaning));
+    Vec::new()
+}
+
+/// Removes the plot in use.
+pub fn remove(session: &mut Session) -> Vec<Effect> {
+    if session.plots.len() < 2 {
+        refuse(session, "the last plot stays");
+        return Vec::new();
+    }
+    record(session);
+    let removed = session.plots.remove(session.plot);
+    session.plot = session.plot.min(session.plots.len() - 1);
+    if session.focus != Pane::Parameters {
+        focus_on(session, Pane::Plot(session.plot));
+    }
+    inform(session, format!("{} removed", removed.view.spec().title));
+    Vec::new()
+}
+
+/// Gives the plot in use the place of the next one, and that its.
+pub fn move_on(session: &mut Session) -> Vec<Effect> {
+    if session.plots.len() < 2 {
+        refuse(session, "there is only one plot");
+        return Vec::new();
+    }
+    record(session);
+    let (from, to) = (session.plot, (session.plot + 1) % session.plots.len());
+    session.plots.swap(from, to);
+    focus_on(session, Pane::Plot(to));
+    Vec::new()
+}
+
+/// Lets the plots share the screen in the next way.
+pub fn arrange(session: &mut Session) -> Vec<Effect> {
+    record(session);
+    let (arrangement, name) = crate::session::settings::next_of(&ARRANGEMENTS, session.arrangement);
+    session.arrangement = arrangement;
+    inform(session, format!("arrangement: {name}"));
+    Vec::new()
+}

@@ -1,0 +1,102 @@
+//! Typing a value: the line opens, takes characters, and is accepted or refused.
+
+use crate::flow::{METHODS, Method, Problem, QUALITIES};
+use crate::oscillator::belt::Quantity;
+use crate::scene::machine::file::value_of;
+use crate::scene::machine::unit::measured;
+use crate::session::act::parameters::put;
+use crate::session::effect::Effect;
+use crate::session::message::key::Key;
+use crate::session::read::numbers::{number, range, with_number};
+use crate::session::state::overlay::{Entry, Overlay};
+use crate::session::state::rows::Row;
+use crate::session::state::session::Session;
+use crate::session::state::setup::Stand;
+use crate::session::state::step_size::shortest;
+
+/// Opens the line with the value of the selected row.
+pub fn edit(session: &mut Session) -> Vec<Effect> {
+    let row = session.selected;
+    let text = match row {
+        Row::Method => session.problem.method.to_string(),
+        Row::Belt => format!("{} m/s", shortest(number(&session.stand(), row))),
+        Row::Parameter(_) | Row::Until | Row::Tolerance => shortest(number(&session.stand(), row)),
+    };
+    session.overlay = Some(Overlay::Entry(Entry::new(row, text)));
+    Vec::new()
+}
+
+/// Opens the line with the character that was typed.
+pub fn begin(session: &mut Session, key: Key) -> Vec<Effect> {
+    let text = key.typed().map(String::from).unwrap_or_default();
+    session.overlay = Some(Overlay::Entry(Entry::new(session.selected, text)));
+    Vec::new()
+}
+
+/// Takes the typed value, or says in the line why not.
+pub fn accept(session: &mut Session) -> Vec<Effect> {
+    let Some(Overlay::Entry(entry)) = &session.overlay else { return Vec::new() };
+    match read(session, session.stand(), entry.row, entry.input.text()) {
+        Ok(stand) => {
+            session.overlay = None;
+            put(session, stand);
+        }
+        Err(why) => {
+            if let Some(Overlay::Entry(entry)) = &mut session.overlay {
+                entry.refused = Some(why);
+            }
+        }
+    }
+    Vec::new()
+}
+
+/// What stands there with the typed value in a row, or one line that says what is allowed.
+pub(in crate::session) fn read(
+    session: &Session,
+    stand: Stand,
+    row: Row,
+    text: &str,
+) -> Result<Stand, String> {
+    if row == Row::Belt {
+        let text = plain_minus(text);
+        let speed = value_of(Quantity::BeltSpeed, &measured(&text)?)?;
+        return session.at_belt_speed(stand.problem, speed);
+    }
+    let problem = read_number(stand.problem, row, text)?;
+    Ok(Stand { problem, ..stand })
+}
+
+/// Documents print the minus sign as a character of its own.
+fn plain_minus(text: &str) -> String {
+    text.trim().replace('\u{2212}', "-")
+}
+
+/// The motion with the typed value in a row.
+fn read_number(problem: Problem, row: Row, text: &str) -> Result<Problem, String> {
+    let text = text.trim();
+    if row == Row::Method {
+        let method = Method::named(text).ok_or_else(|| {
+            let names: Vec<_> = METHODS.iter().map(|row| row.name).collect();
+            format!("no method {text:?}; there are {}", names.join(", "))
+        })?;
+        return Ok(Problem { method, ..problem });
+    }
+    if row == Row::Tolerance
+        && let Some(quality) = QUALITIES.iter().find(|quality| quality.name == text)
+    {
+        return Ok(problem.at(quality));
+    }
+    let name = row.name_in(&problem);
+    let (min, max) = range(&problem, row);
+    let takes = format!("{name} takes {} to {}", shortest(min), shortest(max));
+    let value: f64 =
+        plain_minus(text).parse().map_err(|_| format!("{text:?} is no number; {takes}"))?;
+    if !value.is_finite() {
+        return Err(format!("{text} is no finite number; {takes}"));
+    }
+    if !(min..=max).contains(&value) {
+        return Err(format!("{name} = {text} is out of range; {takes}"));
+    }
+    // The sum turns -0.0 into 0.0.
+    Ok(with_number(problem, row, value + 0.0))
+}

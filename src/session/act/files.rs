@@ -1,0 +1,193 @@
+//! Files: sessions saved and opened, keys recorded and played. The outer rings touch the disk; what is
+//! written is made here, and what was read is understood here.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use crate::fit::Reading;
+use crate::scene::Recording;
+use crate::session::act::notice::{inform, refuse, told};
+use crate::session::act::values::letter;
+use crate::session::act::{history, macros, prompt};
+use crate::session::effect::Effect;
+use crate::session::message::Purpose;
+use crate::session::replay::script::Script;
+use crate::session::state::session::Session;
+use crate::session::{replay, save};
+
+/// The tour that comes with the program.
+const TOUR: &str = include_str!("../../../assets/replays/tour.keys");
+
+/// What a line has done, or why not.
+type Done = Result<Vec<Effect>, String>;
+
+/// Saves the session.
+pub(in crate::session) fn write(session: &mut Session, path: &str, replace: bool) -> Done {
+    let text = save::text(session)?;
+    Ok(vec![Effect::Write { path: PathBuf::from(path), text, replace }])
+}
+
+/// Writes what was pressed since the start, without what asks for that.
+pub(in crate::session) fn record(session: &mut Session, path: &str, replace: bool) -> Vec<Effect> {
+    let forget = session.macros.chord;
+    vec![Effect::Record { path: PathBuf::from(path), forget, replace }]
+}
+
+/// Asks for a file.
+pub(in crate::session) fn ask(path: &str, purpose: Purpose) -> Vec<Effect> {
+    vec![Effect::Read { path: PathBuf::from(path), purpose }]
+}
+
+/// Endings of the files of figures.
+const FIGURES: [&str; 4] = ["svg", "png", "csv", "json"];
+
+/// Writes what one plot shows, or all of them.
+pub(in crate::session) fn figure(
+    session: &mut Session,
+    path: &str,
+    plot: Option<usize>,
+    replace: bool,
+) -> Done {
+    let path = PathBuf::from(path);
+    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+    if FIGURES.iter().any(|known| known.eq_ignore_ascii_case(ending)) {
+        if let Some(other) = &session.writing {
+            let stops = told(session, "{drop-cursor} stops that");
+            return Err(format!("{} is still being written; {stops}", other.display()));
+        }
+        session.writing = Some(path.clone());
+        Ok(vec![Effect::Figure { path, plot, replace }])
+    } else {
+        let given = path.display().to_string();
+        Err(format!("a figure ends in .svg, .png, .csv or .json, not {given:?}"))
+    }
+}
+
+/// Offers to write the plot in use: the line is there, with a name for the file, to be changed or taken.
+pub fn offer_figure(session: &mut Session) -> Vec<Effect> {
+    let plain = |letter: char| if letter.is_ascii_alphanumeric() { letter } else { '-' };
+    let scene: String = session.scene.name.chars().map(plain).collect();
+    prompt::open_with(session, format!("figure-pane {scene}-{}.svg", session.plot + 1))
+}
+
+/// A register and a file.
+fn register(rest: &str) -> Result<(char, &str), String> {
+    let (name, path) = rest
+        .split_once(char::is_whitespace)
+        .ok_or_else(|| format!("{rest:?} is no letter and file, such as: a walk.keys"))?;
+    Ok((letter(name)?, path.trim()))
+}
+
+/// Writes a register to a keystroke file.
+pub(in crate::session) fn write_macro(session: &mut Session, rest: &str) -> Done {
+    let (name, path) = register(rest)?;
+    let steps = session.macros.registers.get(&name);
+    let steps = steps.ok_or_else(|| format!("register {name} is empty"))?;
+    let text = replay::text(&format!("register {name} of hopfscope"), steps);
+    Ok(vec![Effect::Write { path: PathBuf::from(path), text, replace: false }])
+}
+
+/// Reads a register from a keystroke file.
+pub(in crate::session) fn read_macro(_: &mut Session, rest: &str) -> Done {
+    let (name, path) = register(rest)?;
+    Ok(ask(path, Purpose::Register(name)))
+}
+
+/// Takes a file in, or says what is wrong with it; then everything is as it was.
+pub(in crate::session) fn read(
+    session: &mut Session,
+    path: &Path,
+    purpose: Purpose,
+    result: Result<String, String>,
+) -> Vec<Effect> {
+    take(session, path, purpose, result).unwrap_or_else(|why| {
+        refuse(session, why);
+        Vec::new()
+    })
+}
+
+fn take(
+    session: &mut Session,
+    path: &Path,
+    purpose: Purpose,
+    result: Result<String, String>,
+) -> Done {
+    let text = result?;
+    let of_file = |why: String| format!("{}: {why}", path.display());
+    let script = || replay::parse(&text).map_err(|error| of_file(error.to_string()));
+    match purpose {
+        Purpose::Open => {
+            save::open(session, &text).map_err(of_file)?;
+            inform(session, format!("opened {}", path.display()));
+        }
+        Purpose::Restore => {
+            save::open(session, &text).map_err(of_file)?;
+            inform(session, "the interrupted session is back");
+            return Ok(vec![Effect::PutAside(path.to_owned())]);
+        }
+        Purpose::Fit => {
+            let record = crate::fit::parse(text.as_bytes(), &Reading::default());
+            let record = record.map_err(|error| of_file(error.to_string()))?;
+            let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+            let recording = Recording::from((name.into_owned(), record));
+            history::open_scene(session, Arc::new(recording.scene()));
+        }
+        Purpose::Play => {
+            let script = script()?;
+            macros::inline(session);
+            return Ok(vec![Effect::Play(script)]);
+        }
+        Purpose::Register(name) => {
+            let steps = script()?.steps.into_iter().map(|located| located.step).collect();
+            session.macros.registers.insert(name, steps);
+            inform(session, format!("register {name} has the keys of {}", path.display()));
+        }
+    }
+    Ok(Vec::new())
+}
+
+/// Goes on with the session that was interrupted.
+pub fn restore(session: &mut Session) -> Vec<Effect> {
+    match session.interrupted.take() {
+        Some(path) => vec![Effect::Read { path, purpose: Purpose::Restore }],
+        None => none_interrupted(session),
+    }
+}
+
+/// Offers the interrupted session no longer.
+pub fn forget(session: &mut Session) -> Vec<Effect> {
+    match session.interrupted.take() {
+        Some(path) => {
+            inform(session, "the interrupted session is not offered again");
+            vec![Effect::PutAside(path)]
+        }
+        None => none_interrupted(session),
+    }
+}
+
+fn none_interrupted(session: &mut Session) -> Vec<Effect> {
+    refuse(session, "no session was interrupted");
+    Vec::new()
+}
+
+/// The tour that comes with the program, as a keystroke file.
+///
+/// # Errors
+/// One line; a test plays the tour.
+pub fn tour_script() -> Result<Script, String> {
+    replay::parse(TOUR).map_err(|error| format!("the tour: {error}"))
+}
+
+/// Starts the tour.
+pub fn tour(session: &mut Session) -> Vec<Effect> {
+    match tour_script() {
+        Ok(script) => {
+            macros::inline(session);
+            vec![Effect::Play(script)]
+        }
+        Err(why) => {
+            refuse(session, why);
+            Vec::new()
+        }
+    }
+}

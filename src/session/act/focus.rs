@@ -1,0 +1,32 @@
+//! Which pane gets the keys.
+
+use crate::session::effect::Effect;
+use crate::session::state::plot::Pane;
+use crate::session::state::session::Session;
+
+/// Gives the focus to another pane.
+pub fn focus(session: &mut Session, by: isize) -> Vec<Effect> {
+    // An enlarged plot gives its place to the next one.
+    let panes = session.plots.len() + 1;
+    let at = match session.focus {
+        Pane::Parameters => 0,
+        Pane::Plot(index) => index + 1,
+    };
+    let next = at.checked_add_signed(by).unwrap_or(panes - 1) % panes;
+    focus_on(session, next.checked_sub(1).map_or(Pane::Parameters, Pane::Plot));
+    Vec::new()
+}
+
+/// Gives the focus to a pane.
+pub(in crate::session) fn focus_on(session: &mut Session, pane: Pane) {
+    session.focus = pane;
+    if let Pane::Plot(index) = pane {
+        session.plot = index;
+    }
+}
+
+/// Gives one plot the place of all, or shares it again.
+pub fn enlarge(session: &mut Session) -> Vec<Effect> {
+    session.enlarged = !session.enlarged;
+    Vec::new()
+}

@@ -1,0 +1,114 @@
+//! Commands that belong to no pane: focus, layers, undo, looks, leaving.
+
+use crate::scene::Layer;
+use crate::session::act::macros;
+use crate::session::act::notice::{inform, refuse, told};
+use crate::session::effect::Effect;
+use crate::session::state::overlay::{Caption, Overlay};
+use crate::session::state::session::MOST_HARMONICS;
+use crate::session::state::session::Session;
+use crate::session::state::settings::{GLYPHS, THEMES, next_of};
+use crate::study::harmonic_error::ladder;
+
+/// Shows or hides a layer.
+pub fn toggle(session: &mut Session, layer: Layer) -> Vec<Effect> {
+    let on = !session.layers.remove(&layer);
+    if on {
+        session.layers.insert(layer);
+    }
+    let spec = layer.spec();
+    let state = if on { "on" } else { "off" };
+    let absent = !session.on_show().any(|plot| session.plots[plot].view == spec.view);
+    let text = match session.not_drawn(layer) {
+        Some(why) if on => format!("{}: {why}", spec.name),
+        _ if on && absent => {
+            format!(
+                "{}: no plot shows the {}; {{views}} picks one",
+                spec.name,
+                spec.view.spec().title
+            )
+        }
+        _ => format!("{} {state}: {}", spec.name, spec.meaning),
+    };
+    let text = told(session, &text);
+    inform(session, text);
+    Vec::new()
+}
+
+/// Takes the next number of harmonics of a ladder, and shows their cycles.
+pub fn harmonics(session: &mut Session, more: bool) -> Vec<Effect> {
+    let ladder = ladder(MOST_HARMONICS);
+    let now = session.harmonics;
+    let next = if more {
+        ladder.iter().find(|count| **count > now)
+    } else {
+        ladder.iter().rev().find(|count| **count < now)
+    };
+    session.layers.insert(Layer::Balance);
+    match next {
+        Some(next) => {
+            session.harmonics = *next;
+            inform(session, format!("harmonic balance with N = {next}"));
+        }
+        None => refuse(session, format!("the number of harmonics ends at {now}")),
+    }
+    Vec::new()
+}
+
+/// Shows what there is to see in the scene and to press, or hides it.
+pub fn explain(session: &mut Session) -> Vec<Effect> {
+    session.caption =
+        if session.caption == Caption::Scene { Caption::Nothing } else { Caption::Scene };
+    Vec::new()
+}
+
+/// Draws with other characters.
+pub fn glyphs(session: &mut Session) -> Vec<Effect> {
+    let (glyphs, name) = next_of(&GLYPHS, session.look.glyphs);
+    session.look.glyphs = glyphs;
+    inform(session, format!("glyphs: {name}"));
+    Vec::new()
+}
+
+/// Uses the next theme.
+pub fn theme(session: &mut Session) -> Vec<Effect> {
+    let (theme, name) = next_of(&THEMES, session.look.theme);
+    session.look.theme = theme;
+    inform(session, format!("theme: {name}"));
+    Vec::new()
+}
+
+/// Closes what is open.
+pub fn back(session: &mut Session) -> Vec<Effect> {
+    session.overlay = None;
+    Vec::new()
+}
+
+/// Asks again what has no answer.
+pub fn retry(session: &mut Session) -> Vec<Effect> {
+    if session.failures.is_empty() {
+        inform(session, "nothing has failed");
+    }
+    session.failures.clear();
+    Vec::new()
+}
+
+/// Agrees to press the pasted keys.
+pub fn accept_offer(session: &mut Session) -> Vec<Effect> {
+    match session.overlay.take() {
+        Some(Overlay::Offer(script)) => {
+            macros::inline(session);
+            vec![Effect::Play(script)]
+        }
+        other => {
+            session.overlay = other;
+            Vec::new()
+        }
+    }
+}
+
+/// Leaves.
+pub fn quit(session: &mut Session) -> Vec<Effect> {
+    session.quit = true;
+    vec![Effect::Quit]
+}

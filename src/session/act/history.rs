@@ -1,0 +1,130 @@
+//! Undo and redo, and opening a scene, which can be undone as well.
+
+use std::sync::Arc;
+
+use crate::oscillator::Symbol;
+use crate::scene::Scene;
+use crate::session::act::desk::set_up;
+use crate::session::act::notice::{inform, refuse};
+use crate::session::effect::Effect;
+use crate::session::read::numbers::difference;
+use crate::session::state::history::{Before, Desk, Snapshot};
+use crate::session::state::playback::Playback;
+use crate::session::state::plot::Pane;
+use crate::session::state::rows::{Row, Steps};
+use crate::session::state::session::Session;
+use crate::session::state::setup::Stand;
+
+/// Undoes the last change.
+pub fn undo(session: &mut Session) -> Vec<Effect> {
+    let mut history = std::mem::take(&mut session.history);
+    let found = history.undo(|before| present(session, before));
+    session.history = history;
+    bring_back(session, found, "undo")
+}
+
+/// Redoes what was undone last.
+pub fn redo(session: &mut Session) -> Vec<Effect> {
+    let mut history = std::mem::take(&mut session.history);
+    let found = history.redo(|after| present(session, after));
+    session.history = history;
+    bring_back(session, found, "redo")
+}
+
+/// Today's state, as far as `other` reaches.
+fn present(session: &Session, other: &Before) -> Before {
+    match other {
+        Before::Stand(_) => Before::Stand(session.stand()),
+        Before::Desk(_) => Before::Desk(session.desk()),
+        Before::Scene(_) => Before::Scene(Box::new(snapshot(session))),
+    }
+}
+
+/// Everything that a scene sets, as it is now.
+fn snapshot(session: &Session) -> Snapshot {
+    Snapshot {
+        scene: Arc::clone(&session.scene),
+        stand: session.stand(),
+        steps: session.steps,
+        layers: session.layers.clone(),
+        desk: session.desk(),
+    }
+}
+
+/// Everything that a scene sets, as it opens.
+fn opening(scene: Arc<Scene>) -> Snapshot {
+    Snapshot {
+        stand: Stand::of_scene(&scene),
+        steps: Steps::of_scene(&scene),
+        layers: scene.layers.clone(),
+        desk: Desk { plots: scene.plots.clone(), arrangement: scene.arrangement },
+        scene,
+    }
+}
+
+fn bring_back(session: &mut Session, found: Option<Before>, name: &str) -> Vec<Effect> {
+    match found {
+        None => refuse(session, format!("nothing to {name}")),
+        Some(Before::Stand(stand)) => {
+            inform(session, format!("{name}: {}", difference(&session.stand(), &stand)));
+            session.set_stand(stand);
+        }
+        Some(Before::Desk(desk)) => {
+            let titles: Vec<_> = desk.plots.iter().map(|plot| plot.view.spec().title).collect();
+            inform(session, format!("{name}: {}", titles.join(", ")));
+            set_up(session, &desk);
+        }
+        Some(Before::Scene(snapshot)) => {
+            inform(session, format!("{name}: scene {}", snapshot.scene.name));
+            restore(session, *snapshot);
+        }
+    }
+    Vec::new()
+}
+
+fn restore(session: &mut Session, snapshot: Snapshot) {
+    session.scene = snapshot.scene;
+    session.set_stand(snapshot.stand);
+    session.steps = snapshot.steps;
+    session.layers = snapshot.layers;
+    set_up(session, &snapshot.desk);
+    session.playback = Playback { pace: session.playback.pace, ..Playback::default() };
+    session.held = None;
+}
+
+/// Opens a scene, as one change that can be undone.
+pub(in crate::session) fn open_scene(session: &mut Session, scene: Arc<Scene>) {
+    let before = snapshot(session);
+    let opened = opening(scene);
+    if before != opened {
+        session.history.record(Before::Scene(Box::new(before)));
+    }
+    restore(session, opened);
+    session.unfolded = false;
+    session.selected = Row::FIRST;
+    // Where the sentences of a scene begin.
+    session.focus = Pane::Parameters;
+}
+
+/// Makes what stands here the beginning of a session: its scene opens like this, with these parameters
+/// among its own, and nothing was done before.
+pub(in crate::session) fn begin(session: &mut Session, names: Vec<Symbol>) {
+    let mut scene = Arc::clone(&session.scene);
+    let opens = Arc::make_mut(&mut scene);
+    opens.problem = session.problem;
+    opens.terms.extend(names);
+    *session = Session {
+        look: session.look,
+        keymap: Arc::clone(&session.keymap),
+        interrupted: session.interrupted.take(),
+        ..Session::new(scene, session.size)
+    };
+}
+
+/// Brings the scene back as it was opened.
+pub fn reset_scene(session: &mut Session) -> Vec<Effect> {
+    let scene = Arc::clone(&session.scene);
+    inform(session, format!("scene {} as it was opened", scene.name));
+    open_scene(session, scene);
+    Vec::new()
+}

@@ -1,0 +1,164 @@
+//! Lists over the panes: help, scenes, layers, views; moving, searching, choosing.
+
+use std::sync::Arc;
+
+use crate::scene::{find, letters, library};
+use crate::session::act::desk::show;
+use crate::session::act::general::toggle;
+use crate::session::act::history::open_scene;
+use crate::session::act::notice::{inform, refuse};
+use crate::session::effect::Effect;
+use crate::session::message::key::Key;
+use crate::session::state::overlay::{List, Listed, Overlay};
+use crate::session::state::session::Session;
+use crate::study::claims::Claim;
+
+/// Rows that the page keys move.
+pub const PAGE: isize = 10;
+
+/// Opens the scene picker, with the present scene selected.
+pub fn open_scenes(session: &mut Session) -> Vec<Effect> {
+    let present = library().iter().position(|scene| scene.name == session.scene.name);
+    let list = List { selected: present.unwrap_or(0), ..List::default() };
+    session.overlay = Some(Overlay::List(Listed::Scenes, list));
+    Vec::new()
+}
+
+/// Opens the list of layers.
+pub fn open_layers(session: &mut Session) -> Vec<Effect> {
+    session.overlay = Some(Overlay::List(Listed::Layers, List::default()));
+    Vec::new()
+}
+
+/// Switches the layer of the plot in use that has this letter.
+pub fn toggle_letter(session: &mut Session, key: Key) -> Vec<Effect> {
+    let view = session.view_in_use();
+    let Some((_, layer)) = letters(view).find(|(letter, _)| key.typed() == Some(*letter)) else {
+        refuse(session, format!("{key} is no layer of the {}", view.spec().title));
+        return Vec::new();
+    };
+    if let Some(Overlay::List(Listed::Layers, list)) = &session.overlay {
+        let place = session.layer_rows(list).iter().position(|row| row.layer == layer);
+        if let (Some(place), Some(list)) = (place, session.list_mut()) {
+            list.selected = place;
+        }
+    }
+    toggle(session, layer)
+}
+
+/// Opens the picker of views, with the present one of the plot in use selected.
+pub fn open_views(session: &mut Session) -> Vec<Effect> {
+    let selected = session.plots[session.plot].view as usize;
+    session.overlay = Some(Overlay::List(Listed::Views, List { selected, ..List::default() }));
+    Vec::new()
+}
+
+/// Opens the list of what the picture costs.
+pub fn open_cost(session: &mut Session) -> Vec<Effect> {
+    session.overlay = Some(Overlay::List(Listed::Cost, List::default()));
+    Vec::new()
+}
+
+/// Opens the page of the paper: its claims, which are examined when this is first asked for.
+pub fn open_paper(session: &mut Session) -> Vec<Effect> {
+    session.overlay = Some(Overlay::List(Listed::Paper, List::default()));
+    Vec::new()
+}
+
+/// Opens the scene that shows a claim.
+pub fn show_claim(session: &mut Session, claim: &Claim) {
+    session.overlay = None;
+    match claim.scene.and_then(|name| find(name).ok()) {
+        Some(scene) => {
+            open_scene(session, scene);
+            inform(session, format!("{}: {}", claim.equation, claim.statement));
+        }
+        None => {
+            refuse(session, format!("no scene shows {}: it is a formula alone", claim.equation));
+        }
+    }
+}
+
+/// Moves the selection of the open list, as far as there are rows.
+pub fn move_by(session: &mut Session, by: isize) -> Vec<Effect> {
+    let last = session.list_length().saturating_sub(1);
+    if let Some(list) = session.list_mut() {
+        list.selected = list.selected.saturating_add_signed(by).min(last);
+    }
+    Vec::new()
+}
+
+/// Lets typed characters go to the search.
+pub fn search(session: &mut Session) -> Vec<Effect> {
+    if let Some(list) = session.list_mut() {
+        list.searching = true;
+    }
+    Vec::new()
+}
+
+/// Ends the search and keeps the rows found; what is to be picked is picked at once.
+pub fn search_done(session: &mut Session) -> Vec<Effect> {
+    if let Some(list) = session.list_mut() {
+        list.searching = false;
+    }
+    match session.overlay {
+        Some(Overlay::List(Listed::Scenes | Listed::Views, _)) => choose(session),
+        _ => Vec::new(),
+    }
+}
+
+/// Ends the search and shows all rows.
+pub fn search_drop(session: &mut Session) -> Vec<Effect> {
+    if let Some(list) = session.list_mut() {
+        *list = List::default();
+    }
+    Vec::new()
+}
+
+/// Deletes the last character of the search.
+pub fn search_delete(session: &mut Session) -> Vec<Effect> {
+    if let Some(list) = session.list_mut() {
+        list.search.pop();
+        list.selected = 0;
+    }
+    Vec::new()
+}
+
+/// Clears the search.
+pub fn search_clear(session: &mut Session) -> Vec<Effect> {
+    if let Some(list) = session.list_mut() {
+        list.search.clear();
+        list.selected = 0;
+    }
+    Vec::new()
+}
+
+/// Opens the selected scene, switches the selected layer, or shows the selected view.
+pub fn choose(session: &mut Session) -> Vec<Effect> {
+    match &session.overlay {
+        Some(Overlay::List(Listed::Scenes, list)) => {
+            if let Some(scene) = session.scene_rows(list).get(list.selected) {
+                session.overlay = None;
+                open_scene(session, Arc::clone(scene));
+            }
+        }
+        Some(Overlay::List(Listed::Layers, list)) => {
+            if let Some(row) = session.layer_rows(list).get(list.selected) {
+                return toggle(session, row.layer);
+            }
+        }
+        Some(Overlay::List(Listed::Views, list)) => {
+            if let Some(row) = session.view_rows(list).get(list.selected) {
+                session.overlay = None;
+                return show(session, row.view);
+            }
+        }
+        Some(Overlay::List(Listed::Paper, list)) => {
+            if let Some((claim, _)) = session.claim_rows(list).get(list.selected) {
+                show_claim(session, claim);
+            }
+        }
+        _ => {}
+    }
+    Vec::new()
+}

@@ -1,0 +1,91 @@
+//! Macros: keys recorded into registers and played again.
+//!
+//! A macro is a short keystroke file. What is played while another one is recorded is recorded in its
+//! place, so that a recorded macro plays by itself and never plays another.
+
+use crate::session::act::notice::{inform, refuse};
+use crate::session::effect::Effect;
+use crate::session::message::Msg;
+use crate::session::replay::recorder::Recorder;
+use crate::session::replay::script::Script;
+use crate::session::state::pending::{Letter, Pending};
+use crate::session::state::session::Session;
+
+/// Steps that a macro presses at most, counts included.
+const MOST: u64 = 100_000;
+
+/// Notes what the user does.
+pub(in crate::session) fn note(session: &mut Session, message: &Msg) {
+    let macros = &mut session.macros;
+    if matches!(message, Msg::Key(_) | Msg::Paste(_) | Msg::Pointed(_) | Msg::Run(_)) {
+        macros.chord += 1;
+        if let Some((_, recorder)) = &mut macros.recording {
+            recorder.note(message);
+        }
+    }
+}
+
+/// Begins a new chord where nothing is open and nothing waited for.
+pub(in crate::session) fn rest(session: &mut Session) {
+    let macros = &mut session.macros;
+    if macros.chord > 0 && session.overlay.is_none() && session.pending.is_none() {
+        macros.asked = std::mem::take(&mut macros.chord);
+    }
+}
+
+/// Asks where to record; ends what is being recorded.
+pub fn record_or_end(session: &mut Session) -> Vec<Effect> {
+    match session.macros.recording.take() {
+        None => session.pending = Some(Pending::Letter { what: Letter::Record, count: 1 }),
+        Some((register, mut recorder)) => {
+            recorder.forget(session.macros.chord);
+            let steps = recorder.steps().to_vec();
+            let presses = Script::repeated(&steps, 1).keys();
+            session.macros.registers.insert(register, steps);
+            session.macros.last = Some(register);
+            inform(session, format!("register {register} has {presses} keys"));
+        }
+    }
+    Vec::new()
+}
+
+/// Begins to record.
+pub(in crate::session) fn record(session: &mut Session, register: char) -> Vec<Effect> {
+    session.macros.recording = Some((register, Recorder::default()));
+    inform(session, format!("recording into register {register}"));
+    Vec::new()
+}
+
+/// Forgets what asks for keys to be played, so that these are recorded in its place.
+pub(in crate::session) fn inline(session: &mut Session) {
+    let chord = session.macros.chord;
+    if let Some((_, recorder)) = &mut session.macros.recording {
+        recorder.forget(chord);
+    }
+}
+
+/// Plays a register so many times.
+pub(in crate::session) fn play(session: &mut Session, register: char, times: u32) -> Vec<Effect> {
+    let Some(steps) = session.macros.registers.get(&register) else {
+        refuse(session, format!("register {register} is empty"));
+        return Vec::new();
+    };
+    let keys = Script::repeated(steps, 1).keys();
+    if keys * u64::from(times) > MOST {
+        refuse(session, format!("{times} times {keys} keys are more than {MOST}"));
+        return Vec::new();
+    }
+    let script = Script::repeated(steps, times);
+    inline(session);
+    session.macros.last = Some(register);
+    vec![Effect::PlayRegister(script)]
+}
+
+/// Plays the register played or recorded last.
+pub(in crate::session) fn play_again(session: &mut Session, times: u32) -> Vec<Effect> {
+    if let Some(register) = session.macros.last {
+        return play(session, register, times);
+    }
+    refuse(session, "no register has been played yet");
+    Vec::new()
+}

@@ -1,0 +1,53 @@
+//! The mouse, for those who want it: a click starts a motion or sets a cursor, the wheel zooms.
+
+use crate::session::act::focus::focus_on;
+use crate::session::act::notice::inform;
+use crate::session::act::{lists, plots};
+use crate::session::effect::Effect;
+use crate::session::message::pointer::{Gesture, Place, Pointed};
+use crate::session::state::plot::Pane;
+use crate::session::state::session::Session;
+
+/// Rows that a notch of the wheel moves a list.
+const NOTCH: isize = 3;
+
+/// Turns the mouse on or off.
+pub fn toggle(session: &mut Session) -> Vec<Effect> {
+    session.look.mouse = !session.look.mouse;
+    let text = if session.look.mouse {
+        "mouse on: a click starts or points, the wheel zooms; text is selected with shift"
+    } else {
+        "mouse off: the terminal selects text"
+    };
+    inform(session, text);
+    vec![Effect::Mouse(session.look.mouse)]
+}
+
+/// Does what the mouse did. Over an overlay, the wheel moves its list and a click means nothing.
+pub fn pointed(session: &mut Session, Pointed { gesture, place }: Pointed) -> Vec<Effect> {
+    if session.overlay.is_some() {
+        return match gesture {
+            Gesture::Click => Vec::new(),
+            Gesture::Nearer => lists::move_by(session, -NOTCH),
+            Gesture::Farther => lists::move_by(session, NOTCH),
+        };
+    }
+    match place {
+        Place::Row(index) => {
+            if let (Gesture::Click, Some(row)) = (gesture, session.rows().get(index)) {
+                session.selected = *row;
+                session.focus = Pane::Parameters;
+            }
+            Vec::new()
+        }
+        Place::Plot(index, _) if !session.on_show().contains(&index) => Vec::new(),
+        Place::Plot(index, point) => {
+            focus_on(session, Pane::Plot(index));
+            match gesture {
+                Gesture::Click => plots::point_at(session, point),
+                Gesture::Nearer => plots::zoom_about(session, |_| point, true),
+                Gesture::Farther => plots::zoom_about(session, |_| point, false),
+            }
+        }
+    }
+}

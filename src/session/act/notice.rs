@@ -1,0 +1,19 @@
+//! Lines for the user.
+
+use crate::session::message::Notice;
+use crate::session::state::session::Session;
+
+/// Shows a line that is no complaint.
+pub(in crate::session) fn inform(session: &mut Session, text: impl Into<String>) {
+    session.notice = Some(Notice { error: false, text: text.into() });
+}
+
+/// A sentence in which `{command}` stands for the key of that command.
+pub(in crate::session) fn told(session: &Session, sentence: &str) -> String {
+    session.keymap.fill(sentence, |key| key.to_string())
+}
+
+/// Shows a line that says what was refused.
+pub(in crate::session) fn refuse(session: &mut Session, text: impl Into<String>) {
+    session.notice = Some(Notice { error: true, text: text.into() });
+}

@@ -1,0 +1,185 @@
+//! Commands of the parameter pane: select, step, reset.
+
+use crate::flow::{METHODS, Problem, QUALITIES};
+use crate::scene::Running;
+use crate::session::act::notice::{inform, refuse};
+use crate::session::effect::Effect;
+use crate::session::read::numbers::{number, range, with_number};
+use crate::session::state::history::Before;
+use crate::session::state::rows::{Row, Steps};
+use crate::session::state::session::Session;
+use crate::session::state::setup::Stand;
+use crate::session::state::step_size::shortest;
+
+/// Makes another motion the one on show, as one change that can be undone; the belt keeps its speed.
+/// Returns whether it differs.
+pub(in crate::session) fn change(session: &mut Session, problem: Problem) -> bool {
+    put(session, Stand { problem, ..session.stand() })
+}
+
+/// Makes another motion, with a speed of the belt, the one on show, as one change that can be undone.
+/// Returns whether it differs.
+pub(in crate::session) fn put(session: &mut Session, stand: Stand) -> bool {
+    let before = session.stand();
+    let differs = stand != before;
+    if differs {
+        let was_on = session.is_on_the_belt() == Some(true);
+        session.history.record(Before::Stand(before));
+        session.set_stand(stand);
+        if was_on && session.is_on_the_belt() == Some(false) {
+            inform(session, "off the belt: no speed has these numbers; the row belt leads back");
+        }
+    }
+    differs
+}
+
+/// Moves the selection among the rows that stand in the pane.
+pub fn select(session: &mut Session, by: isize) -> Vec<Effect> {
+    let rows = session.rows();
+    let at = rows.iter().position(|row| *row == session.selected).unwrap_or(0);
+    session.selected = rows[at.saturating_add_signed(by).min(rows.len() - 1)];
+    Vec::new()
+}
+
+/// Steps the selected value.
+pub fn step(session: &mut Session, count: i32) -> Vec<Effect> {
+    match session.selected {
+        Row::Method => return next_method(session, count.signum() as isize),
+        Row::Tolerance => return turn(session, count.signum()),
+        Row::Belt => return step_belt(session, count),
+        Row::Parameter(_) | Row::Until => {}
+    }
+    let row = session.selected;
+    let Some(size) = session.steps.of(row) else { return Vec::new() };
+    let (min, max) = range(&session.problem, row);
+    let value = number(&session.stand(), row);
+    let stepped = size.from(value, count).clamp(min, max);
+    let changed = with_number(session.problem, row, stepped);
+    if !change(session, changed) {
+        let name = row.name_in(&session.problem);
+        let why = if (min..=max).contains(&size.from(value, count)) {
+            format!("the step is too small to change {name} = {}", shortest(value))
+        } else {
+            format!("{name} ends at {}", shortest(stepped))
+        };
+        refuse(session, why);
+    }
+    Vec::new()
+}
+
+/// Steps the speed of the belt; from off the belt, back onto it. What is no speed is refused: an end of
+/// the range, far below any belt, would be no place to stop at.
+fn step_belt(session: &mut Session, count: i32) -> Vec<Effect> {
+    let speed = session.steps.belt.from(number(&session.stand(), Row::Belt), count);
+    match session.at_belt_speed(session.problem, speed) {
+        Ok(stand) => {
+            if !put(session, stand) {
+                refuse(session, format!("the step is too small to change {} m/s", shortest(speed)));
+            }
+        }
+        Err(why) => refuse(session, why),
+    }
+    Vec::new()
+}
+
+/// Makes the step of the selected row larger or smaller.
+pub fn step_size(session: &mut Session, larger: bool) -> Vec<Effect> {
+    match session.steps.of_mut(session.selected) {
+        Some(size) => *size = if larger { size.larger() } else { size.smaller() },
+        None => refuse(session, format!("{} has no step size", session.selected.name())),
+    }
+    Vec::new()
+}
+
+/// Gives the selected row the scene's value and step size.
+pub fn reset_row(session: &mut Session) -> Vec<Effect> {
+    let row = session.selected;
+    let (scene, present) = (session.scene.problem, session.stand());
+    let steps = Steps::of_scene(&session.scene);
+    if let (Some(size), Some(wanted)) = (session.steps.of_mut(row), steps.of(row)) {
+        *size = wanted;
+    }
+    let reset = match row {
+        Row::Belt => session.scene.machine.as_ref().map_or_else(
+            || Ok(present),
+            |rig| session.at_belt_speed(session.problem, rig.machine.belt.belt_speed),
+        ),
+        Row::Method => {
+            Ok(Stand { problem: Problem { method: scene.method, ..session.problem }, ..present })
+        }
+        Row::Parameter(_) | Row::Until | Row::Tolerance => {
+            let value = number(&Stand::alone(scene), row);
+            Ok(Stand { problem: with_number(session.problem, row, value), ..present })
+        }
+    };
+    let reset = reset.unwrap_or(present);
+    if !put(session, reset) {
+        inform(session, format!("{} has the scene's value", row.name_in(&session.problem)));
+    }
+    Vec::new()
+}
+
+/// Shows or hides the parameters that the scene does not declare.
+pub fn unfold(session: &mut Session) -> Vec<Effect> {
+    session.unfolded = !session.unfolded;
+    Vec::new()
+}
+
+/// Turns the dial to the next of its stops: draft, normal, fine, reference.
+pub fn dial(session: &mut Session, finer: bool) -> Vec<Effect> {
+    session.effort.measuring = true;
+    match session.problem.next_quality(finer) {
+        Some(quality) => {
+            change(session, session.problem.at(quality));
+            let (dial, meaning) = (session.problem.method.spec().dial, quality.meaning);
+            let setting = shortest(session.problem.setting());
+            inform(session, format!("{}: {} {setting}; {meaning}", quality.name, dial.name()));
+        }
+        None => refuse(session, format!("the dial ends at {}", end_of_dial(finer))),
+    }
+    Vec::new()
+}
+
+fn end_of_dial(finer: bool) -> &'static str {
+    let [first, .., last] = &QUALITIES;
+    if finer { last.name } else { first.name }
+}
+
+/// Multiplies the number behind the dial by a power of ten.
+fn turn(session: &mut Session, decades: i32) -> Vec<Effect> {
+    let dial = session.problem.method.spec().dial;
+    let (min, max) = dial.range();
+    let exponent = session.problem.setting().log10().round() + f64::from(decades);
+    // A power of ten to the last bit, which powi does not promise.
+    let setting = format!("1e{exponent}").parse().unwrap_or(max).clamp(min, max);
+    let turned = session.problem.with_setting(setting);
+    if !change(session, turned) {
+        refuse(session, format!("{} ends at {}", dial.name(), shortest(setting)));
+    }
+    Vec::new()
+}
+
+/// Takes the next method of the list, around its end.
+pub fn next_method(session: &mut Session, by: isize) -> Vec<Effect> {
+    let methods = METHODS.iter().map(|row| row.method);
+    let at = methods.clone().position(|method| method == session.problem.method).unwrap_or(0);
+    let next = at.checked_add_signed(by).unwrap_or(METHODS.len() - 1) % METHODS.len();
+    let row = &METHODS[next];
+    session.effort.measuring = true;
+    change(session, Problem { method: row.method, ..session.problem });
+    inform(session, format!("{}: {}", row.name, row.guarantee));
+    Vec::new()
+}
+
+impl Session {
+    /// Makes this what is on show, with a speed of the belt if and only if there is one.
+    pub(in crate::session) fn set_stand(&mut self, stand: Stand) {
+        let Stand { problem, belt_speed } = stand;
+        let rig = self.scene.machine.as_ref();
+        let can_run =
+            |speed: &f64| rig.is_some_and(|rig| Running::at(&rig.machine, *speed).is_ok());
+        let own = rig.map(|rig| rig.machine.belt.belt_speed);
+        let present = self.belt_speed.filter(can_run);
+        (self.belt_speed, self.problem) = (belt_speed.filter(can_run).or(present).or(own), problem);
+    }
+}

@@ -1,0 +1,38 @@
+//! Keys that wait for the next one: a count before a key, and the letter of a register or a mark.
+
+use crate::session::effect::Effect;
+use crate::session::message::key::Key;
+use crate::session::state::pending::MOST;
+use crate::session::state::pending::{Letter, Pending};
+use crate::session::state::session::Session;
+
+/// Waits for more of a count; the digit is that of the key.
+pub fn count(session: &mut Session, key: Key) -> Vec<Effect> {
+    let before = match session.pending {
+        Some(Pending::Count(before)) => before,
+        _ => 0,
+    };
+    let digit = key.typed().and_then(|char| char.to_digit(10)).unwrap_or(0);
+    session.pending = Some(Pending::Count((10 * before + digit).min(MOST)));
+    Vec::new()
+}
+
+/// Deletes the last digit of a count.
+pub fn delete_digit(session: &mut Session) -> Vec<Effect> {
+    if let Some(Pending::Count(count)) = &mut session.pending {
+        *count /= 10;
+    }
+    Vec::new()
+}
+
+/// Waits for a letter.
+pub fn ask(session: &mut Session, what: Letter) -> Vec<Effect> {
+    session.pending = Some(Pending::Letter { what, count: 1 });
+    Vec::new()
+}
+
+/// Waits no longer.
+pub fn forget(session: &mut Session) -> Vec<Effect> {
+    session.pending = None;
+    Vec::new()
+}

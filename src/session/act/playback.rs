@@ -1,0 +1,86 @@
+//! Commands that play the motion in time.
+
+use std::f64::consts::TAU;
+
+use crate::scene::{Layer, Slot};
+use crate::session::act::notice::{inform, refuse};
+use crate::session::effect::Effect;
+use crate::session::state::playback::PACES;
+use crate::session::state::playback::Pace;
+use crate::session::state::session::Session;
+
+/// Plays the motion, or holds it; at its end, from the start again.
+pub fn play(session: &mut Session) -> Vec<Effect> {
+    let shown = session.shows(Layer::Trajectory) || session.shows(Layer::Mass);
+    let given_up = session.failure(Slot::Trajectory, session.plot).is_some();
+    if !shown || given_up || session.trajectory().is_none() {
+        refuse(session, "there is no motion on show to play");
+        return Vec::new();
+    }
+    let at_end = session.playback.at.is_some_and(|at| at >= session.last_moment());
+    session.playback.playing = !session.playback.playing;
+    if session.playback.at.is_none() || (at_end && session.playback.playing) {
+        session.playback.at = Some(0.0);
+    }
+    let text = if session.playback.playing {
+        format!("playing: {}", session.pace())
+    } else {
+        "held".to_owned()
+    };
+    inform(session, text);
+    Vec::new()
+}
+
+/// Moves the head a little on, or back.
+pub fn step(session: &mut Session, steps: f64) -> Vec<Effect> {
+    if session.trajectory().is_some() {
+        session.step_head(steps);
+    } else {
+        refuse(session, "there is no motion on show to play");
+    }
+    Vec::new()
+}
+
+/// Plays faster or slower.
+pub fn pace(session: &mut Session) -> Vec<Effect> {
+    session.next_pace();
+    inform(session, format!("pace: {}", session.pace()));
+    Vec::new()
+}
+
+/// Parts of a period by which a key steps.
+const STEPS: f64 = 40.0;
+
+impl Session {
+    /// Time has passed: the head moves on, and stands still at the end.
+    pub(in crate::session) fn elapse(&mut self, seconds: f64) {
+        if self.playback.playing && seconds > 0.0 {
+            self.advance(seconds * self.rate());
+        }
+    }
+
+    /// Moves the head by a dimensionless time, up to the ends of the motion.
+    pub(in crate::session) fn advance(&mut self, by: f64) {
+        let end = self.last_moment();
+        let at = (self.playback.at.unwrap_or(0.0) + by).clamp(0.0, end.max(0.0));
+        self.playback.at = Some(at);
+        if at >= end {
+            self.playback.playing = false;
+        }
+    }
+
+    /// Moves the head by a part of a period.
+    pub(in crate::session) fn step_head(&mut self, steps: f64) {
+        self.playback.playing = false;
+        self.advance(steps * TAU / STEPS);
+    }
+
+    /// The next pace; only a machine has its own.
+    pub(in crate::session) fn next_pace(&mut self) {
+        let now = PACES.iter().position(|pace| *pace == self.playback.pace).unwrap_or(0);
+        let real = self.scene.machine.is_some();
+        let usable = |pace: &&Pace| real || **pace != Pace::Real;
+        let next = PACES[now + 1..].iter().chain(&PACES[..now]).find(usable);
+        self.playback.pace = next.copied().unwrap_or(PACES[0]);
+    }
+}

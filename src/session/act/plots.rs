@@ -1,0 +1,245 @@
+//! Commands of the plots: cursor, zoom, pan, and taking the point under the cursor.
+
+use crate::flow::Problem;
+use crate::oscillator::State;
+use crate::scene::{Exhibit, Point, Span, View, Window};
+use crate::session::act::notice::{inform, refuse, told};
+use crate::session::act::parameters::{change, put};
+use crate::session::effect::Effect;
+use crate::session::state::plot::{Framing, Pane, Plot};
+use crate::session::state::session::Session;
+use crate::session::state::step_size::{StepSize, shortest};
+
+/// Steps of the cursor that a far move takes.
+pub const FAR: i32 = 8;
+
+/// Steps of the cursor across a window, about the columns of a plot at 80 columns.
+///
+/// A part of the window and not of the screen, so that a keystroke file does the same on every screen.
+const STEPS_ACROSS: f64 = 64.0;
+
+/// How much a zoom makes of the width.
+const ZOOM: f64 = 1.5;
+
+/// How much of the width a pan moves.
+const PAN: f64 = 0.125;
+
+/// Where the cursor of a plot appears: on the start of the motion, or on today's value.
+fn cursor_origin(session: &Session, plot: &Plot) -> Point {
+    let window = plot.window;
+    window.clamp(match plot.view {
+        View::Phase => Point { x: session.problem.initial.q, y: session.problem.initial.v },
+        View::Belt => Point { x: session.problem.initial.q, y: window.center().y },
+        View::Diagram => Point { x: session.value(plot.axes.abscissa), y: window.center().y },
+        View::TimeSeries => Point { x: 0.0, y: session.problem.initial.q },
+        View::EnergyLedger => Point { x: 0.0, y: 0.0 },
+        View::EnergyRate => Point { x: session.problem.initial.v, y: 0.0 },
+        View::Eigenvalues | View::Trade | View::Scan => window.center(),
+        View::Speeds => {
+            Point { x: session.belt_speed.unwrap_or(window.center().x), y: window.center().y }
+        }
+        View::ReturnMap => Point { x: session.problem.initial.q, y: session.problem.initial.q },
+        View::Regimes => {
+            Point { x: session.value(plot.axes.abscissa), y: session.value(plot.axes.against) }
+        }
+    })
+}
+
+/// Moves the cursor of the plot in focus; the first move shows it.
+pub fn move_cursor(session: &mut Session, right: i32, up: i32) -> Vec<Effect> {
+    let origin = session.focused().map(|plot| cursor_origin(session, plot));
+    if let Some((plot, origin)) = session.focused_mut().zip(origin) {
+        let Point { x, y } = plot.cursor.unwrap_or(origin);
+        let Window { x: across, y: along } = plot.window;
+        plot.cursor = Some(Point { x: moved(across, x, right), y: moved(along, y, up) });
+    }
+    Vec::new()
+}
+
+/// A coordinate some steps on, on round numbers, not beyond the window.
+fn moved(span: Span, value: f64, count: i32) -> f64 {
+    let step = StepSize::near(span.width() / STEPS_ACROSS);
+    // A start or a value of today need not lie on a round number: then it is met again by a zero move.
+    if count == 0 {
+        return value;
+    }
+    let goal = step.multiple_from(value, count);
+    if span.contains(goal) {
+        return goal;
+    }
+    // The last round number inside lies one step before the first one outside.
+    let edge = if count > 0 { span.to() } else { span.from() };
+    let inside = step.multiple_from(step.multiple_from(edge, count.signum()), -count.signum());
+    if span.contains(inside) { inside } else { value }
+}
+
+/// Does what a click on a point of the plot in focus means: a motion starts there in the phase plane,
+/// the cursor goes there elsewhere.
+pub fn point_at(session: &mut Session, point: Point) -> Vec<Effect> {
+    let Some(plot) = session.focused_mut() else { return Vec::new() };
+    plot.cursor = Some(point);
+    if plot.view == View::Phase { start_here(session) } else { Vec::new() }
+}
+
+/// Drops the cursor of the plot in focus.
+pub fn drop_cursor(session: &mut Session) -> Vec<Effect> {
+    if session.writing.is_some() {
+        return vec![Effect::StopWriting];
+    }
+    if session.focuses_scan() {
+        return super::scan::stop(session);
+    }
+    if let Some(plot) = session.focused_mut() {
+        plot.cursor = None;
+    }
+    Vec::new()
+}
+
+/// Zooms the plot in focus about its cursor, or about its middle.
+pub fn zoom(session: &mut Session, closer: bool) -> Vec<Effect> {
+    zoom_about(session, |plot| plot.cursor.unwrap_or(plot.window.center()), closer)
+}
+
+/// Zooms the plot in focus about a point of it.
+pub fn zoom_about(
+    session: &mut Session,
+    about: impl FnOnce(&Plot) -> Point,
+    closer: bool,
+) -> Vec<Effect> {
+    let factor = if closer { 1.0 / ZOOM } else { ZOOM };
+    frame(session, |plot| {
+        let (Window { x, y }, about) = (plot.window, about(plot));
+        Window { x: x.scaled(about.x, factor), y: y.scaled(about.y, factor) }
+    })
+}
+
+/// Moves the window of the plot in focus.
+pub fn pan(session: &mut Session, right: i32, up: i32) -> Vec<Effect> {
+    frame(session, |plot| {
+        let Window { x, y } = plot.window;
+        Window { x: x.shifted(PAN * f64::from(right)), y: y.shifted(PAN * f64::from(up)) }
+    })
+}
+
+/// Gives the plot in focus a window of the user's.
+fn frame(session: &mut Session, window: impl FnOnce(&Plot) -> Window) -> Vec<Effect> {
+    let framed = session.focused_mut().map(|plot| {
+        let (before, after) = (plot.window, window(plot));
+        (plot.window, plot.framing) = (after, Framing::User);
+        before != after
+    });
+    if framed == Some(false) {
+        refuse(session, "the window ends here: numbers closer or farther cannot be told apart");
+    }
+    Vec::new()
+}
+
+/// Fits the window of the plot in focus, as soon as what it shows is computed.
+pub fn fit(session: &mut Session) -> Vec<Effect> {
+    if let Some(plot) = session.focused_mut() {
+        plot.framing = Framing::Fitting;
+    }
+    Vec::new()
+}
+
+/// Gives the plot in focus the scene's window and axes.
+pub fn home(session: &mut Session) -> Vec<Effect> {
+    let index = session.plot;
+    let Some(plot) = session.focused() else { return Vec::new() };
+    let usual = Exhibit { view: plot.view, axes: plot.axes, window: None, family: None };
+    let exhibit = session.exhibit_of_scene(index, plot.view).unwrap_or(usual);
+    if let Some(plot) = session.focused_mut() {
+        let cursor = plot.cursor;
+        plot.show(&exhibit);
+        plot.cursor = cursor;
+    }
+    Vec::new()
+}
+
+/// The cursor of the plot in focus; without one, a line that says how to get it.
+fn cursor(session: &mut Session) -> Option<Point> {
+    let cursor = session.focused().and_then(|plot| plot.cursor);
+    if cursor.is_none() {
+        let text = "no cursor yet: {cursor-left}, {cursor-up} and so on show it";
+        refuse(session, told(session, text));
+    }
+    cursor
+}
+
+/// Takes the method and the accuracy of the row that the cursor is nearest to.
+pub fn use_method(session: &mut Session) -> Vec<Effect> {
+    let Pane::Plot(index) = session.focus else { return Vec::new() };
+    if cursor(session).is_none() {
+        return Vec::new();
+    }
+    match session.row_under_cursor(index).map(|row| row.problem) {
+        Some(row) => {
+            let taken = Problem { method: row.method, ..session.problem };
+            session.effort.measuring = true;
+            change(session, taken.with_setting(row.setting()));
+        }
+        None => refuse(session, "no method is compared here yet"),
+    }
+    Vec::new()
+}
+
+/// Gives the belt the speed under the cursor.
+pub fn take_speed(session: &mut Session) -> Vec<Effect> {
+    let Some(Point { x, .. }) = cursor(session) else { return Vec::new() };
+    match session.at_belt_speed(session.problem, x) {
+        Ok(stand) => {
+            put(session, stand);
+        }
+        Err(why) => refuse(session, why),
+    }
+    Vec::new()
+}
+
+/// Starts the motion where the cursor is: at its state, at the state that the motion has at its time, at
+/// rest at its displacement, or on its cycle.
+pub fn start_here(session: &mut Session) -> Vec<Effect> {
+    let Some(Point { x, y }) = cursor(session) else { return Vec::new() };
+    let initial = match session.focused().map(|plot| plot.view) {
+        Some(View::TimeSeries) => session.state_at(x),
+        Some(View::EnergyLedger) => session.start_of_line(y),
+        Some(View::ReturnMap | View::Belt) => Some(State { q: x, v: 0.0 }),
+        Some(View::EnergyRate) => Some(State { v: x, ..session.problem.initial }),
+        Some(View::Scan | View::Eigenvalues | View::Speeds) => return Vec::new(),
+        Some(View::Phase | View::Diagram | View::Regimes | View::Trade) | None => {
+            Some(State { q: x, v: y })
+        }
+    };
+    match initial {
+        Some(initial) => {
+            change(session, Problem { initial, ..session.problem });
+            // The phase plane shows it; from another view it may be out of sight.
+            if session.focused().is_some_and(|plot| plot.view != View::Phase) {
+                let State { q, v } = initial;
+                inform(session, format!("q0 = {}, v0 = {}", shortest(q), shortest(v)));
+            }
+        }
+        None => refuse(session, "there is no motion to be taken here"),
+    }
+    Vec::new()
+}
+
+/// Gives the parameter of a diagram, or both of a chart, the values under its cursor.
+pub fn jump_here(session: &mut Session) -> Vec<Effect> {
+    let Some(cursor) = cursor(session) else { return Vec::new() };
+    let Some((view, axes)) = session.focused().map(|plot| (plot.view, plot.axes)) else {
+        return Vec::new();
+    };
+    let upwards = (view == View::Regimes).then_some((axes.against, cursor.y));
+    let mut problem = session.problem;
+    for (symbol, value) in [(axes.abscissa, cursor.x)].into_iter().chain(upwards) {
+        match symbol.spec().check(value) {
+            Ok(value) => symbol.set(&mut problem.parameters, &mut problem.initial, value),
+            Err(refused) => {
+                refuse(session, refused.to_string());
+                return Vec::new();
+            }
+        }
+    }
+    change(session, problem);
+    Vec::new()
+}

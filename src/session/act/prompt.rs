@@ -1,0 +1,94 @@
+//! The command line: it opens, completes, remembers, and runs what is typed.
+
+use crate::session::effect::Effect;
+use crate::session::read::completion::completion;
+use crate::session::state::command::Chosen;
+use crate::session::state::input::Input;
+use crate::session::state::overlay::{Completion, Overlay, Prompt};
+use crate::session::state::session::Session;
+
+/// Lines that are remembered at most.
+const REMEMBERED: usize = 200;
+
+/// Opens an empty line.
+pub fn open(session: &mut Session) -> Vec<Effect> {
+    open_with(session, String::new())
+}
+
+/// Opens the line with a text to go on from.
+pub fn open_with(session: &mut Session, text: String) -> Vec<Effect> {
+    session.overlay = Some(Overlay::Prompt(Prompt::new(text)));
+    Vec::new()
+}
+
+/// The typed command, to be run. An empty line is closed.
+pub fn accept(session: &mut Session) -> Option<Chosen> {
+    let Some(Overlay::Prompt(prompt)) = &session.overlay else { return None };
+    let text = prompt.input.text().trim().to_owned();
+    if text.is_empty() {
+        session.overlay = None;
+        return None;
+    }
+    remember(session, &text);
+    Some(Chosen::Line(text))
+}
+
+/// Keeps a line, as the newest one and only once.
+fn remember(session: &mut Session, text: &str) {
+    session.lines.retain(|line| line != text);
+    session.lines.push(text.to_owned());
+    let surplus = session.lines.len().saturating_sub(REMEMBERED);
+    session.lines.drain(..surplus);
+}
+
+/// Gets an older line, or a newer one; the newest is the one that was being typed.
+pub fn recall(session: &mut Session, by: isize) -> Vec<Effect> {
+    let lines = session.lines.clone();
+    let Some(Overlay::Prompt(prompt)) = &mut session.overlay else { return Vec::new() };
+    let back = prompt.back.saturating_add_signed(by).min(lines.len());
+    if back == prompt.back {
+        return Vec::new();
+    }
+    if prompt.back == 0 {
+        prompt.input.text().clone_into(&mut prompt.draft);
+    }
+    let text = match back {
+        0 => prompt.draft.clone(),
+        back => lines[lines.len() - back].clone(),
+    };
+    let draft = std::mem::take(&mut prompt.draft);
+    *prompt = Prompt { back, draft, ..Prompt::new(text) };
+    Vec::new()
+}
+
+/// Completes the word before the caret; again, its next possibility.
+pub fn complete(session: &mut Session, by: isize) -> Vec<Effect> {
+    let Some(Overlay::Prompt(prompt)) = &session.overlay else { return Vec::new() };
+    let found = match &prompt.completion {
+        Some(Completion { stem, words, at }) => {
+            let next = at.checked_add_signed(by).unwrap_or(words.len() - 1) % words.len();
+            Some(Completion { stem: stem.clone(), words: words.clone(), at: next })
+        }
+        None => completion(session, prompt.input.halves().0),
+    };
+    let Some(Overlay::Prompt(prompt)) = &mut session.overlay else { return Vec::new() };
+    let Some(completion) = found else {
+        prompt.refused = Some("nothing to complete here".to_owned());
+        return Vec::new();
+    };
+    let after = prompt.input.halves().1.to_owned();
+    let Completion { stem, words, at } = &completion;
+    let mut text = format!("{stem}{}", words[*at]);
+    // A word that is complete is done with, unless something is to follow it at once.
+    let only = words.len() == 1;
+    if only && !text.ends_with('=') && !after.starts_with(' ') {
+        text.push(' ');
+    }
+    prompt.input = Input::new(text);
+    for char in after.chars() {
+        prompt.input.insert(char);
+    }
+    prompt.input.move_caret(-isize::try_from(after.chars().count()).unwrap_or(0));
+    (prompt.refused, prompt.completion) = (None, (!only).then_some(completion));
+    Vec::new()
+}

@@ -1,0 +1,239 @@
+//! Scans: the form, starting and stopping, moving over the points, and what to do with one of them.
+
+use std::path::PathBuf;
+
+use crate::flow::Problem;
+use crate::scene::View;
+use crate::session::act::desk::show;
+use crate::session::act::focus::focus_on;
+use crate::session::act::notice::{inform, refuse};
+use crate::session::act::parameters::change;
+use crate::session::effect::Effect;
+use crate::session::read::scan::scan_of;
+use crate::session::read::scan::typed;
+use crate::session::state::input::Input;
+use crate::session::state::overlay::Overlay;
+use crate::session::state::plot::Pane;
+use crate::session::state::rows::Row;
+use crate::session::state::scan::{Progress, Scanned};
+use crate::session::state::scan_form::Form;
+use crate::session::state::session::Session;
+use crate::session::state::step_size::shortest;
+use crate::study::scan::Scan;
+use crate::study::scan::Sweep;
+
+/// Where a key saves the rows; the command line knows other names.
+pub const FILE: &str = "scan.csv";
+
+/// Rows that the page keys move.
+pub const PAGE: isize = 10;
+
+/// Opens the form: the last one, or one over the parameter at hand.
+pub fn open(session: &mut Session) -> Vec<Effect> {
+    let form = session.scan_form.clone().unwrap_or_else(|| fresh(session));
+    session.overlay = Some(Overlay::Scan(Form { refused: None, ..form }));
+    Vec::new()
+}
+
+/// A form over the parameter of a diagram on show, else over the selected one about its value.
+fn fresh(session: &Session) -> Form {
+    let diagrams = session.plots.iter().filter(|plot| plot.view == View::Diagram);
+    if let Some(diagram) = diagrams.into_iter().next() {
+        let symbol = diagram.axes.abscissa;
+        let (spec, x) = (symbol.spec(), diagram.window.x);
+        if let Some(span) = x.within(spec.min, spec.max) {
+            return Form::new(symbol, (span.from(), span.to()));
+        }
+    }
+    let Row::Parameter(symbol) = session.selected else {
+        return Form::new(crate::oscillator::Symbol::D, (-0.9, 0.0));
+    };
+    let (spec, value) = (symbol.spec(), session.value(symbol));
+    let reach = 10.0 * spec.step;
+    Form::new(symbol, ((value - reach).max(spec.min), (value + reach).min(spec.max)))
+}
+
+fn form(session: &mut Session) -> Option<&mut Form> {
+    match &mut session.overlay {
+        Some(Overlay::Scan(form)) => Some(form),
+        _ => None,
+    }
+}
+
+/// Goes to another field, around the ends.
+pub fn go_to_field(session: &mut Session, by: isize) -> Vec<Effect> {
+    if let Some(form) = form(session) {
+        let count = form.inputs.len();
+        form.at = form.at.checked_add_signed(by).unwrap_or(count - 1) % count;
+    }
+    Vec::new()
+}
+
+/// Takes the next choice of a field that has some; moves the caret of any other.
+pub fn sideways(session: &mut Session, by: isize) -> Vec<Effect> {
+    let Some(form) = form(session) else { return Vec::new() };
+    let choices = Form::choices(form.at);
+    if choices.is_empty() {
+        form.input_mut().move_caret(by);
+        return Vec::new();
+    }
+    form.refused = None;
+    let now = choices.iter().position(|choice| *choice == form.input_mut().text());
+    let next = match now {
+        Some(now) => now.checked_add_signed(by).unwrap_or(choices.len() - 1) % choices.len(),
+        None => 0,
+    };
+    *form.input_mut() = Input::new(choices[next]);
+    Vec::new()
+}
+
+/// Starts the scan that is typed, or says in the form why not.
+pub fn accept(session: &mut Session) -> Vec<Effect> {
+    let Some(Overlay::Scan(filled)) = session.overlay.clone() else { return Vec::new() };
+    match typed(&filled, session) {
+        Ok(scan) => {
+            session.overlay = None;
+            session.scan_form = Some(filled);
+            start(session, scan)
+        }
+        Err(why) => {
+            if let Some(form) = form(session) {
+                form.refused = Some(why);
+            }
+            Vec::new()
+        }
+    }
+}
+
+/// Starts a scan, and shows it: where one is on show already, else in the plot in use.
+pub fn start(session: &mut Session, scan: Scan) -> Vec<Effect> {
+    session.scanned = Some(Scanned::begun(scan));
+    let mut shown = session.on_show().filter(|index| session.plots[*index].view == View::Scan);
+    match shown.next() {
+        Some(index) => focus_on(session, Pane::Plot(index)),
+        None => drop(show(session, View::Scan)),
+    }
+    refit(session);
+    inform(session, "scanning");
+    Vec::new()
+}
+
+/// Stops the scan, and keeps what is done.
+pub fn stop(session: &mut Session) -> Vec<Effect> {
+    let Some(scanned) = &mut session.scanned else { return Vec::new() };
+    if scanned.request().is_some() {
+        scanned.progress = Progress::Stopped;
+        let (rows, points) = (scanned.rows.len(), scanned.scan.points());
+        inform(session, format!("stopped: {rows} of {points} rows; P goes on"));
+    }
+    Vec::new()
+}
+
+/// Stops a scan that runs, goes on with one that was stopped.
+pub fn pause(session: &mut Session) -> Vec<Effect> {
+    let Some(scanned) = &mut session.scanned else { return none(session) };
+    match scanned.progress {
+        Progress::Running { .. } => return stop(session),
+        Progress::Stopped => {
+            scanned.progress = Progress::Running { from: scanned.rows.len() };
+            inform(session, "scanning");
+        }
+        Progress::Done => inform(session, "the scan is done"),
+    }
+    Vec::new()
+}
+
+fn none(session: &mut Session) -> Vec<Effect> {
+    refuse(session, "there is no scan");
+    Vec::new()
+}
+
+/// Plots the next measured column.
+pub fn next_column(session: &mut Session, by: isize) -> Vec<Effect> {
+    let Some(scanned) = &mut session.scanned else { return none(session) };
+    let count = scanned.scan.measured().len();
+    scanned.column = scanned.column.checked_add_signed(by).unwrap_or(count - 1) % count;
+    refit(session);
+    Vec::new()
+}
+
+/// Lists the rows, or plots them.
+pub fn table(session: &mut Session) -> Vec<Effect> {
+    let Some(scanned) = &mut session.scanned else { return none(session) };
+    scanned.table = !scanned.table;
+    Vec::new()
+}
+
+fn refit(session: &mut Session) {
+    let Some(scanned) = &session.scanned else { return };
+    let window = scanned.window();
+    for plot in session.plots.iter_mut().filter(|plot| plot.view == View::Scan) {
+        plot.window = window;
+    }
+}
+
+/// Moves over the points, computed or not: `right` along the axis to the right, `up` along the other one of a
+/// grid. In a table and along a line both move along the rows.
+pub fn go(session: &mut Session, right: isize, up: isize) -> Vec<Effect> {
+    let Some(scanned) = &mut session.scanned else { return none(session) };
+    let last = scanned.scan.points().saturating_sub(1);
+    let over = scanned.scan.over();
+    if scanned.table || !scanned.is_grid() {
+        scanned.at = scanned.at.saturating_add_signed(right.saturating_sub(up)).min(last);
+        return Vec::new();
+    }
+    let columns: usize = over[1..].iter().map(|sweep| sweep.count).product();
+    let step: usize = over[2..].iter().map(|sweep| sweep.count).product();
+    let (column, row) = (scanned.at / columns, scanned.at % columns);
+    let column = column.saturating_add_signed(right).min(over[0].count - 1);
+    let row = row.saturating_add_signed(up.saturating_mul(step.cast_signed())).min(columns - 1);
+    scanned.at = (column * columns + row).min(last);
+    Vec::new()
+}
+
+/// Gives the motion on show the parameters of the point that is looked at.
+pub fn take(session: &mut Session) -> Vec<Effect> {
+    let Some(scanned) = &session.scanned else { return none(session) };
+    let Problem { parameters, initial, .. } = scanned.scan.problem(scanned.at);
+    let mut problem = session.problem;
+    let mut said = Vec::new();
+    for sweep in scanned.scan.over() {
+        let value = sweep.symbol.get(&parameters, &initial);
+        sweep.symbol.set(&mut problem.parameters, &mut problem.initial, value);
+        said.push(format!("{} = {}", sweep.symbol, shortest(value)));
+    }
+    change(session, problem);
+    inform(session, said.join(", "));
+    Vec::new()
+}
+
+/// Writes the rows so far to a file, in the form of the command `scan`.
+pub fn save(session: &mut Session, path: PathBuf) -> Vec<Effect> {
+    let Some(scanned) = &session.scanned else { return none(session) };
+    let (scan, rows) = (std::sync::Arc::clone(&scanned.scan), scanned.rows.clone());
+    vec![Effect::SaveScan { path, scan, rows }]
+}
+
+/// `NAME=FROM:TO:COUNT .. MEASURE,..`
+///
+/// # Errors
+/// One line that says what is wrong and what is allowed.
+pub fn scan(session: &mut Session, rest: &str) -> Result<Vec<Effect>, String> {
+    let (sweeps, measures): (Vec<&str>, Vec<&str>) =
+        rest.split_whitespace().partition(|word| word.contains('='));
+    let over = sweeps.into_iter().map(str::parse).collect::<Result<Vec<Sweep>, _>>()?;
+    let measures = if measures.is_empty() { "margin".to_owned() } else { measures.join(",") };
+    let scan = scan_of(session, over, &measures)?;
+    Ok(start(session, scan))
+}
+
+/// The file for the rows.
+///
+/// # Errors
+/// One line, where there is no scan.
+pub fn save_to(session: &mut Session, rest: &str) -> Result<Vec<Effect>, String> {
+    if session.scanned.is_none() {
+        return Err("there is no scan".to_owned());
+    }
+    Ok(save(session, rest.into()))
+}

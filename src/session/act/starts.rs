@@ -1,0 +1,62 @@
+//! Starts on either side of the edge of the basin: what is captured, and what is not.
+
+use crate::flow::Problem;
+use crate::oscillator::State;
+use crate::scene::Slot;
+use crate::session::act::notice::{refuse, told};
+use crate::session::act::parameters::change;
+use crate::session::effect::Effect;
+use crate::session::state::session::Session;
+use crate::session::state::step_size::decimal_sum;
+use crate::study::{Cycles, Edge};
+
+/// Clearance from the sticking set, in that of the edge: near enough to stay close for a while, far
+/// enough to be seen apart.
+pub const INSIDE: f64 = 0.95;
+
+/// As [`INSIDE`], on the other side.
+pub const OUTSIDE: f64 = 1.05;
+
+/// Starts the motion at rest beside the turning point of the edge: the smallest unstable cycle's on the
+/// right, or the separatrix's.
+pub fn beside_edge(session: &mut Session, factor: f64) -> Vec<Effect> {
+    match beside(session, factor) {
+        Ok(q) => {
+            let initial = State { q, v: 0.0 };
+            change(session, Problem { initial, ..session.problem });
+        }
+        Err(why) => refuse(session, told(session, &why)),
+    }
+    Vec::new()
+}
+
+/// The clearance of the edge from the sticking set, and the side (1 or -1) on which it turns.
+fn edge(found: &Cycles) -> Option<(f64, f64)> {
+    if found.edge != Edge::Separatrix {
+        return found.cycles.iter().find(|cycle| !cycle.stable).map(|cycle| (cycle.clearance, 1.0));
+    }
+    // Escape is to the side where D2 feeds the motion: to the left, from the right, for D2 > 0.
+    let displacement = found.picture.as_ref()?.margin.displacement?;
+    Some(((displacement - found.parameters.r).max(0.0), 1.0_f64.copysign(found.parameters.d2)))
+}
+
+fn beside(session: &Session, factor: f64) -> Result<f64, String> {
+    if session.is_stale(Slot::Cycles, session.plot) {
+        return Err(match session.failure(Slot::Cycles, session.plot) {
+            Some(why) => format!("the cycles are not known: {why}"),
+            None => "the cycles are not computed: {layers} lists the layers".to_owned(),
+        });
+    }
+    let edge = session.cycles().and_then(edge);
+    let (clearance, side) =
+        edge.ok_or("there is no edge to start beside: neither cycle nor separatrix")?;
+    let r = session.problem.parameters.r;
+    let outside = factor > 1.0;
+    let keeps_side = |q: &f64| if outside { q - r > clearance } else { q - r < clearance };
+    // Three digits are enough and good to read, unless the edge is very close to the sticking set.
+    let short = format!("{:.2e}", factor * clearance).parse().unwrap_or(clearance);
+    let candidates = [decimal_sum(r, short), r + factor * clearance];
+    // An edge can pass closer to r than floating point resolves: then only rest is inside of it.
+    let last = if outside { (r + clearance).next_up() } else { r };
+    Ok(side * candidates.into_iter().find(keeps_side).unwrap_or(last))
+}

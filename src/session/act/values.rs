@@ -1,0 +1,209 @@
+//! Lines that give values: parameters, scene, views, layers, looks; and what completes them.
+
+use std::sync::Arc;
+
+use crate::scene::{
+    ABSCISSAE, Axes, LAYERS, ORDINATES, Ordinate, Span, Unit, VIEWS, View, Window, find,
+};
+use crate::session::act::notice::inform;
+use crate::session::act::{axes as axis, desk, entry, general, macros, marks, parameters};
+use crate::session::act::{focus, history};
+use crate::session::effect::Effect;
+use crate::session::read::completion::{properties, rows};
+use crate::session::state::pending::MOST;
+use crate::session::state::plot::{Framing, Pane};
+use crate::session::state::rows::Row;
+use crate::session::state::session::MOST_HARMONICS;
+use crate::session::state::session::Session;
+use crate::session::state::settings::{COLORS, GLYPHS, THEMES, named};
+
+/// What a line has done, or why not.
+type Done = Result<Vec<Effect>, String>;
+
+/// Names in a row, for a line that says what is allowed.
+fn listed<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+    names.into_iter().collect::<Vec<_>>().join(", ")
+}
+
+/// The row of the parameter pane with this name.
+fn row_named(session: &Session, name: &str) -> Result<Row, String> {
+    let all = || listed(rows(session).map(Row::name));
+    let found = rows(session).find(|row| row.name() == name);
+    found.ok_or_else(|| format!("no value {name:?}; there are {}", all()))
+}
+
+/// `NAME=VALUE ..`, as one change. What stands behind a blank without a name is the unit of the value
+/// before it.
+pub fn set(session: &mut Session, rest: &str) -> Done {
+    let mut given: Vec<(&str, String)> = Vec::new();
+    for word in rest.split_whitespace() {
+        match (word.split_once('='), given.last_mut()) {
+            (Some((name, value)), _) => given.push((name, value.to_owned())),
+            (None, Some(("belt", value))) => *value = format!("{value} {word}"),
+            (None, _) => return Err(format!("{word:?} is no NAME=VALUE, such as D=-0.3")),
+        }
+    }
+    let mut stand = session.stand();
+    for (name, value) in given {
+        stand = entry::read(session, stand, row_named(session, name)?, &value)?;
+    }
+    parameters::put(session, stand);
+    Ok(Vec::new())
+}
+
+/// A single value.
+pub fn set_row(session: &mut Session, row: &str, value: &str) -> Done {
+    let row = row_named(session, row)?;
+    let stand = entry::read(session, session.stand(), row, value)?;
+    parameters::put(session, stand);
+    Ok(Vec::new())
+}
+
+/// Opens a scene.
+pub fn scene(session: &mut Session, name: &str) -> Done {
+    let scene = find(name).map_err(|missing| missing.to_string())?;
+    history::open_scene(session, Arc::clone(&scene));
+    Ok(Vec::new())
+}
+
+/// Shows a view in the plot in use.
+pub fn view(session: &mut Session, name: &str) -> Done {
+    let row = VIEWS.iter().find(|row| row.name == name);
+    let row = row.ok_or_else(|| {
+        format!("no view {name:?}; there are {}", listed(VIEWS.iter().map(|row| row.name)))
+    })?;
+    Ok(desk::show(session, row.view))
+}
+
+/// Switches a layer on, off, or to what it is not.
+pub fn layer(session: &mut Session, rest: &str) -> Done {
+    let (name, state) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
+    let row = LAYERS.iter().find(|row| row.name == name);
+    let row = row.ok_or_else(|| {
+        format!("no layer {name:?}; there are {}", listed(LAYERS.iter().map(|row| row.name)))
+    })?;
+    let is_on = session.layers.contains(&row.layer);
+    let wanted = match state.trim() {
+        "" => !is_on,
+        "on" => true,
+        "off" => false,
+        other => return Err(format!("{name} can be on or off, not {other:?}")),
+    };
+    Ok(if wanted == is_on { Vec::new() } else { general::toggle(session, row.layer) })
+}
+
+/// Shows a part of the world in the plot in use.
+pub fn window(session: &mut Session, rest: &str) -> Done {
+    let form = || format!("{rest:?} is no X0:X1,Y0:Y1, such as -2:2,-1:1");
+    let (x, y) = rest.split_once(',').ok_or_else(form)?;
+    let span = |text: &str| {
+        let (from, to) = text.split_once(':').ok_or_else(form)?;
+        let number = |text: &str| text.trim().parse::<f64>().map_err(|_| form());
+        Span::new(number(from)?, number(to)?).map_err(|refused| refused.to_string())
+    };
+    let window = Window { x: span(x)?, y: span(y)? };
+    let index = session.plot;
+    let plot = &mut session.plots[index];
+    (plot.window, plot.framing) = (window, Framing::User);
+    Ok(Vec::new())
+}
+
+/// Gives the diagram in use its axes: a parameter, and perhaps a property of the cycles.
+pub fn axes(session: &mut Session, rest: &str) -> Done {
+    let (over, property) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
+    let allowed = || ABSCISSAE.iter().map(|(symbol, _)| symbol.spec().name);
+    let (abscissa, _) = ABSCISSAE
+        .iter()
+        .find(|(symbol, _)| symbol.spec().name == over)
+        .ok_or_else(|| format!("no diagram over {over:?}; there are {}", listed(allowed())))?;
+    let index = diagram(session).ok_or("no plot shows a diagram; view diagram makes one")?;
+    let axes = session.plots[index].axes;
+    let (ordinate, unit) = match property.trim() {
+        "" => (axes.ordinate, axes.unit),
+        name => property_named(name)?,
+    };
+    focus::focus_on(session, Pane::Plot(index));
+    axis::set(session, Axes { abscissa: *abscissa, ordinate, unit, ..axes });
+    Ok(Vec::new())
+}
+
+/// The property with this name, and what it is measured in.
+fn property_named(name: &str) -> Result<(Ordinate, Unit), String> {
+    let (base, unit) =
+        name.strip_suffix("/r").map_or((name, Unit::One), |base| (base, Unit::Friction));
+    let row = ORDINATES.iter().find(|row| row.name == base);
+    let row = row.filter(|row| unit == Unit::One || row.ratio.is_some());
+    row.map(|row| (row.ordinate, unit)).ok_or_else(|| {
+        let names: Vec<String> = properties().collect();
+        format!("no property {name:?}; there are {}", names.join(", "))
+    })
+}
+
+/// The plot in use if it is a diagram, else the first one on show.
+fn diagram(session: &Session) -> Option<usize> {
+    let is_one = |index: &usize| session.plots[*index].view == View::Diagram;
+    Some(session.plot).filter(is_one).or_else(|| session.on_show().find(is_one))
+}
+
+/// Shows the cycles of N harmonics.
+pub fn harmonics(session: &mut Session, rest: &str) -> Done {
+    let most = MOST_HARMONICS;
+    let count = rest.parse().ok().filter(|count| (1..=most).contains(count));
+    session.harmonics =
+        count.ok_or_else(|| format!("{rest:?} is no number of harmonics from 1 to {most}"))?;
+    session.layers.insert(crate::scene::Layer::Balance);
+    inform(session, format!("harmonic balance with N = {rest}"));
+    Ok(Vec::new())
+}
+
+/// The letter of a register or mark.
+pub fn letter(text: &str) -> Result<char, String> {
+    let mut chars = text.chars();
+    match (chars.next(), chars.next()) {
+        (Some(letter @ 'a'..='z'), None) => Ok(letter),
+        _ => Err(format!("{text:?} is no letter from a to z")),
+    }
+}
+
+/// Marks this point.
+pub fn mark(session: &mut Session, rest: &str) -> Done {
+    Ok(marks::set(session, letter(rest)?))
+}
+
+/// Goes to a mark.
+pub fn go_to(session: &mut Session, rest: &str) -> Done {
+    Ok(marks::go_to(session, letter(rest)?))
+}
+
+/// Plays a register, perhaps many times.
+pub fn play(session: &mut Session, rest: &str) -> Done {
+    let (name, times) = rest.split_once(char::is_whitespace).unwrap_or((rest, "1"));
+    let most = MOST;
+    let count = times.trim().parse().ok().filter(|count| (1..=most).contains(count));
+    let count = count.ok_or_else(|| format!("{times:?} is no number from 1 to {most}"))?;
+    Ok(macros::play(session, letter(name)?, count))
+}
+
+/// The value with a name in a table of looks.
+fn look<T: Copy>(table: &[(T, &'static str)], name: &str) -> Result<T, String> {
+    let names = || listed(table.iter().map(|row| row.1));
+    named(table, name).ok_or_else(|| format!("no {name:?}; there are {}", names()))
+}
+
+/// Uses a theme.
+pub fn theme(session: &mut Session, name: &str) -> Done {
+    session.look.theme = look(&THEMES, name)?;
+    Ok(Vec::new())
+}
+
+/// Draws with a set of characters.
+pub fn glyphs(session: &mut Session, name: &str) -> Done {
+    session.look.glyphs = look(&GLYPHS, name)?;
+    Ok(Vec::new())
+}
+
+/// Uses so many colours.
+pub fn color(session: &mut Session, name: &str) -> Done {
+    session.look.colors = look(&COLORS, name)?;
+    Ok(Vec::new())
+}

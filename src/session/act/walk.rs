@@ -1,0 +1,137 @@
+//! Walking along the branch: a point is held, moved along, and taken into the phase plane.
+
+use crate::oscillator::State;
+use crate::scene::{Axes, Layer, Slot};
+use crate::session::act::notice::{inform, refuse, told};
+use crate::session::act::parameters::change;
+use crate::session::effect::Effect;
+use crate::session::read::walk::Way;
+use crate::session::state::plot::{Pane, Plot};
+use crate::session::state::session::Session;
+use crate::session::state::step_size::shortest;
+use crate::session::state::stop::Stop;
+
+/// Points that a far move takes.
+pub const FAR: isize = 10;
+
+/// Takes hold of the branch: at the cursor of the diagram if there is one, else at today's value.
+pub fn take_hold(session: &mut Session) -> Vec<Effect> {
+    match first(session) {
+        Ok(stop) => session.held = Some(stop),
+        Err(why) => {
+            let why = told(session, why);
+            refuse(session, why);
+        }
+    }
+    Vec::new()
+}
+
+fn first(session: &Session) -> Result<Stop, &'static str> {
+    let index = session.plot;
+    if !session.shows_in(Layer::Branch, index) {
+        return Err("the branch is not shown: {layers} lists the layers");
+    }
+    let branches = session.branches(index);
+    if branches.is_empty() || is_stale(session, index) {
+        return Err("the branch is not known: its computation gave up");
+    }
+    let way = Way::along(&branches);
+    let Plot { axes: Axes { abscissa, .. }, window, cursor, .. } = &session.plots[index];
+    let found = if let Some(cursor) = cursor {
+        way.nearest(|stop| {
+            let of = session.height(index, stop.variant);
+            let height = stop.cycle.map_or(window.y.to(), |cycle| of.of(stop.value, &cycle));
+            let across = window.x.fraction(stop.value) - window.x.fraction(cursor.x);
+            across.hypot(window.y.fraction(height) - window.y.fraction(cursor.y))
+        })
+    } else {
+        // The branch of the present motion, where the plot shows that too.
+        let shown = session.shown(index);
+        let present = shown.iter().position(|shown| shown.problem == session.problem);
+        let own = branches.into_iter().filter(|(variant, _)| Some(*variant) == present);
+        let own = Way::along(&own.collect::<Vec<_>>());
+        let value = session.value(*abscissa);
+        own.start(value).or_else(|| way.start(value))
+    };
+    found.ok_or("there is no cycle in this diagram to take hold of")
+}
+
+/// Goes `count` points along the piece of the branch that is held.
+pub fn go(session: &mut Session, count: isize) -> Vec<Effect> {
+    let further = |way: &Way, held: &Stop| way.further(held, count);
+    if !moved(session, further) {
+        let text = "the branch ends here; {walk-to-next} goes on to the next special point or end";
+        inform(session, told(session, text));
+    }
+    Vec::new()
+}
+
+/// Goes to the next special point or end of a piece.
+pub fn go_to_landmark(session: &mut Session, onward: bool) -> Vec<Effect> {
+    moved(session, |way, held| way.landmark(held, onward));
+    Vec::new()
+}
+
+/// Holds another point; returns whether it is another.
+fn moved(session: &mut Session, choose: impl Fn(&Way, &Stop) -> Option<Stop>) -> bool {
+    let Some(held) = session.held else { return false };
+    let found = choose(&Way::along(&session.branches(session.plot)), &held).unwrap_or(held);
+    session.held = Some(found);
+    found != held
+}
+
+/// Whether the branches on show are not those of today's values.
+fn is_stale(session: &Session, plot: usize) -> bool {
+    session.is_stale(session.slot_in(Slot::Branch, plot), plot)
+}
+
+/// Gives the parameter the value of the point, and starts the motion on its cycle, as one change. On the
+/// branch of a variant the values that it holds come along.
+pub fn take(session: &mut Session) -> Vec<Effect> {
+    let Some(held) = session.held else { return Vec::new() };
+    let abscissa = session.plots[session.plot].axes.abscissa;
+    let spec = abscissa.spec();
+    let value = match spec.check(held.value) {
+        Ok(value) => value,
+        Err(refused) => {
+            refuse(session, refused.to_string());
+            return Vec::new();
+        }
+    };
+    let shown = session.shown(session.plot);
+    let Some(variant) = shown.get(held.variant) else { return Vec::new() };
+    let mut problem = variant.problem;
+    abscissa.set(&mut problem.parameters, &mut problem.initial, value);
+    // Where the cycle has gone to infinity there is no start on it: the old one stays.
+    if let Some(cycle) = held.cycle {
+        problem.initial = State { q: cycle.q_max, v: 0.0 };
+    }
+    change(session, problem);
+    let start = held.cycle.map(|_| ", and the motion starts on its cycle").unwrap_or_default();
+    let also = if variant.label.is_empty() { "" } else { ", " };
+    let label = &variant.label;
+    inform(session, format!("{} = {}{also}{label}{start}", spec.name, shortest(value)));
+    Vec::new()
+}
+
+/// Lets go of the branch.
+pub fn let_go(session: &mut Session) -> Vec<Effect> {
+    session.held = None;
+    Vec::new()
+}
+
+/// Keeps hold of a point of the branch on show when that is computed anew, and of none when there is no
+/// branch any more.
+pub(in crate::session) fn keep_hold(session: &mut Session) {
+    let Some(held) = session.held else { return };
+    let index = session.plot;
+    let on_show = session.focus == Pane::Plot(index) && session.shows_in(Layer::Branch, index);
+    let branches = session.branches(index);
+    session.held = if !on_show {
+        None
+    } else if is_stale(session, index) {
+        Some(held).filter(|_| branches.iter().any(|(_, branch)| !branch.pieces.is_empty()))
+    } else {
+        Way::along(&branches).again(&held)
+    };
+}

@@ -1,0 +1,135 @@
+//! The command line: everything that has a name, typed after a colon.
+//!
+//! The one table of the commands that take words; it feeds the line itself, its completion, the palette and
+//! the help. Every command of a key can be typed by its name too. A line is run as a whole or not at all,
+//! and a line that is refused says what is allowed.
+
+use crate::session::act::{files, scan, values};
+use crate::session::effect::Effect;
+use crate::session::message::Purpose;
+use crate::session::state::command::{LineCommand, Words};
+use crate::session::state::session::Session;
+
+/// What a line does to a session, given the words behind its name; or one line that says why not.
+pub(super) type RunLine = fn(&mut Session, &str) -> Result<Vec<Effect>, String>;
+
+/// A command that takes words, and what it does.
+#[derive(Debug)]
+struct Row {
+    line: LineCommand,
+    run: RunLine,
+}
+
+/// A row of the table.
+const fn row(
+    name: &'static str,
+    arguments: &'static str,
+    doc: &'static str,
+    words: Words,
+    run: RunLine,
+) -> Row {
+    Row { line: LineCommand { name, arguments, doc, words }, run }
+}
+
+/// Every command that takes words, in the order in which the help lists them.
+#[rustfmt::skip]
+const LINES: &[Row] = &[
+    row("set", "NAME=VALUE ..", "Give values, as one change: set D=-0.3 D3=0.5 until=100",
+        Words::Assignments, values::set),
+    row("method", "NAME", "Integrate by this method",
+        Words::Methods, |s, rest| values::set_row(s, "method", rest)),
+    row("tol", "X", "Compute to this relative error of a step",
+        Words::Unknown, |s, rest| values::set_row(s, "tolerance", rest)),
+    row("until", "TAU", "Follow the motion until this time",
+        Words::Unknown, |s, rest| values::set_row(s, "until", rest)),
+    row("scene", "NAME", "Open a scene",
+        Words::Scenes, values::scene),
+    row("view", "NAME", "Show a view in the plot in use",
+        Words::Views, values::view),
+    row("layer", "NAME [on|off]", "Switch a layer",
+        Words::Layers, values::layer),
+    row("window", "X0:X1,Y0:Y1", "Show this part of the world in the plot in use",
+        Words::Window, values::window),
+    row("axes", "PARAMETER [PROPERTY]", "Draw the diagram in use over a parameter: axes r period",
+        Words::Axes, values::axes),
+    row("scan", "NAME=FROM:TO:COUNT .. MEASURE,..", "Scan: scan D=-0.9:0:100 r=log:0.01:1:20 margin",
+        Words::Scan, scan::scan),
+    row("save-scan", "FILE", "Write the rows of the scan to a file, .csv or .json",
+        Words::Unknown, scan::save_to),
+    row("harmonics", "N", "Show the cycles of N harmonics",
+        Words::Unknown, values::harmonics),
+    row("mark", "LETTER", "Mark this point by a letter",
+        Words::Marks, values::mark),
+    row("goto", "LETTER", "Go to a mark",
+        Words::Marks, values::go_to),
+    row("macro", "LETTER [TIMES]", "Play the keys of a register",
+        Words::Registers, values::play),
+    row("write", "FILE", "Save the session; write! replaces a file that is there",
+        Words::Unknown, |s, rest| files::write(s, rest, false)),
+    row("write!", "FILE", "Save the session, in place of what is there",
+        Words::Unknown, |s, rest| files::write(s, rest, true)),
+    row("open", "FILE", "Go on with a saved session",
+        Words::Unknown, |_, rest| Ok(files::ask(rest, Purpose::Open))),
+    row("fit", "FILE", "Fit a recorded motion: times and displacements",
+        Words::Unknown, |_, rest| Ok(files::ask(rest, Purpose::Fit))),
+    row("figure", "FILE", "Write what is shown as .svg, .png, .csv or .json",
+        Words::Unknown, |s, rest| files::figure(s, rest, None, false)),
+    row("figure!", "FILE", "The same, in place of what is there",
+        Words::Unknown, |s, rest| files::figure(s, rest, None, true)),
+    row("figure-pane", "FILE", "Write the plot in use as .svg, .png, .csv or .json",
+        Words::Unknown, |s, rest| files::figure(s, rest, Some(s.plot), false)),
+    row("figure-pane!", "FILE", "The same, in place of what is there",
+        Words::Unknown, |s, rest| files::figure(s, rest, Some(s.plot), true)),
+    row("record", "FILE", "Write what was pressed since the start to a file",
+        Words::Unknown, |s, rest| Ok(files::record(s, rest, false))),
+    row("record!", "FILE", "The same, in place of what is there",
+        Words::Unknown, |s, rest| Ok(files::record(s, rest, true))),
+    row("play", "FILE", "Press the keys of a keystroke file",
+        Words::Unknown, |_, rest| Ok(files::ask(rest, Purpose::Play))),
+    row("write-macro", "LETTER FILE", "Write a register to a keystroke file",
+        Words::Registers, files::write_macro),
+    row("read-macro", "LETTER FILE", "Read a register from a keystroke file",
+        Words::Registers, files::read_macro),
+    row("theme", "NAME", "Use these colours",
+        Words::Themes, values::theme),
+    row("glyphs", "NAME", "Draw with these characters",
+        Words::Glyphs, values::glyphs),
+    row("color", "DEPTH", "Use this many colours",
+        Words::Colors, values::color),
+];
+
+/// Every command that takes words, in the order in which the help lists them.
+pub fn lines() -> impl Iterator<Item = &'static LineCommand> {
+    LINES.iter().map(|row| &row.line)
+}
+
+/// What the command that takes words with this name does.
+pub(super) fn run(name: &str) -> Option<RunLine> {
+    LINES.iter().find(|row| row.line.name == name).map(|row| row.run)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+    use crate::session::commands::commands;
+
+    #[test]
+    fn every_line_has_a_name_of_its_own_and_one_line_of_explanation() {
+        let names: BTreeSet<_> = lines().map(|line| line.name).collect();
+        assert_eq!(names.len(), LINES.len());
+        for LineCommand { name, arguments, doc, .. } in lines() {
+            assert!(!arguments.is_empty(), "{name} takes nothing: it is a row of COMMANDS");
+            assert!(doc.len() > 4 && doc.len() <= 60, "{name}: {doc}");
+            assert!(doc.starts_with(char::is_uppercase) && !doc.ends_with('.'), "{name}: {doc}");
+        }
+    }
+
+    #[test]
+    fn a_name_may_mean_a_key_too_only_where_the_key_takes_the_next_of_the_same() {
+        let is_key = |name: &&str| commands().any(|command| command.name == *name);
+        let both: Vec<_> = lines().map(|line| line.name).filter(is_key).collect();
+        assert_eq!(both, ["theme", "glyphs"]);
+    }
+}

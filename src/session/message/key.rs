@@ -1,0 +1,336 @@
+//! Keys, and the notation in which keystroke files, the key table and the help write them.
+//!
+//! A character stands for itself; the others are named in angle brackets with optional modifiers:
+//! `a`, `Z`, `?`, `<space>`, `<lt>`, `<hash>`, `<C-r>`, `<S-tab>`, `<A-left>`, `<f1>`, `<pgup>`,
+//! `<esc>`. What is printed can be read back, whatever the key.
+
+use std::fmt;
+use std::str::FromStr;
+
+/// Which key.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Code {
+    /// A printable character, as typed (shift is already in it).
+    Char(char),
+    /// Function key 1 to 12.
+    F(u8),
+    /// Arrow.
+    Left,
+    /// Arrow.
+    Right,
+    /// Arrow.
+    Up,
+    /// Arrow.
+    Down,
+    /// Enter.
+    Enter,
+    /// Escape.
+    Esc,
+    /// Tab (with shift: back tab).
+    Tab,
+    /// Backspace.
+    Backspace,
+    /// Delete.
+    Delete,
+    /// Insert.
+    Insert,
+    /// Home.
+    Home,
+    /// End.
+    End,
+    /// Page up.
+    PageUp,
+    /// Page down.
+    PageDown,
+}
+
+/// A key with its modifiers. Shift is only recorded for keys that are not characters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Key {
+    /// Which key.
+    pub code: Code,
+    /// With Control.
+    pub control: bool,
+    /// With Alt.
+    pub alt: bool,
+    /// With Shift, for keys that are not characters.
+    pub shift: bool,
+}
+
+/// Keys with a name, and the other names under which they are read.
+const NAMES: [(Code, &str, &[&str]); 15] = [
+    (Code::Left, "left", &[]),
+    (Code::Right, "right", &[]),
+    (Code::Up, "up", &[]),
+    (Code::Down, "down", &[]),
+    (Code::Enter, "enter", &["cr", "ret", "return"]),
+    (Code::Esc, "esc", &["escape"]),
+    (Code::Tab, "tab", &[]),
+    (Code::Backspace, "backspace", &["bs"]),
+    (Code::Delete, "del", &["delete"]),
+    (Code::Insert, "ins", &["insert"]),
+    (Code::Home, "home", &[]),
+    (Code::End, "end", &[]),
+    (Code::PageUp, "pgup", &["pageup"]),
+    (Code::PageDown, "pgdn", &["pagedown", "pgdown"]),
+    (Code::Char(' '), "space", &[]),
+];
+
+/// Characters that have a meaning of their own in keystroke files, and their names there.
+const SPECIAL: [(char, &str); 3] = [('<', "lt"), ('>', "gt"), ('#', "hash")];
+
+/// Function keys have numbers from 1 to this.
+const LAST_F: u8 = 12;
+
+/// Text that names no key.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NoKey {
+    /// The text, without its angle brackets.
+    pub text: String,
+    /// The name that looks most like it.
+    pub nearest: Option<&'static str>,
+}
+
+impl fmt::Display for NoKey {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "unknown key <{}>", self.text)?;
+        match self.nearest {
+            Some(name) => write!(out, "; did you mean <{name}>?"),
+            None => write!(out, "; a key is a character or a name such as <esc>, <C-r> or <S-tab>"),
+        }
+    }
+}
+
+impl std::error::Error for NoKey {}
+
+impl Key {
+    /// A key without modifiers.
+    #[must_use]
+    pub const fn plain(code: Code) -> Self {
+        Key { code, control: false, alt: false, shift: false }
+    }
+
+    /// A key as terminals mean it: shift is part of a character, and Control ignores its case.
+    #[must_use]
+    pub fn new(code: Code, control: bool, alt: bool, shift: bool) -> Self {
+        match code {
+            Code::Char(char) => {
+                let char = if control { char.to_ascii_lowercase() } else { char };
+                Key { code: Code::Char(char), control, alt, shift: false }
+            }
+            code => Key { code, control, alt, shift },
+        }
+    }
+
+    /// The character that this key types, if it types one.
+    #[must_use]
+    pub fn typed(self) -> Option<char> {
+        match self.code {
+            Code::Char(char) if !self.control && !self.alt && !char.is_control() => Some(char),
+            _ => None,
+        }
+    }
+
+    /// Reads what stands between angle brackets.
+    ///
+    /// # Errors
+    /// [`NoKey`] with the nearest name.
+    pub fn named(text: &str) -> Result<Self, NoKey> {
+        let (mut control, mut alt, mut shift) = (false, false, false);
+        let mut rest = text;
+        while let Some((modifier, after)) = rest.split_at_checked(2).filter(|(_, r)| !r.is_empty())
+        {
+            match modifier {
+                "C-" | "c-" => control = true,
+                "A-" | "a-" => alt = true,
+                "S-" | "s-" => shift = true,
+                _ => break,
+            }
+            rest = after;
+        }
+        let refused = || NoKey { text: text.to_owned(), nearest: nearest(rest) };
+        let code = code_named(rest).ok_or_else(refused)?;
+        Ok(Key::new(code, control, alt, shift))
+    }
+}
+
+fn code_named(name: &str) -> Option<Code> {
+    let mut chars = name.chars();
+    if let (Some(char), None) = (chars.next(), chars.next()) {
+        return (!char.is_whitespace() && !char.is_control()).then_some(Code::Char(char));
+    }
+    let lower = name.to_ascii_lowercase();
+    let named = NAMES
+        .iter()
+        .find(|(_, canonical, others)| *canonical == lower || others.contains(&lower.as_str()))
+        .map(|(code, ..)| *code);
+    let special =
+        || SPECIAL.iter().find(|(_, name)| *name == lower).map(|(char, _)| Code::Char(*char));
+    named.or_else(special).or_else(|| function_key(&lower)).or_else(|| code_point(&lower))
+}
+
+fn function_key(name: &str) -> Option<Code> {
+    let number = name.strip_prefix('f')?.parse().ok()?;
+    (1..=LAST_F).contains(&number).then_some(Code::F(number))
+}
+
+/// `u+1b`: any character by its number.
+fn code_point(name: &str) -> Option<Code> {
+    let number = u32::from_str_radix(name.strip_prefix("u+")?, 16).ok()?;
+    char::from_u32(number).map(Code::Char)
+}
+
+/// How much a name must look like a key's to be suggested.
+const ALIKE: f64 = 0.7;
+
+fn nearest(name: &str) -> Option<&'static str> {
+    let lower = name.to_ascii_lowercase();
+    NAMES
+        .iter()
+        .map(|(_, name, _)| (strsim::jaro(&lower, name), *name))
+        .filter(|(likeness, _)| *likeness >= ALIKE)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, name)| name)
+}
+
+impl fmt::Display for Code {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some((_, name, _)) = NAMES.iter().find(|(code, ..)| code == self) {
+            return out.write_str(name);
+        }
+        match *self {
+            Code::F(number) => write!(out, "f{number}"),
+            Code::Char(char) => match SPECIAL.iter().find(|(special, _)| *special == char) {
+                Some((_, name)) => out.write_str(name),
+                None if char.is_control() || char.is_whitespace() => {
+                    write!(out, "u+{:x}", u32::from(char))
+                }
+                None => write!(out, "{char}"),
+            },
+            _ => Ok(()), // Every other key stands in NAMES.
+        }
+    }
+}
+
+impl fmt::Display for Key {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let code = self.code.to_string();
+        let bare = code.chars().count() == 1 && !self.control && !self.alt && !self.shift;
+        if bare {
+            return out.write_str(&code);
+        }
+        let modifiers = [(self.control, "C-"), (self.alt, "A-"), (self.shift, "S-")];
+        let modifiers: String =
+            modifiers.into_iter().filter_map(|(on, prefix)| on.then_some(prefix)).collect();
+        write!(out, "<{modifiers}{code}>")
+    }
+}
+
+impl FromStr for Key {
+    type Err = NoKey;
+
+    /// Reads one key, with its angle brackets if it has a name.
+    fn from_str(text: &str) -> Result<Self, NoKey> {
+        let mut chars = text.chars();
+        match (chars.next(), chars.next()) {
+            (Some(char), None) if !matches!(char, '<' | '#') && !char.is_whitespace() => {
+                Ok(Key::new(Code::Char(char), false, false, false))
+            }
+            _ => match text.strip_prefix('<').and_then(|rest| rest.strip_suffix('>')) {
+                Some(name) => Key::named(name),
+                None => Err(NoKey { text: text.to_owned(), nearest: None }),
+            },
+        }
+    }
+}
+
+#[cfg(test)]
+pub(in crate::session) mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    #[test]
+    fn keys_are_written_as_people_write_them() {
+        for text in [
+            "a",
+            "Z",
+            "?",
+            "[",
+            "é",
+            "<space>",
+            "<lt>",
+            "<hash>",
+            "<C-r>",
+            "<S-tab>",
+            "<A-left>",
+            "<C-A-S-f12>",
+            "<pgup>",
+            "<esc>",
+            "<C-space>",
+            "<C-lt>",
+            "<C-->",
+            "<A-*>",
+        ] {
+            let key: Key = text.parse().unwrap();
+            assert_eq!(key.to_string(), text);
+        }
+    }
+
+    #[test]
+    fn other_names_mean_the_same_key() {
+        for (text, canonical) in [
+            ("<CR>", "<enter>"),
+            ("<Esc>", "<esc>"),
+            ("<c-R>", "<C-r>"),
+            ("<a>", "a"),
+            ("<S-A>", "A"),
+            ("<bs>", "<backspace>"),
+            (">", "<gt>"),
+            ("<u+20>", "<space>"),
+        ] {
+            assert_eq!(text.parse::<Key>().unwrap().to_string(), canonical);
+        }
+    }
+
+    #[test]
+    fn what_is_no_key_is_said_with_the_nearest_name() {
+        for (text, line) in [
+            ("<rigth>", "unknown key <rigth>; did you mean <right>?"),
+            ("<C-pgpu>", "unknown key <C-pgpu>; did you mean <pgup>?"),
+            ("<f13>", "unknown key <f13>; a key is a character"),
+            ("<>", "unknown key <>;"),
+            ("<", "unknown key <<>;"),
+            ("ab", "unknown key <ab>;"),
+            ("", "unknown key <>;"),
+        ] {
+            let said = text.parse::<Key>().unwrap_err().to_string();
+            assert!(said.starts_with(line), "{said}");
+        }
+    }
+
+    /// Any key that a terminal can send.
+    pub fn any_key() -> impl Strategy<Value = Key> {
+        let named = prop::sample::select(NAMES.iter().map(|row| row.0).collect::<Vec<_>>());
+        let code = prop_oneof![
+            named,
+            (1..=LAST_F).prop_map(Code::F),
+            any::<char>().prop_map(Code::Char),
+            prop::char::range(' ', '~').prop_map(Code::Char),
+        ];
+        (code, any::<bool>(), any::<bool>(), any::<bool>())
+            .prop_map(|(code, control, alt, shift)| Key::new(code, control, alt, shift))
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_printed_is_read_back(key in any_key()) {
+            prop_assert_eq!(key.to_string().parse::<Key>(), Ok(key));
+        }
+
+        #[test]
+        fn no_text_is_too_strange(text in any::<String>()) {
+            let _ = text.parse::<Key>();
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! What goes into the machine, and what it asks of the outer rings.
+
+pub mod key;
+pub mod pointer;
+
+use std::path::PathBuf;
+
+use crate::oscillator::Symbol;
+use crate::scene::Answered;
+use crate::session::message::key::Key;
+use crate::session::message::pointer::Pointed;
+
+/// Everything that can happen to a session.
+#[derive(Clone, Debug)]
+pub enum Msg {
+    /// A key was pressed.
+    Key(Key),
+    /// Text was pasted, all at once.
+    Paste(String),
+    /// The mouse did something.
+    Pointed(Pointed),
+    /// The screen has this size now, in cells.
+    Resize {
+        /// Columns.
+        width: u16,
+        /// Rows.
+        height: u16,
+    },
+    /// The worker answered a request, or failed to.
+    Answered(Box<Answered>),
+    /// The worker has nothing left to do (sent after the last answer).
+    Idle,
+    /// A line of the command line, without the line: `<run "set D=-0.3">` in a keystroke file.
+    Run(String),
+    /// What stands here is what the session starts with; these parameters belong to its scene.
+    Start(Vec<Symbol>),
+    /// A caption of a tour, to be shown until the next one; empty: none.
+    Say(String),
+    /// A file that was asked for, or why it cannot be read.
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What for.
+        purpose: Purpose,
+        /// Its text, or one line.
+        result: Result<String, String>,
+    },
+    /// So much time has passed since the last such message, or since the motion is played.
+    Elapsed {
+        /// Seconds.
+        seconds: f64,
+    },
+    /// The figure that was being written is, or is not.
+    Written(Notice),
+    /// The outer rings tell how an effect ended, such as a file written or not, or a replay.
+    Told(Notice),
+}
+
+/// What a file is read for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// To go on with the session that it holds.
+    Open,
+    /// The same, with one that was kept when it was interrupted.
+    Restore,
+    /// To press its keys.
+    Play,
+    /// To have its keys in a register.
+    Register(char),
+    /// To be fitted, as a record of a motion.
+    Fit,
+}
+
+/// A line for the user.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Notice {
+    /// Whether something was refused or failed.
+    pub error: bool,
+    /// The line.
+    pub text: String,
+}

@@ -1,0 +1,220 @@
+//! What a key press does: it completes what is pending, runs a command, or types a character.
+
+use crate::scene::misread::printable;
+use crate::session::act::focus::focus_on;
+use crate::session::act::notice::{inform, refuse, told};
+use crate::session::act::{general, macros, marks, typing};
+use crate::session::commands::{self, Run};
+use crate::session::effect::Effect;
+use crate::session::lines;
+use crate::session::message::key::{Code, Key};
+use crate::session::read::completion::names;
+use crate::session::read::palette::{elsewhere, place};
+use crate::session::state::command::{Chosen, Command};
+use crate::session::state::context::Context;
+use crate::session::state::history::Before;
+use crate::session::state::overlay::{Overlay, Prompt};
+use crate::session::state::pending::{Letter, Pending};
+use crate::session::state::session::{Price, Session};
+
+/// The key that commands run from a line are told: the one that ran it.
+pub(super) const ENTER: Key = Key::plain(Code::Enter);
+
+/// Takes a key in.
+pub(super) fn press(session: &mut Session, key: Key) -> Vec<Effect> {
+    session.notice = None;
+    session.effort.measuring = false;
+    session.price = Price { key: Some(key), recomputed: Vec::new() };
+    match session.pending {
+        Some(pending) => resolve(session, pending, key),
+        None => act(session, key),
+    }
+}
+
+/// Does what a key means now.
+fn act(session: &mut Session, key: Key) -> Vec<Effect> {
+    let contexts = session.contexts();
+    if let Some(command) = session.keymap.command(contexts, key) {
+        return run(session, command, key);
+    }
+    if let Some(char) = key.typed().filter(|_| contexts[0].takes_text()) {
+        typing::insert(session, &char.to_string());
+    } else if let Some(command) = elsewhere(session, key).filter(|_| session.overlay.is_none()) {
+        return run_where_it_belongs(session, command, key);
+    } else {
+        let help = session.keymap.key_of("help");
+        let more = help.map(|help| format!("; {help} lists the keys")).unwrap_or_default();
+        inform(session, format!("{key} has no meaning here{more}"));
+    }
+    Vec::new()
+}
+
+/// Presses the key for which something was pending.
+fn resolve(session: &mut Session, pending: Pending, key: Key) -> Vec<Effect> {
+    let context = match pending {
+        Pending::Count(_) => Context::Count,
+        Pending::Letter { .. } => Context::Letter,
+    };
+    if let Some(command) = session.keymap.command(&[context], key) {
+        return run(session, command, key);
+    }
+    session.pending = None;
+    match pending {
+        Pending::Count(count) => repeat(session, key, count.max(1)),
+        Pending::Letter { what, count } => letter(session, what, count, key),
+    }
+}
+
+/// Presses a key many times, as one change: until something refuses, opens, or asks for a letter, which
+/// then gets the count.
+fn repeat(session: &mut Session, key: Key, count: u32) -> Vec<Effect> {
+    let depth = session.history.depth().0;
+    let overlay = session.overlay.clone();
+    let mut effects = Vec::new();
+    for _ in 0..count {
+        if !session.means(key) {
+            effects.extend(act(session, key));
+            break;
+        }
+        session.notice = None;
+        effects.extend(act(session, key));
+        if let Some(Pending::Letter { count: times, .. }) = &mut session.pending {
+            *times = count;
+        }
+        let refused = session.notice.as_ref().is_some_and(|notice| notice.error);
+        let opened = match (&session.overlay, &overlay) {
+            (Some(now), Some(before)) => now.differs(before),
+            (now, before) => now.is_some() != before.is_some(),
+        };
+        if refused || opened || session.quit || session.pending.is_some() {
+            break;
+        }
+    }
+    session.history.merge(depth, |before| matches!(before, Before::Stand(_)));
+    effects
+}
+
+/// Does what a letter was asked for. The key that asks stands for the last register or point.
+fn letter(session: &mut Session, what: Letter, count: u32, key: Key) -> Vec<Effect> {
+    let asks =
+        |name| session.keymap.command(session.contexts(), key).is_some_and(|c| c.name == name);
+    let name = match key.typed() {
+        Some(name) if name.is_ascii_lowercase() => Some(name),
+        _ => None,
+    };
+    match (what, name) {
+        (Letter::Record, Some(name)) => macros::record(session, name),
+        (Letter::Play, Some(name)) => macros::play(session, name, count),
+        (Letter::Play, None) if asks("play-macro") => macros::play_again(session, count),
+        (Letter::Mark, Some(name)) => marks::set(session, name),
+        (Letter::GoTo, Some(name)) => marks::go_to(session, name),
+        (Letter::GoTo, None) if asks("go-to-mark") => marks::go_back(session),
+        (_, None) if session.keymap.command(&[Context::Always], key).is_some() => act(session, key),
+        (_, None) => {
+            refuse(session, format!("{key} is no letter from a to z"));
+            Vec::new()
+        }
+    }
+}
+
+/// Runs a command where it belongs: here, or in the pane that has it, which gets the focus.
+fn run_where_it_belongs(session: &mut Session, command: &Command, key: Key) -> Vec<Effect> {
+    match place(session, command) {
+        Ok(Some(pane)) => focus_on(session, pane),
+        Ok(None) => {}
+        Err(place) => {
+            refuse(session, format!("{} {}", command.name, missing(session, place)));
+            return Vec::new();
+        }
+    }
+    run(session, command, key)
+}
+
+/// Why a command cannot be run: what it needs, and how to get it.
+fn missing(session: &Session, place: Context) -> String {
+    match place.view() {
+        Some(view) => {
+            let spec = view.spec();
+            told(
+                session,
+                &format!("needs the {}: {{views}} or :view {} shows it", spec.title, spec.name),
+            )
+        }
+        None if place == Context::Walk => {
+            told(session, "needs a branch: {walk} on a diagram takes hold of one")
+        }
+        None => format!("works only there: {}", place.title().to_lowercase()),
+    }
+}
+
+/// Runs a command, and what it chooses.
+fn run(session: &mut Session, command: &Command, key: Key) -> Vec<Effect> {
+    match commands::run(command.name) {
+        Some(Run::Act(act)) => act(session, key),
+        Some(Run::Toggle(layer)) => general::toggle(session, layer),
+        Some(Run::Choose(choose)) => match choose(session) {
+            Some(Chosen::Command(command)) => run_where_it_belongs(session, command, key),
+            Some(Chosen::Line(text)) => run_typed(session, &text),
+            None => Vec::new(),
+        },
+        None => Vec::new(),
+    }
+}
+
+/// Runs the text of the command line, which stays open with the reason if that is refused.
+fn run_typed(session: &mut Session, text: &str) -> Vec<Effect> {
+    let open = session.overlay.take();
+    run_line(session, text).unwrap_or_else(|why| {
+        match open {
+            Some(Overlay::Prompt(prompt)) => {
+                let refused = Prompt { refused: Some(why), completion: None, back: 0, ..prompt };
+                session.overlay = Some(Overlay::Prompt(refused));
+            }
+            _ => refuse(session, why),
+        }
+        Vec::new()
+    })
+}
+
+/// Runs a line; nothing is open any more.
+///
+/// # Errors
+/// One line that says what is wrong and what is allowed; the session is as it was.
+pub fn run_line(session: &mut Session, text: &str) -> Result<Vec<Effect>, String> {
+    let (name, rest) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
+    let rest = rest.trim();
+    let (line, command) = (session.keymap.line(name), session.keymap.named(name));
+    match (line, command) {
+        (_, Some(command)) if rest.is_empty() => Ok(run_where_it_belongs(session, command, ENTER)),
+        (Some(line), _) if rest.is_empty() => {
+            Err(format!("{name} needs {}: {}", line.arguments, line.doc))
+        }
+        (Some(_), _) => {
+            let run = lines::run(name).map_or(Ok(Vec::new()), |run| run(session, rest));
+            run.map_err(|why| printable(&format!("{name}: {why}")).into())
+        }
+        (None, Some(_)) => Err(format!("{name} takes no words, but there are {rest:?}")),
+        (None, None) => Err(match nearest(name, names(&session.keymap)) {
+            Some(nearest) => format!("no command {name:?}; did you mean {nearest}?"),
+            None => format!("no command {name:?}; Tab lists them"),
+        }),
+    }
+}
+
+/// Runs a line that was not typed.
+pub(super) fn run_untyped(session: &mut Session, text: &str) -> Vec<Effect> {
+    (session.overlay, session.pending, session.notice) = (None, None, None);
+    run_line(session, text).unwrap_or_else(|why| {
+        refuse(session, why);
+        Vec::new()
+    })
+}
+
+/// The name that looks most like this one.
+fn nearest<'a>(wanted: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    /// How much two names must have in common (0: nothing, 1: equal).
+    const ALIKE: f64 = 0.7;
+    let rated = names.map(|name| (strsim::jaro(wanted, name), name));
+    let best = rated.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    (best.0 >= ALIKE).then_some(best.1)
+}

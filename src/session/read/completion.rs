@@ -1,0 +1,126 @@
+//! What a word of a line can become.
+
+use crate::flow::METHODS;
+use crate::oscillator::PARAMETERS;
+use crate::scene::ordinate::OrdinateSpec;
+use crate::scene::{ABSCISSAE, LAYERS, ORDINATES, VIEWS, Window, library};
+use crate::session::read::numbers::number;
+use crate::session::state::command::{Command, Words};
+use crate::session::state::keymap::Keymap;
+use crate::session::state::overlay::Completion;
+use crate::session::state::rows::{ROWS, Row};
+use crate::session::state::session::Session;
+use crate::session::state::settings::{COLORS, GLYPHS, THEMES};
+use crate::session::state::step_size::shortest;
+use crate::study::measure::MEASURES;
+
+/// What the last of these words can become; all words behind the name are given.
+fn complete(session: &Session, kind: Words, given: &[&str]) -> Vec<String> {
+    let first = given.len() < 2;
+    let owned = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
+    match kind {
+        Words::Assignments => assignments(session, given),
+        Words::Methods => methods(),
+        Words::Scenes => library().iter().map(|scene| scene.name.clone()).collect(),
+        Words::Views => owned(&VIEWS.map(|row| row.name)),
+        Words::Layers if first => owned(&LAYERS.map(|row| row.name)),
+        Words::Layers if given.len() == 2 => owned(&["on", "off"]),
+        Words::Axes if first => owned(&ABSCISSAE.map(|(symbol, _)| symbol.spec().name)),
+        Words::Axes if given.len() == 2 => properties().collect(),
+        Words::Window => windows(session),
+        Words::Scan => scan(given),
+        Words::Marks => session.marks.places.keys().map(char::to_string).collect(),
+        Words::Registers => session.macros.registers.keys().map(char::to_string).collect(),
+        Words::Themes => owned(&THEMES.map(|row| row.1)),
+        Words::Glyphs => owned(&GLYPHS.map(|row| row.1)),
+        Words::Colors => owned(&COLORS.map(|row| row.1)),
+        Words::Unknown | Words::Layers | Words::Axes => Vec::new(),
+    }
+}
+
+/// The rows that a line can give a value: no belt where there is none.
+pub fn rows(session: &Session) -> impl Iterator<Item = Row> + use<> {
+    let belt = session.running().is_some();
+    ROWS.into_iter().filter(move |row| belt || *row != Row::Belt)
+}
+
+/// The names of the properties, and of those that are lengths also in units of r.
+pub fn properties() -> impl Iterator<Item = String> {
+    let ratio = |row: &OrdinateSpec| row.ratio.map(|_| format!("{}/r", row.name));
+    ORDINATES.iter().flat_map(move |row| std::iter::once(row.name.to_owned()).chain(ratio(row)))
+}
+
+/// The names of values with their `=`; behind that, today's value.
+fn assignments(session: &Session, words: &[&str]) -> Vec<String> {
+    let word = words.last().copied().unwrap_or_default();
+    match word.split_once('=') {
+        Some(("method", _)) => methods().iter().map(|name| format!("method={name}")).collect(),
+        Some((name, "")) => {
+            let row = rows(session).find(|row| row.name() == name);
+            row.map(|row| format!("{name}={}", today(session, row))).into_iter().collect()
+        }
+        Some(_) => Vec::new(),
+        None => rows(session).map(|row| format!("{}=", row.name())).collect(),
+    }
+}
+
+/// A value as one would type it.
+fn today(session: &Session, row: Row) -> String {
+    match row {
+        Row::Method => session.problem.method.to_string(),
+        row => shortest(number(&session.stand(), row)),
+    }
+}
+
+/// The names of the methods.
+fn methods() -> Vec<String> {
+    METHODS.iter().map(|row| row.name.to_owned()).collect()
+}
+
+/// Today's window of the plot in use.
+fn windows(session: &Session) -> Vec<String> {
+    let Window { x, y } = session.plots[session.plot].window;
+    let [x0, x1, y0, y1] = [x.from(), x.to(), y.from(), y.to()].map(shortest);
+    vec![format!("{x0}:{x1},{y0}:{y1}")]
+}
+
+/// Parameters with their `=`; behind one of them also measures.
+fn scan(words: &[&str]) -> Vec<String> {
+    let sweeps = PARAMETERS.iter().map(|row| format!("{}=", row.name));
+    let moved = words.iter().any(|word| word.contains('='));
+    let measures = MEASURES.iter().filter(|_| moved).map(|row| row.name.to_owned());
+    sweeps.chain(measures).collect()
+}
+
+/// Every name that a line can begin with, in the order of the tables.
+pub fn names(keymap: &Keymap) -> impl Iterator<Item = &'static str> {
+    let typed = |command: &&Command| command.keys.iter().any(|(context, _)| !context.is_overlay());
+    let commands = keymap.commands().filter(typed).map(|command| command.name);
+    let commands = commands.filter(move |name| keymap.line(name).is_none());
+    keymap.lines().map(|line| line.name).chain(commands)
+}
+
+/// What the last word of a text can become.
+#[must_use]
+pub fn completion(session: &Session, text: &str) -> Option<Completion> {
+    let start = text.trim_end_matches(|char: char| !char.is_whitespace()).len();
+    let (stem, word) = text.split_at(start);
+    let words = match stem.split_whitespace().next() {
+        None => names(&session.keymap).map(str::to_owned).collect(),
+        Some(name) => {
+            let given: Vec<&str> = stem.split_whitespace().skip(1).chain([word]).collect();
+            complete(session, session.keymap.line(name)?.words, &given)
+        }
+    };
+    let fits = |candidate: &String| candidate.starts_with(word) && candidate != word;
+    let words: Vec<String> = words.into_iter().filter(fits).collect();
+    (!words.is_empty()).then(|| Completion { stem: stem.to_owned(), words, at: 0 })
+}
+
+/// What is known about the line being typed: the command that it begins with.
+#[must_use]
+pub fn described(keymap: &Keymap, text: &str) -> Option<(&'static str, &'static str)> {
+    let name = text.split_whitespace().next()?;
+    let of_line = keymap.line(name).map(|line| (line.arguments, line.doc));
+    of_line.or(keymap.named(name).map(|command| ("", command.doc)))
+}

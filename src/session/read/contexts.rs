@@ -1,0 +1,86 @@
+//! Which contexts hold now, and which keys matter in them.
+
+use std::collections::BTreeSet;
+
+use crate::session::message::key::Key;
+use crate::session::state::context::{Context, chain};
+use crate::session::state::overlay::{Listed, Overlay};
+use crate::session::state::pending::Pending;
+use crate::session::state::session::Session;
+
+impl Session {
+    /// The contexts that hold now, the most specific first: one of [`chains`](crate::session::state::context::chains).
+    #[must_use]
+    pub fn contexts(&self) -> &'static [Context] {
+        match self.pending {
+            Some(Pending::Count(_)) => chain(Context::Count),
+            Some(Pending::Letter { .. }) => chain(Context::Letter),
+            None => self.contexts_at_rest(),
+        }
+    }
+
+    /// The same when nothing is pending.
+    pub(in crate::session) fn contexts_at_rest(&self) -> &'static [Context] {
+        let first = match &self.overlay {
+            None => return self.contexts_below(),
+            Some(overlay) if overlay.list().is_some_and(|list| list.searching) => match overlay {
+                Overlay::List(Listed::Palette, _) => Context::Palette,
+                _ => Context::Search,
+            },
+            Some(Overlay::List(Listed::Palette | Listed::Cost, _)) => Context::Help,
+            Some(Overlay::List(Listed::Scenes, _)) => Context::Scenes,
+            Some(Overlay::List(Listed::Layers, _)) => Context::Layers,
+            Some(Overlay::List(Listed::Views, _)) => Context::Views,
+            Some(Overlay::List(Listed::Paper, _)) => Context::Paper,
+            Some(Overlay::Entry(_)) => Context::Entry,
+            Some(Overlay::Prompt(_)) => Context::Prompt,
+            Some(Overlay::Scan(_)) => Context::Form,
+            Some(Overlay::Offer(_)) => Context::Offer,
+        };
+        chain(first)
+    }
+
+    /// The contexts that hold when nothing is open.
+    pub(in crate::session) fn contexts_below(&self) -> &'static [Context] {
+        chain(match self.focused() {
+            _ if self.held.is_some() => Context::Walk,
+            Some(plot) => Context::of(plot.view),
+            None => Context::Parameters,
+        })
+    }
+
+    /// Whether a key means something now, or is typed.
+    pub(in crate::session) fn means(&self, key: Key) -> bool {
+        let contexts = self.contexts();
+        self.keymap.command(contexts, key).is_some() || contexts[0].takes_text()
+    }
+
+    /// The keys that matter now, with a word each: for the footer.
+    #[must_use]
+    pub fn hints(&self) -> Vec<Hint> {
+        let mut hints: Vec<Hint> = Vec::new();
+        let mut shown = BTreeSet::new();
+        for context in self.contexts() {
+            for command in self.keymap.commands().filter(|command| !command.hint.is_empty()) {
+                let Some(key) = self.keymap.keys_in(*context, command).next() else { continue };
+                if !shown.insert(command.name) {
+                    continue;
+                }
+                match hints.iter_mut().find(|hint| hint.text == command.hint) {
+                    Some(hint) => hint.keys.push(key),
+                    None => hints.push(Hint { keys: vec![key], text: command.hint }),
+                }
+            }
+        }
+        hints
+    }
+}
+
+/// What to press for what, in the footer.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Hint {
+    /// The keys, one for each command that the word stands for.
+    pub keys: Vec<Key>,
+    /// The word.
+    pub text: &'static str,
+}

@@ -1,0 +1,312 @@
+//! What becomes of a motion in the end, and why: from the cycles, which divide its turning points.
+//!
+//! A motion turns again and again on the line `v = 0`, and its turning points on one side move one way, from
+//! unstable cycles to stable ones. So the first of them decides: on which side of which cycle it lies. The
+//! end time bounds what is followed, not what is known.
+
+use crate::flow::{Outcome, Sample, Trajectory};
+use crate::machine;
+use crate::scene::said::{self, Condition};
+use crate::scene::whole::Course;
+use crate::session::state::session::Session;
+use crate::study::{Cycle, Cycles, Edge};
+
+/// What becomes of a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum End {
+    /// It comes to rest.
+    Rests,
+    /// It tends to a stable cycle with this right turning point, from inside or from outside.
+    Onto {
+        /// The right turning point of the cycle.
+        q_max: f64,
+        /// Whether it grows on its way.
+        grows: bool,
+    },
+    /// It grows without bound.
+    Grows,
+    /// It decays towards the equilibrium that is left without friction.
+    Decays,
+    /// It starts on an unstable cycle, up to this relative distance: rounding decides.
+    OnTheEdge {
+        /// The distance of its clearance from that of the cycle, relative to it.
+        distance: f64,
+    },
+}
+
+/// On which side of what borders the basin a motion starts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// Inside of the unstable cycle.
+    InsideCycle,
+    /// Outside of it.
+    OutsideCycle,
+    /// On the side of the separatrix that is captured.
+    InsideSeparatrix,
+    /// On the other.
+    OutsideSeparatrix,
+    /// Nothing borders the basin.
+    Anywhere,
+}
+
+/// The verdict about a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fate {
+    /// What becomes of it.
+    pub end: End,
+    /// Why.
+    pub place: Place,
+}
+
+/// Relative distance from a cycle below which rounding decides, of a start that turns there, and of a
+/// computed turning point, which has the error of its way.
+const NEAR: [f64; 2] = [1e-12, 1e-8];
+
+/// Clearance in units of r above which a difference of two displacements resolves it.
+const RESOLVED: f64 = 1e-6;
+
+/// What becomes of a motion among these cycles; `None` where that is not known.
+#[must_use]
+pub fn fate(found: &Cycles, motion: &Trajectory) -> Option<Fate> {
+    match found.edge {
+        _ if !found.cycles.is_empty() && found.edge != Edge::Separatrix => among(found, motion),
+        Edge::None if found.parameters.r > 0.0 => {
+            Some(Fate { end: End::Rests, place: Place::Anywhere })
+        }
+        Edge::Separatrix => beside_separatrix(found, motion),
+        // Without friction, D2 and a cycle: damping decides.
+        _ => {
+            let decays = found.parameters.d > 0.0 && found.parameters.d3 >= 0.0;
+            let alone = found.parameters.d2 == 0.0 && decays;
+            alone.then_some(Fate { end: End::Decays, place: Place::Anywhere })
+        }
+    }
+}
+
+/// The first turning point of a motion, and whether it is where the motion starts. Where turning points
+/// were not looked for there is the start alone.
+fn turning(motion: &Trajectory, r: f64) -> Option<(f64, bool)> {
+    let start = motion.samples.first()?;
+    if start.v == 0.0 && start.q.abs() > r {
+        return Some((start.q, true));
+    }
+    motion.crossings.first().map(|crossing| (crossing.q, false))
+}
+
+/// The verdict where there are cycles, each inside the next.
+fn among(found: &Cycles, motion: &Trajectory) -> Option<Fate> {
+    let r = found.parameters.r;
+    let unstable = found.cycles.iter().any(|cycle| !cycle.stable);
+    let inside = if unstable { Place::InsideCycle } else { Place::Anywhere };
+    let rests = Fate { end: End::Rests, place: inside };
+    let Some((q, exact)) = turning(motion, r) else {
+        return matches!(motion.outcome, Outcome::Captured { .. }).then_some(rests);
+    };
+    // In the frame of the side on which it turns; D2 alone tells the sides apart.
+    let mirrored = q < 0.0 && found.parameters.d2 != 0.0;
+    let clearance = |cycle: &Cycle| if mirrored { -cycle.q_min - r } else { cycle.clearance };
+    if mirrored && found.cycles.iter().any(|cycle| clearance(cycle) <= RESOLVED * r) {
+        return None;
+    }
+    let own = q.abs() - r;
+    let distance = |cycle: &Cycle| (own / clearance(cycle) - 1.0).abs();
+    let near = NEAR[usize::from(!exact)];
+    if let Some(cycle) = found.cycles.iter().find(|cycle| distance(cycle) <= near) {
+        let end = if cycle.stable {
+            End::Onto { q_max: cycle.q_max, grows: own < clearance(cycle) }
+        } else {
+            End::OnTheEdge { distance: distance(cycle) }
+        };
+        return Some(Fate { end, place: Place::OutsideCycle });
+    }
+    let outer = found.cycles.iter().find(|cycle| clearance(cycle) > own);
+    let inner = found.cycles.iter().rfind(|cycle| clearance(cycle) < own);
+    let outside = if unstable { Place::OutsideCycle } else { Place::Anywhere };
+    let onto = |cycle: &Cycle, grows| Fate {
+        end: End::Onto { q_max: cycle.q_max, grows },
+        place: outside,
+    };
+    Some(match (inner, outer) {
+        (_, Some(outer)) if outer.stable => onto(outer, true),
+        (Some(inner), _) if inner.stable => onto(inner, false),
+        (None, Some(_)) if r > 0.0 => rests,
+        (None, Some(_)) => Fate { end: End::Decays, place: inside },
+        (Some(_), None) => Fate { end: End::Grows, place: outside },
+        _ => return None,
+    })
+}
+
+/// The verdict where a motion that just escapes borders the basin: a start at rest within the margin is
+/// captured, and so is a turning point; of others their outcome tells.
+fn beside_separatrix(found: &Cycles, motion: &Trajectory) -> Option<Fate> {
+    let margin = found.picture.as_ref()?.margin.displacement;
+    let within = |q: f64| margin.is_some_and(|margin| q.abs() < margin);
+    let turned = || turning(motion, found.parameters.r).is_some_and(|(q, _)| within(q));
+    match motion.outcome {
+        Outcome::Captured { .. } => Some(Fate { end: End::Rests, place: Place::InsideSeparatrix }),
+        Outcome::Escaped { .. } => Some(Fate { end: End::Grows, place: Place::OutsideSeparatrix }),
+        _ => turned().then_some(Fate { end: End::Rests, place: Place::InsideSeparatrix }),
+    }
+}
+
+/// The verdict of the whole model.
+fn of_course(course: &Course, motion: &Trajectory) -> Option<Fate> {
+    let end = match course.fate {
+        machine::Fate::Rest => End::Rests,
+        machine::Fate::Cycle(index) => {
+            let cycle = course.cycles.get(index)?;
+            let size = |sample: &Sample| sample.q.hypot(sample.v);
+            let (first, last) = (motion.samples.first()?, motion.samples.last()?);
+            // In the units of the motion, like its samples.
+            let largest = motion.samples.iter().map(|sample| sample.q).fold(0.0, f64::max);
+            let grows = cycle.stable && size(first) <= size(last);
+            End::Onto { q_max: largest, grows }
+        }
+        machine::Fate::Escaped => End::Grows,
+        machine::Fate::Neutral | machine::Fate::Unknown(_) => return None,
+    };
+    let place = match (course.border, end) {
+        ("cycle", End::Rests) => Place::InsideCycle,
+        ("cycle", _) => Place::OutsideCycle,
+        _ => Place::Anywhere,
+    };
+    Some(Fate { end, place })
+}
+
+impl Session {
+    /// What a text of the scene says about what is on show.
+    #[must_use]
+    pub fn said(&self, text: &str) -> String {
+        said::said(text, |condition| self.holds(condition))
+    }
+
+    /// Whether something is so, of the answers that are on show.
+    fn holds(&self, condition: Condition) -> bool {
+        let cycles = |stable: bool| {
+            self.cycles().is_some_and(|it| it.cycles.iter().any(|cycle| cycle.stable == stable))
+        };
+        let edge = |edge: Edge| self.cycles().is_some_and(|found| found.edge == edge);
+        let end = || self.fate().map(|fate| fate.end);
+        match condition {
+            Condition::Here => {
+                let (own, scene) = (self.problem, self.scene.problem);
+                (own.parameters, own.initial) == (scene.parameters, scene.initial)
+            }
+            Condition::Opened => {
+                let own = self.plots.iter().map(|plot| (plot.view, plot.axes));
+                own.eq(self.scene.plots.iter().map(|exhibit| (exhibit.view, exhibit.axes)))
+            }
+            Condition::Unstable => cycles(false),
+            Condition::Stable => cycles(true),
+            Condition::Separatrix => edge(Edge::Separatrix),
+            Condition::Safe => {
+                edge(Edge::None) && self.cycles().is_some_and(|found| found.parameters.r > 0.0)
+            }
+            Condition::Sticks => {
+                let kinds = self.kinds().filter(|_| self.draws_whole());
+                kinds.is_some_and(|kinds| kinds.cycles.iter().any(|cycle| cycle.sticks))
+            }
+            Condition::Rests => matches!(end(), Some(End::Rests)),
+            Condition::Grows => matches!(end(), Some(End::Grows | End::Onto { grows: true, .. })),
+        }
+    }
+
+    /// What becomes of the motion that was computed last; `None` as long as its cycles are not known, and
+    /// of methods that miss the turning points.
+    #[must_use]
+    pub fn fate(&self) -> Option<Fate> {
+        let motion = self.trajectory()?;
+        if let Some(course) = self.course() {
+            return of_course(course, motion);
+        }
+        let known = motion.problem.method.spec().events && self.contact().is_none();
+        let of_these = |found: &&Cycles| found.parameters == motion.problem.parameters;
+        let found = self.cycles().filter(|_| known).filter(of_these)?;
+        // A coarse step can end on the other side.
+        fate(found, motion).filter(|fate| match motion.outcome {
+            Outcome::Captured { .. } => matches!(fate.end, End::Rests | End::OnTheEdge { .. }),
+            Outcome::Escaped { .. } => matches!(fate.end, End::Grows | End::OnTheEdge { .. }),
+            Outcome::Moving { .. } => true,
+            Outcome::GaveUp { .. } => false,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::flow::trajectory::trajectory;
+    use crate::flow::{Detail, Limits, Problem};
+    use crate::oscillator::{Parameters, State};
+    use crate::study::cycle::cycles_drawn;
+
+    fn motion(parameters: Parameters, initial: State, until: f64) -> Trajectory {
+        let problem =
+            Problem { parameters, initial, until, tolerance: 1e-10, ..Problem::default() };
+        let detail = Detail { crossings: true, samples_per_step: 2, energy: false };
+        trajectory(&problem, detail, &Limits::PATIENT)
+    }
+
+    /// Parameters with each kind of edge and of cycles.
+    const SETS: [[f64; 4]; 8] = [
+        [-0.3, 0.0, 0.5, 0.1],
+        [-0.1, 0.0, 0.5, 0.1],
+        [-0.1, 0.0, -0.5, 0.1],
+        [0.2, 0.0, -0.5, 0.1],
+        [-0.2, 0.2, 0.0, 0.5],
+        [-0.3, 0.3, 0.5, 0.1],
+        [-0.4, 0.0, 0.0, 1.0],
+        [-0.02, 0.5, 0.0, 0.1],
+    ];
+
+    #[test]
+    fn what_is_said_early_comes_true_late() {
+        let mut ends = [0; 3];
+        for [d, d2, d3, r] in SETS {
+            let parameters = Parameters { d, d2, d3, r };
+            let found = cycles_drawn(&parameters, 2, &Limits::PATIENT).unwrap();
+            for part in [0.3, 0.9, 0.99, 1.01, 1.2, 3.0] {
+                for (side, v) in [(1.0, 0.0), (-1.0, 0.0), (1.0, 0.3)] {
+                    let size = found.cycles.first().map_or(0.6, |cycle| cycle.clearance);
+                    let initial = State { q: side * (r + part * size), v };
+                    let Some(fate) = fate(&found, &motion(parameters, initial, 8.0)) else {
+                        continue;
+                    };
+                    let late = motion(parameters, initial, 300.0);
+                    let place =
+                        format!("{parameters:?} from {initial:?}: {fate:?}, {:?}", late.outcome);
+                    match fate.end {
+                        End::Rests => {
+                            assert!(matches!(late.outcome, Outcome::Captured { .. }), "{place}");
+                            ends[0] += 1;
+                        }
+                        End::Grows => {
+                            let far = late.samples.last().unwrap();
+                            let grown = far.q.hypot(far.v) > 5.0 * size;
+                            let escaped = matches!(late.outcome, Outcome::Escaped { .. });
+                            assert!(grown || escaped, "{place}");
+                            ends[1] += 1;
+                        }
+                        End::Onto { q_max, .. } => {
+                            let turn = late.crossings.iter().rfind(|turn| turn.q > 0.0).unwrap();
+                            assert!((turn.q / q_max - 1.0).abs() < 1e-3, "{place}");
+                            ends[2] += 1;
+                        }
+                        End::Decays | End::OnTheEdge { .. } => panic!("{place}"),
+                    }
+                }
+            }
+        }
+        assert!(ends.iter().all(|count| *count > 10), "{ends:?}");
+    }
+
+    #[test]
+    fn a_start_on_the_unstable_cycle_is_left_to_rounding() {
+        let parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.5, r: 0.1 };
+        let found = cycles_drawn(&parameters, 2, &Limits::PATIENT).unwrap();
+        let initial = State { q: found.cycles[0].q_max, v: 0.0 };
+        let fate = fate(&found, &motion(parameters, initial, 8.0)).unwrap();
+        let End::OnTheEdge { distance } = fate.end else { panic!("{fate:?}") };
+        assert!(distance < 1e-12, "{distance:e}");
+    }
+}

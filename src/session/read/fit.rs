@@ -1,0 +1,268 @@
+//! Windows fitted to what is on show.
+
+use crate::closed_form::lyapunov;
+use crate::flow::Outcome;
+use crate::oscillator::energy::energy;
+use crate::oscillator::{State, Symbol};
+use crate::scene::ordinate::usual_values;
+use crate::scene::{Answer, Axes, Layer, Point, Request, Slot, Span, View, Window};
+use crate::session::state::plot::Framing;
+use crate::session::state::scan::Scanned;
+use crate::session::state::session::Session;
+use crate::study::trade::Row;
+
+/// Room around what is fitted, as a factor of its width.
+const ROOM: f64 = 1.1;
+
+/// How far a motion that escapes is followed, in extents of all else.
+const ESCAPE: f64 = 2.0;
+
+/// How much of the time axis a motion at rest takes, as a factor of the time until then.
+const REST: f64 = 1.2;
+
+/// How far beyond the largest cycle a return map goes.
+const FARTHER: f64 = 1.25;
+
+/// How far beyond the Lyapunov circle the rate of the energy is looked at.
+const FASTER: f64 = 1.6;
+
+/// Velocities at which the rate of the energy is looked at to fit it.
+const RATES: u8 = 64;
+
+/// Room beyond the sticking set, as a part of that.
+const MARGIN: f64 = 0.2;
+
+/// How far above all else the velocity of the belt may be and is fitted in, in extents of all else.
+const BELT: f64 = 2.0;
+
+/// The part of a branch that must fit, from above and from below: where it goes to infinity, its end
+/// need not.
+const QUANTILE: f64 = 0.9;
+
+/// The window that shows all that a plot has to show; `None` where there is nothing yet.
+pub(in crate::session) fn fitted(session: &Session, index: usize) -> Option<Window> {
+    match session.plots[index].view {
+        View::Phase => phase(session, index),
+        View::Diagram => diagram(session, index),
+        View::TimeSeries => time_series(session, index),
+        View::EnergyLedger => energy_ledger(session),
+        View::ReturnMap => return_map(session),
+        View::Regimes => regimes(session, index),
+        View::Trade => trade(session),
+        View::Belt => belt(session),
+        View::EnergyRate => energy_rate(session),
+        View::Eigenvalues => eigenvalues(session),
+        View::Speeds => speeds(session, index),
+        View::Scan => session.scanned.as_ref().map(Scanned::window),
+    }
+}
+
+/// Whether something that a plot shows is still to be computed.
+pub(in crate::session) fn is_pending(session: &Session, plot: usize) -> bool {
+    first_open(session, plot).is_some()
+}
+
+/// The first question of a plot that is still to be answered.
+fn first_open(session: &Session, plot: usize) -> Option<Request> {
+    let mut requests =
+        session.needs(plot).into_iter().filter_map(|slot| session.request(slot, plot));
+    requests.find(|request| session.is_open(request))
+}
+
+/// The question whose answer the window of a plot on show waits for, if it is being fitted.
+pub(in crate::session) fn awaited(session: &Session, plot: usize) -> Option<Request> {
+    let fitting = session.plots.get(plot).is_some_and(|plot| plot.framing == Framing::Fitting);
+    let on_show = session.on_show().contains(&plot);
+    first_open(session, plot).filter(|_| fitting && on_show)
+}
+
+/// The speeds on show, and as far as cycles go there.
+fn speeds(session: &Session, plot: usize) -> Option<Window> {
+    let x = session.plots[plot].window.x;
+    let points = session.speeds(plot)?.points.iter().filter(|point| x.contains(point.v0));
+    let sizes = points.flat_map(|point| point.cycles.iter().map(|cycle| cycle.x.1));
+    let y = Span::covering(sizes.chain([0.0]))?;
+    Some(Window { x, y: y.scaled(0.0, ROOM) })
+}
+
+/// Every row of the trade.
+fn trade(session: &Session) -> Option<Window> {
+    let places: Vec<_> = session.trade()?.rows.iter().filter_map(Row::place).collect();
+    let x = Span::covering(places.iter().map(|place| place.0))?;
+    let y = Span::covering(places.iter().map(|place| place.1))?;
+    Some(Window { x: x.scaled(x.center(), ROOM), y: y.scaled(y.center(), ROOM) })
+}
+
+/// Around the motions, the cycles and the sticking sets.
+fn phase(session: &Session, plot: usize) -> Option<Window> {
+    let start = session.problem.initial;
+    let mut points = Vec::new();
+    for shown in session.shown(plot) {
+        let (start, r) = (shown.problem.initial, shown.problem.parameters.r);
+        let at = |x, y| Point { x, y };
+        points.extend([at(start.q, start.v), at(-r, 0.0), at(r, 0.0)]);
+    }
+    let answers = |layer, slot| {
+        let shown = session.shows_in(layer, plot).then(|| session.found(slot, plot));
+        shown.unwrap_or_default().into_iter().map(|(.., answer)| answer)
+    };
+    for answer in answers(Layer::Cycles, Slot::Cycles) {
+        let Answer::Cycles(found) = answer else { continue };
+        for cycle in &found.cycles {
+            points.push(Point { x: cycle.q_min, y: cycle.v_min });
+            points.push(Point { x: cycle.q_max, y: cycle.v_max });
+        }
+    }
+    for answer in answers(Layer::Trajectory, Slot::Trajectory) {
+        let Answer::Trajectory(found) = answer else { continue };
+        let last = session.contact().map_or(f64::INFINITY, |(tau, _)| tau);
+        let samples = found.samples.iter().take_while(|sample| sample.tau <= last);
+        let samples = samples.map(|sample| Point { x: sample.q, y: sample.v });
+        if let Outcome::Escaped { .. } = found.outcome {
+            let extent = points.iter().map(|point| point.x.hypot(point.y)).fold(0.0, f64::max);
+            let near = |point: &Point| point.x.hypot(point.y) <= ESCAPE * extent;
+            points.extend(samples.filter(near));
+        } else {
+            points.extend(samples);
+        }
+    }
+    if let Some(running) = session.running().filter(|_| session.shows_in(Layer::Belt, plot)) {
+        let fastest = points.iter().map(|point| point.y.abs()).fold(0.0, f64::max);
+        let belt = running.reduced.sticking_velocity;
+        if belt <= BELT * fastest {
+            points.push(Point { x: start.q, y: belt });
+        }
+    }
+    let x = Span::covering(points.iter().map(|point| point.x))?;
+    // A motion at rest has no extent in v: then the plane is as high as it is wide.
+    let y = Span::covering(points.iter().map(|point| point.y))?;
+    let y = if y.contains(0.0) && points.iter().all(|point| point.y == 0.0) {
+        Span::new(-0.5 * x.width(), 0.5 * x.width()).ok()?
+    } else {
+        y
+    };
+    Some(Window { x: x.scaled(x.center(), ROOM), y: y.scaled(y.center(), ROOM) })
+}
+
+/// As far as the mass moves.
+fn belt(session: &Session) -> Option<Window> {
+    let samples = session.trajectory()?.samples.iter();
+    let last = session.last_moment();
+    let places = samples.take_while(|sample| sample.tau <= last).map(|sample| sample.q);
+    let x = Span::covering(places.chain([session.problem.initial.q, 0.0]))?;
+    Some(Window { x: x.scaled(x.center(), 1.5 * ROOM), y: View::Belt.spec().window.y })
+}
+
+/// The same values of the parameter, and the heights that its branch has there.
+fn diagram(session: &Session, plot: usize) -> Option<Window> {
+    let x = session.plots[plot].window.x;
+    let (found, ordinate) = (session.branches(plot), session.plots[plot].axes.ordinate);
+    let each = found.iter().map(|(variant, branch)| (session.height(plot, *variant), branch));
+    let mut heights: Vec<f64> = Vec::new();
+    let mut special: Vec<f64> = Vec::new();
+    for (height, branch) in each {
+        let points = branch.pieces.iter().flatten().filter(|point| x.contains(point.value));
+        heights.extend(points.map(|point| height.of(point.value, &point.cycle)));
+        let points = branch.special.iter().filter(|point| x.contains(point.value));
+        special.extend(points.filter_map(|at| Some(height.of(at.value, &at.cycle?))));
+    }
+    heights.retain(|height| height.is_finite());
+    heights.sort_by(f64::total_cmp);
+    let zero = ordinate.spec().from_zero.then_some(0.0);
+    let ends = [1.0 - QUANTILE, QUANTILE].map(|part| quantile(&heights, part));
+    let fitting = special.into_iter().chain(zero).chain(ends.into_iter().flatten());
+    let span = Span::covering(fitting)?;
+    // A window that begins or ends at zero has room on the other side only.
+    let about = if span.contains(0.0) && zero.is_some() { 0.0 } else { span.center() };
+    Some(Window { x, y: span.scaled(about, ROOM) })
+}
+
+/// The time until the motion ends or comes to rest, and the values that the layers have in it.
+fn time_series(session: &Session, plot: usize) -> Option<Window> {
+    let found = session.trajectory()?;
+    let r = session.problem.parameters.r;
+    let mut values = vec![0.0];
+    let shown = |layer| session.shows_in(layer, plot);
+    for sample in &found.samples {
+        values.extend(shown(Layer::Position).then_some(sample.q));
+        values.extend(shown(Layer::Velocity).then_some(sample.v));
+        let state = State { q: sample.q, v: sample.v };
+        values.extend(shown(Layer::Energy).then(|| energy(state)));
+    }
+    if let Outcome::Escaped { .. } = found.outcome {
+        // Where the values run away their beginning is looked at.
+        let extent = ESCAPE * session.problem.initial.q.hypot(session.problem.initial.v).max(r);
+        values.retain(|value| value.abs() <= extent);
+    }
+    if shown(Layer::Friction) {
+        values.extend([-r, r]);
+    }
+    let end = match found.outcome {
+        Outcome::Captured { tau, .. } => (REST * tau).min(found.problem.until),
+        Outcome::Moving { tau, .. } => tau,
+        Outcome::Escaped { tau } | Outcome::GaveUp { tau, .. } => ROOM * tau,
+    };
+    let y = Span::covering(values)?;
+    Some(Window { x: Span::new(0.0, end).ok()?, y: y.scaled(y.center(), ROOM) })
+}
+
+/// All lines of the ledger.
+fn energy_ledger(session: &Session) -> Option<Window> {
+    let x = View::EnergyLedger.spec().window.x;
+    #[expect(clippy::cast_precision_loss, reason = "a few dozen lines")]
+    let lines = session.ledger().len().max(1) as f64;
+    Some(Window { x, y: Span::new(-lines, 0.0).ok()? })
+}
+
+/// Turning points on the right: those of the cycles, else those of the motion.
+fn return_map(session: &Session) -> Option<Window> {
+    let r = session.problem.parameters.r;
+    let cycles = session.cycles().into_iter().flat_map(|found| &found.cycles);
+    let largest = cycles.map(|cycle| cycle.q_max).fold(session.problem.initial.q.abs(), f64::max);
+    // A map without a cycle: some half swings of friction alone.
+    let far = if largest > r { largest } else { 10.0 * r };
+    let span = Span::new(-(1.0 + MARGIN) * r, FARTHER * far).ok()?;
+    Some(Window { x: span, y: span })
+}
+
+/// Velocities around the Lyapunov circle and the start, and how the energy changes there.
+fn energy_rate(session: &Session) -> Option<Window> {
+    let parameters = session.problem.parameters;
+    let radius = lyapunov::radius(&parameters).unwrap_or(0.0);
+    let fastest = radius.max(session.problem.initial.v.abs()).max(parameters.r);
+    let fastest = if fastest > 0.0 { fastest } else { 1.0 };
+    let x = Span::new(-FASTER * fastest, FASTER * fastest).ok()?;
+    let rate = |v: f64| lyapunov::energy_rate(&parameters, State { q: 0.0, v });
+    let parts = (0..=RATES).map(|part| rate(x.at(f64::from(part) / f64::from(RATES))));
+    let y = Span::covering(parts.chain([0.0]))?;
+    Some(Window { x, y: y.scaled(y.center(), ROOM) })
+}
+
+/// The circle and both eigenvalues.
+fn eigenvalues(session: &Session) -> Option<Window> {
+    let usual = View::Eigenvalues.spec().window;
+    let d = session.problem.parameters.d.abs();
+    let far = usual.x.to().max(2.0 * ROOM * d);
+    Some(Window { x: Span::new(-far, far).ok()?, ..usual })
+}
+
+/// The values of both parameters first looked at, and today's.
+fn regimes(session: &Session, plot: usize) -> Option<Window> {
+    let Axes { abscissa, against, .. } = session.plots[plot].axes;
+    let around = |symbol: Symbol| {
+        let usual = usual_values(symbol);
+        Span::covering([usual.from(), usual.to(), ROOM * session.value(symbol)])
+    };
+    Some(Window { x: around(abscissa)?, y: around(against)? })
+}
+
+/// The value that this part of some sorted values does not exceed.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_precision_loss,
+    reason = "an index into a few hundred values"
+)]
+fn quantile(sorted: &[f64], part: f64) -> Option<f64> {
+    sorted.get((sorted.len() as f64 * part) as usize).copied()
+}

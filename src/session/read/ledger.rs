@@ -1,0 +1,117 @@
+//! The energy ledger as lines: for each cycle and for the motion, what every source did.
+//!
+//! Line `i` stands between the heights `-i` and `-i - 1` of the view's world, so that the view draws the
+//! same lines at every size and the cursor points at one of them.
+
+use crate::oscillator::{Ledger, Parameters, State};
+use crate::scene::Layer;
+use crate::session::state::session::Session;
+use crate::study::Cycle;
+use crate::study::works::works_until;
+
+/// Whose energy it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Owner {
+    /// One turn of a cycle.
+    Cycle(Cycle),
+    /// The motion on show, from its start to its end.
+    Motion,
+}
+
+/// A line of the ledger.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Entry {
+    /// Whose works the lines below are.
+    Title(Owner),
+    /// What a source did, and as a part of the largest work of its owner.
+    Work {
+        /// The source.
+        source: &'static str,
+        /// Energy that it gave; negative where it took.
+        work: f64,
+        /// The same as a part of the largest.
+        part: f64,
+        /// What it did until the moment that is played, as the same part; only of the motion.
+        so_far: Option<f64>,
+    },
+    /// What is missing, as a part of the largest work.
+    Residual(f64),
+}
+
+impl Session {
+    /// The lines of the energy ledger, of the layers that are on.
+    #[must_use]
+    pub fn ledger(&self) -> Vec<Entry> {
+        let mut lines = Vec::new();
+        if self.layers.contains(&Layer::CycleWorks)
+            && let Some(found) = self.cycles()
+        {
+            let works = found.picture.iter().flat_map(|picture| &picture.works);
+            for (cycle, ledger) in found.cycles.iter().zip(works) {
+                add(&mut lines, Owner::Cycle(*cycle), ledger, None, &found.parameters);
+            }
+        }
+        if self.layers.contains(&Layer::MotionWorks)
+            && let Some(found) = self.trajectory()
+            && let Some(ledger) = &found.ledger
+        {
+            let until = self.head().and_then(|head| works_until(found, head.tau));
+            add(&mut lines, Owner::Motion, ledger, until.as_ref(), &found.problem.parameters);
+        }
+        lines
+    }
+
+    /// The state that a line of the ledger leads to: a start on its cycle, or the start of the motion.
+    #[must_use]
+    pub fn start_of_line(&self, height: f64) -> Option<State> {
+        let lines = self.ledger();
+        let line = lines.iter().enumerate().rev().find(|(index, entry)| {
+            #[expect(clippy::cast_precision_loss, reason = "a few dozen lines")]
+            let top = -(*index as f64);
+            matches!(entry, Entry::Title(_)) && height <= top
+        });
+        match line {
+            Some((_, Entry::Title(Owner::Cycle(cycle)))) => Some(State { q: cycle.q_max, v: 0.0 }),
+            Some((_, Entry::Title(Owner::Motion))) => Some(self.problem.initial),
+            _ => None,
+        }
+    }
+}
+
+/// What works on a motion: its name, how strong it is, and what it did.
+type Source = (&'static str, f64, fn(&Ledger) -> f64);
+
+/// Adds the lines of one owner, with those until the present moment; a term that the model does not have
+/// gets none.
+fn add(
+    lines: &mut Vec<Entry>,
+    owner: Owner,
+    ledger: &Ledger,
+    until: Option<&Ledger>,
+    parameters: &Parameters,
+) {
+    let Parameters { d, d2, d3, r } = *parameters;
+    let sources: [Source; 4] = [
+        ("linear", d, |ledger| ledger.linear),
+        ("quadratic", d2, |ledger| ledger.quadratic),
+        ("cubic", d3, |ledger| ledger.cubic),
+        ("friction", r, |ledger| ledger.friction),
+    ];
+    let stored = |ledger: &Ledger| ledger.end - ledger.start;
+    let works = sources.iter().map(|(.., read)| read(ledger).abs());
+    let largest = works.fold(stored(ledger).abs(), f64::max);
+    let part = |work: f64| if largest > 0.0 { work / largest } else { 0.0 };
+    lines.push(Entry::Title(owner));
+    let mut add = |source, read: fn(&Ledger) -> f64| {
+        let work = read(ledger);
+        let so_far = until.map(|until| part(read(until)));
+        lines.push(Entry::Work { source, work, part: part(work), so_far });
+    };
+    for (source, _, read) in sources.iter().filter(|(_, strength, _)| *strength != 0.0) {
+        add(source, *read);
+    }
+    if owner == Owner::Motion {
+        add("stored", stored);
+    }
+    lines.push(Entry::Residual(part(ledger.residual)));
+}

@@ -1,0 +1,67 @@
+//! The rows of the lists over the panes.
+
+use std::sync::Arc;
+
+use crate::scene::{LAYERS, LayerSpec, Scene, VIEWS, View, ViewSpec, library};
+use crate::session::state::overlay::{List, Listed, Overlay};
+use crate::session::state::session::Session;
+use crate::study::claims::{Claim, Examined, Verdict, claims};
+
+impl Session {
+    /// The scenes that the picker lists.
+    #[must_use]
+    pub fn scene_rows(&self, list: &List) -> Vec<&'static Arc<Scene>> {
+        library().iter().filter(|scene| list.matches(&[&scene.name, &scene.title])).collect()
+    }
+
+    /// The layers that the layer list shows: those of the plot in use first.
+    #[must_use]
+    pub fn layer_rows(&self, list: &List) -> Vec<&'static LayerSpec> {
+        let found = LAYERS.iter().filter(|row| list.matches(&[row.name, row.meaning]));
+        let mut rows: Vec<_> = found.collect();
+        rows.sort_by_key(|row| (row.view != self.view_in_use(), row.view));
+        rows
+    }
+
+    /// What the plot in use shows.
+    #[must_use]
+    pub fn view_in_use(&self) -> View {
+        self.plots[self.plot].view
+    }
+
+    /// The views that the picker lists.
+    #[must_use]
+    pub fn view_rows(&self, list: &List) -> Vec<&'static ViewSpec> {
+        VIEWS.iter().filter(|row| list.matches(&[row.name, row.title, row.meaning])).collect()
+    }
+
+    /// The claims that the page of the paper lists, each with what became of it, if that is known.
+    #[must_use]
+    pub fn claim_rows(&self, list: &List) -> Vec<(&'static Claim, Option<&Examined>)> {
+        let examined = self.examined();
+        let rows = claims().enumerate().map(|(index, claim)| (claim, examined.get(index)));
+        let matches = |(claim, examined): &(&'static Claim, Option<&Examined>)| {
+            let verdict = examined.and_then(Examined::verdict).map_or("", Verdict::name);
+            list.matches(&[claim.equation, claim.section, claim.statement, verdict])
+        };
+        rows.filter(matches).collect()
+    }
+
+    /// How many rows the open list has.
+    pub(in crate::session) fn list_length(&self) -> usize {
+        match &self.overlay {
+            Some(Overlay::List(Listed::Scenes, list)) => self.scene_rows(list).len(),
+            Some(Overlay::List(Listed::Layers, list)) => self.layer_rows(list).len(),
+            Some(Overlay::List(Listed::Views, list)) => self.view_rows(list).len(),
+            Some(Overlay::List(Listed::Paper, list)) => self.claim_rows(list).len(),
+            Some(Overlay::List(Listed::Palette, list)) => self.palette_rows(list).len(),
+            Some(Overlay::List(Listed::Cost, list)) => self.cost_rows(list).len(),
+            Some(Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Scan(_) | Overlay::Offer(_))
+            | None => 0,
+        }
+    }
+
+    pub(in crate::session) fn list_mut(&mut self) -> Option<&mut List> {
+        self.overlay.as_mut().and_then(Overlay::list_mut)
+    }
+}

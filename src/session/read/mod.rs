@@ -1,0 +1,21 @@
+//! Questions about a session, each a pure function of its state.
+
+pub mod belt;
+pub mod completion;
+pub mod contexts;
+pub mod fate;
+pub mod fit;
+pub mod ledger;
+pub mod lists;
+pub mod motion;
+pub mod numbers;
+pub mod palette;
+pub mod playback;
+pub mod plots;
+pub mod requirement;
+pub mod scan;
+pub mod trade;
+pub mod variants;
+pub mod waiting;
+pub mod walk;
+pub mod wants;

@@ -1,0 +1,59 @@
+//! The rows of the parameter pane as numbers of a motion.
+
+use crate::flow::Problem;
+use crate::oscillator::belt::Quantity;
+use crate::scene::file::UNTIL_RANGE;
+use crate::session::state::rows::{ROWS, Row};
+use crate::session::state::setup::Stand;
+use crate::session::state::step_size::shortest;
+
+/// The range of a row that is a number.
+pub(in crate::session) fn range(problem: &Problem, row: Row) -> (f64, f64) {
+    match row {
+        Row::Belt => (Quantity::BeltSpeed.spec().min, Quantity::BeltSpeed.spec().max),
+        Row::Parameter(symbol) => (symbol.spec().min, symbol.spec().max),
+        Row::Until => UNTIL_RANGE,
+        Row::Tolerance | Row::Method => problem.method.spec().dial.range(),
+    }
+}
+
+/// The value of a row that is a number; 0 for a belt where there is none.
+pub(in crate::session) fn number(stand: &Stand, row: Row) -> f64 {
+    let Stand { problem, belt_speed } = stand;
+    match row {
+        Row::Belt => belt_speed.unwrap_or(0.0),
+        Row::Parameter(symbol) => symbol.get(&problem.parameters, &problem.initial),
+        Row::Until => problem.until,
+        Row::Tolerance | Row::Method => problem.setting(),
+    }
+}
+
+/// The same motion with another value of a row that is a number of the motion.
+pub(in crate::session) fn with_number(mut problem: Problem, row: Row, value: f64) -> Problem {
+    match row {
+        Row::Parameter(symbol) => symbol.set(&mut problem.parameters, &mut problem.initial, value),
+        Row::Until => problem.until = value,
+        Row::Tolerance => problem = problem.with_setting(value),
+        Row::Method | Row::Belt => {}
+    }
+    problem
+}
+
+/// What is different in `new`, as `name = value`; of a belt at another speed that alone, because the
+/// parameters follow from it.
+pub(in crate::session) fn difference(old: &Stand, new: &Stand) -> String {
+    let value = |stand: &Stand, row: Row| match row {
+        Row::Method => stand.problem.method.to_string(),
+        Row::Belt => stand.belt_speed.map(shortest).unwrap_or_default(),
+        row => shortest(number(stand, row)),
+    };
+    let belt = new.belt_speed.is_some() && old.belt_speed != new.belt_speed;
+    let follows = |row: &Row| belt && matches!(row, Row::Parameter(_));
+    let rows = ROWS.into_iter().filter(|row| !follows(row));
+    let changed = rows.filter(|row| value(old, *row) != value(new, *row));
+    let said = changed.map(|row| {
+        let unit = if row == Row::Belt { " m/s" } else { "" };
+        format!("{} = {}{unit}", row.name_in(&new.problem), value(new, row))
+    });
+    said.collect::<Vec<_>>().join(", ")
+}

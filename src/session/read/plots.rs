@@ -1,0 +1,98 @@
+//! What the plots show, and which of them are on show.
+
+use crate::scene::{Exhibit, Layer, View};
+use crate::session::state::history::Desk;
+use crate::session::state::plot::{Framing, Pane, Plot};
+use crate::session::state::session::Session;
+
+impl Session {
+    /// The indices of the plots on show.
+    #[must_use]
+    pub fn on_show(&self) -> std::ops::Range<usize> {
+        if self.enlarged { self.plot..self.plot + 1 } else { 0..self.plots.len() }
+    }
+
+    /// The panes on show, in the order in which the focus visits them.
+    #[must_use]
+    pub fn panes(&self) -> Vec<Pane> {
+        std::iter::once(Pane::Parameters).chain(self.on_show().map(Pane::Plot)).collect()
+    }
+
+    /// The plot in focus.
+    #[must_use]
+    pub fn focused(&self) -> Option<&Plot> {
+        match self.focus {
+            Pane::Parameters => None,
+            Pane::Plot(index) => self.plots.get(index),
+        }
+    }
+
+    /// The plot in focus, to be changed.
+    pub fn focused_mut(&mut self) -> Option<&mut Plot> {
+        match self.focus {
+            Pane::Parameters => None,
+            Pane::Plot(index) => self.plots.get_mut(index),
+        }
+    }
+
+    /// Whether a layer is on and a plot on show has its view.
+    #[must_use]
+    pub fn shows(&self, layer: Layer) -> bool {
+        self.on_show().any(|index| self.shows_in(layer, index))
+    }
+
+    /// Whether a layer is on and belongs to the view of a plot.
+    #[must_use]
+    pub fn shows_in(&self, layer: Layer, plot: usize) -> bool {
+        let view = layer.spec().view;
+        self.layers.contains(&layer) && self.plots.get(plot).is_some_and(|plot| plot.view == view)
+    }
+
+    /// Why a layer that is on shows nothing, where that lies in the axes of every diagram on show.
+    #[must_use]
+    pub fn not_drawn(&self, layer: Layer) -> Option<&'static str> {
+        if layer == Layer::Ghost {
+            return self.marks.left.is_none().then_some("not drawn: no mark has been gone to yet");
+        }
+        if matches!(layer, Layer::Record | Layer::Recorded) {
+            return self.scene.recording.is_none().then_some("not drawn: no record is open");
+        }
+        if matches!(layer, Layer::Belt | Layer::BeltPath | Layer::Whole) {
+            return self.scene.machine.is_none().then_some("not drawn: the scene is of no machine");
+        }
+        let harmonic = matches!(layer, Layer::Harmonic | Layer::Asymptotes);
+        let drawn = |index: usize| {
+            self.shows_in(layer, index) && self.plots[index].axes.ordinate.spec().harmonic.is_some()
+        };
+        (harmonic && self.shows(layer) && !self.on_show().any(drawn))
+            .then_some("not drawn: the harmonic answer has no multiplier")
+    }
+
+    /// What the scene shows in a plot: what it has at that place, else what it shows of that view
+    /// anywhere.
+    #[must_use]
+    pub fn exhibit_of_scene(&self, plot: usize, view: View) -> Option<Exhibit> {
+        let plots = &self.scene.plots;
+        let here = plots.get(plot).filter(|exhibit| exhibit.view == view);
+        here.or(plots.iter().find(|exhibit| exhibit.view == view)).copied()
+    }
+
+    /// What a plot shows, so that it can be set up again.
+    #[must_use]
+    pub fn exhibit(&self, index: usize) -> Option<Exhibit> {
+        let plot = self.plots.get(index)?;
+        let of_scene = self.exhibit_of_scene(index, plot.view);
+        let window = match plot.framing {
+            Framing::Scene => of_scene.and_then(|exhibit| exhibit.window),
+            Framing::Fitting => None,
+            Framing::Fitted | Framing::User => Some(plot.window),
+        };
+        Some(Exhibit { view: plot.view, axes: plot.axes, window, family: plot.family })
+    }
+
+    /// What is on show now.
+    pub(in crate::session) fn desk(&self) -> Desk {
+        let exhibits = (0..self.plots.len()).filter_map(|index| self.exhibit(index));
+        Desk { plots: exhibits.collect(), arrangement: self.arrangement }
+    }
+}

@@ -1,0 +1,98 @@
+//! What a scene requires: which questions its layers ask, and which of them a step of a number asks anew.
+
+use crate::scene::{Layer, Request, Slot};
+use crate::session::act::parameters;
+use crate::session::state::overlay::List;
+use crate::session::state::rows::Row;
+use crate::session::state::session::Session;
+
+/// One question of what is on show, and the layers for which it is asked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Requirement {
+    /// The question.
+    pub request: Request,
+    /// The layers that draw its answer.
+    pub layers: Vec<Layer>,
+}
+
+/// A row of the list of costs.
+#[derive(Clone, Debug, PartialEq)]
+pub enum CostRow {
+    /// A question of what is on show.
+    Asked(Requirement),
+    /// Layers that formulas draw.
+    Formulas(Vec<Layer>),
+    /// A step of this row: the kinds of questions that it leaves as they are, and asks anew.
+    Step(Row, Vec<Slot>, Vec<Slot>),
+}
+
+impl Session {
+    /// The rows of the list of costs.
+    #[must_use]
+    pub fn cost_rows(&self, list: &List) -> Vec<CostRow> {
+        let slots = |requests: Vec<Request>| requests.iter().map(Request::slot).collect();
+        let asked = self.requirements().into_iter().map(CostRow::Asked);
+        let formulas = Some(self.drawn_by_formulas()).filter(|layers| !layers.is_empty());
+        let steps = self.rows().into_iter().map(|row| {
+            let (reused, anew) = self.after_a_step(row);
+            CostRow::Step(row, slots(reused), slots(anew))
+        });
+        let name = |row: &CostRow| match row {
+            CostRow::Asked(requirement) => requirement.request.slot().name(),
+            CostRow::Formulas(_) => "formulas",
+            CostRow::Step(row, ..) => row.name(),
+        };
+        let rows = asked.chain(formulas.map(CostRow::Formulas)).chain(steps);
+        rows.filter(|row| list.matches(&[name(row)])).collect()
+    }
+
+    /// What is asked for what is on show, each question once, with the layers that need it.
+    #[must_use]
+    pub fn requirements(&self) -> Vec<Requirement> {
+        let mut found: Vec<Requirement> = Vec::new();
+        for plot in self.on_show() {
+            let layers = self.layers.iter().filter(|layer| self.shows_in(**layer, plot));
+            for layer in layers {
+                let slot = layer.spec().needs.map(|slot| self.slot_in(slot, plot));
+                let Some(request) = slot.and_then(|slot| self.request(slot, plot)) else {
+                    continue;
+                };
+                match found.iter_mut().find(|requirement| requirement.request == request) {
+                    Some(known) if known.layers.contains(layer) => {}
+                    Some(known) => known.layers.push(*layer),
+                    None => found.push(Requirement { request, layers: vec![*layer] }),
+                }
+            }
+        }
+        found.sort_by_key(|requirement| requirement.request.slot());
+        found
+    }
+
+    /// The layers on show that need no answer: formulas draw them.
+    #[must_use]
+    pub fn drawn_by_formulas(&self) -> Vec<Layer> {
+        let shown = self.layers.iter().filter(|layer| self.shows(**layer));
+        shown.filter(|layer| layer.spec().needs.is_none()).copied().collect()
+    }
+
+    /// The questions of today that a step of this row would leave as they are, and those that it would
+    /// ask anew.
+    #[must_use]
+    pub fn after_a_step(&self, row: Row) -> (Vec<Request>, Vec<Request>) {
+        let mut stepped = self.clone();
+        stepped.selected = row;
+        // At the end of a range the step goes the other way.
+        for count in [1, -1] {
+            if stepped.problem == self.problem {
+                parameters::step(&mut stepped, count);
+            }
+        }
+        let today: Vec<Request> =
+            self.requirements().into_iter().map(|requirement| requirement.request).collect();
+        stepped
+            .requirements()
+            .into_iter()
+            .map(|requirement| requirement.request)
+            .partition(|request| today.contains(request))
+    }
+}

@@ -1,0 +1,31 @@
+//! The view of what accuracy costs: the row that the cursor is nearest to, and taking its method.
+
+use crate::scene::{Answer, Point, Slot, View, Window};
+use crate::session::state::session::Session;
+use crate::study::trade::{Row, Trade};
+
+impl Session {
+    /// The last comparison of the methods, stale or not.
+    #[must_use]
+    pub fn trade(&self) -> Option<&Trade> {
+        match self.answer(Slot::Trade, self.plot)? {
+            Answer::Trade(found) => Some(found),
+            _ => None,
+        }
+    }
+
+    /// The row that is nearest to the cursor of a plot, as the eye sees it.
+    #[must_use]
+    pub fn row_under_cursor(&self, plot: usize) -> Option<&Row> {
+        let plot = self.plots.get(plot).filter(|plot| plot.view == View::Trade)?;
+        let Point { x, y } = plot.cursor?;
+        let Window { x: across, y: up } = plot.window;
+        let distance = |row: &&Row| {
+            row.place().map_or(f64::INFINITY, |(right, high)| {
+                ((right - x) / across.width()).hypot((high - y) / up.width())
+            })
+        };
+        let rows = self.trade()?.rows.iter().filter(|row| row.place().is_some());
+        rows.min_by(|one, other| distance(one).total_cmp(&distance(other)))
+    }
+}

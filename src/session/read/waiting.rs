@@ -1,0 +1,179 @@
+//! Commands that need an answer which is still being computed: they wait for it.
+//!
+//! A press that waits has not been taken in: nothing of it has happened, and nothing else does until it
+//! can, so that the same keys lead to the same end however fast they are typed. Whoever gives messages to
+//! a session holds back what the user does meanwhile ([`Session::is_waiting`]). Where the computation gives
+//! up, the command is run all the same and says so.
+
+use crate::scene::{Request, Slot, View};
+use crate::session::message::Msg;
+use crate::session::message::key::{Code, Key};
+use crate::session::message::pointer::{Place, Pointed};
+use crate::session::read::fit;
+use crate::session::read::palette::PaletteRow;
+use crate::session::read::palette::place;
+use crate::session::state::command::Command;
+use crate::session::state::context::Context;
+use crate::session::state::overlay::{Listed, Overlay};
+use crate::session::state::pending::{Letter, Pending};
+use crate::session::state::plot::Pane;
+use crate::session::state::session::Session;
+
+/// What a command needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Need {
+    /// The answer of a kind for the plot in which it runs, with its variants.
+    Answer(Slot),
+    /// The answer of a kind at the present numbers, whatever the plot varies.
+    Present(Slot),
+    /// The motion, where it runs in a plot over time.
+    MotionOverTime,
+    /// The window of the plot in which it runs, where that is being fitted.
+    Window,
+    /// What is kept of the point that is left, to be compared with.
+    Comparison,
+    /// To know what has failed.
+    Everything,
+}
+
+/// What the ghost of a point shows.
+const COMPARED: [Slot; 2] = [Slot::Trajectory, Slot::Cycles];
+
+/// The commands that need something; all others mean the same at any time.
+#[rustfmt::skip]
+pub const NEEDS: [(Need, &[&str]); 9] = [
+    (Need::Present(Slot::Cycles), &["start-inside", "start-outside"]),
+    (Need::Answer(Slot::Cycles), &["start-on-cycle"]),
+    (Need::Answer(Slot::Trajectory), &["play-motion", "motion-on", "motion-back"]),
+    (Need::Answer(Slot::Trade), &["use-method"]),
+    (Need::Answer(Slot::Branch), &[
+        "walk", "walk-back", "walk-on", "walk-far-back", "walk-far-on", "walk-to-next",
+        "walk-to-previous", "walk-to-first", "walk-to-last", "walk-take",
+    ]),
+    (Need::MotionOverTime, &["start-here"]),
+    (Need::Window, &[
+        "walk", "use-method", "cursor-left", "cursor-right", "cursor-up", "cursor-down",
+        "cursor-far-left", "cursor-far-right", "cursor-far-up", "cursor-far-down", "zoom-in", "zoom-out",
+        "pan-left", "pan-right", "pan-up", "pan-down", "next-ordinate", "next-unit", "copy-command",
+        "scan-form",
+    ]),
+    (Need::Comparison, &["goto"]),
+    (Need::Everything, &["retry"]),
+];
+
+impl Session {
+    /// Whether a press waits for an answer: then what the user does has to wait as well.
+    #[must_use]
+    pub fn is_waiting(&self) -> bool {
+        self.waiting.is_some()
+    }
+
+    /// The question that must be answered before this can be taken in.
+    pub(in crate::session) fn awaited(&self, message: &Msg) -> Option<Request> {
+        match message {
+            Msg::Key(key) => self.awaited_by_key(*key),
+            Msg::Run(line) => self.awaited_by_line(line),
+            Msg::Pointed(Pointed { place: Place::Plot(index, _), .. }) => {
+                fit::awaited(self, *index)
+            }
+            _ => None,
+        }
+    }
+
+    fn awaited_by_key(&self, key: Key) -> Option<Request> {
+        let context = match self.pending {
+            None => None,
+            Some(Pending::Count(_)) => Some(Context::Count),
+            Some(Pending::Letter { .. }) => Some(Context::Letter),
+        };
+        if context.is_some_and(|context| self.keymap.command(&[context], key).is_some()) {
+            return None;
+        }
+        match self.pending {
+            Some(Pending::Letter { what: Letter::GoTo, .. }) => {
+                return self.awaited_by("goto", None);
+            }
+            Some(Pending::Letter { .. }) => return None,
+            Some(Pending::Count(_)) | None => {}
+        }
+        let command = self.keymap.command(self.contexts_at_rest(), key)?;
+        match (&self.overlay, command.name) {
+            (Some(Overlay::Prompt(prompt)), "run-line") => {
+                self.awaited_by_line(prompt.input.text().trim())
+            }
+            (Some(Overlay::List(Listed::Palette, list)), "run-command") => {
+                match self.palette_rows(list).get(list.selected)? {
+                    PaletteRow::Command(command) => self.awaited_by_command(command),
+                    _ => None,
+                }
+            }
+            _ => self.awaited_by(command.name, Some(self.focus)),
+        }
+    }
+
+    fn awaited_by_line(&self, line: &str) -> Option<Request> {
+        let (name, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
+        match self.keymap.named(name).filter(|_| rest.trim().is_empty()) {
+            Some(command) => self.awaited_by_command(command),
+            None => self.awaited_by(name, None),
+        }
+    }
+
+    /// What a command needs that is run by its name, in the pane where it belongs.
+    fn awaited_by_command(&self, command: &Command) -> Option<Request> {
+        let pane = place(self, command).ok()?.unwrap_or(self.focus);
+        self.awaited_by(command.name, Some(pane))
+    }
+
+    fn awaited_by(&self, name: &str, pane: Option<Pane>) -> Option<Request> {
+        let plot = match pane {
+            Some(Pane::Plot(index)) => index,
+            Some(Pane::Parameters) | None => self.plot,
+        };
+        let needs = NEEDS.iter().filter(|(_, names)| names.contains(&name));
+        needs.into_iter().find_map(|(need, _)| match need {
+            Need::Answer(slot) => self.open(*slot, plot),
+            Need::Present(slot) => self.still_asked(self.request(*slot, plot)),
+            Need::MotionOverTime => {
+                let over_time = self.plots.get(plot)?.view == View::TimeSeries;
+                over_time.then(|| self.open(Slot::Trajectory, plot)).flatten()
+            }
+            Need::Window => fit::awaited(self, plot),
+            Need::Comparison => COMPARED.into_iter().find_map(|slot| self.open(slot, plot)),
+            Need::Everything => {
+                let mut wants = self.wants().into_iter();
+                wants.find(|request| !request.is_long() && self.is_open(request))
+            }
+        })
+    }
+
+    /// Today's question of a kind, if it is asked and not answered yet.
+    fn open(&self, slot: Slot, plot: usize) -> Option<Request> {
+        self.still_asked(self.request(self.slot_in(slot, plot), plot))
+    }
+
+    /// A question, if it is asked and not answered yet.
+    fn still_asked(&self, request: Option<Request>) -> Option<Request> {
+        request.filter(|request| self.is_open(request) && self.wants().contains(request))
+    }
+}
+
+/// Whether a key forgets the press that waits.
+#[must_use]
+pub fn forgets(message: &Msg) -> bool {
+    matches!(message, Msg::Key(key) if *key == Key::plain(Code::Esc))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::session::{commands, lines};
+
+    #[test]
+    fn what_needs_something_is_a_command() {
+        for name in NEEDS.iter().flat_map(|(_, names)| names.iter()) {
+            let is_key = commands().any(|command| command.name == *name);
+            assert!(is_key || lines().any(|line| line.name == *name), "{name}");
+        }
+    }
+}

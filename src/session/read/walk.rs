@@ -1,0 +1,282 @@
+//! Computed branches as a way to walk: their points and special points in the order along the curves.
+//!
+//! Everything here is a function of the branches, of which a diagram with variants has several. What is held is the point itself and not its place in
+//! the list, so that it stays the same point when the branch is computed anew.
+
+use crate::session::state::stop::Stop;
+use crate::study::{Branch, SpecialKind};
+
+/// The connected pieces of branches, each as the stops along it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Way {
+    pieces: Vec<Vec<Stop>>,
+    /// Width of all values, to measure distances by.
+    extent: f64,
+}
+
+/// Where a stop stands: piece, and place in it.
+type Place = (usize, usize);
+
+impl Way {
+    /// The way along branches, each that of a variant; right is onward, from the end with the smaller
+    /// value.
+    #[must_use]
+    pub fn along(branches: &[(usize, &Branch)]) -> Self {
+        let all = || branches.iter().flat_map(|(_, branch)| &branch.pieces).flatten();
+        let values = || all().map(|point| point.value);
+        let (low, high) =
+            (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+        let mut way = Way { pieces: Vec::new(), extent: if high > low { high - low } else { 1.0 } };
+        for (variant, branch) in branches {
+            for piece in branch.pieces.iter().filter(|piece| !piece.is_empty()) {
+                let mut stops: Vec<Stop> =
+                    piece.iter().map(|point| Stop::on(*variant, point)).collect();
+                if stops[0].value > stops[stops.len() - 1].value {
+                    stops.reverse();
+                }
+                way.pieces.push(stops);
+            }
+            for special in &branch.special {
+                way.insert(Stop::at(*variant, special));
+            }
+        }
+        way
+    }
+
+    /// Puts a special point where the detour over it is shortest.
+    fn insert(&mut self, special: Stop) {
+        let mut best: Option<(f64, Place)> = None;
+        let numbered = self.pieces.iter().enumerate();
+        let same = |piece: &[Stop]| piece.first().is_some_and(|it| it.variant == special.variant);
+        for (index, piece) in numbered.filter(|(_, piece)| same(piece)) {
+            for gap in 0..=piece.len() {
+                let around = (gap.checked_sub(1).map(|last| &piece[last]), piece.get(gap));
+                if !admits(special.special, around) {
+                    continue;
+                }
+                let detour = match around {
+                    (Some(one), Some(other)) => {
+                        self.apart(one, &special) + self.apart(&special, other)
+                            - self.apart(one, other)
+                    }
+                    (Some(end), None) | (None, Some(end)) => self.apart(end, &special),
+                    (None, None) => continue,
+                };
+                if best.is_none_or(|(least, _)| detour < least) {
+                    best = Some((detour, (index, gap)));
+                }
+            }
+        }
+        if let Some((_, (piece, gap))) = best {
+            self.pieces[piece].insert(gap, special);
+        }
+    }
+
+    /// How far apart two points are: in parts of all values, and in the logarithm of the size. A cycle
+    /// at infinity is as far as its value is. From one branch to another no way leads.
+    fn apart(&self, one: &Stop, other: &Stop) -> f64 {
+        if one.variant != other.variant {
+            return f64::INFINITY;
+        }
+        let size = |stop: &Stop| stop.cycle.map(|cycle| cycle.q_max.max(f64::MIN_POSITIVE).ln());
+        let values = (one.value - other.value) / self.extent;
+        match (size(one), size(other)) {
+            (Some(a), Some(b)) => values.hypot(a - b),
+            _ => values.abs(),
+        }
+    }
+
+    /// Every stop with its place.
+    fn stops(&self) -> impl Iterator<Item = (Place, &Stop)> {
+        let numbered = |(index, piece): (usize, &'_ Vec<Stop>)| {
+            (0..piece.len()).map(move |place| (index, place)).collect::<Vec<_>>()
+        };
+        let places = self.pieces.iter().enumerate().flat_map(numbered);
+        places.map(|place| (place, &self.pieces[place.0][place.1]))
+    }
+
+    /// The stop for which `measure` is smallest.
+    #[must_use]
+    pub fn nearest(&self, measure: impl Fn(&Stop) -> f64) -> Option<Stop> {
+        let rated = self.stops().map(|(_, stop)| (measure(stop), *stop));
+        rated.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, stop)| stop)
+    }
+
+    /// Where a walk begins at a value of the parameter: beside it on the innermost cycle there, which
+    /// borders the basin; else on the nearest value.
+    #[must_use]
+    pub fn start(&self, value: f64) -> Option<Stop> {
+        let distance = |stop: &Stop| (stop.value - value).abs();
+        let beside = self.pieces.iter().flat_map(|piece| piece.windows(2)).filter_map(|pair| {
+            let around = (pair[0].value <= value) != (pair[1].value <= value);
+            let [one, other] = [pair[0], pair[1]].map(|stop| (distance(&stop), stop));
+            around.then_some(if one.0 <= other.0 { one.1 } else { other.1 })
+        });
+        let size = |stop: &Stop| stop.cycle.map_or(f64::INFINITY, |cycle| cycle.q_max);
+        let innermost = beside.min_by(|a, b| size(a).total_cmp(&size(b)));
+        innermost.or_else(|| self.nearest(distance))
+    }
+
+    /// The same stop on this way, or the one next to it.
+    #[must_use]
+    pub fn again(&self, held: &Stop) -> Option<Stop> {
+        self.place(held).map(|(piece, place)| self.pieces[piece][place])
+    }
+
+    fn place(&self, held: &Stop) -> Option<Place> {
+        let same = self.stops().find(|(_, stop)| *stop == held);
+        let rated = || self.stops().map(|(place, stop)| (self.apart(held, stop), place));
+        same.map(|(place, _)| place)
+            .or_else(|| rated().min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, place)| place))
+    }
+
+    /// The stop `count` stops further on the same piece, or its end.
+    #[must_use]
+    pub fn further(&self, held: &Stop, count: isize) -> Option<Stop> {
+        let (piece, place) = self.place(held)?;
+        let stops = &self.pieces[piece];
+        Some(stops[place.saturating_add_signed(count).min(stops.len() - 1)])
+    }
+
+    /// The next special point or end of a piece, on to other pieces and around the last one.
+    #[must_use]
+    pub fn landmark(&self, held: &Stop, onward: bool) -> Option<Stop> {
+        let here = self.place(held)?;
+        let marked = |(piece, place): Place, stop: &Stop| {
+            stop.special.is_some() || place == 0 || place + 1 == self.pieces[piece].len()
+        };
+        let landmarks: Vec<Place> = self
+            .stops()
+            .filter(|(place, stop)| marked(*place, stop))
+            .map(|(place, _)| place)
+            .collect();
+        let next = if onward {
+            landmarks.iter().find(|place| **place > here).or(landmarks.first())
+        } else {
+            landmarks.iter().rev().find(|place| **place < here).or(landmarks.last())
+        };
+        next.map(|(piece, place)| self.pieces[*piece][*place])
+    }
+}
+
+/// Whether a special point can lie between two stops, of which one is missing at the end of a piece: a
+/// fold where stability changes, a crossing between the signs, and ends at ends.
+fn admits(kind: Option<SpecialKind>, around: (Option<&Stop>, Option<&Stop>)) -> bool {
+    let stable = |stop: &Stop| stop.cycle.is_some_and(|cycle| cycle.stable);
+    match (kind, around) {
+        (Some(SpecialKind::Fold), (Some(one), Some(other))) => stable(one) != stable(other),
+        (Some(SpecialKind::ZeroCrossing), (Some(one), Some(other))) => {
+            (one.value < 0.0) != (other.value < 0.0)
+        }
+        (Some(SpecialKind::Escape | SpecialKind::Hopf), (None, _) | (_, None)) => true,
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::flow::Limits;
+    use crate::oscillator::{Parameters, Symbol};
+    use crate::study::branch::{Points, branch};
+
+    const FOLDED: Parameters = Parameters { d: 0.0, d2: 0.2, d3: 0.5, r: 0.1 };
+
+    fn over(parameters: &Parameters, symbol: Symbol, range: (f64, f64)) -> Way {
+        let found =
+            branch(parameters, symbol, range, Points::Even(60), 1e-8, &Limits::PATIENT).unwrap();
+        Way::along(&[(0, &found)])
+    }
+
+    /// Walks over all landmarks, from the first stop of the first piece back to it.
+    fn landmarks(way: &Way) -> Vec<Stop> {
+        let first = way.pieces[0][0];
+        let mut found = vec![first];
+        while let Some(next) = way.landmark(&found[found.len() - 1], true)
+            && next != first
+        {
+            found.push(next);
+        }
+        found
+    }
+
+    #[test]
+    fn the_fold_stands_between_the_unstable_and_the_stable_cycles() {
+        let way = over(&FOLDED, Symbol::D, (-0.9, 0.1));
+        let stops = &way.pieces[0];
+        let fold = stops.iter().position(|stop| stop.special == Some(SpecialKind::Fold)).unwrap();
+        assert!((stops[fold].value + 0.172_784_103_071_94).abs() < 1e-12);
+        let stable = |stop: &Stop| stop.cycle.unwrap().stable;
+        assert!(stops[..fold].iter().all(|stop| !stable(stop)));
+        assert!(stops[fold + 1..].iter().all(stable));
+        assert!(stops.iter().all(|stop| stop.value <= stops[fold].value));
+        let kinds: Vec<_> = landmarks(&way).iter().map(|stop| stop.special).collect();
+        assert_eq!(kinds, [None, Some(SpecialKind::Fold), None], "and around");
+        // There and back again.
+        let back = way.landmark(&stops[0], false).unwrap();
+        assert_eq!(&back, stops.last().unwrap());
+        assert_eq!(way.further(&stops[fold], -1), Some(stops[fold - 1]));
+        assert_eq!(way.further(&stops[0], isize::MIN), Some(stops[0]));
+        assert_eq!(way.further(&stops[0], isize::MAX).as_ref(), stops.last());
+    }
+
+    #[test]
+    fn of_several_branches_each_is_walked_by_itself() {
+        let frictions = [0.05, 0.2];
+        let found = frictions.map(|r| {
+            let parameters = Parameters { r, ..FOLDED };
+            branch(&parameters, Symbol::D, (-0.9, 0.1), Points::Even(60), 1e-8, &Limits::PATIENT)
+                .unwrap()
+        });
+        let way = Way::along(&[(0, &found[0]), (1, &found[1])]);
+        let marks: Vec<_> =
+            landmarks(&way).iter().map(|stop| (stop.variant, stop.special)).collect();
+        let fold = Some(SpecialKind::Fold);
+        let ends = [(0, None), (0, fold), (0, None), (1, None), (1, fold), (1, None)];
+        assert_eq!(marks, ends, "from one branch on to the other, and around");
+        for (index, found) in found.iter().enumerate() {
+            let alone = Way::along(&[(index, found)]);
+            assert_eq!(way.pieces[index], alone.pieces[0]);
+            let held = alone.start(-0.6).unwrap();
+            assert_eq!(way.again(&held), Some(held));
+        }
+    }
+
+    #[test]
+    fn a_walk_begins_on_the_border_of_the_basin() {
+        let way = over(&FOLDED, Symbol::D, (-0.9, 0.1));
+        let start = way.start(-0.4).unwrap();
+        assert!(!start.cycle.unwrap().stable && (start.value + 0.4).abs() < 0.05);
+        // Beyond the fold there is no cycle: the nearest value is the fold's.
+        assert_eq!(way.start(0.0).unwrap().special, Some(SpecialKind::Fold));
+    }
+
+    #[test]
+    fn escape_and_the_vanishing_cycle_end_their_branches_and_zero_is_crossed_on_the_way() {
+        for (parameters, kind, at) in [
+            (Parameters { d2: 0.5, d3: 0.0, ..FOLDED }, SpecialKind::Escape, "end"),
+            (Parameters { d2: 0.0, r: 0.0, ..FOLDED }, SpecialKind::Hopf, "end"),
+            (Parameters { d2: 0.0, d3: -0.5, ..FOLDED }, SpecialKind::ZeroCrossing, "way"),
+        ] {
+            let way = over(&parameters, Symbol::D, (-0.5, 0.1));
+            let [stops] = &way.pieces[..] else { panic!("one piece for {kind:?}") };
+            let place = stops.iter().position(|stop| stop.special == Some(kind)).unwrap();
+            let is_end = place == 0 || place + 1 == stops.len();
+            assert_eq!(if is_end { "end" } else { "way" }, at, "{kind:?} at {place}");
+            if kind == SpecialKind::ZeroCrossing {
+                assert!(stops[place - 1].value < 0.0 && stops[place + 1].value > 0.0);
+            }
+        }
+    }
+
+    #[test]
+    fn a_point_is_found_again_on_a_branch_computed_anew() {
+        let way = over(&FOLDED, Symbol::D, (-0.9, 0.1));
+        let held = way.start(-0.4).unwrap();
+        let closer = over(&FOLDED, Symbol::D, (-0.5, -0.1));
+        let again = closer.again(&held).unwrap();
+        assert!((again.value - held.value).abs() < 0.02);
+        assert_eq!(again.cycle.unwrap().stable, held.cycle.unwrap().stable);
+        assert_eq!(closer.again(&again), Some(again));
+    }
+}

@@ -1,0 +1,141 @@
+//! Keystroke files as data: steps, and what each gives to a session.
+
+use crate::oscillator::Symbol;
+use crate::session::message::Msg;
+use crate::session::message::key::Key;
+use crate::session::message::pointer::Pointed;
+
+/// Seconds that may pass at once.
+pub const LONGEST: f64 = 3600.0;
+
+/// One instruction of a keystroke file.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Step {
+    /// A key, pressed so many times: `x`, `<right>`, `<right*5>`.
+    Key {
+        /// The key.
+        key: Key,
+        /// How many times.
+        count: u32,
+    },
+    /// The mouse: `<click 1 0.5 -0.25>` on the first plot, `<click row 2>`; `<nearer ..>` and `<farther ..>` for its wheel.
+    Pointed(Pointed),
+    /// Text pasted at once: `<paste "text">`.
+    Paste(String),
+    /// So many seconds pass: `<elapse 0.25>`.
+    Elapse(f64),
+    /// Go on when no computation is pending: `<wait>`.
+    Wait,
+    /// From here on, do not wait after each key: `<async>`.
+    Async,
+    /// Give the screen this size: `<resize 80x24>`.
+    Resize {
+        /// Columns.
+        width: u16,
+        /// Rows.
+        height: u16,
+    },
+    /// The screen must show this text on one of its rows: `<expect "text">`.
+    Expect(String),
+    /// Run a line of the command line, whatever the keys are: `<run "set D=-0.3">`.
+    Run(String),
+    /// Show a caption and, where somebody watches, wait for a key: `<say "text">`.
+    Say(String),
+    /// Keep the screen under this name: `<screen name>`.
+    Screen(String),
+    /// The session starts with what stands here: nothing was done before. `<start>`, or `<start D3 r>` with
+    /// the parameters that belong to its scene besides those that the scene names itself.
+    Start(Vec<Symbol>),
+    /// Whoever reads the file of this name while this is played finds this text: `<file "a.toml" "text">`.
+    File {
+        /// The name by which it is asked for.
+        name: String,
+        /// What it holds.
+        text: String,
+    },
+}
+
+impl Step {
+    /// What a message stands for in a keystroke file; `None` where it comes by itself from something else
+    /// that does.
+    #[must_use]
+    pub fn of(message: &Msg) -> Option<Self> {
+        Some(match message {
+            Msg::Key(key) => Step::Key { key: *key, count: 1 },
+            Msg::Pointed(pointed) => Step::Pointed(*pointed),
+            Msg::Paste(text) if !text.is_empty() => Step::Paste(text.clone()),
+            Msg::Elapsed { seconds } => Step::Elapse(*seconds),
+            Msg::Resize { width, height } => Step::Resize { width: *width, height: *height },
+            Msg::Run(line) => Step::Run(line.clone()),
+            Msg::Say(text) if !text.is_empty() => Step::Say(text.clone()),
+            Msg::Start(names) => Step::Start(names.clone()),
+            Msg::Paste(_)
+            | Msg::Say(_)
+            | Msg::Read { .. }
+            | Msg::Answered(_)
+            | Msg::Idle
+            | Msg::Written(_)
+            | Msg::Told(_) => return None,
+        })
+    }
+
+    /// What a step gives to a session; of a key, one press.
+    #[must_use]
+    pub fn message(&self) -> Option<Msg> {
+        Some(match self {
+            Step::Key { key, .. } => Msg::Key(*key),
+            Step::Pointed(pointed) => Msg::Pointed(*pointed),
+            Step::Paste(text) => Msg::Paste(text.clone()),
+            Step::Elapse(seconds) => Msg::Elapsed { seconds: *seconds },
+            Step::Resize { width, height } => Msg::Resize { width: *width, height: *height },
+            Step::Run(line) => Msg::Run(line.clone()),
+            Step::Say(text) => Msg::Say(text.clone()),
+            Step::Start(names) => Msg::Start(names.clone()),
+            Step::Wait | Step::Async | Step::Expect(_) | Step::Screen(_) | Step::File { .. } => {
+                return None;
+            }
+        })
+    }
+}
+
+/// A step and where it stands, counted from 1.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Located {
+    /// Line.
+    pub line: usize,
+    /// Column, in characters.
+    pub column: usize,
+    /// The step.
+    pub step: Step,
+}
+
+/// A keystroke file, read.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Script {
+    /// Its steps, in order.
+    pub steps: Vec<Located>,
+}
+
+impl Script {
+    /// A file of these steps, so many times over.
+    #[must_use]
+    pub fn repeated(steps: &[Step], times: u32) -> Self {
+        let located = |(index, step): (usize, &Step)| Located {
+            line: 1,
+            column: index + 1,
+            step: step.clone(),
+        };
+        let once: Vec<Located> = steps.iter().enumerate().map(located).collect();
+        Script { steps: (0..times).flat_map(|_| once.iter().cloned()).collect() }
+    }
+
+    /// How many keys it presses.
+    #[must_use]
+    pub fn keys(&self) -> u64 {
+        let presses = |located: &Located| match located.step {
+            Step::Key { count, .. } => u64::from(count),
+            _ => 0,
+        };
+        self.steps.iter().map(presses).sum()
+    }
+}

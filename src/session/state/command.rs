@@ -1,0 +1,87 @@
+//! What has a name and can be run: commands of keys, and commands that take words.
+//!
+//! Here stands what is said about them; what they do stands in the tables of `session::commands` and
+//! `session::lines`.
+
+use crate::session::state::context::Context;
+
+/// Something that a key can do.
+#[derive(Clone, Copy, Debug)]
+pub struct Command {
+    /// Its name, for settings and the palette.
+    pub name: &'static str,
+    /// Where it applies, and its default keys there, the first one shown in the footer.
+    pub keys: &'static [(Context, &'static [&'static str])],
+    /// A word for the footer; empty where the footer has more important things to say. Commands with
+    /// the same word share it.
+    pub hint: &'static str,
+    /// What it does, in one line for the help.
+    pub doc: &'static str,
+}
+
+impl PartialEq for Command {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+/// A command that takes words.
+#[derive(Clone, Copy, Debug)]
+pub struct LineCommand {
+    /// Its name.
+    pub name: &'static str,
+    /// What follows the name, for the help.
+    pub arguments: &'static str,
+    /// What it does, in one line for the help.
+    pub doc: &'static str,
+    /// What its words can be, to complete them.
+    pub words: Words,
+}
+
+impl PartialEq for LineCommand {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+/// What the words of a command can be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Words {
+    /// Nothing that is known here, such as a number or the name of a file.
+    Unknown,
+    /// Names of values with `=` and a value.
+    Assignments,
+    /// A method.
+    Methods,
+    /// A scene.
+    Scenes,
+    /// A view.
+    Views,
+    /// A layer, then on or off.
+    Layers,
+    /// A window.
+    Window,
+    /// A parameter, then a property of the cycles.
+    Axes,
+    /// Parameters with their values, then measures.
+    Scan,
+    /// The letter of a mark.
+    Marks,
+    /// The letter of a register.
+    Registers,
+    /// A theme.
+    Themes,
+    /// A set of characters.
+    Glyphs,
+    /// A depth of colour.
+    Colors,
+}
+
+/// What a command chooses to be run in its place.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Chosen {
+    /// A command of the palette.
+    Command(&'static Command),
+    /// The text of the command line.
+    Line(String),
+}

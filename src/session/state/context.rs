@@ -1,0 +1,232 @@
+//! Where keys have their meaning. Several contexts hold at once: a plot, the phase plane, everywhere.
+
+use std::sync::LazyLock;
+
+use crate::scene::View;
+
+/// Where a key has its meaning.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Context {
+    /// The focus is on the parameter pane.
+    Parameters,
+    /// The focus is on the phase plane.
+    Phase,
+    /// The focus is on the diagram.
+    Diagram,
+    /// The focus is on the time series.
+    TimeSeries,
+    /// The focus is on the energy ledger.
+    EnergyLedger,
+    /// The focus is on the return map.
+    ReturnMap,
+    /// The focus is on a chart of regimes.
+    Regimes,
+    /// The focus is on the trade of error for cost.
+    Trade,
+    /// The focus is on the mass on its belt.
+    Belt,
+    /// The focus is on the rate of the energy.
+    EnergyRate,
+    /// The focus is on the eigenvalues.
+    Eigenvalues,
+    /// The focus is on a scan.
+    Scan,
+    /// The focus is on the cycles over the speed of the belt.
+    Speeds,
+    /// A point of the branch is held.
+    Walk,
+    /// The focus is on a plot.
+    Plots,
+    /// No overlay is open.
+    Everywhere,
+    /// The help is open.
+    Help,
+    /// The scene picker is open.
+    Scenes,
+    /// The layer list is open.
+    Layers,
+    /// The picker of views is open.
+    Views,
+    /// The claims of the paper are open.
+    Paper,
+    /// The palette is open.
+    Palette,
+    /// A count is being typed before a key.
+    Count,
+    /// The letter of a register or mark is waited for.
+    Letter,
+    /// Some list is open.
+    Lists,
+    /// The search of a list is being typed.
+    Search,
+    /// A value is being typed.
+    Entry,
+    /// A command is being typed.
+    Prompt,
+    /// A scan is being typed.
+    Form,
+    /// A pasted keystroke file waits for a yes.
+    Offer,
+    /// Whatever is open.
+    Always,
+}
+
+/// What a context is about; this decides which others hold with it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    /// A pane that is no plot like the others; perhaps it shows a view.
+    Pane(Option<View>),
+    /// A plot that shows this view.
+    Plot(View),
+    /// A point of the branch that is held.
+    Held,
+    /// A list.
+    List,
+    /// A line in which characters are typed.
+    Text,
+    /// A question that one key answers.
+    Question,
+    /// Holds with others.
+    Shared,
+    /// Holds with every list.
+    SharedByLists,
+}
+
+/// A row of [`CONTEXTS`].
+#[derive(Clone, Copy, Debug)]
+pub struct ContextSpec {
+    /// The context.
+    pub context: Context,
+    /// Its name in settings files.
+    pub name: &'static str,
+    /// A heading for its keys.
+    pub title: &'static str,
+    kind: Kind,
+}
+
+const fn row(context: Context, name: &'static str, title: &'static str, kind: Kind) -> ContextSpec {
+    ContextSpec { context, name, title, kind }
+}
+
+/// Every context.
+#[rustfmt::skip]
+pub const CONTEXTS: [ContextSpec; 31] = [
+    row(Context::Parameters, "parameters", "Parameters", Kind::Pane(None)),
+    row(Context::Phase, "phase", "Phase plane", Kind::Plot(View::Phase)),
+    row(Context::Diagram, "diagram", "Bifurcation diagram", Kind::Plot(View::Diagram)),
+    row(Context::TimeSeries, "time-series", "Time series", Kind::Plot(View::TimeSeries)),
+    row(Context::EnergyLedger, "energy-ledger", "Energy ledger", Kind::Plot(View::EnergyLedger)),
+    row(Context::ReturnMap, "return-map", "Return map", Kind::Plot(View::ReturnMap)),
+    row(Context::Regimes, "regimes", "Chart of regimes", Kind::Plot(View::Regimes)),
+    row(Context::Trade, "trade", "Trade of error for cost", Kind::Plot(View::Trade)),
+    row(Context::Belt, "belt", "Mass on its belt", Kind::Plot(View::Belt)),
+    row(Context::EnergyRate, "energy-rate", "Rate of the energy", Kind::Plot(View::EnergyRate)),
+    row(Context::Eigenvalues, "eigenvalues", "Eigenvalues", Kind::Plot(View::Eigenvalues)),
+    row(Context::Scan, "scan", "Scan", Kind::Pane(Some(View::Scan))),
+    row(Context::Speeds, "speeds", "Cycles over the belt's speed", Kind::Plot(View::Speeds)),
+    row(Context::Walk, "walk", "Walking along the branch", Kind::Held),
+    row(Context::Plots, "plots", "Every plot", Kind::Shared),
+    row(Context::Everywhere, "everywhere", "Everywhere", Kind::Shared),
+    row(Context::Help, "help", "In this list", Kind::List),
+    row(Context::Scenes, "scenes", "In the scene picker", Kind::List),
+    row(Context::Layers, "layers", "In the layer list", Kind::List),
+    row(Context::Views, "views", "In the picker of views", Kind::List),
+    row(Context::Paper, "paper", "In the list of claims", Kind::List),
+    row(Context::Palette, "palette", "While searching the list", Kind::Text),
+    row(Context::Count, "count", "After a count", Kind::Question),
+    row(Context::Letter, "letter", "Before the letter of a register or mark", Kind::Question),
+    row(Context::Lists, "lists", "In every list", Kind::SharedByLists),
+    row(Context::Search, "search", "While searching", Kind::Text),
+    row(Context::Entry, "entry", "While typing a value", Kind::Text),
+    row(Context::Prompt, "prompt", "On the command line", Kind::Text),
+    row(Context::Form, "form", "While typing a scan", Kind::Text),
+    row(Context::Offer, "offer", "After pasting keystrokes", Kind::Question),
+    row(Context::Always, "always", "At any time", Kind::Shared),
+];
+
+impl Context {
+    fn spec(self) -> &'static ContextSpec {
+        &CONTEXTS[self as usize]
+    }
+
+    /// The context of a plot that shows a view.
+    #[must_use]
+    pub fn of(view: View) -> Context {
+        let about = |row: &&ContextSpec| row.context.view() == Some(view);
+        CONTEXTS.iter().find(about).map_or(Context::Plots, |row| row.context)
+    }
+
+    /// The name in settings files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.spec().name
+    }
+
+    /// A heading for the keys of this context.
+    #[must_use]
+    pub fn title(self) -> &'static str {
+        self.spec().title
+    }
+
+    /// Whether characters without a command are typed into a line.
+    #[must_use]
+    pub fn takes_text(self) -> bool {
+        self.spec().kind == Kind::Text
+    }
+
+    /// Whether this holds only while something is open or waited for.
+    #[must_use]
+    pub fn is_overlay(self) -> bool {
+        matches!(self.spec().kind, Kind::List | Kind::Text | Kind::Question | Kind::SharedByLists)
+    }
+
+    /// The view that must have the focus for this to hold, if it is about one.
+    #[must_use]
+    pub fn view(self) -> Option<View> {
+        match self.spec().kind {
+            Kind::Plot(view) => Some(view),
+            Kind::Pane(view) => view,
+            _ => None,
+        }
+    }
+}
+
+/// Every set of contexts that can hold together, the most specific first.
+#[must_use]
+pub fn chains() -> &'static [Vec<Context>] {
+    static CHAINS: LazyLock<Vec<Vec<Context>>> = LazyLock::new(|| {
+        let others: fn(Kind) -> Option<&'static [Context]> = |kind| match kind {
+            Kind::Plot(_) => Some(&[Context::Plots, Context::Everywhere, Context::Always]),
+            Kind::Pane(_) => Some(&[Context::Everywhere, Context::Always]),
+            Kind::List => Some(&[Context::Lists, Context::Always]),
+            Kind::Held | Kind::Text | Kind::Question => Some(&[Context::Always]),
+            Kind::Shared | Kind::SharedByLists => None,
+        };
+        let chain = |row: &ContextSpec| Some([&[row.context], others(row.kind)?].concat());
+        CONTEXTS.iter().filter_map(chain).collect()
+    });
+    &CHAINS
+}
+
+/// The contexts that hold together with this one, which is the most specific.
+#[must_use]
+pub fn chain(first: Context) -> &'static [Context] {
+    let chains = chains();
+    chains.iter().find(|chain| chain[0] == first).unwrap_or(&chains[0])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::VIEWS;
+
+    #[test]
+    fn every_context_stands_at_its_own_row_and_every_view_has_one() {
+        for row in CONTEXTS {
+            assert_eq!(row.context.spec().name, row.name);
+        }
+        for row in VIEWS {
+            assert_eq!(Context::of(row.view).view(), Some(row.view));
+        }
+    }
+}

@@ -1,0 +1,185 @@
+//! Which key means which command, and where.
+//!
+//! A [`Keymap`] is built from the default keys of all commands. Several contexts hold at once (a plot,
+//! the phase plane, everywhere); no key may have two meanings in contexts that can hold together.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::session::message::key::Key;
+use crate::session::state::command::{Command, LineCommand};
+use crate::session::state::context::{Context, chains};
+
+/// What a key means.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Binding {
+    command: &'static Command,
+    /// Where the key stands among those of the command.
+    rank: usize,
+}
+
+/// Everything that can be run by its name, and which key means which command in each context.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Keymap {
+    commands: Vec<&'static Command>,
+    lines: Vec<&'static LineCommand>,
+    bindings: BTreeMap<(Context, Key), Binding>,
+}
+
+/// Why keys cannot be given to a command.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Unbindable {
+    /// A key would mean two things where contexts hold together.
+    Clash {
+        /// The key.
+        key: Key,
+        /// The command that has it.
+        command: &'static str,
+        /// And where.
+        context: Context,
+    },
+    /// A key that types a character cannot be a command where text is typed.
+    Types(Key),
+}
+
+impl std::fmt::Display for Unbindable {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Unbindable::Clash { key, command, context } => {
+                let context = context.name();
+                write!(
+                    out,
+                    "{key} already means {command}; give that other keys in [keys.{context}] first"
+                )
+            }
+            Unbindable::Types(key) => {
+                write!(out, "{key} types a character here; use a key that types none, as <f6>")
+            }
+        }
+    }
+}
+
+impl Keymap {
+    /// Commands with their default keys, and those that take words, each in the order of the help.
+    #[must_use]
+    pub fn new(
+        commands: impl Iterator<Item = &'static Command>,
+        lines: impl Iterator<Item = &'static LineCommand>,
+    ) -> Self {
+        let commands: Vec<_> = commands.collect();
+        let mut bindings = BTreeMap::new();
+        for command in &commands {
+            for (context, keys) in command.keys {
+                let keys = keys.iter().filter_map(|text| text.parse().ok()).enumerate();
+                bindings
+                    .extend(keys.map(|(rank, key)| ((*context, key), Binding { command, rank })));
+            }
+        }
+        Keymap { commands, lines: lines.collect(), bindings }
+    }
+
+    /// Every command, in the order in which the help lists them.
+    pub fn commands(&self) -> impl Iterator<Item = &'static Command> {
+        self.commands.iter().copied()
+    }
+
+    /// Every command that takes words, in the order in which the help lists them.
+    pub fn lines(&self) -> impl Iterator<Item = &'static LineCommand> {
+        self.lines.iter().copied()
+    }
+
+    /// The command with this name.
+    #[must_use]
+    pub fn named(&self, name: &str) -> Option<&'static Command> {
+        self.commands().find(|command| command.name == name)
+    }
+
+    /// The command that takes words with this name.
+    #[must_use]
+    pub fn line(&self, name: &str) -> Option<&'static LineCommand> {
+        self.lines().find(|line| line.name == name)
+    }
+
+    /// Takes all keys from a command in a context.
+    pub fn unbind(&mut self, context: Context, command: &Command) {
+        self.bindings.retain(|(at, _), bound| *at != context || bound.command != command);
+    }
+
+    /// Gives a key to a command in a context.
+    ///
+    /// # Errors
+    /// [`Unbindable`] if the key means something else where this context holds, or types a character
+    /// there.
+    pub fn bind(
+        &mut self,
+        context: Context,
+        command: &'static Command,
+        key: Key,
+    ) -> Result<(), Unbindable> {
+        let together = chains().iter().filter(|chain| chain.contains(&context));
+        let contexts: BTreeSet<Context> =
+            together.flat_map(|chain| chain.iter()).copied().collect();
+        if key.typed().is_some() && contexts.iter().any(|context| context.takes_text()) {
+            return Err(Unbindable::Types(key));
+        }
+        let taken = contexts.iter().find_map(|at| Some((*at, *self.bindings.get(&(*at, key))?)));
+        if let Some((context, bound)) = taken.filter(|(_, bound)| bound.command != command) {
+            return Err(Unbindable::Clash { key, command: bound.command.name, context });
+        }
+        let rank = self.keys_in(context, command).count();
+        self.bindings.entry((context, key)).or_insert(Binding { command, rank });
+        Ok(())
+    }
+
+    /// What a key means in contexts that hold together.
+    #[must_use]
+    pub fn command(&self, contexts: &[Context], key: Key) -> Option<&'static Command> {
+        let mut bound = contexts.iter().filter_map(|context| self.bindings.get(&(*context, key)));
+        bound.next().map(|bound| bound.command)
+    }
+
+    /// The keys of a command in a context, in the order in which they were given to it.
+    pub fn keys_in(&self, context: Context, command: &Command) -> impl Iterator<Item = Key> {
+        let bound = self.bindings.iter();
+        let of_it = bound.filter(|((at, _), bound)| *at == context && bound.command == command);
+        let mut keys: Vec<(usize, Key)> =
+            of_it.map(|((_, key), bound)| (bound.rank, *key)).collect();
+        keys.sort_unstable();
+        keys.into_iter().map(|(_, key)| key)
+    }
+
+    /// The first key of the command with this name, for sentences that say what to press.
+    #[must_use]
+    pub fn key_of(&self, name: &str) -> Option<Key> {
+        let (_, keys) = self.places(self.named(name)?).into_iter().next()?;
+        keys.first().copied()
+    }
+
+    /// A sentence in which `{command}` stands for the first key of that command, as `write` names it.
+    #[must_use]
+    pub fn fill(&self, sentence: &str, write: impl Fn(Key) -> String) -> String {
+        let mut filled = String::new();
+        let mut rest = sentence;
+        while let Some((before, (name, after))) =
+            rest.split_once('{').and_then(|(before, rest)| Some((before, rest.split_once('}')?)))
+        {
+            filled += before;
+            match self.key_of(name) {
+                Some(key) => filled += &write(key),
+                // A command without a key is in the palette under its name.
+                None => filled += name,
+            }
+            rest = after;
+        }
+        filled + rest
+    }
+
+    /// The contexts in which a command has keys, with them.
+    #[must_use]
+    pub fn places(&self, command: &Command) -> Vec<(Context, Vec<Key>)> {
+        let contexts = command.keys.iter().map(|(context, _)| *context);
+        contexts
+            .map(|context| (context, self.keys_in(context, command).collect::<Vec<_>>()))
+            .filter(|(_, keys)| !keys.is_empty())
+            .collect()
+    }
+}

@@ -1,0 +1,21 @@
+//! Keys recorded into registers.
+
+use std::collections::BTreeMap;
+
+use crate::session::replay::recorder::Recorder;
+use crate::session::replay::script::Step;
+
+/// Recorded keys.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Macros {
+    /// What was recorded, by letter.
+    pub registers: BTreeMap<char, Vec<Step>>,
+    /// What is being recorded, and where to.
+    pub recording: Option<(char, Recorder)>,
+    /// The register played last.
+    pub last: Option<char>,
+    /// Presses since nothing was open and nothing waited for: what asks for a command and is not it.
+    pub chord: u32,
+    /// Presses of the last such chord that is complete.
+    pub asked: u32,
+}

@@ -1,0 +1,44 @@
+//! What the next key completes: a count before a key, or the letter of a register or a mark.
+
+/// Largest count.
+pub const MOST: u32 = 9999;
+
+/// What the next key is waited for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pending {
+    /// More digits, or the key to be pressed so many times. Zero: no digit yet.
+    Count(u32),
+    /// The letter of a register or mark.
+    Letter {
+        /// What to do with it.
+        what: Letter,
+        /// How often.
+        count: u32,
+    },
+}
+
+/// What a letter is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Letter {
+    /// The register in which to record.
+    Record,
+    /// The register to play.
+    Play,
+    /// The mark to set.
+    Mark,
+    /// The mark to go to.
+    GoTo,
+}
+
+impl Letter {
+    /// What is asked, for the footer.
+    #[must_use]
+    pub fn question(self) -> &'static str {
+        match self {
+            Letter::Record => "record into which register? a to z",
+            Letter::Play => "play which register? a to z; the same key: the last one",
+            Letter::Mark => "mark this point by which letter? a to z",
+            Letter::GoTo => "go to which mark? a to z; the same key: the point left last",
+        }
+    }
+}

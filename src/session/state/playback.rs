@@ -1,0 +1,31 @@
+//! How the motion is played: where its head is, and how fast it moves.
+
+/// How fast the motion is played.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pace {
+    /// So many seconds for a period of the free oscillation.
+    Period(f64),
+    /// As fast as the machine itself; only a scene of one has that.
+    Real,
+}
+
+/// The paces, in the order in which the key visits them.
+pub(in crate::session) const PACES: [Pace; 5] =
+    [Pace::Period(4.0), Pace::Period(2.0), Pace::Period(1.0), Pace::Period(8.0), Pace::Real];
+
+/// What is played.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Playback {
+    /// Dimensionless time of the head; `None` before anything was played.
+    pub at: Option<f64>,
+    /// Whether it moves by itself.
+    pub playing: bool,
+    /// How fast.
+    pub pace: Pace,
+}
+
+impl Default for Playback {
+    fn default() -> Self {
+        Playback { at: None, playing: false, pace: PACES[0] }
+    }
+}

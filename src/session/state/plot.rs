@@ -1,0 +1,77 @@
+//! Plots: the parts of the screen that show a view each, and what one looks at in them.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::scene::{Answered, Axes, Exhibit, Point, Slot, View, Window};
+
+/// A part of the screen that can have the focus.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Pane {
+    /// The list of parameters, method and tolerance.
+    Parameters,
+    /// A plot, by its index among `Session::plots`.
+    Plot(usize),
+}
+
+/// Who chose a plot's window.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Framing {
+    /// The scene.
+    Scene,
+    /// It was fitted to what is on show.
+    Fitted,
+    /// It will be fitted as soon as what is on show is computed.
+    Fitting,
+    /// The user, by zooming and panning.
+    User,
+}
+
+/// A plot: what it shows, where one looks, and what one points at.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plot {
+    /// What it shows.
+    pub view: View,
+    /// Over which axes, where the view leaves a choice.
+    pub axes: Axes,
+    /// Which family of the scene's stands in for the present values, if one does.
+    pub family: Option<usize>,
+    /// What part of the world is on show.
+    pub window: Window,
+    /// Who chose the window.
+    pub framing: Framing,
+    /// The cursor, in world coordinates.
+    pub cursor: Option<Point>,
+    /// The last good answers to the questions that are this plot's own.
+    pub answers: BTreeMap<Slot, Arc<Answered>>,
+}
+
+impl Plot {
+    /// A plot as a scene sets it up.
+    #[must_use]
+    pub fn opened(exhibit: &Exhibit) -> Self {
+        Plot {
+            view: exhibit.view,
+            axes: exhibit.axes,
+            family: exhibit.family,
+            window: exhibit.opening(),
+            framing: if exhibit.window.is_some() { Framing::Scene } else { Framing::Fitting },
+            cursor: None,
+            answers: BTreeMap::new(),
+        }
+    }
+
+    /// Shows something else; what was answered is kept for when it is asked for again.
+    pub fn show(&mut self, exhibit: &Exhibit) {
+        let answers = std::mem::take(&mut self.answers);
+        *self = Plot { answers, ..Plot::opened(exhibit) };
+    }
+
+    /// Waits to be fitted, from this window.
+    pub fn fit_from(&mut self, window: Window) {
+        (self.window, self.framing, self.cursor) = (window, Framing::Fitting, None);
+    }
+}

@@ -1,0 +1,130 @@
+//! The rows of the parameter pane, and the step size of each.
+
+use serde::{Deserialize, Serialize};
+
+use crate::flow::Problem;
+use crate::oscillator::Symbol;
+use crate::scene::Scene;
+use crate::session::state::step_size::StepSize;
+
+/// A row of the parameter pane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Row {
+    /// Speed of the belt of a machine, which moves D, D2, D3 and r together.
+    Belt,
+    /// One of the six numbers that define a motion.
+    Parameter(Symbol),
+    /// Time at which the motion stops.
+    Until,
+    /// How to integrate.
+    Method,
+    /// What sets the accuracy of the method: relative error of a step, its length, or a width.
+    Tolerance,
+}
+
+/// Every row, in the order in which they stand.
+pub const ROWS: [Row; 10] = [
+    Row::Belt,
+    Row::Parameter(Symbol::D),
+    Row::Parameter(Symbol::D2),
+    Row::Parameter(Symbol::D3),
+    Row::Parameter(Symbol::R),
+    Row::Parameter(Symbol::Q0),
+    Row::Parameter(Symbol::V0),
+    Row::Until,
+    Row::Method,
+    Row::Tolerance,
+];
+
+impl Row {
+    /// The row that is selected at first.
+    pub const FIRST: Self = Row::Parameter(Symbol::D);
+
+    /// The name on the screen.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Row::Belt => "belt",
+            Row::Parameter(symbol) => symbol.spec().name,
+            Row::Until => "until",
+            Row::Method => "method",
+            Row::Tolerance => "tolerance",
+        }
+    }
+
+    /// The name on the screen where a motion is computed by a method of its own dial.
+    #[must_use]
+    pub fn name_in(self, problem: &Problem) -> &'static str {
+        match self {
+            Row::Tolerance => problem.method.spec().dial.name(),
+            row => row.name(),
+        }
+    }
+}
+
+/// The step sizes of the six numbers, of the end time, and of the belt.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Steps {
+    /// Step of each parameter, in the order of the table.
+    pub parameters: [StepSize; 6],
+    /// Step of the end time.
+    pub until: StepSize,
+    /// Step of the speed of the belt, in m/s.
+    #[serde(default = "usual_belt_step")]
+    pub belt: StepSize,
+}
+
+/// Part of the speed of a belt by which it is stepped at first.
+const BELT_STEP: f64 = 1.0 / 30.0;
+
+fn usual_belt_step() -> StepSize {
+    StepSize::near(BELT_STEP)
+}
+
+/// First step of the end time: somewhat more than one and a half periods.
+const UNTIL_STEP: f64 = 10.0;
+
+impl Steps {
+    /// The step of a row; `None` where a step is no number (method) or a factor of ten (tolerance).
+    #[must_use]
+    pub fn of(&self, row: Row) -> Option<StepSize> {
+        match row {
+            Row::Belt => Some(self.belt),
+            Row::Parameter(symbol) => Some(self.parameters[symbol as usize]),
+            Row::Until => Some(self.until),
+            Row::Method | Row::Tolerance => None,
+        }
+    }
+
+    /// The step of a row, to be changed.
+    pub fn of_mut(&mut self, row: Row) -> Option<&mut StepSize> {
+        match row {
+            Row::Belt => Some(&mut self.belt),
+            Row::Parameter(symbol) => Some(&mut self.parameters[symbol as usize]),
+            Row::Until => Some(&mut self.until),
+            Row::Method | Row::Tolerance => None,
+        }
+    }
+
+    /// The steps with which a scene opens.
+    #[must_use]
+    pub fn of_scene(scene: &Scene) -> Self {
+        let step = |symbol: Symbol| {
+            StepSize::near(scene.steps.get(&symbol).copied().unwrap_or(symbol.spec().step))
+        };
+        Steps {
+            parameters: [
+                step(Symbol::D),
+                step(Symbol::D2),
+                step(Symbol::D3),
+                step(Symbol::R),
+                step(Symbol::Q0),
+                step(Symbol::V0),
+            ],
+            until: StepSize::near(UNTIL_STEP),
+            belt: scene.machine.as_ref().map_or_else(usual_belt_step, |rig| {
+                StepSize::near(BELT_STEP * rig.machine.belt.belt_speed)
+            }),
+        }
+    }
+}

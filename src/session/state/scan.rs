@@ -1,0 +1,157 @@
+//! A scan in the explorer: what was asked for, the rows so far, and the point that is looked at.
+//!
+//! Once started it goes on until it is done or stopped, whatever is on show meanwhile.
+
+use std::sync::Arc;
+
+use crate::scene::{Point, Request, Span, View, Window};
+use crate::study::measure::Value;
+use crate::study::scan::{Row, Scan, Spacing, Sweep};
+
+/// Words of measures, each with the number at which it is plotted.
+pub const WORDS: [&str; 4] = ["captured", "moving", "escaped", "gave-up"];
+
+/// How a scan goes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Progress {
+    /// Rows are being computed, from this one on.
+    Running {
+        /// The first row of this run.
+        from: usize,
+    },
+    /// It was stopped.
+    Stopped,
+    /// All rows are there.
+    Done,
+}
+
+/// A scan and what it has found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scanned {
+    /// The scan.
+    pub scan: Arc<Scan>,
+    /// The rows so far, in order from the first point on.
+    pub rows: Vec<Row>,
+    /// How it goes.
+    pub progress: Progress,
+    /// Seconds that this run has taken.
+    pub seconds: f64,
+    /// The measured column that is plotted.
+    pub column: usize,
+    /// Whether the rows are listed instead.
+    pub table: bool,
+    /// The point that is looked at.
+    pub at: usize,
+}
+
+impl Scanned {
+    /// A scan that begins.
+    #[must_use]
+    pub fn begun(scan: Scan) -> Self {
+        Scanned {
+            scan: Arc::new(scan),
+            rows: Vec::new(),
+            progress: Progress::Running { from: 0 },
+            seconds: 0.0,
+            column: 0,
+            table: false,
+            at: 0,
+        }
+    }
+
+    /// What it asks for, while it runs.
+    #[must_use]
+    pub fn request(&self) -> Option<Request> {
+        match self.progress {
+            Progress::Running { from } => {
+                Some(Request::Scan { scan: Arc::clone(&self.scan), from })
+            }
+            Progress::Stopped | Progress::Done => None,
+        }
+    }
+
+    /// Whether its points make a plane.
+    #[must_use]
+    pub fn is_grid(&self) -> bool {
+        self.scan.over().len() > 1
+    }
+
+    /// The value that is plotted at a point, if it is known and a number.
+    #[must_use]
+    pub fn height(&self, index: usize) -> Option<f64> {
+        number(self.rows.get(index)?, self.column)
+    }
+
+    /// Whether words are plotted.
+    #[must_use]
+    pub fn plots_words(&self) -> bool {
+        let mut values = self.rows.iter().filter_map(|row| row.values.get(self.column));
+        values.any(|value| matches!(value, Value::Word(_)))
+    }
+
+    /// The smallest and the largest value that is plotted.
+    #[must_use]
+    pub fn range(&self) -> Option<(f64, f64)> {
+        let heights = (0..self.rows.len()).filter_map(|index| self.height(index));
+        heights.fold(None, |range: Option<(f64, f64)>, height| {
+            let (low, high) = range.unwrap_or((height, height));
+            Some((low.min(height), high.max(height)))
+        })
+    }
+
+    /// Where a value of a sweep stands on its axis, which is logarithmic where the sweep is.
+    #[must_use]
+    pub fn coordinate(sweep: &Sweep, index: usize) -> f64 {
+        let value = sweep.value(index);
+        match sweep.spacing {
+            Spacing::Even => value,
+            Spacing::Logarithmic => value.abs().log10(),
+        }
+    }
+
+    /// The part of the world in which all points of a line stand, or all of a grid with half a step
+    /// around them.
+    #[must_use]
+    pub fn window(&self) -> Window {
+        /// Room above and below a curve, as a factor of its height.
+        const ROOM: f64 = 1.1;
+        let usual = View::Scan.spec().window;
+        let [across, rest @ ..] = self.scan.over() else { return usual };
+        let along = |sweep: &Sweep, room: f64| {
+            let ends = [0, sweep.count - 1].map(|index| Self::coordinate(sweep, index));
+            let span = Span::covering(ends);
+            #[expect(clippy::cast_precision_loss, reason = "at most a million")]
+            let wider = 1.0 + room / (sweep.count - 1) as f64;
+            span.map(|span| span.scaled(span.center(), wider))
+        };
+        if let [upward, ..] = rest {
+            let spans = along(across, 1.0).zip(along(upward, 1.0));
+            return spans.map_or(usual, |(x, y)| Window { x, y });
+        }
+        let heights = self.range().and_then(|(low, high)| Span::covering([low, high]));
+        let y = heights.map_or(usual.y, |span| span.scaled(span.center(), ROOM));
+        along(across, 0.0).map_or(usual, |x| Window { x, y })
+    }
+
+    /// Where a point stands in the plot; its height only where that is known.
+    #[must_use]
+    pub fn place(&self, index: usize) -> Option<Point> {
+        let over = self.scan.over();
+        let place = self.scan.place(index);
+        let coordinate =
+            |which: usize| Some(Self::coordinate(over.get(which)?, *place.get(which)?));
+        let y = if self.is_grid() { coordinate(1)? } else { self.height(index)? };
+        Some(Point { x: coordinate(0)?, y })
+    }
+}
+
+/// A cell as a number, a word by its place among [`WORDS`].
+fn number(row: &Row, column: usize) -> Option<f64> {
+    match *row.values.get(column)? {
+        Value::Word(word) => {
+            let place = WORDS.iter().position(|known| *known == word)?;
+            u32::try_from(place).ok().map(f64::from)
+        }
+        value => value.number(),
+    }
+}

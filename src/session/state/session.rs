@@ -1,0 +1,230 @@
+//! The whole state of a session in one struct.
+//!
+//! Nothing here computes a motion or draws one. [`Session::wants`] says, as a pure function of the
+//! state, which questions must be answered for what is on show; the outer rings ask them (see
+//! `session::read::wants`).
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use crate::flow::{Cost, Problem};
+use crate::oscillator::Symbol;
+use crate::scene::answer::Failure;
+use crate::scene::{Answered, Arrangement, Layer, Request, Scene, Slot};
+use crate::session::message::Notice;
+use crate::session::message::key::Key;
+use crate::session::state::history::History;
+use crate::session::state::keymap::Keymap;
+use crate::session::state::macros::Macros;
+use crate::session::state::marks::Marks;
+use crate::session::state::overlay::{Caption, Overlay};
+use crate::session::state::pending::Pending;
+use crate::session::state::playback::Playback;
+use crate::session::state::plot::{Pane, Plot};
+use crate::session::state::rows::{ROWS, Row, Steps};
+use crate::session::state::scan::Scanned;
+use crate::session::state::scan_form::Form;
+use crate::session::state::settings::Look;
+use crate::session::state::setup::Stand;
+use crate::session::state::stop::Stop;
+use crate::session::state::waiting::Waiting;
+
+/// Harmonics at most: more cost more than the picture shows.
+pub const MOST_HARMONICS: usize = 63;
+
+/// Harmonics at first: what more than the paper's one buys can be seen.
+const HARMONICS: usize = 3;
+
+/// One recomputation that a key press caused.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Recomputed {
+    /// What was recomputed.
+    pub slot: Slot,
+    /// What it cost, counted.
+    pub cost: Cost,
+    /// What it cost in wall-clock seconds.
+    pub seconds: f64,
+}
+
+/// What the last key press cost: the recomputations that it caused and nothing else.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Price {
+    /// The key; `None` for the computations of the first picture.
+    pub key: Option<Key>,
+    /// What was recomputed, in the order of the answers.
+    pub recomputed: Vec<Recomputed>,
+}
+
+impl Price {
+    /// Evaluations of the field in all.
+    #[must_use]
+    pub fn evaluations(&self) -> u64 {
+        self.recomputed.iter().map(|part| part.cost.evaluations).sum()
+    }
+
+    /// Seconds in all.
+    #[must_use]
+    pub fn seconds(&self) -> f64 {
+        self.recomputed.iter().map(|part| part.seconds).sum()
+    }
+}
+
+/// What answers take, and whether their error is looked at.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Effort {
+    /// Evaluations that the last answer of each kind took, drafts aside.
+    pub burdens: BTreeMap<Slot, u64>,
+    /// Whether the last key turned the dial or changed the method: then the error is measured.
+    pub measuring: bool,
+}
+
+/// The size of the screen, in cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Size {
+    /// Columns.
+    pub width: u16,
+    /// Rows.
+    pub height: u16,
+}
+
+/// Everything that a session is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Session {
+    /// The scene that was opened last.
+    pub scene: Arc<Scene>,
+    /// The motion on show: parameters, start, end time, method and tolerance.
+    pub problem: Problem,
+    /// Speed of the belt, in m/s; `None` where the scene is of no machine.
+    pub belt_speed: Option<f64>,
+    /// Step sizes of the parameter pane.
+    pub steps: Steps,
+    /// The selected row of the parameter pane, always one of [`Session::rows`].
+    pub selected: Row,
+    /// Whether parameters stand in the pane that the scene does not declare.
+    pub unfolded: bool,
+    /// The pane that gets the keys.
+    pub focus: Pane,
+    /// The plots, one to four, in the order of the focus.
+    pub plots: Vec<Plot>,
+    /// The plot that had the focus last; the one on show when [`Session::enlarged`].
+    pub plot: usize,
+    /// Whether that plot takes the place of all.
+    pub enlarged: bool,
+    /// How the plots share the screen.
+    pub arrangement: Arrangement,
+    /// The motion in time.
+    pub playback: Playback,
+    /// The point of the branch in focus that is held, while the user walks along it.
+    pub held: Option<Stop>,
+    /// Number N of harmonics of the layer `balance`.
+    pub harmonics: usize,
+    /// The layers that are on.
+    pub layers: BTreeSet<Layer>,
+    /// What lies over the panes and gets the keys.
+    pub overlay: Option<Overlay>,
+    /// Undo and redo.
+    pub history: History,
+    /// A count or a letter that the next key completes.
+    pub pending: Option<Pending>,
+    /// A press that waits for an answer.
+    pub waiting: Option<Waiting>,
+    /// Recorded keys.
+    pub macros: Macros,
+    /// Points to come back to, and the one that is compared with.
+    pub marks: Marks,
+    /// What is said in words above the status lines.
+    pub caption: Caption,
+    /// The file of a session that was interrupted and could be gone on with.
+    pub interrupted: Option<PathBuf>,
+    /// The figure that is being written.
+    pub writing: Option<PathBuf>,
+    /// The lines typed on the command line, the newest last.
+    pub lines: Vec<String>,
+    /// The last good answer of each kind that all plots share, with its question.
+    pub answers: BTreeMap<Slot, Arc<Answered>>,
+    /// Questions of today that have no answer, and why.
+    pub failures: Vec<(Request, Failure)>,
+    /// The scan, once there is one.
+    pub scanned: Option<Scanned>,
+    /// The form as it was when the last scan was started.
+    pub scan_form: Option<Form>,
+    /// What the last key press cost.
+    pub price: Price,
+    /// What answers take, and whether their error is looked at.
+    pub effort: Effort,
+    /// A line for the user.
+    pub notice: Option<Notice>,
+    /// Which key means which command.
+    pub keymap: Arc<Keymap>,
+    /// What the user wishes of the screen.
+    pub look: Look,
+    /// The size of the screen.
+    pub size: Size,
+    /// Whether the user has left.
+    pub quit: bool,
+}
+
+impl Session {
+    /// A session that has just opened a scene, with these keys.
+    #[must_use]
+    pub fn opened(scene: Arc<Scene>, size: Size, keymap: Arc<Keymap>) -> Self {
+        Session {
+            problem: scene.problem,
+            belt_speed: Stand::of_scene(&scene).belt_speed,
+            steps: Steps::of_scene(&scene),
+            selected: Row::FIRST,
+            unfolded: false,
+            focus: Pane::Parameters,
+            plots: scene.plots.iter().map(Plot::opened).collect(),
+            plot: 0,
+            enlarged: false,
+            arrangement: scene.arrangement,
+            playback: Playback::default(),
+            held: None,
+            harmonics: HARMONICS,
+            layers: scene.layers.clone(),
+            overlay: None,
+            history: History::default(),
+            pending: None,
+            waiting: None,
+            macros: Macros::default(),
+            marks: Marks::default(),
+            caption: Caption::Nothing,
+            interrupted: None,
+            writing: None,
+            lines: Vec::new(),
+            answers: BTreeMap::new(),
+            failures: Vec::new(),
+            scanned: None,
+            scan_form: None,
+            price: Price::default(),
+            effort: Effort::default(),
+            notice: None,
+            keymap,
+            look: Look::default(),
+            size,
+            quit: false,
+            scene,
+        }
+    }
+
+    /// The value of one of the six numbers.
+    #[must_use]
+    pub fn value(&self, symbol: Symbol) -> f64 {
+        symbol.get(&self.problem.parameters, &self.problem.initial)
+    }
+
+    /// The rows of the parameter pane: what the scene declares, what is not zero, all when unfolded.
+    #[must_use]
+    pub fn rows(&self) -> Vec<Row> {
+        let stands = |row: &Row| match *row {
+            Row::Belt => self.scene.machine.is_some(),
+            Row::Parameter(symbol) => {
+                self.unfolded || self.scene.declares(symbol) || self.value(symbol) != 0.0
+            }
+            Row::Until | Row::Method | Row::Tolerance => true,
+        };
+        ROWS.into_iter().filter(stands).collect()
+    }
+}

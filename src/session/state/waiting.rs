@@ -1,0 +1,13 @@
+//! A press that waits for an answer.
+
+use crate::scene::Request;
+use crate::session::replay::script::Step;
+
+/// A press that waits, and for which answer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Waiting {
+    /// What was pressed.
+    pub step: Step,
+    /// The question that must be answered first.
+    pub request: Request,
+}

@@ -1,0 +1,154 @@
+//! What happens to a session: [`update`] takes a message in and says what the outer rings must do.
+//!
+//! Nothing here reads a clock or touches a file, so that a session is determined by its messages and
+//! every defect can be told as a keystroke file. The files beside this one hold what commands do, one
+//! concern each.
+
+use crate::flow::Reason;
+use crate::scene::Answered;
+use crate::scene::answer::Failure;
+use crate::session::act::notice::{inform, refuse};
+use crate::session::act::{answers, files, history, macros, mouse, typing, walk};
+use crate::session::effect::Effect;
+use crate::session::message::Msg;
+use crate::session::press::{ENTER, press, run_untyped};
+use crate::session::read::waiting;
+use crate::session::replay::parse::parse;
+use crate::session::replay::script::Step;
+use crate::session::state::overlay::{Caption, Entry, Overlay};
+use crate::session::state::plot::Pane;
+use crate::session::state::rows::Row;
+use crate::session::state::session::{Price, Session, Size};
+use crate::session::state::waiting::Waiting;
+
+/// Takes a message in; a press that needs an answer which is being computed waits for it.
+pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
+    if matches!(message, Msg::Key(_) | Msg::Paste(_) | Msg::Pointed(_) | Msg::Run(_)) {
+        // Nobody gives another press as long as one waits, but to forget that.
+        if session.waiting.take().is_some() && waiting::forgets(&message) {
+            inform(session, "no longer waited for");
+            return Vec::new();
+        }
+        if let (Some(request), Some(step)) = (session.awaited(&message), Step::of(&message)) {
+            session.waiting = Some(Waiting { step, request });
+            return Vec::new();
+        }
+    }
+    let mut effects = take_in(session, message);
+    if let Some(message) = released(session) {
+        effects.extend(take_in(session, message));
+    }
+    effects
+}
+
+/// Takes a message in that waits for nothing.
+fn take_in(session: &mut Session, message: Msg) -> Vec<Effect> {
+    macros::note(session, &message);
+    let effects = match message {
+        Msg::Key(key) => press(session, key),
+        Msg::Paste(text) => paste(session, &text),
+        Msg::Pointed(pointed) => {
+            session.notice = None;
+            session.price = Price::default();
+            session.effort.measuring = false;
+            mouse::pointed(session, pointed)
+        }
+        Msg::Resize { width, height } => {
+            session.size = Size { width, height };
+            Vec::new()
+        }
+        Msg::Answered(answered) => {
+            take(session, *answered);
+            Vec::new()
+        }
+        Msg::Run(line) => {
+            session.price = Price { key: Some(ENTER), recomputed: Vec::new() };
+            run_untyped(session, &line)
+        }
+        Msg::Start(names) => {
+            history::begin(session, names);
+            Vec::new()
+        }
+        Msg::Say(caption) => {
+            session.caption =
+                if caption.is_empty() { Caption::Nothing } else { Caption::Tour(caption) };
+            Vec::new()
+        }
+        Msg::Read { path, purpose, result } => files::read(session, &path, purpose, result),
+        Msg::Written(notice) => {
+            (session.writing, session.notice) = (None, Some(notice));
+            Vec::new()
+        }
+        Msg::Told(notice) => {
+            session.notice = Some(notice);
+            Vec::new()
+        }
+        Msg::Elapsed { seconds } => {
+            session.elapse(seconds);
+            Vec::new()
+        }
+        Msg::Idle => Vec::new(),
+    };
+    keep_selection(session);
+    session.share();
+    answers::resolve(session);
+    walk::keep_hold(session);
+    macros::rest(session);
+    effects
+}
+
+/// Pasted text goes into the open line; a number into a new one; keystrokes are offered for replay.
+fn paste(session: &mut Session, text: &str) -> Vec<Effect> {
+    session.notice = None;
+    if session.contexts()[0].takes_text() {
+        typing::insert(session, text);
+        return Vec::new();
+    }
+    let number = text.trim().parse::<f64>().is_ok();
+    if number && session.overlay.is_none() && session.focus == Pane::Parameters {
+        let entry = Entry::new(session.selected, text.trim().to_owned());
+        session.overlay = Some(Overlay::Entry(entry));
+        return Vec::new();
+    }
+    match parse(text) {
+        Ok(script) if script.keys() > 0 => session.overlay = Some(Overlay::Offer(script)),
+        Ok(_) => inform(session, "the pasted text presses no key"),
+        Err(error) => refuse(session, format!("the pasted text is no keystroke file: {error}")),
+    }
+    Vec::new()
+}
+
+/// Takes an answer of the worker; says what went wrong with a question of today.
+fn take(session: &mut Session, answered: Answered) {
+    let name = answered.request.slot().name();
+    let failure = answered.result.as_ref().err().cloned();
+    let asked = session.take(answered);
+    if let Some(failure) = failure.filter(|_| asked)
+        && failure != Failure::Reason(Reason::Interrupted)
+    {
+        let retry = session.keymap.key_of("retry");
+        let again = retry.map(|key| format!("; {key} tries again")).unwrap_or_default();
+        refuse(session, format!("{name}: {failure}{again}"));
+    }
+}
+
+/// Keeps the selection on a row that stands in the pane.
+fn keep_selection(session: &mut Session) {
+    let rows = session.rows();
+    if !rows.contains(&session.selected) {
+        let after = rows.iter().copied().find(|row| *row > session.selected);
+        session.selected = after.or(rows.last().copied()).unwrap_or(Row::Tolerance);
+    }
+}
+
+/// Takes a press that waits no longer, because its answer is there or will not be.
+fn released(session: &mut Session) -> Option<Msg> {
+    let message = session.waiting.as_ref()?.step.message()?;
+    let request = session.awaited(&message);
+    session.waiting = session
+        .waiting
+        .take()
+        .zip(request)
+        .map(|(waiting, request)| Waiting { request, ..waiting });
+    (!session.is_waiting()).then_some(message)
+}

@@ -1,0 +1,180 @@
+//! What proofs say about claims: beside a number stands an interval that certainly holds it, beside the answer to
+//! a question whether it is certain. From these follows the [`Mark`] of a claim.
+
+use std::ops::Deref;
+
+use super::known::{Answer, Known, POOR, Sense};
+use crate::numerics::Interval;
+use crate::oscillator::{Parameters, State};
+use crate::proof::motion::{Fate, Motion, follow};
+use crate::proof::{Enclosure, ParameterBox};
+use crate::study::Edge;
+use crate::study::cycle::Cycle;
+
+/// What is certain about a claim.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// It holds in all cases that were tested.
+    Proved,
+    /// It does not hold: in one of these at least.
+    Refuted,
+    /// The number with which it is compared is enclosed: to as many digits as that gives, it holds.
+    Enclosed,
+}
+
+impl Mark {
+    /// One word for scripts and tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Mark::Proved => "proved",
+            Mark::Refuted => "refuted",
+            Mark::Enclosed => "enclosed",
+        }
+    }
+
+    /// The mark of a claim about two cases.
+    #[must_use]
+    pub(super) fn and(one: Option<Mark>, other: Option<Mark>) -> Option<Mark> {
+        match (one?, other?) {
+            (Mark::Refuted, _) | (_, Mark::Refuted) => Some(Mark::Refuted),
+            (Mark::Proved, Mark::Proved) => Some(Mark::Proved),
+            _ => Some(Mark::Enclosed),
+        }
+    }
+
+    /// The mark of a formula beside what it is compared with.
+    #[must_use]
+    pub(super) fn of(sense: Sense, formula: f64, computed: &Known) -> Option<Mark> {
+        let bounds = computed.bounds?;
+        let formula = with_rounding(formula, computed.error);
+        let decided = |holds: bool, fails: bool| match (holds, fails) {
+            (true, _) => Some(Mark::Proved),
+            (_, true) => Some(Mark::Refuted),
+            _ => bounds.is_finite().then_some(Mark::Enclosed),
+        };
+        match sense {
+            Sense::Equal => decided(false, formula.intersection(bounds).is_none()),
+            Sense::AtMost => {
+                decided(formula.upper() <= bounds.lower(), formula.lower() > bounds.upper())
+            }
+            Sense::Near => {
+                let miss = miss(formula, bounds);
+                decided(miss.upper() <= POOR, miss.lower() > POOR)
+            }
+            Sense::Tends { .. } | Sense::Always => None,
+        }
+    }
+
+    /// The mark of a limit, from the formula and what it is compared with far from it and nearer.
+    #[must_use]
+    pub(super) fn of_limit(far: (f64, &Known), near: (f64, &Known)) -> Option<Mark> {
+        let miss = |(formula, computed): (f64, &Known)| {
+            Some(miss(with_rounding(formula, computed.error), computed.bounds?))
+        };
+        let (far, near) = (miss(far)?, miss(near)?);
+        if near.upper() < far.lower() {
+            Some(Mark::Proved)
+        } else if near.lower() > far.upper() {
+            Some(Mark::Refuted)
+        } else {
+            Some(Mark::Enclosed)
+        }
+    }
+}
+
+/// A formula that was evaluated in doubles.
+fn with_rounding(formula: f64, error: f64) -> Interval {
+    /// Far more than the rounding of any formula here, as a part of its value.
+    const ROUNDING: f64 = 1e-9;
+    Interval::around(formula, ROUNDING * formula.abs() + error)
+}
+
+/// By which part of a number a formula is off, or by how much where one of both is zero.
+fn miss(formula: Interval, bounds: Interval) -> Interval {
+    let difference = formula - bounds;
+    let zero = Interval::point(0.0);
+    let part = if formula == zero || bounds == zero { difference } else { difference / bounds };
+    let size = part.square().sqrt();
+    Interval::new(size.lower().max(0.0), size.upper())
+}
+
+/// A cycle of the search, and bounds of its numbers.
+#[derive(Clone, Copy, Debug)]
+pub struct Found {
+    cycle: Cycle,
+    /// Where it is proved.
+    pub bounds: Option<Enclosure>,
+}
+
+impl Found {
+    /// Of a search and a proof.
+    #[must_use]
+    pub fn new(cycle: Cycle, bounds: Option<Enclosure>) -> Self {
+        Found { cycle, bounds }
+    }
+}
+
+impl Deref for Found {
+    type Target = Cycle;
+
+    fn deref(&self) -> &Cycle {
+        &self.cycle
+    }
+}
+
+/// All cycles of the search, and whether it is proved that there are these and no others.
+#[derive(Clone, Debug)]
+pub struct AllFound {
+    /// The cycles.
+    pub cycles: Vec<Found>,
+    /// Whether their number is proved.
+    pub certain: bool,
+}
+
+impl AllFound {
+    /// Whether something holds that depends on the number and the stability of the cycles only.
+    #[must_use]
+    pub fn answer(&self, holds: impl Fn(&[Found]) -> bool) -> Answer {
+        Answer { holds: holds(&self.cycles), certain: self.certain }
+    }
+
+    /// Whether there are this many.
+    #[must_use]
+    pub fn are(&self, number: usize) -> Answer {
+        self.answer(|cycles| cycles.len() == number)
+    }
+}
+
+/// What borders a basin, and whether that is proved.
+#[derive(Clone, Copy, Debug)]
+pub struct CertainEdge {
+    /// The edge.
+    pub edge: Edge,
+    /// Whether it is proved.
+    pub certain: bool,
+}
+
+impl CertainEdge {
+    /// Whether it is of a kind.
+    #[must_use]
+    pub fn is(self, edge: Edge) -> Answer {
+        Answer { holds: self.edge == edge, certain: self.certain }
+    }
+}
+
+/// The motion from a state, enclosed.
+#[must_use]
+pub fn enclosed(parameters: &Parameters, initial: State, until: f64) -> Motion {
+    let start = [initial.q, initial.v].map(Interval::point);
+    follow(&ParameterBox::from(parameters), start, until)
+}
+
+/// Bounds of a state at a time before the motion comes to rest.
+#[must_use]
+pub fn enclosed_state(parameters: &Parameters, initial: State, tau: f64) -> Option<[Interval; 2]> {
+    match enclosed(parameters, initial, tau).fate {
+        Fate::Moving { q, v } => Some([q, v]),
+        _ => None,
+    }
+}

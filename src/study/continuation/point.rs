@@ -1,0 +1,79 @@
+//! Points of a curve of cycles, and directions along it.
+
+use crate::study::closed_pair::Closing;
+use crate::study::closing::Route;
+
+/// Length of u that counts as much as the whole range of the parameter.
+pub(super) const UNIT_OF_U: f64 = 4.0;
+
+/// A cycle on the curve.
+#[derive(Clone, Copy, Debug)]
+pub struct CurvePoint {
+    /// The unknown `ln c0`.
+    pub u: f64,
+    /// The parameter.
+    pub p: f64,
+    /// The closed pair of swings.
+    pub closing: Closing,
+    /// Logarithm of the Floquet multiplier; it changes its sign at a fold.
+    pub log_multiplier: f64,
+}
+
+impl CurvePoint {
+    /// The route on which its swings are computed best.
+    #[must_use]
+    pub fn route(&self) -> Route {
+        Route::steadiest(self.closing.growth)
+    }
+}
+
+/// A direction in the scaled plane, of length 1.
+#[derive(Clone, Copy, Debug)]
+pub struct Tangent {
+    /// Component along `u/UNIT_OF_U`.
+    pub u: f64,
+    /// Component along `p/range`.
+    pub p: f64,
+}
+
+impl Tangent {
+    /// Along u: a correction across it changes only the parameter.
+    pub const ACROSS_P: Tangent = Tangent { u: 1.0, p: 0.0 };
+
+    /// Along p: a correction across it changes only u.
+    pub const ACROSS_U: Tangent = Tangent { u: 0.0, p: 1.0 };
+
+    /// From one point to another.
+    pub(super) fn between(from: &CurvePoint, to: &CurvePoint, scale: f64) -> Self {
+        let (u, p) = ((to.u - from.u) / UNIT_OF_U, (to.p - from.p) / scale);
+        let length = u.hypot(p);
+        Tangent { u: u / length, p: p / length }
+    }
+
+    pub(super) fn dot(self, other: Tangent) -> f64 {
+        self.u * other.u + self.p * other.p
+    }
+}
+
+/// Whether a curve that is a graph over the amplitude goes through that of a point.
+#[must_use]
+pub fn covers(curve: &[CurvePoint], point: &CurvePoint) -> bool {
+    let beyond = |it: &CurvePoint| it.u > point.u;
+    curve.iter().any(beyond) && !curve.iter().all(beyond)
+}
+
+/// Whether a curve passes a point: between neighbours in p, and close in u.
+#[must_use]
+pub fn passes(curve: &[CurvePoint], point: &CurvePoint) -> bool {
+    curve.windows(2).any(|pair| {
+        let (one, other) = (&pair[0], &pair[1]);
+        let (low, high) = (one.p.min(other.p), one.p.max(other.p));
+        let slack = 1e-9 * (high - low);
+        if point.p < low - slack || point.p > high + slack {
+            return false;
+        }
+        let fraction = if one.p == other.p { 0.5 } else { (point.p - one.p) / (other.p - one.p) };
+        let u = one.u + fraction * (other.u - one.u);
+        (u - point.u).abs() <= 0.25 * (other.u - one.u).abs() + 1e-6
+    })
+}

@@ -1,0 +1,336 @@
+//! The table of measures, the computations that they need, and the cells that they fill.
+
+use std::collections::BTreeSet;
+
+use crate::oscillator::Symbol;
+
+/// A property of the oscillator, or of one motion of it, at given parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Measure {
+    /// How the motion ends.
+    Outcome,
+    /// Where and when the motion comes to rest.
+    Rest,
+    /// Amplitudes of the limit cycles.
+    Cycles,
+    /// Periods and Floquet multipliers of the limit cycles.
+    Multipliers,
+    /// The kicks that the sticking set survives.
+    Margin,
+    /// The part of a window that is captured.
+    Stability,
+    /// The area of the basin.
+    Area,
+    /// The fold of limit cycles in D.
+    Fold,
+    /// The escape point in D.
+    Escape,
+    /// The kicks that are survived for certain.
+    Guaranteed,
+    /// The part of random kicks that is lost.
+    Lost,
+    /// How round the basin is.
+    Integrity,
+    /// How long the starts of a window take to come to rest.
+    Settling,
+    /// The part of a window that is at rest in time.
+    FiniteTime,
+    /// How many kicks in a row are survived.
+    Repeated,
+    /// Whether the number of cycles is proved, and bounds of their amplitudes.
+    Proved,
+}
+
+/// A computation on which measures rest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Need {
+    /// The motion from (q0, v0).
+    Motion,
+    /// All limit cycles.
+    Cycles,
+    /// The edge of the basin of the sticking set: its innermost cycle, or the separatrix.
+    Edge,
+    /// The fold `D_F`.
+    Fold,
+    /// The escape point `D_c`.
+    Escape,
+    /// The guaranteed margin.
+    Guarantee,
+    /// The motions from all over the window.
+    Settling,
+    /// The Markov chain of repeated kicks.
+    Chain,
+    /// A proof of the number of cycles.
+    Proof,
+}
+
+impl Need {
+    /// The name in the reason of a row.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Need::Motion => "motion",
+            Need::Cycles => "cycles",
+            Need::Edge => "edge",
+            Need::Fold => "fold",
+            Need::Escape => "escape",
+            Need::Guarantee => "guarantee",
+            Need::Settling => "settling",
+            Need::Chain => "repeated kicks",
+            Need::Proof => "proof",
+        }
+    }
+
+    /// The numbers on which the computation depends.
+    #[must_use]
+    pub fn depends_on(self) -> &'static [Symbol] {
+        const ALL: [Symbol; 6] =
+            [Symbol::D, Symbol::D2, Symbol::D3, Symbol::R, Symbol::Q0, Symbol::V0];
+        match self {
+            Need::Motion => &ALL,
+            Need::Cycles
+            | Need::Edge
+            | Need::Guarantee
+            | Need::Settling
+            | Need::Chain
+            | Need::Proof => &ALL[..4],
+            Need::Fold | Need::Escape => &ALL[1..4],
+        }
+    }
+}
+
+/// One row of [`MEASURES`].
+#[derive(Clone, Copy, Debug)]
+pub struct MeasureSpec {
+    /// Which measure.
+    pub measure: Measure,
+    /// Its name on the command line and on the screen.
+    pub name: &'static str,
+    /// What it means, in a few words.
+    pub meaning: &'static str,
+    /// The columns that it fills.
+    pub columns: &'static [&'static str],
+    /// The computation that it needs.
+    pub needs: Need,
+}
+
+/// Cycles that have columns of their own; no parameters with more are known, and `cycles` counts all.
+pub(super) const CYCLES: usize = 2;
+
+/// Every measure, in the order in which they are listed.
+pub const MEASURES: [MeasureSpec; 16] = [
+    MeasureSpec {
+        measure: Measure::Outcome,
+        name: "outcome",
+        meaning: "how the motion from (q0, v0) ends, when, after how many half swings",
+        columns: &["outcome", "outcome_tau", "half_swings"],
+        needs: Need::Motion,
+    },
+    MeasureSpec {
+        measure: Measure::Rest,
+        name: "rest",
+        meaning: "where and when the motion from (q0, v0) comes to rest",
+        columns: &["rest_q", "rest_tau"],
+        needs: Need::Motion,
+    },
+    MeasureSpec {
+        measure: Measure::Cycles,
+        name: "cycles",
+        meaning: "how many limit cycles there are, and their extremes, smallest cycle first",
+        columns: &[
+            "cycles", "q_min_1", "q_max_1", "v_min_1", "v_max_1", "q_min_2", "q_max_2", "v_min_2",
+            "v_max_2",
+        ],
+        needs: Need::Cycles,
+    },
+    MeasureSpec {
+        measure: Measure::Multipliers,
+        name: "multipliers",
+        meaning: "period, Floquet multiplier and its logarithm of each limit cycle",
+        columns: &[
+            "period_1",
+            "multiplier_1",
+            "log_multiplier_1",
+            "period_2",
+            "multiplier_2",
+            "log_multiplier_2",
+        ],
+        needs: Need::Cycles,
+    },
+    MeasureSpec {
+        measure: Measure::Margin,
+        name: "margin",
+        meaning: "smallest displacement at rest, and smallest impulse at q = 0, not captured",
+        columns: &["displacement", "impulse"],
+        needs: Need::Edge,
+    },
+    MeasureSpec {
+        measure: Measure::Stability,
+        name: "stability",
+        meaning: "basin stability: the part of the window that is captured, and its error",
+        columns: &["captured_part", "captured_error"],
+        needs: Need::Edge,
+    },
+    MeasureSpec {
+        measure: Measure::Area,
+        name: "area",
+        meaning: "area of the basin, where it is finite",
+        columns: &["area"],
+        needs: Need::Edge,
+    },
+    MeasureSpec {
+        measure: Measure::Fold,
+        name: "fold",
+        meaning: "the fold D_F (or grazing, below D = -1), above which no cycle is left, and the amplitude there",
+        columns: &["D_F", "D_F_q_max"],
+        needs: Need::Fold,
+    },
+    MeasureSpec {
+        measure: Measure::Escape,
+        name: "escape",
+        meaning: "the escape point D_c, where the cycle goes to infinity",
+        columns: &["D_c"],
+        needs: Need::Escape,
+    },
+    MeasureSpec {
+        measure: Measure::Guaranteed,
+        name: "guaranteed",
+        meaning: "margin that holds for every disturbance and all parameters within their half widths",
+        columns: &["guaranteed_displacement", "guaranteed_impulse"],
+        needs: Need::Guarantee,
+    },
+    MeasureSpec {
+        measure: Measure::Lost,
+        name: "lost",
+        meaning: "the part of random kicks that is not captured, and its error",
+        columns: &["lost_part", "lost_error"],
+        needs: Need::Edge,
+    },
+    MeasureSpec {
+        measure: Measure::Integrity,
+        name: "integrity",
+        meaning: "radius of the largest circle about the origin within the basin, and the part of the basin \
+                  that it fills (integrity factor)",
+        columns: &["circle_radius", "integrity"],
+        needs: Need::Edge,
+    },
+    MeasureSpec {
+        measure: Measure::Settling,
+        name: "settling",
+        meaning: "largest and mean time to rest of 32 x 32 starts of the window, if all are at rest in the end",
+        columns: &["settling_max", "settling_mean"],
+        needs: Need::Settling,
+    },
+    MeasureSpec {
+        measure: Measure::FiniteTime,
+        name: "finite-time",
+        meaning: "finite-time basin stability: the part of 32 x 32 starts of the window at rest in the end, and \
+                  its error as a part of the window",
+        columns: &["rested_part", "rested_error"],
+        needs: Need::Settling,
+    },
+    MeasureSpec {
+        measure: Measure::Repeated,
+        name: "repeated",
+        meaning: "mean number of random kicks, each from where the last one came to rest, until one is lost; the \
+                  part that is lost after many; the relative error of both",
+        columns: &["kicks_mean", "kicks_lost", "kicks_error"],
+        needs: Need::Chain,
+    },
+    MeasureSpec {
+        measure: Measure::Proved,
+        name: "proved",
+        meaning: "whether it is proved that there are these cycles and no others, and bounds of their amplitudes",
+        columns: &["proved", "q_max_1_lower", "q_max_1_upper", "q_max_2_lower", "q_max_2_upper"],
+        needs: Need::Proof,
+    },
+];
+
+impl Measure {
+    /// The row of [`MEASURES`] that describes this measure.
+    #[must_use]
+    pub fn spec(self) -> &'static MeasureSpec {
+        &MEASURES[self as usize]
+    }
+
+    /// The measure with this name.
+    ///
+    /// # Errors
+    /// One line that says which there are.
+    pub fn named(name: &str) -> Result<Self, String> {
+        MEASURES.iter().find(|row| row.name == name).map(|row| row.measure).ok_or_else(|| {
+            let names = MEASURES.map(|row| row.name).join(", ");
+            format!("there is no measure {name:?}; there are {names}")
+        })
+    }
+}
+
+/// What these measures need computed.
+#[must_use]
+pub fn needs_of(measures: &[Measure]) -> BTreeSet<Need> {
+    measures.iter().map(|measure| measure.spec().needs).collect()
+}
+
+/// A cell of a row: never a number that does not exist.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Value {
+    /// There is none here.
+    Nothing,
+    /// A finite number.
+    Number(f64),
+    /// How many.
+    Count(usize),
+    /// A word of a small vocabulary.
+    Word(&'static str),
+}
+
+impl From<f64> for Value {
+    fn from(value: f64) -> Self {
+        if value.is_finite() { Value::Number(value) } else { Value::Nothing }
+    }
+}
+
+impl<T: Into<Value>> From<Option<T>> for Value {
+    fn from(value: Option<T>) -> Self {
+        value.map_or(Value::Nothing, Into::into)
+    }
+}
+
+impl Value {
+    /// The value as a number to be plotted; words and nothing have none.
+    #[must_use]
+    pub fn number(self) -> Option<f64> {
+        match self {
+            Value::Number(value) => Some(value),
+            #[expect(clippy::cast_precision_loss, reason = "counts are small")]
+            Value::Count(count) => Some(count as f64),
+            Value::Nothing | Value::Word(_) => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_measure_stands_at_its_own_row_and_no_two_columns_share_a_name() {
+        let mut columns = BTreeSet::new();
+        for row in &MEASURES {
+            assert_eq!(row.measure.spec().name, row.name);
+            assert_eq!(Measure::named(row.name), Ok(row.measure));
+            for column in row.columns {
+                assert!(columns.insert(column), "{column} twice");
+            }
+        }
+    }
+
+    #[test]
+    fn numbers_that_do_not_exist_are_nothing() {
+        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert_eq!(Value::from(value), Value::Nothing);
+            assert_eq!(Value::from(Some(value)), Value::Nothing);
+        }
+        assert_eq!(Value::from(-0.5), Value::Number(-0.5));
+    }
+}

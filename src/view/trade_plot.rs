@@ -1,0 +1,86 @@
+//! What accuracy costs, as a plot in letters below a table: one letter a row.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+
+use super::look::Look;
+use super::pane::Heading;
+use super::plot::{Names, Plot};
+use super::screen;
+use crate::flow::Method;
+use crate::picture::role::Role;
+use crate::scene::{Point, Span, Window};
+use crate::session::settings::{self, Colors, Glyphs};
+use crate::study::trade::Trade;
+
+/// The logarithm of the error over that of the time; later methods lie below, the best choices are capitals.
+///
+/// `seconds` are the times that the rows took. Empty where no row has both.
+#[must_use]
+pub fn in_letters(trade: &Trade, seconds: &[f64]) -> String {
+    const AREA: Rect = Rect { x: 0, y: 0, width: 78, height: 24 };
+    let front = trade.front(seconds);
+    let rows = trade.rows.iter().zip(seconds).zip(front).filter_map(|((row, seconds), front)| {
+        Some((row.problem.method, row.deviation.ok()?.error, *seconds, front))
+    });
+    let rows: Vec<_> = rows.collect();
+    let points: Vec<(Point, char)> = rows
+        .iter()
+        .filter(|(_, error, seconds, _)| *error > 0.0 && *seconds > 0.0)
+        .map(|(method, error, seconds, front)| {
+            let letter = letter(*method);
+            let point = Point { x: (1e3 * seconds).log10(), y: error.log10() };
+            (point, if *front { letter.to_ascii_uppercase() } else { letter })
+        })
+        .collect();
+    let around = |place: fn(&Point) -> f64| {
+        let span = Span::covering(points.iter().map(|(point, _)| place(point)))?;
+        Some(span.scaled(span.at(0.5), 1.1))
+    };
+    let (Some(x), Some(y)) = (around(|point| point.x), around(|point| point.y)) else {
+        return String::new();
+    };
+    let look = Look::new(settings::Look {
+        glyphs: Glyphs::Ascii,
+        colors: Colors::Never,
+        ..settings::Look::default()
+    });
+    let mut buffer = Buffer::empty(AREA);
+    let names = Names {
+        title: "trade",
+        x: "log10(time/ms)",
+        y: "log10(error)",
+        scales: Default::default(),
+        marks: None,
+    };
+    let heading = Heading::default();
+    let mut plot = Plot::new(AREA, Window { x, y }, names, &heading, &look, &mut buffer);
+    for (point, letter) in points.into_iter().rev() {
+        plot.mark(point, letter, Role::Text);
+    }
+    plot.finish(&mut buffer);
+    let mut key: Vec<String> = Vec::new();
+    for (method, ..) in rows {
+        let entry = format!("{} {method}", letter(method));
+        if !key.contains(&entry) {
+            key.push(entry);
+        }
+    }
+    format!("{}      {}\n", screen::text(&buffer), key.join("  "))
+}
+
+/// The letter of a method.
+fn letter(method: Method) -> char {
+    match method {
+        Method::Auto => 'a',
+        Method::Exact => 'e',
+        Method::Taylor => 't',
+        Method::Dop853 => '8',
+        Method::Dopri5 => '5',
+        Method::Rk4 => '4',
+        Method::Stiff => 'i',
+        Method::Smoothed => '~',
+        Method::SignRk4 => 's',
+        Method::TimeStepping => 'm',
+    }
+}

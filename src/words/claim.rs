@@ -1,0 +1,60 @@
+//! The verdicts on the claims of the paper.
+
+use super::number::significant;
+use crate::study::claims::{Examined, Finding, Mark, Sense, Verdict};
+
+/// The name of the verdict where no number could be computed.
+const UNKNOWN: &str = "unknown";
+
+/// The name of the verdict in documents.
+#[must_use]
+pub fn name(examined: &Examined) -> &'static str {
+    examined.finding.as_ref().map_or(UNKNOWN, |finding| Finding::verdict(finding).name())
+}
+
+/// The verdict in words.
+#[must_use]
+pub fn verdict(examined: &Examined) -> String {
+    let percent = |part: f64| format!("{} %", significant(100.0 * part, 2));
+    let Ok(finding) = &examined.finding else { return UNKNOWN.to_owned() };
+    let counts = || format!("{} of {}", finding.computed.value, finding.cases);
+    match finding.verdict() {
+        Verdict::Agrees if finding.paper.is_none() => "holds".to_owned(),
+        Verdict::Agrees => "agrees".to_owned(),
+        Verdict::Approximates { within } if finding.scale() == 1.0 => {
+            format!("within {}", significant(within, 2))
+        }
+        Verdict::Approximates { within } => format!("within {}", percent(within)),
+        Verdict::Corrected { within: None } => "corrected: holds".to_owned(),
+        Verdict::Corrected { within: Some(within) } => format!("corrected: {}", percent(within)),
+        Verdict::InPart => format!("in {}", counts()),
+        Verdict::False if finding.sense == Sense::Always => format!("false: {}", counts()),
+        Verdict::False if finding.computed.value == 0.0 => "false".to_owned(),
+        Verdict::False => format!("false: {} off", percent(finding.miss())),
+    }
+}
+
+/// How many claims have which verdict.
+#[must_use]
+pub fn summary(examined: &[Examined]) -> String {
+    const NAMES: [(&str, &str); 6] = [
+        ("agrees", "agree"),
+        ("approximates", "hold approximately"),
+        ("corrected", "hold when corrected"),
+        ("in-part", "hold in part"),
+        ("false", "are false"),
+        (UNKNOWN, "could not be computed"),
+    ];
+    let count = |name: &str| examined.iter().filter(|one| self::name(one) == name).count();
+    let counts = NAMES.iter().map(|&(name, words)| (count(name), words));
+    let parts =
+        counts.filter(|(count, _)| *count > 0).map(|(count, words)| format!("{count} {words}"));
+    let marked = |mark: Mark| {
+        let carries = |one: &&Examined| one.finding.as_ref().is_ok_and(|it| it.mark == Some(mark));
+        let count = examined.iter().filter(carries).count();
+        (count > 0).then(|| format!("{count} {}", mark.name()))
+    };
+    let marks = [Mark::Proved, Mark::Refuted, Mark::Enclosed].into_iter().filter_map(marked);
+    let parts: Vec<_> = parts.chain(marks).collect();
+    format!("{} claims: {}", examined.len(), parts.join(", "))
+}

@@ -1,0 +1,13 @@
+//! Words for numbers, quantities and answers, the same on the screen, in tables and in figures.
+
+pub mod claim;
+pub mod measured;
+pub mod motion;
+pub mod number;
+pub mod quantity;
+
+/// Whether something attracts.
+#[must_use]
+pub fn stability(stable: bool) -> &'static str {
+    if stable { "stable" } else { "unstable" }
+}

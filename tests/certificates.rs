@@ -1,0 +1,151 @@
+//! Certificates of limit cycles: what is written is accepted, and nothing else.
+
+use hopfscope::check::{Certificate, Step, Theorem, check};
+use hopfscope::numerics::Interval;
+use hopfscope::oscillator::Parameters;
+use hopfscope::proof::certificate::certificate;
+use hopfscope::proof::{ParameterBox, prove};
+use serde_json::Value;
+
+fn written(d: f64, d2: f64, d3: f64, r: f64) -> String {
+    let proof = prove(&ParameterBox::from(&Parameters { d, d2, d3, r }), &[]);
+    certificate(&proof).unwrap().text().unwrap()
+}
+
+#[test]
+fn what_is_written_is_accepted() {
+    for ([d, d2, d3, r], cycles) in [
+        ([-0.2, 0.2, 0.5, 0.1], 2),
+        ([-0.5, 0.2, 0.5, 0.1], 2),
+        ([-0.3, 0.2, -0.5, 0.1], 1),
+        ([-0.3, 0.5, 0.0, 0.1], 1),
+        ([-0.02, 0.5, 0.0, 0.1], 0),
+        ([-0.1, 0.0, 0.5, 0.1], 0),
+        ([-0.1, 0.0, 0.0, 0.1], 1),
+        ([0.1, 0.0, -0.5, 0.0], 1),
+        ([-1.5, 0.3, -1.0, 0.1], 0),
+    ] {
+        let text = written(d, d2, d3, r);
+        let accepted =
+            check(&text).unwrap_or_else(|why| panic!("{d} {d2} {d3} {r}: {why}\n{text}"));
+        assert_eq!(accepted.cycles, cycles, "{d} {d2} {d3} {r}");
+        let shown = accepted.steps.iter().filter(|step| matches!(step, Step::Cycle { .. })).count();
+        let by_theorem = matches!(accepted.steps[..], [Step::Theorem { .. }]);
+        assert!(by_theorem || shown == cycles);
+    }
+}
+
+/// The numbers of a certificate hold the reference of thirty digits, whose leading digits these are.
+#[test]
+fn the_numbers_hold_the_reference() {
+    let accepted = check(&written(-0.2, 0.2, 0.5, 0.1)).unwrap();
+    let numbers = accepted.steps.iter().find_map(|step| match step {
+        Step::Cycle { numbers, .. } if numbers.stable => Some(*numbers),
+        _ => None,
+    });
+    let numbers = numbers.unwrap();
+    for (bounds, value, width) in [
+        (numbers.clearance, 0.622_333_333_030_272_5, 1e-11),
+        (numbers.left, 0.793_202_803_241_141_3, 1e-11),
+        (numbers.period, 6.322_694_602_883_211, 1e-10),
+        (numbers.multiplier, 0.355_865_264_037_352, 1e-10),
+    ] {
+        assert!(bounds[0] < value && value < bounds[1], "{bounds:?} {value}");
+        assert!(bounds[1] - bounds[0] < width, "{bounds:?}");
+    }
+}
+
+/// The same file with a fingerprint that fits, so that only mathematics can refuse it.
+fn sealed(value: &Value) -> Option<String> {
+    let read = Certificate::read(&value.to_string()).ok()?;
+    Certificate::new(read.parameters, read.cycles, read.steps).text().ok()
+}
+
+/// All places of a document at which there is a number, a truth or a word.
+fn places(value: &Value, path: &str, found: &mut Vec<String>) {
+    match value {
+        Value::Object(fields) => {
+            for (key, inner) in fields {
+                places(inner, &format!("{path}/{key}"), found);
+            }
+        }
+        Value::Array(items) => {
+            for (index, inner) in items.iter().enumerate() {
+                places(inner, &format!("{path}/{index}"), found);
+            }
+        }
+        _ => found.push(path.to_owned()),
+    }
+}
+
+/// Every field perturbed in turn, by a part in a thousand: refused. With the fingerprint renewed too, unless what it
+/// says has become wider and is still true.
+#[test]
+fn every_field_that_is_changed_is_refused() {
+    let text = written(0.3, 0.2, -0.5, 0.1);
+    let document: Value = serde_json::from_str(&text).unwrap();
+    let mut found = Vec::new();
+    places(&document, "", &mut found);
+    assert!(found.len() > 25);
+    let (mut wider, mut refused) = (Vec::new(), 0);
+    for place in &found {
+        for factor in [0.999, 1.001] {
+            let mut changed = document.clone();
+            let target = changed.pointer_mut(place).unwrap();
+            *target = match target {
+                Value::Number(number) if number.is_u64() => {
+                    Value::from(number.as_u64().unwrap() + 1)
+                }
+                Value::Number(number) => Value::from(number.as_f64().unwrap() * factor),
+                Value::Bool(truth) => Value::from(!*truth),
+                Value::String(word) => Value::from(format!("{word}x")),
+                other => panic!("{other}"),
+            };
+            assert!(check(&changed.to_string()).is_err(), "{place} may be changed by {factor}");
+            let Some(text) = sealed(&changed) else { continue };
+            match check(&text) {
+                Err(refusal) => {
+                    refused += 1;
+                    assert!(refusal.line > 0 && refusal.line <= text.lines().count(), "{refusal}");
+                }
+                Ok(_) if place == "/digest" => {}
+                Ok(_) => wider.push(format!("{place} {factor}")),
+            }
+        }
+    }
+    // Only bounds of a cycle's numbers, each on one side, may be wider.
+    assert!(wider.iter().all(|place| place.contains("/numbers/")), "{wider:?}");
+    assert!(wider.len() <= 8 && refused > 30, "{refused} {wider:?}");
+}
+
+#[test]
+fn a_step_that_is_missing_or_out_of_place_is_refused_with_its_line() {
+    let text = written(-0.2, 0.2, 0.5, 0.1);
+    let whole = Certificate::read(&text).unwrap();
+    for gone in 0..whole.steps.len() {
+        let mut steps = whole.steps.clone();
+        steps.remove(gone);
+        let text = Certificate::new(whole.parameters, 2, steps).text().unwrap();
+        let refusal = check(&text).unwrap_err();
+        // The step that now stands there, or the one before it, does not fit. Steps begin in line 5.
+        let there = gone + 5;
+        assert!((there - 1..=there).contains(&refusal.line), "without step {gone}: {refusal}");
+    }
+    let steps = vec![Step::Theorem { name: Theorem::OneWay }];
+    let claimed = Certificate::new(whole.parameters, 0, steps).text().unwrap();
+    assert_eq!(check(&claimed).unwrap_err().line, 5);
+    assert_eq!(check("{\n\"cycles\": x").unwrap_err().line, 2);
+    assert!(check(&text.replace("\"cycles\"", "\"circles\"")).is_err());
+    assert!(check(&text.replace("0.5,0.5", "0.5,null")).is_err());
+}
+
+/// A certificate for intervals of parameters, and none where the number of cycles is open.
+#[test]
+fn intervals_of_parameters_are_certified_and_what_is_open_is_not() {
+    let mut wide = ParameterBox::from(&Parameters { d: -0.2, d2: 0.2, d3: 0.5, r: 0.1 });
+    wide.r = Interval::new(0.099_99, 0.100_01);
+    let text = certificate(&prove(&wide, &[])).unwrap().text().unwrap();
+    assert_eq!(check(&text).unwrap().parameters.r, [0.099_99, 0.100_01]);
+    wide.d = Interval::new(-0.18, -0.17);
+    assert!(certificate(&prove(&wide, &[])).is_err());
+}
