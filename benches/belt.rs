@@ -7,6 +7,7 @@
 use divan::Bencher;
 use divan::black_box;
 use hopfscope::machine::{Model, Motion, Portrait};
+use hopfscope::numerics::elementary::exp;
 use hopfscope::oscillator::Belt;
 use hopfscope::oscillator::belt::FrictionLaw;
 
@@ -68,10 +69,10 @@ fn motion_of_a_hundred_time_units(bencher: Bencher) {
 /// The same motion with a fixed step of 1e-3 of classical Runge and Kutta.
 #[divan::bench]
 fn time_stepping_of_a_hundred_time_units(bencher: Bencher) {
-    let steady = 0.5 + 0.5 * (-3.0_f64).exp();
+    let steady = 0.5 + 0.5 * exp(-3.0_f64);
     let slope = |x: f64, v: f64| {
         let slip: f64 = 1.5 - v;
-        let pull = slip.signum() * (0.5 + 0.5 * (-2.0 * slip.abs()).exp());
+        let pull = slip.signum() * (0.5 + 0.5 * exp(-2.0 * slip.abs()));
         (v, pull - 0.1 * v - x - steady)
     };
     bencher.bench_local(|| {

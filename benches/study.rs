@@ -6,6 +6,7 @@
 
 use divan::{Bencher, black_box};
 use hopfscope::flow::{Limits, Problem};
+use hopfscope::numerics::elementary::ln;
 use hopfscope::oscillator::{Parameters, Symbol};
 use hopfscope::runtime::scanning::{Effort, rows};
 use hopfscope::study::basin::Window;
@@ -42,7 +43,7 @@ fn all_cycles_by_a_dense_scan() -> usize {
     const GRID: u32 = 400;
     let mut equation = Equation::new(black_box(&CASE), STEP);
     let mut at = |u: f64| equation.at(Route::Mixed, u, LIMITS).unwrap().node;
-    let place = |index: u32| (0.1_f64).ln() + 3.0 * f64::from(index) / f64::from(GRID);
+    let place = |index: u32| ln(0.1) + 3.0 * f64::from(index) / f64::from(GRID);
     let mut found = 0;
     let mut before = at(place(0));
     for index in 1..=GRID {

@@ -6,6 +6,7 @@ use std::fs;
 use std::sync::Arc;
 
 use hopfscope::flow::Outcome;
+use hopfscope::numerics::elementary::tanh;
 use hopfscope::runtime::explorer::replay;
 use hopfscope::scene::{Rig, Scene};
 use hopfscope::session::replay::parse;
@@ -229,7 +230,7 @@ fn a_mode_is_answered_by_the_same_command() {
     let found = belt(&[name]);
     let omega = 240.0 * std::f64::consts::PI;
     let swing = 0.05 * std::f64::consts::PI / (1.0_f64 - 0.0025).sqrt();
-    let amplitude = 3.0 / (0.2 * omega * omega) / (0.5 * swing).tanh();
+    let amplitude = 3.0 / (0.2 * omega * omega) / tanh(0.5 * swing);
     assert!((number(&found["margin"]["displacement"]) / amplitude - 1.0).abs() < 1e-13);
     assert_eq!(found["cycles"].as_array().unwrap().len(), 1);
     assert_eq!(found["motion"]["outcome"]["kind"], "escaped");

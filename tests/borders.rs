@@ -2,6 +2,7 @@
 
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, Outcome, Problem, Reason};
+use hopfscope::numerics::elementary::pow;
 use hopfscope::oscillator::{Parameters, State};
 use hopfscope::study::Edge;
 use hopfscope::study::basin::{Basin, Fate, Survey, Window, basin};
@@ -265,7 +266,7 @@ fn signed_magnitude(exponents: std::ops::Range<f64>) -> impl Strategy<Value = f6
     prop_oneof![
         1 => Just(0.0),
         5 => (exponents, any::<bool>())
-            .prop_map(|(exponent, negative)| 10_f64.powf(exponent) * if negative { -1.0 } else { 1.0 }),
+            .prop_map(|(exponent, negative)| pow(10.0, exponent) * if negative { -1.0 } else { 1.0 }),
     ]
 }
 

@@ -3,6 +3,7 @@
 
 use hopfscope::flow::Limits;
 use hopfscope::numerics::Interval;
+use hopfscope::numerics::elementary::{exp, powi, sin_cos};
 use hopfscope::oscillator::{Parameters, Symbol};
 use hopfscope::proof::kicks::{Edge, Kicks, kicks};
 use hopfscope::proof::motion::{Fate, Motion, follow};
@@ -66,8 +67,8 @@ fn motions_are_followed_to_rest_to_a_time_and_to_their_escape() {
     let found = motion(&linear, 2.0, 0.0, 1.0);
     let Fate::Moving { q, v } = found.fate else { panic!("{found:?}") };
     let omega = 0.99_f64.sqrt();
-    let (sine, cosine) = omega.sin_cos();
-    let growth = 1.5 * 0.1_f64.exp();
+    let (sine, cosine) = sin_cos(omega);
+    let growth = 1.5 * exp(0.1);
     assert!(near(q, 0.5 + growth * (cosine - 0.1 / omega * sine), 1e-14) && q.width() < 1e-12);
     assert!(near(v, -growth * sine / omega, 1e-14) && v.width() < 1e-12);
     // v' = v^2 - x from far out, in a half plane: infinite after about 1/v.
@@ -128,7 +129,7 @@ fn margins_are_never_larger_than_the_truth() {
         seed ^= seed >> 7;
         seed ^= seed << 17;
         #[expect(clippy::cast_precision_loss, reason = "53 bits")]
-        let part = (seed >> 11) as f64 * 2.0_f64.powi(-53);
+        let part = (seed >> 11) as f64 * powi(2.0, -53);
         low + part * (high - low)
     };
     let (mut compared, mut open) = (0, 0);

@@ -5,6 +5,8 @@ mod program;
 use program::{json, run};
 use serde_json::{Map, Value};
 
+use hopfscope::numerics::elementary::cos;
+
 /// The keys of an object, in alphabetical order.
 fn keys(value: &Value) -> Vec<&str> {
     let object: &Map<String, Value> = value.as_object().expect("an object");
@@ -54,7 +56,7 @@ fn each_outcome_has_its_own_fields() {
     assert_eq!(keys(&moving["outcome"]), ["kind", "q", "tau", "v"]);
     assert_eq!(moving["outcome"]["kind"], "moving");
     assert_eq!(moving["outcome"]["tau"], 7.0);
-    assert!(close(&moving["outcome"]["q"], 7.0_f64.cos(), 1e-8));
+    assert!(close(&moving["outcome"]["q"], cos(7.0), 1e-8));
 
     let escaped = json("trajectory --until 7 --set D3=-1 --set r=0 --set q0=10");
     assert_eq!(keys(&escaped["outcome"]), ["kind", "tau"]);

@@ -4,6 +4,7 @@
 
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, Method, Outcome, Problem};
+use hopfscope::numerics::elementary::{exp, ln};
 use hopfscope::numerics::scaling::times_power;
 use hopfscope::oscillator::{HalfPlane, Parameters, Side, State, Symbol};
 use hopfscope::study::SpecialKind;
@@ -55,8 +56,8 @@ fn turn_is_larger(parameters: Parameters, sides: [Side; 2], step: f64) -> impl F
 /// any cleverness finds.
 fn scanned_cycles(parameters: &Parameters, scan: usize) -> usize {
     let mut grows = turn_is_larger(*parameters, [Side::Upper, Side::Lower], 1e-9);
-    let (low, high) = (1e-9_f64.ln(), 60_f64.ln());
-    let at = |index: usize| (low + (high - low) * index as f64 / scan as f64).exp();
+    let (low, high) = (ln(1e-9), ln(60.0));
+    let at = |index: usize| exp(low + (high - low) * index as f64 / scan as f64);
     let signs: Vec<bool> = (0..=scan).map(|index| grows(at(index))).collect();
     signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
 }

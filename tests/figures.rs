@@ -8,6 +8,7 @@ use std::fs;
 
 use hopfscope::figure::{Curve, Figure, Form, file};
 use hopfscope::flow::Limits;
+use hopfscope::numerics::elementary::{atan2, cbrt, exp, exp_m1, hypot, powi};
 use hopfscope::runtime::print::{self, complete};
 use hopfscope::scene::answer::Fineness;
 use hopfscope::scene::library::{find, library};
@@ -174,9 +175,9 @@ fn aside(point: (f64, f64), line: &[(f64, f64)], near: usize) -> f64 {
     let distance = |pair: &[(f64, f64)]| -> f64 {
         let (along, up) = (pair[1].0 - pair[0].0, pair[1].1 - pair[0].1);
         let (right, above) = (point.0 - pair[0].0, point.1 - pair[0].1);
-        let part = (right * along + above * up) / along.hypot(up).powi(2);
+        let part = (right * along + above * up) / powi(hypot(along, up), 2);
         let part = if part.is_nan() { 0.0 } else { part.clamp(0.0, 1.0) };
-        (right - part * along).hypot(above - part * up)
+        hypot(right - part * along, above - part * up)
     };
     let least = |line: &[(f64, f64)]| line.windows(2).map(distance).fold(f64::INFINITY, f64::min);
     let around = &line[near.saturating_sub(8).min(line.len())..(near + 8).min(line.len())];
@@ -267,7 +268,7 @@ fn no_chord_misses_its_curve_after_zooming_either() {
                 let paper = |[x, y]: &[f64; 2]| {
                     (PANEL.0 * window.x.fraction(*x), PANEL.1 * window.y.fraction(*y))
                 };
-                points.iter().map(paper).filter(|(x, y)| x.hypot(*y) < 4000.0).collect()
+                points.iter().map(paper).filter(|(x, y)| hypot(*x, *y) < 4000.0).collect()
             };
             let (line, dense) = (near(&curve.points), near(&finer.points));
             for point in dense
@@ -304,8 +305,8 @@ fn reference_folds() -> Vec<(f64, f64)> {
 fn linear_extents(d: f64, r: f64) -> (f64, f64) {
     let omega = (1.0 - d * d).sqrt();
     let x = -PI * d / omega;
-    let clearance = 2.0 * r / x.exp_m1();
-    (r + clearance, clearance * (-(d / omega) * omega.atan2(d)).exp())
+    let clearance = 2.0 * r / exp_m1(x);
+    (r + clearance, clearance * exp(-(d / omega) * atan2(omega, d)))
 }
 
 #[test]
@@ -362,7 +363,7 @@ fn the_borders_of_the_basins_are_the_cycles_of_the_formulas() {
         }
         let radius = -1.0 / (2.0 * d);
         for [q, v] in &curves(&drawn, panel, "Lyapunov circle")[0].points {
-            assert!((q.hypot(*v) / radius - 1.0).abs() < 1e-14);
+            assert!((hypot(*q, *v) / radius - 1.0).abs() < 1e-14);
         }
     }
 }
@@ -379,7 +380,7 @@ fn harmonic_curves_obey_the_amplitude_equation() {
                     // (40) and (42).
                     let shift = drawn.panels[panel].y.name == "mean";
                     let a = if shift { (-2.0 * height / d2).sqrt() } else { *height };
-                    let terms = [4.0 * r / PI, 2.0 * d * a, 0.75 * d3 * a.powi(3)];
+                    let terms = [4.0 * r / PI, 2.0 * d * a, 0.75 * d3 * powi(a, 3)];
                     let size: f64 = terms.iter().map(|term| term.abs()).sum();
                     assert!(
                         terms.iter().sum::<f64>().abs() < 1e-13 * size,
@@ -403,7 +404,7 @@ fn computed_and_harmonic_folds_stand_where_they_are_known_to() {
         };
         for point in &curves(&drawn, 0, "fold of the first harmonic")[0].points {
             let (kappa, d) = kappa_and_d(point);
-            let formula = -0.5 * (kappa * (9.0 / PI).powi(2)).cbrt();
+            let formula = -0.5 * cbrt(kappa * powi(9.0 / PI, 2));
             assert!((d / formula - 1.0).abs() < 1e-9, "{scene}: {point:?}");
         }
         let all = curves(&drawn, 0, "fold");

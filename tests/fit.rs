@@ -8,6 +8,7 @@ use std::fs;
 use hopfscope::fit::names::{Choice, NAMES, named};
 use hopfscope::fit::observation::{Data, Observation, Start, Unknowns};
 use hopfscope::fit::{Estimate, Question, Record, estimate};
+use hopfscope::numerics::elementary::powi;
 use hopfscope::numerics::random::Random;
 use program::{json, run};
 use rayon::prelude::*;
@@ -462,8 +463,8 @@ fn a_fit_is_the_same_in_any_unit() {
     let one = estimate(&record, &question, &|| false).unwrap();
     let other = estimate(&larger, &question, &|| false).unwrap();
     for row in &NAMES {
-        let scaled = one.p[row.place] * 1000_f64.powi(row.length);
-        let error = one.covariance.error(row.place) * 1000_f64.powi(row.length);
+        let scaled = one.p[row.place] * powi(1000.0, row.length);
+        let error = one.covariance.error(row.place) * powi(1000.0, row.length);
         assert!((other.p[row.place] - scaled).abs() < 1e-3 * error, "{}", row.name);
     }
 }

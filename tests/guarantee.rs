@@ -2,6 +2,7 @@
 //! disturbance leads out from just beyond.
 
 use hopfscope::flow::Limits;
+use hopfscope::numerics::elementary::sin;
 use hopfscope::numerics::random::Random;
 use hopfscope::oscillator::{Interval, ParameterBox, Parameters, State};
 use hopfscope::study::guarantee::{Sided, guarantee, zones};
@@ -49,7 +50,7 @@ impl Force {
                     -side
                 }
             }
-            Force::Harmonic(frequency, phase) => (frequency * STEP * f64::from(step) + phase).sin(),
+            Force::Harmonic(frequency, phase) => sin(frequency * STEP * f64::from(step) + phase),
             Force::Telegraph(length, shift) => {
                 if ((step + shift) / length).is_multiple_of(2) {
                     1.0

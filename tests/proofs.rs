@@ -7,6 +7,7 @@ use data::references;
 use hopfscope::flow::precise::{COARSE, FINE, precise};
 use hopfscope::flow::{Limits, Problem};
 use hopfscope::numerics::Interval;
+use hopfscope::numerics::elementary::{exp, pow, powi};
 use hopfscope::oscillator::{Parameters, State, Symbol};
 use hopfscope::proof::cycles::{Proof, prove};
 use hopfscope::proof::derivatives::{cycle_derivatives, derivatives};
@@ -96,19 +97,19 @@ impl Dice {
         self.0 ^= self.0 << 17;
         #[expect(clippy::cast_precision_loss, reason = "53 bits")]
         let value = (self.0 >> 11) as f64;
-        value * 2.0_f64.powi(-53)
+        value * powi(2.0, -53)
     }
 
     /// 0 in one of five cases, else of either sign and between 1e-3 and 1e3.
     fn magnitude(&mut self) -> f64 {
-        let (kind, size) = (self.roll(), 10.0_f64.powf(6.0 * self.roll() - 3.0));
+        let (kind, size) = (self.roll(), pow(10.0, 6.0 * self.roll() - 3.0));
         if kind < 0.2 { 0.0 } else { size.copysign(kind - 0.6) }
     }
 
     fn parameters(&mut self) -> Parameters {
         let d = 4.0 * self.roll() - 2.0;
         let (d2, d3) = (self.magnitude(), self.magnitude());
-        Parameters { d, d2, d3, r: 10.0_f64.powf(9.0 * self.roll() - 6.0) }
+        Parameters { d, d2, d3, r: pow(10.0, 9.0 * self.roll() - 6.0) }
     }
 }
 
@@ -119,7 +120,7 @@ fn check_half_swings(count: usize) {
     for _ in 0..count {
         let d = 1.6 * dice.roll() - 0.9;
         let (d2, d3) = (dice.roll() - 0.5, 1.2 * dice.roll() - 0.4);
-        let x = 1e-3 * 5e3_f64.powf(dice.roll());
+        let x = 1e-3 * pow(5e3, dice.roll());
         let point = Interval::point;
         let field = Field { a: point(2.0 * d), b: point(d2), c: point(d3) };
         let start = Start::at_rest(point(x));
@@ -167,7 +168,7 @@ fn a_hundred_thousand_half_swings_hold_the_motions_of_twice_the_precision() {
 fn half_swings_scale_to_the_last_bit() {
     let point = Interval::point;
     let run = |unit: i32| {
-        let by = |power: i32| 2.0_f64.powi(power);
+        let by = |power: i32| powi(2.0, power);
         let field = Field {
             a: point(-0.4),
             b: point(0.3 * by(-unit)),
@@ -187,7 +188,7 @@ fn half_swings_scale_to_the_last_bit() {
     // Far below where damping is anything but linear.
     let tiny = Field { a: point(-0.4), b: point(0.3), c: point(0.5) };
     let swing = swing(&tiny, &Start::at_rest(point(1e-300)), false).arrived().unwrap();
-    let growth = (std::f64::consts::PI * 0.2 / 0.96_f64.sqrt()).exp();
+    let growth = exp(std::f64::consts::PI * 0.2 / 0.96_f64.sqrt());
     assert!((swing.end.lower() / 1e-300 / growth - 1.0).abs() < 1e-12, "{swing:?}");
 }
 
@@ -204,7 +205,7 @@ fn proofs_of_mirrored_and_of_scaled_parameters_agree() {
         assert!((one.0 - other.1).abs() < 1e-12 && (one.1 - other.0).abs() < 1e-12);
     }
     for k in [-400, -30, 30, 400] {
-        let by = 2.0_f64.powi(k);
+        let by = powi(2.0, k);
         let scaled = turns(&prove(&exactly(-0.2, 0.2 / by, 0.5 / by / by, 0.1 * by), &[]));
         assert_eq!(scaled.len(), 2, "2^{k}");
         for (one, other) in whole.iter().zip(&scaled) {
@@ -406,8 +407,8 @@ fn derivatives_by_the_parameters_obey_scaling_and_the_closed_form() {
         assert!([by_a, by_b, by_c].iter().all(|it| it.upper() < 0.0), "{by_a} {by_b} {by_c}");
         if b == 0.0 && c == 0.0 {
             let omega = f64::sqrt(1.0 - d * d);
-            let end = z * f64::exp(-std::f64::consts::PI * d / omega);
-            let exact = -0.5 * std::f64::consts::PI / omega.powi(3) * end;
+            let end = z * exp(-std::f64::consts::PI * d / omega);
+            let exact = -0.5 * std::f64::consts::PI / powi(omega, 3) * end;
             let near = Interval::around(exact, 1e-14 * exact.abs());
             assert!(by_a.intersection(near).is_some() && by_a.width() < 1e-9, "{by_a} {exact}");
         }

@@ -3,6 +3,7 @@
 
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, METHODS, Outcome, Problem};
+use hopfscope::numerics::elementary::pow;
 use hopfscope::oscillator::{Parameters, State};
 use hopfscope::study::cycle::cycles;
 use proptest::num::f64::{NEGATIVE, NORMAL, POSITIVE, SUBNORMAL, ZERO};
@@ -46,7 +47,7 @@ proptest! {
             initial: State { q, v },
             until,
             method: METHODS[method].method,
-            tolerance: 10_f64.powf(exponent),
+            tolerance: pow(10.0, exponent),
             step,
             epsilon,
         };

@@ -3,6 +3,7 @@
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, Outcome};
 use hopfscope::machine::Fate;
+use hopfscope::numerics::elementary::hypot;
 use hopfscope::oscillator::Symbol;
 use hopfscope::scene::answer::answer;
 use hopfscope::scene::{Answered, Slot, find};
@@ -68,7 +69,7 @@ fn plain_five_steps_of_damping_bring_the_start_into_the_basin() {
     let stage = Stage::open("plain");
     assert_eq!(stage.edge(), Edge::Cycle);
     let Outcome::Moving { q, v, .. } = stage.outcome() else { panic!("the swings grow") };
-    assert!(q.hypot(v) > 2.0);
+    assert!(hypot(q, v) > 2.0);
     assert!(!Stage::open("plain").press("<right*2>").is_captured());
     assert!(Stage::open("plain").press("<right*5>").is_captured());
 }

@@ -10,6 +10,7 @@ use hopfscope::machine::special::Kind;
 use hopfscope::machine::turn::Place;
 use hopfscope::machine::varied::Varied;
 use hopfscope::machine::{Border, Fate, Flow, Model, Motion, Portrait, Unfit};
+use hopfscope::numerics::elementary::{asin, atan, atan2, exp, exp_m1, hypot, ln, powi, tanh};
 use hopfscope::oscillator::Belt;
 use hopfscope::oscillator::belt::FrictionLaw;
 use serde_json::Value;
@@ -150,11 +151,11 @@ fn coulomb_friction_has_its_closed_forms() {
         let delta = belt.normal_force * 0.2 / belt.stiffness;
         let u = speed / omega;
         let free = portrait(&coulomb(0.0, speed));
-        let amplitude = delta.hypot(u);
+        let amplitude = hypot(delta, u);
         assert!(free.neutral && free.cycles.len() == 1);
         let cycle = &free.cycles[0];
         let stick = 2.0 * delta / speed;
-        let period = stick + (2.0 * PI - 2.0 * (delta / u).atan()) / omega;
+        let period = stick + (2.0 * PI - 2.0 * atan(delta / u)) / omega;
         for (found, expected) in [
             (cycle.x.1, amplitude),
             (cycle.x.0, -amplitude),
@@ -172,7 +173,7 @@ fn coulomb_friction_has_its_closed_forms() {
         assert_eq!(guided.cycles.len(), usize::from(third >= u), "v0 = {speed}");
         let Some(cycle) = guided.cycles.first() else { continue };
         let arrival = (third * third - u * u).sqrt();
-        let slip = ((u / delta).atan() + PI + (u / third).asin()) / omega;
+        let slip = (atan(u / delta) + PI + asin(u / third)) / omega;
         let stick = (delta + arrival) / speed;
         for (found, expected) in [
             (cycle.x.1, amplitude - rho),
@@ -271,7 +272,7 @@ fn lengths_scale_by_a_power_of_two_to_the_last_bit() {
                     FrictionLaw::Stribeck { rest, kinetic, velocity, exponent, viscous }
                 }
                 FrictionLaw::Polynomial { coefficients } => {
-                    let scaled = coefficients.iter().zip(0..).map(|(c, n)| c / k.powi(n));
+                    let scaled = coefficients.iter().zip(0..).map(|(c, n)| c / powi(k, n));
                     FrictionLaw::Polynomial { coefficients: scaled.collect() }
                 }
                 other => other,
@@ -413,7 +414,7 @@ fn no_contact_is_too_shallow_to_be_seen() {
         let (rho, radius) = (guide / belt.stiffness, model.speed);
         for power in 3..14 {
             for sign in [-1.0, 1.0] {
-                let excess = sign * 10_f64.powi(-power);
+                let excess = sign * powi(10.0, -power);
                 let left = -(rho + radius * (1.0 + excess));
                 let motion = Motion::new(&model, left, 0.0, 0.9 * PI / model.omega_0);
                 let stuck = motion.legs.iter().any(|leg| leg.place == Place::Sticks);
@@ -428,7 +429,7 @@ fn no_contact_is_too_shallow_to_be_seen() {
         let touch = flow.landmarks().unwrap().unwrap().grazing.right.unwrap();
         for power in 3..13 {
             for sign in [-1.0, 1.0] {
-                let x = touch * (1.0 + sign * 10_f64.powi(-power));
+                let x = touch * (1.0 + sign * powi(10.0, -power));
                 let Ok(Return::Turns(image)) = flow.returned(x) else { panic!("{name}") };
                 assert_eq!(image.sticks_from.is_some(), sign > 0.0, "{name} at {x}");
             }
@@ -476,12 +477,12 @@ fn a_cycle_that_repels_beyond_all_digits_is_the_border_of_rest() {
         // Equations (30) to (33), corrected.
         let omega = (1.0 - d * d).sqrt();
         let growth = -PI * d / omega;
-        let amplitude = 0.1 / (0.5 * growth).tanh();
+        let amplitude = 0.1 / tanh(0.5 * growth);
         let margin = found.margin.unwrap();
         for size in [cycle.x.1, -cycle.x.0, margin.displacement.0, margin.displacement.1] {
             assert!(close(size, amplitude, 1e-13), "{d}: {size} {amplitude}");
         }
-        let fastest = 0.2 / growth.exp_m1() * (-d / omega * omega.atan2(d)).exp();
+        let fastest = 0.2 / exp_m1(growth) * exp(-d / omega * atan2(omega, d));
         assert!(close(cycle.v.1, fastest, 1e-12), "{d}: {fastest} {cycle:?}");
         assert!(!cycle.stable && cycle.log_multiplier > 0.0);
         assert!(close(cycle.log_multiplier, 2.0 * growth, 1e-11), "{d}: {cycle:?}");
@@ -529,7 +530,7 @@ fn special(belt: &Belt, name: &str, range: (f64, f64), count: usize) -> Vec<(Kin
 #[test]
 fn every_change_of_a_portrait_is_located() {
     let bench = machine("bstab-1.5");
-    let expected = [(Kind::Hopf, 0.5 * 10_f64.ln()), (Kind::Annihilation, 1.836_600_972_207_926)];
+    let expected = [(Kind::Hopf, 0.5 * ln(10.0)), (Kind::Annihilation, 1.836_600_972_207_926)];
     for count in [4, 7] {
         let found = special(&bench, "v0", (0.5, 2.0), count);
         assert_eq!(found.len(), 2, "{found:?}");

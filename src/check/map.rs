@@ -6,6 +6,7 @@
 
 use super::motion::{Field, Passage, Swing, run, swing};
 use crate::numerics::Interval;
+use crate::numerics::elementary::cbrt;
 
 /// G at some parameters.
 pub struct Map {
@@ -116,7 +117,7 @@ impl Map {
         let mut best = f64::INFINITY;
         for reach in [1.0, 2.0, 4.0, 8.0] {
             let r = reach / least.sqrt();
-            let mut s = (2.0 * r / least).cbrt();
+            let mut s = cbrt(2.0 * r / least);
             for _ in 0..200 {
                 let at = Interval::point(s);
                 let value = at * (a + at * (b + at * c)) - Interval::point(r).twice();

@@ -17,6 +17,7 @@
 )]
 
 use crate::numerics::Interval;
+use crate::numerics::elementary::pow;
 
 /// The coefficients a, b, c of a half plane.
 #[derive(Clone, Copy, Debug)]
@@ -246,7 +247,7 @@ pub fn run(field: &Field, centre: [f64; 2], radius: f64) -> Passage {
         let series = field.series(disc.centre.map(point));
         let size = disc.centre[0].abs().max(disc.centre[1].abs());
         let last = series[ORDER][0].magnitude().max(series[ORDER][1].magnitude());
-        let longest = (1e-6 * SMALL * size / last).powf(1.0 / 22.0).min(0.4);
+        let longest = pow(1e-6 * SMALL * size / last, 1.0 / 22.0).min(0.4);
         let arrives = if disc.time.lower() > 0.0 { arrival(&series, longest) } else { None };
         let mut h = arrives.unwrap_or(longest);
         let mut whole = true;

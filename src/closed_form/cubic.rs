@@ -12,6 +12,7 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, PI};
 
+use crate::numerics::elementary::{acos, acosh, asinh, atan2, cos, cosh, sin, sinh};
 use crate::numerics::twofold::{self, Twofold};
 use crate::numerics::wide::Wide;
 
@@ -39,9 +40,9 @@ pub fn supercritical(d: f64, d3: f64, r: f64) -> Pair {
         return Pair::None;
     }
     let sine = ratio.sqrt();
-    let third = sine.atan2(gap.sqrt()) / 3.0;
-    let small = small_root(d, r).times(Wide::of(triple_ratio(third.sin(), sine)));
-    let large = large_root(d, d3).times(Wide::of(SCALE * (FRAC_PI_6 + third).cos()));
+    let third = atan2(sine, gap.sqrt()) / 3.0;
+    let small = small_root(d, r).times(Wide::of(triple_ratio(sin(third), sine)));
+    let large = large_root(d, d3).times(Wide::of(SCALE * cos(FRAC_PI_6 + third)));
     if gap > 0.0 { Pair::Apart(small.value(), large.value()) } else { Pair::Meeting(small.value()) }
 }
 
@@ -66,12 +67,11 @@ pub fn subcritical(d: f64, d3: f64, r: f64) -> Option<f64> {
         let (ratio, _) = distance_from_fold(d, d3, r);
         let sine = ratio.sqrt();
         if d < 0.0 {
-            let third = sine.asinh() / 3.0;
-            small_root(d, r).times(Wide::of(triple_ratio(third.sinh(), sine)))
+            let third = asinh(sine) / 3.0;
+            small_root(d, r).times(Wide::of(triple_ratio(sinh(third), sine)))
         } else {
             // Above 1 the arc cosine turns hyperbolic; the root itself does not notice.
-            let third =
-                if sine <= 1.0 { (sine.acos() / 3.0).cos() } else { (sine.acosh() / 3.0).cosh() };
+            let third = if sine <= 1.0 { cos(acos(sine) / 3.0) } else { cosh(acosh(sine) / 3.0) };
             large_root(d, d3).times(Wide::of(SCALE * third))
         }
     };

@@ -191,6 +191,7 @@ mod tests {
 
     use super::super::reference::AMPLITUDES;
     use super::*;
+    use crate::numerics::elementary::exp2;
 
     fn oscillator(d: f64, d2: f64, d3: f64, r: f64) -> Parameters {
         Parameters { d, d2, d3, r }
@@ -340,7 +341,7 @@ mod tests {
         fn scaling_by_a_power_of_two_changes_no_bit(
             d in -1.0..1.0, d3 in -2.0..2.0, r in 1e-3..1.0, k in -150_i32..150,
         ) {
-            let unit = f64::from(k).exp2();
+            let unit = exp2(f64::from(k));
             let plain = amplitudes(&oscillator(d, 0.3, d3, r));
             let big = amplitudes(&oscillator(d, 0.3 / unit, d3 / unit / unit, r * unit));
             let plain: Vec<_> = plain.iter().map(|it| (it.amplitude * unit, it.mean * unit)).collect();

@@ -14,6 +14,7 @@
 //! carried in twice the working precision. All operations are linear in the state: a state scaled by
 //! a power of two, or mirrored, gives the scaled or mirrored result to the last bit.
 
+use crate::numerics::elementary::{atan, cosh, ln, ln_1p, sinh};
 use crate::numerics::twofold::{PI, Twofold};
 
 /// The flow of `x'' + 2 D x' + x = 0` with what depends on D alone worked out once.
@@ -82,7 +83,7 @@ impl Linear {
             let (sin, cos) = phase.sin_cos();
             (cos, t * ratio(sin, phase))
         } else {
-            (phase.high.cosh(), t * ratio(phase.high.sinh(), Twofold::of(phase.high)))
+            (cosh(phase.high), t * ratio(sinh(phase.high), Twofold::of(phase.high)))
         };
         let decay = Twofold::product(-self.d, t).exp();
         let pull = self.d.mul_add(x, v);
@@ -129,7 +130,7 @@ impl Linear {
         // Standing still means tan(omega t)/omega = v/(D v + x), or the same with tanh and kappa.
         let time = if let Some(omega) = self.omega() {
             let push = self.d.mul_add(v, x);
-            let angle = (omega.high * (v / push)).abs().atan();
+            let angle = atan((omega.high * (v / push)).abs());
             let soon = push == 0.0 || (push > 0.0) == (v > 0.0);
             let phase = if soon { angle } else { PI.high - (angle - PI.low) };
             phase / omega.high
@@ -144,9 +145,9 @@ impl Linear {
             if split == 0.0 {
                 v / far
             } else if excess.abs() < 0.5 {
-                excess.ln_1p() / split
+                ln_1p(excess) / split
             } else {
-                (near / far).ln() / split
+                ln(near / far) / split
             }
         };
         time.is_finite().then(|| Standstill { time, x: self.state(x, v, time).0 })
@@ -186,6 +187,7 @@ mod tests {
 
     use super::super::reference::{STANDSTILLS, STATES};
     use super::*;
+    use crate::numerics::elementary::{exp, exp2};
 
     #[test]
     fn states_agree_with_sixty_digit_arithmetic() {
@@ -250,7 +252,7 @@ mod tests {
             let halfway = linear_flow(d, x, v, s);
             let twice = linear_flow(d, halfway.0, halfway.1, t);
             // Growth within 6 time units bounds what the error of the first step becomes.
-            let size = (halfway.0.abs() + halfway.1.abs()) * (3.0 * t).exp();
+            let size = (halfway.0.abs() + halfway.1.abs()) * exp(3.0 * t);
             let error = (once.0 - twice.0).abs().max((once.1 - twice.1).abs());
             prop_assert!(error <= 30.0 * f64::EPSILON * size, "{once:?} {twice:?}");
         }
@@ -259,7 +261,7 @@ mod tests {
         fn scaled_and_mirrored_states_move_alike_to_the_last_bit(
             d in damping(), x in -1.0..1.0, v in -1.0..1.0, t in 0.0..6.0, k in -400_i32..=400,
         ) {
-            let unit = f64::from(k).exp2();
+            let unit = exp2(f64::from(k));
             let plain = linear_flow(d, x, v, t);
             let other = linear_flow(d, -x * unit, -v * unit, t);
             prop_assert_eq!((-plain.0 * unit, -plain.1 * unit), other);

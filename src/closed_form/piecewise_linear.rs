@@ -15,6 +15,7 @@ use std::fmt;
 use serde::Serialize;
 
 use super::linear::Linear;
+use crate::numerics::elementary::{atan2, exp, exp_m1, ln, ln_1p, sin_cos};
 use crate::oscillator::State;
 
 /// A half swing from rest outside the sticking set.
@@ -130,17 +131,17 @@ impl LinearCycle {
             2.0 * r * half * half
         };
         let log_clearance = if clearance.is_normal() {
-            clearance.ln()
+            ln(clearance)
         } else if x < 1.0 {
-            (2.0 * r).ln() - growth.exp_m1().ln()
+            ln(2.0 * r) - ln(growth.exp_m1())
         } else {
-            (2.0 * r).ln() - x - (-(-x).exp()).ln_1p()
+            ln(2.0 * r) - x - ln_1p(-exp(-x))
         };
         let q_max = r + clearance;
         // The largest velocity comes a quarter turn and some before the end of the half swing: counted
         // back from there, nothing under- or overflows.
-        let before_end = omega.high.atan2(-d);
-        let v_max = 2.0 * r / -(-x).exp_m1() * (d * (before_end / omega.high)).exp();
+        let before_end = atan2(omega.high, -d);
+        let v_max = 2.0 * r / -exp_m1(-x) * exp(d * (before_end / omega.high));
         if !(q_max.is_finite() && v_max.is_finite()) {
             return Err(NoCycle::TooLarge { log_clearance });
         }
@@ -183,12 +184,12 @@ impl LinearCycle {
         }
         #[expect(clippy::cast_precision_loss, reason = "a count of points on a screen")]
         let direction = std::f64::consts::PI * (index as f64 / points as f64);
-        let (sin, cos) = direction.sin_cos();
+        let (sin, cos) = sin_cos(direction);
         // Phase angle left until the end of the half swing.
-        let left = (omega.high * sin).atan2(d * sin - cos);
-        let arrival = 2.0 * r / -(-growth.high).exp_m1();
-        let size = arrival * (d * (left / omega.high)).exp();
-        let (sin, cos) = left.sin_cos();
+        let left = atan2(omega.high * sin, d * sin - cos);
+        let arrival = 2.0 * r / -exp_m1(-growth.high);
+        let size = arrival * exp(d * (left / omega.high));
+        let (sin, cos) = sin_cos(left);
         let sine = sin / omega.high;
         State { q: size * (cos - d * sine) - r, v: size * sine }
     }
@@ -200,6 +201,7 @@ mod tests {
 
     use super::super::reference::CYCLES;
     use super::*;
+    use crate::numerics::elementary::{atan2, exp, exp2, ln, powi};
 
     fn close(got: f64, expected: f64, ulps: f64) -> bool {
         (got - expected).abs() <= ulps * f64::EPSILON * expected.abs()
@@ -222,7 +224,7 @@ mod tests {
         let cycle = LinearCycle::new(-0.999_999, 1.0).unwrap();
         assert_eq!((cycle.multiplier, cycle.clearance, cycle.q_max), (None, 0.0, 1.0));
         let cycle = LinearCycle::new(-0.999, 1.0).unwrap();
-        assert!(close(cycle.multiplier.unwrap(), cycle.log_multiplier.exp(), 200.0));
+        assert!(close(cycle.multiplier.unwrap(), exp(cycle.log_multiplier), 200.0));
     }
 
     #[test]
@@ -231,8 +233,8 @@ mod tests {
         assert_eq!(below, Err(NoCycle::Overdamped));
         let above = LinearCycle::new((-1.0_f64).next_up(), 1.0).unwrap();
         // omega = sqrt(2^-52 - 2^-106), and A_v tends to 2 r/e.
-        let omega = (2.0_f64.powi(-52)).sqrt();
-        assert!(close(above.log_clearance, 2.0_f64.ln() - std::f64::consts::PI / omega, 8.0));
+        let omega = (powi(2.0, -52)).sqrt();
+        assert!(close(above.log_clearance, ln(2.0) - std::f64::consts::PI / omega, 8.0));
         assert!(close(above.v_max, 2.0 / std::f64::consts::E, 1e8));
         let weak = LinearCycle::new(-1e-300, 1e-12).unwrap();
         assert!(close(weak.q_max, 2e-12 / std::f64::consts::PI / 1e-300, 8.0));
@@ -306,7 +308,7 @@ mod tests {
             let omega = linear.omega().unwrap().high;
             for state in &curve[1..points] {
                 let x = state.q + 1.0;
-                let phase = (omega * state.v).atan2(-(x + d * state.v));
+                let phase = atan2(omega * state.v, -(x + d * state.v));
                 let (x_there, v_there) = linear.state(-cycle.clearance, 0.0, phase / omega);
                 let apart = (x - x_there).abs().max((state.v - v_there).abs());
                 prop_assert!(apart <= 1e-13 * size, "{state:?} {x_there} {v_there}");
@@ -317,7 +319,7 @@ mod tests {
 
         #[test]
         fn scaling_by_a_power_of_two_changes_no_bit(d in -0.999..-1e-9, r in 0.5..2.0, k in -300_i32..300) {
-            let unit = f64::from(k).exp2();
+            let unit = exp2(f64::from(k));
             let (plain, big) = (LinearCycle::new(d, r).unwrap(), LinearCycle::new(d, r * unit).unwrap());
             prop_assert_eq!(plain.clearance * unit, big.clearance);
             prop_assert_eq!((plain.q_max * unit, plain.v_max * unit), (big.q_max, big.v_max));

@@ -6,6 +6,7 @@ use std::fmt::Write;
 use super::content::{Caption, Panel};
 use super::ink::{escaped, ink};
 use super::layout::{Frame, PLOT, Spot};
+use crate::numerics::elementary::hypot;
 use crate::scene::Point;
 
 /// Width of a letter and height of a line, in pixels.
@@ -35,7 +36,7 @@ impl Place {
     /// How far a spot is from the box; 0 inside.
     fn distance(&self, (x, y): Spot) -> f64 {
         let aside = (self.left - x).max(x - self.left - self.width).max(0.0);
-        aside.hypot((self.top - y).max(y - self.top - LINE).max(0.0))
+        hypot(aside, (self.top - y).max(y - self.top - LINE).max(0.0))
     }
 }
 
@@ -60,7 +61,7 @@ impl Surroundings {
             for point in points {
                 let here = frame.spot(point);
                 let from = last.replace(here).unwrap_or(here);
-                let length = (here.0 - from.0).hypot(here.1 - from.1);
+                let length = hypot(here.0 - from.0, here.1 - from.1);
                 if !length.is_finite() {
                     last = None;
                     continue;
@@ -73,7 +74,7 @@ impl Surroundings {
                     let share = part / parts;
                     let spot =
                         (from.0 + share * (here.0 - from.0), from.1 + share * (here.1 - from.1));
-                    let apart = |other: &Spot| (other.0 - spot.0).hypot(other.1 - spot.1);
+                    let apart = |other: &Spot| hypot(other.0 - spot.0, other.1 - spot.1);
                     if inside(&spot) && spots.last().is_none_or(|last| apart(last) >= 0.5 * SPACING)
                     {
                         spots.push(spot);
@@ -129,7 +130,7 @@ impl Surroundings {
             + weigh(count(&self.guides), COVERED[3]);
         // Its own curves pass through the spot.
         let touches = |spots: &&Vec<Spot>| {
-            spots.iter().any(|other| (other.0 - spot.0).hypot(other.1 - spot.1) < 2.0 * SPACING)
+            spots.iter().any(|other| hypot(other.0 - spot.0, other.1 - spot.1) < 2.0 * SPACING)
         };
         let own = place.distance(spot);
         let others = self.curves.iter().filter(|spots| !touches(spots));

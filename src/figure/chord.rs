@@ -5,6 +5,7 @@
 
 use super::content::{Figure, Panel};
 use super::layout::PLOT;
+use crate::numerics::elementary::{atan2, hypot};
 use crate::scene::Window;
 
 /// What nobody sees, in pixels.
@@ -67,9 +68,9 @@ fn missed(line: &[[f64; 2]], window: Window) -> f64 {
         let [before, here, after] = [0, 1, 2].map(|index| place(three[index], window));
         let (one, other) =
             ((here.0 - before.0, here.1 - before.1), (after.0 - here.0, after.1 - here.1));
-        let turn = (one.0 * other.1 - one.1 * other.0).atan2(one.0 * other.0 + one.1 * other.1);
+        let turn = atan2(one.0 * other.1 - one.1 * other.0, one.0 * other.0 + one.1 * other.1);
         // The longer chord, turned by half of the angle at each of its ends.
-        let length = one.0.hypot(one.1).max(other.0.hypot(other.1));
+        let length = hypot(one.0, one.1).max(hypot(other.0, other.1));
         if turn.abs() < CORNER { length * turn.abs() / 8.0 } else { 0.0 }
     };
     let finite = |three: &&[[f64; 2]]| three.iter().flatten().all(|value| value.is_finite());
@@ -96,11 +97,12 @@ fn kept(line: &[[f64; 2]], window: Window, times: usize) -> Vec<[f64; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numerics::elementary::{cos, sin};
     use crate::scene::{Point, Span};
 
     fn circle(points: u32) -> Vec<[f64; 2]> {
         let angle = |index: u32| std::f64::consts::TAU * f64::from(index) / f64::from(points);
-        (0..=points).map(angle).map(|angle| [angle.cos(), angle.sin()]).collect()
+        (0..=points).map(angle).map(|angle| [cos(angle), sin(angle)]).collect()
     }
 
     fn window(half: f64) -> Window {

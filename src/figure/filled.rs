@@ -151,6 +151,7 @@ fn straight(lower: &[Run], middle: &[Run], upper: &[Run]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numerics::elementary::hypot;
     use crate::picture::items::Pattern;
     use crate::picture::role::Role;
     use crate::scene::Span;
@@ -172,7 +173,7 @@ mod tests {
     fn a_disc_has_its_area_and_a_half_plane_is_one_rectangle() {
         let span = Span::known(-1.0, 1.0);
         let window = Window { x: span, y: span };
-        let disc: Texture = Box::new(|at| (at.x.hypot(at.y) < 0.8).then_some(FILL));
+        let disc: Texture = Box::new(|at| (hypot(at.x, at.y) < 0.8).then_some(FILL));
         let found = area(&polygons(&disc, window));
         assert!((found - std::f64::consts::PI * 0.64).abs() < 2e-4, "{found}");
         let half: Texture = Box::new(|at| (at.y > 0.0).then_some(FILL));

@@ -1,5 +1,6 @@
 //! The area that a curve does not separate from the origin, as a polygon.
 
+use crate::numerics::elementary::{atan2, sin_cos};
 use crate::scene::Window;
 
 type Pair = [f64; 2];
@@ -36,9 +37,9 @@ fn detour(from: Pair, to: Pair, window: Window) -> Vec<Pair> {
     use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
     let center = window.center();
     let angle =
-        |[x, y]: Pair| ((y - center.y) / window.y.width()).atan2((x - center.x) / window.x.width());
+        |[x, y]: Pair| atan2((y - center.y) / window.y.width(), (x - center.x) / window.x.width());
     let outward = |angle: f64| {
-        let (sin, cos) = angle.sin_cos();
+        let (sin, cos) = sin_cos(angle);
         let longest = sin.abs().max(cos.abs());
         place(window, (cos / longest, sin / longest))
     };

@@ -63,6 +63,7 @@ pub(super) fn lattice(window: Window) -> impl Iterator<Item = Point> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numerics::elementary::sin;
     use crate::scene::Span;
 
     fn window() -> Window {
@@ -71,7 +72,7 @@ mod tests {
 
     #[test]
     fn a_polyline_stays_within_the_tolerance_of_its_function() {
-        let value = |x: f64| 1.0 + (40.0 * x).sin();
+        let value = |x: f64| 1.0 + sin(40.0 * x);
         let points = graph(&|x| Some(value(x)), window());
         for pair in points.windows(2) {
             let middle = f64::midpoint(pair[0].x, pair[1].x);

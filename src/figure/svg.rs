@@ -8,6 +8,7 @@ use super::data::remarks;
 use super::ink::{dashes, escaped, ink, shading};
 use super::layout::{self, ENTRY, Frame, HEAD, MARGIN, PLOT};
 use super::region::loops;
+use crate::numerics::elementary::hypot;
 use crate::picture::items::passes;
 use crate::picture::role::{self, Role};
 use crate::picture::ticks::Ticks;
@@ -154,7 +155,7 @@ fn arrow(out: &mut String, at: Point, way: Point, frame: Frame) {
     const TIP: f64 = 3.0;
     let across = way.x * PLOT.0 / frame.window.x.width();
     let down = -way.y * PLOT.1 / frame.window.y.width();
-    let length = across.hypot(down);
+    let length = hypot(across, down);
     if !(length.is_finite() && length > 0.0) {
         return;
     }

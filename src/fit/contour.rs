@@ -7,6 +7,7 @@ use super::estimate::Estimate;
 use super::levenberg_marquardt::{Effort, NoFit};
 use super::observation::{R, UNKNOWNS, Unknowns};
 use super::refit::Refit;
+use crate::numerics::elementary::{cos, sin};
 
 /// Rises of chi-squared within which two unknowns lie together with 68 and 95 %.
 pub const RISES: [f64; 2] = [2.3, 6.0];
@@ -36,7 +37,7 @@ pub fn contour(
     let mut points = Vec::new();
     for index in 0..DIRECTIONS {
         let angle = std::f64::consts::TAU * f64::from(index) / f64::from(DIRECTIONS);
-        let step = rise.sqrt() * root.l() * Vector2::new(angle.cos(), angle.sin());
+        let step = rise.sqrt() * root.l() * Vector2::new(cos(angle), sin(angle));
         // All others follow by the linear model first.
         let weights = inverse * step;
         let along: Unknowns = std::array::from_fn(|place| {

@@ -12,6 +12,7 @@ use std::f64::consts::PI;
 use nalgebra::{DMatrix, DVector};
 
 use super::turning_points::Extreme;
+use crate::numerics::elementary::powi;
 
 /// Damping and offset by averaging.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -126,7 +127,7 @@ fn robust(rows: &[(Vec<f64>, f64)]) -> Option<DVector<f64>> {
             break;
         }
         for (weight, left) in weights.iter_mut().zip(left) {
-            *weight = (1.0 / (1.0 + (left / scale).powi(2))).sqrt();
+            *weight = (1.0 / (1.0 + powi(left / scale, 2))).sqrt();
         }
     }
     solution

@@ -8,6 +8,7 @@ use super::observation::{D, D2, D3, LAST, OFFSET, OMEGA0, Q0, R, Start, Unknowns
 use super::search::Beginning;
 use super::spectrum::dominant_frequency;
 use super::turning_points::{Extreme, smoothed, turning_points, without_jumps};
+use crate::numerics::elementary::{powi, sin_cos};
 
 /// First guesses and what they were read from.
 #[derive(Clone, Debug, PartialEq)]
@@ -94,7 +95,7 @@ pub fn period_of(extremes: &[Extreme]) -> Option<f64> {
     let (n, t) = rows.iter().fold((0.0, 0.0), |sum, row| (sum.0 + row.0, sum.1 + row.1));
     let (n, t) = (n / count, t / count);
     let (up, down) = rows.iter().fold((0.0, 0.0), |sum, row| {
-        (sum.0 + (row.0 - n) * (row.1 - t), sum.1 + (row.0 - n).powi(2))
+        (sum.0 + (row.0 - n) * (row.1 - t), sum.1 + powi(row.0 - n, 2))
     });
     Some(2.0 * up / down)
 }
@@ -140,7 +141,7 @@ fn first_state(t: &[f64], x: &[f64], p: &Unknowns, period: f64) -> Option<(f64, 
     let mut normal = nalgebra::Matrix2::zeros();
     let mut right = nalgebra::Vector2::zeros();
     for (time, x) in t[..to].iter().zip(x) {
-        let (sine, cosine) = (p[OMEGA0] * (time - t[0])).sin_cos();
+        let (sine, cosine) = sin_cos(p[OMEGA0] * (time - t[0]));
         let row = nalgebra::Vector2::new(cosine, sine);
         normal += row * row.transpose();
         right += row * (x - p[OFFSET]);

@@ -7,6 +7,7 @@
 //! damping is linear and stays so, all of it is a formula; elsewhere the Taylor coefficients of motion and
 //! derivatives obey one recurrence.
 
+use crate::numerics::elementary::{atan2, exp, pow, sin_cos};
 use crate::numerics::root::{Bracket, Change, newton};
 use crate::oscillator::HalfPlane;
 
@@ -80,7 +81,7 @@ impl Stretch {
 
     fn linear(field: HalfPlane, start: Jet, with_derivatives: bool) -> Self {
         let omega = ((1.0 - field.d) * (1.0 + field.d)).sqrt();
-        let phase = (omega * start.v).atan2(start.x + field.d * start.v);
+        let phase = atan2(omega * start.v, start.x + field.d * start.v);
         let formula = Formula::Linear { start, omega };
         Stretch { field, with_derivatives, formula, duration: phase / omega, arrives: true }
     }
@@ -148,8 +149,8 @@ impl Stretch {
 
 /// The linear oscillation: `C = cos(omega t)`, `S = sin(omega t)/omega`, both times `e^(-D t)`.
 fn linear_jet(d: f64, omega: f64, start: &Jet, t: f64) -> Jet {
-    let decay = (-d * t).exp();
-    let (sine, cosine) = (omega * t).sin_cos();
+    let decay = exp(-d * t);
+    let (sine, cosine) = sin_cos(omega * t);
     let (c, s) = (decay * cosine, decay * sine / omega);
     let flow = |x: f64, v: f64| (c * x + s * (v + d * x), c * v - s * (x + d * v));
     let (x, v) = flow(start.x, start.v);
@@ -218,7 +219,7 @@ fn expand<const DERIVATIVES: bool>(
     let size = start.x.abs().max(start.v.abs());
     let tail = |order: usize, size: f64| {
         let last = terms[order][0].abs().max(v[order].abs());
-        (TOLERANCE * size / last).powf(1.0 / count(order))
+        pow(TOLERANCE * size / last, 1.0 / count(order))
     };
     let step = tail(ORDER, size).min(tail(ORDER - 1, size));
     // NaN stays NaN and is refused by the caller; no tail at all allows any step.

@@ -10,6 +10,7 @@ use nalgebra::{DMatrix, DVector};
 use super::loss::Loss;
 use super::observation::{Observation, R, Residual, Seen, UNKNOWNS, Unknowns};
 use super::triangle::triangle;
+use crate::numerics::elementary::powi;
 
 /// What the iteration counts and whom it asks.
 pub struct Effort<'a> {
@@ -102,7 +103,7 @@ impl Task<'_> {
     pub fn variance(&self, seen: &Seen, freedom: f64) -> f64 {
         let used = self.used_residuals(seen).into_iter();
         let influence = |residual: &Residual| self.loss.weight(residual.value) * residual.value;
-        used.map(|residual| influence(residual).powi(2)).sum::<f64>() / freedom
+        used.map(|residual| powi(influence(residual), 2)).sum::<f64>() / freedom
     }
 
     /// Compares record and model, and counts it.
@@ -200,7 +201,7 @@ impl Task<'_> {
                 };
                 let gain = found.map_or(-1.0, |found| (cost - found) / predicted);
                 if let Some(found) = found.filter(|found| *found < cost) {
-                    let bend = 1.0 - (2.0 * gain - 1.0).powi(3);
+                    let bend = 1.0 - powi(2.0 * gain - 1.0, 3);
                     damping = (damping * bend.clamp(0.1, 1.0)).max(1e-12);
                     grow = 2.0;
                     break Some((trial, found));

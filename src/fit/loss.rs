@@ -1,5 +1,7 @@
 //! How a residual counts: squared, or less where it is large.
 
+use crate::numerics::elementary::{ln_1p, powi};
+
 /// A loss function; `scale` is the size beyond which a residual is large.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Loss {
@@ -30,11 +32,11 @@ impl Loss {
         match self {
             Loss::Linear => residual * residual,
             Loss::SoftL1 { scale } => {
-                let part = (residual / scale).powi(2);
+                let part = powi(residual / scale, 2);
                 // The same as sqrt(1 + z) - 1, without its cancellation.
                 2.0 * scale * scale * part / (1.0 + (1.0 + part).sqrt())
             }
-            Loss::Cauchy { scale } => scale * scale * (residual / scale).powi(2).ln_1p(),
+            Loss::Cauchy { scale } => scale * scale * ln_1p(powi(residual / scale, 2)),
         }
     }
 
@@ -43,8 +45,8 @@ impl Loss {
     pub fn weight(self, residual: f64) -> f64 {
         match self {
             Loss::Linear => 1.0,
-            Loss::SoftL1 { scale } => 1.0 / (1.0 + (residual / scale).powi(2)).sqrt(),
-            Loss::Cauchy { scale } => 1.0 / (1.0 + (residual / scale).powi(2)),
+            Loss::SoftL1 { scale } => 1.0 / (1.0 + powi(residual / scale, 2)).sqrt(),
+            Loss::Cauchy { scale } => 1.0 / (1.0 + powi(residual / scale, 2)),
         }
     }
 }

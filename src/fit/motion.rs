@@ -7,6 +7,7 @@
 //! Inside a half swing a later start only delays the motion: `dq` contains `-v dtau`.
 
 use super::half_swing::{Jet, Stretch};
+use crate::numerics::elementary::hypot;
 use crate::oscillator::{HalfPlane, Parameters, Side, State};
 
 /// What a motion depends on: D, D2, D3, r, q0, v0.
@@ -155,7 +156,7 @@ impl<'a> HalfSwing<'a> {
     fn new(parameters: &'a Parameters, side: Side, (x, v): (f64, f64), chain: &'a Start) -> Self {
         let field = HalfPlane::new(parameters, side);
         let (fx, fv) = (v, field.acceleration(x, v));
-        let norm = fx.hypot(fv);
+        let norm = hypot(fx, fv);
         let (ux, uv) = (fx / norm, fv / norm);
         let mut start = Jet { x, v, ..Jet::default() };
         (start.y[0], start.w[0]) = (-uv, ux);

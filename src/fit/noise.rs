@@ -103,11 +103,12 @@ fn is_saturated(x: &[f64], limit: f64, range: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numerics::elementary::{cos, exp};
     use crate::numerics::random::Random;
 
     fn swing(count: u32) -> Vec<f64> {
         (0..count)
-            .map(|index| 5.0 * (-0.002 * f64::from(index)).exp() * (0.1 * f64::from(index)).cos())
+            .map(|index| 5.0 * exp(-0.002 * f64::from(index)) * cos(0.1 * f64::from(index)))
             .collect()
     }
 

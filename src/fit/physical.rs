@@ -2,6 +2,7 @@
 
 use super::fitted::{Fitted, Inertia};
 use super::observation::{D, D2, D3, OMEGA0, R, UNKNOWNS};
+use crate::numerics::elementary::powi;
 
 /// A physical number.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,7 +53,7 @@ fn row(fitted: &Fitted, law: &Law, inertia: Inertia, metres: f64) -> Row {
         Inertia::Mass(mass) => (mass, law.omega0),
         Inertia::Stiffness(stiffness) => (stiffness, law.omega0 - 2),
     };
-    let constant = scale * law.factor * omega0.powi(power) * metres.powi(law.length);
+    let constant = scale * law.factor * powi(omega0, power) * powi(metres, law.length);
     let number = law.unknown.map_or(1.0, |unknown| estimate.p[unknown]);
     let mut gradient = [0.0; UNKNOWNS];
     gradient[OMEGA0] = constant * number * f64::from(power) / omega0;

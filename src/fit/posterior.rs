@@ -12,6 +12,7 @@ use super::levenberg_marquardt::Effort;
 use super::observation::{D, D2, D3, R, UNKNOWNS, Unknowns, parameters};
 use super::refit::Refit;
 use crate::flow::{Limits, Reason};
+use crate::numerics::elementary::{exp, ln, pow, powi};
 use crate::oscillator::Parameters;
 
 /// Parameters drawn, all of equal weight.
@@ -76,7 +77,7 @@ fn weights(
     let weight = |p: &Unknowns| {
         // A motion that escapes is not the one recorded.
         let cost = refit.cost(p, &mut effort()).unwrap_or(f64::INFINITY);
-        let likelihood = (-0.5 * (cost - least) / unit).exp();
+        let likelihood = exp(-0.5 * (cost - least) / unit);
         let weight = if p[R] >= 0.0 { likelihood / normal.density(p) } else { 0.0 };
         if weight.is_finite() { weight } else { 0.0 }
     };
@@ -121,7 +122,7 @@ impl Normal {
         });
         let eigen = scaled.symmetric_eigen();
         let mut centers: Vec<(f64, Unknowns)> =
-            estimate.contenders().map(|it| ((-0.5 * it.delta_chi2).exp(), it.p)).collect();
+            estimate.contenders().map(|it| (exp(-0.5 * it.delta_chi2), it.p)).collect();
         let sum: f64 = centers.iter().map(|(weight, _)| weight).sum();
         for (weight, _) in &mut centers {
             *weight /= sum;
@@ -155,8 +156,8 @@ impl Normal {
                 (p[self.columns[i]] - center[self.columns[i]]) / self.scale[i]
             });
             let along = self.directions.tr_mul(&step);
-            let squares = along.iter().zip(&self.deviations).map(|(it, one)| (it / one).powi(2));
-            (-0.5 * squares.sum::<f64>()).exp()
+            let squares = along.iter().zip(&self.deviations).map(|(it, one)| powi(it / one, 2));
+            exp(-0.5 * squares.sum::<f64>())
         };
         self.centers.iter().map(|(weight, center)| weight * about(center)).sum()
     }
@@ -169,7 +170,7 @@ fn evenly(index: usize, dimensions: usize) -> Vec<f64> {
     const ITERATIONS: usize = 60;
     #[expect(clippy::cast_precision_loss, reason = "counts of draws and dimensions")]
     let (number, power) = (index as f64 + 1.0, 1.0 / (dimensions as f64 + 1.0));
-    let root = (0..ITERATIONS).fold(1.0_f64, |root, _| (1.0 + root).powf(power));
+    let root = (0..ITERATIONS).fold(1.0_f64, |root, _| pow(1.0 + root, power));
     std::iter::successors(Some(1.0 / root), |part| Some(part / root))
         .take(dimensions)
         .map(|part| (0.5 + number * part).fract())
@@ -180,7 +181,7 @@ fn evenly(index: usize, dimensions: usize) -> Vec<f64> {
 /// 26.2.23).
 fn normal_at(probability: f64) -> f64 {
     let tail = probability.min(1.0 - probability).max(f64::MIN_POSITIVE);
-    let t = (-2.0 * tail.ln()).sqrt();
+    let t = (-2.0 * ln(tail)).sqrt();
     let above = 2.515_517 + t * (0.802_853 + t * 0.010_328);
     let below = 1.0 + t * (1.432_788 + t * (0.189_269 + t * 0.001_308));
     let value = t - above / below;
@@ -190,6 +191,7 @@ fn normal_at(probability: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numerics::elementary::powi;
 
     #[test]
     fn draws_are_normal_and_independent() {
@@ -201,7 +203,7 @@ mod tests {
             };
             for i in 0..dimensions {
                 assert!(mean(&|it| normal_at(it[i])).abs() < 0.03);
-                assert!((mean(&|it| normal_at(it[i]).powi(2)) - 1.0).abs() < 0.04);
+                assert!((mean(&|it| powi(normal_at(it[i]), 2)) - 1.0).abs() < 0.04);
                 for j in 0..i {
                     let both = mean(&|it| normal_at(it[i]) * normal_at(it[j]));
                     assert!(both.abs() < 0.07, "{i} {j}: {both}");

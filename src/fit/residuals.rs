@@ -1,5 +1,7 @@
 //! What the residuals say: whether they are noise, and of which kind.
 
+use crate::numerics::elementary::{ln, powi};
+
 /// What the residuals look like.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Whiteness {
@@ -120,7 +122,7 @@ pub fn autocorrelations(residuals: &[f64], lags: &[usize]) -> Vec<f64> {
 /// The value that a chi-squared variable exceeds as rarely as a normal one exceeds `z` (Wilson and Hilferty).
 fn chi_squared(freedom: f64, z: f64) -> f64 {
     let part = 2.0 / (9.0 * freedom);
-    freedom * (1.0 - part + z * part.sqrt()).powi(3)
+    freedom * powi(1.0 - part + z * part.sqrt(), 3)
 }
 
 /// The autocorrelation of the autoregressive noise that fits best: Levinson and Durbin's recursion, with the
@@ -140,7 +142,7 @@ fn autoregressive(rho: &[f64], n: usize) -> Vec<f64> {
         next.push(reflection);
         coefficients = next;
         power *= 1.0 - reflection * reflection;
-        let criterion = count(n) * power.ln() + count(order) * count(n).ln();
+        let criterion = count(n) * ln(power) + count(order) * ln(count(n));
         if criterion < best.0 {
             best = (criterion, coefficients.clone());
         }
@@ -183,6 +185,7 @@ fn swings(residuals: &[f64], short: &[f64], samples_per_period: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numerics::elementary::sin;
     use crate::numerics::random::Random;
 
     fn noise(n: usize, rho: f64) -> Vec<f64> {
@@ -210,7 +213,7 @@ mod tests {
     fn a_swing_that_is_left_over_is_found_below_the_noise() {
         let mut residuals = noise(4000, 0.0);
         for (index, e) in residuals.iter_mut().enumerate() {
-            *e += 0.5 * (count(index) * std::f64::consts::TAU / 80.0).sin();
+            *e += 0.5 * sin(count(index) * std::f64::consts::TAU / 80.0);
         }
         let found = whiteness(&residuals, 80.0);
         assert!(!found.white && found.systematic, "{found:?}");

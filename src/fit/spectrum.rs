@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use crate::numerics::elementary::{powi, sin_cos};
+
 /// Most points of the evenly spaced copy that is transformed.
 const MOST: usize = 1 << 14;
 
@@ -19,7 +21,7 @@ pub fn dominant_frequency(t: &[f64], x: &[f64]) -> Option<f64> {
     let mean = even.iter().sum::<f64>() / size(count);
     let mut values: Vec<(f64, f64)> = even.iter().map(|x| (x - mean, 0.0)).collect();
     transform(&mut values);
-    let power = |k: usize| size(k).powi(2) * (values[k].0.powi(2) + values[k].1.powi(2));
+    let power = |k: usize| powi(size(k), 2) * (powi(values[k].0, 2) + powi(values[k].1, 2));
     // Four times zero padding would place the peak more finely; the extremes do so later anyway.
     let best = (1..count / 2).max_by(|&one, &other| power(one).total_cmp(&power(other)))?;
     let around = (best.saturating_sub(1).max(1)..=best + 1).map(|k| (size(k), power(k)));
@@ -62,7 +64,7 @@ fn transform(values: &mut [(f64, f64)]) {
     let mut half = 1;
     while half < count {
         let turns: Vec<(f64, f64)> =
-            (0..half).map(|k| (TAU * size(k) / size(2 * half)).sin_cos()).collect();
+            (0..half).map(|k| sin_cos(TAU * size(k) / size(2 * half))).collect();
         for block in values.chunks_exact_mut(2 * half) {
             let (even, odd) = block.split_at_mut(half);
             for ((even, odd), (sine, cosine)) in even.iter_mut().zip(odd).zip(&turns) {
@@ -78,13 +80,14 @@ fn transform(values: &mut [(f64, f64)]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numerics::elementary::{cos, sin};
 
     #[test]
     fn a_decay_between_a_hold_and_a_rest_is_found_though_most_of_the_record_is_flat() {
         let t: Vec<f64> = (0..3000).map(|index| 0.01 * f64::from(index)).collect();
         let swing = |t: &f64| match t - 8.0 {
             late if late > 5.0 => 0.0,
-            late if late > 0.0 => 3.0 * (1.0 - 0.2 * late) * (TAU * 1.7 * late).cos(),
+            late if late > 0.0 => 3.0 * (1.0 - 0.2 * late) * cos(TAU * 1.7 * late),
             _ => 3.0,
         };
         let x: Vec<f64> = t.iter().map(swing).collect();
@@ -95,7 +98,7 @@ mod tests {
     #[test]
     fn a_tone_at_a_line_of_the_transform_is_that_line() {
         let t: Vec<f64> = (0..256).map(f64::from).collect();
-        let x: Vec<f64> = t.iter().map(|t| (TAU * 16.0 * t / 255.0).sin()).collect();
+        let x: Vec<f64> = t.iter().map(|t| sin(TAU * 16.0 * t / 255.0)).collect();
         assert!((dominant_frequency(&t, &x).unwrap() - 16.0 / 255.0).abs() < 2e-3);
         assert_eq!(dominant_frequency(&t[..5], &x[..5]), None);
     }

@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::levenberg_marquardt::{Optimum, Task};
 use super::observation::{Data, Residual, UNKNOWNS, Unknowns};
+use crate::numerics::elementary::powi;
 
 /// The covariance of the free unknowns about a minimum.
 #[derive(Clone, Debug)]
@@ -61,7 +62,7 @@ impl Covariance {
         // For a robust loss the influence of a residual is its weight times itself.
         let weighted = used.iter().map(|it| (task.loss.weight(it.value), it.value));
         let (sum, influence) = weighted.fold((0.0, 0.0), |(sum, influence), (weight, value)| {
-            (sum + weight * value * value, influence + (weight * value).powi(2))
+            (sum + weight * value * value, influence + powi(weight * value, 2))
         });
         let variance = influence / freedom;
         // The errors of displacements and times of peaks are each known from their own residuals only.
@@ -218,7 +219,7 @@ pub fn left_over(task: &Task, optimum: &Optimum, noise: &[f64], lags: usize) -> 
 #[must_use]
 pub fn deviation_of_95_percent(freedom: f64) -> f64 {
     let z: f64 = 1.959_963_984_540_054;
-    let (z3, z5, z7) = (z.powi(3), z.powi(5), z.powi(7));
+    let (z3, z5, z7) = (powi(z, 3), powi(z, 5), powi(z, 7));
     let n = freedom.max(2.0);
     z + (z3 + z) / (4.0 * n)
         + (5.0 * z5 + 16.0 * z3 + 3.0 * z) / (96.0 * n * n)

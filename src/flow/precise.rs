@@ -8,6 +8,7 @@ use super::limits::{Limits, Reason};
 use super::motion::{Cost, Problem};
 use super::step::{LONGEST, Point};
 use super::swing::time_to_blow_up;
+use crate::numerics::elementary::{exp, ln};
 use crate::numerics::scaling::{exponent, times_power};
 use crate::numerics::twofold::Twofold;
 use crate::oscillator::sticking::rests;
@@ -319,11 +320,11 @@ impl Swing {
             }
             #[expect(clippy::cast_precision_loss, reason = "k is at most 32")]
             let power = k as f64;
-            let part = |scale: f64| (scale / coefficient * self.grain.tolerance).ln();
+            let part = |scale: f64| ln(scale / coefficient * self.grain.tolerance);
             steps[0] = steps[0].min(part(size) / power);
             steps[1] = steps[1].min(part(slope) / (power - 1.0));
         }
-        Some(steps[0].max(steps[1]).min(600.0).exp()).filter(|step| *step > 0.0)
+        Some(exp(steps[0].max(steps[1]).min(600.0))).filter(|step| *step > 0.0)
     }
 
     /// The sum of a series.

@@ -5,6 +5,7 @@
 //! rest chatters across `v = 0` in steps that no longer have the order of their method.
 
 use super::step::Field;
+use crate::numerics::elementary::tanh;
 use crate::oscillator::{HalfPlane, Parameters, Side};
 
 /// What stands for the sign of `v`.
@@ -36,7 +37,7 @@ impl Regularized {
 impl Field for Regularized {
     fn acceleration(&self, x: f64, v: f64) -> f64 {
         let sign = match self.law {
-            Law::Tanh(epsilon) => (v / epsilon).tanh(),
+            Law::Tanh(epsilon) => tanh(v / epsilon),
             Law::Sign if v == 0.0 => 0.0,
             Law::Sign => v.signum(),
         };
@@ -46,7 +47,7 @@ impl Field for Regularized {
     fn divergence(&self, v: f64) -> f64 {
         let slope = match self.law {
             Law::Tanh(epsilon) => {
-                let tanh = (v / epsilon).tanh();
+                let tanh = tanh(v / epsilon);
                 (1.0 - tanh) * (1.0 + tanh) / epsilon
             }
             Law::Sign => 0.0,

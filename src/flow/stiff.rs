@@ -18,6 +18,7 @@ use algebra::{MOST, differences, interpolated, solve, weighted};
 use super::limits::Reason;
 use super::step::{ErrorScale, Field, LONGEST, Point, Powers, Step, Stepper, stopping_time};
 use super::tableau::radau::{Collocation, FIVE, SEVEN, THREE};
+use crate::numerics::elementary::pow;
 use crate::numerics::root::bisect;
 use crate::numerics::scaling::{rough_exp2, rough_log2};
 use crate::oscillator::HalfPlane;
@@ -415,7 +416,7 @@ impl<F: Field> Stepper<F> for Stiff<F> {
 fn embedded_tolerance(tolerance: f64, stages: usize) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "at most 7")]
     let stages = stages as f64;
-    0.1 * tolerance.powf((stages + 1.0) / (2.0 * stages))
+    0.1 * pow(tolerance, (stages + 1.0) / (2.0 * stages))
 }
 
 #[cfg(test)]

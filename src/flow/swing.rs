@@ -7,6 +7,7 @@ use std::ops::ControlFlow;
 
 use super::limits::{Limits, Reason};
 use super::step::{Point, Step, Stepper};
+use crate::numerics::elementary::ln_1p;
 use crate::numerics::scaling::{exponent, times_power};
 use crate::numerics::sum::Sum;
 use crate::oscillator::HalfPlane;
@@ -217,7 +218,7 @@ fn time_to_infinity(a: f64, b: f64, v: f64) -> f64 {
     let s = b * v / a;
     if s.abs() <= LARGE {
         // Below, 1/s would overflow; s ln(1/s) is nothing beside 1 long before.
-        let bend = if s.abs() < f64::MIN_POSITIVE { 0.0 } else { s * (1.0 / s).ln_1p() };
+        let bend = if s.abs() < f64::MIN_POSITIVE { 0.0 } else { s * ln_1p(1.0 / s) };
         return (1.0 - bend) / (a * v);
     }
     // 1/(b v^2) times the sum of (-1/s)^k/(k + 2).

@@ -9,6 +9,7 @@ use std::fmt;
 
 use super::model::{Model, Phase};
 use super::series::Series;
+use crate::numerics::elementary::ln;
 use crate::numerics::polynomial::{derivative, value, value_and_slope};
 use crate::numerics::root::{Bracket, Change, newton};
 
@@ -95,7 +96,7 @@ impl End {
     /// Logarithm of the first acceleration over the last, in the direction of integration.
     #[must_use]
     pub fn log_ratio(&self) -> f64 {
-        (self.accelerations.0 / self.accelerations.1).abs().ln()
+        ln((self.accelerations.0 / self.accelerations.1).abs())
     }
 }
 

@@ -3,6 +3,7 @@
 use super::arc::{Step, Watch};
 use super::model::{Model, Phase};
 use super::series::Terms;
+use crate::numerics::elementary::powi;
 use crate::numerics::polynomial::{value, value_and_slope};
 use crate::numerics::quadrature::gauss;
 use crate::numerics::root::{Bracket, Change, newton};
@@ -98,7 +99,7 @@ impl Slip {
                 return 0.0;
             }
             if y > window.y.0 && y < window.y.1 {
-                let square = |node: f64| value(&self.y[..], from + node * length).powi(2);
+                let square = |node: f64| powi(value(&self.y[..], from + node * length), 2);
                 gauss(square) * length
             } else {
                 let width = value(&self.x[..], ends[1]) - value(&self.x[..], from);

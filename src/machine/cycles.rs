@@ -6,6 +6,7 @@ use super::model::{Model, Phase};
 use super::return_map::{Image, Return};
 use super::search::{NOTHING, Sample, zeros};
 use super::turn::Place;
+use crate::numerics::elementary::{exp, ln, pow};
 use crate::numerics::root::bisect;
 use crate::numerics::scaling::{exponent, times_power};
 
@@ -89,12 +90,12 @@ const FAR: f64 = 1e3;
 impl Flow<'_> {
     /// `ln(image/x)` of the return map over `u = ln(x/unit)`.
     pub(super) fn growth(&mut self, u: f64, unit: f64) -> Result<Sample, Stop> {
-        let x = unit * u.exp();
+        let x = unit * exp(u);
         let lost = |f| Ok(Sample { u, f, slope: 0.0 });
         match self.returned(x) {
             Ok(Return::Turns(image)) => {
-                let slope = image.log_slope.exp() * x / image.x - 1.0;
-                Ok(Sample { u, f: (image.x / x).ln(), slope })
+                let slope = exp(image.log_slope) * x / image.x - 1.0;
+                Ok(Sample { u, f: ln(image.x / x), slope })
             }
             Ok(Return::Rests(_)) => lost(-FAR),
             Err(Stop::Escaped) => lost(FAR),
@@ -110,13 +111,13 @@ impl Flow<'_> {
         let mut found = FixedPoints::default();
         let touch = marks.and_then(|marks| marks.grazing.right);
         let scale = self.scale(marks);
-        let at = |x: f64| (x / scale).ln();
+        let at = |x: f64| ln(x / scale);
         let mut smallest = match self.smallest(scale) {
             // What comes to rest does so at once, or leaves the law.
             Err(stop @ Stop::OutsideLaw { .. }) => {
                 let held = Sample { u: at(self.model.guide_static), f: -FAR, slope: 0.0 };
                 found.stop = Some(stop);
-                found.end = scale * self.edge(held, at(scale), scale).u.exp();
+                found.end = scale * exp(self.edge(held, at(scale), scale).u);
                 return Ok(found);
             }
             smallest => smallest?,
@@ -131,10 +132,10 @@ impl Flow<'_> {
             _ if smallest.is_infinite() => None,
             Some(touch) if touch > smallest => {
                 let grazing = marks.map_or(touch, |marks| marks.grazing.image);
-                let slope = marks.map_or(0.0, |marks| marks.grazing.log_slope.exp());
+                let slope = marks.map_or(0.0, |marks| exp(marks.grazing.log_slope));
                 Some(Sample {
                     u: at(touch),
-                    f: if grazing > 0.0 { (grazing / touch).ln() } else { -FAR },
+                    f: if grazing > 0.0 { ln(grazing / touch) } else { -FAR },
                     slope: slope * touch / grazing - 1.0,
                 })
             }
@@ -144,7 +145,7 @@ impl Flow<'_> {
         let mut roots = Vec::new();
         if let Some(last) = slipping {
             let first = self.growth(at(smallest), scale)?;
-            found.end = scale * last.u.exp();
+            found.end = scale * exp(last.u);
             found.neutral = self.is_neutral(first, last, scale)?;
             if !found.neutral {
                 roots = self.zeros_between(first, last, scale, &mut found)?;
@@ -163,13 +164,13 @@ impl Flow<'_> {
                 let start = beyond * (1.0 + 4.0 * f64::EPSILON);
                 if let Ok(first) = self.growth(at(start), scale) {
                     let last = self.farthest(start, scale, &mut found)?;
-                    found.end = scale * last.u.exp();
+                    found.end = scale * exp(last.u);
                     roots.extend(self.zeros_between(first, last, scale, &mut found)?);
                 }
             }
         }
         for u in roots {
-            found.points.extend(self.sharpened(scale * u.exp())?);
+            found.points.extend(self.sharpened(scale * exp(u))?);
         }
         found.points.sort_by(|one, other| one.0.total_cmp(&other.0));
         Ok(found)
@@ -206,7 +207,7 @@ impl Flow<'_> {
         let mut x = scale * 1e-3;
         let linear = self.model.linear_growth();
         for _ in 0..12 {
-            let here = self.growth((x / scale).ln(), scale)?;
+            let here = self.growth(ln(x / scale), scale)?;
             let settled = (here.f - linear).abs() <= 0.1 * linear.abs() || here.f.abs() < WEAK;
             if settled || !linear.is_finite() {
                 break;
@@ -225,7 +226,7 @@ impl Flow<'_> {
         found: &mut FixedPoints,
     ) -> Result<Vec<f64>, Stop> {
         let zeros = zeros((first, last), &mut |u| self.growth(u, scale))?;
-        let turn = |u: f64| scale * u.exp();
+        let turn = |u: f64| scale * exp(u);
         found.unresolved.extend(zeros.unresolved.iter().map(|(from, to)| (turn(*from), turn(*to))));
         Ok(zeros.found)
     }
@@ -272,7 +273,7 @@ impl Flow<'_> {
         const ENOUGH: u32 = 3;
         /// Where a swing takes more than half of the amplitude, and more the larger it is, dissipation rules.
         const CONTRACTS: f64 = -0.7;
-        let at = |x: f64| (x / scale).ln();
+        let at = |x: f64| ln(x / scale);
         let mut last = self.growth(at(from), scale)?;
         let mut x = from.max(scale);
         for doubling in 0..DOUBLINGS {
@@ -326,7 +327,7 @@ impl Flow<'_> {
             v: (extremes.y.0 * speed, extremes.y.1 * speed),
             period: extremes.duration / speed,
             stick_duration: extremes.stick / speed,
-            multiplier: if sticks { 0.0 } else { image.log_slope.exp() },
+            multiplier: if sticks { 0.0 } else { exp(image.log_slope) },
             log_multiplier: if sticks { f64::NEG_INFINITY } else { image.log_slope },
             ride: extremes.ride,
         })
@@ -365,7 +366,7 @@ impl Model {
             let c = &piece.coefficients;
             if piece.center == 0.0 && c.len() > 2 && c[1] != 0.0 {
                 let knee = |(k, c_k): (usize, &f64)| {
-                    (c[1] / c_k).abs().powf(1.0 / f64::from(u16::try_from(k - 1).unwrap_or(1)))
+                    pow((c[1] / c_k).abs(), 1.0 / f64::from(u16::try_from(k - 1).unwrap_or(1)))
                 };
                 found.extend(c.iter().enumerate().skip(2).filter(|(_, c)| **c != 0.0).map(knee));
             }

@@ -9,6 +9,7 @@ use super::portrait::{Border, Portrait};
 use super::survey::{Trouble, portrait};
 use super::tolerance::Tolerances;
 use crate::flow::Reason;
+use crate::numerics::elementary::ln;
 use crate::oscillator::Belt;
 use crate::study::design::{Kick, Needed, least_friction};
 
@@ -31,7 +32,7 @@ fn guaranteed_excess(
         Kick::Displacement => kicks.displacement,
         Kick::Impulse => kicks.impulse,
     });
-    Ok((found / wanted).ln().max(f64::MIN))
+    Ok(ln(found / wanted).max(f64::MIN))
 }
 
 /// The least friction R of the guide, in N, at which the margin, or with tolerances the guaranteed margin, is
@@ -65,7 +66,7 @@ pub fn friction_for(
         let found = portrait(&belt)?;
         Ok(match found.border {
             Border::NoBasin => f64::MIN,
-            _ => (margin(&found, kick) / wanted).ln().max(f64::MIN),
+            _ => ln(margin(&found, kick) / wanted).max(f64::MIN),
         })
     };
     if !known.is_none() {

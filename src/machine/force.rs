@@ -5,6 +5,8 @@
 //! force vanishes exactly: near rest it keeps all its digits however small the velocity is. Forces are
 //! divided by the stiffness, so that they are lengths, and velocities by the natural frequency.
 
+use crate::numerics::elementary::{exp, exp_m1, ln_1p, pow};
+
 /// A polynomial `sum c_k (y - center)^k` for velocities in `low ..= high`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
@@ -57,12 +59,12 @@ impl Fall {
 
     fn power(&self, slip: f64) -> f64 {
         let ratio = slip / self.velocity;
-        if self.exponent == 1.0 { ratio } else { ratio.powf(self.exponent) }
+        if self.exponent == 1.0 { ratio } else { pow(ratio, self.exponent) }
     }
 
     /// `drop exp(..)` with the sign with which it acts on the mass.
     pub fn full(&self, y: f64) -> f64 {
-        let force = self.drop * (-self.power(self.slip(y))).exp();
+        let force = self.drop * exp(-self.power(self.slip(y)));
         if self.above { -force } else { force }
     }
 
@@ -75,12 +77,12 @@ impl Fall {
         let rise = if self.exponent == 1.0 {
             y / self.velocity
         } else {
-            -rest * (self.exponent * (-(y / self.speed).min(1.0)).ln_1p()).exp_m1()
+            -rest * exp_m1(self.exponent * ln_1p(-(y / self.speed).min(1.0)))
         };
         if rise.abs() <= 1.0 {
-            self.drop * (-rest).exp() * rise.exp_m1()
+            self.drop * exp(-rest) * exp_m1(rise)
         } else {
-            self.full(y) - self.drop * (-rest).exp()
+            self.full(y) - self.drop * exp(-rest)
         }
     }
 
@@ -90,9 +92,9 @@ impl Fall {
         let steepness = if self.exponent == 1.0 {
             1.0
         } else {
-            self.exponent * (slip / self.velocity).powf(self.exponent - 1.0)
+            self.exponent * pow(slip / self.velocity, self.exponent - 1.0)
         };
-        self.drop * (-self.power(slip)).exp() * steepness / self.velocity
+        self.drop * exp(-self.power(slip)) * steepness / self.velocity
     }
 }
 

@@ -4,6 +4,7 @@ use super::arc::{Flow, Stop};
 use super::model::{Lines, Phase};
 use super::return_map::Divergence;
 use super::turn::Place;
+use crate::numerics::elementary::ln;
 
 /// The orbit that touches the belt's line, if it went on slipping.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,7 +71,7 @@ impl Flow<'_> {
         let (right, ratio) = before.map_or((None, 0.0), |(right, ratio)| (Some(right), ratio));
         let between = (left + guide) / (after + guide);
         let log_slope = if after > -guide {
-            divergence.0 - ratio + between.abs().ln()
+            divergence.0 - ratio + ln(between.abs())
         } else {
             f64::NEG_INFINITY
         };

@@ -1,6 +1,7 @@
 //! The friction law as forces on the mass: on either side of the belt's speed, with the damper's.
 
 use super::force::{Fall, Piece, Side, shifted};
+use crate::numerics::elementary::{pow, powi};
 use crate::oscillator::belt::FrictionLaw;
 
 /// A piece of a law: from which slip to which, and the coefficients of powers of the distance from its lower
@@ -22,7 +23,7 @@ impl Scaled {
     /// The law as a force: coefficients times `force`, velocities divided by `omega_0`.
     pub fn new(law: &FrictionLaw, force: f64, omega_0: f64) -> Self {
         let scaled = |coefficients: &[f64]| -> Vec<f64> {
-            let power = |power| omega_0.powi(i32::try_from(power).unwrap_or(i32::MAX));
+            let power = |power| powi(omega_0, i32::try_from(power).unwrap_or(i32::MAX));
             coefficients.iter().enumerate().map(|(k, number)| force * number * power(k)).collect()
         };
         let whole = |coefficients: &[f64]| vec![(0.0, f64::INFINITY, scaled(coefficients))];
@@ -36,7 +37,7 @@ impl Scaled {
                 Scaled { pieces: whole(coefficients), fall: None }
             }
             FrictionLaw::Stribeck { rest, kinetic, velocity, exponent, viscous } => {
-                let end = velocity * LOST.powf(1.0 / exponent);
+                let end = velocity * pow(LOST, 1.0 / exponent);
                 let drop = force * (rest - kinetic);
                 Scaled {
                     pieces: vec![

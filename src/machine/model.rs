@@ -16,6 +16,7 @@ use super::force::{Piece, Side};
 use super::law::{Scaled, faster, slower};
 use super::reach::first_below_zero;
 use super::series::FINEST;
+use crate::numerics::elementary::powi;
 use crate::oscillator::Belt;
 
 /// What the mass does on one side of the switching lines.
@@ -157,7 +158,7 @@ impl Model {
             0.0,
             belt.damping * omega_0 * per_stiffness,
             0.0,
-            belt.cubic_damping * omega_0.powi(3) * per_stiffness,
+            belt.cubic_damping * powi(omega_0, 3) * per_stiffness,
         ];
         let speed = v0 / omega_0;
         let law = Scaled::new(&belt.law, force, omega_0);
@@ -218,7 +219,7 @@ impl Model {
         }
         let stiffness = mass * omega_0 * omega_0;
         let ratio = |(k, number): (usize, &f64)| {
-            2.0 * number * omega_0.powi(i32::try_from(k).unwrap_or(i32::MAX))
+            2.0 * number * powi(omega_0, i32::try_from(k).unwrap_or(i32::MAX))
         };
         let damper: Vec<f64> =
             [0.0].into_iter().chain(damping_ratio.iter().enumerate().map(ratio)).collect();

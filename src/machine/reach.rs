@@ -1,6 +1,7 @@
 //! How far a friction law may be believed: up to the slip at which its coefficient falls below zero.
 
 use super::force::shifted;
+use crate::numerics::elementary::{exp, exp2, pow};
 use crate::numerics::polynomial;
 use crate::numerics::root::{TO_ROUNDING, bisect};
 use crate::oscillator::belt::FrictionLaw;
@@ -20,7 +21,7 @@ pub fn first_below_zero(law: &FrictionLaw) -> f64 {
             .unwrap_or(end),
         FrictionLaw::Stribeck { rest, kinetic, velocity, exponent, viscous } => {
             let mu = |u: f64| {
-                kinetic + (rest - kinetic) * (-(u / velocity).powf(*exponent)).exp() + viscous * u
+                kinetic + (rest - kinetic) * exp(-pow(u / velocity, *exponent)) + viscous * u
             };
             stribeck_zero(mu, *velocity, *kinetic, *viscous)
         }
@@ -35,8 +36,7 @@ fn stribeck_zero(mu: impl Fn(f64) -> f64, velocity: f64, kinetic: f64, viscous: 
     // From where the law has hardly fallen to where only its straight part is left.
     let far = if viscous < 0.0 { 2.0 * (kinetic / viscous).abs() } else { 0.0 };
     let last = far.max(1024.0 * velocity);
-    let ladder =
-        (0..).map(|rung| velocity * (f64::from(rung - 20 * RUNGS) / f64::from(RUNGS)).exp2());
+    let ladder = (0..).map(|rung| velocity * exp2(f64::from(rung - 20 * RUNGS) / f64::from(RUNGS)));
     let mut below = 0.0;
     for slip in ladder.take_while(|slip| *slip <= 2.0 * last) {
         if mu(slip) < 0.0 {

@@ -5,6 +5,7 @@
 //! keeps the last terms below rounding (Jorba and Zou, Experimental Mathematics 14, 2005).
 
 use super::force::{Fall, Piece, Side};
+use crate::numerics::elementary::{exp2, log2, pow};
 use crate::numerics::polynomial::{reciprocals, value_and_slope};
 
 /// Order of the series; near the one that costs least at full precision.
@@ -130,7 +131,7 @@ impl Series {
             }
         } else {
             self.powers.resize(1, [0.0; TERMS]);
-            self.powers[0][0] = ratio.max(LEAST_SLIP).powf(fall.exponent);
+            self.powers[0][0] = pow(ratio.max(LEAST_SLIP), fall.exponent);
         }
     }
 
@@ -164,9 +165,9 @@ impl Series {
         let size = self.x[0].abs().max(self.y[0].abs());
         let allowed = |k: usize| {
             let term = self.x[k].abs().max(self.y[k].abs());
-            if term > 0.0 { (aim * size / term).log2() * INVERSE[k] } else { f64::INFINITY }
+            if term > 0.0 { log2(aim * size / term) * INVERSE[k] } else { f64::INFINITY }
         };
-        (ORDER - 2..=ORDER).map(allowed).fold(f64::INFINITY, f64::min).exp2()
+        exp2((ORDER - 2..=ORDER).map(allowed).fold(f64::INFINITY, f64::min))
     }
 
     /// The velocity and its derivative.

@@ -12,6 +12,7 @@ use super::model::{Model, Phase};
 use super::portrait::{Border, Portrait};
 use super::search::Sample;
 use super::turn::Place;
+use crate::numerics::elementary::{exp, ln};
 use crate::numerics::root::{Change, illinois};
 use crate::oscillator::Belt;
 
@@ -221,11 +222,11 @@ fn fold(family: Family, left: (f64, Portrait), right: (f64, Portrait)) -> Option
     let (low, high) = (pair[0].x.1, pair[1].x.1);
     let extremum = |value: f64| -> Option<Sample> {
         let model = Model::new(&family(value)?).ok()?;
-        steepest(&model, (low * high).sqrt(), (high / low).ln())
+        steepest(&model, (low * high).sqrt(), ln(high / low))
     };
     let ends = (extremum(with.0)?, extremum(without.0)?);
     let value = zero(&|value| Some(extremum(value)?.f), (with.0, ends.0.f), (without.0, ends.1.f))?;
-    let x = extremum(value)?.u.exp();
+    let x = exp(extremum(value)?.u);
     Some(Special { kind: Kind::Fold, value, x_max: Some(x) })
 }
 
@@ -233,8 +234,8 @@ fn fold(family: Family, left: (f64, Portrait), right: (f64, Portrait)) -> Option
 fn steepest(model: &Model, near: f64, width: f64) -> Option<Sample> {
     let mut flow = Flow::new(model);
     let mut growth = |u: f64| flow.growth(u, 1.0).ok();
-    let mut one = growth(near.ln())?;
-    let mut other = growth(near.ln() + 0.1 * width.min(1.0))?;
+    let mut one = growth(ln(near))?;
+    let mut other = growth(ln(near) + 0.1 * width.min(1.0))?;
     for _ in 0..50 {
         if one.slope == other.slope {
             break;

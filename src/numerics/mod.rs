@@ -3,9 +3,11 @@
 //! - Numbers: [`interval`] rounds outwards, [`twofold`] carries twice the digits, [`wide`] a far wider range,
 //!   [`scaling`] multiplies by powers of two without error, [`sum`] remembers what rounding takes, [`random`]
 //!   simulates noise.
-//! - Functions: [`root`] finds zeros inside brackets, [`quadrature`] integrates, [`polynomial`] evaluates,
+//! - Functions: [`elementary`] has those of every pocket calculator, [`root`] finds zeros inside brackets, [`quadrature`] integrates, [`polynomial`] evaluates,
 //!   [`hermite`] interpolates by cubics, [`spline`] smooths measured points.
 
+#[doc(hidden)]
+pub mod elementary;
 pub(crate) mod hermite;
 pub(crate) mod interval;
 pub(crate) mod polynomial;

@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use crate::numerics::elementary::{cos, ln};
+
 /// A stream of numbers (splitmix64).
 #[derive(Clone, Debug)]
 pub struct Random {
@@ -29,6 +31,6 @@ impl Random {
 
     /// Normally distributed with mean 0 and deviation 1 (Box and Muller).
     pub fn normal(&mut self) -> f64 {
-        (-2.0 * self.even().ln()).sqrt() * (TAU * self.even()).cos()
+        (-2.0 * ln(self.even())).sqrt() * cos(TAU * self.even())
     }
 }

@@ -20,6 +20,7 @@ use serde::{Deserialize, Serialize};
 use super::polynomial::Derivatives;
 use super::quadrature::gauss;
 use super::root::bisect;
+use crate::numerics::elementary::{exp, ln, powi};
 
 /// Fewest points that have a third derivative.
 pub const FEWEST: usize = 4;
@@ -167,11 +168,11 @@ impl SmoothingSpline {
 
 /// A quadratic, integrated three times from 0 to `t`.
 fn thrice([a, b, c]: [f64; 3], t: f64) -> f64 {
-    t.powi(3) * (a / 6.0 + t * (b / 24.0 + t * c / 60.0))
+    powi(t, 3) * (a / 6.0 + t * (b / 24.0 + t * c / 60.0))
 }
 
 fn quadratic_mean(one: &[f64], other: &[f64]) -> f64 {
-    let squares: f64 = one.iter().zip(other).map(|(one, other)| (one - other).powi(2)).sum();
+    let squares: f64 = one.iter().zip(other).map(|(one, other)| powi(one - other, 2)).sum();
     #[expect(clippy::cast_precision_loss, reason = "a number of points")]
     let count = one.len() as f64;
     (squares / count).sqrt()
@@ -234,13 +235,13 @@ impl<'a> System<'a> {
             return 0.0;
         }
         let weight = |band: &Band| band.iter().map(|row| row[0]).sum::<f64>();
-        let middle = (weight(&self.gram) / weight(&self.penalty)).ln();
-        let missed = |log: f64| quadratic_mean(self.y, &self.solve(log.exp()).1);
+        let middle = ln(weight(&self.gram) / weight(&self.penalty));
+        let missed = |log: f64| quadratic_mean(self.y, &self.solve(exp(log)).1);
         let (low, high) = (middle - REACH, middle + REACH);
         if missed(high) <= scatter {
-            return high.exp();
+            return exp(high);
         }
-        bisect(low, high, HALVINGS, |log| missed(log) >= scatter).0.exp()
+        exp(bisect(low, high, HALVINGS, |log| missed(log) >= scatter).0)
     }
 }
 

@@ -5,6 +5,7 @@
 //! only the result can. A factor that is a power of two changes the exponent alone, so that the
 //! scaling symmetry of the oscillator holds to the last bit.
 
+use crate::numerics::elementary::cbrt;
 use crate::numerics::scaling::{exponent, times_power};
 
 /// The number `mantissa * 2^exponent`, positive.
@@ -52,7 +53,7 @@ impl Wide {
     #[must_use]
     pub fn cbrt(self) -> Self {
         let rest = self.exponent.rem_euclid(3);
-        Self::normal(times_power(self.mantissa, rest).cbrt(), self.exponent.div_euclid(3))
+        Self::normal(cbrt(times_power(self.mantissa, rest)), self.exponent.div_euclid(3))
     }
 
     /// The nearest double; 0 or infinite beyond its range.

@@ -5,6 +5,7 @@ use super::role::{Dash, Mark, Role};
 use crate::closed_form::linear::linear_flow;
 use crate::closed_form::lyapunov::energy_rate;
 use crate::closed_form::piecewise_linear::LinearCycle;
+use crate::numerics::elementary::{cos, sin};
 use crate::numerics::root::{TO_ROUNDING, bisect};
 use crate::oscillator::{Parameters, State};
 use crate::scene::{Point, Span};
@@ -23,7 +24,7 @@ pub(super) fn levels(picture: &mut Picture, parameters: &Parameters) {
         let radius = 0.5 * y.width() * f64::from(level) / f64::from(LEVELS);
         let circle = (0..=CORNERS).map(|corner| {
             let angle = std::f64::consts::TAU * f64::from(corner) / f64::from(CORNERS);
-            Point { x: radius * angle.cos(), y: radius * angle.sin() }
+            Point { x: radius * cos(angle), y: radius * sin(angle) }
         });
         picture.curve(Line::new("level of the energy", Role::Field, Dash::Sparse), circle);
     }
@@ -94,6 +95,7 @@ pub(super) fn spirals(picture: &mut Picture, parameters: &Parameters) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numerics::elementary::tanh;
     use crate::scene::Window;
 
     fn picture() -> Picture<'static> {
@@ -135,6 +137,6 @@ mod tests {
             assert!((end.x - start.x).abs() < 1e-13 && end.y.abs() < 1e-13);
         }
         let growth = 0.2 * std::f64::consts::PI / (1.0_f64 - 0.04).sqrt();
-        assert!((upper.last().unwrap().x - 0.5 / (0.5 * growth).tanh()).abs() < 1e-13);
+        assert!((upper.last().unwrap().x - 0.5 / tanh(0.5 * growth)).abs() < 1e-13);
     }
 }

@@ -315,13 +315,14 @@ fn caption(picture: &mut Picture, special: &Special, height: Height, top: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numerics::elementary::sin_cos;
 
     #[test]
     fn between_points_a_curve_is_followed_around_its_fold() {
         // An arc of a circle that turns back at x = 1, and its ends, where one neighbour is missing.
         let places: Vec<[f64; 2]> = (0..=128_u32)
             .map(|step| {
-                let (sin, cos) = (f64::from(step) / 128.0 * 3.0 - 1.5).sin_cos();
+                let (sin, cos) = sin_cos(f64::from(step) / 128.0 * 3.0 - 1.5);
                 [cos, sin]
             })
             .collect();

@@ -4,6 +4,7 @@
 use super::items::{Item, Line, Picture};
 use super::reading::reading;
 use super::role::{Dash, Mark, Role};
+use crate::numerics::elementary::{cos, sin};
 use crate::oscillator::Symbol;
 use crate::scene::{Layer, Point, View};
 use crate::session::{self, Session};
@@ -38,7 +39,7 @@ fn locus(picture: &mut Picture) {
     picture.upright(Line::guide(), 0.0);
     let circle = (0..=CORNERS).map(|corner| {
         let angle = std::f64::consts::TAU * f64::from(corner) / f64::from(CORNERS);
-        Point { x: angle.cos(), y: angle.sin() }
+        Point { x: cos(angle), y: sin(angle) }
     });
     let way = || Line::new("eigenvalues over D", Role::Asymptote, Dash::Dotted);
     picture.curve(way(), circle);

@@ -11,6 +11,7 @@ use super::role::{Dash, Mark, Role};
 use crate::closed_form::lyapunov;
 use crate::flow::{Outcome, Problem, Sample, Trajectory};
 use crate::machine;
+use crate::numerics::elementary::sin_cos;
 use crate::oscillator::{HalfPlane, Parameters, Side, State};
 use crate::scene::{Answer, Layer, Point, Slot, View};
 use crate::session::{self, Session, Shown};
@@ -218,7 +219,7 @@ fn circle(picture: &mut Picture, parameters: &Parameters, variant: &Variant) {
     if let Some(radius) = lyapunov::radius(parameters) {
         let corners = (0..=CORNERS).map(|corner| {
             let (sin, cos) =
-                (std::f64::consts::TAU * f64::from(corner) / f64::from(CORNERS)).sin_cos();
+                sin_cos(std::f64::consts::TAU * f64::from(corner) / f64::from(CORNERS));
             Point { x: radius * cos, y: radius * sin }
         });
         let line = Line::new("Lyapunov circle", Role::Lyapunov, Dash::Dotted);

@@ -11,6 +11,7 @@
     reason = "powers of ten and counts of ticks are small, whatever the axis"
 )]
 
+use crate::numerics::elementary::{log10, pow};
 use crate::scene::Span;
 
 /// A tick: where it stands and what it says.
@@ -91,11 +92,11 @@ impl Ticks {
         if let Some(ticks) = fitting.filter(|ticks| ticks.len() > 1) {
             return Ticks { base: None, ticks };
         }
-        let Ok(values) = Span::new(10_f64.powf(axis.from()), 10_f64.powf(axis.to())) else {
+        let Ok(values) = Span::new(pow(10.0, axis.from()), pow(10.0, axis.to())) else {
             return Ticks { base: None, ticks: Vec::new() };
         };
         let bent = |ticks: &[Tick]| -> Vec<Tick> {
-            let place = |tick: &Tick| axis.fraction(values.at(tick.fraction).log10());
+            let place = |tick: &Tick| axis.fraction(log10(values.at(tick.fraction)));
             let label = |tick: &Tick| format!("{sign}{}", tick.label);
             ticks.iter().map(|tick| Tick { fraction: place(tick), label: label(tick) }).collect()
         };
@@ -124,7 +125,7 @@ fn decades(axis: Span, sign: &str, digits: &[i64], every: usize) -> Vec<Tick> {
         .filter(|power| (power.unsigned_abs() as usize).is_multiple_of(every))
         .flat_map(|power| digits.iter().map(move |digit| (*digit, power)));
     let tick = |(digit, power): (i64, i32)| Tick {
-        fraction: axis.fraction(f64::from(power) + (digit as f64).log10()),
+        fraction: axis.fraction(f64::from(power) + log10(digit as f64)),
         label: format!("{sign}{}", label(digit, power, digit, false)),
     };
     let on_the_axis = |tick: &Tick| (-ROUNDING..=1.0 + ROUNDING).contains(&tick.fraction);
@@ -200,7 +201,7 @@ impl Origin {
 
 /// The power of ten at or below a positive number; far below all others for zero.
 fn decade(value: f64) -> i32 {
-    value.log10().floor().max(-400.0) as i32
+    log10(value).floor().max(-400.0) as i32
 }
 
 /// `number * 10^power`, correctly rounded.
@@ -240,6 +241,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::numerics::elementary::{log10, powi};
 
     fn span(low: f64, high: f64) -> Span {
         Span::covering([low, high]).unwrap()
@@ -279,7 +281,7 @@ mod tests {
         assert_eq!(names(&on(scale, 0.1, 0.28, 4)), ["1.4", "1.6", "1.8"]);
         for (label, fraction) in on(scale, -3.3, 2.2, 9) {
             let value: f64 = label.parse().unwrap();
-            assert!((value.log10() - (-3.3 + 5.5 * fraction)).abs() < 1e-9, "{label} {fraction}");
+            assert!((log10(value) - (-3.3 + 5.5 * fraction)).abs() < 1e-9, "{label} {fraction}");
         }
     }
 
@@ -301,7 +303,7 @@ mod tests {
         #[test]
         fn ticks_lie_on_the_axis_evenly_with_distinct_labels(
             low in -1e300..1e300_f64, high in -1e300..1e300_f64, scale in -300..0_i32, most in 1_usize..30) {
-            let scale = 10_f64.powi(scale);
+            let scale = powi(10.0, scale);
             let ticks = Ticks::fitting(span(low * scale, high * scale), |ticks| ticks.len() <= most).ticks;
             prop_assert!(ticks.len() <= most);
             prop_assert!(ticks.iter().all(|tick| (0.0..=1.0).contains(&tick.fraction)));
@@ -316,7 +318,7 @@ mod tests {
 
         #[test]
         fn a_label_and_its_base_say_where_the_tick_stands(low in -1e6..1e6_f64, exponent in -12..6_i32) {
-            let axis = span(low, low + 10_f64.powi(exponent));
+            let axis = span(low, low + powi(10.0, exponent));
             let ticks = Ticks::fitting(axis, |ticks| ticks.len() <= 8);
             let base: f64 = ticks.base.map_or(0.0, |base| base.parse().unwrap());
             for tick in ticks.ticks {

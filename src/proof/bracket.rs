@@ -1,6 +1,7 @@
 //! A change of verdict, closed in from both sides as far as verdicts are certain.
 
 use crate::numerics::Interval;
+use crate::numerics::elementary::powi;
 
 /// Numbers between which a verdict changes, next to a guess: at the two ends it is certain and not the same.
 ///
@@ -16,7 +17,7 @@ pub fn bracket<T: PartialEq>(
     /// Attempts to move an end further in once an uncertain number was found.
     const CLOSER: usize = 4;
     let (mut low, mut high, kind) = (0..TIMES).find_map(|step| {
-        let away = FIRST * GROWTH.powi(step) * near.abs();
+        let away = FIRST * powi(GROWTH, step) * near.abs();
         let kind = verdict(near - away)?;
         let other = verdict(near + away)?;
         (kind != other).then_some((near - away, near + away, kind))

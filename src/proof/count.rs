@@ -10,6 +10,7 @@
 use super::ends::{Sign, sign_at};
 use super::map::{Bound, Direction, ReturnMap};
 use crate::numerics::Interval;
+use crate::numerics::elementary::pow;
 
 /// A gap this narrow, relative to itself, is not halved any more.
 const NARROWEST: f64 = 1e-13;
@@ -131,7 +132,7 @@ fn clear_middle(map: &mut ReturnMap, gap: Interval) -> Option<Edge> {
     let (low, high) = (gap.lower(), gap.upper());
     let wide = low > 0.0 && high > 4.0 * low;
     PARTS.iter().find_map(|&part| {
-        let at = if wide { low * (high / low).powf(part) } else { low + part * (high - low) };
+        let at = if wide { low * pow(high / low, part) } else { low + part * (high - low) };
         let sign = (at > low && at < high).then(|| sign_at(map, at))??;
         Some((at, sign))
     })

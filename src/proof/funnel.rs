@@ -8,6 +8,7 @@
 use super::field::{Field, scaled};
 use super::swing::{Passage, Start, Swing, swing};
 use crate::numerics::Interval;
+use crate::numerics::elementary::cbrt;
 use crate::numerics::scaling::exponent;
 
 /// The beginning of motions, until they are all faster than the funnel's speed.
@@ -328,7 +329,7 @@ impl Fences {
         let Field { a, b, c } = field.weakest();
         let [a, b, c] = [a, b, c].map(Interval::lower);
         let gentle = SLOPE.max(4.0 * a);
-        let at_fold = gentle.max(AT_FOLD * (b * b / c.abs()).cbrt());
+        let at_fold = gentle.max(AT_FOLD * cbrt(b * b / c.abs()));
         // The roots of f' = slope: the larger one for c > 0, both for c < 0.
         let root = |slope: f64| (b * b + 3.0 * c * (slope - a)).sqrt();
         let speed = if b >= 0.0 {

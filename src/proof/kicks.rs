@@ -11,6 +11,7 @@ use super::map::{Direction, ReturnMap};
 use super::swing::{Passage, Start, swing};
 use super::theorems::Theorem;
 use crate::numerics::Interval;
+use crate::numerics::elementary::powi;
 
 /// What is proved to border the basin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -186,7 +187,7 @@ fn threshold(hint: Option<f64>, mut captured: impl FnMut(f64) -> Option<bool>) -
     /// Ever larger strides away from the hint, up to a factor of `1.5^255`.
     const STRIDES: i32 = 8;
     let hint = hint.filter(|hint| *hint > 0.0 && hint.is_finite()).unwrap_or(1.0);
-    let stride = |index: i32| 1.5_f64.powi(2_i32.pow(index.unsigned_abs()));
+    let stride = |index: i32| powi(1.5, 2_i32.pow(index.unsigned_abs()));
     let inward = |index| hint / stride(index);
     let low = (0..STRIDES).map(inward).find(|&at| captured(at) == Some(true))?;
     let mut high = f64::INFINITY;

@@ -161,6 +161,7 @@ impl Model {
 #[expect(clippy::cast_precision_loss, reason = "small whole numbers")]
 mod tests {
     use super::*;
+    use crate::numerics::elementary::{exp, sin};
     use crate::numerics::twofold::Twofold;
 
     /// `exp` of the integral of a known function, against its closed form, and the width that is promised.
@@ -178,14 +179,14 @@ mod tests {
             let cosine = Model::of_series(&series, h, 1e-15);
             let sine = cosine.integral();
             let sine_end = sine.at_end() * Interval::point(h);
-            assert!(sine_end.contains(f64::sin(h)) && sine_end.width() < 1e-14, "{sine_end}");
+            assert!(sine_end.contains(sin(h)) && sine_end.width() < 1e-14, "{sine_end}");
             let squares = cosine.times(&cosine).integral().at_end() * Interval::point(h);
-            let expected = 0.5 * h + 0.25 * f64::sin(2.0 * h);
+            let expected = 0.5 * h + 0.25 * sin(2.0 * h);
             assert!(squares.contains(expected) && squares.width() < 2e-13, "{squares}");
             let zero = sine.times_plus(Interval::point(-1.0), &sine);
             let scaled = sine.times_plus(Interval::point(h), &zero);
             let power = scaled.exp().unwrap().at_end();
-            let expected = f64::exp(f64::sin(h));
+            let expected = exp(sin(h));
             assert!(power.contains(expected), "{power}");
             assert!(h > 1.0 || power.width() < 1e-12, "{power}");
         }
@@ -204,7 +205,7 @@ mod tests {
         for member in [0.75, 1.0, 1.25] {
             assert!(model.integral().at_end().contains(member));
             assert!(product.at_end().contains(member * member));
-            assert!(model.exp().unwrap().at_end().contains(f64::exp(member)));
+            assert!(model.exp().unwrap().at_end().contains(exp(member)));
             let sum = model.times_plus(Interval::new(-2.0, 3.0), &product).plus(point(1.0));
             for factor in [-2.0, 0.5, 3.0] {
                 assert!(sum.at_end().contains(1.0 + factor * member + member * member));
@@ -216,7 +217,7 @@ mod tests {
     /// The roundings of a product, against its coefficients in twice the precision.
     #[test]
     fn roundings_of_products_are_in_the_rest() {
-        let series: Vec<f64> = (0..ORDER / 2).map(|k| 0.1 + f64::sin(0.7 + k as f64)).collect();
+        let series: Vec<f64> = (0..ORDER / 2).map(|k| 0.1 + sin(0.7 + k as f64)).collect();
         let model = Model { rest: 0.0, ..Model::of_series(&series, 1.0, 0.0) };
         let product = model.times(&model);
         let errors = (0..ORDER - 1).map(|k| {

@@ -4,6 +4,7 @@
 use super::cycles::prove;
 use super::field::ParameterBox;
 use crate::numerics::Interval;
+use crate::numerics::elementary::powi;
 use crate::oscillator::{self, Symbol};
 
 /// Part of a range with what is proved for all values in it.
@@ -135,7 +136,7 @@ pub fn change_near(base: &ParameterBox, symbol: Symbol, hint: f64) -> Option<Cha
     /// Powers of ten, as parts of the value, at which to ask.
     const AWAY: std::ops::RangeInclusive<i32> = -12..=-3;
     let mut ask = |value: Interval| cycles_at(&base.with(symbol, value));
-    let mut found = AWAY.map(|power| 10.0_f64.powi(power));
+    let mut found = AWAY.map(|power| powi(10.0, power));
     let found = found.find_map(|away| change_within(base, symbol, hint, away))?;
     let between = narrowed(&mut ask, found.between, [&found.below, &found.above]);
     Some(Change { between, ..found })

@@ -7,6 +7,7 @@ use super::series::Series;
 use super::step::Prepared;
 use super::swing::{MOST_STEPS, Start, never_returns};
 use crate::numerics::Interval;
+use crate::numerics::elementary::cbrt;
 use crate::numerics::scaling::exponent;
 
 /// Size of the last term of a step relative to the state: below rounding.
@@ -96,7 +97,7 @@ impl Ride {
         }
         let up_to = |u: f64| Interval::point(u) / k0;
         let square = (k0.lower() / k2.lower()).sqrt();
-        let cube = (k0.lower() / k3.lower()).cbrt();
+        let cube = cbrt(k0.lower() / k3.lower());
         let by_square = up_to(square) + Interval::point(1.0) / (k2 * Interval::point(square));
         let by_cube =
             up_to(cube) + Interval::point(1.0) / (two * k3 * Interval::point(cube).square());

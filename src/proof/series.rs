@@ -5,6 +5,8 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
+use crate::numerics::elementary::pow;
+
 /// Degree of the polynomials.
 pub const ORDER: usize = 28;
 
@@ -164,7 +166,7 @@ impl Series {
         let size = tolerance * self.x[0].abs().max(self.v[0].abs());
         let root = |k: usize| {
             let last = self.x[k].abs().max(self.v[k].abs());
-            (size / last).powf(INVERSE[k])
+            pow(size / last, INVERSE[k])
         };
         let step = root(ORDER).min(root(ORDER - 1));
         if step < LONGEST { step } else { LONGEST }

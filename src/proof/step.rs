@@ -18,6 +18,7 @@ use super::norm::Norm;
 use super::rounding::{INFLATE, UNDERFLOW, UNIT};
 use super::series::{INVERSE, ORDER, Series};
 use crate::numerics::Interval;
+use crate::numerics::elementary::ln;
 
 /// A field prepared for stepping: middles and radii of its coefficients, and the skew of the norm.
 #[derive(Clone, Copy, Debug)]
@@ -75,7 +76,7 @@ impl Prepared {
         if (before.rate(low, high) - least) * time < WORTH {
             return before;
         }
-        let cost = |norm: Norm| before.into(norm).ln() + norm.rate(low, high) * time;
+        let cost = |norm: Norm| ln(before.into(norm)) + norm.rate(low, high) * time;
         let candidates = [
             before,
             Norm::fitting(self.a),

@@ -7,6 +7,7 @@ use super::sensitivity::Weighted;
 use super::series::Series;
 use super::step::{Prepared, Reached};
 use crate::numerics::Interval;
+use crate::numerics::elementary::powi;
 use crate::numerics::scaling::exponent;
 
 /// Where a half swing starts: any point of a box. On `v = 0` it starts left of the centre, `x < 0`.
@@ -385,7 +386,7 @@ impl Run {
         let duration = Interval::around(self.time, (self.time_error + lag) * INFLATE);
         // Beyond the end of the step v is below its bound there, whose square times the lag is less than this.
         let speed = self.v.abs() + self.norm.stretch * self.radius * INFLATE;
-        let beyond = lag * speed.powi(2);
+        let beyond = lag * powi(speed, 2);
         let square = Interval::around(self.square, (self.square_error + beyond) * INFLATE);
         let divergence =
             -(a * duration + (b * (end - start.x)).twice() + c * square * Interval::point(3.0));

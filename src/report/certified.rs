@@ -6,6 +6,7 @@ use super::proof::certain;
 use super::table::Table;
 use crate::check::{Bounds as Pair, Certificate, Step};
 use crate::numerics::Interval;
+use crate::numerics::elementary::{log10, pow};
 use crate::oscillator::Symbol;
 use crate::proof::cycles::Proof;
 use crate::proof::kicks::{Edge, Kicks};
@@ -277,7 +278,7 @@ pub fn box_table(proof: &Proof) -> String {
 /// The ends of an interval in six digits, rounded outwards.
 fn outward(it: Interval) -> [String; 2] {
     let step = |value: f64| {
-        let digits = 10.0_f64.powf(value.abs().log10().floor() - 5.0);
+        let digits = pow(10.0, log10(value.abs()).floor() - 5.0);
         if digits.is_finite() { digits } else { 0.0 }
     };
     let end = |value: f64, sign: f64| {

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::flow::Problem;
+use crate::numerics::elementary::powi;
 use crate::oscillator::{PARAMETERS, Parameters, State, Symbol};
 use crate::words::number::{exact, significant};
 
@@ -95,7 +96,7 @@ impl fmt::Display for Table {
 /// How many digits a tolerance makes trustworthy, 3 to 16.
 pub(super) fn digits(tolerance: f64) -> usize {
     (3..16)
-        .find(|&digits| 10.0_f64.powi(-digits) <= tolerance * 1.5)
+        .find(|&digits| powi(10.0, -digits) <= tolerance * 1.5)
         .map_or(16, |digits| usize::try_from(digits).unwrap_or(16))
 }
 

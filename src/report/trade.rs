@@ -6,6 +6,7 @@ use super::csv::{self, Sheet};
 use super::table::{Table, motion};
 use crate::flow::method::Dial;
 use crate::flow::{METHODS, Method, MethodSpec, Outcome};
+use crate::numerics::elementary::{log10, pow};
 use crate::oscillator::{Parameters, State};
 use crate::study::accuracy::{Ending, Reference, Source};
 use crate::study::trade::{self, Trade};
@@ -314,8 +315,8 @@ fn growth(rows: &[&Row]) -> Option<f64> {
     let known = || rows.iter().filter(|row| row.error > 0.0 && row.evaluations > 0);
     let worst = known().max_by(|one, other| one.error.total_cmp(&other.error))?;
     let best = known().min_by(|one, other| one.error.total_cmp(&other.error))?;
-    let digits = (worst.error / best.error).log10();
+    let digits = log10(worst.error / best.error);
     #[expect(clippy::cast_precision_loss, reason = "counts far below 2^53")]
     let factor = best.evaluations as f64 / worst.evaluations as f64;
-    (digits >= 1.0).then(|| factor.powf(1.0 / digits))
+    (digits >= 1.0).then(|| pow(factor, 1.0 / digits))
 }

@@ -207,6 +207,7 @@ pub fn usual_values(symbol: Symbol) -> Span {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numerics::elementary::ln;
 
     #[test]
     fn every_ordinate_stands_at_its_own_row_under_the_name_of_scene_files() {
@@ -225,9 +226,9 @@ mod tests {
             v_max: 2.0,
             period: 6.5,
             multiplier: Some(0.01),
-            log_multiplier: 0.01_f64.ln(),
+            log_multiplier: ln(0.01),
             clearance: 0.9,
-            log_clearance: 0.9_f64.ln(),
+            log_clearance: ln(0.9),
             error: 0.0,
             errors: crate::study::cycle::CycleErrors::default(),
         }

@@ -7,6 +7,7 @@ use crate::machine::curve::{Curve, Piece};
 use crate::machine::motion::{self, Motion};
 use crate::machine::turn::Place;
 use crate::machine::{Fate, Flow, Model, Phase, Portrait, Stop};
+use crate::numerics::elementary::ln;
 use crate::oscillator::{Belt, Parameters, State};
 use crate::study::cycle::CycleErrors;
 use crate::study::{Cycle, Cycles, Edge, Margin, cycle};
@@ -250,7 +251,7 @@ fn scaled(cycle: &crate::machine::Cycle, model: &Model, units: Units) -> Cycle {
         multiplier: Some(cycle.multiplier).filter(|it| it.is_finite()),
         log_multiplier: cycle.log_multiplier,
         clearance,
-        log_clearance: clearance.ln(),
+        log_clearance: ln(clearance),
         error: ERROR,
         errors: CycleErrors::default(),
     }

@@ -15,6 +15,7 @@ use super::half_map::{HalfMap, HalfSwing, Length, NoEnd};
 use super::roundoff::UNIT;
 use crate::flow::step::Stepper;
 use crate::flow::{Limits, Reason};
+use crate::numerics::elementary::{exp, ln_1p};
 use crate::numerics::quadrature::{GAUSS, gauss};
 use crate::numerics::scaling::{exponent, times_power};
 use crate::oscillator::HalfPlane;
@@ -62,10 +63,10 @@ pub fn weighed_closing(
     let taken = friction(second, gap, d2) + friction(start, gap, -d2);
     let target = second + gap;
     let gained_second = -lost_second;
-    let weight = target * target * (2.0 * d2 * target).exp();
+    let weight = target * target * exp(2.0 * d2 * target);
     let excess = (gained_first + gained_second - taken) / weight;
     let noise = UNIT * (gained_first.abs() + gained_second.abs() + taken) / weight;
-    Ok(Some((closing, (excess.ln_1p(), noise))))
+    Ok(Some((closing, (ln_1p(excess), noise))))
 }
 
 /// Swings and integrates `-exp(2 D2 x) (2 D v^2 + D3 v^4)`, lengths measured in units of `2^measure`.
@@ -86,7 +87,7 @@ fn weigh(
             let (x, v) =
                 (times_power(point.x, unit - measure), times_power(point.v, unit - measure));
             let square = v * v;
-            gained -= weight * duration * (2.0 * d2 * x).exp() * square * (2.0 * d + d3 * square);
+            gained -= weight * duration * exp(2.0 * d2 * x) * square * (2.0 * d + d3 * square);
         }
     });
     map.set_linear_below(skipped);
@@ -101,6 +102,6 @@ fn weigh(
 fn friction(start: f64, gap: f64, d2: f64) -> f64 {
     gap * gauss(|part| {
         let x = start + part * gap;
-        x * (2.0 * d2 * x).exp()
+        x * exp(2.0 * d2 * x)
     })
 }

@@ -33,6 +33,7 @@ use super::special::{Special, SpecialKind, VANISHING};
 use super::weak::weak_closing;
 use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::{Cost, Limits, Reason};
+use crate::numerics::elementary::{cbrt, ln, pow, powi};
 use crate::oscillator::{Parameters, Side, Symbol};
 
 /// A cycle and the parameter value at which it lives.
@@ -289,15 +290,15 @@ impl Tracer<'_> {
         let natural = (1.0 / d2.abs()).min(1.0 / d3.abs().sqrt());
         let natural = if natural.is_finite() { natural } else { r };
         let deepest = match self.points {
-            Points::Followed if r > 0.0 => r.ln() - SHALLOW,
+            Points::Followed if r > 0.0 => ln(r) - SHALLOW,
             _ => DEEPEST,
         };
         if d3 == 0.0 && d2 != 0.0 {
             // Beyond, swings from any start are one (see the search for cycles).
-            (deepest, (60.0 / d2.abs() + 2.0 * r).ln())
+            (deepest, ln(60.0 / d2.abs() + 2.0 * r))
         } else {
             // Towards a Hopf point D goes to 0 as the square of the amplitude.
-            let smallest = if r > 0.0 { deepest } else { natural.ln() + NEAREST.ln() };
+            let smallest = if r > 0.0 { deepest } else { ln(natural) + ln(NEAREST) };
             if self.parameter == Symbol::D3 {
                 let least = NEAREST * self.curve.scale;
                 // Sizes there: by linear and cubic damping alone (52), by friction and cubic damping (50),
@@ -305,14 +306,14 @@ impl Tracer<'_> {
                 // through D3 = 0.
                 let sizes = [
                     (8.0 * d.abs() / (3.0 * least)).sqrt(),
-                    (16.0 * r / (3.0 * PI * least)).cbrt(),
-                    d2.abs() * (d2 / least).powi(2),
+                    cbrt(16.0 * r / (3.0 * PI * least)),
+                    d2.abs() * powi(d2 / least, 2),
                     if d == 0.0 { 0.0 } else { 4.0 * r / d.abs() },
                     if d2 == 0.0 { 0.0 } else { 60.0 / d2.abs() },
                 ];
-                return (smallest, sizes.into_iter().fold(0.0, f64::max).ln());
+                return (smallest, ln(sizes.into_iter().fold(0.0, f64::max)));
             }
-            (smallest, natural.max(r).ln() + LOG_FAR)
+            (smallest, ln(natural.max(r)) + LOG_FAR)
         }
     }
 
@@ -450,7 +451,7 @@ fn linear_branch(r: f64, from: f64, to: f64, points: Points) -> Option<Vec<Branc
     let point = |index: usize| {
         #[expect(clippy::cast_precision_loss, reason = "counts of points are small")]
         let fraction = index as f64 / (count - 1) as f64;
-        let d = if index == 0 { from } else { from * (to / from).powf(fraction) };
+        let d = if index == 0 { from } else { from * pow(to / from, fraction) };
         let cycle = LinearCycle::new(d, r).ok()?;
         Some(BranchPoint { value: d, cycle: Cycle::from(&cycle) })
     };

@@ -3,6 +3,7 @@
 use super::half_map::{HalfSwing, Length};
 use super::roundoff::{Errors, UNIT};
 use super::search::Node;
+use crate::numerics::elementary::{ln, ln_1p};
 use crate::oscillator::Parameters;
 
 /// The two swings at one value of the unknown, and how far they are from closing.
@@ -212,8 +213,8 @@ fn log_share(clearance: Length, gap: f64) -> f64 {
     if gap == 0.0 {
         0.0
     } else if gap / clearance.value < 1e10 {
-        -(gap / clearance.value).ln_1p()
+        -ln_1p(gap / clearance.value)
     } else {
-        clearance.log - (gap + clearance.value).ln()
+        clearance.log - ln(gap + clearance.value)
     }
 }

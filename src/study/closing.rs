@@ -17,6 +17,7 @@ use super::half_map::{HalfMap, HalfSwing, Length, NoEnd};
 use super::roundoff::Errors;
 use super::search::Node;
 use crate::flow::{Cost, Limits, Reason};
+use crate::numerics::elementary::{exp, ln};
 use crate::oscillator::{HalfPlane, Parameters, Side};
 
 /// Which way the two swings of a cycle are computed.
@@ -268,8 +269,8 @@ impl Equation {
     pub(super) fn pair(&self, start: Length, first: HalfSwing, second: HalfSwing) -> Closing {
         let gap = 2.0 * self.parameters.r;
         let target = second.end.plus(gap);
-        let pull = second.log_elasticity.exp() * share(second.end, gap) * share(start, gap);
-        let slope = first.log_elasticity.exp() - pull;
+        let pull = exp(second.log_elasticity) * share(second.end, gap) * share(start, gap);
+        let slope = exp(first.log_elasticity) - pull;
         let node = Node::new(start.log, first.end.log, target.log, slope);
         let shares = [share(start, gap), share(second.end, gap)];
         let [(own, gain), (late, late_gain)] =
@@ -284,7 +285,7 @@ impl Equation {
         ];
         let noise = own.end + shares[1] * late.end + rounding(first.end) + rounding(target);
         let growth =
-            [first.log_elasticity - shares[1].ln(), -(second.log_elasticity + shares[0].ln())];
+            [first.log_elasticity - ln(shares[1]), -(second.log_elasticity + ln(shares[0]))];
         let closing = Closing::of(node, [start, second.end], [first, second]);
         closing.with_errors(growth, noise, errors)
     }
@@ -326,7 +327,7 @@ impl Equation {
                 seconds = clearance;
             }
         }
-        let stretch = (swings[0].log_elasticity + swings[1].log_elasticity).exp()
+        let stretch = exp(swings[0].log_elasticity + swings[1].log_elasticity)
             / (share(seconds, gap) * share(clearance, gap));
         let node = Node::new(start.log, clearance.log, start.log, stretch - 1.0);
         let shares = [share(clearance, gap), share(seconds, gap)];
@@ -340,7 +341,7 @@ impl Equation {
         ];
         let noise = (late.end + f64::EPSILON) / shares[0] + rounding(clearance) + rounding(start);
         let growth =
-            [swings[0].log_elasticity - shares[1].ln(), swings[1].log_elasticity - shares[0].ln()];
+            [swings[0].log_elasticity - ln(shares[1]), swings[1].log_elasticity - ln(shares[0])];
         Ok(Closing::of(node, [start, seconds], swings).with_errors(growth, noise, errors))
     }
 
@@ -357,7 +358,7 @@ impl Equation {
                 Err(NoEnd::Failed(reason)) => return Err(reason),
                 Ok(swing) => swing,
             };
-            shrink *= swing.log_elasticity.exp();
+            shrink *= exp(swing.log_elasticity);
             (length, ends[index], swings[index]) = (swing.end, swing.end, swing);
         }
         let [back, second] = ends;
@@ -380,8 +381,8 @@ impl Equation {
         let noise = last.end + rounding(start) + rounding(back);
         // Where the way back contracts, its end is known better than its start.
         let growth = [
-            -(swings[0].log_elasticity + shares[1].ln()),
-            -(swings[1].log_elasticity + shares[0].ln()),
+            -(swings[0].log_elasticity + ln(shares[1])),
+            -(swings[1].log_elasticity + ln(shares[0])),
         ];
         Ok(Closing::of(node, [back, second], swings).with_errors(growth, noise, errors))
     }

@@ -14,6 +14,7 @@ use super::search::{Bracket, Node, search};
 use super::weak::{is_one_way, weak_closing};
 use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::{Limits, Reason};
+use crate::numerics::elementary::ln;
 use crate::numerics::twofold::Twofold;
 use crate::oscillator::Parameters;
 
@@ -186,10 +187,10 @@ fn lower_end(equation: &mut Equation, limits: &Limits) -> Result<Option<f64>, Re
             smallest.log - CLEARLY
         } else if r > 0.0 {
             // Beyond critical damping a swing passes from any clearance, however small.
-            (SMALL * f64::EPSILON * r).ln()
+            ln(SMALL * f64::EPSILON * r)
         } else {
             let natural = (1.0 / d2.abs()).min(1.0 / d3.abs().sqrt());
-            (SMALL * d.abs().sqrt().min(1.0) * natural).ln()
+            ln(SMALL * d.abs().sqrt().min(1.0) * natural)
         }
     }))
 }
@@ -201,10 +202,10 @@ fn upper_end(parameters: &Parameters) -> f64 {
         f64::INFINITY
     } else if d2 != 0.0 {
         // A swing from far out forgets where it began as exp(-2 D2 c): beyond this all are one.
-        (60.0 / d2.abs() + 2.0 * r).ln()
+        ln(60.0 / d2.abs() + 2.0 * r)
     } else {
         // The piecewise linear cycle is near 2 r/(pi abs(D)).
-        (2.0 * r / d.abs()).ln() + 3.0
+        ln(2.0 * r / d.abs()) + 3.0
     }
 }
 

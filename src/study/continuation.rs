@@ -15,6 +15,7 @@ pub use point::{CurvePoint, Tangent, covers, passes};
 use super::closed_pair::Closing;
 use super::closing::{Equation, Route};
 use crate::flow::{Cost, Limits, Reason};
+use crate::numerics::elementary::{hypot, ln};
 use crate::oscillator::{Parameters, Side, State, Symbol};
 
 /// Tolerance of the integration steps, in units of that of the points.
@@ -324,7 +325,7 @@ impl<'a> Curve<'a> {
         /// In parts of the range, and of the unit of u or the depth.
         const LONGEST: f64 = 0.06;
         let friction = self.parameters_at(point.p).r;
-        let depth = if friction > 0.0 { (friction.ln() - point.u) / UNIT_OF_U } else { 0.0 };
+        let depth = if friction > 0.0 { (ln(friction) - point.u) / UNIT_OF_U } else { 0.0 };
         LONGEST * self.strides / tangent.p.abs().max(tangent.u.abs() / depth.max(1.0))
     }
 
@@ -332,7 +333,7 @@ impl<'a> Curve<'a> {
     fn tangent_at(&self, point: &CurvePoint, along: Tangent) -> Option<Tangent> {
         let slope_p = self.slope_in_p?.1 * self.scale;
         let slope_u = point.closing.node.slope * UNIT_OF_U;
-        let length = slope_u.hypot(slope_p);
+        let length = hypot(slope_u, slope_p);
         let tangent = Tangent { u: -slope_p / length, p: slope_u / length };
         let sign = tangent.dot(along).signum();
         let turned = Tangent { u: sign * tangent.u, p: sign * tangent.p };
@@ -348,7 +349,7 @@ impl<'a> Curve<'a> {
         let Some(closing) = self.closing(route, start.u, start.p)? else { return Ok(None) };
         let slope_p = self.renew_slope(route, start.u, start.p, closing.node.value())? * self.scale;
         let slope_u = closing.node.slope * UNIT_OF_U;
-        let length = slope_u.hypot(slope_p);
+        let length = hypot(slope_u, slope_p);
         let sign = (slope_u * direction).signum();
         let tangent = Tangent { u: -sign * slope_p / length, p: sign * slope_u / length };
         Ok(length.is_finite().then_some(tangent))
@@ -367,7 +368,7 @@ impl<'a> Curve<'a> {
         other: &CurvePoint,
     ) -> Result<Option<CurvePoint>, Reason> {
         let tangent = Tangent::between(one, other, self.scale);
-        let chord = ((other.u - one.u) / UNIT_OF_U).hypot((other.p - one.p) / self.scale);
+        let chord = hypot((other.u - one.u) / UNIT_OF_U, (other.p - one.p) / self.scale);
         self.slope_in_p = None;
         let tolerance = self.tolerance;
         self.tolerance = self.fineness().max(FOLD_TOLERANCE);

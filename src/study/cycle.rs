@@ -24,6 +24,7 @@ use super::polish::polish;
 use super::works::works as works_over;
 use crate::closed_form::harmonic::amplitudes;
 use crate::flow::{Limits, Reason};
+use crate::numerics::elementary::exp;
 use crate::oscillator::{Parameters, Side, State};
 
 /// Points drawn on each integration step of a curve.
@@ -154,7 +155,7 @@ impl Closing {
     pub fn describe(&self, parameters: &Parameters, side: Side) -> Cycle {
         let Parameters { d, d3, r, .. } = *parameters;
         let log_multiplier = self.log_multiplier(parameters);
-        let multiplier = log_multiplier.exp();
+        let multiplier = exp(log_multiplier);
         let spread = self.spread();
         let turning = [(self.first, spread.clearance[0]), (self.second, spread.clearance[1])];
         let fastest = [(self.fastest[0], spread.fastest[0]), (self.fastest[1], spread.fastest[1])];

@@ -10,6 +10,7 @@ use serde::Serialize;
 use super::basin::basin;
 use super::margin::Margin;
 use crate::flow::{Cost, Limits, Reason};
+use crate::numerics::elementary::{exp, ln};
 use crate::oscillator::Parameters;
 
 /// A kick out of rest.
@@ -92,7 +93,7 @@ pub fn friction_for(
     let mut excess = |r: f64| -> Result<f64, Reason> {
         let found = basin(&Parameters { r, ..*parameters }, wanted, limits)?;
         cost += found.cost;
-        Ok((kick.margin(&found.margin()) / wanted).ln())
+        Ok(ln(kick.margin(&found.margin()) / wanted))
     };
     let needed = least_friction(wanted, hardly_any(parameters, wanted), &mut excess)?;
     Ok(Design { needed, cost })
@@ -158,8 +159,8 @@ fn smallest(
         if high.0 - low.0 <= WIDTH * high.0 {
             break;
         }
-        let chord = (below / (below - above)) * (high.0 / low.0).ln();
-        let secant = low.0 * chord.exp();
+        let chord = (below / (below - above)) * ln(high.0 / low.0);
+        let secant = low.0 * exp(chord);
         let middle = 0.5 * (low.0 + high.0);
         let steep = !above.is_finite() || secant <= low.0 || secant >= high.0;
         let next = if steep { middle } else { secant };
@@ -185,7 +186,7 @@ fn smallest(
     Ok(if high.1.is_finite() {
         Needed::Friction { r: high.0 }
     } else {
-        Needed::Fold { r: high.0, below: wanted * low.1.exp() }
+        Needed::Fold { r: high.0, below: wanted * exp(low.1) }
     })
 }
 

@@ -19,6 +19,7 @@
 use super::balance::weighed_residual;
 use super::closing::{Equation, Route};
 use crate::flow::{Limits, Reason};
+use crate::numerics::elementary::ln;
 use crate::numerics::root::{Change, illinois};
 use crate::oscillator::Parameters;
 
@@ -88,7 +89,7 @@ pub fn excess_at_infinity(parameters: &Parameters, limits: &Limits) -> Result<f6
     const FAR: f64 = 40.0;
     /// Excess below which a difference of logarithms has lost digits.
     const NEAR: f64 = 1e-2;
-    let far = (FAR / parameters.d2.abs() + 2.0 * parameters.r).ln();
+    let far = ln(FAR / parameters.d2.abs() + 2.0 * parameters.r);
     let mut equation = Equation::new(parameters, f64::EPSILON);
     let plain = equation.at(Route::Mixed, far, limits)?.node.value();
     if plain.abs() >= NEAR {

@@ -13,6 +13,7 @@ use super::closed_pair::Closing;
 use super::closing::{Equation, Route, first_side};
 use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason};
+use crate::numerics::elementary::{cbrt, exp, ln, powi};
 use crate::oscillator::{Parameters, Side, State, Symbol};
 
 /// A fold: the cycle at which two meet.
@@ -97,8 +98,8 @@ impl Estimate {
         let clearance = symmetric + 2.0 / 3.0 * amplitude * bend * (1.0 + 0.6 * bend);
         let farthest = 14.0 / d2;
         let escape = (2.0 / std::f64::consts::PI).sqrt() * d2;
-        let d = -(escape.powi(3) - harmonic.d.powi(3)).cbrt();
-        Some(Estimate { d, u: (r * clearance.min(farthest)).ln(), bend })
+        let d = -cbrt(powi(escape, 3) - powi(harmonic.d, 3));
+        Some(Estimate { d, u: ln(r * clearance.min(farthest)), bend })
     }
 }
 
@@ -142,7 +143,7 @@ impl System<'_> {
     fn parameters_at(&self, z: f64) -> Parameters {
         let mut parameters = self.guess.parameters;
         let value = self.symbol.get(&parameters, &State { q: 0.0, v: 0.0 });
-        self.symbol.set(&mut parameters, &mut State { q: 0.0, v: 0.0 }, value * z.exp());
+        self.symbol.set(&mut parameters, &mut State { q: 0.0, v: 0.0 }, value * exp(z));
         parameters
     }
 

@@ -173,6 +173,7 @@ mod tests {
     use super::*;
     use crate::flow::trajectory::trajectory;
     use crate::flow::{Detail, Method, Problem};
+    use crate::numerics::elementary::powi;
 
     fn found(d2: f64, d3: f64, r: f64) -> FoldPoint {
         let parameters = Parameters { d: 0.0, d2, d3, r };
@@ -263,7 +264,7 @@ mod tests {
     fn weak_and_strong_friction_have_their_folds_too() {
         let mut last = 0.0;
         for exponent in -12..=0 {
-            let d = found(0.0, 10_f64.powi(exponent), 1.0).d;
+            let d = found(0.0, powi(10.0, exponent), 1.0).d;
             assert!(d < last, "kappa 1e{exponent}: {d} after {last}");
             last = d;
         }

@@ -8,6 +8,7 @@ use super::continuation::{Curve, CurvePoint, Tangent};
 use super::fold_point::FoldPoint;
 use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason};
+use crate::numerics::elementary::{exp, ln};
 use crate::oscillator::{Parameters, Side, Symbol};
 
 /// The cycle of the largest D.
@@ -79,7 +80,7 @@ fn start(parameters: &Parameters) -> Option<Start> {
     let near = shift < NEAR.0 * estimate.amplitude && estimate.d > -NEAR.1;
     let clearance =
         if near { estimate.amplitude + shift - parameters.r } else { CLOSE * parameters.r };
-    let u = clearance.max(CLOSE * parameters.r).ln();
+    let u = ln(clearance.max(CLOSE * parameters.r));
     Some(Start { u, d: estimate.d.max(-0.5), stride: if near { 0.2 } else { 0.5 } })
 }
 
@@ -132,7 +133,7 @@ impl Graph<'_> {
     /// A damping below that of the cycle at `u`: well beyond the harmonic one, and beyond critical.
     fn lowest_damping(&self, u: f64) -> f64 {
         let Parameters { d2, d3, r, .. } = self.parameters;
-        let harmonic = harmonic::damping_at(d3, r, u.exp() + r).unwrap_or(-1.0);
+        let harmonic = harmonic::damping_at(d3, r, exp(u) + r).unwrap_or(-1.0);
         -1.5 + 2.0 * harmonic - r * d2.abs()
     }
 

@@ -17,6 +17,7 @@ use crate::flow::auto::Auto;
 use crate::flow::step::{Point, Step, Stepper};
 use crate::flow::swing::{End, Failed, is_escaping, swing};
 use crate::flow::{Cost, Limits, Reason};
+use crate::numerics::elementary::{atan2, exp, hypot, ln, ln_1p, sin_cos};
 use crate::numerics::scaling::times_power;
 use crate::oscillator::HalfPlane;
 
@@ -46,13 +47,13 @@ impl Length {
     /// From a length.
     #[must_use]
     pub fn new(value: f64) -> Self {
-        Length { value, log: value.ln() }
+        Length { value, log: ln(value) }
     }
 
     /// From the logarithm of a length.
     #[must_use]
     pub fn from_log(log: f64) -> Self {
-        Length { value: log.exp(), log }
+        Length { value: exp(log), log }
     }
 
     /// Difference of the logarithms, which is the relative difference where that is small.
@@ -320,14 +321,14 @@ impl Spiral {
 
     /// Largest v of the spiral from `(-start, 0)` (equation 33, corrected).
     fn fastest(&self, start: Length) -> f64 {
-        (start.log - self.d * self.omega.atan2(self.d) / self.omega).exp()
+        exp(start.log - self.d * atan2(self.omega, self.d) / self.omega)
     }
 
     /// Follows the spiral from `(-start, 0)` while it is smaller than `bound`.
     fn grow(&self, start: Length, bound: f64) -> Growth {
         let half_turn = std::f64::consts::PI / self.omega;
         // The spiral scales as e^(-D t); beside this factor it is at most 1 + t in size.
-        let room = bound.ln() - start.log - half_turn.ln_1p();
+        let room = ln(bound) - start.log - ln_1p(half_turn);
         if room <= 0.0 {
             return Growth::Until(Leg { point: Point { x: -start.value, v: 0.0 }, duration: 0.0 });
         }
@@ -335,8 +336,8 @@ impl Spiral {
             return Growth::Whole(Length::from_log(start.log - self.d * half_turn), half_turn);
         }
         let time = room / -self.d;
-        let (sine, cosine) = (self.omega * time).sin_cos();
-        let size = (start.log + room).exp();
+        let (sine, cosine) = sin_cos(self.omega * time);
+        let size = exp(start.log + room);
         let velocity = sine / self.omega;
         let point = Point { x: -size * (cosine + self.d * velocity), v: size * velocity };
         Growth::Until(Leg { point, duration: time })
@@ -348,7 +349,7 @@ impl Spiral {
     fn arrive(&self, point: Point) -> (Length, f64) {
         let along = point.x + self.d * point.v;
         let across = self.omega * point.v;
-        let time = across.atan2(along) / self.omega;
-        (Length::from_log(along.hypot(across).ln() - self.d * time), time)
+        let time = atan2(across, along) / self.omega;
+        (Length::from_log(ln(hypot(along, across)) - self.d * time), time)
     }
 }

@@ -9,6 +9,7 @@ use super::cycle::{Cycle, cycles};
 use crate::closed_form::harmonic::{Harmonic, amplitudes};
 use crate::closed_form::harmonics::{HarmonicCycle, Lost, harmonic_cycle};
 use crate::flow::{Cost, Limits, Reason};
+use crate::numerics::elementary::ln;
 use crate::oscillator::{Parameters, State};
 
 /// How far a cycle of N harmonics is from the true one; relative, positive where it is too large.
@@ -119,7 +120,7 @@ pub fn ladder(most: usize) -> Vec<usize> {
 /// The error against the true cycle of the same stability whose amplitude is nearest.
 fn error(cycle: &HarmonicCycle, exact: &[Cycle]) -> Option<HarmonicError> {
     let amplitude = |exact: &Cycle| 0.5 * exact.q_max - 0.5 * exact.q_min;
-    let distance = |exact: &&Cycle| (cycle.amplitude() / amplitude(exact)).ln().abs();
+    let distance = |exact: &&Cycle| ln(cycle.amplitude() / amplitude(exact)).abs();
     let same = exact.iter().filter(|exact| exact.stable == cycle.stable);
     let nearest = same.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
     Some(HarmonicError {

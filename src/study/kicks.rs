@@ -10,6 +10,7 @@ use std::str::FromStr;
 
 use super::basin::{Basin, Fate};
 use super::stability::{Share, TOLERANCE, support};
+use crate::numerics::elementary::{cos, exp, sin};
 use crate::numerics::quadrature::integrate;
 
 /// How a random number is spread.
@@ -108,7 +109,7 @@ impl Law {
     pub(super) fn density(self, x: f64, spread: f64) -> f64 {
         let scaled = x / spread;
         match self {
-            Law::Normal => (-0.5 * scaled * scaled).exp() / (spread * (2.0 * PI).sqrt()),
+            Law::Normal => exp(-0.5 * scaled * scaled) / (spread * (2.0 * PI).sqrt()),
             Law::Uniform => f64::from(u8::from(scaled.abs() <= 1.0)) / (2.0 * spread),
         }
     }
@@ -152,8 +153,8 @@ impl Kicks {
         let beyond = law.above(right - mean, spread) + law.above(mean - left, spread);
         let (middle, half) = (0.5 * (left + right), 0.5 * (right - left));
         let lost = |angle: f64| {
-            let q = middle + half * angle.sin();
-            law.density(q - mean, spread) * lost_at(q) * half * angle.cos()
+            let q = middle + half * sin(angle);
+            law.density(q - mean, spread) * lost_at(q) * half * cos(angle)
         };
         let inside = integrate(&lost, (-FRAC_PI_2, FRAC_PI_2), TOLERANCE);
         Share { part: (beyond + inside.value).clamp(0.0, 1.0), error: inside.error }
@@ -178,10 +179,10 @@ fn erfc(x: f64) -> f64 {
             term *= 2.0 * square / (2.0 * index + 1.0);
             sum += term;
         }
-        return 1.0 - 2.0 / PI.sqrt() * (-square).exp() * sum;
+        return 1.0 - 2.0 / PI.sqrt() * exp(-square) * sum;
     }
     let fraction = (1..=DEPTH).rev().fold(x, |rest, index| x + 0.5 * f64::from(index) / rest);
-    (-square).exp() / (PI.sqrt() * fraction)
+    exp(-square) / (PI.sqrt() * fraction)
 }
 
 #[cfg(test)]

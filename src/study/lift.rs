@@ -102,6 +102,7 @@ mod tests {
     use super::super::cycle::cycles;
     use super::*;
     use crate::flow::Limits;
+    use crate::numerics::elementary::{exp_m1, ln};
 
     /// With r next to nothing the cycles are those of r = 1e-200, scaled.
     #[test]
@@ -114,9 +115,8 @@ mod tests {
                 // The linear cycle around the sticking set and, with D3 > 0, that of r = 0.
                 let expected = if d3 > 0.0 { 2 } else { 1 };
                 assert_eq!(found.cycles.len(), expected, "D = {d}, D3 = {d3}, r = {r}");
-                let clearance =
-                    2.0 / (std::f64::consts::PI * d.abs() / (1.0 - d * d).sqrt()).exp_m1();
-                let error = found.cycles[0].log_clearance - (r.ln() + clearance.ln());
+                let clearance = 2.0 / exp_m1(std::f64::consts::PI * d.abs() / (1.0 - d * d).sqrt());
+                let error = found.cycles[0].log_clearance - (ln(r) + ln(clearance));
                 assert!(error.abs() < 1e-9, "D = {d}, D3 = {d3}, r = {r}: {error:e}");
             }
         }

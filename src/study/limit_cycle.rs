@@ -5,6 +5,7 @@ use serde::Serialize;
 use crate::closed_form::harmonic::Harmonic;
 use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::Cost;
+use crate::numerics::elementary::exp_m1;
 use crate::oscillator::{Ledger, Parameters, State};
 
 /// A limit cycle.
@@ -181,7 +182,7 @@ impl Cycle {
         errors.log_multiplier += rounded(self.log_multiplier);
         errors.log_clearance += rounded(self.log_clearance.abs().max(1.0));
         let multiplier = match self.multiplier {
-            Some(multiplier) if multiplier.is_normal() => errors.log_multiplier.exp_m1(),
+            Some(multiplier) if multiplier.is_normal() => exp_m1(errors.log_multiplier),
             _ => errors.log_multiplier / self.log_multiplier.abs(),
         };
         self.error = largest.max(errors.log_clearance).max(multiplier);

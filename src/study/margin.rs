@@ -22,6 +22,7 @@ use super::basin::{Basin, Fate};
 use super::limit_cycle::Edge;
 pub use super::limit_cycle::Margin;
 use crate::closed_form::lyapunov;
+use crate::numerics::elementary::hypot;
 use crate::oscillator::{Parameters, State};
 
 impl Basin {
@@ -75,13 +76,13 @@ impl Basin {
         }
         let edge = self.borders.first()?;
         let curve = edge.curve(POINTS);
-        let far = |state: &State| state.q.hypot(state.v);
+        let far = |state: &State| hypot(state.q, state.v);
         let nearest = (0..curve.len())
             .min_by(|one, other| far(&curve[*one]).total_cmp(&far(&curve[*other])))?;
         let State { v, .. } = curve[nearest];
         let distance = |q: f64| {
             let span = edge.span_at(q);
-            span.map_or(f64::INFINITY, |(low, high)| q.hypot(if v < 0.0 { low } else { high }))
+            span.map_or(f64::INFINITY, |(low, high)| hypot(q, if v < 0.0 { low } else { high }))
         };
         let ends = [nearest.saturating_sub(1), (nearest + 1).min(curve.len() - 1)];
         let [one, other] = ends.map(|index| curve[index].q);

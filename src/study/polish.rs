@@ -11,6 +11,7 @@ use super::half_map::Length;
 use super::precise_closing::{FINER, PreciseEquation};
 use super::search::{Bracket, Node};
 use crate::flow::{Limits, Reason};
+use crate::numerics::elementary::exp_m1;
 use crate::numerics::root;
 use crate::numerics::twofold::Twofold;
 
@@ -241,7 +242,7 @@ fn sharpen(
     let mut ends = root::Bracket { low, high, rising };
     let (mut s, mut before, mut found) = (0.0_f64, None::<(f64, f64)>, None);
     for _ in 0..STEPS {
-        let here = start.plus(start.times(s.exp_m1()));
+        let here = start.plus(start.times(exp_m1(s)));
         let residual = match precise.at(route, here, limits) {
             Err(Reason::Interrupted) => return Err(Reason::Interrupted),
             Ok(Some(residual)) => residual,

@@ -9,6 +9,7 @@ use super::closing::Route;
 use crate::flow::precise::{Grain, half_swing};
 use crate::flow::trajectory::Cost;
 use crate::flow::{Limits, Reason};
+use crate::numerics::elementary::ln_1p;
 use crate::numerics::twofold::Twofold;
 use crate::oscillator::{HalfPlane, Parameters, Side};
 
@@ -114,7 +115,7 @@ impl PreciseEquation {
                 (second, [time, other], end.minus(start), start)
             }
         };
-        let value = difference.over(unit).value().ln_1p();
+        let value = ln_1p(difference.over(unit).value());
         let duration = times[0].plus(times[1]).value();
         let residual = Residual { value, second: second.value(), duration };
         let sound = value.is_finite() && residual.second > 0.0;

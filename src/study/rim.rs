@@ -3,6 +3,7 @@
 use super::closing::Equation;
 use super::half_map::{Length, NoEnd};
 use crate::flow::{Limits, Reason};
+use crate::numerics::elementary::{ln, log10, pow};
 use crate::oscillator::{Parameters, Side};
 
 /// How motions from the end of the sticking set come back.
@@ -29,7 +30,7 @@ impl Equation {
         let mut bound = f64::NEG_INFINITY;
         for map in &mut self.forward {
             match map.swing(rim, limits) {
-                Ok(swing) => bound = (swing.end.value - 2.0 * r).ln(),
+                Ok(swing) => bound = ln(swing.end.value - 2.0 * r),
                 Err(NoEnd::Escapes) => return Ok(None),
                 Err(NoEnd::Never) => bound = f64::NEG_INFINITY,
                 Err(NoEnd::Failed(reason)) => return Err(reason),
@@ -58,7 +59,7 @@ impl Equation {
                     Err(NoEnd::Escapes) => f64::INFINITY,
                     Err(NoEnd::Failed(reason)) => return Err(reason),
                 };
-                excess = excess.min((end / gap).ln());
+                excess = excess.min(ln(end / gap));
                 if map == index {
                     turning = end - gap;
                 }
@@ -88,7 +89,7 @@ impl Equation {
         let natural = (1.0 / d2.abs()).min(1.0 / d3.abs().sqrt());
         let root = (d * d - 1.0).max(0.0).sqrt();
         let unlike = 2.0 * root / (root - d);
-        let exponent = (LEFT.log10() / unlike).max(FAR);
-        Length::new(10_f64.powf(exponent) * natural.min(r))
+        let exponent = (log10(LEFT) / unlike).max(FAR);
+        Length::new(pow(10.0, exponent) * natural.min(r))
     }
 }

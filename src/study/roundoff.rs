@@ -10,6 +10,7 @@
 //! Assumption: errors are small beside what they are errors of, and a step rounds by [`UNIT`] at most.
 
 use crate::flow::step::{Field, Point, Step};
+use crate::numerics::elementary::{exp, ln};
 use crate::numerics::scaling::{exponent, times_power};
 use crate::oscillator::HalfPlane;
 
@@ -73,7 +74,7 @@ impl Roundoff {
         let from = Point { x: scaled(from.x), v: scaled(from.v) };
         // The linear field spans `c^2 exp(-2 D t)`.
         let log_size = f64::from(unit) * std::f64::consts::LN_2;
-        let area = (2.0 * (log_start - field.d * skipped - log_size)).exp();
+        let area = exp(2.0 * (log_start - field.d * skipped - log_size));
         let duration = Errors { duration: skipped, ..Errors::default() };
         let errors = [Errors::default().plus(duration, rounding), duration];
         Roundoff { field, tolerance: rounding, unit, from, area: [rounding * area, area], errors }
@@ -101,8 +102,7 @@ impl Roundoff {
         let field = self.field.in_units(unit);
         let (from, to, time) = (self.from, step.end, step.duration);
         let growth =
-            (-2.0 * field.d * time - 2.0 * field.d2 * (to.x - from.x) - 3.0 * field.d3 * square)
-                .exp();
+            exp(-2.0 * field.d * time - 2.0 * field.d2 * (to.x - from.x) - 3.0 * field.d3 * square);
         let [one, other] = [from, to].map(|at| field.acceleration(at.x, at.v).abs());
         let speed = from.v.max(to.v).max(fastest.unwrap_or(0.0));
         let place = from.x.abs().max(to.x.abs());
@@ -139,7 +139,7 @@ impl Roundoff {
         let log_size = f64::from(self.unit) * std::f64::consts::LN_2;
         let log_growth = 2.0 * (log_size - field.d * rest - log_end);
         for (errors, area) in self.errors.iter_mut().zip(self.area) {
-            errors.end = (area.ln() + log_growth).exp();
+            errors.end = exp(ln(area) + log_growth);
         }
         self.errors[0].end += self.tolerance;
         self.errors

@@ -12,6 +12,7 @@ use super::kicks::Kicks;
 use super::measure::{Conditions, Measure, Need, Value, measure, needs_of};
 use crate::flow::method::Dial;
 use crate::flow::{Cost, Limits, Problem, Reason};
+use crate::numerics::elementary::{log10, pow};
 use crate::oscillator::{Interval, ParameterBox, Parameters, State, Symbol};
 
 /// How the values of a [`Sweep`] are spaced.
@@ -98,8 +99,8 @@ impl Sweep {
                 if (short - value).abs() <= rounding { short } else { value }
             }
             Spacing::Logarithmic => {
-                let exponent = mean(self.from.abs().log10(), self.to.abs().log10());
-                10_f64.powf(exponent).copysign(self.from)
+                let exponent = mean(log10(self.from.abs()), log10(self.to.abs()));
+                pow(10.0, exponent).copysign(self.from)
             }
         }
     }

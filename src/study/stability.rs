@@ -6,6 +6,7 @@
 
 use super::basin::{Basin, Fate, Window};
 use super::border::Border;
+use crate::numerics::elementary::{cos, sin};
 use crate::numerics::quadrature::{Integral, integrate};
 use crate::numerics::root::{TO_ROUNDING, bisect};
 
@@ -44,9 +45,9 @@ impl Basin {
         let (width, height) = (window.q.1 - window.q.0, window.v.1 - window.v.0);
         let (middle, half) = (0.5 * (left + right), 0.5 * (right - left));
         let density = |angle: f64| {
-            let (low, high) = edge.span_at(middle + half * angle.sin()).unwrap_or((0.0, 0.0));
+            let (low, high) = edge.span_at(middle + half * sin(angle)).unwrap_or((0.0, 0.0));
             let inside = (high.min(window.v.1) - low.max(window.v.0)).max(0.0);
-            inside / height * half / width * angle.cos()
+            inside / height * half / width * cos(angle)
         };
         let quarter = std::f64::consts::FRAC_PI_2;
         Share::of(integrate(&density, (-quarter, quarter), TOLERANCE))

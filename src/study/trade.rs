@@ -7,6 +7,7 @@ use super::accuracy::{Deviation, NoComparison, Reference};
 use crate::flow::method::Dial;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Detail, Limits, METHODS, Method, Outcome, Problem, Reason, Trajectory};
+use crate::numerics::elementary::{ln, log10};
 
 /// Tolerances, one for each digit.
 const TOLERANCES: [f64; 14] =
@@ -107,7 +108,7 @@ impl Row {
     pub fn place(&self) -> Option<(f64, f64)> {
         #[expect(clippy::cast_precision_loss, reason = "counts far below 2^53")]
         let evaluations = self.cost.evaluations as f64;
-        let place = (evaluations.log10(), self.error()?.log10());
+        let place = (log10(evaluations), log10(self.error()?));
         (place.0.is_finite() && place.1.is_finite()).then_some(place)
     }
 
@@ -156,7 +157,7 @@ impl Trade {
     /// The row of a problem's method whose accuracy is nearest to the problem's.
     #[must_use]
     pub fn nearest_to(&self, problem: &Problem) -> Option<&Row> {
-        let far = |row: &&Row| (row.problem.setting() / problem.setting()).ln().abs();
+        let far = |row: &&Row| ln(row.problem.setting() / problem.setting()).abs();
         let rows = self.rows.iter().filter(|row| row.problem.method == problem.method);
         rows.filter(|row| row.error().is_some())
             .min_by(|one, other| far(one).total_cmp(&far(other)))

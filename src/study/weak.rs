@@ -17,6 +17,7 @@ use std::f64::consts::{PI, TAU};
 use super::closed_pair::Closing;
 use super::half_map::Length;
 use crate::closed_form::harmonic::amplitudes;
+use crate::numerics::elementary::cbrt;
 use crate::oscillator::Parameters;
 
 /// Largest e: its square is far below rounding.
@@ -61,8 +62,7 @@ pub fn is_one_way(parameters: &Parameters) -> bool {
     let loses = d >= 0.0 && d3 >= 0.0;
     let gains = r == 0.0 && d <= 0.0 && d3 <= 0.0;
     // The smallest value, at `w = 3 r/(4 abs(D))`, is positive for `-D^3 < (27/32) r^2 D3`.
-    let loses_yet =
-        d3 > 0.0 && -d < CLEARLY * (27.0_f64 / 32.0).cbrt() * r.cbrt() * r.cbrt() * d3.cbrt();
+    let loses_yet = d3 > 0.0 && -d < CLEARLY * cbrt(27.0_f64 / 32.0) * cbrt(r) * cbrt(r) * cbrt(d3);
     loses || gains || loses_yet
 }
 
@@ -70,6 +70,7 @@ pub fn is_one_way(parameters: &Parameters) -> bool {
 mod tests {
     use super::*;
     use crate::flow::Limits;
+    use crate::numerics::elementary::cbrt;
     use crate::study::closing::Equation;
     use crate::study::closings::{STEP, closings};
 
@@ -113,7 +114,7 @@ mod tests {
     #[test]
     fn energy_changes_one_way_up_to_the_smallest_root_of_the_damping() {
         // Just beyond the bound, which holds for any D2, and just within.
-        let edge = -(27.0_f64 / 32.0 * 0.01 * 0.5).cbrt();
+        let edge = -cbrt(27.0_f64 / 32.0 * 0.01 * 0.5);
         for (d, one_way) in [(edge * (1.0 - 1e-9), true), (edge * (1.0 + 1e-9), false)] {
             assert_eq!(is_one_way(&Parameters { d, d2: 3.0, d3: 0.5, r: 0.1 }), one_way);
         }

@@ -8,6 +8,7 @@ use ratatui::text::{Line, Span};
 use super::look::Look;
 use super::pane;
 use super::plot::Plot;
+use crate::numerics::elementary::{ln, pow};
 use crate::picture::role::Role;
 use crate::picture::scan::measured;
 use crate::scene::Point;
@@ -54,7 +55,7 @@ impl Ramp {
 
     fn shade(&self, value: f64) -> char {
         let part = if self.logarithmic {
-            (value / self.low).ln() / (self.high / self.low).ln()
+            ln(value / self.low) / ln(self.high / self.low)
         } else {
             (value - self.low) / (self.high - self.low)
         };
@@ -74,7 +75,7 @@ impl Ramp {
     fn begin(&self, step: usize) -> f64 {
         let part = step as f64 / self.shades.len() as f64;
         if self.logarithmic {
-            self.low * (self.high / self.low).powf(part)
+            self.low * pow(self.high / self.low, part)
         } else {
             self.low + (self.high - self.low) * part
         }

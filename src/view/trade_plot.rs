@@ -8,6 +8,7 @@ use super::pane::Heading;
 use super::plot::{Names, Plot};
 use super::screen;
 use crate::flow::Method;
+use crate::numerics::elementary::log10;
 use crate::picture::role::Role;
 use crate::scene::{Point, Span, Window};
 use crate::session::settings::{self, Colors, Glyphs};
@@ -29,7 +30,7 @@ pub fn in_letters(trade: &Trade, seconds: &[f64]) -> String {
         .filter(|(_, error, seconds, _)| *error > 0.0 && *seconds > 0.0)
         .map(|(method, error, seconds, front)| {
             let letter = letter(*method);
-            let point = Point { x: (1e3 * seconds).log10(), y: error.log10() };
+            let point = Point { x: log10(1e3 * seconds), y: log10(*error) };
             (point, if *front { letter.to_ascii_uppercase() } else { letter })
         })
         .collect();

@@ -1,6 +1,8 @@
 //! Numbers as people read them: a few significant digits, or exactly, and never wider than the place
 //! they stand in.
 
+use crate::numerics::elementary::log10;
+
 /// Writes `value` with at most `digits` significant digits, without trailing zeros.
 ///
 /// Magnitudes from `1e-4` up to `1e6` are written plainly, others with an exponent.
@@ -29,7 +31,7 @@ pub fn significant(value: f64, digits: usize) -> String {
 /// Writes `value` with the digits that matter where numbers `resolution` apart are told apart.
 #[must_use]
 pub fn resolved(value: f64, resolution: f64) -> String {
-    let ratio = (value.abs() / resolution).log10();
+    let ratio = log10(value.abs() / resolution);
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

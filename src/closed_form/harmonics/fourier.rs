@@ -7,6 +7,8 @@
 
 use nalgebra::Complex;
 
+use crate::numerics::elementary::{powi, sin_cos};
+
 /// A real trigonometric polynomial.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Fourier {
@@ -109,7 +111,7 @@ impl Fourier {
     /// Rounding of the value: at most about `f64::EPSILON * (abs(mean) + bound(1))`.
     #[must_use]
     pub fn derivatives<const ORDER: usize>(&self, angle: f64) -> [f64; ORDER] {
-        let (sin, cos) = angle.sin_cos();
+        let (sin, cos) = sin_cos(angle);
         let unit = Complex::new(cos, sin);
         // A term and its conjugate together are twice its real part.
         let mut power = Complex::new(2.0, 0.0);
@@ -133,7 +135,7 @@ impl Fourier {
     pub fn bound(&self, derivative: usize) -> f64 {
         let terms = self.coefficients.iter().enumerate().skip(1);
         let power = i32::try_from(derivative).unwrap_or(i32::MAX);
-        terms.map(|(k, c)| 2.0 * factor(k).powi(power) * c.norm()).sum()
+        terms.map(|(k, c)| 2.0 * powi(factor(k), power) * c.norm()).sum()
     }
 }
 
@@ -142,6 +144,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::numerics::elementary::{cos, sin};
 
     fn series() -> impl Strategy<Value = Fourier> {
         let coefficient = (-1.0..1.0, -1.0..1.0).prop_map(|(re, im)| Complex::new(re, im));
@@ -160,9 +163,9 @@ mod tests {
         assert_eq!((f.cosine(2), f.sine(2), f.sine(3)), (0.0, 3.0, 0.0));
         let t: f64 = 0.7;
         let jet = f.at(t);
-        assert!((jet.value - (0.5 + 2.0 * t.cos() + 3.0 * (2.0 * t).sin())).abs() < 1e-15);
-        assert!((jet.slope - (-2.0 * t.sin() + 6.0 * (2.0 * t).cos())).abs() < 1e-14);
-        assert!((jet.curvature - (-2.0 * t.cos() - 12.0 * (2.0 * t).sin())).abs() < 1e-14);
+        assert!((jet.value - (0.5 + 2.0 * cos(t) + 3.0 * sin(2.0 * t))).abs() < 1e-15);
+        assert!((jet.slope - (-2.0 * sin(t) + 6.0 * cos(2.0 * t))).abs() < 1e-14);
+        assert!((jet.curvature - (-2.0 * cos(t) - 12.0 * sin(2.0 * t))).abs() < 1e-14);
     }
 
     proptest! {

@@ -19,6 +19,7 @@ use nalgebra::{Complex, DMatrix, DVector};
 
 use super::fourier::{Fourier, factor};
 use super::sign_changes::{SignChange, sign_changes};
+use crate::numerics::elementary::sin_cos;
 use crate::oscillator::Parameters;
 
 /// An approximate cycle: its frequency and its displacement over one turn of the angle.
@@ -143,7 +144,7 @@ struct Crossing {
 impl Crossing {
     fn new(change: SignChange, count: usize) -> Self {
         let wave = |k| {
-            let (sin, cos) = (factor(k) * change.angle).sin_cos();
+            let (sin, cos) = sin_cos(factor(k) * change.angle);
             Complex::new(cos, sin)
         };
         Crossing { change, waves: (0..=count).map(wave).collect() }
@@ -317,6 +318,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::numerics::elementary::{cos, powi, sin};
 
     /// A skewed curve of five harmonics on which p changes its sign twice.
     fn ansatz() -> Ansatz {
@@ -369,8 +371,8 @@ mod tests {
         for (got, entry) in got.iter().zip(basis.entries()) {
             let expected = match entry {
                 Entry::Mean => weighted(&|_| 1.0) / TAU,
-                Entry::Cosine(k) => weighted(&|t| (factor(k) * t).cos()) / PI,
-                Entry::Sine(k) => weighted(&|t| (factor(k) * t).sin()) / PI,
+                Entry::Cosine(k) => weighted(&|t| cos(factor(k) * t)) / PI,
+                Entry::Sine(k) => weighted(&|t| sin(factor(k) * t)) / PI,
             };
             assert!((got - expected).abs() < 1e-12, "{entry:?}: {got} for {expected}");
         }
@@ -403,7 +405,7 @@ mod tests {
         let got = values(&GENERAL, Basis { count: 1, odd: false }, &Ansatz { frequency: eta, q });
         let Parameters { d, d2, d3, r } = GENERAL;
         let speed = eta * amplitude;
-        let stationary = 4.0 * r / PI + 2.0 * d * speed + 0.75 * d3 * speed.powi(3);
+        let stationary = 4.0 * r / PI + 2.0 * d * speed + 0.75 * d3 * powi(speed, 3);
         let expected =
             [mean + 0.5 * d2 * speed * speed, (1.0 - eta * eta) * amplitude, -stationary];
         for (got, expected) in got.iter().zip(expected) {

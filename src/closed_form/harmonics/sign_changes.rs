@@ -141,15 +141,16 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::numerics::elementary::{cos, sin_cos};
 
     /// `sin(t - root)`-like factors: a product over pairs that vanishes exactly at these angles.
     fn with_roots(roots: &[(f64, f64)]) -> Fourier {
         let one = Fourier { coefficients: vec![Complex::from(1.0)] };
         roots.iter().fold(one, |product, (a, b)| {
             // sin((t - a)/2) sin((t - b)/2) = (cos((a - b)/2) - cos(t - (a + b)/2))/2.
-            let (sin, cos) = (0.5 * (a + b)).sin_cos();
-            let mean = Complex::from(0.5 * (0.5 * (a - b)).cos());
-            let pair = Fourier { coefficients: vec![mean, Complex::new(cos, -sin) * -0.25] };
+            let (sine, cosine) = sin_cos(0.5 * (a + b));
+            let mean = Complex::from(0.5 * cos(0.5 * (a - b)));
+            let pair = Fourier { coefficients: vec![mean, Complex::new(cosine, -sine) * -0.25] };
             product.product(&pair, product.degree() + 1)
         })
     }

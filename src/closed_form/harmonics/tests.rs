@@ -7,6 +7,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::closed_form::harmonic::{amplitudes, fold};
 use crate::closed_form::piecewise_linear::LinearCycle;
+use crate::numerics::elementary::{log2, powi};
 
 fn oscillator(d: f64, d2: f64, d3: f64, r: f64) -> Parameters {
     Parameters { d, d2, d3, r }
@@ -47,7 +48,7 @@ fn friction_makes_the_amplitude_converge_as_the_square_and_the_frequency_as_the_
     for d in [-0.1, -0.4, -0.7] {
         let ((amplitude, frequency), (amplitude_of_more, frequency_of_more)) =
             (errors(d, 63), errors(d, 127));
-        let gain = |few: f64, more: f64| (few / more).log2();
+        let gain = |few: f64, more: f64| log2(few / more);
         let orders = (gain(amplitude, amplitude_of_more), gain(frequency, frequency_of_more));
         assert!((1.8..2.2).contains(&orders.0), "amplitude, D = {d}: {}", orders.0);
         assert!((0.9..1.1).contains(&orders.1), "frequency, D = {d}: {}", orders.1);
@@ -210,7 +211,7 @@ proptest! {
     fn powers_of_two_scale_bit_for_bit(
         d in -0.9..0.3, d2 in -1.0..1.0, d3 in -1.0..1.0, r in 1e-3..0.5, k in -40..40,
     ) {
-        let unit = 2.0_f64.powi(k);
+        let unit = powi(2.0, k);
         let (one, other) = (
             all(&oscillator(d, d2, d3, r), 7),
             all(&oscillator(d, d2 / unit, d3 / (unit * unit), r * unit), 7),

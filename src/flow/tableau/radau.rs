@@ -155,6 +155,7 @@ mod tests {
     use nalgebra::{DMatrix, DVector};
 
     use super::*;
+    use crate::numerics::elementary::powi;
 
     fn collocates(scheme: &Collocation) {
         let nodes = scheme.nodes;
@@ -163,8 +164,9 @@ mod tests {
         assert!(error.abs() < 1e-15, "{stages} stages: {error:e}");
         for (node, row) in nodes.iter().zip(scheme.integrals) {
             for degree in 0..i32::try_from(stages).unwrap() {
-                let sum: f64 = nodes.iter().zip(*row).map(|(node, a)| a * node.powi(degree)).sum();
-                let integral = node.powi(degree + 1) / f64::from(degree + 1);
+                let sum: f64 =
+                    nodes.iter().zip(*row).map(|(node, a)| a * powi(*node, degree)).sum();
+                let integral = powi(*node, degree + 1) / f64::from(degree + 1);
                 assert!((sum - integral).abs() < 1e-15, "{stages} stages, degree {degree}");
             }
         }
@@ -173,7 +175,7 @@ mod tests {
     fn order(scheme: &Collocation) -> i32 {
         let integral = |degree: i32| -> f64 {
             let row = scheme.integrals[scheme.nodes.len() - 1];
-            scheme.nodes.iter().zip(row).map(|(node, weight)| weight * node.powi(degree)).sum()
+            scheme.nodes.iter().zip(row).map(|(node, weight)| weight * powi(*node, degree)).sum()
         };
         let wrong = |degree: &i32| (integral(*degree) * f64::from(degree + 1) - 1.0).abs() > 1e-12;
         (0..20).find(wrong).unwrap()
@@ -186,7 +188,7 @@ mod tests {
         let integrals = DMatrix::from_fn(stages, stages, |i, k| scheme.integrals[i][k]);
         let drive = DVector::from_fn(stages, |i, _| {
             let node = scheme.nodes[i];
-            damping * node.powi(degree) + f64::from(degree) * node.powi(degree - 1)
+            damping * powi(node, degree) + f64::from(degree) * powi(node, degree - 1)
         });
         let system = DMatrix::identity(stages, stages) + damping * &integrals;
         let slopes = system.lu().solve(&drive).unwrap();

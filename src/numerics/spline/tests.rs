@@ -1,15 +1,16 @@
 //! Smoothing against exact curves.
 
 use super::*;
+use crate::numerics::elementary::{exp, pow};
 
 fn sampled(mu: impl Fn(f64) -> f64, count: u32) -> Vec<(f64, f64)> {
     // Unevenly spaced, closer near 0, as measurements are.
-    let at = |index: u32| (f64::from(index) / f64::from(count - 1)).powf(1.3);
+    let at = |index: u32| pow(f64::from(index) / f64::from(count - 1), 1.3);
     (0..count).map(|index| (at(index), mu(at(index)))).collect()
 }
 
 fn stribeck(v: f64) -> f64 {
-    0.2 + 0.3 * (-v / 0.3).exp()
+    0.2 + 0.3 * exp(-v / 0.3)
 }
 
 #[test]

@@ -6,6 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::numerics::elementary::{exp, pow, powi};
 pub use crate::numerics::polynomial::Derivatives;
 use crate::numerics::polynomial::derivatives;
 use crate::numerics::spline::SmoothingSpline;
@@ -61,8 +62,8 @@ impl FrictionLaw {
                 Derivatives {
                     value: kinetic + drop * fall.value + viscous * v,
                     first: drop * fall.first / velocity + viscous,
-                    second: drop * fall.second / velocity.powi(2),
-                    third: drop * fall.third / velocity.powi(3),
+                    second: drop * fall.second / powi(*velocity, 2),
+                    third: drop * fall.third / powi(*velocity, 3),
                 }
             }
             FrictionLaw::Table(spline) => spline.at(v),
@@ -100,7 +101,7 @@ impl FrictionLaw {
 fn stretched_exponential(u: f64, exponent: f64) -> Derivatives {
     // Derivatives of the power; a factor of 0 wins over an infinite power (whole exponents at u = 0).
     let power = |factor: f64, order: f64| {
-        if factor == 0.0 { 0.0 } else { factor * u.powf(exponent - order) }
+        if factor == 0.0 { 0.0 } else { factor * pow(u, exponent - order) }
     };
     let n = exponent;
     let p = Derivatives {
@@ -109,7 +110,7 @@ fn stretched_exponential(u: f64, exponent: f64) -> Derivatives {
         second: power(n * (n - 1.0), 2.0),
         third: power(n * (n - 1.0) * (n - 2.0), 3.0),
     };
-    let value = (-p.value).exp();
+    let value = exp(-p.value);
     Derivatives {
         value,
         first: -p.first * value,
@@ -123,6 +124,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::numerics::elementary::powi;
     use crate::oscillator::belt::tests::differences;
 
     fn laws() -> [FrictionLaw; 5] {
@@ -164,7 +166,7 @@ mod tests {
     fn whole_exponents_have_derivatives_at_rest() {
         let [.., exponential, gaussian, fractional] = laws();
         let at_rest = exponential.at(0.0).unwrap();
-        assert!((at_rest.third + 0.3 / 0.3_f64.powi(3)).abs() < 1e-12);
+        assert!((at_rest.third + 0.3 / powi(0.3, 3)).abs() < 1e-12);
         assert_eq!(gaussian.at(0.0).unwrap().first, 0.05);
         assert!(!fractional.at(0.0).unwrap().is_finite() && fractional.mu(0.0) == Some(0.5));
         assert_eq!(exponential.at(-1e-9), None, "no law for a belt that runs backward");

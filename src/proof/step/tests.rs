@@ -3,6 +3,7 @@
 use std::ops::{Add, Mul, Neg, Sub};
 
 use super::*;
+use crate::numerics::elementary::sin_cos;
 use crate::numerics::twofold::Twofold;
 use crate::proof::series::{LENGTH, Scalar};
 
@@ -255,7 +256,7 @@ fn growth_bounds_every_direction_and_every_slope() {
                     let (v, w) = (at(i), at(j));
                     let m = a + b * (v + w) + c * (v * v + v * w + w * w);
                     for k in 0..90 {
-                        let (y, x) = (f64::from(k) * std::f64::consts::PI / 90.0).sin_cos();
+                        let (y, x) = sin_cos(f64::from(k) * std::f64::consts::PI / 90.0);
                         let size = x * x + skew * x * y + y * y;
                         let change =
                             2.0 * x * y + skew * y * y + (skew * x + 2.0 * y) * (-x - m * y);

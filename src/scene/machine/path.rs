@@ -3,6 +3,7 @@
 //! Everything here is a formula of the friction law: a path costs some evaluations of it and no motion.
 
 use super::running::Running;
+use crate::numerics::elementary::{exp, ln, log10};
 use crate::oscillator::Parameters;
 
 /// The path covers speeds from this part of the machine's own speed to its reciprocal, as far as the
@@ -23,8 +24,8 @@ impl Running<'_> {
     #[must_use]
     pub fn path(&self) -> Vec<Station> {
         let (slow, fast) = self.speeds();
-        let ratio = (fast / slow).ln();
-        let speed = |point: u32| slow * (f64::from(point) / f64::from(POINTS) * ratio).exp();
+        let ratio = ln(fast / slow);
+        let speed = |point: u32| slow * exp(f64::from(point) / f64::from(POINTS) * ratio);
         let inner = (1..POINTS).map(speed);
         std::iter::once(slow).chain(inner).chain([fast]).map(|speed| self.station(speed)).collect()
     }
@@ -34,7 +35,7 @@ impl Running<'_> {
     pub fn milestones(&self) -> Vec<Station> {
         let (slow, fast) = self.speeds();
         #[expect(clippy::cast_possible_truncation, reason = "exponents of speeds have two digits")]
-        let exponents = slow.log10().floor() as i32..=fast.log10().ceil() as i32;
+        let exponents = log10(slow).floor() as i32..=log10(fast).ceil() as i32;
         let of = |digits: &'static [u32]| {
             let decade = move |exponent: i32| {
                 // As it is typed, to the last bit.
@@ -62,6 +63,7 @@ impl Running<'_> {
 
 #[cfg(test)]
 mod tests {
+    use crate::numerics::elementary::ln;
     use crate::scene::Rig;
     use crate::scene::machine::library::machines;
 
@@ -73,9 +75,9 @@ mod tests {
             assert!(path.windows(2).all(|pair| pair[0].0 < pair[1].0), "{}", machine.name);
             let (low, high) = machine.belt.law.range();
             assert!(path.iter().all(|(speed, _)| (low..=high).contains(speed)), "{}", machine.name);
-            let near = path.iter().min_by(|one, other| {
-                (one.0 / own).ln().abs().total_cmp(&(other.0 / own).ln().abs())
-            });
+            let near = path
+                .iter()
+                .min_by(|one, other| ln(one.0 / own).abs().total_cmp(&ln(other.0 / own).abs()));
             let (speed, parameters) = near.unwrap();
             let (d, exact) = (parameters.unwrap().d, rig.reduced.parameters.d);
             assert!((speed / own - 1.0).abs() < 0.01 && (d - exact).abs() < 0.01);

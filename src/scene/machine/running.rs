@@ -6,6 +6,7 @@
 
 use super::Machine;
 use crate::flow::Problem;
+use crate::numerics::elementary::powi;
 use crate::oscillator::belt::{Quantity, Reduced};
 use crate::oscillator::{Parameters, State, Symbol};
 
@@ -78,7 +79,7 @@ impl<'a> Running<'a> {
             }
             Symbol::D2 => return None,
             Symbol::D3 => {
-                let whole = value * belt.mass / (units.omega_0 * units.displacement.powi(2));
+                let whole = value * belt.mass / (units.omega_0 * powi(units.displacement, 2));
                 ("d3", rest_of(whole, belt.normal_force * mu.third / 6.0), "N s^3/m^3")
             }
             Symbol::R => ("R", value * units.force, "N"),

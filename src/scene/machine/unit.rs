@@ -4,6 +4,7 @@
 //! prefixes, with `^`, parentheses, and blanks or `*` or `·` for products. `N/m s`, which people read in
 //! two ways, is refused. A number without a unit is in SI units.
 
+use crate::numerics::elementary::powi;
 use crate::oscillator::belt::Dimension;
 
 /// A number with its dimension, in SI units.
@@ -200,7 +201,7 @@ impl Reader<'_> {
             }
             let (value, dimension) = self.factor()?;
             let power = if dividing { -1 } else { 1 };
-            unit.0 *= value.powi(i32::from(power));
+            unit.0 *= powi(value, i32::from(power));
             unit.1 = unit.1.times(dimension, power).ok_or_else(|| self.wrong())?;
         }
         Ok(unit)
@@ -222,7 +223,7 @@ impl Reader<'_> {
         };
         let power = self.power()?;
         let dimension = Dimension::ONE.times(dimension, power).ok_or_else(|| self.wrong())?;
-        Ok((value.powi(i32::from(power)), dimension))
+        Ok((powi(value, i32::from(power)), dimension))
     }
 
     fn name(&mut self) -> Result<(f64, Dimension), String> {

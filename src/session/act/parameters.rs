@@ -1,6 +1,7 @@
 //! Commands of the parameter pane: select, step, reset.
 
 use crate::flow::{METHODS, Problem, QUALITIES};
+use crate::numerics::elementary::log10;
 use crate::scene::Running;
 use crate::session::act::notice::{inform, refuse};
 use crate::session::effect::Effect;
@@ -149,7 +150,7 @@ fn end_of_dial(finer: bool) -> &'static str {
 fn turn(session: &mut Session, decades: i32) -> Vec<Effect> {
     let dial = session.problem.method.spec().dial;
     let (min, max) = dial.range();
-    let exponent = session.problem.setting().log10().round() + f64::from(decades);
+    let exponent = log10(session.problem.setting()).round() + f64::from(decades);
     // A power of ten to the last bit, which powi does not promise.
     let setting = format!("1e{exponent}").parse().unwrap_or(max).clamp(min, max);
     let turned = session.problem.with_setting(setting);

@@ -1,5 +1,6 @@
 //! Walking along the branch: a point is held, moved along, and taken into the phase plane.
 
+use crate::numerics::elementary::hypot;
 use crate::oscillator::State;
 use crate::scene::{Axes, Layer, Slot};
 use crate::session::act::notice::{inform, refuse, told};
@@ -42,7 +43,7 @@ fn first(session: &Session) -> Result<Stop, &'static str> {
             let of = session.height(index, stop.variant);
             let height = stop.cycle.map_or(window.y.to(), |cycle| of.of(stop.value, &cycle));
             let across = window.x.fraction(stop.value) - window.x.fraction(cursor.x);
-            across.hypot(window.y.fraction(height) - window.y.fraction(cursor.y))
+            hypot(across, window.y.fraction(height) - window.y.fraction(cursor.y))
         })
     } else {
         // The branch of the present motion, where the plot shows that too.

@@ -6,6 +6,7 @@
 
 use crate::flow::{Outcome, Sample, Trajectory};
 use crate::machine;
+use crate::numerics::elementary::hypot;
 use crate::scene::said::{self, Condition};
 use crate::scene::whole::Course;
 use crate::session::state::session::Session;
@@ -155,7 +156,7 @@ fn of_course(course: &Course, motion: &Trajectory) -> Option<Fate> {
         machine::Fate::Rest => End::Rests,
         machine::Fate::Cycle(index) => {
             let cycle = course.cycles.get(index)?;
-            let size = |sample: &Sample| sample.q.hypot(sample.v);
+            let size = |sample: &Sample| hypot(sample.q, sample.v);
             let (first, last) = (motion.samples.first()?, motion.samples.last()?);
             // In the units of the motion, like its samples.
             let largest = motion.samples.iter().map(|sample| sample.q).fold(0.0, f64::max);
@@ -237,6 +238,7 @@ mod tests {
     use super::*;
     use crate::flow::trajectory::trajectory;
     use crate::flow::{Detail, Limits, Problem};
+    use crate::numerics::elementary::hypot;
     use crate::oscillator::{Parameters, State};
     use crate::study::cycle::cycles_drawn;
 
@@ -282,7 +284,7 @@ mod tests {
                         }
                         End::Grows => {
                             let far = late.samples.last().unwrap();
-                            let grown = far.q.hypot(far.v) > 5.0 * size;
+                            let grown = hypot(far.q, far.v) > 5.0 * size;
                             let escaped = matches!(late.outcome, Outcome::Escaped { .. });
                             assert!(grown || escaped, "{place}");
                             ends[1] += 1;

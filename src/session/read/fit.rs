@@ -2,6 +2,7 @@
 
 use crate::closed_form::lyapunov;
 use crate::flow::Outcome;
+use crate::numerics::elementary::hypot;
 use crate::oscillator::energy::energy;
 use crate::oscillator::{State, Symbol};
 use crate::scene::ordinate::usual_values;
@@ -119,8 +120,8 @@ fn phase(session: &Session, plot: usize) -> Option<Window> {
         let samples = found.samples.iter().take_while(|sample| sample.tau <= last);
         let samples = samples.map(|sample| Point { x: sample.q, y: sample.v });
         if let Outcome::Escaped { .. } = found.outcome {
-            let extent = points.iter().map(|point| point.x.hypot(point.y)).fold(0.0, f64::max);
-            let near = |point: &Point| point.x.hypot(point.y) <= ESCAPE * extent;
+            let extent = points.iter().map(|point| hypot(point.x, point.y)).fold(0.0, f64::max);
+            let near = |point: &Point| hypot(point.x, point.y) <= ESCAPE * extent;
             points.extend(samples.filter(near));
         } else {
             points.extend(samples);
@@ -191,7 +192,7 @@ fn time_series(session: &Session, plot: usize) -> Option<Window> {
     }
     if let Outcome::Escaped { .. } = found.outcome {
         // Where the values run away their beginning is looked at.
-        let extent = ESCAPE * session.problem.initial.q.hypot(session.problem.initial.v).max(r);
+        let extent = ESCAPE * hypot(session.problem.initial.q, session.problem.initial.v).max(r);
         values.retain(|value| value.abs() <= extent);
     }
     if shown(Layer::Friction) {

@@ -1,6 +1,7 @@
 //! The motion on show, read at a time.
 
 use crate::flow::{Method, Outcome, Problem, Sample, Trajectory};
+use crate::numerics::elementary::tanh;
 use crate::oscillator::{Parameters, State};
 use crate::session::state::session::Session;
 
@@ -57,7 +58,7 @@ pub fn friction_force(motion: &Trajectory, end: f64) -> Vec<(f64, f64)> {
     for pair in motion.samples.windows(2) {
         let [from, to] = [pair[0], pair[1]];
         if motion.method == Method::Smoothed {
-            force.push((to.tau, -r * (to.v / epsilon).tanh()));
+            force.push((to.tau, -r * tanh(to.v / epsilon)));
             continue;
         }
         // Each half swing begins and ends on v = 0, so the sign is that of the points between.

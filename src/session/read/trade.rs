@@ -1,5 +1,6 @@
 //! The view of what accuracy costs: the row that the cursor is nearest to, and taking its method.
 
+use crate::numerics::elementary::hypot;
 use crate::scene::{Answer, Point, Slot, View, Window};
 use crate::session::state::session::Session;
 use crate::study::trade::{Row, Trade};
@@ -22,7 +23,7 @@ impl Session {
         let Window { x: across, y: up } = plot.window;
         let distance = |row: &&Row| {
             row.place().map_or(f64::INFINITY, |(right, high)| {
-                ((right - x) / across.width()).hypot((high - y) / up.width())
+                hypot((right - x) / across.width(), (high - y) / up.width())
             })
         };
         let rows = self.trade()?.rows.iter().filter(|row| row.place().is_some());

@@ -3,6 +3,7 @@
 //! Everything here is a function of the branches, of which a diagram with variants has several. What is held is the point itself and not its place in
 //! the list, so that it stays the same point when the branch is computed anew.
 
+use crate::numerics::elementary::{hypot, ln};
 use crate::session::state::stop::Stop;
 use crate::study::{Branch, SpecialKind};
 
@@ -78,10 +79,10 @@ impl Way {
         if one.variant != other.variant {
             return f64::INFINITY;
         }
-        let size = |stop: &Stop| stop.cycle.map(|cycle| cycle.q_max.max(f64::MIN_POSITIVE).ln());
+        let size = |stop: &Stop| stop.cycle.map(|cycle| ln(cycle.q_max.max(f64::MIN_POSITIVE)));
         let values = (one.value - other.value) / self.extent;
         match (size(one), size(other)) {
-            (Some(a), Some(b)) => values.hypot(a - b),
+            (Some(a), Some(b)) => hypot(values, a - b),
             _ => values.abs(),
         }
     }

@@ -8,6 +8,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use crate::flow::{Problem, Trajectory};
+use crate::numerics::elementary::{exp2, hypot, log2};
 use crate::oscillator::belt::Quantity;
 use crate::oscillator::{Belt, Symbol};
 use crate::scene::answer::{Borders, Failure};
@@ -378,5 +379,5 @@ impl Session {
 /// ask nothing new.
 fn reach(Window { x, y }: Window) -> f64 {
     let farthest = |span: Span| span.from().abs().max(span.to().abs());
-    farthest(x).hypot(farthest(y)).log2().ceil().exp2()
+    exp2(log2(hypot(farthest(x), farthest(y))).ceil())
 }

@@ -4,6 +4,7 @@
 
 use std::sync::Arc;
 
+use crate::numerics::elementary::log10;
 use crate::scene::{Point, Request, Span, View, Window};
 use crate::study::measure::Value;
 use crate::study::scan::{Row, Scan, Spacing, Sweep};
@@ -105,7 +106,7 @@ impl Scanned {
         let value = sweep.value(index);
         match sweep.spacing {
             Spacing::Even => value,
-            Spacing::Logarithmic => value.abs().log10(),
+            Spacing::Logarithmic => log10(value.abs()),
         }
     }
 

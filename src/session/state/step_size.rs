@@ -7,6 +7,8 @@ use std::cmp::Ordering;
 
 use serde::{Deserialize, Serialize};
 
+use crate::numerics::elementary::{ln, log10};
+
 /// A step size: 1, 2 or 5 times a power of ten.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(from = "f64", into = "f64")]
@@ -42,7 +44,7 @@ impl StepSize {
         }
         let exponent = decade(value).clamp(*EXPONENTS.start(), *EXPONENTS.end());
         let below = StepSize { mantissa: 1, exponent };
-        let distance = |step: &StepSize| (step.value() / value).ln().abs();
+        let distance = |step: &StepSize| ln(step.value() / value).abs();
         [below, below.larger(), below.larger().larger(), below.larger().larger().larger()]
             .into_iter()
             .min_by(|a, b| distance(a).partial_cmp(&distance(b)).unwrap_or(Ordering::Equal))
@@ -111,7 +113,7 @@ pub fn shortest(value: f64) -> String {
 /// The power of ten at or below a positive number.
 #[expect(clippy::cast_possible_truncation, reason = "the exponent of a double has three digits")]
 fn decade(value: f64) -> i16 {
-    value.log10().floor() as i16
+    log10(value).floor() as i16
 }
 
 /// Reads digits that this module has written itself.

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::flow::Limits;
 use crate::flow::quality::DRAFT;
+use crate::numerics::elementary::hypot;
 use crate::oscillator::Symbol;
 use crate::scene::answer::{Failure, answer};
 use crate::scene::{Answer, Answered, Request, SLOTS, Slot, library};
@@ -164,7 +165,7 @@ fn distance((x, y): (f64, f64), from: (f64, f64), to: (f64, f64)) -> f64 {
     let square = dx * dx + dy * dy;
     let part = if square > 0.0 { ((x - from.0) * dx + (y - from.1) * dy) / square } else { 0.0 };
     let part = part.clamp(0.0, 1.0);
-    (x - from.0 - part * dx).hypot(y - from.1 - part * dy)
+    hypot(x - from.0 - part * dx, y - from.1 - part * dy)
 }
 
 /// A branch at draft quality has the points that its continuation needed, not more: the curve through

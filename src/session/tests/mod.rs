@@ -27,6 +27,7 @@ use std::sync::Arc;
 use super::replay::{Action, Player, parse};
 use super::{Effect, Msg, Session, Size, update};
 use crate::flow::{Cost, Limits, Method, Outcome, Problem, Reason, Sample, Trajectory};
+use crate::numerics::elementary::ln;
 use crate::numerics::twofold::Twofold;
 use crate::oscillator::{Ledger, State};
 use crate::scene::answer::{Borders, Rows};
@@ -146,9 +147,9 @@ fn cycle(stable: bool, r: f64) -> Cycle {
         v_max: q,
         period: 6.0,
         multiplier: Some(if stable { 0.5 } else { 2.0 }),
-        log_multiplier: if stable { 0.5_f64.ln() } else { 2.0_f64.ln() },
+        log_multiplier: if stable { ln(0.5) } else { ln(2.0) },
         clearance,
-        log_clearance: clearance.ln(),
+        log_clearance: ln(clearance),
         error: 0.0,
         errors: crate::study::cycle::CycleErrors::default(),
     }

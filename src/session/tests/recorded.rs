@@ -7,6 +7,7 @@ use proptest::prelude::*;
 use super::Desk;
 use super::strange::any_key;
 use crate::flow::{METHODS, Problem};
+use crate::numerics::elementary::powi;
 use crate::oscillator::{PARAMETERS, Symbol};
 use crate::scene::machine::library::machines;
 use crate::scene::{Rig, Scene, library};
@@ -133,7 +134,7 @@ prop_compose! {
             let problem = &mut scene.problem;
             problem.method = method.map_or(problem.method, |which| METHODS[which].method);
             let dial = |which: usize, now: f64| {
-                dials[which].map_or(now, |digits| 0.3 * 0.1_f64.powi(i32::from(digits) + 2))
+                dials[which].map_or(now, |digits| 0.3 * powi(0.1, i32::from(digits) + 2))
             };
             problem.tolerance = dial(0, problem.tolerance);
             problem.step = dial(1, problem.step);

@@ -1,6 +1,7 @@
 //! Charts against known borders and against the search for cycles.
 
 use super::*;
+use crate::numerics::elementary::{hypot, powi};
 use crate::oscillator::State;
 use crate::study::fold::fold;
 use crate::study::regime::regime;
@@ -76,7 +77,7 @@ fn without_d_the_fold_is_where_it_comes_to_the_given_d() {
     assert_eq!(chart.along, Symbol::R);
     let mut seen = 0;
     for line in chart.lines.iter().filter(|line| line.at > 0.0) {
-        let product = line.fold.unwrap().powi(2) * line.at;
+        let product = powi(line.fold.unwrap(), 2) * line.at;
         assert!((product / (0.01 * 0.5) - 1.0).abs() < 1e-9, "{product}");
         // (48) is within 0.6 % in D, which is 2 % in r^2 D3.
         assert!((line.harmonic.unwrap() / line.fold.unwrap() - 1.0).abs() < 0.01);
@@ -130,14 +131,14 @@ fn between_lines_borders_are_followed_as_closely_as_asked() {
     let resolution = Resolution { lines: 8, chord, ..COARSE };
     let close = chart(&PLAIN, over_r, resolution, &Limits::PATIENT).unwrap();
     let [run] = &close.border(Border::Fold)[..] else { panic!("one run") };
-    let kappa = run[0].0.powi(2) * run[0].1;
+    let kappa = powi(run[0].0, 2) * run[0].1;
     let mut farthest: f64 = 0.0;
     for pair in run.windows(2) {
         let middle = (f64::midpoint(pair[0].0, pair[1].0), f64::midpoint(pair[0].1, pair[1].1));
         // The distance to the chord, both sides of the chart as long as each other.
         let slope = ((pair[1].0 - pair[0].0) / 0.5) / ((pair[1].1 - pair[0].1) / 1.98);
         let aside = (middle.0 - (kappa / middle.1).sqrt()) / 0.5;
-        farthest = farthest.max(aside.abs() / 1.0_f64.hypot(slope));
+        farthest = farthest.max(aside.abs() / hypot(1.0, slope));
     }
     assert!(farthest < chord, "{farthest}");
     // Where the border comes into the range, just below D3 = kappa / 0.25, nothing is left blank.

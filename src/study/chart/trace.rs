@@ -4,6 +4,7 @@
 use super::line::{Band, Line};
 use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason};
+use crate::numerics::elementary::{exp, hypot, ln, powi};
 use crate::numerics::root::{Change, illinois};
 use crate::oscillator::{Parameters, State, Symbol};
 use crate::study::cycle::cycles;
@@ -31,7 +32,7 @@ pub(super) fn values(symbol: Symbol, range: (f64, f64), count: usize) -> Vec<f64
     if range.0 <= 0.0 && range.1 >= 0.0 {
         let dense = count / 4;
         for index in 1..dense {
-            let cube = part(index, dense).powi(3);
+            let cube = powi(part(index, dense), 3);
             values.extend([range.0, range.1].map(|end| 0.5 * end * cube));
         }
         values.extend([-SIDE * span, SIDE * span]);
@@ -85,7 +86,7 @@ impl Tracer<'_> {
                 return false;
             };
             let slope = (to - from) / width / ((after.at - before.at) / height);
-            (middle - f64::midpoint(from, to)).abs() / width > chord * 1.0_f64.hypot(slope)
+            (middle - f64::midpoint(from, to)).abs() / width > chord * hypot(1.0, slope)
         });
         if bent || !before.alike(after) {
             self.between(before, &middle, chord, halvings - 1, lines)?;
@@ -207,9 +208,9 @@ impl Tracer<'_> {
     fn product_of_escape(&mut self, d: f64) -> Result<f64, Reason> {
         let excess = |product: f64| -> Result<f64, Reason> {
             let unit = Parameters { d: 0.0, d2: 1.0, d3: 0.0, r: product };
-            Ok((-escape_point(&unit, self.limits)?.unwrap_or(-2.0) / -d).ln())
+            Ok(ln(-escape_point(&unit, self.limits)?.unwrap_or(-2.0) / -d))
         };
-        root((-1.25 * d).ln(), 0.1, SLACK * self.tolerance, |z| excess(z.exp())).map(f64::exp)
+        root(ln(-1.25 * d), 0.1, SLACK * self.tolerance, |z| excess(exp(z))).map(exp)
     }
 
     /// The value along the line at which the fold is at the line's D; infinite where none is.
@@ -230,10 +231,10 @@ impl Tracer<'_> {
             return Ok(Some(self.along.get(&found, &State { q: 0.0, v: 0.0 })));
         }
         let excess = |tracer: &mut Self, z: f64| -> Result<f64, Reason> {
-            let found = tracer.fold(&tracer.with(here, z.exp()))?;
-            Ok((found / d).ln())
+            let found = tracer.fold(&tracer.with(here, exp(z)))?;
+            Ok(ln(found / d))
         };
-        root(guess.ln(), STRIDE, SLACK * self.tolerance, |z| excess(self, z)).map(|z| Some(z.exp()))
+        root(ln(guess), STRIDE, SLACK * self.tolerance, |z| excess(self, z)).map(|z| Some(exp(z)))
     }
 
     /// The fold of one harmonic (48) on the line.
@@ -243,7 +244,7 @@ impl Tracer<'_> {
             return harmonic::fold(d3, r).map(|fold| fold.d);
         }
         // (48) solved for r^2 D3.
-        let product = 8.0 * (-d).powi(3) * (std::f64::consts::PI / 9.0).powi(2);
+        let product = 8.0 * powi(-d, 3) * powi(std::f64::consts::PI / 9.0, 2);
         let value = match self.along {
             Symbol::D3 => product / (r * r),
             _ => (product / d3).sqrt(),

@@ -11,6 +11,7 @@ use super::measure::{
 use super::{Claim, Finding};
 use crate::closed_form::harmonic::{self, amplitudes};
 use crate::flow::{Limits, Reason};
+use crate::numerics::elementary::{cbrt, powi};
 use crate::oscillator::Parameters;
 use crate::study::cycle::cycles as cycles_of;
 use crate::study::fold::fold;
@@ -53,8 +54,8 @@ pub const CLAIMS: &[Claim] = &[
                 // What is left of the difference of two terms is uncertain by their rounding.
                 let error = 32.0 * f64::EPSILON * (cube.abs() + square);
                 let computed = Known::new(cube - square, error);
-                let scale = (16.0 / (3.0 * d3)).powi(2) / 3.0;
-                let formula = scale * (-8.0 * d * d * (d / d3) - (9.0 / PI).powi(2) * r * r);
+                let scale = powi(16.0 / (3.0 * d3), 2) / 3.0;
+                let formula = scale * (-8.0 * d * d * (d / d3) - powi(9.0 / PI, 2) * r * r);
                 Ok(Finding::equal(formula, computed).at(place(&oscillator(d, 0.0, d3, r))))
             }))
         },
@@ -170,7 +171,7 @@ pub const CLAIMS: &[Claim] = &[
         check: |limits| {
             let parameters = oscillator(0.0, 0.0, 0.5, 0.1);
             let found = found_fold(&parameters, limits)?;
-            let formula = (8.0 * parameters.r / (3.0 * PI * parameters.d3)).cbrt();
+            let formula = cbrt(8.0 * parameters.r / (3.0 * PI * parameters.d3));
             // Next to a fold an amplitude is known to the root of what D is.
             let computed = Known::relative(found.q_max, 1e-7);
             Ok(Finding::near(formula, computed).at("D3 = 0.5, r = 0.1"))
@@ -185,7 +186,7 @@ pub const CLAIMS: &[Claim] = &[
             Finding::worst([-0.01, -0.1, -0.5].map(|d3| {
                 let parameters = oscillator(0.0, 0.0, d3, 0.1);
                 let cycle = smallest(&parameters, limits)?;
-                let formula = (-16.0 * parameters.r / (3.0 * PI * d3)).cbrt();
+                let formula = cbrt(-16.0 * parameters.r / (3.0 * PI * d3));
                 Ok(Finding::near(formula, amplitude(&cycle)).at(place(&parameters)))
             }))
         },
@@ -248,7 +249,7 @@ pub const CLAIMS: &[Claim] = &[
             let Parameters { d, d3, r, .. } = TWO_CYCLES;
             let root = largest_amplitude(&TWO_CYCLES)?;
             let computed = Known::relative(-2.0 * r / (PI * d), 1e-14);
-            let terms = |factor: f64| root + factor * d3 / d * root.powi(3);
+            let terms = |factor: f64| root + factor * d3 / d * powi(root, 3);
             let finding = Finding::equal(terms(8.0 / 3.0), computed).corrected(terms(3.0 / 8.0));
             Ok(finding.at(place(&TWO_CYCLES)))
         },
@@ -378,7 +379,7 @@ fn counted(
 
 /// (48).
 fn printed_fold(d3: f64, r: f64) -> f64 {
-    -0.5 * ((9.0 / PI).powi(2) * r * r * d3).cbrt()
+    -0.5 * cbrt(powi(9.0 / PI, 2) * r * r * d3)
 }
 
 /// The fold of the cycles.

@@ -12,6 +12,7 @@ use super::{Claim, Finding, UNSAID, belt};
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits, Outcome, Problem, Reason};
 use crate::numerics::Interval;
+use crate::numerics::elementary::exp;
 use crate::oscillator::{Parameters, Side, State};
 use crate::proof::motion::Fate;
 use crate::study::arc::{Arc, Direction};
@@ -48,7 +49,7 @@ pub const CLAIMS: &[Claim] = &[
                 // On a closed curve the integral of v vanishes.
                 let formula = share(-cycle.q_min)
                     * share(cycle.q_max)
-                    * (-2.0 * d * cycle.period - 3.0 * d3 * square).exp();
+                    * exp(-2.0 * d * cycle.period - 3.0 * d3 * square);
                 let computed = return_slope(&parameters, cycle.q_max, limits)?
                     .within(cycle.bounds.map(|it| it.multiplier));
                 let at = format!("{}, q_max = {:.6}", place(&parameters), cycle.q_max);
@@ -67,7 +68,7 @@ pub const CLAIMS: &[Claim] = &[
             let omega = (1.0 - parameters.d * parameters.d).sqrt();
             let computed = return_slope(&parameters, cycle.q_max, limits)?
                 .within(cycle.bounds.map(|it| it.multiplier));
-            let formula = (-2.0 * PI * parameters.d / omega).exp();
+            let formula = exp(-2.0 * PI * parameters.d / omega);
             Ok(Finding::equal(formula, computed).at(place(&parameters)))
         },
     },
@@ -244,7 +245,7 @@ fn return_slope(parameters: &Parameters, q: f64, limits: &Limits) -> Result<Know
 
 /// The first integral of the motion with D2 alone.
 fn first_integral(d2: f64, State { q, v }: State) -> f64 {
-    (0.5 * v * v + q / (2.0 * d2) - 1.0 / (4.0 * d2 * d2)) * (2.0 * d2 * q).exp()
+    (0.5 * v * v + q / (2.0 * d2) - 1.0 / (4.0 * d2 * d2)) * exp(2.0 * d2 * q)
 }
 
 /// The same, of all states of a box.

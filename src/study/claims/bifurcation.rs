@@ -10,6 +10,7 @@ use super::measure::{
 };
 use super::{Claim, Finding};
 use crate::flow::{Limits, Reason};
+use crate::numerics::elementary::ln;
 use crate::oscillator::Parameters;
 use crate::study::Edge;
 use crate::study::cycle::cycles as all;
@@ -29,7 +30,7 @@ pub const CLAIMS: &[Claim] = &[
                 Ok((mean(&parameters, &cycle, limits)?, amplitude(&cycle)))
             };
             let ((small, size), (large, double)) = (at(-0.1)?, at(-0.05)?);
-            let exponent = (large.value / small.value).ln() / (double.value / size.value).ln();
+            let exponent = ln(large.value / small.value) / ln(double.value / size.value);
             let error = large.error / large.value.abs() + small.error / small.value.abs();
             let computed = Known::new(exponent, 2.0 * error);
             Ok(Finding::near(2.0, computed).at("D = -0.1 .. -0.05, D2 = 0.2, r = 0.01"))
@@ -191,7 +192,7 @@ pub const CLAIMS: &[Claim] = &[
             let lost = Reason::NoConvergence { sought: "the fold", change: f64::NAN };
             let place = |r: f64| fold(&oscillator(0.0, 0.0, 0.5, r), limits)?.0.ok_or(lost);
             let (far, near) = (place(1e-3)?.d, place(1e-6)?.d);
-            let exponent = (far / near).ln() / 1e3_f64.ln();
+            let exponent = ln(far / near) / ln(1e3);
             Ok(Finding::near(2.0 / 3.0, Known::new(exponent, 1e-11))
                 .at("D3 = 0.5, r = 1e-6 .. 1e-3"))
         },
@@ -207,7 +208,7 @@ pub const CLAIMS: &[Claim] = &[
                 Ok(cycle.q_max)
             };
             let (far, near) = (size(1e-3)?, size(1e-6)?);
-            let exponent = (far / near).ln() / 1e3_f64.ln();
+            let exponent = ln(far / near) / ln(1e3);
             Ok(Finding::near(1.0 / 3.0, Known::new(exponent, 1e-12))
                 .at("D3 = -0.5, r = 1e-6 .. 1e-3"))
         },

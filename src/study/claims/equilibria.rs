@@ -11,6 +11,7 @@ use super::{Claim, Finding};
 use crate::closed_form::lyapunov::{self, Disk};
 use crate::flow::{Limits, Outcome, Reason};
 use crate::numerics::Interval;
+use crate::numerics::elementary::{exp, hypot};
 use crate::oscillator::{HalfPlane, Parameters, Side, State};
 use crate::proof::kicks::kicks;
 use crate::proof::motion::Fate;
@@ -247,7 +248,7 @@ pub(super) fn shifted(limits: &Limits, shift: f64) -> Result<Finding, Reason> {
     let start = at_rest(-1.0);
     let [end, _] = half_swing(&parameters, start, limits)?;
     let (d, r) = (parameters.d, parameters.r);
-    let growth = (-PI * d / (1.0 - d * d).sqrt()).exp();
+    let growth = exp(-PI * d / (1.0 - d * d).sqrt());
     let linear = |centre: f64| centre - (start.q - centre) * growth;
     let finding = Finding::equal(linear(shift * r), end);
     let finding = if shift < 0.0 { finding } else { finding.corrected(linear(-r)) };
@@ -276,7 +277,7 @@ pub(super) fn least_kick(parameters: &Parameters, limits: &Limits) -> Result<Kno
     const POINTS: (u16, f64) = (200, 1e-5);
     let basin = basin(parameters, 10.0, limits)?;
     let border = basin.borders.first().map(|border| border.curve(POINTS.0)).unwrap_or_default();
-    let least = border.iter().map(|point| point.q.hypot(point.v)).fold(f64::INFINITY, f64::min);
+    let least = border.iter().map(|point| hypot(point.q, point.v)).fold(f64::INFINITY, f64::min);
     Ok(Known::relative(least, POINTS.1).within(at_most(parameters, &basin.margin())))
 }
 

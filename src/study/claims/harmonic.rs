@@ -11,6 +11,7 @@ use super::{Claim, Finding, UNSAID};
 use crate::closed_form::harmonic::{Harmonic, amplitudes, mean as harmonic_mean};
 use crate::flow::{Limits, Reason};
 use crate::numerics::Interval;
+use crate::numerics::elementary::sin;
 use crate::numerics::interval::PI as PI_BOUNDS;
 use crate::oscillator::Parameters;
 use crate::study::harmonic_error::harmonic_balance;
@@ -37,7 +38,7 @@ pub const CLAIMS: &[Claim] = &[
         check: |_| {
             // Central differences of the velocity - A eta sin(eta tau), two of them.
             let (size, eta) = (0.7, 1.3);
-            let velocity = |tau: f64| -size * eta * (eta * tau).sin();
+            let velocity = |tau: f64| -size * eta * sin(eta * tau);
             let slope = |h: f64| {
                 (8.0 * (velocity(h) - velocity(-h)) - velocity(2.0 * h) + velocity(-2.0 * h))
                     / (12.0 * h)

@@ -10,6 +10,7 @@ use super::measure::{
 use super::{Claim, Finding};
 use crate::flow::{Limits, Reason};
 use crate::numerics::Interval;
+use crate::numerics::elementary::{atan, atan2, exp, sin, sin_cos};
 use crate::oscillator::{Parameters, State};
 use crate::proof::Enclosure;
 use crate::study::Edge;
@@ -88,11 +89,11 @@ pub const CLAIMS: &[Claim] = &[
                 let start = at_rest(-parameters.r - 1.0);
                 let [_, velocity] = state_at(&parameters, start, tau, limits)?;
                 let (a, b) = (-1.0, -d / swing.omega);
-                let (sine, cosine) = (swing.omega * tau).sin_cos();
+                let (sine, cosine) = sin_cos(swing.omega * tau);
                 let formula =
                     -(a * d - b * swing.omega) * cosine - (b * d + a * swing.omega) * sine;
                 let at = format!("{}, from q = -2, at tau = {tau:.4}", place(&parameters));
-                Ok(Finding::equal(formula * (-d * tau).exp(), velocity).at(at))
+                Ok(Finding::equal(formula * exp(-d * tau), velocity).at(at))
             }))
         },
     },
@@ -208,7 +209,7 @@ struct Swing {
 impl Swing {
     fn new(d: f64) -> Self {
         let omega = (1.0 - d * d).sqrt();
-        Swing { d, omega, growth: (-PI * d / omega).exp() }
+        Swing { d, omega, growth: exp(-PI * d / omega) }
     }
 
     /// (30).
@@ -219,23 +220,21 @@ impl Swing {
     /// (33) as it stands in the paper.
     fn printed_velocity(&self) -> f64 {
         let Swing { d, omega, growth } = *self;
-        let angle = (omega / d).atan();
-        2.0 * (-d * PI).exp() / (omega * (growth - 1.0))
-            * (-d / omega * angle).exp()
-            * (omega + angle).sin()
+        let angle = atan(omega / d);
+        2.0 * exp(-d * PI) / (omega * (growth - 1.0)) * exp(-d / omega * angle) * sin(omega + angle)
     }
 
     /// (33) as it should read: the maximum of (31).
     fn largest_velocity(&self) -> f64 {
-        let angle = self.omega.atan2(self.d);
-        self.clearance() * (-self.d / self.omega * angle).exp()
+        let angle = atan2(self.omega, self.d);
+        self.clearance() * exp(-self.d / self.omega * angle)
     }
 
     /// (31), on the upper half.
     fn curve(&self, angle: f64) -> State {
         let Swing { d, omega, growth } = *self;
-        let grown = 2.0 / (growth - 1.0) * (-d / omega * angle).exp();
-        let (sine, cosine) = angle.sin_cos();
+        let grown = 2.0 / (growth - 1.0) * exp(-d / omega * angle);
+        let (sine, cosine) = sin_cos(angle);
         State { q: -1.0 - grown * (cosine + d / omega * sine), v: grown / omega * sine }
     }
 }

@@ -4,6 +4,7 @@ use super::measure::{Known, at_rest, captured, half_swing, oscillator, place};
 use super::{Claim, Finding, belt};
 use crate::closed_form::linear::first_standstill;
 use crate::flow::{Limits, Reason};
+use crate::numerics::elementary::{exp, ln, powi};
 use crate::numerics::interval::PI;
 use crate::oscillator::Parameters;
 
@@ -74,7 +75,7 @@ pub const CLAIMS: &[Claim] = &[
         scene: None,
         check: |_| {
             let jump = MASS.dimensionless(0.0, -0.0) - MASS.dimensionless(0.0, 0.0);
-            let printed = MASS.joint / (MASS.m * MASS.omega().powi(2));
+            let printed = MASS.joint / (MASS.m * powi(MASS.omega(), 2));
             let computed = Known::relative(0.5 * jump, 1e-14);
             Ok(Finding::equal(printed, computed).corrected(printed / MASS.shift()).at(MASS_PLACE))
         },
@@ -164,7 +165,7 @@ fn over_damping(
         let parameters = Parameters { d, d2: 0.0, d3: 0.0, r: 0.0 };
         let [end, duration] = half_swing(&parameters, at_rest(-1.0), limits)?;
         let relative = end.error / end.value + duration.error / duration.value;
-        let growth = end.value.ln() / duration.value;
+        let growth = ln(end.value) / duration.value;
         let growth = Known::new(growth, relative * (1.0 + growth.abs()));
         let frequency = Known::relative(std::f64::consts::PI / duration.value, relative)
             .within(duration.bounds.map(|it| PI / it));
@@ -194,12 +195,12 @@ const MASS_PLACE: &str =
 
 impl Mass {
     fn friction(velocity: f64) -> f64 {
-        0.2 + 0.3 * (-velocity).exp()
+        0.2 + 0.3 * exp(-velocity)
     }
 
     /// First, second and third derivative of the friction by the relative velocity, at the belt's.
     fn friction_derivatives(&self) -> [f64; 3] {
-        let falling = 0.3 * (-self.belt).exp();
+        let falling = 0.3 * exp(-self.belt);
         [-falling, falling, -falling]
     }
 
@@ -251,7 +252,7 @@ fn derivatives(function: impl Fn(f64) -> f64) -> [Known; 3] {
             2 => (f(h) - 2.0 * f(0.0) + f(-h)) / (h * h),
             _ => (f(2.0 * h) - 2.0 * f(h) + 2.0 * f(-h) - f(-2.0 * h)) / (2.0 * h * h * h),
         };
-        let step = |level: i32| STEP * 0.5_f64.powi(level);
+        let step = |level: i32| STEP * powi(0.5, level);
         let mut row: Vec<f64> = (0..LEVELS).map(|level| difference(step(level))).collect();
         let mut last = f64::INFINITY;
         let mut power = 4.0;
@@ -262,7 +263,7 @@ fn derivatives(function: impl Fn(f64) -> f64) -> [Known; 3] {
             power *= 4.0;
         }
         let size = f(STEP).abs() + f(-STEP).abs() + f(0.0).abs();
-        let rounding = 8.0 * f64::EPSILON * size / step(LEVELS - 1).powi(order);
+        let rounding = 8.0 * f64::EPSILON * size / powi(step(LEVELS - 1), order);
         Known::new(row[0], last + rounding)
     })
 }

@@ -6,6 +6,7 @@ use super::measure::{
 use super::{Claim, Finding};
 use crate::flow::{Limits, Reason};
 use crate::numerics::Interval;
+use crate::numerics::elementary::log2;
 use crate::oscillator::Parameters;
 use crate::study::Edge;
 
@@ -106,6 +107,6 @@ fn exponents(limits: &Limits) -> Result<[Known; 3], Reason> {
     Ok(std::array::from_fn(|index| {
         let relative = |known: Known| known.error / known.value.abs();
         let error = relative(one[index]) + relative(two[index]);
-        Known::new((two[index].value / one[index].value).log2(), error)
+        Known::new(log2(two[index].value / one[index].value), error)
     }))
 }

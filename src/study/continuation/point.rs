@@ -1,5 +1,6 @@
 //! Points of a curve of cycles, and directions along it.
 
+use crate::numerics::elementary::hypot;
 use crate::study::closed_pair::Closing;
 use crate::study::closing::Route;
 
@@ -46,7 +47,7 @@ impl Tangent {
     /// From one point to another.
     pub(super) fn between(from: &CurvePoint, to: &CurvePoint, scale: f64) -> Self {
         let (u, p) = ((to.u - from.u) / UNIT_OF_U, (to.p - from.p) / scale);
-        let length = u.hypot(p);
+        let length = hypot(u, p);
         Tangent { u: u / length, p: p / length }
     }
 

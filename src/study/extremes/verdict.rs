@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::lattice::{Case, UNTIL};
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Detail, Limits, Method, Outcome, Problem, Trajectory};
+use crate::numerics::elementary::log10;
 use crate::oscillator::Parameters;
 
 /// Tolerance of the motions where none is given.
@@ -67,7 +68,7 @@ impl Verdict {
 pub fn judge(case: &Case, tolerance: f64, limits: &Limits) -> Verdict {
     let linear = case.parameters.is_piecewise_linear();
     let reference = reference(case, tolerance, limits);
-    let digits = |distance: f64| (distance / tolerance).log10().max(0.0);
+    let digits = |distance: f64| log10(distance / tolerance).max(0.0);
     let methods = METHODS.iter().filter(|&&method| linear || method != Method::Exact);
     let answers = methods.map(|&method| {
         let motion = follow(case, method, tolerance, BUDGET, limits);

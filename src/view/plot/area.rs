@@ -9,6 +9,7 @@
 use ratatui::layout::Rect;
 
 use super::Plot;
+use crate::numerics::elementary::atan2;
 use crate::picture::role::Role;
 use crate::scene::Point;
 
@@ -74,7 +75,7 @@ impl Plot<'_> {
         for row in (1..height).step_by(3) {
             for column in (3..width).step_by(6) {
                 let direction = flow(self.world(column, row));
-                let angle = (direction.y * down).atan2(direction.x * across);
+                let angle = atan2(direction.y * down, direction.x * across);
                 if angle.is_finite() {
                     let eighth = (angle / std::f64::consts::FRAC_PI_4).round().rem_euclid(8.0);
                     self.dots.texture(column, row, arrows[eighth as usize % 8], role);

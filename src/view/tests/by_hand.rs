@@ -1,6 +1,7 @@
 //! Answers made by hand, so that pictures of them are always the same, and sessions that have them.
 
 use crate::flow::{Cost, Crossing, Limits, Outcome, Problem, Reason, Sample, Trajectory};
+use crate::numerics::elementary::{cos, ln, sin, sin_cos};
 use crate::oscillator::{Ledger, Parameters, State, Symbol};
 use crate::scene::answer::{Borders, Rows};
 use crate::scene::library::find;
@@ -146,7 +147,7 @@ pub(super) fn spiral(problem: Problem) -> Trajectory {
     let sample = |index: u16| {
         let tau = 9.47 * f64::from(index) / 300.0;
         let radius = q * (1.0 - tau / 10.0);
-        Sample { tau, q: radius * tau.cos(), v: -radius * tau.sin() }
+        Sample { tau, q: radius * cos(tau), v: -radius * sin(tau) }
     };
     let ledger = Ledger { start: 0.5, residual: 2e-14, ..Ledger::default() };
     Trajectory {
@@ -162,7 +163,7 @@ pub(super) fn spiral(problem: Problem) -> Trajectory {
 }
 
 pub(super) fn circle(radius: f64) -> Vec<State> {
-    let corner = |index: u8| (TAU * f64::from(index) / 120.0).sin_cos();
+    let corner = |index: u8| sin_cos(TAU * f64::from(index) / 120.0);
     (0..=120).map(corner).map(|(sin, cos)| State { q: radius * cos, v: -radius * sin }).collect()
 }
 
@@ -175,9 +176,9 @@ pub(super) fn cycle(radius: f64, stable: bool) -> Cycle {
         v_max: radius,
         period: 6.3,
         multiplier: (!stable).then_some(3.8),
-        log_multiplier: if stable { -710.0 } else { 3.8_f64.ln() },
+        log_multiplier: if stable { -710.0 } else { ln(3.8) },
         clearance: radius - 0.1,
-        log_clearance: (radius - 0.1).ln(),
+        log_clearance: ln(radius - 0.1),
         error: 1e-14,
         errors: crate::study::cycle::CycleErrors::default(),
     }
