@@ -17,7 +17,7 @@ use hopfscope::runtime::effects::Files;
 use hopfscope::runtime::explorer::answer;
 use hopfscope::runtime::panics::Notes;
 use hopfscope::runtime::{Event, Explorer, Machine, Pump};
-use hopfscope::scene::{Request, Scene, Slot, library};
+use hopfscope::scene::{Request, Scene, Topic, library};
 use hopfscope::session::{Effect, Msg, Session, Size};
 use hopfscope::terminal::{Environment, Screen};
 use ratatui::Frame;
@@ -78,7 +78,7 @@ impl Machine for Watched {
         self.explorer.draw(frame);
         let session = self.explorer.session();
         let missing = |request: &Request| {
-            request.slot() != Slot::Reference && !session.is_refinement(request)
+            request.topic() != Topic::Reference && !session.is_refinement(request)
         };
         self.complete.store(!self.explorer.wants().iter().any(missing), Ordering::Release);
     }

@@ -6,7 +6,7 @@ use hopfscope::machine::Fate;
 use hopfscope::numerics::elementary::hypot;
 use hopfscope::oscillator::Symbol;
 use hopfscope::scene::answer::answer;
-use hopfscope::scene::{Answered, Slot, find};
+use hopfscope::scene::{Answered, Topic, find};
 use hopfscope::session::replay::{Action, Player, parse};
 use hopfscope::session::{Msg, Session, Size, update};
 use hopfscope::study::{Cycle, Edge, Return};
@@ -32,7 +32,7 @@ impl Stage {
 
     fn settle(&mut self) {
         for request in self.0.wants() {
-            if request.slot() != Slot::Branch && self.0.is_open(&request) {
+            if request.topic() != Topic::Branch && self.0.is_open(&request) {
                 let result = Ok(answer(&request, &Limits::PATIENT).unwrap());
                 update(
                     &mut self.0,
@@ -269,7 +269,7 @@ impl Stage {
         let mut session = Session::new(find(scene).unwrap(), Size { width: 80, height: 24 });
         symbol.set(&mut session.problem.parameters, &mut session.problem.initial, value);
         for request in session.wants() {
-            if matches!(request.slot(), Slot::Trajectory | Slot::Cycles) {
+            if matches!(request.topic(), Topic::Trajectory | Topic::Cycles) {
                 let result = Ok(answer(&request, &Limits::PATIENT).unwrap());
                 let answered = Answered { request, result, seconds: 0.0, complete: true };
                 update(&mut session, Msg::Answered(Box::new(answered)));

@@ -67,8 +67,8 @@ impl Figure {
         };
         let scene = self.start.scene_named(name)?;
         let mut session = Session::new(scene, Size { width: PANEL.0, height: PANEL.1 });
-        complete(&mut session, Fineness::PRINT, &Limits::PATIENT).map_err(|(slot, reason)| {
-            Failure::Unanswered(format!("{} not computed: {reason}", slot.name()))
+        complete(&mut session, Fineness::PRINT, &Limits::PATIENT).map_err(|(topic, reason)| {
+            Failure::Unanswered(format!("{} not computed: {reason}", topic.name()))
         })?;
         let plots: Vec<usize> = (0..session.plots.len()).collect();
         let mut drawn = || figure(&mut session, &plots, &Limits::PATIENT);

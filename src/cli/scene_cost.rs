@@ -34,11 +34,10 @@ fn of(scene: &Arc<Scene>) -> Result<SceneCost, Failure> {
         stepped.selected = row;
         parameters::step(&mut stepped, 1);
         update(&mut stepped, Msg::Idle);
+        let kept = stepped.requirements().into_iter().map(|part| part.request);
+        let reused = kept.filter(|request| !stepped.is_open(request));
+        let reused = reused.map(|request| request.topic()).collect();
         let recomputed = settle(&mut stepped, scene)?;
-        let is_new = |request: &Request| recomputed.iter().any(|part| part.slot == request.slot());
-        let requirements = stepped.requirements().into_iter();
-        let reused = requirements.map(|part| part.request).filter(|request| !is_new(request));
-        let reused = reused.map(|request| request.slot()).collect();
         let name = row.name_in(&session.problem);
         Ok(StepCost { name, recomputed, reused })
     };
@@ -64,11 +63,11 @@ fn settle(session: &mut Session, scene: &Scene) -> Result<Vec<Question>, Failure
             let (result, once) = timed(1, ask);
             let seconds = if once < QUICK { timed(TIMES, ask).1 } else { once };
             let found = result.map_err(|reason| {
-                let (name, slot) = (&scene.name, request.slot().name());
-                Failure::Unanswered(format!("scene {name}: {slot}: {reason}"))
+                let (name, topic) = (&scene.name, request.topic().name());
+                Failure::Unanswered(format!("scene {name}: {topic}: {reason}"))
             })?;
-            let (slot, cost) = (request.slot(), found.cost());
-            answered.push(Question { slot, layers, cost, seconds });
+            let (topic, cost) = (request.topic(), found.cost());
+            answered.push(Question { topic, layers, cost, seconds });
             let answered = Answered { request, result: Ok(found), seconds, complete: true };
             update(session, Msg::Answered(Box::new(answered)));
         }

@@ -13,7 +13,7 @@ use crate::flow::{Outcome, Problem, Sample, Trajectory};
 use crate::machine;
 use crate::numerics::elementary::sin_cos;
 use crate::oscillator::{HalfPlane, Parameters, Side, State};
-use crate::scene::{Answer, Layer, Point, Slot, View};
+use crate::scene::{Answer, Layer, Point, Topic, View};
 use crate::session::{self, Session, Shown};
 use crate::study::{Cycles, Edge};
 
@@ -46,7 +46,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         construction::levels(&mut picture, &first.problem.parameters);
     }
     if shows(Layer::Basin) {
-        for (variant, answer) in found(session, Slot::Cycles, index) {
+        for (variant, answer) in found(session, Topic::Cycles, index) {
             if let Answer::Cycles(found) = answer {
                 basin(&mut picture, found, &variant, shows(Layer::Cycles));
             }
@@ -73,7 +73,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         picture.curve(Line::new("record", Role::Ghost, Dash::Dotted), points);
     }
     if shows(Layer::Trajectory) {
-        for (variant, answer) in found(session, Slot::Trajectory, index) {
+        for (variant, answer) in found(session, Topic::Trajectory, index) {
             if let Answer::Trajectory(found) = answer {
                 let line = Line::new("motion", Role::Trajectory, Dash::Solid).of(&variant);
                 // Where the mass sticks to its belt the model ends, and the curve with it.
@@ -90,7 +90,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         }
     }
     if shows(Layer::Cycles) {
-        for (variant, answer) in found(session, Slot::Cycles, index) {
+        for (variant, answer) in found(session, Topic::Cycles, index) {
             if let Answer::Cycles(found) = answer {
                 let kinds = session.kinds().filter(|_| session.draws_whole());
                 cycles(&mut picture, found, &variant, kinds.map_or(&[], |kinds| &kinds.cycles));
@@ -171,8 +171,8 @@ fn kind(cycle: &machine::Cycle) -> (&'static str, &'static str) {
 }
 
 /// The answers of a kind that a plot has, each with its variant.
-fn found(session: &Session, slot: Slot, index: usize) -> Vec<(Variant, &Answer)> {
-    let found = session.found(slot, index).into_iter();
+fn found(session: &Session, topic: Topic, index: usize) -> Vec<(Variant, &Answer)> {
+    let found = session.found(topic, index).into_iter();
     found.map(|(index, label, answer)| (Variant { index, label }, answer)).collect()
 }
 
@@ -244,16 +244,21 @@ fn cycles(picture: &mut Picture, found: &Cycles, variant: &Variant, kinds: &[mac
 
 /// Motion and cycles of the point that was left for a mark.
 fn ghost(picture: &mut Picture, session: &Session) {
-    let Some(left) = &session.marks.left else { return };
-    if let Some(found) = left.trajectory() {
-        let samples = found.samples.iter().map(|sample| Point { x: sample.q, y: sample.v });
-        let line = Line::new("motion left", Role::Ghost, Dash::Dotted);
-        picture.curve(line.briefly("the point left"), samples);
-    }
-    let drawn = left.cycles().and_then(|found| found.picture.as_ref());
-    for curve in drawn.iter().flat_map(|drawn| &drawn.curves) {
-        let line = Line::new("cycle left", Role::Ghost, Dash::Dashed);
-        picture.curve(line.briefly("the point left"), curve.iter().map(point));
+    for answer in session.answers_left() {
+        match answer {
+            Answer::Trajectory(found) => {
+                let samples = found.samples.iter().map(|sample| Point { x: sample.q, y: sample.v });
+                let line = Line::new("motion left", Role::Ghost, Dash::Dotted);
+                picture.curve(line.briefly("the point left"), samples);
+            }
+            Answer::Cycles(found) => {
+                for curve in found.picture.iter().flat_map(|drawn| &drawn.curves) {
+                    let line = Line::new("cycle left", Role::Ghost, Dash::Dashed);
+                    picture.curve(line.briefly("the point left"), curve.iter().map(point));
+                }
+            }
+            _ => {}
+        }
     }
 }
 
@@ -267,7 +272,7 @@ pub fn stability(stable: bool) -> (Role, Dash) {
 /// for its cycles and has no marks; the present motion that does has the one of its rest.
 fn ends(picture: &mut Picture, session: &Session, index: usize, shown: &[Shown]) {
     let family = session.variants(index).is_some();
-    for (.., answer) in session.found(Slot::Trajectory, index) {
+    for (.., answer) in session.found(Topic::Trajectory, index) {
         if let Answer::Trajectory(found) = answer
             && session.contact().is_none()
             && !(family && matches!(found.outcome, Outcome::Captured { tau: 0.0, .. }))

@@ -8,14 +8,15 @@ use serde::Serialize;
 use super::csv::Sheet;
 use super::table::Table;
 use crate::flow::Cost;
-use crate::scene::{Layer, Scene, Slot};
+use crate::scene::{Layer, Scene, Topic};
+use crate::session::requirement::named;
 use crate::words::number::{count, duration};
 
 /// A question that was answered, and its price.
 #[derive(Clone, Debug)]
 pub struct Question {
     /// Its kind.
-    pub slot: Slot,
+    pub topic: Topic,
     /// The layers that draw the answer.
     pub layers: Vec<Layer>,
     /// What it cost, counted.
@@ -32,7 +33,7 @@ pub struct StepCost {
     /// What was asked anew.
     pub recomputed: Vec<Question>,
     /// What stayed as it was.
-    pub reused: Vec<Slot>,
+    pub reused: Vec<Topic>,
 }
 
 /// What a scene costs.
@@ -90,18 +91,18 @@ fn layers(layers: &[Layer]) -> Vec<&'static str> {
 }
 
 fn questions(questions: &[Question]) -> Vec<&'static str> {
-    questions.iter().map(|question| question.slot.name()).collect()
+    questions.iter().map(|question| question.topic.name()).collect()
 }
 
-fn slots(slots: &[Slot]) -> Vec<&'static str> {
-    slots.iter().map(|slot| slot.name()).collect()
+fn topics(topics: &[Topic]) -> Vec<&'static str> {
+    topics.iter().map(|topic| topic.name()).collect()
 }
 
 /// One document with all scenes.
 #[must_use]
 pub fn json(scenes: &[SceneCost]) -> String {
     let question = |question: &Question| QuestionDocument {
-        question: question.slot.name(),
+        question: question.topic.name(),
         layers: layers(&question.layers),
         evaluations: question.cost.evaluations,
         steps: question.cost.steps,
@@ -113,7 +114,7 @@ pub fn json(scenes: &[SceneCost]) -> String {
         StepDocument {
             parameter: step.name,
             recomputed: questions(&step.recomputed),
-            reused: slots(&step.reused),
+            reused: topics(&step.reused),
             evaluations: cost.evaluations,
             steps: cost.steps,
             seconds,
@@ -141,11 +142,11 @@ pub fn csv(scenes: &[SceneCost]) -> String {
     for found in scenes {
         let steps = found.steps.iter().map(|step| (step.name, &step.recomputed));
         for (after, questions) in std::iter::once(("opening", &found.questions)).chain(steps) {
-            for Question { slot, cost, seconds, .. } in questions {
+            for Question { topic, cost, seconds, .. } in questions {
                 sheet.row(&Row {
                     scene: &found.scene.name,
                     after,
-                    question: slot.name(),
+                    question: topic.name(),
                     cost: *cost,
                     seconds: *seconds,
                 });
@@ -183,15 +184,16 @@ pub fn table(scenes: &[SceneCost]) -> String {
         for question in &found.questions {
             let price = (question.cost, question.seconds);
             let remark = format!("for {}", layers(&question.layers).join(", "));
-            row(question.slot.name().to_owned(), price, remark);
+            row(question.topic.name().to_owned(), price, remark);
         }
         row("all of it".to_owned(), sum(&found.questions), String::new());
         for step in &found.steps {
-            let part = |name: &str, slots: Vec<&str>| {
-                (!slots.is_empty()).then(|| format!("{name} {}", slots.join(", ")))
+            let part = |name: &str, topics: &[Topic]| {
+                (!topics.is_empty()).then(|| format!("{name} {}", named(topics)))
             };
-            let again = part("recomputes", questions(&step.recomputed));
-            let kept = part("reuses", slots(&step.reused));
+            let again: Vec<Topic> = step.recomputed.iter().map(|asked| asked.topic).collect();
+            let again = part("recomputes", &again);
+            let kept = part("reuses", &step.reused);
             let remark = again.into_iter().chain(kept).collect::<Vec<_>>().join("; ");
             row(format!("a step of {}", step.name), sum(&step.recomputed), remark);
         }

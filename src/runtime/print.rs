@@ -3,7 +3,7 @@
 use crate::figure::{FAINT, Figure};
 use crate::flow::{Limits, Reason};
 use crate::scene::answer::{Fineness, answer_for};
-use crate::scene::{Answered, Request, Slot};
+use crate::scene::{Answered, Request, Topic};
 use crate::session::{Msg, Session, update};
 
 /// Computes everything on show as finely as print needs.
@@ -14,12 +14,12 @@ pub fn complete(
     session: &mut Session,
     fineness: Fineness,
     limits: &Limits,
-) -> Result<(), (Slot, Reason)> {
+) -> Result<(), (Topic, Reason)> {
     loop {
         let open = session.wants().into_iter().find(|request| session.is_open(request));
         let Some(request) = open else { return Ok(()) };
-        let slot = request.slot();
-        ask(session, request, fineness, limits).map_err(|reason| (slot, reason))?;
+        let topic = request.topic();
+        ask(session, request, fineness, limits).map_err(|reason| (topic, reason))?;
     }
 }
 
@@ -30,7 +30,7 @@ pub const MOST: u64 = 40_000_000;
 /// as it is on the screen.
 pub fn refine(session: &mut Session, limits: &Limits) {
     let limits = Limits { evaluations: limits.evaluations.min(MOST), ..*limits };
-    for request in session.wants().into_iter().filter(|request| is_drawn(request.slot())) {
+    for request in session.wants().into_iter().filter(|request| is_drawn(request.topic())) {
         // Without a finer answer there is that of the screen.
         let _ = ask(session, request, Fineness::PRINT, &limits);
     }
@@ -61,9 +61,8 @@ pub fn figure(session: &mut Session, plots: &[usize], limits: &Limits) -> Figure
             if wanted > *times {
                 *times = wanted;
                 finer = true;
-                let asked = session.needs(*plot).into_iter().filter(|slot| is_drawn(*slot));
-                let asked = asked.filter_map(|slot| session.request(slot, *plot));
-                for request in asked.collect::<Vec<_>>() {
+                let asked = session.asked_by(*plot).into_iter();
+                for request in asked.filter(|request| is_drawn(request.topic())) {
                     let _ = ask(session, request, Fineness::PRINT.finer(wanted), limits);
                 }
             }
@@ -77,8 +76,8 @@ pub fn figure(session: &mut Session, plots: &[usize], limits: &Limits) -> Figure
 }
 
 /// Whether an answer has curves.
-fn is_drawn(slot: Slot) -> bool {
-    !matches!(slot, Slot::Scan | Slot::Trade | Slot::Reference | Slot::Claims | Slot::Fit)
+fn is_drawn(topic: Topic) -> bool {
+    !matches!(topic, Topic::Scan | Topic::Trade | Topic::Reference | Topic::Claims | Topic::Fit)
 }
 
 fn ask(

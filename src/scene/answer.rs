@@ -41,8 +41,6 @@ pub enum Answer {
     ReturnMap(ReturnMap),
     /// To [`Request::Regimes`].
     Regimes(Chart),
-    /// To [`Request::Family`]: in its order, each for itself.
-    Family(Vec<Result<Answer, Reason>>),
     /// To [`Request::Trade`].
     Trade(Box<Trade>),
     /// To [`Request::Reference`]; why there is none, where it would take too long.
@@ -270,14 +268,6 @@ pub fn answer_for(
             let resolution = Resolution { lines, chord, tolerance };
             chart(parameters, *plane, resolution, limits).map(Answer::Regimes)
         }
-        Request::Family { members, .. } => {
-            let answers: Vec<_> =
-                members.iter().map(|member| answer_for(member, fineness, limits)).collect();
-            if answers.contains(&Err(Reason::Interrupted)) {
-                return Err(Reason::Interrupted);
-            }
-            Ok(Answer::Family(answers))
-        }
         Request::Scan { scan, from } => {
             let rows = (*from..scan.points()).map(|index| scan.row(index, limits));
             Ok(Answer::Rows(Rows { first: *from, rows: rows.collect::<Result<_, _>>()? }))
@@ -299,11 +289,6 @@ impl Answer {
             Answer::Branch(answer) => answer.cost,
             Answer::ReturnMap(answer) => answer.cost,
             Answer::Regimes(answer) => answer.cost,
-            Answer::Family(answers) => {
-                let mut sum = Cost::default();
-                answers.iter().flatten().for_each(|answer| sum += answer.cost());
-                sum
-            }
             Answer::Trade(answer) => answer.cost(),
             Answer::Reference(answer) => {
                 answer.as_ref().map_or(Cost::default(), |found| found.cost)

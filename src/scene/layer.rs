@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::request::Slot;
+use super::request::Topic;
 use super::views::View;
 
 /// Something drawn in a view that can be switched on and off.
@@ -106,7 +106,7 @@ pub struct LayerSpec {
     /// What it shows, in a few words.
     pub meaning: &'static str,
     /// The question whose answer it draws; `None` where formulas do.
-    pub needs: Option<Slot>,
+    pub needs: Option<Topic>,
     /// Whether it is switched on with its view, where the scene has nothing to say about that.
     pub usual: bool,
 }
@@ -114,53 +114,53 @@ pub struct LayerSpec {
 /// Every layer, in the order in which they are listed.
 #[rustfmt::skip]
 pub const LAYERS: [LayerSpec; 40] = [
-    row(Layer::Trajectory, "trajectory", View::Phase, Some(Slot::Trajectory), true, "the motion from (q0, v0)"),
+    row(Layer::Trajectory, "trajectory", View::Phase, Some(Topic::Trajectory), true, "the motion from (q0, v0)"),
     row(Layer::Sticking, "sticking", View::Phase, None, true, "the sticking set: every point of it is at rest"),
-    row(Layer::Cycles, "cycles", View::Phase, Some(Slot::Cycles), true, "limit cycles, stable and unstable"),
-    row(Layer::Basin, "basin", View::Phase, Some(Slot::Cycles), true, "starts that come to rest, shaded"),
+    row(Layer::Cycles, "cycles", View::Phase, Some(Topic::Cycles), true, "limit cycles, stable and unstable"),
+    row(Layer::Basin, "basin", View::Phase, Some(Topic::Cycles), true, "starts that come to rest, shaded"),
     row(Layer::Field, "field", View::Phase, None, false, "directions of the flow"),
     row(Layer::Lyapunov, "lyapunov", View::Phase, None, false, "the circle of starts whose capture is proved"),
-    row(Layer::Bands, "bands", View::Phase, Some(Slot::Capture), false, "bands of capture: one more half swing in each"),
-    row(Layer::Balance, "balance", View::Phase, Some(Slot::Balance), false, "cycles of N harmonics, and their error"),
+    row(Layer::Bands, "bands", View::Phase, Some(Topic::Capture), false, "bands of capture: one more half swing in each"),
+    row(Layer::Balance, "balance", View::Phase, Some(Topic::Balance), false, "cycles of N harmonics, and their error"),
     row(Layer::Ghost, "ghost", View::Phase, None, false, "the point left for a mark, its motion and cycles"),
     row(Layer::Belt, "belt", View::Phase, None, false, "the speed of the belt, at which the mass sticks"),
-    row(Layer::Mass, "mass", View::Belt, Some(Slot::Trajectory), true, "the mass on its belt, moving with the motion"),
-    row(Layer::Branch, "branch", View::Diagram, Some(Slot::Branch), true, "computed limit cycles, stable and unstable"),
+    row(Layer::Mass, "mass", View::Belt, Some(Topic::Trajectory), true, "the mass on its belt, moving with the motion"),
+    row(Layer::Branch, "branch", View::Diagram, Some(Topic::Branch), true, "computed limit cycles, stable and unstable"),
     row(Layer::Harmonic, "harmonic", View::Diagram, None, false, "amplitudes of the first-order harmonic balance"),
     row(Layer::Asymptotes, "asymptotes", View::Diagram, None, false, "asymptotes A1 and A2 of the harmonic amplitudes"),
-    row(Layer::Special, "special", View::Diagram, Some(Slot::Branch), true, "special points: fold, crossing, escape, Hopf"),
-    row(Layer::Position, "position", View::TimeSeries, Some(Slot::Trajectory), true, "displacement q"),
-    row(Layer::Velocity, "velocity", View::TimeSeries, Some(Slot::Trajectory), false, "velocity v"),
-    row(Layer::Friction, "friction", View::TimeSeries, Some(Slot::Trajectory), true, "force of dry friction, between -r and r"),
-    row(Layer::Energy, "energy", View::TimeSeries, Some(Slot::Trajectory), false, "energy (q^2 + v^2)/2"),
-    row(Layer::Events, "events", View::TimeSeries, Some(Slot::Trajectory), true, "turning points, capture"),
-    row(Layer::CycleWorks, "cycle-works", View::EnergyLedger, Some(Slot::Cycles), true, "works over one turn of each cycle"),
-    row(Layer::MotionWorks, "motion-works", View::EnergyLedger, Some(Slot::Trajectory), true, "works along the motion"),
-    row(Layer::Map, "map", View::ReturnMap, Some(Slot::ReturnMap), true, "the next turning point on the same side"),
-    row(Layer::Cobweb, "cobweb", View::ReturnMap, Some(Slot::Trajectory), true, "the turning points of the motion, step by step"),
-    row(Layer::FixedPoints, "fixed-points", View::ReturnMap, Some(Slot::Cycles), true, "limit cycles, stable and unstable"),
-    row(Layer::Regimes, "regimes", View::Regimes, Some(Slot::Regimes), true, "what becomes of kicks"),
-    row(Layer::Borders, "borders", View::Regimes, Some(Slot::Regimes), true, "computed fold and escape point"),
-    row(Layer::HarmonicBorder, "harmonic-border", View::Regimes, Some(Slot::Regimes), false, "the fold by one harmonic (48)"),
-    row(Layer::Rows, "rows", View::Trade, Some(Slot::Trade), true, "every method over its tolerances, steps or widths"),
-    row(Layer::Front, "front", View::Trade, Some(Slot::Trade), true, "the best choices: nothing else is better for less"),
-    row(Layer::Extents, "extents", View::Diagram, Some(Slot::Branch), false, "largest velocity of the cycles, beside the ordinate"),
+    row(Layer::Special, "special", View::Diagram, Some(Topic::Branch), true, "special points: fold, crossing, escape, Hopf"),
+    row(Layer::Position, "position", View::TimeSeries, Some(Topic::Trajectory), true, "displacement q"),
+    row(Layer::Velocity, "velocity", View::TimeSeries, Some(Topic::Trajectory), false, "velocity v"),
+    row(Layer::Friction, "friction", View::TimeSeries, Some(Topic::Trajectory), true, "force of dry friction, between -r and r"),
+    row(Layer::Energy, "energy", View::TimeSeries, Some(Topic::Trajectory), false, "energy (q^2 + v^2)/2"),
+    row(Layer::Events, "events", View::TimeSeries, Some(Topic::Trajectory), true, "turning points, capture"),
+    row(Layer::CycleWorks, "cycle-works", View::EnergyLedger, Some(Topic::Cycles), true, "works over one turn of each cycle"),
+    row(Layer::MotionWorks, "motion-works", View::EnergyLedger, Some(Topic::Trajectory), true, "works along the motion"),
+    row(Layer::Map, "map", View::ReturnMap, Some(Topic::ReturnMap), true, "the next turning point on the same side"),
+    row(Layer::Cobweb, "cobweb", View::ReturnMap, Some(Topic::Trajectory), true, "the turning points of the motion, step by step"),
+    row(Layer::FixedPoints, "fixed-points", View::ReturnMap, Some(Topic::Cycles), true, "limit cycles, stable and unstable"),
+    row(Layer::Regimes, "regimes", View::Regimes, Some(Topic::Regimes), true, "what becomes of kicks"),
+    row(Layer::Borders, "borders", View::Regimes, Some(Topic::Regimes), true, "computed fold and escape point"),
+    row(Layer::HarmonicBorder, "harmonic-border", View::Regimes, Some(Topic::Regimes), false, "the fold by one harmonic (48)"),
+    row(Layer::Rows, "rows", View::Trade, Some(Topic::Trade), true, "every method over its tolerances, steps or widths"),
+    row(Layer::Front, "front", View::Trade, Some(Topic::Trade), true, "the best choices: nothing else is better for less"),
+    row(Layer::Extents, "extents", View::Diagram, Some(Topic::Branch), false, "largest velocity of the cycles, beside the ordinate"),
     row(Layer::Levels, "levels", View::Phase, None, false, "levels of the energy, and shaded where it falls"),
     row(Layer::Spirals, "spirals", View::Phase, None, false, "the two shifted spirals that make the cycle"),
     row(Layer::Rate, "rate", View::EnergyRate, None, true, "V', what damping feeds and what friction takes"),
     row(Layer::Locus, "locus", View::Eigenvalues, None, true, "the eigenvalues, and their way over D"),
     row(Layer::BeltPath, "belt-path", View::Regimes, None, true, "the machine over the speed of its belt"),
-    row(Layer::Record, "record", View::TimeSeries, Some(Slot::Fit), false, "measured displacements of the record"),
-    row(Layer::Recorded, "recorded", View::Phase, Some(Slot::Fit), false, "measured displacements over their fitted velocity"),
+    row(Layer::Record, "record", View::TimeSeries, Some(Topic::Fit), false, "measured displacements of the record"),
+    row(Layer::Recorded, "recorded", View::Phase, Some(Topic::Fit), false, "measured displacements over their fitted velocity"),
     row(Layer::Whole, "whole", View::Phase, None, false, "the whole model in place of its cubic expansion"),
-    row(Layer::Speeds, "speeds", View::Speeds, Some(Slot::Speeds), true, "cycles over the belt's speed, and the jumps"),
+    row(Layer::Speeds, "speeds", View::Speeds, Some(Topic::Speeds), true, "cycles over the belt's speed, and the jumps"),
 ];
 
 const fn row(
     layer: Layer,
     name: &'static str,
     view: View,
-    needs: Option<Slot>,
+    needs: Option<Topic>,
     usual: bool,
     meaning: &'static str,
 ) -> LayerSpec {

@@ -26,7 +26,7 @@ pub use machine::{Machine, Rig, Running};
 pub use misread::Misread;
 pub use ordinate::{ABSCISSAE, Height, ORDINATES, Ordinate, Unit};
 pub use recording::{Fit, Fitted, Recording};
-pub use request::{Request, SLOTS, Slot};
+pub use request::{Request, TOPICS, Topic};
 pub use scene::{Scene, Variant};
 pub use views::{ARRANGEMENTS, Arrangement, Axes, Exhibit, MOST_PLOTS, VIEWS, View, ViewSpec};
 pub use window::{Point, Span, Window};

@@ -87,13 +87,6 @@ pub enum Request {
         /// Whether few lines are enough for now.
         rough: bool,
     },
-    /// The same question for each of several variants that a plot shows.
-    Family {
-        /// Which kind: one of the three of variants.
-        slot: Slot,
-        /// The question for each variant.
-        members: Vec<Request>,
-    },
     /// What accuracy costs on this motion: every method over its tolerances.
     Trade {
         /// The parameters.
@@ -132,12 +125,11 @@ pub enum Request {
 pub const SPEEDS: usize = 81;
 const ROUGH: usize = 11;
 
-/// The kind of a request.
-///
-/// Of most kinds one answer is on show, which all plots share. An answer that depends on what a plot
-/// looks at is that plot's own ([`Slot::is_own`]).
+/// What a request asks about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Slot {
+pub enum Topic {
+    /// The fit of a record.
+    Fit,
     /// The motion.
     Trajectory,
     /// Cycles and basin edge.
@@ -152,12 +144,6 @@ pub enum Slot {
     ReturnMap,
     /// The chart of regimes.
     Regimes,
-    /// The motion of each variant that a plot shows.
-    VariantMotions,
-    /// Cycles and basin edge of each.
-    VariantCycles,
-    /// The diagram of each.
-    VariantBranches,
     /// The cycles over the speed of the belt.
     Speeds,
     /// What accuracy costs.
@@ -166,113 +152,73 @@ pub enum Slot {
     Scan,
     /// The claims of the paper.
     Claims,
-    /// The fit of a record.
-    Fit,
     /// What errors are measured against: wanted last of all.
     Reference,
 }
 
-/// Every kind, the most urgent first.
-pub const SLOTS: [Slot; 16] = [
-    Slot::Fit,
-    Slot::Trajectory,
-    Slot::VariantMotions,
-    Slot::Cycles,
-    Slot::VariantCycles,
-    Slot::Capture,
-    Slot::Branch,
-    Slot::VariantBranches,
-    Slot::Balance,
-    Slot::ReturnMap,
-    Slot::Regimes,
-    Slot::Speeds,
-    Slot::Trade,
-    Slot::Scan,
-    Slot::Claims,
-    Slot::Reference,
+/// Every topic, the most urgent first.
+pub const TOPICS: [Topic; 13] = [
+    Topic::Fit,
+    Topic::Trajectory,
+    Topic::Cycles,
+    Topic::Capture,
+    Topic::Branch,
+    Topic::Balance,
+    Topic::ReturnMap,
+    Topic::Regimes,
+    Topic::Speeds,
+    Topic::Trade,
+    Topic::Scan,
+    Topic::Claims,
+    Topic::Reference,
 ];
 
-/// What can be asked of each variant, and the kind of the question that does.
-const OF_VARIANTS: [(Slot, Slot); 3] = [
-    (Slot::Trajectory, Slot::VariantMotions),
-    (Slot::Cycles, Slot::VariantCycles),
-    (Slot::Branch, Slot::VariantBranches),
-];
-
-impl Slot {
-    /// Whether the question depends on the axes or the window of the plot that asks it.
+impl Topic {
+    /// Whether it is asked of each variant that a plot shows.
     #[must_use]
-    pub fn is_own(self) -> bool {
-        matches!(
-            self,
-            Slot::Capture
-                | Slot::Branch
-                | Slot::ReturnMap
-                | Slot::Regimes
-                | Slot::Speeds
-                | Slot::VariantMotions
-                | Slot::VariantCycles
-                | Slot::VariantBranches
-        )
-    }
-
-    /// The kind that asks this of each variant; `None` where variants have no such answer.
-    #[must_use]
-    pub fn of_variants(self) -> Option<Slot> {
-        let (_, of_variants) = OF_VARIANTS.iter().find(|(one, _)| *one == self)?;
-        Some(*of_variants)
-    }
-
-    /// The kind that this asks of each variant; `None` where it is not of variants.
-    #[must_use]
-    pub fn of_one(self) -> Option<Slot> {
-        let (one, _) = OF_VARIANTS.iter().find(|(_, of_variants)| *of_variants == self)?;
-        Some(*one)
+    pub fn is_of_variants(self) -> bool {
+        matches!(self, Topic::Trajectory | Topic::Cycles | Topic::Branch)
     }
 
     /// The name on the screen.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Slot::Trajectory => "motion",
-            Slot::Cycles => "cycles",
-            Slot::Capture => "bands",
-            Slot::Branch => "branch",
-            Slot::Balance => "harmonics",
-            Slot::ReturnMap => "return map",
-            Slot::Regimes => "regimes",
-            Slot::VariantMotions => "motions",
-            Slot::VariantCycles => "cycles each",
-            Slot::VariantBranches => "branches",
-            Slot::Speeds => "speeds",
-            Slot::Trade => "trade",
-            Slot::Reference => "reference",
-            Slot::Scan => "scan",
-            Slot::Claims => "paper",
-            Slot::Fit => "fit",
+            Topic::Trajectory => "motion",
+            Topic::Cycles => "cycles",
+            Topic::Capture => "bands",
+            Topic::Branch => "branch",
+            Topic::Balance => "harmonics",
+            Topic::ReturnMap => "return map",
+            Topic::Regimes => "regimes",
+            Topic::Speeds => "speeds",
+            Topic::Trade => "trade",
+            Topic::Reference => "reference",
+            Topic::Scan => "scan",
+            Topic::Claims => "paper",
+            Topic::Fit => "fit",
         }
     }
 }
 
 impl Request {
-    /// Which kind of request this is.
+    /// What this asks about.
     #[must_use]
-    pub fn slot(&self) -> Slot {
+    pub fn topic(&self) -> Topic {
         match self {
-            Request::Trajectory(_) | Request::Machine { .. } => Slot::Trajectory,
-            Request::Cycles { .. } | Request::Portrait { .. } => Slot::Cycles,
-            Request::Capture { .. } => Slot::Capture,
-            Request::Balance { .. } => Slot::Balance,
-            Request::Branch { .. } => Slot::Branch,
-            Request::ReturnMap { .. } => Slot::ReturnMap,
-            Request::Regimes { .. } => Slot::Regimes,
-            Request::Speeds { .. } => Slot::Speeds,
-            Request::Family { slot, .. } => *slot,
-            Request::Trade { .. } => Slot::Trade,
-            Request::Reference { .. } => Slot::Reference,
-            Request::Scan { .. } => Slot::Scan,
-            Request::Claims => Slot::Claims,
-            Request::Fit { .. } => Slot::Fit,
+            Request::Trajectory(_) | Request::Machine { .. } => Topic::Trajectory,
+            Request::Cycles { .. } | Request::Portrait { .. } => Topic::Cycles,
+            Request::Capture { .. } => Topic::Capture,
+            Request::Balance { .. } => Topic::Balance,
+            Request::Branch { .. } => Topic::Branch,
+            Request::ReturnMap { .. } => Topic::ReturnMap,
+            Request::Regimes { .. } => Topic::Regimes,
+            Request::Speeds { .. } => Topic::Speeds,
+            Request::Trade { .. } => Topic::Trade,
+            Request::Reference { .. } => Topic::Reference,
+            Request::Scan { .. } => Topic::Scan,
+            Request::Claims => Topic::Claims,
+            Request::Fit { .. } => Topic::Fit,
         }
     }
 
@@ -306,16 +252,6 @@ impl Request {
                 range: *range,
                 count: ROUGH,
             }),
-            Request::Family { slot, members } => {
-                let drafts: Vec<_> = members.iter().map(Request::draft).collect();
-                let rough = |(draft, member): (Option<Request>, &Request)| {
-                    draft.unwrap_or_else(|| member.clone())
-                };
-                drafts.iter().any(Option::is_some).then(|| Request::Family {
-                    slot: *slot,
-                    members: drafts.into_iter().zip(members).map(rough).collect(),
-                })
-            }
             Request::Cycles { .. }
             | Request::Machine { .. }
             | Request::Portrait { .. }
@@ -336,21 +272,53 @@ impl Request {
         matches!(self, Request::Scan { .. })
     }
 
-    /// Whether the answer to this may stand in for that to `wanted` until that is there.
+    /// How alike this is to a question: how many of their numbers are equal. `None` where its answer must
+    /// not stand in for the wanted one, not even until that is there.
     #[must_use]
-    pub fn resembles(&self, wanted: &Request) -> bool {
-        match (self, wanted) {
+    pub fn likeness(&self, wanted: &Request) -> Option<usize> {
+        let comparable = match (self, wanted) {
             (Request::Branch { parameter: mine, .. }, Request::Branch { parameter, .. }) => {
                 mine == parameter
             }
             (Request::Regimes { plane: mine, .. }, Request::Regimes { plane, .. }) => {
                 (mine.right, mine.up) == (plane.right, plane.up)
             }
-            (Request::Family { members: mine, .. }, Request::Family { members: wanted, .. }) => {
-                let mut pairs = mine.iter().zip(wanted);
-                mine.len() == wanted.len() && pairs.all(|(mine, wanted)| mine.resembles(wanted))
+            _ => self.topic() == wanted.topic(),
+        };
+        let pairs = || self.numbers().into_iter().zip(wanted.numbers());
+        comparable.then(|| pairs().filter(|(mine, wanted)| mine == wanted).count())
+    }
+
+    /// The numbers that it depends on, but for those that say how finely it is to be answered.
+    fn numbers(&self) -> [f64; 8] {
+        let of = |parameters: &Parameters, rest: [f64; 4]| {
+            let Parameters { d, d2, d3, r } = *parameters;
+            let [a, b, c, e] = rest;
+            [d, d2, d3, r, a, b, c, e]
+        };
+        match self {
+            Request::Trajectory(problem) | Request::Machine { problem, .. } => {
+                let Problem { parameters, initial, until, .. } = problem;
+                of(parameters, [initial.q, initial.v, *until, 0.0])
             }
-            _ => self.slot() == wanted.slot(),
+            Request::Trade { parameters, initial, until }
+            | Request::Reference { parameters, initial, until } => {
+                of(parameters, [initial.q, initial.v, *until, 0.0])
+            }
+            Request::Cycles { parameters }
+            | Request::Portrait { parameters, .. }
+            | Request::Balance { parameters, .. } => of(parameters, [0.0; 4]),
+            Request::Capture { parameters, reach, .. } => of(parameters, [*reach, 0.0, 0.0, 0.0]),
+            Request::Branch { parameters, range: (from, to), .. }
+            | Request::ReturnMap { parameters, range: (from, to) } => {
+                of(parameters, [*from, *to, 0.0, 0.0])
+            }
+            Request::Regimes { parameters, plane, .. } => {
+                let ((left, right), (low, high)) = (plane.right_range, plane.up_range);
+                of(parameters, [left, right, low, high])
+            }
+            Request::Speeds { range: (from, to), .. } => [*from, *to, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+            Request::Scan { .. } | Request::Claims | Request::Fit { .. } => [0.0; 8],
         }
     }
 }

@@ -37,6 +37,7 @@ pub use press::run_line;
 pub use read::contexts::Hint;
 pub use read::variants::Shown;
 pub use read::{fate, ledger, motion, requirement};
+pub use state::answers::Standing;
 pub use state::command::{Command, LineCommand};
 pub use state::context::Context;
 pub use state::input::Input;

@@ -23,7 +23,7 @@ pub(super) const ENTER: Key = Key::plain(Code::Enter);
 /// Takes a key in.
 pub(super) fn press(session: &mut Session, key: Key) -> Vec<Effect> {
     session.notice = None;
-    session.effort.measuring = false;
+    session.measuring = false;
     session.price = Price { key: Some(key), recomputed: Vec::new() };
     match session.pending {
         Some(pending) => resolve(session, pending, key),

@@ -16,7 +16,7 @@ use crate::oscillator::PARAMETERS;
 use crate::oscillator::belt::Quantity;
 use crate::scene::file::{TOLERANCE_RANGE, UNTIL_RANGE};
 use crate::scene::{
-    Answered, Arrangement, Axes, Exhibit, Layer, MOST_PLOTS, Point, Scene, Slot, View, Window, find,
+    Arrangement, Axes, Exhibit, Layer, MOST_PLOTS, Point, Scene, View, Window, find,
 };
 use crate::session::replay;
 use crate::session::replay::script::Step;
@@ -254,12 +254,8 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     opened.marks = Marks { places, left };
     opened.macros.registers = registers;
     opened.answers = std::mem::take(&mut session.answers);
-    let fits = |slot, held: &Answered| opened.request(slot, plot).as_ref() == Some(&held.request);
-    let unfit: Vec<Slot> =
-        opened.answers.iter().filter(|(slot, held)| !fits(**slot, held)).map(|it| *it.0).collect();
-    for slot in unfit {
-        opened.answers.remove(&slot);
-    }
+    opened.answers.ask(opened.asks());
+    opened.answers.forget_others();
     opened.keymap = Arc::clone(&session.keymap);
     opened.look = session.look;
     *session = opened;

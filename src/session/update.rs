@@ -50,7 +50,7 @@ fn take_in(session: &mut Session, message: Msg) -> Vec<Effect> {
         Msg::Pointed(pointed) => {
             session.notice = None;
             session.price = Price::default();
-            session.effort.measuring = false;
+            session.measuring = false;
             mouse::pointed(session, pointed)
         }
         Msg::Resize { width, height } => {
@@ -90,7 +90,8 @@ fn take_in(session: &mut Session, message: Msg) -> Vec<Effect> {
         Msg::Idle => Vec::new(),
     };
     keep_selection(session);
-    session.share();
+    let asked = session.asks().into_iter().chain(session.compared().cloned()).collect();
+    session.answers.ask(asked);
     answers::resolve(session);
     walk::keep_hold(session);
     macros::rest(session);
@@ -120,7 +121,7 @@ fn paste(session: &mut Session, text: &str) -> Vec<Effect> {
 
 /// Takes an answer of the worker; says what went wrong with a question of today.
 fn take(session: &mut Session, answered: Answered) {
-    let name = answered.request.slot().name();
+    let name = answered.request.topic().name();
     let failure = answered.result.as_ref().err().cloned();
     let asked = session.take(answered);
     if let Some(failure) = failure.filter(|_| asked)

@@ -5,9 +5,9 @@ use ratatui::text::Span;
 use super::content::{Content, Entry};
 use super::look::Look;
 use crate::picture::role::Role;
-use crate::scene::{Answered, Layer, Slot};
-use crate::session::requirement::{CostRow, Requirement};
-use crate::session::{List, Session};
+use crate::scene::{Answered, Layer, Topic};
+use crate::session::requirement::{CostRow, Requirement, named};
+use crate::session::{List, Session, Standing};
 use crate::words::number::{count, duration};
 
 /// Columns of what a row is about.
@@ -43,13 +43,13 @@ fn names(layers: &[Layer]) -> String {
 
 /// What a question took, and for which layers it is asked.
 fn asked(session: &Session, requirement: &Requirement) -> (&'static str, String) {
-    let slot = requirement.request.slot();
-    let held = session
-        .on_show()
-        .filter_map(|plot| session.answered(slot, plot))
-        .find(|held| held.request == requirement.request);
-    let price = held.map_or_else(|| "not answered".to_owned(), |held| price(held));
-    (slot.name(), format!("{price} for {}", names(&requirement.layers)))
+    let topic = requirement.request.topic();
+    let held = match session.answers.standing(&requirement.request) {
+        Standing::Fresh(held) => Some(held),
+        _ => None,
+    };
+    let price = held.map_or_else(|| "not answered".to_owned(), price);
+    (topic.name(), format!("{price} for {}", names(&requirement.layers)))
 }
 
 fn price(answered: &Answered) -> String {
@@ -59,10 +59,9 @@ fn price(answered: &Answered) -> String {
 }
 
 /// What a step recomputes and what it reuses.
-fn consequence(reused: &[Slot], anew: &[Slot]) -> String {
-    let part = |name: &str, slots: &[Slot]| {
-        let names: Vec<_> = slots.iter().map(|slot| slot.name()).collect();
-        (!names.is_empty()).then(|| format!("{name} {}", names.join(", ")))
+fn consequence(reused: &[Topic], anew: &[Topic]) -> String {
+    let part = |name: &str, topics: &[Topic]| {
+        (!topics.is_empty()).then(|| format!("{name} {}", named(topics)))
     };
     let parts = part("recomputes", anew).into_iter().chain(part("reuses", reused));
     let parts: Vec<_> = parts.collect();

@@ -78,9 +78,9 @@ fn spans(hint: &Hint, look: &Look) -> [Span<'static>; 2] {
 
 /// What the last key waits for.
 fn waiting(session: &Session, look: &Look) -> Vec<Span<'static>> {
-    let slot = session.waiting.as_ref().map_or("", |waiting| waiting.request.slot().name());
+    let topic = session.waiting.as_ref().map_or("", |waiting| waiting.request.topic().name());
     vec![
-        Span::styled(format!(" waiting for: {slot} "), look.style(Role::Title)),
+        Span::styled(format!(" waiting for: {topic} "), look.style(Role::Title)),
         Span::styled(" esc forgets the key that waits", look.style(Role::Quiet)),
     ]
 }

@@ -3,7 +3,7 @@
 
 use crate::flow::{Outcome, Trajectory};
 use crate::machine::{Cycle, Fate};
-use crate::scene::Slot;
+use crate::scene::Topic;
 use crate::session::Session;
 use crate::study::Margin;
 use crate::words::number::significant;
@@ -50,7 +50,7 @@ fn onto(cycle: &Cycle) -> String {
 
 /// The kicks that are survived: by the model on show first, and by how much the expansion is wrong.
 pub fn margin(session: &Session) -> Option<String> {
-    let fresh = !session.is_stale(Slot::Cycles, session.plot);
+    let fresh = !session.is_stale(Topic::Cycles, session.plot);
     let (kinds, running) = session.kinds().filter(|_| fresh).zip(session.running())?;
     let units = &running.reduced.units;
     let said = |margin: &Option<Margin>| match margin {

@@ -8,8 +8,7 @@ use ratatui::widgets::{Clear, Widget};
 
 use super::look::Look;
 use crate::picture::role::Role;
-use crate::scene::Slot;
-use crate::session::{Pane, Session};
+use crate::session::{Pane, Session, Standing};
 
 /// The middle of the screen above the footer, for what stands over the panes.
 #[must_use]
@@ -73,22 +72,19 @@ impl Heading {
 
 /// Why the picture of a plot is not today's: the worst of what its layers need.
 fn mark(session: &Session, plot: usize) -> Option<&'static str> {
-    let needed = session.needs(plot);
-    let any = |test: &dyn Fn(Slot) -> bool| needed.iter().any(|slot| test(*slot));
-    if any(&|slot| session.failure(slot, plot).is_some()) {
-        Some("no answer")
-    } else if any(&|slot| session.is_stale(slot, plot) && session.answered(slot, plot).is_some()) {
-        let rough = |slot| session.has_draft(slot, plot);
-        Some(if needed.iter().all(|slot| !session.is_stale(*slot, plot) || rough(*slot)) {
-            "draft"
-        } else {
-            "stale"
-        })
-    } else if any(&|slot| session.is_stale(slot, plot)) {
-        Some("computing")
-    } else {
-        None
+    let asked = session.asked_by(plot);
+    if asked.iter().any(|request| session.answers.failure(request).is_some()) {
+        return Some("no answer");
     }
+    let standings = asked.iter().map(|request| session.answers.standing(request));
+    let worst = standings.map(|standing| match standing {
+        Standing::Fresh(_) => None,
+        Standing::Draft(_) => Some("draft"),
+        Standing::Stale(_) => Some("stale"),
+        Standing::None => Some("computing"),
+    });
+    // In the order of the alphabet.
+    worst.max().flatten()
 }
 
 /// Writes a title line into the first row of `area`: the title, then what fits of `names`, and the

@@ -13,7 +13,7 @@ use super::walk;
 use crate::flow::trajectory::choice;
 use crate::flow::{Outcome, Trajectory};
 use crate::picture::role::Role;
-use crate::scene::{Answer, Layer, Slot};
+use crate::scene::{Answer, Layer, Topic};
 use crate::session::Session;
 use crate::session::fate::{End, Fate, Place};
 use crate::study::Edge;
@@ -133,14 +133,15 @@ const WORDS: [Words; 4] = [
 
 /// What became of the motion, in a sentence.
 fn outcome(session: &Session) -> (String, Role) {
-    let asked = session.on_show().any(|plot| session.needs(plot).contains(&Slot::Trajectory));
+    let needs = |plot: usize| session.needs(plot).contains(&Topic::Trajectory);
+    let asked = session.on_show().any(|plot| session.variants(plot).is_none() && needs(plot));
     if let Some(text) = held_motions(session).filter(|_| !asked) {
         return (text, Role::Quiet);
     }
     if !session.layers.contains(&Layer::Trajectory) {
         return ("the motion is not shown".into(), Role::Quiet);
     }
-    if let Some(failure) = session.failure(Slot::Trajectory, session.plot) {
+    if let Some(failure) = session.failure(Topic::Trajectory, session.plot) {
         return (format!("no motion: {failure}"), Role::Failure);
     }
     match session.trajectory() {
@@ -156,7 +157,7 @@ fn outcome(session: &Session) -> (String, Role) {
 /// What became of the motions that plots hold, where there are any and all are known.
 fn held_motions(session: &Session) -> Option<String> {
     let plots = session.on_show().filter(|plot| session.variants(*plot).is_some());
-    let found = plots.flat_map(|plot| session.found(Slot::Trajectory, plot));
+    let found = plots.flat_map(|plot| session.found(Topic::Trajectory, plot));
     let outcomes: Vec<Outcome> = found
         .filter_map(|(.., answer)| match answer {
             Answer::Trajectory(found) => Some(found.outcome),
@@ -243,7 +244,7 @@ fn margin(session: &Session) -> Option<String> {
     if let Some(line) = machine::margin(session) {
         return Some(line);
     }
-    let found = session.cycles().filter(|_| !session.is_stale(Slot::Cycles, session.plot))?;
+    let found = session.cycles().filter(|_| !session.is_stale(Topic::Cycles, session.plot))?;
     if found.parameters.r == 0.0 {
         return None;
     }
@@ -267,7 +268,8 @@ fn margin(session: &Session) -> Option<String> {
 /// that of the energy.
 fn work(session: &Session, look: &Look, words: &Words) -> String {
     let Some(motion) = session.trajectory() else { return String::new() };
-    let seconds = session.answers.get(&Slot::Trajectory).map_or(0.0, |answered| answered.seconds);
+    let seconds = session.standing(Topic::Trajectory, session.plot).answered();
+    let seconds = seconds.map_or(0.0, |answered| answered.seconds);
     let chosen = choice(motion).filter(|_| session.measures() && words.choice);
     let mut parts = vec![
         chosen.unwrap_or_else(|| motion.method.to_string()),
@@ -305,7 +307,7 @@ fn price(session: &Session, look: &Look, words: &Words) -> String {
         return String::new();
     }
     let mut times: Vec<(&str, usize)> = Vec::new();
-    for name in price.recomputed.iter().map(|part| part.slot.name()) {
+    for name in price.recomputed.iter().map(|part| part.topic.name()) {
         match times.iter_mut().find(|(known, _)| *known == name) {
             Some((_, times)) => *times += 1,
             None => times.push((name, 1)),

@@ -12,7 +12,7 @@ use crate::oscillator::{Parameters, State, Symbol};
 use crate::scene::answer::Failure;
 use crate::scene::library::{find, library};
 use crate::scene::{
-    Answer, Answered, Axes, Exhibit, LAYERS, Layer, Point, Scene, Slot, Span, View, Window,
+    Answer, Answered, Axes, Exhibit, LAYERS, Layer, Point, Scene, Span, View, Window,
 };
 use crate::session::settings::{self, Colors, GLYPHS, Glyphs, THEMES};
 use crate::session::{Msg, Notice, Session, Size, Stop, update};
@@ -244,9 +244,8 @@ fn without_colour_no_cell_has_any_and_stable_still_differs_from_unstable() {
     let only = |stable: bool| {
         let mut session = settled("supercritical", 80, 24, "");
         session.layers = [Layer::Cycles].into();
-        if let Some(Ok(Answer::Cycles(found))) =
-            session.answers.get_mut(&Slot::Cycles).map(|held| Arc::make_mut(held).result.as_mut())
-        {
+        for held in session.answers.each() {
+            let Ok(Answer::Cycles(found)) = &mut held.result else { continue };
             found.cycles = vec![cycle(1.0, stable)];
             found.picture = Some(picture(Vec::new(), vec![circle(1.0)]));
         }
@@ -347,9 +346,8 @@ proptest! {
         session.layers = LAYERS.iter().map(|row| row.layer).collect();
         settle(&mut session);
         let states: Vec<State> = curve.iter().map(|(q, v)| State { q: *q, v: *v }).collect();
-        let own = session.plots.iter_mut().flat_map(|plot| plot.answers.values_mut());
-        for held in session.answers.values_mut().chain(own) {
-            match &mut Arc::make_mut(held).result {
+        for held in session.answers.each() {
+            match &mut held.result {
                 Ok(Answer::Trajectory(found)) => {
                     found.samples = curve.iter().map(|(q, v)| Sample { tau: 0.0, q: *q, v: *v }).collect();
                     found.outcome = Outcome::Moving { tau: value, q: low, v: high };
@@ -377,8 +375,7 @@ proptest! {
                 }
                 Ok(Answer::Capture(found)) => found.curves = vec![states.clone()],
                 Ok(
-                    Answer::Family(_)
-                    | Answer::Whole(_)
+                    Answer::Whole(_)
                     | Answer::Speeds(_)
                     | Answer::Trade(_)
                     | Answer::Reference(_)

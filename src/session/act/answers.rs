@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::flow::Reason;
 use crate::scene::answer::{Failure, Rows};
-use crate::scene::{Answer, Answered, Fit, Request, SLOTS, Slot, View};
+use crate::scene::{Answer, Answered, Fit, Topic, View};
 use crate::session::act::notice::refuse;
 use crate::session::read::fit::{fitted, is_pending};
 use crate::session::state::plot::Framing;
@@ -13,50 +13,22 @@ use crate::session::state::session::{Recomputed, Session};
 
 impl Session {
     /// Takes an answer in; returns whether it is the answer to a question of today.
-    ///
-    /// One that comes late, to a question that is no longer asked, is still newer than what is shown,
-    /// unless that is the answer to today's question.
     pub(in crate::session) fn take(&mut self, answered: Answered) -> bool {
-        let slot = answered.request.slot();
-        if slot == Slot::Scan {
+        let topic = answered.request.topic();
+        if topic == Topic::Scan {
             return self.take_rows(&answered);
         }
-        let wanted: Vec<_> = (0..self.plots.len()).map(|plot| self.request(slot, plot)).collect();
-        let asked = wanted.iter().flatten().any(|wanted| *wanted == answered.request);
-        match &answered.result {
-            Err(Failure::Reason(Reason::Interrupted)) => {}
-            Err(failure) => {
-                self.failures.retain(|(request, _)| *request != answered.request);
-                self.failures.push((answered.request, failure.clone()));
-            }
-            Ok(answer) => {
-                let (cost, seconds) = (answer.cost(), answered.seconds);
-                if answered.request.draft().is_some() {
-                    self.effort.burdens.insert(slot, cost.evaluations);
-                }
-                self.price.recomputed.push(Recomputed { slot, cost, seconds });
-                self.failures.retain(|(request, _)| *request != answered.request);
-                if let Answer::Fit(fit) = answer
-                    && asked
-                {
-                    self.show_fit(&fit.clone());
-                }
-                let answered = Arc::new(answered);
-                let draft_of =
-                    |wanted: &Request| wanted.draft().as_ref() == Some(&answered.request);
-                let of_today = asked || wanted.iter().flatten().any(draft_of);
-                for (plot, wanted) in wanted.iter().enumerate() {
-                    let Some(wanted) = wanted else { continue };
-                    // What another plot asks today is no late answer to this one.
-                    let late = !of_today && answered.request.resembles(wanted);
-                    let newer = (draft_of(wanted) || late && !self.has_draft(slot, plot))
-                        && self.is_stale(slot, plot);
-                    if answered.request == *wanted || newer {
-                        self.hold(plot, Arc::clone(&answered));
-                    }
-                }
+        let asked = self.asks().contains(&answered.request);
+        if let Ok(answer) = &answered.result {
+            let (cost, seconds) = (answer.cost(), answered.seconds);
+            self.price.recomputed.push(Recomputed { topic, cost, seconds });
+            if let Answer::Fit(fit) = answer
+                && asked
+            {
+                self.show_fit(&fit.clone());
             }
         }
+        self.answers.keep(answered);
         asked
     }
 
@@ -75,42 +47,6 @@ impl Session {
         for plot in &mut self.plots {
             plot.framing = Framing::Fitting;
         }
-    }
-
-    /// Keeps an answer where it is looked for.
-    fn hold(&mut self, plot: usize, answered: Arc<Answered>) {
-        let slot = answered.request.slot();
-        if !slot.is_own() {
-            self.answers.insert(slot, answered);
-        } else if let Some(plot) = self.plots.get_mut(plot) {
-            plot.answers.insert(slot, answered);
-        }
-    }
-
-    /// Gives every plot the answers that others have to its questions, and forgets failures of
-    /// questions that nobody asks any more.
-    pub(in crate::session) fn share(&mut self) {
-        let own = || SLOTS.into_iter().filter(|slot| slot.is_own());
-        let all = (0..self.plots.len()).flat_map(|plot| own().map(move |slot| (plot, slot)));
-        for (plot, slot) in all.collect::<Vec<_>>() {
-            if let Some(wanted) = self.request(slot, plot).filter(|_| self.is_stale(slot, plot)) {
-                let mut others =
-                    (0..self.plots.len()).filter_map(|other| self.answered(slot, other));
-                let found = others.find(|held| held.request == wanted).cloned();
-                if let Some(found) = found {
-                    self.hold(plot, found);
-                }
-            }
-        }
-        let mut failures = std::mem::take(&mut self.failures);
-        failures.retain(|(failed, _)| {
-            let slot = failed.slot();
-            let today = |plot| self.request(slot, plot);
-            let is_asked =
-                |wanted: Request| wanted == *failed || wanted.draft().as_ref() == Some(failed);
-            (0..self.plots.len()).filter_map(today).any(is_asked)
-        });
-        self.failures = failures;
     }
 
     /// Takes rows of the scan in; returns whether they were asked for.

@@ -4,6 +4,7 @@ use crate::scene::ordinate::usual_values;
 use crate::scene::{ABSCISSAE, Axes, Exhibit, ORDINATES, Span, Unit, View, Window};
 use crate::session::act::notice::{inform, refuse};
 use crate::session::effect::Effect;
+use crate::session::state::plot::Plot;
 use crate::session::state::session::Session;
 
 /// Room beside today's value where it lies outside of the values first looked at, as a factor.
@@ -91,7 +92,7 @@ fn reframe(session: &mut Session, axes: Axes, x: Span) {
     let of_scene = of_scene(session).filter(|exhibit| exhibit.axes == axes);
     let Some(plot) = session.focused_mut() else { return };
     if let Some(exhibit) = of_scene.filter(|exhibit| exhibit.opening().x == x) {
-        plot.show(&exhibit);
+        *plot = Plot::opened(&exhibit);
     } else {
         plot.axes = axes;
         plot.fit_from(Window { x, y: plot.window.y });

@@ -15,7 +15,7 @@ pub(in crate::session) fn set_up(session: &mut Session, desk: &Desk) {
     session.plots.truncate(desk.plots.len());
     for (index, exhibit) in desk.plots.iter().enumerate() {
         match session.plots.get_mut(index) {
-            Some(plot) => plot.show(exhibit),
+            Some(plot) => *plot = Plot::opened(exhibit),
             None => session.plots.push(Plot::opened(exhibit)),
         }
     }
@@ -65,7 +65,7 @@ pub fn show(session: &mut Session, view: View) -> Vec<Effect> {
     if session.plots[index].view != view {
         let exhibit = exhibit(session, index, view);
         record(session);
-        session.plots[index].show(&exhibit);
+        session.plots[index] = Plot::opened(&exhibit);
         switch_on(session, view);
     }
     focus_on(session, Pane::Plot(index));

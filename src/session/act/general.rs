@@ -86,10 +86,9 @@ pub fn back(session: &mut Session) -> Vec<Effect> {
 
 /// Asks again what has no answer.
 pub fn retry(session: &mut Session) -> Vec<Effect> {
-    if session.failures.is_empty() {
+    if !session.answers.forget_failures() {
         inform(session, "nothing has failed");
     }
-    session.failures.clear();
     Vec::new()
 }
 

@@ -1,15 +1,14 @@
 //! Marks: points of the parameters to come back to, and the one that is compared with.
 //!
-//! A mark keeps the answers that were there when its point was left. Coming back they are today's again,
-//! and nothing is computed twice; the point that was left is drawn dim behind the other one.
+//! Coming back nothing is computed twice: answers are kept by their questions. The point that was left is
+//! drawn dim behind the other one.
 
-use std::sync::Arc;
-
-use crate::scene::{Layer, Slot};
+use crate::scene::Layer;
 use crate::session::act::notice::{inform, refuse};
 use crate::session::act::parameters::put;
 use crate::session::effect::Effect;
 use crate::session::read::numbers::difference;
+use crate::session::read::wants::COMPARED;
 use crate::session::state::marks::Mark;
 use crate::session::state::session::Session;
 
@@ -43,28 +42,18 @@ pub(in crate::session) fn go_back(session: &mut Session) -> Vec<Effect> {
 /// Goes to a point, as a change that can be undone, and keeps what is known about the one that is left.
 fn go(session: &mut Session, mark: &Mark) {
     let here = present(session);
-    for known in session.marks.places.values_mut().filter(|known| known.stand == here.stand) {
-        known.answers.clone_from(&here.answers);
-    }
     if mark.stand == here.stand {
         inform(session, "here already");
         return;
     }
     inform(session, difference(&here.stand, &mark.stand));
     put(session, mark.stand);
-    for (slot, answered) in &mark.answers {
-        if session.request(*slot, session.plot).as_ref() == Some(&answered.request) {
-            session.answers.insert(*slot, Arc::clone(answered));
-        }
-    }
     session.marks.left = Some(here);
     session.layers.insert(Layer::Ghost);
 }
 
 /// The present point.
 fn present(session: &Session) -> Mark {
-    let todays = |slot: &Slot| !session.is_stale(*slot, session.plot);
-    let answers = session.answers.iter().filter(|(slot, _)| todays(slot));
-    let answers = answers.map(|(slot, answered)| (*slot, Arc::clone(answered))).collect();
-    Mark { stand: session.stand(), answers }
+    let asked = COMPARED.into_iter().filter_map(|topic| session.request(topic, session.plot));
+    Mark { stand: session.stand(), asked: asked.collect() }
 }

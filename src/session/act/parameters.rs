@@ -128,7 +128,7 @@ pub fn unfold(session: &mut Session) -> Vec<Effect> {
 
 /// Turns the dial to the next of its stops: draft, normal, fine, reference.
 pub fn dial(session: &mut Session, finer: bool) -> Vec<Effect> {
-    session.effort.measuring = true;
+    session.measuring = true;
     match session.problem.next_quality(finer) {
         Some(quality) => {
             change(session, session.problem.at(quality));
@@ -166,7 +166,7 @@ pub fn next_method(session: &mut Session, by: isize) -> Vec<Effect> {
     let at = methods.clone().position(|method| method == session.problem.method).unwrap_or(0);
     let next = at.checked_add_signed(by).unwrap_or(METHODS.len() - 1) % METHODS.len();
     let row = &METHODS[next];
-    session.effort.measuring = true;
+    session.measuring = true;
     change(session, Problem { method: row.method, ..session.problem });
     inform(session, format!("{}: {}", row.name, row.guarantee));
     Vec::new()

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::scene::{Layer, Slot};
+use crate::scene::{Layer, Topic};
 use crate::session::act::notice::{inform, refuse};
 use crate::session::effect::Effect;
 use crate::session::state::playback::PACES;
@@ -12,7 +12,7 @@ use crate::session::state::session::Session;
 /// Plays the motion, or holds it; at its end, from the start again.
 pub fn play(session: &mut Session) -> Vec<Effect> {
     let shown = session.shows(Layer::Trajectory) || session.shows(Layer::Mass);
-    let given_up = session.failure(Slot::Trajectory, session.plot).is_some();
+    let given_up = session.failure(Topic::Trajectory, session.plot).is_some();
     if !shown || given_up || session.trajectory().is_none() {
         refuse(session, "there is no motion on show to play");
         return Vec::new();

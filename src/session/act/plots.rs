@@ -150,7 +150,7 @@ pub fn home(session: &mut Session) -> Vec<Effect> {
     let exhibit = session.exhibit_of_scene(index, plot.view).unwrap_or(usual);
     if let Some(plot) = session.focused_mut() {
         let cursor = plot.cursor;
-        plot.show(&exhibit);
+        *plot = Plot::opened(&exhibit);
         plot.cursor = cursor;
     }
     Vec::new()
@@ -175,7 +175,7 @@ pub fn use_method(session: &mut Session) -> Vec<Effect> {
     match session.row_under_cursor(index).map(|row| row.problem) {
         Some(row) => {
             let taken = Problem { method: row.method, ..session.problem };
-            session.effort.measuring = true;
+            session.measuring = true;
             change(session, taken.with_setting(row.setting()));
         }
         None => refuse(session, "no method is compared here yet"),

@@ -2,7 +2,7 @@
 
 use crate::flow::Problem;
 use crate::oscillator::State;
-use crate::scene::Slot;
+use crate::scene::Topic;
 use crate::session::act::notice::{refuse, told};
 use crate::session::act::parameters::change;
 use crate::session::effect::Effect;
@@ -41,8 +41,8 @@ fn edge(found: &Cycles) -> Option<(f64, f64)> {
 }
 
 fn beside(session: &Session, factor: f64) -> Result<f64, String> {
-    if session.is_stale(Slot::Cycles, session.plot) {
-        return Err(match session.failure(Slot::Cycles, session.plot) {
+    if session.is_stale(Topic::Cycles, session.plot) {
+        return Err(match session.failure(Topic::Cycles, session.plot) {
             Some(why) => format!("the cycles are not known: {why}"),
             None => "the cycles are not computed: {layers} lists the layers".to_owned(),
         });

@@ -2,7 +2,7 @@
 
 use crate::numerics::elementary::hypot;
 use crate::oscillator::State;
-use crate::scene::{Axes, Layer, Slot};
+use crate::scene::{Axes, Layer, Topic};
 use crate::session::act::notice::{inform, refuse, told};
 use crate::session::act::parameters::change;
 use crate::session::effect::Effect;
@@ -33,7 +33,7 @@ fn first(session: &Session) -> Result<Stop, &'static str> {
         return Err("the branch is not shown: {layers} lists the layers");
     }
     let branches = session.branches(index);
-    if branches.is_empty() || is_stale(session, index) {
+    if branches.is_empty() || !session.is_fresh(Topic::Branch, index) {
         return Err("the branch is not known: its computation gave up");
     }
     let way = Way::along(&branches);
@@ -81,11 +81,6 @@ fn moved(session: &mut Session, choose: impl Fn(&Way, &Stop) -> Option<Stop>) ->
     found != held
 }
 
-/// Whether the branches on show are not those of today's values.
-fn is_stale(session: &Session, plot: usize) -> bool {
-    session.is_stale(session.slot_in(Slot::Branch, plot), plot)
-}
-
 /// Gives the parameter the value of the point, and starts the motion on its cycle, as one change. On the
 /// branch of a variant the values that it holds come along.
 pub fn take(session: &mut Session) -> Vec<Effect> {
@@ -130,7 +125,7 @@ pub(in crate::session) fn keep_hold(session: &mut Session) {
     let branches = session.branches(index);
     session.held = if !on_show {
         None
-    } else if is_stale(session, index) {
+    } else if !session.is_fresh(Topic::Branch, index) {
         Some(held).filter(|_| branches.iter().any(|(_, branch)| !branch.pieces.is_empty()))
     } else {
         Way::along(&branches).again(&held)

@@ -9,7 +9,7 @@ use crate::oscillator::{Belt, Parameters, State, Symbol};
 use crate::scene::answer::Whole;
 use crate::scene::speeds::Speeds;
 use crate::scene::whole::{Course, Kinds};
-use crate::scene::{Answer, Layer, Running, Slot};
+use crate::scene::{Answer, Layer, Running, Topic};
 use crate::session::state::session::Session;
 use crate::session::state::setup::Stand;
 
@@ -71,17 +71,17 @@ impl Session {
     /// What the whole model says about the motion on show; `None` while it is not drawn or not known.
     #[must_use]
     pub fn course(&self) -> Option<&Course> {
-        self.whole(Slot::Trajectory)?.motion.as_ref()
+        self.whole(Topic::Trajectory)?.motion.as_ref()
     }
 
     /// What the whole model says about the cycles; `None` while it is not known.
     #[must_use]
     pub fn kinds(&self) -> Option<&Kinds> {
-        self.whole(Slot::Cycles)?.cycles.as_ref()
+        self.whole(Topic::Cycles)?.cycles.as_ref()
     }
 
-    fn whole(&self, slot: Slot) -> Option<&Whole> {
-        match self.answered(slot, self.plot)?.result.as_ref().ok()? {
+    fn whole(&self, topic: Topic) -> Option<&Whole> {
+        match self.standing(topic, self.plot).answered()?.result.as_ref().ok()? {
             Answer::Whole(whole) => Some(whole),
             _ => None,
         }
@@ -90,7 +90,7 @@ impl Session {
     /// The cycles over the speed of the belt that were computed last for a plot, stale or not.
     #[must_use]
     pub fn speeds(&self, plot: usize) -> Option<&Speeds> {
-        match self.answer(Slot::Speeds, plot)? {
+        match self.answer(Topic::Speeds, plot)? {
             Answer::Speeds(found) => Some(found),
             _ => None,
         }

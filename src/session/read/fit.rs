@@ -6,7 +6,7 @@ use crate::numerics::elementary::hypot;
 use crate::oscillator::energy::energy;
 use crate::oscillator::{State, Symbol};
 use crate::scene::ordinate::usual_values;
-use crate::scene::{Answer, Axes, Layer, Point, Request, Slot, Span, View, Window};
+use crate::scene::{Answer, Axes, Layer, Point, Request, Topic, Span, View, Window};
 use crate::session::state::plot::Framing;
 use crate::session::state::scan::Scanned;
 use crate::session::state::session::Session;
@@ -65,9 +65,7 @@ pub(in crate::session) fn is_pending(session: &Session, plot: usize) -> bool {
 
 /// The first question of a plot that is still to be answered.
 fn first_open(session: &Session, plot: usize) -> Option<Request> {
-    let mut requests =
-        session.needs(plot).into_iter().filter_map(|slot| session.request(slot, plot));
-    requests.find(|request| session.is_open(request))
+    session.asked_by(plot).into_iter().find(|request| session.is_open(request))
 }
 
 /// The question whose answer the window of a plot on show waits for, if it is being fitted.
@@ -103,18 +101,18 @@ fn phase(session: &Session, plot: usize) -> Option<Window> {
         let at = |x, y| Point { x, y };
         points.extend([at(start.q, start.v), at(-r, 0.0), at(r, 0.0)]);
     }
-    let answers = |layer, slot| {
-        let shown = session.shows_in(layer, plot).then(|| session.found(slot, plot));
+    let answers = |layer, topic| {
+        let shown = session.shows_in(layer, plot).then(|| session.found(topic, plot));
         shown.unwrap_or_default().into_iter().map(|(.., answer)| answer)
     };
-    for answer in answers(Layer::Cycles, Slot::Cycles) {
+    for answer in answers(Layer::Cycles, Topic::Cycles) {
         let Answer::Cycles(found) = answer else { continue };
         for cycle in &found.cycles {
             points.push(Point { x: cycle.q_min, y: cycle.v_min });
             points.push(Point { x: cycle.q_max, y: cycle.v_max });
         }
     }
-    for answer in answers(Layer::Trajectory, Slot::Trajectory) {
+    for answer in answers(Layer::Trajectory, Topic::Trajectory) {
         let Answer::Trajectory(found) = answer else { continue };
         let last = session.contact().map_or(f64::INFINITY, |(tau, _)| tau);
         let samples = found.samples.iter().take_while(|sample| sample.tau <= last);

@@ -140,7 +140,7 @@ mod tests {
             Session::new(crate::scene::plain(), crate::session::Size { width: 80, height: 24 });
         assert_eq!(session.state_at(1.0), None);
         session.problem = Problem { parameters: BRAKED, initial: START, ..session.problem };
-        let request = session.request(crate::scene::Slot::Trajectory, 0).unwrap();
+        let request = session.request(crate::scene::Topic::Trajectory, 0).unwrap();
         let answer = crate::scene::answer::answer(&request, &Limits::PATIENT).unwrap();
         session.take(crate::scene::Answered {
             request,

@@ -6,7 +6,7 @@
 use std::f64::consts::TAU;
 
 use crate::flow::{Sample, Trajectory};
-use crate::scene::Slot;
+use crate::scene::Topic;
 use crate::session::state::playback::Pace;
 use crate::session::state::session::Session;
 use crate::study::belt::Followed;
@@ -22,7 +22,7 @@ impl Session {
     /// the head is where it is however long that takes.
     #[must_use]
     pub fn is_moving(&self) -> bool {
-        let asked = self.request(Slot::Trajectory, self.plot);
+        let asked = self.request(Topic::Trajectory, self.plot);
         self.is_playing() && asked.is_none_or(|request| !self.is_open(&request))
     }
 

@@ -1,6 +1,8 @@
 //! What a scene requires: which questions its layers ask, and which of them a step of a number asks anew.
 
-use crate::scene::{Layer, Request, Slot};
+use std::collections::BTreeMap;
+
+use crate::scene::{Layer, Request, Topic};
 use crate::session::act::parameters;
 use crate::session::state::overlay::List;
 use crate::session::state::rows::Row;
@@ -22,23 +24,23 @@ pub enum CostRow {
     Asked(Requirement),
     /// Layers that formulas draw.
     Formulas(Vec<Layer>),
-    /// A step of this row: the kinds of questions that it leaves as they are, and asks anew.
-    Step(Row, Vec<Slot>, Vec<Slot>),
+    /// A step of this row: what the questions are about that it leaves as they are, and asks anew.
+    Step(Row, Vec<Topic>, Vec<Topic>),
 }
 
 impl Session {
     /// The rows of the list of costs.
     #[must_use]
     pub fn cost_rows(&self, list: &List) -> Vec<CostRow> {
-        let slots = |requests: Vec<Request>| requests.iter().map(Request::slot).collect();
+        let topics = |requests: Vec<Request>| requests.iter().map(Request::topic).collect();
         let asked = self.requirements().into_iter().map(CostRow::Asked);
         let formulas = Some(self.drawn_by_formulas()).filter(|layers| !layers.is_empty());
         let steps = self.rows().into_iter().map(|row| {
             let (reused, anew) = self.after_a_step(row);
-            CostRow::Step(row, slots(reused), slots(anew))
+            CostRow::Step(row, topics(reused), topics(anew))
         });
         let name = |row: &CostRow| match row {
-            CostRow::Asked(requirement) => requirement.request.slot().name(),
+            CostRow::Asked(requirement) => requirement.request.topic().name(),
             CostRow::Formulas(_) => "formulas",
             CostRow::Step(row, ..) => row.name(),
         };
@@ -53,18 +55,18 @@ impl Session {
         for plot in self.on_show() {
             let layers = self.layers.iter().filter(|layer| self.shows_in(**layer, plot));
             for layer in layers {
-                let slot = layer.spec().needs.map(|slot| self.slot_in(slot, plot));
-                let Some(request) = slot.and_then(|slot| self.request(slot, plot)) else {
-                    continue;
-                };
-                match found.iter_mut().find(|requirement| requirement.request == request) {
-                    Some(known) if known.layers.contains(layer) => {}
-                    Some(known) => known.layers.push(*layer),
-                    None => found.push(Requirement { request, layers: vec![*layer] }),
+                let topic = layer.spec().needs;
+                let each = topic.map(|topic| self.requests(topic, plot)).unwrap_or_default();
+                for (_, request) in each {
+                    match found.iter_mut().find(|requirement| requirement.request == request) {
+                        Some(known) if known.layers.contains(layer) => {}
+                        Some(known) => known.layers.push(*layer),
+                        None => found.push(Requirement { request, layers: vec![*layer] }),
+                    }
                 }
             }
         }
-        found.sort_by_key(|requirement| requirement.request.slot());
+        found.sort_by_key(|requirement| requirement.request.topic());
         found
     }
 
@@ -95,4 +97,16 @@ impl Session {
             .map(|requirement| requirement.request)
             .partition(|request| today.contains(request))
     }
+}
+
+/// What questions are about, as text; how many, where there are several about one.
+#[must_use]
+pub fn named(topics: &[Topic]) -> String {
+    let mut counted: BTreeMap<Topic, usize> = BTreeMap::new();
+    topics.iter().for_each(|topic| *counted.entry(*topic).or_default() += 1);
+    let named = counted.into_iter().map(|(topic, count)| match count {
+        1 => topic.name().to_owned(),
+        _ => format!("{} x{count}", topic.name()),
+    });
+    named.collect::<Vec<_>>().join(", ")
 }

@@ -1,7 +1,7 @@
 //! The view of what accuracy costs: the row that the cursor is nearest to, and taking its method.
 
 use crate::numerics::elementary::hypot;
-use crate::scene::{Answer, Point, Slot, View, Window};
+use crate::scene::{Answer, Point, Topic, View, Window};
 use crate::session::state::session::Session;
 use crate::study::trade::{Row, Trade};
 
@@ -9,7 +9,7 @@ impl Session {
     /// The last comparison of the methods, stale or not.
     #[must_use]
     pub fn trade(&self) -> Option<&Trade> {
-        match self.answer(Slot::Trade, self.plot)? {
+        match self.answer(Topic::Trade, self.plot)? {
             Answer::Trade(found) => Some(found),
             _ => None,
         }

@@ -1,11 +1,11 @@
 //! Plots that show several variants of the present problem, one picture over another.
 //!
-//! A variant holds some values, the others follow the keys. What a plot of this kind needs is one
-//! question for each kind of answer that its layers draw, with a member for each variant.
+//! A variant holds some values, the others follow the keys.
 
 use crate::flow::Problem;
 use crate::oscillator::Symbol;
-use crate::scene::{Answer, Height, Request, Slot, Variant};
+use crate::scene::{Answer, Height, Request, Topic, Variant};
+use crate::session::state::answers::Standing;
 use crate::session::state::session::Session;
 use crate::study::Branch;
 
@@ -47,30 +47,24 @@ impl Session {
         text(held.filter(|(symbol, value)| is_parameter(**symbol) && alike(all, **symbol, **value)))
     }
 
-    /// The last answers of a kind, as a plot has them, stale or not; each with its place among what the plot
-    /// shows, and the values that are held.
+    /// The answers about this topic for what a plot shows, stale or not; each with its place among that, and
+    /// the values that are held.
     #[must_use]
-    pub fn found(&self, slot: Slot, plot: usize) -> Vec<(usize, String, &Answer)> {
-        let labels = self.variants(plot).map(|all| labels(all, slot == Slot::Trajectory));
-        let label = |index: usize| match &labels {
-            Some(labels) => labels.get(index).cloned(),
-            None => Some(String::new()),
-        };
-        let numbered = self.numbered(slot, plot).into_iter();
-        numbered.filter_map(|(index, answer)| Some((index, label(index)?, answer))).collect()
+    pub fn found(&self, topic: Topic, plot: usize) -> Vec<(usize, String, &Answer)> {
+        let labels = self.variants(plot).map(|all| labels(all, topic == Topic::Trajectory));
+        let label = |index: usize| labels.as_ref()?.get(index).cloned();
+        let found = self.answers_for_each(topic, plot);
+        found.map(|(index, answer)| (index, label(index).unwrap_or_default(), answer)).collect()
     }
 
-    /// The same, each with its place among what the plot shows.
-    fn numbered(&self, slot: Slot, plot: usize) -> Vec<(usize, &Answer)> {
-        match self.answer(self.slot_in(slot, plot), plot) {
-            Some(Answer::Family(answers)) => {
-                let numbered = answers.iter().enumerate();
-                numbered
-                    .filter_map(|(index, answer)| Some((index, answer.as_ref().ok()?)))
-                    .collect()
-            }
-            answer => answer.map(|answer| (0, answer)).into_iter().collect(),
-        }
+    /// The same without the values.
+    fn answers_for_each(
+        &self,
+        topic: Topic,
+        plot: usize,
+    ) -> impl Iterator<Item = (usize, &Answer)> {
+        let asked = self.requests(topic, plot).into_iter();
+        asked.filter_map(|(index, request)| Some((index, self.answers.standing(&request).answer()?)))
     }
 
     /// The last branches computed over the parameter of a diagram, stale or not; each with its place
@@ -78,8 +72,7 @@ impl Session {
     #[must_use]
     pub fn branches(&self, plot: usize) -> Vec<(usize, &Branch)> {
         let over = self.plots.get(plot).map(|plot| plot.axes.abscissa);
-        let found = self.numbered(Slot::Branch, plot).into_iter();
-        found
+        self.answers_for_each(Topic::Branch, plot)
             .filter_map(|(index, answer)| match answer {
                 Answer::Branch(found) if Some(found.parameter) == over => Some((index, found)),
                 _ => None,
@@ -91,34 +84,15 @@ impl Session {
     /// not.
     #[must_use]
     pub fn height(&self, plot: usize, variant: usize) -> Height {
-        let answered = self.answered(self.slot_in(Slot::Branch, plot), plot);
-        let asked = match answered.map(|held| &held.request) {
-            Some(Request::Family { members, .. }) => members.get(variant),
-            request => request,
-        };
-        let friction = match asked {
+        let asked = self.requests(Topic::Branch, plot).into_iter();
+        let asked = asked.into_iter().find(|(index, _)| *index == variant);
+        let standing = asked.map(|(_, request)| self.answers.standing(&request));
+        let answered = standing.and_then(Standing::answered);
+        let friction = match answered.map(|found| &found.request) {
             Some(Request::Branch { parameters, .. }) => parameters.r,
             _ => self.problem.parameters.r,
         };
         self.plots.get(plot).map(|plot| plot.axes).unwrap_or_default().height(friction)
-    }
-
-    /// The kind of question that a plot asks where a layer needs answers of this kind.
-    pub(in crate::session) fn slot_in(&self, slot: Slot, plot: usize) -> Slot {
-        let of_variants = self.variants(plot).and_then(|_| slot.of_variants());
-        of_variants.unwrap_or(slot)
-    }
-
-    /// The question of a kind for each variant of a plot.
-    pub(in crate::session) fn request_for_each(
-        &self,
-        slot: Slot,
-        one: Slot,
-        plot: usize,
-    ) -> Option<Request> {
-        let variants = self.variants(plot)?.iter();
-        let members = variants.map(|variant| self.request_for(one, plot, variant.of(self.problem)));
-        Some(Request::Family { slot, members: members.collect::<Option<_>>()? })
     }
 }
 

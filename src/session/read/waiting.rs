@@ -5,13 +5,14 @@
 //! a session holds back what the user does meanwhile ([`Session::is_waiting`]). Where the computation gives
 //! up, the command is run all the same and says so.
 
-use crate::scene::{Request, Slot, View};
+use crate::scene::{Request, Topic, View};
 use crate::session::message::Msg;
 use crate::session::message::key::{Code, Key};
 use crate::session::message::pointer::{Place, Pointed};
 use crate::session::read::fit;
 use crate::session::read::palette::PaletteRow;
 use crate::session::read::palette::place;
+use crate::session::read::wants::COMPARED;
 use crate::session::state::command::Command;
 use crate::session::state::context::Context;
 use crate::session::state::overlay::{Listed, Overlay};
@@ -23,9 +24,9 @@ use crate::session::state::session::Session;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Need {
     /// The answer of a kind for the plot in which it runs, with its variants.
-    Answer(Slot),
+    Answer(Topic),
     /// The answer of a kind at the present numbers, whatever the plot varies.
-    Present(Slot),
+    Present(Topic),
     /// The motion, where it runs in a plot over time.
     MotionOverTime,
     /// The window of the plot in which it runs, where that is being fitted.
@@ -36,17 +37,14 @@ pub enum Need {
     Everything,
 }
 
-/// What the ghost of a point shows.
-const COMPARED: [Slot; 2] = [Slot::Trajectory, Slot::Cycles];
-
 /// The commands that need something; all others mean the same at any time.
 #[rustfmt::skip]
 pub const NEEDS: [(Need, &[&str]); 9] = [
-    (Need::Present(Slot::Cycles), &["start-inside", "start-outside"]),
-    (Need::Answer(Slot::Cycles), &["start-on-cycle"]),
-    (Need::Answer(Slot::Trajectory), &["play-motion", "motion-on", "motion-back"]),
-    (Need::Answer(Slot::Trade), &["use-method"]),
-    (Need::Answer(Slot::Branch), &[
+    (Need::Present(Topic::Cycles), &["start-inside", "start-outside"]),
+    (Need::Answer(Topic::Cycles), &["start-on-cycle"]),
+    (Need::Answer(Topic::Trajectory), &["play-motion", "motion-on", "motion-back"]),
+    (Need::Answer(Topic::Trade), &["use-method"]),
+    (Need::Answer(Topic::Branch), &[
         "walk", "walk-back", "walk-on", "walk-far-back", "walk-far-on", "walk-to-next",
         "walk-to-previous", "walk-to-first", "walk-to-last", "walk-take",
     ]),
@@ -130,16 +128,21 @@ impl Session {
             Some(Pane::Plot(index)) => index,
             Some(Pane::Parameters) | None => self.plot,
         };
+        let still_asked = |request: &Request| self.still_asked(request);
+        let open = |topic| {
+            let mut requests = self.requests(topic, plot).into_iter().map(|(_, request)| request);
+            requests.find(still_asked)
+        };
         let needs = NEEDS.iter().filter(|(_, names)| names.contains(&name));
         needs.into_iter().find_map(|(need, _)| match need {
-            Need::Answer(slot) => self.open(*slot, plot),
-            Need::Present(slot) => self.still_asked(self.request(*slot, plot)),
+            Need::Answer(topic) => open(*topic),
+            Need::Present(topic) => self.request(*topic, plot).filter(still_asked),
             Need::MotionOverTime => {
                 let over_time = self.plots.get(plot)?.view == View::TimeSeries;
-                over_time.then(|| self.open(Slot::Trajectory, plot)).flatten()
+                over_time.then(|| open(Topic::Trajectory)).flatten()
             }
             Need::Window => fit::awaited(self, plot),
-            Need::Comparison => COMPARED.into_iter().find_map(|slot| self.open(slot, plot)),
+            Need::Comparison => COMPARED.into_iter().find_map(open),
             Need::Everything => {
                 let mut wants = self.wants().into_iter();
                 wants.find(|request| !request.is_long() && self.is_open(request))
@@ -147,14 +150,9 @@ impl Session {
         })
     }
 
-    /// Today's question of a kind, if it is asked and not answered yet.
-    fn open(&self, slot: Slot, plot: usize) -> Option<Request> {
-        self.still_asked(self.request(self.slot_in(slot, plot), plot))
-    }
-
-    /// A question, if it is asked and not answered yet.
-    fn still_asked(&self, request: Option<Request>) -> Option<Request> {
-        request.filter(|request| self.is_open(request) && self.wants().contains(request))
+    /// Whether a question is asked and not answered yet.
+    fn still_asked(&self, request: &Request) -> bool {
+        self.is_open(request) && self.asks().contains(request)
     }
 }
 

@@ -1,8 +1,8 @@
 //! What a session asks, and what it has been answered.
 //!
-//! A question is a pure function of the state. Most are shared by all plots; those that depend on the
-//! axes or the window of a plot are that plot's own ([`Slot::is_own`]), and so are their answers. Equal
-//! questions of several plots are one question, and its answer serves them all.
+//! A plot shows a list of problems, mostly the present one alone. What its layers need of each is a
+//! question of its own, and a pure function of the state. Answers are kept by their questions
+//! ([`crate::session::state::answers`]): equal questions are one, whoever asks them.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -13,7 +13,8 @@ use crate::oscillator::belt::Quantity;
 use crate::oscillator::{Belt, Symbol};
 use crate::scene::answer::{Borders, Failure};
 use crate::scene::request::SPEEDS;
-use crate::scene::{Answer, Answered, Axes, Fitted, Layer, Request, Slot, Span, View, Window};
+use crate::scene::{Answer, Axes, Fitted, Layer, Request, Span, TOPICS, Topic, View, Window};
+use crate::session::state::answers::Standing;
 use crate::session::state::overlay::{Listed, Overlay};
 use crate::session::state::plot::{Framing, Pane};
 use crate::session::state::rows::Row;
@@ -24,9 +25,12 @@ use crate::study::claims::Examined;
 use crate::study::harmonic_error::HarmonicBalance;
 use crate::study::{Cycles, ReturnMap};
 
-/// Evaluations beyond which an answer may take longer than a quarter of a frame: the next question of its
-/// kind is answered by a draft first.
+/// Evaluations beyond which the answers about a topic may take longer than a quarter of a frame: the next
+/// questions about it are answered by drafts first.
 const LONG: u64 = 100_000;
+
+/// What is drawn of the point left for a mark.
+pub(in crate::session) const COMPARED: [Topic; 2] = [Topic::Trajectory, Topic::Cycles];
 
 /// Bands of capture that are drawn at most: more would fill the plane.
 const MOST_BANDS: usize = 24;
@@ -46,35 +50,64 @@ impl Session {
     /// The questions that what is on show needs answered, the most urgent first; nothing for a layer
     /// that is off, nothing twice.
     ///
-    /// A question that took long last time is preceded by its draft until one of them is answered: the
+    /// Questions that took long last time are preceded by their drafts until these are answered: the
     /// picture follows the keys first and refines then. What the error of the motion is measured against
     /// comes last of all.
     #[must_use]
     pub fn wants(&self) -> Vec<Request> {
-        let needed: BTreeSet<(Slot, usize)> = self
-            .on_show()
-            .flat_map(|plot| self.needs(plot).into_iter().map(move |slot| (slot, plot)))
-            .collect();
-        let mut wanted = Vec::new();
-        if matches!(self.overlay, Some(Overlay::List(Listed::Paper, _))) {
-            wanted.push(Request::Claims);
-        }
-        for request in needed.into_iter().filter_map(|(slot, plot)| self.request(slot, plot)) {
-            if !wanted.contains(&request) {
-                wanted.push(request);
-            }
-        }
-        let drafts: Vec<Request> =
-            wanted.iter().filter_map(|request| self.draft(request)).collect();
-        let last = self.measures().then(|| self.request(Slot::Reference, self.plot)).flatten();
-        drafts.into_iter().chain(wanted).chain(last).chain(self.scan_request()).collect()
+        let asked = self.asks();
+        let effort = |topic: Topic| -> u64 {
+            let alike = asked.iter().filter(|request| request.topic() == topic);
+            alike.map(|request| self.answers.effort(request)).sum()
+        };
+        let long: BTreeSet<Topic> =
+            TOPICS.into_iter().filter(|topic| effort(*topic) > LONG).collect();
+        let open = |request: &&Request| long.contains(&request.topic()) && self.is_open(request);
+        let drafts = asked.iter().filter(open).filter_map(Request::draft);
+        let mut wanted: Vec<Request> = drafts.filter(|draft| self.is_open(draft)).collect();
+        wanted.extend(asked);
+        wanted
     }
 
-    /// The draft of a question, if it is worth having first.
-    fn draft(&self, request: &Request) -> Option<Request> {
-        let long = self.effort.burdens.get(&request.slot()).is_some_and(|cost| *cost > LONG);
-        let open = || self.is_open(request);
-        request.draft().filter(|draft| long && open() && self.is_open(draft))
+    /// The same without drafts.
+    #[must_use]
+    pub fn asks(&self) -> Vec<Request> {
+        let needed: BTreeSet<(Topic, usize)> = self
+            .on_show()
+            .flat_map(|plot| self.needs(plot).into_iter().map(move |topic| (topic, plot)))
+            .collect();
+        let claims = matches!(self.overlay, Some(Overlay::List(Listed::Paper, _)));
+        let each = needed.into_iter().flat_map(|(topic, plot)| self.requests(topic, plot));
+        let last = self.measures().then(|| self.request(Topic::Reference, self.plot)).flatten();
+        let all = claims.then_some(Request::Claims).into_iter().chain(each.map(|each| each.1));
+        let mut asked = Vec::new();
+        for request in all.chain(last).chain(self.scan_request()) {
+            if !asked.contains(&request) {
+                asked.push(request);
+            }
+        }
+        asked
+    }
+
+    /// The questions of one plot.
+    #[must_use]
+    pub fn asked_by(&self, plot: usize) -> Vec<Request> {
+        let needed = self.needs(plot).into_iter();
+        needed.flat_map(|topic| self.requests(topic, plot)).map(|(_, request)| request).collect()
+    }
+
+    /// The questions whose answers are drawn of the point left for a mark.
+    pub(in crate::session) fn compared(&self) -> impl Iterator<Item = &Request> {
+        let left = self.marks.left.iter().filter(|_| self.shows(Layer::Ghost));
+        left.flat_map(|left| &left.asked)
+    }
+
+    /// What is known of the point left for a mark.
+    pub fn answers_left(&self) -> impl Iterator<Item = &Answer> {
+        self.compared().filter_map(|request| match self.answers.standing(request) {
+            Standing::Fresh(found) => found.result.as_ref().ok(),
+            _ => None,
+        })
     }
 
     /// Whether the error of the motion on show is to be measured: while the user rests on the dial or the
@@ -84,48 +117,56 @@ impl Session {
         let rests = self.focus == Pane::Parameters
             && self.overlay.is_none()
             && matches!(self.selected, Row::Method | Row::Tolerance);
-        (rests || self.effort.measuring) && self.shows(Layer::Trajectory) && !self.draws_whole()
+        (rests || self.measuring) && self.shows(Layer::Trajectory) && !self.draws_whole()
     }
 
-    /// The kinds of answers that the layers of a plot draw.
+    /// What the layers of a plot draw answers about.
     #[must_use]
-    pub fn needs(&self, plot: usize) -> BTreeSet<Slot> {
+    pub fn needs(&self, plot: usize) -> BTreeSet<Topic> {
         let shown = |layer: &&Layer| self.shows_in(**layer, plot);
-        let needed = self.layers.iter().filter(shown).filter_map(|layer| layer.spec().needs);
-        needed.map(|slot| self.slot_in(slot, plot)).collect()
+        self.layers.iter().filter(shown).filter_map(|layer| layer.spec().needs).collect()
     }
 
-    /// The question of a kind, with exactly the inputs that its answer depends on. The plot matters to
-    /// those that are its own.
+    /// The question about this topic for each problem that a plot shows, with its place among these.
+    #[must_use]
+    pub fn requests(&self, topic: Topic, plot: usize) -> Vec<(usize, Request)> {
+        let problems = match self.variants(plot).filter(|_| topic.is_of_variants()) {
+            Some(variants) => variants.iter().map(|variant| variant.of(self.problem)).collect(),
+            None => vec![self.problem],
+        };
+        let request = |problem| self.request_for(topic, plot, problem);
+        let each = problems.into_iter().map(request).enumerate();
+        each.filter_map(|(index, request)| Some((index, request?))).collect()
+    }
+
+    /// The question about this topic for the present problem, with exactly the inputs that its answer
+    /// depends on. The plot matters where it does to the answer.
     ///
     /// `None` where there is nothing to ask: no bands without friction, no branch where the window of the
-    /// diagram lies outside the range of its parameter, none of the own questions of another view.
+    /// diagram lies outside the range of its parameter, nothing that only another view asks.
     #[must_use]
-    pub fn request(&self, slot: Slot, plot: usize) -> Option<Request> {
-        match slot.of_one() {
-            Some(one) => self.request_for_each(slot, one, plot),
-            None => self.request_for(slot, plot, self.problem),
-        }
+    pub fn request(&self, topic: Topic, plot: usize) -> Option<Request> {
+        self.request_for(topic, plot, self.problem)
     }
 
     /// The same for another motion than the present one.
     pub(in crate::session) fn request_for(
         &self,
-        slot: Slot,
+        topic: Topic,
         plot: usize,
         problem: Problem,
     ) -> Option<Request> {
         let Problem { parameters, tolerance, initial, .. } = problem;
         let own = |view: View| self.plots.get(plot).filter(|plot| plot.view == view);
-        Some(match slot {
-            Slot::Claims => Request::Claims,
-            Slot::Fit => Request::Fit { recording: self.scene.recording.clone()? },
-            Slot::Trajectory => match self.machine().filter(|_| self.draws_whole()) {
+        Some(match topic {
+            Topic::Claims => Request::Claims,
+            Topic::Fit => Request::Fit { recording: self.scene.recording.clone()? },
+            Topic::Trajectory => match self.machine().filter(|_| self.draws_whole()) {
                 Some(belt) => Request::Machine { belt: Arc::new(belt), problem },
                 None => Request::Trajectory(problem),
             },
-            Slot::Scan => return self.scan_request(),
-            Slot::Cycles => match self.machine() {
+            Topic::Scan => return self.scan_request(),
+            Topic::Cycles => match self.machine() {
                 // The error of the expansion is told beside it.
                 Some(belt) => {
                     let cubic = !self.draws_whole();
@@ -133,21 +174,21 @@ impl Session {
                 }
                 None => Request::Cycles { parameters },
             },
-            Slot::Balance => Request::Balance { parameters, harmonics: self.harmonics },
-            Slot::Trade => {
+            Topic::Balance => Request::Balance { parameters, harmonics: self.harmonics },
+            Topic::Trade => {
                 let Problem { initial, until, .. } = self.problem;
                 Request::Trade { parameters, initial, until }
             }
-            Slot::Reference => {
+            Topic::Reference => {
                 let Problem { initial, until, .. } = self.problem;
                 Request::Reference { parameters, initial, until }
             }
-            Slot::Capture if parameters.r == 0.0 => return None,
-            Slot::Capture => {
+            Topic::Capture if parameters.r == 0.0 => return None,
+            Topic::Capture => {
                 let reach = reach(own(View::Phase)?.window);
                 Request::Capture { parameters, reach, most: MOST_BANDS }
             }
-            Slot::Branch => {
+            Topic::Branch => {
                 let plot = own(View::Diagram)?;
                 let parameter = plot.axes.abscissa;
                 let spec = parameter.spec();
@@ -161,20 +202,20 @@ impl Session {
                     tolerance,
                 }
             }
-            Slot::Speeds => {
+            Topic::Speeds => {
                 let plot = own(View::Speeds)?;
                 let spec = Quantity::BeltSpeed.spec();
                 let range = plot.window.x.within(spec.min, spec.max)?;
                 let belt = Arc::new(Belt { belt_speed: 1.0, ..self.machine()? });
                 Request::Speeds { belt, range: (range.from(), range.to()), count: SPEEDS }
             }
-            Slot::ReturnMap => {
+            Topic::ReturnMap => {
                 // As long as the window is not known there is nothing to ask.
                 let plot = own(View::ReturnMap)?;
                 let range = (plot.framing != Framing::Fitting).then_some(plot.window.x)?;
                 Request::ReturnMap { parameters, range: (range.from(), range.to()) }
             }
-            Slot::Regimes => {
+            Topic::Regimes => {
                 let plot = own(View::Regimes)?;
                 let Axes { abscissa, against, .. } = plot.axes;
                 let within = |symbol: Symbol, span: Span| {
@@ -193,63 +234,48 @@ impl Session {
                 }
                 Request::Regimes { parameters: others, plane, rough: false }
             }
-            Slot::VariantMotions | Slot::VariantCycles | Slot::VariantBranches => return None,
         })
     }
 
-    /// The last good answer of a kind with its question, as a plot has it; stale or not.
+    /// How far the answer about this topic is for the present problem, as a plot asks it.
     #[must_use]
-    pub fn answered(&self, slot: Slot, plot: usize) -> Option<&Arc<Answered>> {
-        if slot.is_own() {
-            self.plots.get(plot)?.answers.get(&slot)
-        } else {
-            self.answers.get(&slot)
-        }
+    pub fn standing(&self, topic: Topic, plot: usize) -> Standing<'_> {
+        let request = self.request(topic, plot);
+        request.map_or(Standing::None, |request| self.answers.standing(&request))
     }
 
-    /// The last good answer of a kind, as a plot has it; stale or not.
+    /// The answer about this topic for the present problem, as a plot asks it; stale or not.
     #[must_use]
-    pub fn answer(&self, slot: Slot, plot: usize) -> Option<&Answer> {
-        let found = self.answered(slot, plot)?.result.as_ref().ok()?;
-        Some(if let Answer::Whole(whole) = found { &whole.drawn } else { found })
+    pub fn answer(&self, topic: Topic, plot: usize) -> Option<&Answer> {
+        self.standing(topic, plot).answer()
     }
 
-    /// Whether what a plot has of a kind is not the answer to today's question.
+    /// Whether the answer about this topic is missing for the present problem.
     #[must_use]
-    pub fn is_stale(&self, slot: Slot, plot: usize) -> bool {
-        self.answered(slot, plot).map(|held| &held.request) != self.request(slot, plot).as_ref()
+    pub fn is_stale(&self, topic: Topic, plot: usize) -> bool {
+        !self.standing(topic, plot).is_fresh()
     }
 
-    /// Whether what a plot has of a kind is the draft of the answer to today's question.
+    /// Whether the answer about this topic is there for every problem that a plot shows.
     #[must_use]
-    pub fn has_draft(&self, slot: Slot, plot: usize) -> bool {
-        let draft = self.request(slot, plot).and_then(|request| request.draft());
-        draft.is_some() && self.answered(slot, plot).map(|held| &held.request) == draft.as_ref()
+    pub fn is_fresh(&self, topic: Topic, plot: usize) -> bool {
+        let mut asked = self.requests(topic, plot).into_iter();
+        asked.all(|(_, request)| self.answers.standing(&request).is_fresh())
     }
 
-    /// Whether this is asked, and every plot that asks it has a draft of its answer to show meanwhile.
+    /// Whether there is a draft of the answer to this to show meanwhile.
     #[must_use]
     pub fn is_refinement(&self, request: &Request) -> bool {
-        let slot = request.slot();
-        let plots = 0..self.plots.len();
-        let mut asking = plots
-            .filter(|plot| self.request(slot, *plot).as_ref() == Some(request))
-            .map(|plot| self.has_draft(slot, plot))
-            .peekable();
-        asking.peek().is_some() && asking.all(|drafted| drafted)
+        matches!(self.answers.standing(request), Standing::Draft(_))
     }
 
     /// Whether a question has neither an answer nor a reason for having none.
     #[must_use]
     pub fn is_open(&self, request: &Request) -> bool {
-        let slot = request.slot();
-        if slot == Slot::Scan {
+        if request.topic() == Topic::Scan {
             return self.scan_request().as_ref() == Some(request);
         }
-        let answered =
-            |plot| self.answered(slot, plot).is_some_and(|held| held.request == *request);
-        let failed = self.failures.iter().any(|(failed, _)| failed == request);
-        !failed && !(0..self.plots.len()).any(answered)
+        self.answers.is_open(request)
     }
 
     /// Whether something on show is still to be computed.
@@ -258,17 +284,16 @@ impl Session {
         self.wants().iter().any(|request| self.is_open(request))
     }
 
-    /// Why today's question of a kind has no answer.
+    /// Why there is no answer about this topic for the present problem.
     #[must_use]
-    pub fn failure(&self, slot: Slot, plot: usize) -> Option<&Failure> {
-        let wanted = self.request(slot, plot)?;
-        self.failures.iter().find(|(request, _)| *request == wanted).map(|(_, why)| why)
+    pub fn failure(&self, topic: Topic, plot: usize) -> Option<&Failure> {
+        self.answers.failure(&self.request(topic, plot)?)
     }
 
     /// The last motion computed, stale or not.
     #[must_use]
     pub fn trajectory(&self) -> Option<&Trajectory> {
-        match self.answer(Slot::Trajectory, self.plot)? {
+        match self.answer(Topic::Trajectory, self.plot)? {
             Answer::Trajectory(found) => Some(found),
             _ => None,
         }
@@ -277,8 +302,8 @@ impl Session {
     /// The fit of the record on show; `None` until it is found.
     #[must_use]
     pub fn fitted(&self) -> Option<&Fitted> {
-        match self.answer(Slot::Fit, self.plot)? {
-            Answer::Fit(fit) if !self.is_stale(Slot::Fit, self.plot) => fit.found().ok(),
+        match self.answer(Topic::Fit, self.plot)? {
+            Answer::Fit(fit) if !self.is_stale(Topic::Fit, self.plot) => fit.found().ok(),
             _ => None,
         }
     }
@@ -286,7 +311,7 @@ impl Session {
     /// The last cycles computed, stale or not.
     #[must_use]
     pub fn cycles(&self) -> Option<&Cycles> {
-        match self.answer(Slot::Cycles, self.plot)? {
+        match self.answer(Topic::Cycles, self.plot)? {
             Answer::Cycles(found) => Some(found),
             _ => None,
         }
@@ -295,7 +320,7 @@ impl Session {
     /// The last harmonic balance computed, stale or not.
     #[must_use]
     pub fn balance(&self) -> Option<&HarmonicBalance> {
-        match self.answer(Slot::Balance, self.plot)? {
+        match self.answer(Topic::Balance, self.plot)? {
             Answer::Balance(found) => Some(found),
             _ => None,
         }
@@ -317,15 +342,15 @@ impl Session {
 
     /// The motion on show against its reference; `None` until both are computed.
     fn comparison(&self) -> Option<Result<(Deviation, &Reference), Unmeasured>> {
-        let stale = |slot| self.is_stale(slot, self.plot);
-        if !self.measures() || stale(Slot::Reference) {
+        let stale = |topic| self.is_stale(topic, self.plot);
+        if !self.measures() || stale(Topic::Reference) {
             return None;
         }
-        let Answer::Reference(reference) = self.answer(Slot::Reference, self.plot)? else {
+        let Answer::Reference(reference) = self.answer(Topic::Reference, self.plot)? else {
             return None;
         };
         let Ok(reference) = reference else { return Some(Err(Unmeasured::TighterGaveUp)) };
-        let motion = self.trajectory().filter(|_| !stale(Slot::Trajectory))?;
+        let motion = self.trajectory().filter(|_| !stale(Topic::Trajectory))?;
         Some(match reference.compare(motion) {
             Ok(deviation) => Ok((deviation, reference)),
             Err(NoComparison::GaveUp(_)) => Err(Unmeasured::GaveUp),
@@ -336,7 +361,7 @@ impl Session {
     /// The last borders of capture bands computed for a phase plane, stale or not.
     #[must_use]
     pub fn borders(&self, plot: usize) -> Option<&Borders> {
-        match self.answer(Slot::Capture, plot)? {
+        match self.answer(Topic::Capture, plot)? {
             Answer::Capture(found) => Some(found),
             _ => None,
         }
@@ -345,7 +370,7 @@ impl Session {
     /// The claims of the paper, examined; none until they are.
     #[must_use]
     pub fn examined(&self) -> &[Examined] {
-        match self.answer(Slot::Claims, self.plot) {
+        match self.answer(Topic::Claims, self.plot) {
             Some(Answer::Claims(examined)) => examined,
             _ => &[],
         }
@@ -355,7 +380,7 @@ impl Session {
     #[must_use]
     pub fn chart(&self, plot: usize) -> Option<&Chart> {
         let Axes { abscissa, against, .. } = self.plots.get(plot)?.axes;
-        match self.answer(Slot::Regimes, plot)? {
+        match self.answer(Topic::Regimes, plot)? {
             Answer::Regimes(found)
                 if (found.plane.right, found.plane.up) == (abscissa, against) =>
             {
@@ -368,7 +393,7 @@ impl Session {
     /// The last return map computed for a plot, stale or not.
     #[must_use]
     pub fn return_map(&self, plot: usize) -> Option<&ReturnMap> {
-        match self.answer(Slot::ReturnMap, plot)? {
+        match self.answer(Topic::ReturnMap, plot)? {
             Answer::ReturnMap(found) => Some(found),
             _ => None,
         }

@@ -1,5 +1,6 @@
 //! The state of a session: plain data.
 
+pub mod answers;
 pub mod command;
 pub mod context;
 pub mod history;

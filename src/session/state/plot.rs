@@ -1,11 +1,8 @@
 //! Plots: the parts of the screen that show a view each, and what one looks at in them.
 
-use std::collections::BTreeMap;
-use std::sync::Arc;
-
 use serde::{Deserialize, Serialize};
 
-use crate::scene::{Answered, Axes, Exhibit, Point, Slot, View, Window};
+use crate::scene::{Axes, Exhibit, Point, View, Window};
 
 /// A part of the screen that can have the focus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -45,8 +42,6 @@ pub struct Plot {
     pub framing: Framing,
     /// The cursor, in world coordinates.
     pub cursor: Option<Point>,
-    /// The last good answers to the questions that are this plot's own.
-    pub answers: BTreeMap<Slot, Arc<Answered>>,
 }
 
 impl Plot {
@@ -60,14 +55,7 @@ impl Plot {
             window: exhibit.opening(),
             framing: if exhibit.window.is_some() { Framing::Scene } else { Framing::Fitting },
             cursor: None,
-            answers: BTreeMap::new(),
         }
-    }
-
-    /// Shows something else; what was answered is kept for when it is asked for again.
-    pub fn show(&mut self, exhibit: &Exhibit) {
-        let answers = std::mem::take(&mut self.answers);
-        *self = Plot { answers, ..Plot::opened(exhibit) };
     }
 
     /// Waits to be fitted, from this window.

@@ -4,16 +4,16 @@
 //! state, which questions must be answered for what is on show; the outer rings ask them (see
 //! `session::read::wants`).
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::flow::{Cost, Problem};
 use crate::oscillator::Symbol;
-use crate::scene::answer::Failure;
-use crate::scene::{Answered, Arrangement, Layer, Request, Scene, Slot};
+use crate::scene::{Arrangement, Layer, Scene, Topic};
 use crate::session::message::Notice;
 use crate::session::message::key::Key;
+use crate::session::state::answers::Answers;
 use crate::session::state::history::History;
 use crate::session::state::keymap::Keymap;
 use crate::session::state::macros::Macros;
@@ -40,7 +40,7 @@ const HARMONICS: usize = 3;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Recomputed {
     /// What was recomputed.
-    pub slot: Slot,
+    pub topic: Topic,
     /// What it cost, counted.
     pub cost: Cost,
     /// What it cost in wall-clock seconds.
@@ -68,15 +68,6 @@ impl Price {
     pub fn seconds(&self) -> f64 {
         self.recomputed.iter().map(|part| part.seconds).sum()
     }
-}
-
-/// What answers take, and whether their error is looked at.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Effort {
-    /// Evaluations that the last answer of each kind took, drafts aside.
-    pub burdens: BTreeMap<Slot, u64>,
-    /// Whether the last key turned the dial or changed the method: then the error is measured.
-    pub measuring: bool,
 }
 
 /// The size of the screen, in cells.
@@ -141,18 +132,16 @@ pub struct Session {
     pub writing: Option<PathBuf>,
     /// The lines typed on the command line, the newest last.
     pub lines: Vec<String>,
-    /// The last good answer of each kind that all plots share, with its question.
-    pub answers: BTreeMap<Slot, Arc<Answered>>,
-    /// Questions of today that have no answer, and why.
-    pub failures: Vec<(Request, Failure)>,
+    /// What has been answered.
+    pub answers: Answers,
     /// The scan, once there is one.
     pub scanned: Option<Scanned>,
     /// The form as it was when the last scan was started.
     pub scan_form: Option<Form>,
     /// What the last key press cost.
     pub price: Price,
-    /// What answers take, and whether their error is looked at.
-    pub effort: Effort,
+    /// Whether the last key turned the dial or changed the method: then the error is measured.
+    pub measuring: bool,
     /// A line for the user.
     pub notice: Option<Notice>,
     /// Which key means which command.
@@ -194,12 +183,11 @@ impl Session {
             interrupted: None,
             writing: None,
             lines: Vec::new(),
-            answers: BTreeMap::new(),
-            failures: Vec::new(),
+            answers: Answers::default(),
             scanned: None,
             scan_form: None,
             price: Price::default(),
-            effort: Effort::default(),
+            measuring: false,
             notice: None,
             keymap,
             look: Look::default(),

@@ -2,7 +2,7 @@
 
 use super::Desk;
 use crate::oscillator::Symbol;
-use crate::scene::{Arrangement, Axes, Ordinate, Slot, View};
+use crate::scene::{Arrangement, Axes, Ordinate, Topic, View};
 use crate::session::{Framing, Pane};
 
 /// The views on show, a letter each, in capitals in focus.
@@ -56,29 +56,28 @@ fn equal_questions_of_two_plots_are_one() {
     assert_eq!(desk.press("; , ;"), []);
     let [first, second] = &desk.session.plots[..] else { panic!("two plots") };
     assert_eq!((first.view, first.axes), (second.view, second.axes));
-    assert_eq!(first.answers[&Slot::Branch], second.answers[&Slot::Branch]);
     // A step of D3 makes both branches anew: by one computation.
-    assert_eq!(desk.press("<S-tab><down><right>"), [Slot::Branch]);
-    assert!((0..2).all(|plot| !desk.session.is_stale(Slot::Branch, plot)));
+    assert_eq!(desk.press("<S-tab><down><right>"), [Topic::Branch]);
+    assert!((0..2).all(|plot| desk.session.is_fresh(Topic::Branch, plot)));
     // Another ordinate is another look at the same cycles.
     assert_eq!(desk.press("<tab>Y Y Y Y Y"), []);
     assert_eq!(desk.session.plots[0].axes.ordinate, Ordinate::Period);
-    assert_eq!(desk.press("<S-tab><left>"), [Slot::Branch]);
+    assert_eq!(desk.press("<S-tab><left>"), [Topic::Branch]);
 }
 
 #[test]
 fn two_diagrams_over_different_axes_stand_side_by_side() {
     let mut desk = Desk::open("supercritical");
     desk.press("<tab>;");
-    assert_eq!(desk.press("X"), [Slot::Branch]);
+    assert_eq!(desk.press("X"), [Topic::Branch]);
     let over = |desk: &Desk, plot: usize| {
         (desk.session.plots[plot].axes.abscissa, desk.branch(plot).parameter)
     };
     assert_eq!(over(&desk, 0), (Symbol::D2, Symbol::D2));
     assert_eq!(over(&desk, 1), (Symbol::D, Symbol::D));
     // D lies on the axis of one and goes into the branch of the other.
-    assert_eq!(desk.press("<S-tab><right>"), [Slot::Branch]);
-    assert_eq!(desk.press("<down><right>"), [Slot::Branch; 2]);
+    assert_eq!(desk.press("<S-tab><right>"), [Topic::Branch]);
+    assert_eq!(desk.press("<down><right>"), [Topic::Branch; 2]);
 }
 
 #[test]

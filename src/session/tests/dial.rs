@@ -1,15 +1,13 @@
 //! The dial: its stops, what is computed roughly first, and when an error is measured.
 
-use std::sync::Arc;
-
 use super::{COST, Desk, answered};
 use crate::flow::{Limits, Method, Reason};
 use crate::oscillator::Symbol;
 use crate::scene::answer::{Failure, answer};
-use crate::scene::{Answer, Answered, Request, SLOTS, Slot, find};
+use crate::scene::{Answer, Answered, Request, TOPICS, Topic, find};
 use crate::session::act::parameters;
 use crate::session::read::wants::Unmeasured;
-use crate::session::{Msg, Row, Session, update};
+use crate::session::{Msg, Row, Session, Standing, update};
 use crate::study::accuracy::Reference;
 
 /// The number behind the dial and the name of its stop.
@@ -71,13 +69,13 @@ fn costly(request: Request, evaluations: u64) -> Answered {
 }
 
 /// The kinds wanted and open, those of drafts marked.
-fn open(desk: &Desk) -> Vec<(Slot, bool)> {
+fn open(desk: &Desk) -> Vec<(Topic, bool)> {
     let session = &desk.session;
     let wanted = session.wants().into_iter().filter(|request| session.is_open(request));
     wanted
         .map(|request| {
-            let today = session.request(request.slot(), 0).or(session.request(request.slot(), 1));
-            (request.slot(), today.as_ref() != Some(&request))
+            let today = session.request(request.topic(), 0).or(session.request(request.topic(), 1));
+            (request.topic(), today.as_ref() != Some(&request))
         })
         .collect()
 }
@@ -86,8 +84,8 @@ fn open(desk: &Desk) -> Vec<(Slot, bool)> {
 fn what_took_long_is_answered_by_a_draft_first_and_refined_then() {
     let mut desk = Desk::open("supercritical");
     update(&mut desk.session, Msg::Key("<right>".parse().unwrap()));
-    assert_eq!(open(&desk), [(Slot::Trajectory, false), (Slot::Cycles, false)], "cheap so far");
-    let request = desk.session.request(Slot::Trajectory, 0).unwrap();
+    assert_eq!(open(&desk), [(Topic::Trajectory, false), (Topic::Cycles, false)], "cheap so far");
+    let request = desk.session.request(Topic::Trajectory, 0).unwrap();
     update(&mut desk.session, Msg::Answered(Box::new(costly(request, 10_000_000))));
     desk.settle();
 
@@ -95,21 +93,24 @@ fn what_took_long_is_answered_by_a_draft_first_and_refined_then() {
     update(&mut desk.session, Msg::Key("<right>".parse().unwrap()));
     assert_eq!(
         open(&desk),
-        [(Slot::Trajectory, true), (Slot::Trajectory, false), (Slot::Cycles, false)]
+        [(Topic::Trajectory, true), (Topic::Trajectory, false), (Topic::Cycles, false)]
     );
     let draft = desk.session.wants()[0].clone();
     let Request::Trajectory(problem) = &draft else { panic!("{draft:?}") };
     assert_eq!(problem.quality().unwrap().name, "draft");
     update(&mut desk.session, Msg::Answered(Box::new(costly(draft.clone(), 1_000))));
-    assert!(desk.session.has_draft(Slot::Trajectory, 0) && desk.session.is_busy());
-    assert_eq!(open(&desk), [(Slot::Trajectory, false), (Slot::Cycles, false)]);
+    let is_draft = |desk: &Desk| {
+        matches!(desk.session.standing(Topic::Trajectory, 0), Standing::Draft(_))
+    };
+    assert!(is_draft(&desk) && desk.session.is_busy());
+    assert_eq!(open(&desk), [(Topic::Trajectory, false), (Topic::Cycles, false)]);
     // A draft is no measure of what the full answer takes.
-    let full = desk.session.request(Slot::Trajectory, 0).unwrap();
+    let full = desk.session.request(Topic::Trajectory, 0).unwrap();
     update(&mut desk.session, Msg::Answered(Box::new(costly(full, 10_000_000))));
     desk.settle();
-    assert!(!desk.session.has_draft(Slot::Trajectory, 0));
-    let slots: Vec<Slot> = desk.session.price.recomputed.iter().map(|part| part.slot).collect();
-    assert_eq!(slots, [Slot::Trajectory, Slot::Trajectory, Slot::Cycles]);
+    assert!(!is_draft(&desk));
+    let topics: Vec<Topic> = desk.session.price.recomputed.iter().map(|part| part.topic).collect();
+    assert_eq!(topics, [Topic::Trajectory, Topic::Trajectory, Topic::Cycles]);
 
     // The latest wins: a draft that comes late does not replace a newer one.
     update(&mut desk.session, Msg::Key("<right>".parse().unwrap()));
@@ -118,14 +119,14 @@ fn what_took_long_is_answered_by_a_draft_first_and_refined_then() {
     let newer = desk.session.wants()[0].clone();
     assert!(superseded != newer);
     desk.settle();
-    let held = Arc::clone(&desk.session.answers[&Slot::Trajectory]);
+    let held = desk.session.trajectory().cloned();
     update(&mut desk.session, Msg::Answered(Box::new(costly(superseded, 1))));
-    assert_eq!(held, desk.session.answers[&Slot::Trajectory]);
+    assert_eq!(held, desk.session.trajectory().cloned());
 
     // At draft quality there is nothing to refine.
     desk.press("{ {");
     update(&mut desk.session, Msg::Key("<right>".parse().unwrap()));
-    assert_eq!(open(&desk), [(Slot::Trajectory, false), (Slot::Cycles, false)]);
+    assert_eq!(open(&desk), [(Topic::Trajectory, false), (Topic::Cycles, false)]);
 }
 
 /// Four diagrams over the same range, each of its own variants: none takes the draft of another for its
@@ -133,21 +134,21 @@ fn what_took_long_is_answered_by_a_draft_first_and_refined_then() {
 #[test]
 fn plots_with_like_questions_keep_their_drafts_apart() {
     let mut session = Desk::open("fig17").session;
-    for slot in SLOTS {
-        session.effort.burdens.insert(slot, 10_000_000);
+    for request in session.wants() {
+        update(&mut session, Msg::Answered(Box::new(costly(request, 10_000_000))));
     }
     update(&mut session, Msg::Key("<right>".parse().unwrap()));
     session.problem.tolerance = 1e-12;
-    let plots = 0..session.plots.len();
+    let branches: usize = (0..session.plots.len()).map(|plot| session.shown(plot).len()).sum();
     let mut asked: Vec<Request> = Vec::new();
     while let Some(request) = session.wants().into_iter().find(|request| session.is_open(request)) {
         assert!(!asked.contains(&request), "asked again: {request:?}");
         asked.push(request.clone());
         update(&mut session, Msg::Answered(Box::new(answered(request))));
     }
-    assert_eq!(asked.len(), 2 * plots.len(), "a draft and an answer for each");
-    for plot in plots {
-        assert!(!session.is_stale(Slot::VariantBranches, plot));
+    assert_eq!(asked.len(), 2 * branches, "a draft and an answer for each");
+    for plot in 0..session.plots.len() {
+        assert!(session.is_fresh(Topic::Branch, plot));
     }
 }
 
@@ -155,7 +156,7 @@ fn plots_with_like_questions_keep_their_drafts_apart() {
 fn a_draft_that_fails_is_not_tried_again() {
     let mut desk = Desk::open("supercritical");
     update(&mut desk.session, Msg::Key("<right>".parse().unwrap()));
-    let request = desk.session.request(Slot::Trajectory, 0).unwrap();
+    let request = desk.session.request(Topic::Trajectory, 0).unwrap();
     update(&mut desk.session, Msg::Answered(Box::new(costly(request, 10_000_000))));
     update(&mut desk.session, Msg::Key("<right>".parse().unwrap()));
     let draft = desk.session.wants()[0].clone();
@@ -176,23 +177,23 @@ fn an_error_is_measured_only_while_the_user_rests_on_the_dial() {
     assert_eq!(
         desk.press("<right><left> <down*4><right>")
             .iter()
-            .filter(|slot| **slot == Slot::Reference)
+            .filter(|topic| **topic == Topic::Reference)
             .count(),
         0
     );
     assert!(!desk.session.measures());
     // The last thing to be computed, once.
-    assert_eq!(desk.press("}"), [Slot::Trajectory, Slot::Branch, Slot::Reference]);
-    assert_eq!(SLOTS.last(), Some(&Slot::Reference));
+    assert_eq!(desk.press("}"), [Topic::Trajectory, Topic::Branch, Topic::Reference]);
+    assert_eq!(TOPICS.last(), Some(&Topic::Reference));
     // What it is measured against does not depend on the dial, nor on the method.
-    assert_eq!(desk.press("} {"), [Slot::Trajectory, Slot::Branch, Slot::Trajectory, Slot::Branch]);
-    assert_eq!(desk.press("m"), [Slot::Trajectory]);
+    assert_eq!(desk.press("} {"), [Topic::Trajectory, Topic::Branch], "the way back is known");
+    assert_eq!(desk.press("m"), [Topic::Trajectory]);
     // Another key, and the motion is measured no more; selecting the row, and it is again.
     desk.press("g");
     assert!(!desk.session.measures());
     assert_eq!(desk.press("<down*7>"), [], "known still");
     assert!(desk.session.measures());
-    assert_eq!(desk.press("<up*3><right><down*3>"), [Slot::Trajectory, Slot::Reference]);
+    assert_eq!(desk.press("<up*3><right><down*3>"), [Topic::Trajectory, Topic::Reference]);
     desk.press("<run \"layer trajectory\">");
     assert!(!desk.session.measures(), "a hidden motion has no error on the screen");
 }
@@ -202,12 +203,10 @@ fn the_measured_error_is_that_of_the_motion_on_show() {
     let mut desk = Desk::open("capture");
     desk.press("<down*5><enter><C-u>dop853<enter>{");
     let session = &mut desk.session;
-    for slot in [Slot::Trajectory, Slot::Reference] {
-        let request = session.request(slot, 0).unwrap();
+    for topic in [Topic::Trajectory, Topic::Reference] {
+        let request = session.request(topic, 0).unwrap();
         let result = Ok(answer(&request, &Limits::PATIENT).unwrap());
         let answered = Answered { request, result, seconds: 0.0, complete: true };
-        // As if it had not been answered by hand before.
-        session.answers.remove(&slot);
         update(session, Msg::Answered(Box::new(answered)));
     }
     assert_eq!(session.problem.method, Method::Dop853);
@@ -226,16 +225,15 @@ fn why_there_is_no_measured_error_is_known() {
     for (problem, why) in
         [(find("escape").unwrap().problem, Some(Unmeasured::OtherFate)), (session.problem, None)]
     {
-        for slot in [Slot::Trajectory, Slot::Reference] {
-            let request = session.request(slot, 0).unwrap();
-            let result = match slot {
-                Slot::Reference => {
+        for topic in [Topic::Trajectory, Topic::Reference] {
+            let request = session.request(topic, 0).unwrap();
+            let result = match topic {
+                Topic::Reference => {
                     let found = Reference::of(&problem, &Limits::PATIENT).unwrap();
                     Answer::Reference(Ok(Box::new(found)))
                 }
                 _ => answer(&request, &Limits::PATIENT).unwrap(),
             };
-            session.answers.remove(&slot);
             let answered = Answered { request, result: Ok(result), seconds: 0.0, complete: true };
             update(&mut session, Msg::Answered(Box::new(answered)));
         }
@@ -248,7 +246,7 @@ fn why_there_is_no_measured_error_is_known() {
 /// Each number of the motion and each kind of question: which questions contain it.
 #[test]
 fn a_step_of_each_number_asks_exactly_these_questions_anew() {
-    use Slot::{Balance, Branch, Capture, Cycles, Reference, Trajectory};
+    use Topic::{Balance, Branch, Capture, Cycles, Reference, Trajectory};
     use Symbol::{D, D2, D3, Q0, R, V0};
     let mut desk = Desk::open("supercritical");
     desk.press("<run \"layer bands\"> <run \"layer balance\"> <down*9>");
@@ -257,9 +255,9 @@ fn a_step_of_each_number_asks_exactly_these_questions_anew() {
         let mut stepped = desk.session.clone();
         stepped.selected = row;
         parameters::step(&mut stepped, 1);
-        let plot = |slot| usize::from(slot == Branch);
-        now.map(|slot| {
-            let asked = |session: &Session| session.request(slot, plot(slot));
+        let plot = |topic| usize::from(topic == Branch);
+        now.map(|topic| {
+            let asked = |session: &Session| session.request(topic, plot(topic));
             if asked(&stepped) == asked(&desk.session) { '.' } else { 'x' }
         })
         .iter()
@@ -288,7 +286,7 @@ fn what_a_scene_does_not_need_costs_nothing() {
     let cost = |keys: &str, scene: &str| {
         let mut desk = Desk::open(scene);
         desk.press(keys);
-        let Some(request) = desk.session.request(Slot::Trajectory, 0) else { panic!("no motion") };
+        let Some(request) = desk.session.request(Topic::Trajectory, 0) else { panic!("no motion") };
         let Ok(Answer::Trajectory(found)) = answer(&request, &Limits::PATIENT) else {
             panic!("no motion")
         };

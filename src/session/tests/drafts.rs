@@ -7,7 +7,7 @@ use crate::flow::quality::DRAFT;
 use crate::numerics::elementary::hypot;
 use crate::oscillator::Symbol;
 use crate::scene::answer::{Failure, answer};
-use crate::scene::{Answer, Answered, Request, SLOTS, Slot, library};
+use crate::scene::{Answer, Answered, Request, TOPICS, Topic, library};
 use crate::session::act::parameters;
 use crate::session::{Msg, Row, Session, Size, update};
 use crate::study::Branch;
@@ -50,7 +50,7 @@ fn at_draft_quality_every_key_takes_half_a_frame_at_most() {
             stepped.selected = row;
             parameters::step(&mut stepped, count);
             stepped.selected = Row::Until;
-            stepped.effort.measuring = false;
+            stepped.measuring = false;
             let mut evaluations = 0;
             let wanted = open(&stepped);
             for request in wanted.iter().cloned() {
@@ -74,7 +74,7 @@ fn at_draft_quality_every_key_takes_half_a_frame_at_most() {
 /// are cheap: counted on every scene after a step of each of its numbers, shown there or not.
 #[test]
 fn what_has_no_draft_needs_none() {
-    const UNDRAFTED: [Slot; 4] = [Slot::Cycles, Slot::Capture, Slot::Balance, Slot::ReturnMap];
+    const UNDRAFTED: [Topic; 4] = [Topic::Cycles, Topic::Capture, Topic::Balance, Topic::ReturnMap];
     for scene in library() {
         let session = Session::new(Arc::clone(scene), SIZE);
         let rows = session.rows().into_iter().filter(|row| matches!(row, Row::Parameter(_)));
@@ -84,8 +84,8 @@ fn what_has_no_draft_needs_none() {
             parameters::step(&mut stepped, count);
             let plots = 0..stepped.plots.len();
             let asked =
-                UNDRAFTED.iter().flat_map(|slot| plots.clone().map(move |plot| (slot, plot)));
-            let asked = asked.filter_map(|(slot, plot)| stepped.request(*slot, plot));
+                UNDRAFTED.iter().flat_map(|topic| plots.clone().map(move |plot| (topic, plot)));
+            let asked = asked.filter_map(|(topic, plot)| stepped.request(*topic, plot));
             for request in asked.collect::<Vec<_>>() {
                 assert_eq!(request.draft(), None);
                 let evaluations = give(&mut stepped, request.clone());
@@ -115,7 +115,7 @@ const UGLY: [&[(Symbol, f64)]; 11] = [
 /// that take more than one do not hold up the others: the worker puts them aside.
 #[test]
 fn wherever_the_numbers_are_no_first_answer_takes_more_than_a_few_frames() {
-    let kinds = || SLOTS.into_iter().filter(|slot| *slot < Slot::Trade);
+    let kinds = || TOPICS.into_iter().filter(|topic| *topic < Topic::Trade);
     let mut dearest = (0, String::new());
     let mut answered: Vec<Request> = Vec::new();
     for (scene, numbers) in library().iter().flat_map(|scene| UGLY.map(|ugly| (scene, ugly))) {
@@ -126,13 +126,13 @@ fn wherever_the_numbers_are_no_first_answer_takes_more_than_a_few_frames() {
             symbol.set(&mut problem.parameters, &mut problem.initial, *value);
         }
         let plots = 0..session.plots.len();
-        let asked = plots.flat_map(|plot| kinds().map(move |slot| (slot, plot)));
-        let asked = asked.filter_map(|(slot, plot)| session.request(slot, plot));
+        let asked = plots.flat_map(|plot| kinds().map(move |topic| (topic, plot)));
+        let asked = asked.filter_map(|(topic, plot)| session.request(topic, plot));
         for request in asked.collect::<Vec<_>>() {
             let request = request.draft().unwrap_or(request);
             if !answered.contains(&request) {
                 answered.push(request.clone());
-                let kind = request.slot().name();
+                let kind = request.topic().name();
                 dearest = dearest.max((
                     give(&mut session, request),
                     format!("{} {kind} {numbers:?}", scene.name),
@@ -178,7 +178,7 @@ fn a_drafted_branch_is_the_branch_to_the_eye() {
     for scene in library() {
         let session = Session::new(Arc::clone(scene), SIZE);
         for plot in 0..session.plots.len() {
-            let Some(full) = session.request(Slot::Branch, plot) else { continue };
+            let Some(full) = session.request(Topic::Branch, plot) else { continue };
             let (pieces, extent) = diagram(&full, None);
             let (drafted, _) = diagram(&full.draft().unwrap(), Some(extent));
             for point in pieces.iter().flatten() {

@@ -32,7 +32,7 @@ use crate::numerics::twofold::Twofold;
 use crate::oscillator::{Ledger, State};
 use crate::scene::answer::{Borders, Rows};
 use crate::scene::speeds::Speeds;
-use crate::scene::{Answer, Answered, Fit, Request, Slot, find};
+use crate::scene::{Answer, Answered, Fit, Request, Topic, find};
 use crate::study::accuracy::{Deviation, Ending, Reference, Source};
 use crate::study::chart::Chart;
 use crate::study::harmonic_error::HarmonicBalance;
@@ -45,7 +45,7 @@ use crate::study::{
 struct Desk {
     session: Session,
     /// What was asked since the last keys.
-    asked: Vec<Slot>,
+    asked: Vec<Request>,
     /// What the outer rings were told to do.
     effects: Vec<Effect>,
 }
@@ -71,7 +71,7 @@ impl Desk {
     }
 
     /// Presses keys; returns what had to be computed for them.
-    fn press(&mut self, keys: &str) -> Vec<Slot> {
+    fn press(&mut self, keys: &str) -> Vec<Topic> {
         self.asked.clear();
         let mut player = Player::new(parse(keys).unwrap_or_else(|error| panic!("{keys}: {error}")));
         while let Action::Give(message) = player.next(true, String::new).unwrap() {
@@ -84,7 +84,7 @@ impl Desk {
             }
             self.reads(before, Some(&player));
         }
-        self.asked.clone()
+        self.asked.iter().map(Request::topic).collect()
     }
 
     /// Reads the files that were asked for since the effect of this number, as a file that is played has
@@ -110,7 +110,7 @@ impl Desk {
                 break;
             }
             for request in open {
-                self.asked.push(request.slot());
+                self.asked.push(request.clone());
                 update(&mut self.session, Msg::Answered(Box::new(answered(request))));
             }
         }
@@ -254,13 +254,6 @@ fn answered(request: Request) -> Answered {
                 vague: Vec::new(),
                 cost,
             })
-        }
-        Request::Family { members, .. } => {
-            let by_hand = |member: &Request| match answered(member.clone()).result {
-                Ok(answer) => Ok(answer),
-                Err(failure) => unreachable!("{failure}"),
-            };
-            Answer::Family(members.iter().map(by_hand).collect())
         }
     };
     Answered { request, result: Ok(answer), seconds: 0.001, complete: true }

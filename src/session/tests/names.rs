@@ -2,14 +2,14 @@
 
 use super::Desk;
 use crate::flow::Method;
-use crate::scene::{Layer, Ordinate, Slot, View};
+use crate::scene::{Layer, Ordinate, Topic, View};
 use crate::session::read::completion::completion;
 use crate::session::{
     Effect, Listed, Msg, Overlay, Pane, Prompt, commands, lines, run_line, update,
 };
 
 /// Runs a line.
-fn run(desk: &mut Desk, line: &str) -> Vec<Slot> {
+fn run(desk: &mut Desk, line: &str) -> Vec<Topic> {
     desk.press(":");
     desk.give(Msg::Paste(line.to_owned()));
     desk.press("<enter>")
@@ -65,7 +65,7 @@ fn what_takes_words_gets_a_line_from_the_palette() {
 fn values_are_set_by_name_as_one_change() {
     let mut desk = Desk::open("plain");
     let asked = run(&mut desk, "set D=-0.3 D3=0.5 until=100 method=taylor");
-    assert!(asked.contains(&Slot::Trajectory));
+    assert!(asked.contains(&Topic::Trajectory));
     let problem = desk.session.problem;
     assert_eq!((problem.parameters.d, problem.parameters.d3), (-0.3, 0.5));
     assert_eq!((problem.until, problem.method), (100.0, Method::Taylor));

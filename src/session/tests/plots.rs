@@ -2,9 +2,9 @@
 
 use super::Desk;
 use crate::oscillator::State;
-use crate::scene::{Answer, Point, Slot, Span, Window};
+use crate::scene::{Answer, Point, Topic, Span, Window};
 use crate::session::{Framing, Pane};
-use crate::study::{Edge, Margin, Picture};
+use crate::study::{Cycles, Edge, Margin, Picture};
 
 #[test]
 fn the_cursor_moves_on_round_numbers_and_sets_the_start() {
@@ -50,7 +50,7 @@ fn a_diagram_outside_the_range_of_its_parameter_asks_nothing() {
     let mut desk = Desk::open("plain");
     desk.session.plots[1].axes.abscissa = crate::oscillator::Symbol::R;
     desk.session.plots[1].window.x = Span::new(-2.0, -1.0).unwrap();
-    assert_eq!(desk.session.request(crate::scene::Slot::Branch, 1), None);
+    assert_eq!(desk.session.request(crate::scene::Topic::Branch, 1), None);
     assert_eq!(desk.session.wants().len(), 2);
 }
 
@@ -99,7 +99,7 @@ fn fit_shows_every_variant_and_not_the_motion_that_none_of_them_is() {
         assert_eq!(desk.session.plots[index].framing, Framing::Fitted, "{scene}");
         let window = desk.session.plots[index].window;
         let mut seen = Vec::new();
-        for (_, label, answer) in desk.session.found(Slot::Cycles, index) {
+        for (_, label, answer) in desk.session.found(Topic::Cycles, index) {
             let Answer::Cycles(found) = answer else { continue };
             for cycle in &found.cycles {
                 let corners = [(cycle.q_min, cycle.v_min), (cycle.q_max, cycle.v_max)];
@@ -154,13 +154,20 @@ fn the_motion_starts_on_either_side_of_the_unstable_cycle() {
     assert_eq!(desk.notice(), "the cycles are not computed: v lists the layers");
 }
 
+/// The cycles that were answered.
+fn cycles(desk: &mut Desk) -> &mut Cycles {
+    let mut cycles = desk.session.answers.each().filter_map(|held| match &mut held.result {
+        Ok(Answer::Cycles(found)) => Some(found),
+        _ => None,
+    });
+    cycles.next().unwrap()
+}
+
 #[test]
 fn a_separatrix_has_two_sides_too() {
     for (d2, sign) in [(0.5, 1.0), (-0.5, -1.0)] {
         let mut desk = Desk::open("escape");
-        let held = desk.session.answers.get_mut(&crate::scene::Slot::Cycles).unwrap();
-        let held = std::sync::Arc::make_mut(held);
-        let Ok(crate::scene::Answer::Cycles(found)) = &mut held.result else { panic!("cycles") };
+        let found = cycles(&mut desk);
         found.parameters.d2 = d2;
         found.edge = Edge::Separatrix;
         found.cycles.clear();
@@ -186,9 +193,7 @@ fn a_separatrix_has_two_sides_too() {
 fn a_cycle_close_to_the_sticking_set_still_has_two_sides() {
     let mut desk = Desk::open("linear");
     for clearance in [0.5, 1e-9, 1e-14, 3e-16, 1e-16, 6.5e-31, 5e-324] {
-        let held = desk.session.answers.get_mut(&crate::scene::Slot::Cycles).unwrap();
-        let held = std::sync::Arc::make_mut(held);
-        let Ok(crate::scene::Answer::Cycles(found)) = &mut held.result else { panic!("cycles") };
+        let found = cycles(&mut desk);
         found.cycles[0].clearance = clearance;
         desk.press("i");
         let inside = desk.session.problem.initial.q;

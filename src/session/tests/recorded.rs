@@ -13,6 +13,7 @@ use crate::scene::machine::library::machines;
 use crate::scene::{Rig, Scene, library};
 use crate::session::opening::opening;
 use crate::session::replay::{Recorder, text};
+use crate::session::state::answers::Answers;
 use crate::session::settings::{COLORS, GLYPHS, Look, THEMES};
 use crate::session::{Effect, Msg, Notice, Session, Size, save};
 
@@ -44,12 +45,9 @@ fn alike(session: &Session) -> Session {
     let mut session = session.clone();
     session.price = crate::session::Price::default();
     (session.macros.chord, session.macros.asked) = (0, 0);
-    let wants = session.wants();
-    session.answers.retain(|_, held| wants.contains(&held.request));
-    session.plots.iter_mut().for_each(|plot| plot.answers.clear());
-    session.marks.places.values_mut().for_each(|mark| mark.answers.clear());
-    session.marks.left.iter_mut().for_each(|mark| mark.answers.clear());
-    session.effort.burdens.clear();
+    session.answers = Answers::default();
+    session.marks.places.values_mut().for_each(|mark| mark.asked.clear());
+    session.marks.left.iter_mut().for_each(|mark| mark.asked.clear());
     session.interrupted = None;
     session.history.forget_windows();
     session

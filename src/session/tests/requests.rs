@@ -4,14 +4,14 @@ use super::{COST, Desk, answered};
 use crate::flow::Reason;
 use crate::oscillator::{Parameters, Symbol};
 use crate::scene::answer::Failure;
-use crate::scene::{Answered, Request, Slot};
+use crate::scene::{Answered, Request, Topic};
 use crate::session::{Msg, update};
 
-const MOTION: &[Slot] = &[Slot::Trajectory];
-const MEASURED: &[Slot] = &[Slot::Trajectory, Slot::Reference];
-const BRANCH: &[Slot] = &[Slot::Branch];
-const POINT: &[Slot] = &[Slot::Trajectory, Slot::Cycles];
-const ALL: &[Slot] = &[Slot::Trajectory, Slot::Cycles, Slot::Branch];
+const MOTION: &[Topic] = &[Topic::Trajectory];
+const MEASURED: &[Topic] = &[Topic::Trajectory, Topic::Reference];
+const BRANCH: &[Topic] = &[Topic::Branch];
+const POINT: &[Topic] = &[Topic::Trajectory, Topic::Cycles];
+const ALL: &[Topic] = &[Topic::Trajectory, Topic::Cycles, Topic::Branch];
 
 #[test]
 fn a_key_recomputes_exactly_what_depends_on_it() {
@@ -23,7 +23,7 @@ fn a_key_recomputes_exactly_what_depends_on_it() {
         ("<down*4><right>", MOTION), // v0
         ("<down*5><right>", MOTION), // until
         ("m", MEASURED),             // the method integrates the motion
-        ("}", &[Slot::Trajectory, Slot::Branch, Slot::Reference]), // cycles are computed to rounding
+        ("}", &[Topic::Trajectory, Topic::Branch, Topic::Reference]), // cycles are computed to rounding
         ("[ ] x x <tab> <S-tab> ? <esc> g T", &[]),                // looks and lists
         ("<tab>+-", &[]),        // the phase plane is drawn from its answers
         ("<tab><tab>+", BRANCH), // the diagram computes what it shows
@@ -37,9 +37,9 @@ fn a_key_recomputes_exactly_what_depends_on_it() {
         ("<tab><tab>Y Y Y Y Y Y Y", &[]), // another look at the same cycles
         ("<tab><tab>w <left> <tab> <S-right> Y <esc>", &[]),
         ("<tab><tab>w <right> <enter>", POINT),
-        ("va<esc>", &[Slot::Capture]),
-        ("vn<esc> ) (", &[Slot::Balance, Slot::Balance, Slot::Balance]), // another N, another answer
-        ("va<esc> <tab>L K vaa<esc>", &[Slot::Capture]), // as far as the next power of two
+        ("va<esc>", &[Topic::Capture]),
+        ("vn<esc> ) (", &[Topic::Balance, Topic::Balance, Topic::Balance]), // another N, another answer
+        ("va<esc> <tab>L K vaa<esc>", &[Topic::Capture]), // as far as the next power of two
     ] {
         let mut desk = Desk::open("supercritical");
         let selecting = keys.trim_end_matches("<right>");
@@ -56,10 +56,10 @@ fn a_key_recomputes_exactly_what_depends_on_it() {
 fn a_hidden_layer_asks_nothing() {
     let mut desk = Desk::open("supercritical");
     desk.press("<run \"layer trajectory\">");
-    assert_eq!(desk.press("<right>"), [Slot::Cycles]);
+    assert_eq!(desk.press("<right>"), [Topic::Cycles]);
     // Cycles and basin share an answer: it is needed as long as one of them is on.
     desk.press("<run \"layer cycles\">");
-    assert_eq!(desk.press("<right>"), [Slot::Cycles]);
+    assert_eq!(desk.press("<right>"), [Topic::Cycles]);
     desk.press("<run \"layer basin\">");
     assert_eq!(desk.press("<right>"), []);
     desk.press("<run \"layer branch\"><run \"layer special\">");
@@ -80,7 +80,7 @@ fn what_was_answered_is_not_asked_again() {
     let mut desk = Desk::open("supercritical");
     assert_eq!(desk.press("<run \"layer trajectory\"><run \"layer trajectory\"><run \"layer cycles\"><run \"layer cycles\"><run \"layer branch\"><run \"layer branch\">"), []);
     assert_eq!(desk.press("<down*3>"), []);
-    assert_eq!(desk.press("<right>u"), [Slot::Trajectory, Slot::Trajectory]);
+    assert_eq!(desk.press("<right>u"), [Topic::Trajectory], "the way back is known");
 }
 
 #[test]
@@ -103,7 +103,6 @@ fn terms_that_a_scene_does_not_declare_are_zero_until_the_user_unfolds_them() {
             | Request::Branch { parameters, .. }
             | Request::Trade { parameters, .. }
             | Request::Reference { parameters, .. } => parameters,
-            Request::Family { .. } => unreachable!("capture has no variants"),
             Request::Scan { .. } => unreachable!("nobody asked for a scan"),
         };
         assert!(parameters.is_piecewise_linear());
@@ -128,11 +127,11 @@ fn terms_that_a_scene_does_not_declare_are_zero_until_the_user_unfolds_them() {
 #[test]
 fn the_branch_does_not_contain_the_value_of_its_own_parameter() {
     let desk = Desk::open("plain");
-    let wanted = desk.session.request(Slot::Branch, 1);
+    let wanted = desk.session.request(Topic::Branch, 1);
     for d in [-0.9, 0.0, 1e-300, 2.0] {
         let mut session = desk.session.clone();
         Symbol::D.set(&mut session.problem.parameters, &mut session.problem.initial, d);
-        assert_eq!(session.request(Slot::Branch, 1), wanted);
+        assert_eq!(session.request(Topic::Branch, 1), wanted);
     }
 }
 
@@ -144,7 +143,7 @@ fn the_price_of_a_key_is_what_it_made_necessary() {
     desk.press("<right>");
     let price = &desk.session.price;
     assert_eq!(price.key, "<right>".parse().ok());
-    assert_eq!(price.recomputed.iter().map(|part| part.slot).collect::<Vec<_>>(), POINT);
+    assert_eq!(price.recomputed.iter().map(|part| part.topic).collect::<Vec<_>>(), POINT);
     assert_eq!(price.evaluations(), 2 * COST);
     assert!((price.seconds() - 0.002).abs() < 1e-15);
     desk.press("<down>");
@@ -156,18 +155,18 @@ fn an_old_picture_stays_and_is_known_to_be_old() {
     let mut desk = Desk::open("plain");
     let before = desk.session.trajectory().cloned();
     update(&mut desk.session, Msg::Key("<right>".parse().unwrap()));
-    assert!(desk.session.is_busy() && desk.session.is_stale(Slot::Trajectory, 1));
-    assert!(!desk.session.is_stale(Slot::Branch, 1));
+    assert!(desk.session.is_busy() && desk.session.is_stale(Topic::Trajectory, 1));
+    assert!(!desk.session.is_stale(Topic::Branch, 1));
     assert_eq!(desk.session.trajectory().cloned(), before);
     desk.settle();
-    assert!(!desk.session.is_stale(Slot::Trajectory, 1));
+    assert!(!desk.session.is_stale(Topic::Trajectory, 1));
 }
 
 #[test]
 fn a_late_answer_never_replaces_the_one_that_is_asked_for() {
     let mut desk = Desk::open("plain");
     update(&mut desk.session, Msg::Key("<right>".parse().unwrap()));
-    let superseded = desk.session.request(Slot::Trajectory, 1).unwrap();
+    let superseded = desk.session.request(Topic::Trajectory, 1).unwrap();
     desk.press("u");
     let held = desk.session.trajectory().cloned();
     update(&mut desk.session, Msg::Answered(Box::new(answered(superseded.clone()))));
@@ -177,14 +176,14 @@ fn a_late_answer_never_replaces_the_one_that_is_asked_for() {
     update(&mut desk.session, Msg::Answered(Box::new(answered(superseded.clone()))));
     let Request::Trajectory(problem) = superseded else { panic!("a trajectory was asked for") };
     assert_eq!(desk.session.trajectory().unwrap().problem, problem);
-    assert!(desk.session.is_stale(Slot::Trajectory, 1));
+    assert!(desk.session.is_stale(Topic::Trajectory, 1));
 }
 
 #[test]
 fn a_failure_is_told_once_and_not_tried_again() {
     let mut desk = Desk::open("plain");
     update(&mut desk.session, Msg::Key("<right>".parse().unwrap()));
-    let request = desk.session.request(Slot::Cycles, 1).unwrap();
+    let request = desk.session.request(Topic::Cycles, 1).unwrap();
     let failed = |failure| {
         let result = Err(failure);
         Msg::Answered(Box::new(Answered {
@@ -198,12 +197,12 @@ fn a_failure_is_told_once_and_not_tried_again() {
     assert!(desk.session.is_open(&request), "an interrupted question is still a question");
     update(&mut desk.session, failed(Failure::Reason(Reason::OutOfRange)));
     assert!(!desk.session.is_open(&request));
-    assert!(desk.session.failure(Slot::Cycles, 1).is_some());
+    assert!(desk.session.failure(Topic::Cycles, 1).is_some());
     assert_eq!(desk.notice(), "cycles: left the range of floating-point numbers; <f5> tries again");
-    assert!(desk.session.is_stale(Slot::Cycles, 1) && desk.session.cycles().is_some());
+    assert!(desk.session.is_stale(Topic::Cycles, 1) && desk.session.cycles().is_some());
     desk.settle();
-    assert_eq!(desk.press("<f5>"), [Slot::Cycles]);
-    assert!(!desk.session.is_stale(Slot::Cycles, 1));
+    assert_eq!(desk.press("<f5>"), [Topic::Cycles]);
+    assert!(!desk.session.is_stale(Topic::Cycles, 1));
     assert_eq!(desk.press("<right>"), POINT, "another value is another question");
-    assert_eq!(desk.session.failure(Slot::Cycles, 1), None);
+    assert_eq!(desk.session.failure(Topic::Cycles, 1), None);
 }

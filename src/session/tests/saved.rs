@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use super::strange::any_key;
 use super::{Desk, answered};
 use crate::flow::Problem;
-use crate::scene::{Request, Slot, library};
+use crate::scene::{Request, Topic, library};
 use crate::session::{Effect, Msg, Notice, Purpose, Session, save, update};
 
 /// Everything of a session that a file holds.
@@ -20,7 +20,7 @@ fn essence(session: &Session) -> impl PartialEq + std::fmt::Debug {
         .map(|plot| (plot.view, plot.axes, plot.window, plot.framing, plot.cursor))
         .collect();
     // Overlays and the rest on the dial are passing; what they ask for is no part of a session.
-    let passing = |request: &Request| matches!(request.slot(), Slot::Claims | Slot::Reference);
+    let passing = |request: &Request| matches!(request.topic(), Topic::Claims | Topic::Reference);
     let wants: Vec<Request> =
         session.wants().into_iter().filter(|request| !passing(request)).collect();
     (

@@ -7,7 +7,7 @@ use super::Desk;
 use crate::flow::Cost;
 use crate::oscillator::Symbol;
 use crate::scene::answer::Rows;
-use crate::scene::{Answer, Answered, Request, Slot, View};
+use crate::scene::{Answer, Answered, Request, Topic, View};
 use crate::session::scan::Progress;
 use crate::session::{Effect, Msg, Overlay, Pane, Scanned, Session, update};
 use crate::study::measure::Value;
@@ -69,7 +69,7 @@ fn the_form_starts_a_scan_with_keys_alone_and_shows_it() {
         field(&mut desk, text);
     }
     desk.press("<up*3> <left*2> <S-tab*5> <right>");
-    assert_eq!(desk.press("<enter>"), [Slot::Scan]);
+    assert_eq!(desk.press("<enter>"), [Topic::Scan]);
     let session = &desk.session;
     assert!(session.overlay.is_none() && session.focuses_scan());
     let found = scanned(session);
@@ -153,8 +153,8 @@ fn a_scan_goes_on_while_something_else_is_on_show_and_asks_nothing_when_it_is_do
     assert!(session.plots.iter().all(|plot| plot.view != View::Scan));
     assert!(session.wants().contains(&request));
     let mut desk = Desk { session, asked: Vec::new(), effects: Vec::new() };
-    assert_eq!(desk.press("<right>").iter().filter(|slot| **slot == Slot::Scan).count(), 1);
-    assert!(!desk.press("<right>").contains(&Slot::Scan));
+    assert_eq!(desk.press("<right>").iter().filter(|topic| **topic == Topic::Scan).count(), 1);
+    assert!(!desk.press("<right>").contains(&Topic::Scan));
 }
 
 #[test]

@@ -1,13 +1,13 @@
 //! Undo, redo, reset, and scenes.
 
 use super::Desk;
-use crate::scene::{Layer, Request, Slot, library};
+use crate::scene::{Layer, Request, Topic, library};
 use crate::session::{Listed, Overlay};
 
 /// What is asked for the picture; what its error is measured against belongs to the dial.
 fn asked(desk: &Desk) -> Vec<Request> {
     let mut wanted = desk.session.wants();
-    wanted.retain(|request| request.slot() != Slot::Reference);
+    wanted.retain(|request| request.topic() != Topic::Reference);
     wanted
 }
 

@@ -3,7 +3,7 @@
 use super::Desk;
 use crate::flow::Method;
 use crate::oscillator::{State, Symbol};
-use crate::scene::{Request, Slot, VIEWS, View};
+use crate::scene::{Request, Topic, VIEWS, View};
 use crate::session::{Context, Pane};
 use crate::study::claims::claims;
 
@@ -18,16 +18,16 @@ fn turned_to(view: &str) -> Desk {
 #[test]
 fn a_view_asks_what_its_layers_need_and_a_step_asks_that_again() {
     for (view, needs, on_q0) in [
-        ("phase", &[Slot::Trajectory, Slot::Cycles][..], &[Slot::Trajectory][..]),
-        ("diagram", &[Slot::Branch], &[]),
-        ("time-series", &[Slot::Trajectory], &[Slot::Trajectory]),
-        ("energy-ledger", &[Slot::Trajectory, Slot::Cycles], &[Slot::Trajectory]),
-        ("return-map", &[Slot::Trajectory, Slot::Cycles, Slot::ReturnMap], &[Slot::Trajectory]),
-        ("regimes", &[Slot::Regimes], &[]),
-        ("trade", &[Slot::Trade], &[Slot::Trade]),
+        ("phase", &[Topic::Trajectory, Topic::Cycles][..], &[Topic::Trajectory][..]),
+        ("diagram", &[Topic::Branch], &[]),
+        ("time-series", &[Topic::Trajectory], &[Topic::Trajectory]),
+        ("energy-ledger", &[Topic::Trajectory, Topic::Cycles], &[Topic::Trajectory]),
+        ("return-map", &[Topic::Trajectory, Topic::Cycles, Topic::ReturnMap], &[Topic::Trajectory]),
+        ("regimes", &[Topic::Regimes], &[]),
+        ("trade", &[Topic::Trade], &[Topic::Trade]),
     ] {
         let mut desk = turned_to(view);
-        let wanted: Vec<Slot> = desk.session.wants().iter().map(Request::slot).collect();
+        let wanted: Vec<Topic> = desk.session.wants().iter().map(Request::topic).collect();
         assert_eq!(wanted, needs, "{view}");
         assert_eq!(desk.press("<S-tab><down*3><right>"), on_q0, "q0 in {view}");
         assert_eq!(desk.press("<up><right>"), needs, "r in {view}");
@@ -40,11 +40,11 @@ fn the_parameters_of_a_chart_move_its_point_and_nothing_else() {
     desk.press("<S-tab>");
     assert_eq!(desk.press("<right*3>"), [], "D");
     assert_eq!(desk.press("<down><right>"), [], "D3");
-    assert_eq!(desk.press("<down><right>"), [Slot::Regimes], "r");
-    assert_eq!(desk.press("<tab>Y"), [Slot::Regimes], "D over r");
+    assert_eq!(desk.press("<down><right>"), [Topic::Regimes], "r");
+    assert_eq!(desk.press("<tab>Y"), [Topic::Regimes], "D over r");
     let axes = desk.session.plots[0].axes;
     assert_eq!((axes.abscissa, axes.against), (Symbol::D, Symbol::R));
-    assert_eq!(desk.press("X"), [Slot::Regimes]);
+    assert_eq!(desk.press("X"), [Topic::Regimes]);
     assert_eq!(desk.session.plots[0].axes.abscissa, Symbol::D2, "r stands upwards already");
     assert_eq!(desk.press("<run \"layer regimes\"><run \"layer borders\">"), []);
     assert_eq!(desk.press("L"), [], "a chart that is not shown is not computed");
@@ -68,10 +68,10 @@ fn views_of_the_same_answers_cost_nothing() {
     assert_eq!(desk.press("<tab>V/energy<enter>"), [], "the cycles have their works");
     assert_eq!(desk.press("V/time<enter>"), []);
     assert_eq!(desk.press("v f n e p t <esc>"), []);
-    assert_eq!(desk.press("V/return<enter>"), [Slot::ReturnMap], "once, when its window is known");
+    assert_eq!(desk.press("V/return<enter>"), [Topic::ReturnMap], "once, when its window is known");
     assert_eq!(desk.press("<run \"layer map\">"), []);
     assert_eq!(desk.press("L"), [], "a map that is not shown is not computed");
-    assert_eq!(desk.press("<run \"layer map\">"), [Slot::ReturnMap]);
+    assert_eq!(desk.press("<run \"layer map\">"), [Topic::ReturnMap]);
 }
 
 #[test]
@@ -128,10 +128,10 @@ fn a_view_that_the_scene_does_not_know_opens_with_its_usual_layers() {
 #[test]
 fn the_trade_is_asked_for_the_motion_and_not_for_the_method_that_computes_it() {
     let mut desk = turned_to("trade");
-    assert_eq!(desk.session.needs(0).into_iter().collect::<Vec<_>>(), [Slot::Trade]);
+    assert_eq!(desk.session.needs(0).into_iter().collect::<Vec<_>>(), [Topic::Trade]);
     // The dial and the method are no inputs; every number of the motion is.
     assert_eq!(desk.press("} m {"), []);
-    assert_eq!(desk.press("<S-tab><down*3><right>"), [Slot::Trade]);
+    assert_eq!(desk.press("<S-tab><down*3><right>"), [Topic::Trade]);
     // Enter takes the method and the accuracy of the nearest row.
     desk.press("<tab><enter>");
     assert_eq!(desk.notice(), "no cursor yet: <left>, <up> and so on show it");
@@ -146,11 +146,11 @@ fn the_trade_is_asked_for_the_motion_and_not_for_the_method_that_computes_it() {
 #[test]
 fn the_claims_of_the_paper_are_examined_once_when_they_are_first_looked_at() {
     let mut desk = Desk::open("plain");
-    assert_eq!(desk.press("<f10>"), [Slot::Claims]);
+    assert_eq!(desk.press("<f10>"), [Topic::Claims]);
     assert_eq!(desk.press("<esc><f10>"), [], "they do not change");
     desk.press("/(33)<enter><enter>");
     assert_eq!(desk.session.overlay, None);
     let claim = claims().find(|claim| claim.equation == "(33)").unwrap();
     assert_eq!(Some(desk.session.scene.name.as_str()), claim.scene);
-    assert!(!desk.press("<right>").contains(&Slot::Claims), "hidden they cost nothing");
+    assert!(!desk.press("<right>").contains(&Topic::Claims), "hidden they cost nothing");
 }

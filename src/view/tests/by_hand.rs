@@ -109,9 +109,6 @@ pub(super) fn by_hand(request: &Request) -> Answer {
         Request::Branch { parameter, .. } => Answer::Branch(folded(*parameter)),
         Request::ReturnMap { parameters, .. } => Answer::ReturnMap(halving(*parameters)),
         Request::Regimes { plane, .. } => Answer::Regimes(parted(*plane)),
-        Request::Family { members, .. } => {
-            Answer::Family(members.iter().map(|member| Ok(by_hand(member))).collect())
-        }
         Request::Trade { .. } => Answer::Trade(compared()),
         Request::Reference { .. } => Answer::Reference(Err(Reason::OutOfRange)),
         Request::Claims => Answer::Claims(Vec::new()),
