@@ -6,7 +6,7 @@ use crate::numerics::elementary::hypot;
 use crate::oscillator::energy::energy;
 use crate::oscillator::{State, Symbol};
 use crate::scene::ordinate::usual_values;
-use crate::scene::{Answer, Axes, Layer, Point, Request, Topic, Span, View, Window};
+use crate::scene::{Answer, Axes, Layer, Point, Request, Span, Topic, View, Window};
 use crate::session::state::plot::Framing;
 use crate::session::state::scan::Scanned;
 use crate::session::state::session::Session;

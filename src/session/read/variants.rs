@@ -64,7 +64,8 @@ impl Session {
         plot: usize,
     ) -> impl Iterator<Item = (usize, &Answer)> {
         let asked = self.requests(topic, plot).into_iter();
-        asked.filter_map(|(index, request)| Some((index, self.answers.standing(&request).answer()?)))
+        asked
+            .filter_map(|(index, request)| Some((index, self.answers.standing(&request).answer()?)))
     }
 
     /// The last branches computed over the parameter of a diagram, stale or not; each with its place

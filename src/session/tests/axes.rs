@@ -11,8 +11,8 @@ fn every_parameter_comes_below_the_diagram_and_the_scene_s_own_comes_back() {
     let scene = desk.session.plots[1].clone();
     desk.press("<tab><tab>");
     let mut seen = Vec::new();
-    for _ in 0..4 {
-        assert_eq!(desk.press("X"), [Topic::Branch]);
+    for asked in [&[Topic::Branch][..], &[Topic::Branch], &[Topic::Branch], &[]] {
+        assert_eq!(desk.press("X"), asked, "the first one is known");
         assert_eq!(desk.branch(1).parameter, desk.session.plots[1].axes.abscissa);
         let today = desk.session.value(desk.session.plots[1].axes.abscissa);
         assert!(desk.session.plots[1].window.x.contains(today));
@@ -62,7 +62,7 @@ fn every_ordinate_is_fitted_to_the_cycles_that_are_there() {
 fn home_brings_the_axes_of_the_scene_back() {
     let mut desk = Desk::open("supercritical");
     desk.press("<tab><tab>Y X");
-    assert_eq!(desk.press("<home>"), [Topic::Branch]);
+    assert_eq!(desk.press("<home>"), [], "known still");
     assert_eq!(
         (desk.session.plots[1].axes.abscissa, desk.session.plots[1].axes.ordinate),
         (Symbol::D, Ordinate::QMax)

@@ -99,9 +99,8 @@ fn what_took_long_is_answered_by_a_draft_first_and_refined_then() {
     let Request::Trajectory(problem) = &draft else { panic!("{draft:?}") };
     assert_eq!(problem.quality().unwrap().name, "draft");
     update(&mut desk.session, Msg::Answered(Box::new(costly(draft.clone(), 1_000))));
-    let is_draft = |desk: &Desk| {
-        matches!(desk.session.standing(Topic::Trajectory, 0), Standing::Draft(_))
-    };
+    let is_draft =
+        |desk: &Desk| matches!(desk.session.standing(Topic::Trajectory, 0), Standing::Draft(_));
     assert!(is_draft(&desk) && desk.session.is_busy());
     assert_eq!(open(&desk), [(Topic::Trajectory, false), (Topic::Cycles, false)]);
     // A draft is no measure of what the full answer takes.
@@ -246,8 +245,8 @@ fn why_there_is_no_measured_error_is_known() {
 /// Each number of the motion and each kind of question: which questions contain it.
 #[test]
 fn a_step_of_each_number_asks_exactly_these_questions_anew() {
-    use Topic::{Balance, Branch, Capture, Cycles, Reference, Trajectory};
     use Symbol::{D, D2, D3, Q0, R, V0};
+    use Topic::{Balance, Branch, Capture, Cycles, Reference, Trajectory};
     let mut desk = Desk::open("supercritical");
     desk.press("<run \"layer bands\"> <run \"layer balance\"> <down*9>");
     let now = [Trajectory, Cycles, Capture, Branch, Balance, Reference];

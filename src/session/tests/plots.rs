@@ -2,7 +2,7 @@
 
 use super::Desk;
 use crate::oscillator::State;
-use crate::scene::{Answer, Point, Topic, Span, Window};
+use crate::scene::{Answer, Point, Span, Topic, Window};
 use crate::session::{Framing, Pane};
 use crate::study::{Cycles, Edge, Margin, Picture};
 

@@ -13,8 +13,8 @@ use crate::scene::machine::library::machines;
 use crate::scene::{Rig, Scene, library};
 use crate::session::opening::opening;
 use crate::session::replay::{Recorder, text};
-use crate::session::state::answers::Answers;
 use crate::session::settings::{COLORS, GLYPHS, Look, THEMES};
+use crate::session::state::answers::Answers;
 use crate::session::{Effect, Msg, Notice, Session, Size, save};
 
 /// A session as options of the command line start it, and the recording of it.

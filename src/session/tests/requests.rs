@@ -24,7 +24,7 @@ fn a_key_recomputes_exactly_what_depends_on_it() {
         ("<down*5><right>", MOTION), // until
         ("m", MEASURED),             // the method integrates the motion
         ("}", &[Topic::Trajectory, Topic::Branch, Topic::Reference]), // cycles are computed to rounding
-        ("[ ] x x <tab> <S-tab> ? <esc> g T", &[]),                // looks and lists
+        ("[ ] x x <tab> <S-tab> ? <esc> g T", &[]),                   // looks and lists
         ("<tab>+-", &[]),        // the phase plane is drawn from its answers
         ("<tab><tab>+", BRANCH), // the diagram computes what it shows
         ("<tab><tab>L", BRANCH),
@@ -38,8 +38,8 @@ fn a_key_recomputes_exactly_what_depends_on_it() {
         ("<tab><tab>w <left> <tab> <S-right> Y <esc>", &[]),
         ("<tab><tab>w <right> <enter>", POINT),
         ("va<esc>", &[Topic::Capture]),
-        ("vn<esc> ) (", &[Topic::Balance, Topic::Balance, Topic::Balance]), // another N, another answer
-        ("va<esc> <tab>L K vaa<esc>", &[Topic::Capture]), // as far as the next power of two
+        ("vn<esc> ) (", &[Topic::Balance, Topic::Balance]), // another N, another answer; the first is known
+        ("va<esc> <tab>L K vaa<esc>", &[Topic::Capture]),   // as far as the next power of two
     ] {
         let mut desk = Desk::open("supercritical");
         let selecting = keys.trim_end_matches("<right>");
