@@ -1,6 +1,7 @@
 //! The paper against computation: what is known to be wrong is found to be wrong, by numbers.
 
 use std::collections::BTreeSet;
+use std::sync::LazyLock;
 
 use hopfscope::flow::{Limits, Reason};
 use hopfscope::scene::library::library;
@@ -10,24 +11,23 @@ use hopfscope::study::claims::{Examined, Finding, Mark, Sense, UNSAID, Verdict, 
 /// form in 30 digits.
 const CHANGE_OF_ENERGY: f64 = 21.673_075_535_168_95;
 
-fn all() -> Vec<Examined> {
-    claims().map(|claim| examine(claim, &Limits::PATIENT).unwrap()).collect()
-}
+/// All claims, examined once for all tests.
+static ALL: LazyLock<Vec<Examined>> =
+    LazyLock::new(|| claims().map(|claim| examine(claim, &Limits::PATIENT).unwrap()).collect());
 
 /// The findings about an equation whose statement contains some words.
-fn about<'a>(all: &'a [Examined], equation: &str, words: &str) -> &'a Finding {
+fn about(equation: &str, words: &str) -> &'static Finding {
     let matching =
         |one: &&Examined| one.claim.equation == equation && one.claim.statement.contains(words);
-    let found: Vec<_> = all.iter().filter(matching).collect();
+    let found: Vec<_> = ALL.iter().filter(matching).collect();
     assert_eq!(found.len(), 1, "{equation} {words}");
     found[0].finding.as_ref().unwrap_or_else(|reason| panic!("{equation} {words}: {reason}"))
 }
 
 #[test]
 fn every_claim_is_decided_by_numbers() {
-    let all = all();
-    assert!(all.len() > 100);
-    for one in &all {
+    assert!(ALL.len() > 100);
+    for one in ALL.iter() {
         let name = format!("{} {}", one.claim.equation, one.claim.statement);
         let finding = one.finding.as_ref().unwrap_or_else(|reason| panic!("{name}: {reason}"));
         assert!(finding.computed.value.is_finite() && finding.computed.error >= 0.0, "{name}");
@@ -37,8 +37,10 @@ fn every_claim_is_decided_by_numbers() {
         // What is computed is known well enough to decide: to six digits or a count.
         assert!(finding.computed.error <= 1e-5 * finding.computed.value.abs().max(1e-5), "{name}");
     }
+}
 
-    // What is printed wrong fails, and its corrected form holds.
+#[test]
+fn what_is_printed_wrong_fails_and_its_corrected_form_holds() {
     for (equation, words) in [
         ("after (3)", "c/m"),
         ("(6)", "2 D ="),
@@ -58,12 +60,14 @@ fn every_claim_is_decided_by_numbers() {
         ("before (52)", "8 D3"),
         ("(53)", "A_01"),
     ] {
-        let finding = about(&all, equation, words);
+        let finding = about(equation, words);
         assert!(matches!(finding.verdict(), Verdict::Corrected { .. }), "{equation}: {finding:?}");
         assert!(finding.miss() > 1e-3, "{equation}: {finding:?}");
     }
+}
 
-    // What is said and not so.
+#[test]
+fn what_is_said_and_not_so_is_found_false() {
     for (equation, words) in [
         ("5", "periodic solution"),
         ("5.1", "trapped"),
@@ -75,11 +79,14 @@ fn every_claim_is_decided_by_numbers() {
         ("(48)", "D2 = 0.5"),
         ("6.4", "with D2 as without"),
     ] {
-        let finding = about(&all, equation, words);
+        let finding = about(equation, words);
         assert_eq!(finding.verdict(), Verdict::False, "{equation}: {finding:?}");
     }
+}
 
-    // What is said of all cases and fails in some, the first of them in the paper's own range.
+/// The first of them in the paper's own range.
+#[test]
+fn what_is_said_of_all_cases_fails_in_some() {
     for (equation, words, fails) in [
         ("Fig. 10", "D3 > 0", "D = -0.637, D3 = 0.25, r = 1"),
         ("Fig. 10", "D3 < 0", "D = -1, D3 = -0.1, r = 0.1"),
@@ -87,40 +94,55 @@ fn every_claim_is_decided_by_numbers() {
         ("6.4", "for all values of D", "D = -1"),
         ("6.4", "general topology", "D = -0.07, D2 = 0.2, r = 0.5"),
     ] {
-        let finding = about(&all, equation, words);
+        let finding = about(equation, words);
         assert_eq!(finding.verdict(), Verdict::InPart, "{equation}: {finding:?}");
         assert_eq!(finding.place, format!("first fails at {fails}"), "{equation} {words}");
     }
-    // At the parameters of Fig. 13 D2 does merely distort.
+}
+
+#[test]
+fn at_the_parameters_of_fig_13_d2_merely_distorts() {
     for (words, d) in [("small", "D = -0.7"), ("large", "D = -0.2")] {
-        let finding = about(&all, "Fig. 13", words);
+        let finding = about("Fig. 13", words);
         assert_eq!((finding.verdict(), finding.cases), (Verdict::Agrees, 1), "{d}: {finding:?}");
     }
-    // (18, 19) are rates: over the motion the energy changes by this, in closed form half swing by half swing.
+}
+
+/// (18, 19) over the motion, beside the closed form half swing by half swing.
+#[test]
+fn the_rates_of_the_energy_add_up_to_its_change() {
     for equation in ["(18)", "(19)"] {
-        let change = about(&all, equation, "change of the energy").computed.value;
+        let change = about(equation, "change of the energy").computed.value;
         assert!((change - CHANGE_OF_ENERGY).abs() < 1e-9, "{equation}: {change}");
     }
-    // Nothing passes as an approximation that is off by more than a tenth.
-    for one in &all {
+}
+
+#[test]
+fn nothing_passes_as_an_approximation_that_is_off_by_more_than_a_tenth() {
+    for one in ALL.iter() {
         if let Some(Verdict::Approximates { within }) = one.verdict() {
             let limit = matches!(one.finding.as_ref().unwrap().sense, Sense::Tends { .. });
             assert!(within <= 0.1 || limit, "{} {within}", one.claim.statement);
         }
     }
+}
 
-    // The belt is overtaken where it is slow: at the speeds at which `hopfscope belt --sweep` says so.
-    let slower = about(&all, "after (2)", "stay slower");
+/// At the speeds at which `hopfscope belt --sweep` says so.
+#[test]
+fn the_belt_is_overtaken_where_it_is_slow() {
+    let slower = about("after (2)", "stay slower");
     assert_eq!(slower.verdict(), Verdict::InPart, "{slower:?}");
     assert_eq!((slower.cases, slower.computed.value), (6, 3.0));
     assert!(slower.place.contains("v0 = 0.05 m/s"), "{}", slower.place);
-    let contact = about(&all, "x' < v0", "overtakes");
+    let contact = about("x' < v0", "overtakes");
     assert!(matches!(contact.verdict(), Verdict::Approximates { .. }), "{contact:?}");
     assert!((0.22..0.24).contains(&contact.computed.value), "{contact:?}");
+}
 
-    // Known numbers, computed elsewhere.
+#[test]
+fn numbers_computed_elsewhere_are_found_again() {
     let close = |equation, words, expected: f64, digits: f64| {
-        let found = about(&all, equation, words).computed.value;
+        let found = about(equation, words).computed.value;
         assert!((found - expected).abs() < digits, "{equation} {words}: {found}");
     };
     close("(51)", "D = -0.7", 0.109_641, 1e-6);
@@ -128,21 +150,19 @@ fn every_claim_is_decided_by_numbers() {
     close("(48)", "D2 = 0.5", -0.054_101_4, 1e-7);
     close("D_c", "worst", -0.776_232, 1e-6);
     close("(30)", "-0.999", 6.539_33e-31, 1e-36);
-    let within = |equation, words, most: f64| match about(&all, equation, words).verdict() {
+    let within = |equation, words, most: f64| match about(equation, words).verdict() {
         Verdict::Approximates { within } => assert!(within < most, "{equation}: {within}"),
         other => panic!("{equation}: {other:?}"),
     };
     within("(48)", "D2 = 0:", 0.006);
     within("D_c", "worst", 0.03);
-
-    check_marks(&all);
 }
 
-/// What proofs reach carries a mark, and no mark contradicts a verdict.
-fn check_marks(all: &[Examined]) {
-    let marked = all.iter().filter(|one| one.finding.as_ref().unwrap().mark.is_some()).count();
+#[test]
+fn what_proofs_reach_carries_a_mark_and_no_mark_contradicts_a_verdict() {
+    let marked = ALL.iter().filter(|one| one.finding.as_ref().unwrap().mark.is_some()).count();
     assert!(marked >= 70, "{marked} claims are marked");
-    for one in all {
+    for one in ALL.iter() {
         let finding = one.finding.as_ref().unwrap();
         let (mark, name) = (finding.mark, one.claim.statement);
         match finding.verdict() {
@@ -173,7 +193,7 @@ fn check_marks(all: &[Examined]) {
         ("D_c", "worst", Mark::Proved),
         ("D_c", "none above", Mark::Proved),
     ] {
-        assert_eq!(about(all, equation, words).mark, Some(mark), "{equation} {words}");
+        assert_eq!(about(equation, words).mark, Some(mark), "{equation} {words}");
     }
 }
 

@@ -142,7 +142,7 @@ fn near_a_border(basin: &Basin, start: State) -> bool {
 }
 
 #[test]
-fn the_basin_of_the_issue_has_358_captured_starts() {
+fn few_starts_of_a_wide_window_come_to_rest_beside_a_large_cycle() {
     let parameters = Parameters { d: -0.2, d2: 0.2, d3: 0.5, r: 0.1 };
     let window = Window { q: (-6.0, 6.0), v: (-6.0, 6.0) };
     let counts =

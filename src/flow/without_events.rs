@@ -103,7 +103,10 @@ mod tests {
     use super::*;
     use crate::oscillator::Parameters;
 
-    /// D = -0.1, r = 0.5: from (2, 0) the motion rests at -0.116144 after three half swings.
+    /// Where the motion from (2, 0) comes to rest after three half swings, in closed form.
+    const REST: f64 = -0.116_144_440_390_138;
+
+    /// D = -0.1, r = 0.5.
     fn from(q: f64) -> Problem {
         Problem {
             parameters: Parameters { d: -0.1, d2: 0.0, d3: 0.0, r: 0.5 },
@@ -129,10 +132,10 @@ mod tests {
     fn the_sign_in_the_field_chatters_and_rests_in_the_wrong_place() {
         let [coarse, fine] =
             [0.1, 0.001].map(|step| run(&Problem { method: Method::SignRk4, step, ..from(2.0) }));
-        assert!((end(&coarse) - 0.0015).abs() < 1e-5, "{:?}", coarse.outcome);
+        assert!((end(&coarse) - REST).abs() > 0.1, "{:?}", coarse.outcome);
         assert!(matches!(fine.outcome, Outcome::Moving { .. }));
-        // Three half swings; all others are false.
-        assert_eq!(fine.crossings.len(), 6235);
+        // The motion has three half swings; all others are false, one in a few steps.
+        assert!(fine.crossings.len() > 1000, "{}", fine.crossings.len());
     }
 
     #[test]
@@ -167,7 +170,7 @@ mod tests {
             let motion = run(&Problem { method: Method::TimeStepping, step, ..from(2.0) });
             assert!(matches!(motion.outcome, Outcome::Captured { .. }));
             assert_eq!(motion.crossings.len(), 3);
-            let error = (end(&motion) + 0.116_144_440_390_138).abs();
+            let error = (end(&motion) - REST).abs();
             assert!(error < 0.02 * before && error < 0.5 * step * step, "{step}: {error:e}");
             before = if before.is_finite() { error } else { f64::INFINITY };
         }
