@@ -36,7 +36,7 @@ fn main() {
     if std::env::args().any(|argument| argument == "--test") {
         return;
     }
-    println!("{:>14}  {:>8}  {:>8}  dearest key", "", "80x24", "200x60");
+    println!("{:>14}  {:>8}  {:>8}  worst key", "", "80x24", "200x60");
     let mut worst = (Duration::ZERO, String::new());
     for scene in library() {
         let [small, large] = SIZES.map(|size| dearest(scene, size));
@@ -93,7 +93,7 @@ struct Line {
 
 impl Write for Line {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        // Whoever has left does not want to know.
+        // A program that has left does not want to know.
         let _ = self.arrived.send((Instant::now(), self.complete.load(Ordering::Acquire)));
         let _ = self.events.send(Event::Shown);
         Ok(bytes.len())
@@ -137,7 +137,7 @@ impl User {
     }
 }
 
-/// The dearest key of a scene, and what it takes.
+/// The most expensive key of a scene, and what it takes.
 fn dearest(scene: &Arc<Scene>, (width, height): (u16, u16)) -> (Duration, String) {
     let mut session = Session::new(Arc::clone(scene), Size { width, height });
     session.problem = session.problem.at(&DRAFT);

@@ -17,7 +17,7 @@ use ratatui::layout;
 use serde_json::Value;
 
 fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+    value.as_f64().unwrap_or_else(|| panic!("{value} is not a number"))
 }
 
 /// Runs a command line whose words may have blanks in them.
@@ -364,7 +364,7 @@ fn a_played_motion_moves_with_the_time_it_is_told_and_then_stands_still() {
     };
     assert!(!rest.is_playing());
     assert_eq!((rest.head().unwrap().tau, rest.head().unwrap().q), (tau, q));
-    // Played again, it begins anew.
+    // Played again, it starts over.
     let (again, _) = screen(figure(), "<f8> <elapse 600> <f8> <elapse 1>");
     assert!((again.head().unwrap().tau - 0.25 * std::f64::consts::TAU).abs() < 1e-12);
     // In real time a second is omega_0 = 50.

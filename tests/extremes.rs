@@ -33,7 +33,7 @@ fn is_answer(outcome: &Outcome) -> bool {
 fn complaint(verdict: &Verdict, answer: &Answer, extra: f64) -> Option<String> {
     let gave_up = matches!(answer.outcome, Outcome::GaveUp { .. });
     let what = if !is_answer(&answer.outcome) {
-        "a number that is none"
+        "not a number"
     } else if answer.cost.evaluations > BUDGET + LAST_STEP {
         "more than its budget"
     } else if answer.contradicts && verdict.sensitivity.is_finite() {

@@ -150,7 +150,7 @@ fn parts_that_do_not_belong_together_are_refused_in_one_line() {
         ("parts twice.csv", &["twice.csv", "both hold row 30"]),
         ("parts/1.csv parts/1.csv parts/2.csv", &["both hold row 1"]),
         ("parts/1.csv alone.csv", &["alone.csv.provenance"]),
-        ("parts/1.csv wrong.csv --check", &["wrong.csv", "different when computed anew"]),
+        ("parts/1.csv wrong.csv --check", &["wrong.csv", "different when computed again"]),
         ("parts/1.csv parts/2.csv nowhere.csv", &["nowhere.csv"]),
         ("nowhere.csv", &["nowhere.csv"]),
     ] {

@@ -78,7 +78,7 @@ impl Machine for Machinery {
         if self.confirmed.is_none() { vec![request(self.count)] } else { vec![] }
     }
 
-    fn keepsake(&self) -> Option<String> {
+    fn what_to_keep(&self) -> Option<String> {
         Some(format!("count {}", self.count))
     }
 

@@ -65,7 +65,7 @@ fn an_interrupted_session_is_kept_offered_and_brought_back() {
         assert_eq!(kept(memory.path()).len(), 1);
 
         let mut terminal = explorer(&[], memory.path());
-        terminal.wait_for("a session was interrupted: <f3> goes on with it");
+        terminal.wait_for("a session was interrupted: <f3> resumes it");
         terminal.types("\x1bOR");
         terminal.wait_for("the interrupted session is back");
         terminal.wait_for("-0.345");

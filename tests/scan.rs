@@ -213,7 +213,7 @@ fn a_file_of_something_else_is_refused_and_left_alone() {
     );
     let first = whole.lines().nth(1).unwrap();
     let altered = whole.replacen(&first[first.len() - 4..], "999,", 1);
-    other(&altered, "line 2 is different when computed anew");
+    other(&altered, "line 2 is different when computed again");
     // With another friction the rows are of other points.
     let rougher = scan("--over D=-0.5:-0.1:5 --measure margin --set r=0.2").out;
     other(&rougher, "line 2 is of another point");
@@ -302,8 +302,8 @@ fn a_file_that_holds_something_is_gone_on_with_or_begun_anew_only_when_told() {
     let whole = fs::read_to_string(&path).unwrap();
     let ran = own("");
     assert_eq!((ran.code, ran.err.lines().count()), (2, 1), "{}", ran.err);
-    assert!(ran.err.contains(name) && ran.err.contains("--force begins anew"), "{}", ran.err);
-    // To go on and to begin anew exclude each other.
+    assert!(ran.err.contains(name) && ran.err.contains("--force starts over"), "{}", ran.err);
+    // Continuing and starting over exclude each other.
     let ran = own("--resume --force");
     assert_eq!((ran.code, ran.err.lines().count()), (2, 1), "{}", ran.err);
     assert!(ran.err.contains("--force") && ran.err.contains("--resume"), "{}", ran.err);

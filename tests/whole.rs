@@ -28,7 +28,7 @@ fn portrait(belt: &Belt) -> Portrait {
 }
 
 fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+    value.as_f64().unwrap_or_else(|| panic!("{value} is not a number"))
 }
 
 /// Equal to some digits of the larger one, or of a size below which nothing counts.

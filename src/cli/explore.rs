@@ -124,7 +124,7 @@ pub fn go(
 /// What is said before the first key: that a session was interrupted, or what to press at the first start.
 fn welcome(session: &Session, memory: &Memory) -> Option<String> {
     let said = if session.interrupted.is_some() {
-        "a session was interrupted: {restore} goes on with it, {forget-interrupted} forgets it"
+        "a session was interrupted: {restore} resumes it, {forget-interrupted} forgets it"
     } else if memory.is_new {
         "arrows change the numbers; {help} keys, {palette} commands, {explain} what to see, {tour} a tour"
     } else {

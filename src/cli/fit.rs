@@ -276,7 +276,7 @@ impl Watched {
 
     /// One motion more; nobody interrupts.
     fn step(&self) -> bool {
-        /// How often the line is written anew.
+        /// How often the line is written again.
         const EVERY: Duration = Duration::from_millis(250);
         if let Ok(mut state) = self.state.lock() {
             state.0 += 1;

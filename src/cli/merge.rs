@@ -27,7 +27,7 @@ pub struct Merge {
     /// Writes the whole to FILE
     #[arg(long, value_name = "FILE", required_unless_present = "check")]
     output: Option<PathBuf>,
-    /// Computes the first and the last row of each part anew and compares them
+    /// Computes the first and the last row of each part again and compares them
     #[arg(long)]
     check: bool,
     /// Replaces what FILE holds

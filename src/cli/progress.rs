@@ -17,7 +17,7 @@ pub struct Progress {
     shown: bool,
 }
 
-/// How often the line is written anew.
+/// How often the line is written again.
 const EVERY: Duration = Duration::from_millis(250);
 
 impl Progress {

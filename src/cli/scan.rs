@@ -83,7 +83,7 @@ pub struct ScanCommand {
     /// Goes on where an earlier scan to the same FILE has ended
     #[arg(long, requires = "output")]
     resume: bool,
-    /// Begins anew where FILE holds something
+    /// Starts over where FILE holds something
     #[arg(long, requires = "output", conflicts_with = "resume")]
     force: bool,
     #[command(flatten)]
@@ -247,7 +247,7 @@ impl ScanCommand {
         let name = path.display();
         if !self.resume && !self.force && holds_something(path) {
             let line =
-                format!("{name} holds something; --resume goes on with it, --force begins anew");
+                format!("{name} holds something; --resume continues it, --force starts over");
             return Err(Failure::Usage(line));
         }
         let provenance = Provenance::of(&arguments());
@@ -256,7 +256,7 @@ impl ScanCommand {
         if let Some(earlier) = earlier.filter(|earlier| earlier.build() != provenance.build()) {
             let (earlier, now) = (earlier.build(), provenance.build());
             let line =
-                format!("{name} was begun by {earlier}, and this is {now}; --force begins anew");
+                format!("{name} was begun by {earlier}, and this is {now}; --force starts over");
             return Err(Failure::Usage(line));
         }
         let limits = Limits { interrupted, ..Limits::PATIENT };

@@ -84,7 +84,7 @@ impl Problem<'_> {
         Ok(Found { start, valleys })
     }
 
-    /// Fits every minimum anew, with the residuals that count now.
+    /// Fits every minimum again, with the residuals that count now.
     ///
     /// # Errors
     /// [`NoFit`] if somebody interrupts, or the motion is lost.

@@ -129,7 +129,7 @@ fn along_the_valley(
     Ok(closest.beside(known))
 }
 
-/// The same with all else fitted anew at each step of r: while the residuals are not white the right minimum may
+/// The same with all else fitted again at each step of r: while the residuals are not white the right minimum may
 /// be so far that nothing follows linearly.
 fn through_the_valley(
     task: &Task,

@@ -175,7 +175,7 @@ impl Auto {
         }
     }
 
-    /// Takes a step by the method of the hour, then decides on the next one.
+    /// Takes a step by the present method, then decides on the next one.
     fn step(
         &mut self,
         series: impl FnOnce(&mut Taylor) -> Result<Step, Reason>,

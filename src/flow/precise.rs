@@ -361,7 +361,7 @@ impl Swing {
     }
 }
 
-/// Size at which the unit is chosen anew.
+/// Size at which the unit is chosen again.
 const FAR: f64 = 1e60;
 
 /// A number times a power of two.

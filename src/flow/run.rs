@@ -256,7 +256,7 @@ impl Works {
 /// Hands evenly spaced points of a step to `keep`, its end included, its start not.
 ///
 /// At the edge of the range a position from the centre of its spiral may overflow, or the polynomial of a
-/// step between two points that do not: what is no number is left out.
+/// step between two points that do not: what is not a number is left out.
 pub(super) fn sample<F: Field, S: Stepper<F>>(
     stepper: &mut S,
     step: &Step,

@@ -12,7 +12,7 @@ use crate::numerics::scaling::{exponent, times_power};
 use crate::numerics::sum::Sum;
 use crate::oscillator::HalfPlane;
 
-/// Size, as a power of two, at which the unit is chosen anew.
+/// Size, as a power of two, at which the unit is chosen again.
 const FAR: i32 = 300;
 
 /// Relative error left in the time of a blow-up when it is read off its asymptotic form.

@@ -58,7 +58,7 @@ pub enum PointsError {
         /// How many.
         count: usize,
     },
-    /// A number that is none, or a velocity that does not exceed the one before; `index` from 0.
+    /// Not a number, or a velocity that does not exceed the one before; `index` from 0.
     Point {
         /// Which point.
         index: usize,

@@ -1,7 +1,7 @@
 //! The path of the machine on show through a chart of two parameters, while its belt runs slower and faster.
 //!
 //! The speed of the belt moves all four parameters; a chart shows two of them. What else the chart draws
-//! holds at the present values of the other two: where the path runs far from today's point, borders move.
+//! holds at the present values of the other two: where the path runs far from the present point, borders move.
 
 use super::items::{Item, Line, Marks, Picture};
 use super::role::{Dash, Mark, Role};
@@ -14,7 +14,7 @@ use crate::words::quantity::with_unit;
 /// Distance between marks, as a part of the window: room for a speed with its unit.
 const APART: (f64, f64) = (0.16, 0.07);
 
-/// Distance from today's point below which a mark would lie in its cross.
+/// Distance from the present point below which a mark would lie in its cross.
 const CLEAR: f64 = 0.03;
 
 /// What the path stands for, and the marks on it.

@@ -139,7 +139,7 @@ pub enum Item<'a> {
     Curve(Line, Vec<Point>),
     /// A polyline along which other parameters than those on the axes vary too.
     Path(Line, Vec<Point>),
-    /// A graph over the whole window, sampled as finely as whoever draws it needs.
+    /// A graph over the whole window, sampled as finely as its renderer needs.
     Graph(Line, Function<'a>),
     /// An upright through the whole window.
     Upright(Line, f64),

@@ -1,7 +1,7 @@
 //! The chart of regimes: what becomes of kicks, over two parameters.
 //!
 //! Each regime has its texture and its name; computed borders are drawn through, the border by one
-//! harmonic (48) is dotted. Today's point is marked: stepping the two parameters moves it and nothing
+//! harmonic (48) is dotted. The present point is marked: stepping the two parameters moves it and nothing
 //! else.
 
 use super::belt_path;

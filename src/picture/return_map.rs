@@ -37,7 +37,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
                 side.iter().map(|turn| Point { x: turn.from, y: turn.to.unwrap_or(f64::NAN) });
             picture.curve(Line::new("next turning point", Role::Map, Dash::Solid), points);
         }
-        // Whoever rests there stays there.
+        // A mass at rest there stays there.
         let held = found.parameters.r;
         let [from, to] = [-held, held].map(|q| Point { x: q, y: q });
         picture.bar(sticking_set(), from, to);

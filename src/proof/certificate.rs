@@ -1,6 +1,6 @@
 //! What was proved about cycles, written down so that [`crate::check`] can verify it step by step.
 //!
-//! A proof tells how many cycles there are and about where. From this the steps are made anew, by the map of the
+//! A proof tells how many cycles there are and about where. From this the steps are computed again, by the map of the
 //! checker: it walks from the sticking set outwards, as far at a time as the image of where it stands.
 
 use super::cycles::{Proof, ProvedCycle};

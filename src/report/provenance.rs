@@ -9,7 +9,7 @@ pub struct Provenance {
     pub program: String,
     /// Its version.
     pub version: String,
-    /// The revision of its source, where whoever built it set `HOPFSCOPE_REVISION`.
+    /// The revision of its source, where the build set `HOPFSCOPE_REVISION`.
     pub revision: Option<String>,
     /// The command line, quoted for a POSIX shell.
     pub command: String,

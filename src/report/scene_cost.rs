@@ -1,5 +1,5 @@
 //! What scenes require, in every form of output: the questions of their layers, and what a step of each
-//! number asks anew.
+//! number asks again.
 
 use std::sync::Arc;
 
@@ -30,7 +30,7 @@ pub struct Question {
 pub struct StepCost {
     /// The number.
     pub name: &'static str,
-    /// What was asked anew.
+    /// What was asked again.
     pub recomputed: Vec<Question>,
     /// What stayed as it was.
     pub reused: Vec<Topic>,

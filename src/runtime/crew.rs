@@ -74,7 +74,7 @@ impl Crew {
         self.clerk.stop();
     }
 
-    /// Whether nothing is in work and nothing waits.
+    /// Whether nothing is in progress and nothing waits.
     #[must_use]
     pub fn is_idle(&self) -> bool {
         self.quick.is_idle() && self.long.is_idle()

@@ -2,7 +2,7 @@
 //!
 //! The most urgent request comes first. One that takes long must not hold up the others, though, and how
 //! long it takes nobody knows beforehand. So each request has turns: when its turn is over and others wait
-//! that have had no more turns, it is put aside, and begins anew when they have had theirs. Each turn is
+//! that have had no more turns, it is put aside, and starts over when they have had theirs. Each turn is
 //! four times as long as the last one, so that at most a third of the work is done in vain. What merely
 //! refines a draft begins with a later turn, because there is a picture already.
 
@@ -22,9 +22,9 @@ const REFINEMENT: u32 = 2;
 /// What there is to do.
 #[derive(Debug, Default)]
 pub struct Desk {
-    /// What is wanted, the most urgent first; the request in work is among it.
+    /// What is wanted, the most urgent first; the request in progress is among it.
     wanted: Vec<Wanted>,
-    /// The request in work, unless nobody wants it any more.
+    /// The request in progress, unless nobody wants it any more.
     running: Option<Request>,
     /// Requests whose answers have been reported and not been taken yet.
     reported: Vec<Request>,
@@ -33,7 +33,7 @@ pub struct Desk {
     closed: bool,
 }
 
-/// A request that waits or is in work.
+/// A request that waits or is in progress.
 #[derive(Debug)]
 struct Wanted {
     request: Request,
@@ -42,7 +42,7 @@ struct Wanted {
 }
 
 impl Desk {
-    /// Replaces what is wanted; `true` if the request in work is not among it.
+    /// Replaces what is wanted; `true` if the request in progress is not among it.
     pub fn want(&mut self, wanted: Vec<Request>) -> bool {
         let before = std::mem::take(&mut self.wanted);
         let turns = |request: &Request| {
@@ -75,14 +75,14 @@ impl Desk {
         Some((request, LONGER.saturating_pow(turns)))
     }
 
-    /// Whether another request waits that has had no more turns than the one in work.
+    /// Whether another request waits that has had no more turns than the one in progress.
     #[must_use]
     pub fn is_contested(&self) -> bool {
         let running = self.wanted.iter().find(|it| self.running.as_ref() == Some(&it.request));
         running.is_some_and(|running| self.waiting().any(|other| other.turns <= running.turns))
     }
 
-    /// Ends the turn of the request in work, which is not done.
+    /// Ends the turn of the request in progress, which is not done.
     pub fn put_aside(&mut self) {
         self.busy = false;
         let running = self.running.take();
@@ -101,7 +101,7 @@ impl Desk {
         Some(request)
     }
 
-    /// Whether the answer of the request in work is still wanted.
+    /// Whether the answer of the request in progress is still wanted.
     #[must_use]
     pub fn is_wanted(&self) -> bool {
         self.running.is_some()
@@ -127,7 +127,7 @@ impl Desk {
         self.closed
     }
 
-    /// Whether nothing is in work and nothing waits.
+    /// Whether nothing is in progress and nothing waits.
     #[must_use]
     pub fn is_idle(&self) -> bool {
         !self.busy && self.waiting().next().is_none()

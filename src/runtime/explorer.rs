@@ -95,7 +95,7 @@ impl Machine for Explorer {
         }))
     }
 
-    fn keepsake(&self) -> Option<String> {
+    fn what_to_keep(&self) -> Option<String> {
         self.session.is_worth_keeping().then(|| save::text(&self.session).ok())?
     }
 

@@ -103,7 +103,7 @@ pub fn launch(
 /// fails there is nobody to tell.
 fn keep<M: Machine, W: io::Write>(pump: &Pump<M, W>, path: Option<&Path>) {
     // After a panic the state may be one that nobody has thought of.
-    let text = catch_unwind(AssertUnwindSafe(|| pump.machine().keepsake())).ok().flatten();
+    let text = catch_unwind(AssertUnwindSafe(|| pump.machine().what_to_keep())).ok().flatten();
     if let Some((path, text)) = path.zip(text) {
         drop(Files::write(path, &text, true));
     }

@@ -38,7 +38,7 @@ pub trait Machine {
     }
 
     /// What to keep of it if it is interrupted, as the text of a file; `None`: nothing would be missed.
-    fn keepsake(&self) -> Option<String> {
+    fn what_to_keep(&self) -> Option<String> {
         None
     }
 

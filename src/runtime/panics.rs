@@ -6,7 +6,7 @@ use std::thread::ThreadId;
 
 use crate::terminal::Guard;
 
-/// What the panic hook knows and whoever catches the panic does not: where it happened.
+/// What the panic hook knows and the code that catches the panic does not: where it happened.
 #[derive(Clone, Debug, Default)]
 pub struct Notes(Arc<Mutex<Option<String>>>);
 

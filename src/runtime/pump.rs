@@ -187,7 +187,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
 
     /// Waits for an answer that the terminal owes, so that it does not arrive after the program.
     pub fn take_leave(&mut self) {
-        while let Some(until) = self.screen.farewell() {
+        while let Some(until) = self.screen.last_wait() {
             match self.events.recv_deadline(until) {
                 Ok(Event::Shown) => drop(self.screen.answered(Instant::now())),
                 Ok(event) => self.missed.push_back(event),

@@ -76,7 +76,7 @@ impl Record {
         if unchanged == count && !self.lines.is_empty() {
             return Ok(());
         }
-        // The line in which the first change lies, and all behind it, are written anew.
+        // The line in which the first change lies, and all behind it, are written again.
         let whole = self.lines.partition_point(|(first, _)| *first < unchanged);
         let (first, mut at) = match whole.checked_sub(1) {
             Some(last) => self.lines[last],

@@ -3,7 +3,7 @@
 //! Each line is handed to the system in one piece as soon as it is known, so that a process that is
 //! killed loses what it was computing and at most leaves a line without its end. [`ScanFile::resume`]
 //! trusts nothing: it compares the heading and the beginning of every line with what this scan would
-//! write, computes the first and the last row anew, and cuts a line that has no end.
+//! write, computes the first and the last row again, and cuts a line that has no end.
 
 use std::fmt;
 use std::fs::{File, OpenOptions, TryLockError};
@@ -162,7 +162,7 @@ impl ScanFile {
     }
 }
 
-/// Computes the row that stands in line `number` anew: the same program on the same scan writes the same line.
+/// Computes the row that stands in line `number` again: the same program on the same scan writes the same line.
 pub(super) fn compare(
     scan: &Scan,
     form: Form,
@@ -174,7 +174,7 @@ pub(super) fn compare(
     if form.line(scan, index, &row).as_bytes() == line {
         Ok(())
     } else {
-        Err(Refusal::Foreign { line: number, why: "is different when computed anew" })
+        Err(Refusal::Foreign { line: number, why: "is different when computed again" })
     }
 }
 

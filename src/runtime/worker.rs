@@ -4,7 +4,7 @@
 //! else one atomic counter moves on, the job sees that at its next step, and what it found is thrown
 //! away. A long job tells what it has so far: each piece is reported at once, with `complete: false`, and
 //! the request is answered only when its last piece is there. A job whose turn is over while others wait is
-//! put aside and begins anew after them (module `desk`). An answer that is on its way is not computed
+//! put aside and starts over after them (module `desk`). An answer that is on its way is not computed
 //! again: the worker remembers what it has reported until [`Worker::taken`] says that the session knows. A
 //! request that panics becomes a [`Failure::Panic`]; the thread lives on.
 
@@ -40,7 +40,7 @@ struct Shared {
     contested: AtomicBool,
 }
 
-/// A request in work.
+/// A request in progress.
 struct Job {
     request: Request,
     generation: u64,
@@ -157,7 +157,7 @@ impl Worker {
         self.shared.desk().taken(request);
     }
 
-    /// Whether nothing is in work and nothing waits.
+    /// Whether nothing is in progress and nothing waits.
     #[must_use]
     pub fn is_idle(&self) -> bool {
         self.shared.desk().is_idle()

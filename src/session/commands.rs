@@ -130,7 +130,7 @@ const COMMANDS: &[Row] = &[
     row("next-unit", &[(Diagram, &["N"]), (Walk, &["N"])], "",
         "Measure lengths of the cycles in units of r, or not", |s, _| axes::next_unit(s)),
     row("walk", &[(Diagram, &["w"])], "walk",
-        "Take hold of the branch, at today's value or the cursor", |s, _| walk::take_hold(s)),
+        "Take hold of the branch, at the present value or the cursor", |s, _| walk::take_hold(s)),
     row("walk-back", &[(Walk, &["<left>", "h", "<down>", "j"])], "walk",
         "Go back to the last computed point of the branch", |s, _| walk::go(s, -1)),
     row("walk-on", &[(Walk, &["<right>", "l", "<up>", "k"])], "walk",
@@ -309,7 +309,7 @@ const COMMANDS: &[Row] = &[
         "Offer the interrupted session no longer", |s, _| files::forget(s)),
 
     row("costs", &[(Everywhere, &["$"])], "",
-        "List what the picture costs, and what each step asks anew", |s, _| lists::open_cost(s)),
+        "List what the picture costs, and what each step asks again", |s, _| lists::open_cost(s)),
     row("retry", &[(Everywhere, &["<f5>"])], "",
         "Compute again what has failed", |s, _| general::retry(s)),
     row("save-figure", &[(Everywhere, &["<A-f>"]), (Walk, &["<A-f>"])], "",

@@ -164,7 +164,7 @@ pub fn text(session: &Session) -> Result<String, String> {
         future: future.iter().map(change).collect(),
     };
     let body = toml::to_string(&file).map_err(|error| format!("not saved: {error}"))?;
-    Ok(format!("# A session of hopfscope; `hopfscope --open FILE` goes on with it.\n{body}"))
+    Ok(format!("# A session of hopfscope; `hopfscope --open FILE` resumes it.\n{body}"))
 }
 
 fn named(scene: &Arc<Scene>) -> Named {

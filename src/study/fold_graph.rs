@@ -118,7 +118,7 @@ impl Graph<'_> {
         let near = self.curve.correct((u, self.d), Tangent::ACROSS_P, Route::Mixed)?;
         let found = match near {
             Some(found) => Some(found),
-            // Far from the guess: begin anew with all of the dampings that can close a cycle.
+            // Far from the guess: start over with all of the dampings that can close a cycle.
             None => match self.curve.bracketed(u, (self.lowest_damping(u), 0.0)) {
                 Err(Reason::Budget { .. } | Reason::OutOfRange) => None,
                 found => found?,

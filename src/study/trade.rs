@@ -1,7 +1,7 @@
 //! What accuracy costs: every method over its tolerances, steps or widths on one and the same motion.
 //!
 //! Each row is a motion with its measured error ([`super::accuracy`]) and its counted cost; seconds are
-//! added by whoever has a clock. The front are the rows that no other row beats in both.
+//! added by the caller that has a clock. The front are the rows that no other row beats in both.
 
 use super::accuracy::{Deviation, NoComparison, Reference};
 use crate::flow::method::Dial;
@@ -67,7 +67,7 @@ fn rung(problem: &Problem, method: Method, number: f64) -> Problem {
 fn ladder(problem: &Problem, method: Method) -> Vec<Problem> {
     let closed = method == Method::Auto && problem.parameters.is_piecewise_linear();
     let numbers: &[f64] = match method.spec().dial {
-        // The closed form has no tolerance, whoever chose it.
+        // The closed form has no tolerance, whatever chose it.
         Dial::Tolerance if closed => &[problem.tolerance],
         Dial::Nothing => &[problem.tolerance],
         Dial::Tolerance => &TOLERANCES,

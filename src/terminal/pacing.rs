@@ -20,7 +20,7 @@ pub const FRAME_TIME: Duration = Duration::from_millis(16);
 const TRIES: u32 = 16;
 
 /// How a program leaves a terminal that may still owe it an answer: how long it waits at most.
-const FAREWELL: Duration = Duration::from_millis(300);
+const LAST_WAIT: Duration = Duration::from_millis(300);
 
 /// The state of the line between program and terminal. Time is an argument, never read here.
 #[derive(Clone, Debug, Default)]
@@ -85,11 +85,11 @@ impl Pacing {
     /// Until when to wait for an answer before the terminal is left, so that it does not turn up as
     /// garbage on the shell's command line; `None` if none is due.
     #[must_use]
-    pub fn farewell(&self) -> Option<Instant> {
+    pub fn last_wait(&self) -> Option<Instant> {
         let since = self.waiting_since?;
         match self.slowest {
-            Some(slowest) => Some(since + FAREWELL.max(2 * slowest)),
-            None if self.unanswered < TRIES => Some(since + FAREWELL),
+            Some(slowest) => Some(since + LAST_WAIT.max(2 * slowest)),
+            None if self.unanswered < TRIES => Some(since + LAST_WAIT),
             None => None,
         }
     }
@@ -138,7 +138,7 @@ mod tests {
             assert_eq!(pacing.next(now), now + FRAME_TIME);
         }
         assert_eq!(requests, TRIES);
-        assert_eq!(pacing.farewell(), None);
+        assert_eq!(pacing.last_wait(), None);
     }
 
     #[test]
@@ -165,12 +165,12 @@ mod tests {
     fn leaving_waits_only_for_an_answer_that_is_due() {
         let now = Instant::now();
         let mut pacing = Pacing::default();
-        assert_eq!(pacing.farewell(), None);
+        assert_eq!(pacing.last_wait(), None);
         pacing.asked(now);
-        assert_eq!(pacing.farewell(), Some(now + FAREWELL));
+        assert_eq!(pacing.last_wait(), Some(now + LAST_WAIT));
         pacing.answered(now + 400 * MILLISECOND);
-        assert_eq!(pacing.farewell(), None);
+        assert_eq!(pacing.last_wait(), None);
         pacing.sent(now, true);
-        assert_eq!(pacing.farewell(), Some(now + 800 * MILLISECOND));
+        assert_eq!(pacing.last_wait(), Some(now + 800 * MILLISECOND));
     }
 }

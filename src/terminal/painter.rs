@@ -40,7 +40,7 @@ const FRAME_CAPACITY: usize = 64 * 1024;
 pub struct Painter<W: Write> {
     out: W,
     size: Size,
-    /// The frame in work, empty or starting with [`BEGIN`].
+    /// The frame in progress, empty or starting with [`BEGIN`].
     frame: Vec<u8>,
     /// Whether the next frame ends with [`REQUEST`].
     asking: bool,

@@ -51,7 +51,7 @@ impl Pen {
     }
 
     /// Writes the shortest sequence that takes up this pen instead of another, of which `None` is
-    /// known: by switching what differs, or by starting anew.
+    /// known: by switching what differs, or by starting afresh.
     pub fn take_up(self, present: Option<Pen>, out: &mut String) {
         if present == Some(self) {
             return;

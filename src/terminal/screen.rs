@@ -62,8 +62,8 @@ impl<W: Write> Screen<W> {
 
     /// Until when to wait for an answer before the terminal is left.
     #[must_use]
-    pub fn farewell(&self) -> Option<Instant> {
-        self.pacing.farewell()
+    pub fn last_wait(&self) -> Option<Instant> {
+        self.pacing.last_wait()
     }
 
     /// Draws a frame; one that looks like the last sends nothing.

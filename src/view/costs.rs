@@ -1,4 +1,4 @@
-//! The list of costs: what each question of the picture took, and what a step of each number asks anew.
+//! The list of costs: what each question of the picture took, and what a step of each number asks again.
 
 use ratatui::text::Span;
 

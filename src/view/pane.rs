@@ -1,5 +1,5 @@
 //! What all panes share: a title line that says what the pane shows, whether the keys go to it, and
-//! whether its picture is today's.
+//! whether its picture is up to date.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -49,7 +49,7 @@ pub fn clear(area: Rect, buffer: &mut Buffer) {
 pub struct Heading {
     /// Whether the keys go to this pane.
     pub focused: bool,
-    /// Why the picture is not today's.
+    /// Why the picture is not up to date.
     pub mark: Option<&'static str>,
     /// What the cursor reads.
     pub reading: Option<String>,
@@ -70,7 +70,7 @@ impl Heading {
     }
 }
 
-/// Why the picture of a plot is not today's: the worst of what its layers need.
+/// Why the picture of a plot is not up to date: the worst of what its layers need.
 fn mark(session: &Session, plot: usize) -> Option<&'static str> {
     let asked = session.asked_by(plot);
     if asked.iter().any(|request| session.answers.failure(request).is_some()) {

@@ -193,7 +193,7 @@ impl Quantity {
     /// Accepts a value in SI units.
     ///
     /// # Errors
-    /// [`Outside`] if it is no number or outside of the range of the table.
+    /// [`Outside`] if it is not a number or outside of the range of the table.
     pub fn check(self, value: f64) -> Result<f64, Outside> {
         let QuantitySpec { min, max, .. } = *self.spec();
         if (min..=max).contains(&value) {

@@ -216,7 +216,7 @@ fn a_figure_that_may_not_be_written_is_not_begun() {
     let path = folder.path().join("a.svg");
     std::fs::write(&path, "mine").unwrap();
     let Bench { mut pump, .. } = bench();
-    // A gate that stays closed: whoever began would never end.
+    // A gate that stays closed: what began would never end.
     let (_open, gate) = unbounded();
     let asks = Effect::Figure { path: path.clone(), plot: None, replace: false };
     (pump.machine.asks, pump.machine.gate) = (Some(asks), Some(gate));

@@ -168,7 +168,7 @@ mod tests {
             assert_eq!(moved, faster.problem(), "{}", machine.name);
             assert_eq!(running.brought_to(&own.running(), moved), own.problem());
             assert!(running.carries(&moved.parameters));
-            // A start of one's own keeps its place in metres, up to rounding.
+            // A start that the user chose keeps its place in metres, up to rounding.
             let initial = State { q: 0.7, v: -0.3 };
             let moved = own.running().brought_to(&running, Problem { initial, ..own.problem() });
             for (symbol, value) in [(Symbol::Q0, 0.7), (Symbol::V0, -0.3)] {

@@ -7,7 +7,7 @@ use crate::session::effect::Effect;
 use crate::session::state::plot::Plot;
 use crate::session::state::session::Session;
 
-/// Room beside today's value where it lies outside of the values first looked at, as a factor.
+/// Room beside the present value where it lies outside of the values first looked at, as a factor.
 const ROOM: f64 = 1.25;
 
 /// Draws the diagram in focus over the next parameter, around its end; the branch is another one.
@@ -31,7 +31,7 @@ pub fn next_of_chart(session: &mut Session, upwards: bool) -> Vec<Effect> {
     let Some(symbol) = later.into_iter().find(|symbol| *symbol != other) else { return Vec::new() };
     let axis = if upwards { &mut plot.axes.against } else { &mut plot.axes.abscissa };
     *axis = symbol;
-    // The chart of these parameters is nobody's yet: its window is the usual one, today's point in it.
+    // The chart of these parameters is nobody's yet: its window is the usual one, the present point in it.
     plot.fit_from(
         Exhibit { view: plot.view, axes: plot.axes, window: None, family: plot.family }.opening(),
     );

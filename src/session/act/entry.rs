@@ -90,7 +90,7 @@ fn read_number(problem: Problem, row: Row, text: &str) -> Result<Problem, String
     let (min, max) = range(&problem, row);
     let takes = format!("{name} takes {} to {}", shortest(min), shortest(max));
     let value: f64 =
-        plain_minus(text).parse().map_err(|_| format!("{text:?} is no number; {takes}"))?;
+        plain_minus(text).parse().map_err(|_| format!("{text:?} is not a number; {takes}"))?;
     if !value.is_finite() {
         return Err(format!("{text} is no finite number; {takes}"));
     }

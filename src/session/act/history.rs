@@ -31,7 +31,7 @@ pub fn redo(session: &mut Session) -> Vec<Effect> {
     bring_back(session, found, "redo")
 }
 
-/// Today's state, as far as `other` reaches.
+/// The present state, as far as `other` reaches.
 fn present(session: &Session, other: &Before) -> Before {
     match other {
         Before::Stand(_) => Before::Stand(session.stand()),

@@ -24,7 +24,7 @@ const ZOOM: f64 = 1.5;
 /// How much of the width a pan moves.
 const PAN: f64 = 0.125;
 
-/// Where the cursor of a plot appears: on the start of the motion, or on today's value.
+/// Where the cursor of a plot appears: on the start of the motion, or on the present value.
 fn cursor_origin(session: &Session, plot: &Plot) -> Point {
     let window = plot.window;
     window.clamp(match plot.view {

@@ -150,7 +150,7 @@ pub fn harmonics(session: &mut Session, rest: &str) -> Done {
     let most = MOST_HARMONICS;
     let count = rest.parse().ok().filter(|count| (1..=most).contains(count));
     session.harmonics =
-        count.ok_or_else(|| format!("{rest:?} is no number of harmonics from 1 to {most}"))?;
+        count.ok_or_else(|| format!("{rest:?} is not a number of harmonics from 1 to {most}"))?;
     session.layers.insert(crate::scene::Layer::Balance);
     inform(session, format!("harmonic balance with N = {rest}"));
     Ok(Vec::new())
@@ -180,7 +180,7 @@ pub fn play(session: &mut Session, rest: &str) -> Done {
     let (name, times) = rest.split_once(char::is_whitespace).unwrap_or((rest, "1"));
     let most = MOST;
     let count = times.trim().parse().ok().filter(|count| (1..=most).contains(count));
-    let count = count.ok_or_else(|| format!("{times:?} is no number from 1 to {most}"))?;
+    let count = count.ok_or_else(|| format!("{times:?} is not a number from 1 to {most}"))?;
     Ok(macros::play(session, letter(name)?, count))
 }
 

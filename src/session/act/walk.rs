@@ -15,7 +15,7 @@ use crate::session::state::stop::Stop;
 /// Points that a far move takes.
 pub const FAR: isize = 10;
 
-/// Takes hold of the branch: at the cursor of the diagram if there is one, else at today's value.
+/// Takes hold of the branch: at the cursor of the diagram if there is one, else at the present value.
 pub fn take_hold(session: &mut Session) -> Vec<Effect> {
     match first(session) {
         Ok(stop) => session.held = Some(stop),
@@ -116,7 +116,7 @@ pub fn let_go(session: &mut Session) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Keeps hold of a point of the branch on show when that is computed anew, and of none when there is no
+/// Keeps hold of a point of the branch on show when that is computed again, and of none when there is no
 /// branch any more.
 pub(in crate::session) fn keep_hold(session: &mut Session) {
     let Some(held) = session.held else { return };

@@ -1,6 +1,6 @@
 //! The belt of the machine on show: its speed, and whether the numbers on show are those of the machine.
 //!
-//! A speed of the belt stands for all of D, D2, D3 and r. Whoever changes one of these by hand leaves the
+//! A speed of the belt stands for all of D, D2, D3 and r. To change one of these by hand leaves the
 //! belt: the numbers are then those of no belt speed, until the speed is given again.
 
 use crate::flow::Problem;

@@ -50,7 +50,7 @@ pub fn properties() -> impl Iterator<Item = String> {
     ORDINATES.iter().flat_map(move |row| std::iter::once(row.name.to_owned()).chain(ratio(row)))
 }
 
-/// The names of values with their `=`; behind that, today's value.
+/// The names of values with their `=`; behind that, the present value.
 fn assignments(session: &Session, words: &[&str]) -> Vec<String> {
     let word = words.last().copied().unwrap_or_default();
     match word.split_once('=') {
@@ -77,7 +77,7 @@ fn methods() -> Vec<String> {
     METHODS.iter().map(|row| row.name.to_owned()).collect()
 }
 
-/// Today's window of the plot in use.
+/// The present window of the plot in use.
 fn windows(session: &Session) -> Vec<String> {
     let Window { x, y } = session.plots[session.plot].window;
     let [x0, x1, y0, y1] = [x.from(), x.to(), y.from(), y.to()].map(shortest);

@@ -245,7 +245,7 @@ fn eigenvalues(session: &Session) -> Option<Window> {
     Some(Window { x: Span::new(-far, far).ok()?, ..usual })
 }
 
-/// The values of both parameters first looked at, and today's.
+/// The values of both parameters first looked at, and the present one.
 fn regimes(session: &Session, plot: usize) -> Option<Window> {
     let Axes { abscissa, against, .. } = session.plots[plot].axes;
     let around = |symbol: Symbol| {

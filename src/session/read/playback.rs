@@ -18,7 +18,7 @@ impl Session {
         self.playback.playing
     }
 
-    /// Whether time passes for what is on show. It stands still while the motion is computed anew, so that
+    /// Whether time passes for what is on show. It stands still while the motion is computed again, so that
     /// the head is where it is however long that takes.
     #[must_use]
     pub fn is_moving(&self) -> bool {

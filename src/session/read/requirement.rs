@@ -1,4 +1,4 @@
-//! What a scene requires: which questions its layers ask, and which of them a step of a number asks anew.
+//! What a scene requires: which questions its layers ask, and which of them a step of a number asks again.
 
 use std::collections::BTreeMap;
 
@@ -24,7 +24,7 @@ pub enum CostRow {
     Asked(Requirement),
     /// Layers that formulas draw.
     Formulas(Vec<Layer>),
-    /// A step of this row: what the questions are about that it leaves as they are, and asks anew.
+    /// A step of this row: what the questions are about that it leaves as they are, and asks again.
     Step(Row, Vec<Topic>, Vec<Topic>),
 }
 
@@ -78,7 +78,7 @@ impl Session {
     }
 
     /// The questions of today that a step of this row would leave as they are, and those that it would
-    /// ask anew.
+    /// ask again.
     #[must_use]
     pub fn after_a_step(&self, row: Row) -> (Vec<Request>, Vec<Request>) {
         let mut stepped = self.clone();

@@ -1,7 +1,7 @@
 //! Commands that need an answer which is still being computed: they wait for it.
 //!
 //! A press that waits has not been taken in: nothing of it has happened, and nothing else does until it
-//! can, so that the same keys lead to the same end however fast they are typed. Whoever gives messages to
+//! can, so that the same keys lead to the same end however fast they are typed. The caller that gives messages to
 //! a session holds back what the user does meanwhile ([`Session::is_waiting`]). Where the computation gives
 //! up, the command is run all the same and says so.
 

@@ -46,7 +46,7 @@ pub enum Step {
     /// The session starts with what stands here: nothing was done before. `<start>`, or `<start D3 r>` with
     /// the parameters that belong to its scene besides those that the scene names itself.
     Start(Vec<Symbol>),
-    /// Whoever reads the file of this name while this is played finds this text: `<file "a.toml" "text">`.
+    /// A command that reads the file of this name while this is played finds this text: `<file "a.toml" "text">`.
     File {
         /// The name by which it is asked for.
         name: String,

@@ -77,14 +77,14 @@ impl History {
         }
     }
 
-    /// The state before the last change. `present` tells today's state to the same extent, for redo.
+    /// The state before the last change. `present` tells the present state to the same extent, for redo.
     pub fn undo(&mut self, present: impl FnOnce(&Before) -> Before) -> Option<Before> {
         let before = self.past.pop()?;
         self.future.push(present(&before));
         Some(before)
     }
 
-    /// The state that was last undone. `present` tells today's state to the same extent, for undo.
+    /// The state that was last undone. `present` tells the present state to the same extent, for undo.
     pub fn redo(&mut self, present: impl FnOnce(&Before) -> Before) -> Option<Before> {
         let after = self.future.pop()?;
         self.past.push(present(&after));

@@ -85,7 +85,7 @@ fn usual_belt_step() -> StepSize {
 const UNTIL_STEP: f64 = 10.0;
 
 impl Steps {
-    /// The step of a row; `None` where a step is no number (method) or a factor of ten (tolerance).
+    /// The step of a row; `None` where a step is not a number (method) or a factor of ten (tolerance).
     #[must_use]
     pub fn of(&self, row: Row) -> Option<StepSize> {
         match row {

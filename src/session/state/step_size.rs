@@ -1,6 +1,6 @@
 //! Step sizes 1, 2, 5 times a power of ten, and sums that stay decimal.
 //!
-//! Whoever steps from -0.1 by 0.01 expects -0.09, not -0.09000000000000001: sums are rounded to the
+//! A step of 0.01 from -0.1 should give -0.09, not -0.09000000000000001: sums are rounded to the
 //! digits that both terms can have.
 
 use std::cmp::Ordering;

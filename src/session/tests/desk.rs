@@ -56,7 +56,7 @@ fn equal_questions_of_two_plots_are_one() {
     assert_eq!(desk.press("; , ;"), []);
     let [first, second] = &desk.session.plots[..] else { panic!("two plots") };
     assert_eq!((first.view, first.axes), (second.view, second.axes));
-    // A step of D3 makes both branches anew: by one computation.
+    // A step of D3 computes both branches again: by one computation.
     assert_eq!(desk.press("<S-tab><down><right>"), [Topic::Branch]);
     assert!((0..2).all(|plot| desk.session.is_fresh(Topic::Branch, plot)));
     // Another ordinate is another look at the same cycles.

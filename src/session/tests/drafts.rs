@@ -66,7 +66,7 @@ fn at_draft_quality_every_key_takes_half_a_frame_at_most() {
             dearest = dearest.max((evaluations, step));
         }
     }
-    println!("the dearest key at draft quality: {} evaluations, {}", dearest.0, dearest.1);
+    println!("the most expensive key at draft quality: {} evaluations, {}", dearest.0, dearest.1);
     assert!(missed.is_empty(), "{missed:#?}");
 }
 
@@ -140,7 +140,7 @@ fn wherever_the_numbers_are_no_first_answer_takes_more_than_a_few_frames() {
             }
         }
     }
-    println!("the dearest first answer: {} evaluations, {}", dearest.0, dearest.1);
+    println!("the most expensive first answer: {} evaluations, {}", dearest.0, dearest.1);
     assert!(dearest.0 < 8 * HALF_FRAME, "{dearest:?}");
 }
 

@@ -130,7 +130,7 @@ fn what_is_wrong_stays_in_the_line_with_what_is_allowed() {
         ("layer basin maybe", "layer: basin can be on or off, not \"maybe\""),
         ("window 1:1,0:1", "window: [1.0, 1.0] is no interval"),
         ("window 1", "window: \"1\" is no X0:X1,Y0:Y1"),
-        ("harmonics 0", "harmonics: \"0\" is no number of harmonics from 1 to 63"),
+        ("harmonics 0", "harmonics: \"0\" is not a number of harmonics from 1 to 63"),
         ("glyphs runes", "glyphs: no \"runes\"; there are auto, braille"),
         ("undo twice", "undo takes no words, but there are \"twice\""),
         ("axes q0", "axes: no diagram over \"q0\"; there are D, D2, D3, r"),

@@ -76,7 +76,7 @@ fn there_must_be_a_branch_to_hold() {
     assert_eq!(desk.session.held, None);
     desk.press("<run \"layer branch\"> w<home>");
     assert!(desk.session.held.is_some());
-    // Zooming computes the branch anew; the hold stays on it.
+    // Zooming computes the branch again; the hold stays on it.
     desk.press("+");
     let held = held(&desk);
     assert!(desk.branch(1).pieces.iter().flatten().any(|point| Stop::on(0, point) == held));
