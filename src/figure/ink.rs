@@ -8,6 +8,7 @@ pub(super) fn ink(role: Role) -> (f64, &'static str) {
         Role::Stable | Role::Map => (1.6, "#0b6e3a"),
         Role::Unstable => (1.6, "#b3261e"),
         Role::Trajectory => (1.1, "#1f4e9c"),
+        Role::Beside => (1.1, "#6f8fb8"),
         Role::Sticking => (1.4, "#111111"),
         Role::Harmonic | Role::Energy => (1.2, "#7a3fa0"),
         Role::Asymptote => (0.9, "#8a6d1f"),

@@ -47,7 +47,8 @@ pub fn middle(line: usize) -> f64 {
 #[must_use]
 pub fn reading(entry: &Entry) -> String {
     match entry {
-        Entry::Title(Owner::Motion) => "motion".to_owned(),
+        Entry::Title(Owner::Motion(_, None)) => "motion".to_owned(),
+        Entry::Title(Owner::Motion(_, Some(number))) => format!("motion {number}"),
         Entry::Title(Owner::Cycle(cycle)) => format!("q_max {}", significant(cycle.q_max, 6)),
         Entry::Work { source, work, .. } => format!("{source} {}", significant(*work, 6)),
         Entry::Residual(part) => format!("error {}", significant(*part, 2)),

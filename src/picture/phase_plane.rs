@@ -14,6 +14,7 @@ use crate::machine;
 use crate::numerics::elementary::sin_cos;
 use crate::oscillator::{HalfPlane, Parameters, Side, State};
 use crate::scene::{Answer, Layer, Point, Topic, View};
+use crate::session::starts::MOST_MOTIONS;
 use crate::session::{self, Session, Shown};
 use crate::study::{Cycles, Edge};
 
@@ -32,7 +33,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     });
     let shows = |layer| session.layers.contains(&layer);
     let shown = session.shown(index);
-    let contact = session.contact();
+    let family = session.variants(index).is_some();
 
     if shows(Layer::Field)
         && let Some(first) = shown.first()
@@ -75,11 +76,16 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     if shows(Layer::Trajectory) {
         for (variant, answer) in found(session, Topic::Trajectory, index) {
             if let Answer::Trajectory(found) = answer {
-                let line = Line::new("motion", Role::Trajectory, Dash::Solid).of(&variant);
+                let (line, variant) = if family {
+                    (Line::new("motion", Role::Trajectory, Dash::Solid), variant)
+                } else {
+                    (motion(session, variant.index), Variant::default())
+                };
                 // Where the mass sticks to its belt the model ends, and the curve with it.
-                let last = contact.map_or(f64::INFINITY, |(tau, _)| tau);
+                let last = session.contact_of(found).map_or(f64::INFINITY, |(tau, _)| tau);
                 let samples = found.samples.iter().take_while(|sample| sample.tau <= last);
-                picture.curve(line, samples.map(|sample| Point { x: sample.q, y: sample.v }));
+                let points = samples.map(|sample| Point { x: sample.q, y: sample.v });
+                picture.curve(line.of(&variant), points);
             }
         }
     }
@@ -182,6 +188,23 @@ pub(super) fn variants(shown: &[Shown]) -> impl Iterator<Item = (Variant, &Shown
     all.map(|(index, shown)| (Variant { index, label: shown.label.clone() }, shown))
 }
 
+/// How the motion in this place among those on show is drawn, and what it is called.
+pub(super) fn motion(session: &Session, place: usize) -> Line {
+    const NAMES: [&str; MOST_MOTIONS] = [
+        "motion 1", "motion 2", "motion 3", "motion 4", "motion 5", "motion 6", "motion 7",
+        "motion 8",
+    ];
+    const DASHES: [Dash; 3] = [Dash::Dashed, Dash::Dotted, Dash::Solid];
+    let Some(number) = session.number(place) else {
+        return Line::new("motion", Role::Trajectory, Dash::Solid);
+    };
+    let name = NAMES[(number - 1).min(NAMES.len() - 1)];
+    match place {
+        0 => Line::new(name, Role::Trajectory, Dash::Solid),
+        _ => Line::new(name, Role::Beside, DASHES[place % DASHES.len()]),
+    }
+}
+
 /// The segment where the mass rests.
 pub(super) fn sticking_set() -> Line {
     Line::new("sticking set", Role::Sticking, Dash::Solid).briefly("sticking set (at rest)")
@@ -272,29 +295,36 @@ pub fn stability(stable: bool) -> (Role, Dash) {
 /// for its cycles and has no marks; the present motion that does has the one of its rest.
 fn ends(picture: &mut Picture, session: &Session, index: usize, shown: &[Shown]) {
     let family = session.variants(index).is_some();
-    for (.., answer) in session.found(Topic::Trajectory, index) {
+    for (place, _, answer) in session.found(Topic::Trajectory, index) {
         if let Answer::Trajectory(found) = answer
-            && session.contact().is_none()
+            && session.contact_of(found).is_none()
             && !(family && matches!(found.outcome, Outcome::Captured { tau: 0.0, .. }))
         {
-            end(picture, found);
+            let role = if family { Role::Trajectory } else { motion(session, place).role };
+            end(picture, found, role);
         }
     }
-    for Problem { parameters, initial, .. } in shown.iter().map(|shown| &shown.problem) {
+    let problems =
+        if family { shown.iter().map(|shown| shown.problem).collect() } else { session.problems() };
+    for (place, Problem { parameters, initial, .. }) in problems.iter().enumerate() {
+        let role = if family { Role::Trajectory } else { motion(session, place).role };
         if initial.v != 0.0 || initial.q.abs() > parameters.r {
-            picture.mark(Mark::Start, point(initial), Role::Trajectory);
+            picture.mark(Mark::Start, point(initial), role);
+        }
+        if let Some(number) = session.number(place).filter(|_| !family) {
+            picture.caption(point(initial), number.to_string(), role);
         }
     }
 }
 
 /// Where a motion is in the end.
-fn end(picture: &mut Picture, motion: &Trajectory) {
+fn end(picture: &mut Picture, motion: &Trajectory, role: Role) {
     match motion.outcome {
         Outcome::Captured { q, .. } => {
-            picture.mark(Mark::Rest, Point { x: q, y: 0.0 }, Role::Trajectory);
+            picture.mark(Mark::Rest, Point { x: q, y: 0.0 }, role);
         }
         Outcome::Moving { q, v, .. } => {
-            picture.mark(Mark::Head, Point { x: q, y: v }, Role::Trajectory);
+            picture.mark(Mark::Head, Point { x: q, y: v }, role);
         }
         Outcome::Escaped { .. } | Outcome::GaveUp { .. } => {}
     }

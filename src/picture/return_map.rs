@@ -4,10 +4,10 @@
 //! to rest. The turning points of the motion climb and descend between map and diagonal as a cobweb.
 
 use super::items::{Item, Line, Marks, Picture};
-use super::phase_plane::sticking_set;
+use super::phase_plane::{self, sticking_set};
 use super::reading::reading;
 use super::role::{Dash, Mark, Role};
-use crate::flow::Outcome;
+use crate::flow::{Outcome, Trajectory};
 use crate::scene::{Layer, Point, View};
 use crate::session::motion::turning_points;
 use crate::session::{self, Session};
@@ -65,7 +65,16 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
 /// The turning points of the motion, each side for itself: up or down to the map, across to the diagonal.
 fn cobweb(picture: &mut Picture, session: &Session) {
     // The map is that of the cubic expansion.
-    let Some(motion) = session.trajectory().filter(|_| !session.draws_whole()) else { return };
+    if !session.draws_whole() {
+        // The present one over the others.
+        for (place, motion) in session.motions().into_iter().rev() {
+            turns(picture, motion, &phase_plane::motion(session, place));
+        }
+    }
+}
+
+/// Those of one motion, drawn like it.
+fn turns(picture: &mut Picture, motion: &Trajectory, like: &Line) {
     let points = turning_points(motion);
     let rest = match motion.outcome {
         Outcome::Captured { q, .. } => Some(q),
@@ -82,13 +91,14 @@ fn cobweb(picture: &mut Picture, session: &Session) {
             [Point { x: from, y: to }, Point { x: to, y: to }]
         });
         let first = turns.first().map(|q| Point { x: *q, y: *q });
-        let line = Line::new("motion, turn by turn", Role::Trajectory, Dash::Solid);
-        picture.curve(line.briefly("motion"), first.into_iter().chain(steps));
+        let line = Line::new(format!("{}, turn by turn", like.name), like.role, like.dash);
+        let brief = if like.role == Role::Beside { "motions beside" } else { "motion" };
+        picture.curve(line.briefly(brief), first.into_iter().chain(steps));
         if let Some(start) = first {
-            picture.mark(Mark::Start, start, Role::Trajectory);
+            picture.mark(Mark::Start, start, like.role);
         }
     }
     if let Some(q) = rest {
-        picture.mark(Mark::Rest, Point { x: q, y: q }, Role::Trajectory);
+        picture.mark(Mark::Rest, Point { x: q, y: q }, like.role);
     }
 }

@@ -35,8 +35,10 @@ pub enum Role {
     Lyapunov,
     /// The segment of equilibria.
     Sticking,
-    /// The motion on show.
+    /// The motion on show; of several the newest.
     Trajectory,
+    /// Motions beside the one on show.
+    Beside,
     /// Velocity over time.
     Velocity,
     /// Energy over time.
@@ -62,7 +64,7 @@ pub enum Role {
 }
 
 /// Name in theme files, and glyph in a plot without dots, of every role in order.
-pub const ROLES: [(Role, &str, char); 28] = [
+pub const ROLES: [(Role, &str, char); 29] = [
     (Role::Text, "text", '*'),
     (Role::Quiet, "quiet", '.'),
     (Role::Title, "title", '*'),
@@ -80,6 +82,7 @@ pub const ROLES: [(Role, &str, char); 28] = [
     (Role::Lyapunov, "lyapunov", ':'),
     (Role::Sticking, "sticking", '='),
     (Role::Trajectory, "trajectory", '*'),
+    (Role::Beside, "beside", 'x'),
     (Role::Velocity, "velocity", 'v'),
     (Role::Energy, "energy", 'e'),
     (Role::Map, "map", '#'),

@@ -4,6 +4,7 @@
 //! jumps from one end of `[-r, r]` to the other; at rest it is what the spring asks for.
 
 use super::items::{Item, Line, Marks, Picture};
+use super::phase_plane::motion;
 use super::reading::CELLS;
 use super::role::{Dash, Mark, Role};
 use crate::flow::{Outcome, Trajectory};
@@ -47,6 +48,20 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     if let Some(fitted) = session.fitted().filter(|_| shows(Layer::Record)) {
         let points = fitted.points.iter().map(|point| Point { x: point.tau, y: point.q });
         picture.curve(Line::new("record", Role::Ghost, Dash::Solid), points);
+    }
+    for (place, beside) in session.motions().into_iter().filter(|(place, _)| *place > 0) {
+        let line = motion(session, place);
+        for (layer, _, name, _, dash, read) in QUANTITIES {
+            if shows(layer) {
+                let points = curve(beside, beside.problem.until, read);
+                let number = session.number(place).unwrap_or_default().to_string();
+                if let Some(first) = points.first() {
+                    picture.caption(*first, number, line.role);
+                }
+                let name = format!("{name}, {}", line.name);
+                picture.curve(Line::new(name, line.role, dash).briefly("motions beside"), points);
+            }
+        }
     }
     // The force of the guide on a mass that is held by the belt too is another story.
     let whole = session.draws_whole();

@@ -12,8 +12,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::flow::Problem;
 use crate::flow::method::{EPSILON_RANGE, STEP_RANGE};
-use crate::oscillator::PARAMETERS;
 use crate::oscillator::belt::Quantity;
+use crate::oscillator::{PARAMETERS, State, Symbol};
 use crate::scene::file::{TOLERANCE_RANGE, UNTIL_RANGE};
 use crate::scene::{
     Arrangement, Axes, Exhibit, Layer, MOST_PLOTS, Point, Scene, View, Window, find,
@@ -28,6 +28,7 @@ use crate::session::state::rows::{ROWS, Row, Steps};
 use crate::session::state::session::MOST_HARMONICS;
 use crate::session::state::session::Session;
 use crate::session::state::setup::Stand;
+use crate::session::state::starts::{MOST_MOTIONS, Starts};
 
 /// The format that this program writes; it reads this one and all before.
 const VERSION: u32 = 1;
@@ -56,8 +57,13 @@ struct File {
     /// The speeds of the belt at marks on machines.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     belts: BTreeMap<char, f64>,
+    /// Where the motions start beside those of marks.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    beside: BTreeMap<char, Vec<State>>,
     /// The point left last for a mark.
     left: Option<Problem>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    left_beside: Vec<State>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     left_belt: Option<f64>,
     /// Recorded keys, as keystroke files.
@@ -85,6 +91,9 @@ struct Show {
     layers: BTreeSet<Layer>,
     steps: Steps,
     motion: Problem,
+    /// Where the motions beside it start.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    beside: Vec<State>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     belt: Option<f64>,
     scene: Named,
@@ -109,6 +118,7 @@ struct Look {
 enum Change {
     Motion(Problem),
     MotionOnBelt { motion: Problem, belt: f64 },
+    Motions { motion: Problem, beside: Vec<State>, belt: Option<f64> },
     Plots { arrangement: Arrangement, plots: Vec<Exhibit> },
     Scene { plots: Vec<Exhibit>, show: Box<Show> },
 }
@@ -136,6 +146,7 @@ pub fn text(session: &Session) -> Result<String, String> {
             layers: session.layers.clone(),
             steps: session.steps,
             motion: session.problem,
+            beside: session.others.all().to_vec(),
             belt: session.belt_speed,
             scene: named(&session.scene),
         },
@@ -152,7 +163,19 @@ pub fn text(session: &Session) -> Result<String, String> {
             .iter()
             .filter_map(|(name, mark)| Some((*name, mark.stand.belt_speed?)))
             .collect(),
+        beside: session
+            .marks
+            .places
+            .iter()
+            .map(|(name, mark)| (*name, mark.stand.others.all().to_vec()))
+            .filter(|(_, beside)| !beside.is_empty())
+            .collect(),
         left: session.marks.left.as_ref().map(|mark| mark.stand.problem),
+        left_beside: session
+            .marks
+            .left
+            .as_ref()
+            .map_or_else(Vec::new, |mark| mark.stand.others.all().to_vec()),
         left_belt: session.marks.left.as_ref().and_then(|mark| mark.stand.belt_speed),
         registers: session
             .macros
@@ -181,10 +204,13 @@ fn look(plot: &Plot) -> Look {
 
 fn change(before: &Before) -> Change {
     match before {
-        Before::Stand(Stand { problem, belt_speed: None }) => Change::Motion(*problem),
-        Before::Stand(Stand { problem, belt_speed: Some(belt) }) => {
-            Change::MotionOnBelt { motion: *problem, belt: *belt }
-        }
+        Before::Stand(Stand { problem, others, belt_speed }) => match (others.all(), belt_speed) {
+            ([], None) => Change::Motion(*problem),
+            ([], Some(belt)) => Change::MotionOnBelt { motion: *problem, belt: *belt },
+            (others, belt) => {
+                Change::Motions { motion: *problem, beside: others.to_vec(), belt: *belt }
+            }
+        },
         Before::Desk(Desk { plots, arrangement }) => {
             Change::Plots { arrangement: *arrangement, plots: plots.clone() }
         }
@@ -195,6 +221,7 @@ fn change(before: &Before) -> Change {
                 layers: snapshot.layers.clone(),
                 steps: snapshot.steps,
                 motion: snapshot.stand.problem,
+                beside: snapshot.stand.others.all().to_vec(),
                 belt: snapshot.stand.belt_speed,
                 scene: named(&snapshot.scene),
             }),
@@ -209,7 +236,7 @@ fn change(before: &Before) -> Change {
 pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     let file = read(text)?;
     let scene = scene(file.present.scene)?;
-    let stand = checked(file.present.motion, file.present.belt)?;
+    let stand = checked(file.present.motion, &file.present.beside, file.present.belt)?;
     let plots = checked_plots(file.plots, |look| opened(&look))?;
     let in_range = |index: usize| index < plots.len();
     let focus = match file.focus.checked_sub(1) {
@@ -229,12 +256,14 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     if !(1..=most).contains(&file.harmonics) {
         return Err(format!("harmonics = {}, not 1 to {most}", file.harmonics));
     }
-    let mark = |problem, belt| checked(problem, belt).map(Mark::new);
+    let mark = |problem, beside: &[State], belt| checked(problem, beside, belt).map(Mark::new);
+    let beside = |name: &char| file.beside.get(name).map_or(&[][..], Vec::as_slice);
     let belt = |name: &char| file.belts.get(name).copied();
     let places = file.marks.into_iter();
-    let places = places.map(|(name, problem)| Ok((name, mark(problem, belt(&name))?)));
+    let places =
+        places.map(|(name, problem)| Ok((name, mark(problem, beside(&name), belt(&name))?)));
     let places = places.collect::<Result<BTreeMap<_, _>, String>>()?;
-    let left = file.left.map(|left| mark(left, file.left_belt)).transpose()?;
+    let left = file.left.map(|left| mark(left, &file.left_beside, file.left_belt)).transpose()?;
     let register = |(name, keys): (char, String)| Ok((name, steps(name, &keys)?));
     let registers = file.registers.into_iter().map(register);
     let registers = registers.collect::<Result<BTreeMap<_, _>, String>>()?;
@@ -288,7 +317,7 @@ fn scene(named: Named) -> Result<Arc<Scene>, String> {
     match named {
         Named::Library(name) => find(&name).map_err(|missing| missing.to_string()),
         Named::Whole(scene) => {
-            checked(scene.problem, None)?;
+            checked(scene.problem, &[], None)?;
             if scene.plots.is_empty() || scene.plots.len() > MOST_PLOTS {
                 return Err(format!("a scene with {} plots", scene.plots.len()));
             }
@@ -298,7 +327,7 @@ fn scene(named: Named) -> Result<Arc<Scene>, String> {
 }
 
 /// A motion, and a speed of the belt, whose numbers are all within their ranges.
-fn checked(problem: Problem, belt_speed: Option<f64>) -> Result<Stand, String> {
+fn checked(problem: Problem, beside: &[State], belt_speed: Option<f64>) -> Result<Stand, String> {
     for row in &PARAMETERS {
         let value = row.symbol.get(&problem.parameters, &problem.initial);
         row.check(value).map_err(|refused| refused.to_string())?;
@@ -316,7 +345,15 @@ fn checked(problem: Problem, belt_speed: Option<f64>) -> Result<Stand, String> {
     if let Some(speed) = belt_speed {
         Quantity::BeltSpeed.check(speed).map_err(|refused| refused.to_string())?;
     }
-    Ok(Stand { problem, belt_speed })
+    let others = Starts::of(beside).ok_or_else(|| {
+        format!("{} motions beside another; there can be {}", beside.len(), MOST_MOTIONS - 1)
+    })?;
+    for (symbol, value) in
+        beside.iter().flat_map(|start| [(Symbol::Q0, start.q), (Symbol::V0, start.v)])
+    {
+        symbol.spec().check(value).map_err(|refused| refused.to_string())?;
+    }
+    Ok(Stand { problem, others, belt_speed })
 }
 
 /// As many plots as a screen can have.
@@ -344,16 +381,17 @@ fn steps(name: char, keys: &str) -> Result<Vec<Step>, String> {
 
 fn before(change: Change) -> Result<Before, String> {
     Ok(match change {
-        Change::Motion(problem) => Before::Stand(checked(problem, None)?),
-        Change::MotionOnBelt { motion, belt } => Before::Stand(checked(motion, Some(belt))?),
+        Change::Motion(problem) => Before::Stand(checked(problem, &[], None)?),
+        Change::MotionOnBelt { motion, belt } => Before::Stand(checked(motion, &[], Some(belt))?),
+        Change::Motions { motion, beside, belt } => Before::Stand(checked(motion, &beside, belt)?),
         Change::Plots { arrangement, plots } => {
             Before::Desk(Desk { plots: checked_plots(plots, |plot| plot)?, arrangement })
         }
         Change::Scene { plots, show } => {
-            let Show { arrangement, layers, steps, motion, belt, scene } = *show;
+            let Show { arrangement, layers, steps, motion, beside, belt, scene } = *show;
             Before::Scene(Box::new(Snapshot {
                 scene: self::scene(scene)?,
-                stand: checked(motion, belt)?,
+                stand: checked(motion, &beside, belt)?,
                 steps,
                 layers,
                 desk: Desk { plots: checked_plots(plots, |plot| plot)?, arrangement },

@@ -48,7 +48,7 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
     for (line, entry) in lines.iter().enumerate() {
         let y = seat(line, half);
         match entry {
-            Entry::Title(Owner::Motion) => plot.write(y, "motion", Role::Title),
+            Entry::Title(Owner::Motion(..)) => plot.write(y, &reading(entry), Role::Title),
             Entry::Title(Owner::Cycle(cycle)) => {
                 let (symbol, role) = if cycle.stable {
                     (symbols.points[0], Role::Stable)

@@ -32,7 +32,8 @@ const STEP: usize = 7;
 /// Draws the pane.
 pub fn draw(area: Rect, session: &Session, pictures: &[Picture], look: &Look, buffer: &mut Buffer) {
     let heading = Heading::of(session, Pane::Parameters);
-    pane::title(area, "parameters", "", &heading, look, buffer);
+    let of = session.number(0).map_or_else(String::new, |number| format!("of motion {number}"));
+    pane::title(area, "parameters", &of, &heading, look, buffer);
     let wide = usize::from(area.width) > VALUES + STEP;
     let mut y = 1;
     for row in session.rows() {
@@ -166,7 +167,7 @@ fn physical(session: &Session, row: Row) -> Option<(&'static str, String)> {
 }
 
 fn value(stand: &Stand, row: Row, width: usize) -> String {
-    let Stand { problem, belt_speed } = stand;
+    let Stand { problem, belt_speed, .. } = stand;
     match row {
         Row::Belt => belt_speed.map_or_else(String::new, |speed| exact(speed, width)),
         Row::Parameter(symbol) => exact(symbol.get(&problem.parameters, &problem.initial), width),

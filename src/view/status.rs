@@ -34,7 +34,8 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         (held, Role::Cursor)
     } else {
         let (sentence, role) = outcome(session);
-        (format!("{}{sentence}", symbol(session, look)), role)
+        let of = session.number(0).map_or_else(String::new, |number| format!("motion {number} "));
+        (format!("{}{of}{sentence}", symbol(session, look)), role)
     };
     let busy = if session.is_busy() { "computing " } else { "" };
     let busy = match session.writing.as_ref().and_then(|path| path.file_name()) {

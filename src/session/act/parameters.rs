@@ -175,12 +175,13 @@ pub fn next_method(session: &mut Session, by: isize) -> Vec<Effect> {
 impl Session {
     /// Makes this what is on show, with a speed of the belt if and only if there is one.
     pub(in crate::session) fn set_stand(&mut self, stand: Stand) {
-        let Stand { problem, belt_speed } = stand;
+        let Stand { problem, others, belt_speed } = stand;
         let rig = self.scene.machine.as_ref();
         let can_run =
             |speed: &f64| rig.is_some_and(|rig| Running::at(&rig.machine, *speed).is_ok());
         let own = rig.map(|rig| rig.machine.belt.belt_speed);
         let present = self.belt_speed.filter(can_run);
-        (self.belt_speed, self.problem) = (belt_speed.filter(can_run).or(present).or(own), problem);
+        self.belt_speed = belt_speed.filter(can_run).or(present).or(own);
+        (self.problem, self.others) = (problem, others);
     }
 }

@@ -5,6 +5,7 @@ use crate::oscillator::State;
 use crate::scene::{Exhibit, Point, Span, View, Window};
 use crate::session::act::notice::{inform, refuse, told};
 use crate::session::act::parameters::{change, put};
+use crate::session::act::starts::start;
 use crate::session::effect::Effect;
 use crate::session::state::plot::{Framing, Pane, Plot};
 use crate::session::state::session::Session;
@@ -195,7 +196,7 @@ pub fn take_speed(session: &mut Session) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Starts the motion where the cursor is: at its state, at the state that the motion has at its time, at
+/// Starts a motion where the cursor is, in the phase plane beside those that are there: at its state, at the state that the motion has at its time, at
 /// rest at its displacement, or on its cycle.
 pub fn start_here(session: &mut Session) -> Vec<Effect> {
     let Some(Point { x, y }) = cursor(session) else { return Vec::new() };
@@ -210,10 +211,12 @@ pub fn start_here(session: &mut Session) -> Vec<Effect> {
         }
     };
     match initial {
+        // The phase plane shows motions beside each other; from another view this may be out of sight.
+        Some(initial) if session.focused().is_some_and(|plot| plot.view == View::Phase) => {
+            start(session, initial);
+        }
         Some(initial) => {
-            change(session, Problem { initial, ..session.problem });
-            // The phase plane shows it; from another view it may be out of sight.
-            if session.focused().is_some_and(|plot| plot.view != View::Phase) {
+            if change(session, Problem { initial, ..session.problem }) {
                 let State { q, v } = initial;
                 inform(session, format!("q0 = {}, v0 = {}", shortest(q), shortest(v)));
             }

@@ -1,13 +1,16 @@
-//! Starts on either side of the edge of the basin: what is captured, and what is not.
+//! Motions are started beside each other, such as one on either side of the edge of the basin, and taken
+//! away.
 
 use crate::flow::Problem;
 use crate::oscillator::State;
 use crate::scene::Topic;
-use crate::session::act::notice::{refuse, told};
-use crate::session::act::parameters::change;
+use crate::session::act::notice::{inform, refuse, told};
+use crate::session::act::parameters::put;
 use crate::session::effect::Effect;
 use crate::session::state::session::Session;
-use crate::session::state::step_size::decimal_sum;
+use crate::session::state::setup::Stand;
+use crate::session::state::starts::{MOST_MOTIONS, Starts};
+use crate::session::state::step_size::{decimal_sum, shortest};
 use crate::study::{Cycles, Edge};
 
 /// Clearance from the sticking set, in that of the edge: near enough to stay close for a while, far
@@ -17,13 +20,49 @@ pub const INSIDE: f64 = 0.95;
 /// As [`INSIDE`], on the other side.
 pub const OUTSIDE: f64 = 1.05;
 
-/// Starts the motion at rest beside the turning point of the edge: the smallest unstable cycle's on the
+/// Starts a motion beside those that are there; of too many the oldest gives way.
+pub(in crate::session) fn start(session: &mut Session, initial: State) {
+    let before = session.problem.initial;
+    if initial == before {
+        return;
+    }
+    let mut others = session.others.without(initial);
+    if others.add(before) {
+        let text = format!("{MOST_MOTIONS} motions at most: the oldest gave way");
+        inform(session, text);
+    }
+    let problem = Problem { initial, ..session.problem };
+    put(session, Stand { problem, others, ..session.stand() });
+}
+
+/// Takes the newest motion away; the one before is then the present one.
+pub fn drop_newest(session: &mut Session) -> Vec<Effect> {
+    let Some(initial) = session.others.all().last().copied() else {
+        refuse(session, "one motion is on show, and stays");
+        return Vec::new();
+    };
+    let problem = Problem { initial, ..session.problem };
+    put(session, Stand { problem, others: session.others.without(initial), ..session.stand() });
+    let State { q, v } = initial;
+    let count = session.problems().len();
+    inform(session, format!("{count} on show; q0 = {}, v0 = {}", shortest(q), shortest(v)));
+    Vec::new()
+}
+
+/// Takes all motions away but the newest.
+pub fn drop_others(session: &mut Session) -> Vec<Effect> {
+    if !put(session, Stand { others: Starts::default(), ..session.stand() }) {
+        refuse(session, "one motion is on show, and stays");
+    }
+    Vec::new()
+}
+
+/// Starts a motion at rest beside the turning point of the edge: the smallest unstable cycle's on the
 /// right, or the separatrix's.
 pub fn beside_edge(session: &mut Session, factor: f64) -> Vec<Effect> {
     match beside(session, factor) {
         Ok(q) => {
-            let initial = State { q, v: 0.0 };
-            change(session, Problem { initial, ..session.problem });
+            start(session, State { q, v: 0.0 });
         }
         Err(why) => refuse(session, told(session, &why)),
     }

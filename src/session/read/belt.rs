@@ -17,7 +17,7 @@ impl Session {
     /// The motion on show and the speed of the belt.
     #[must_use]
     pub fn stand(&self) -> Stand {
-        Stand { problem: self.problem, belt_speed: self.belt_speed }
+        Stand { problem: self.problem, others: self.others, belt_speed: self.belt_speed }
     }
 
     /// The machine of the scene at the present speed of its belt.
@@ -113,7 +113,9 @@ impl Session {
     ) -> Result<Stand, String> {
         let running = self.running().ok_or("the scene is of no machine: it has no belt")?;
         let other = Running::at(running.machine, speed)?;
+        let brought = |initial| running.brought_to(&other, Problem { initial, ..problem }).initial;
+        let others = self.others.map(brought);
         let problem = running.brought_to(&other, problem);
-        Ok(Stand { problem, belt_speed: Some(speed) })
+        Ok(Stand { problem, others, belt_speed: Some(speed) })
     }
 }

@@ -1,7 +1,7 @@
 //! Windows fitted to what is on show.
 
 use crate::closed_form::lyapunov;
-use crate::flow::Outcome;
+use crate::flow::{Outcome, Trajectory};
 use crate::numerics::elementary::hypot;
 use crate::oscillator::energy::energy;
 use crate::oscillator::{State, Symbol};
@@ -114,7 +114,7 @@ fn phase(session: &Session, plot: usize) -> Option<Window> {
     }
     for answer in answers(Layer::Trajectory, Topic::Trajectory) {
         let Answer::Trajectory(found) = answer else { continue };
-        let last = session.contact().map_or(f64::INFINITY, |(tau, _)| tau);
+        let last = session.contact_of(found).map_or(f64::INFINITY, |(tau, _)| tau);
         let samples = found.samples.iter().take_while(|sample| sample.tau <= last);
         let samples = samples.map(|sample| Point { x: sample.q, y: sample.v });
         if let Outcome::Escaped { .. } = found.outcome {
@@ -178,17 +178,18 @@ fn diagram(session: &Session, plot: usize) -> Option<Window> {
 
 /// The time until the motion ends or comes to rest, and the values that the layers have in it.
 fn time_series(session: &Session, plot: usize) -> Option<Window> {
-    let found = session.trajectory()?;
+    session.trajectory()?;
     let r = session.problem.parameters.r;
     let mut values = vec![0.0];
     let shown = |layer| session.shows_in(layer, plot);
-    for sample in &found.samples {
+    for sample in session.motions().into_iter().flat_map(|(_, motion)| &motion.samples) {
         values.extend(shown(Layer::Position).then_some(sample.q));
         values.extend(shown(Layer::Velocity).then_some(sample.v));
         let state = State { q: sample.q, v: sample.v };
         values.extend(shown(Layer::Energy).then(|| energy(state)));
     }
-    if let Outcome::Escaped { .. } = found.outcome {
+    let motions = session.motions();
+    if motions.iter().any(|(_, motion)| matches!(motion.outcome, Outcome::Escaped { .. })) {
         // Where the values run away their beginning is looked at.
         let extent = ESCAPE * hypot(session.problem.initial.q, session.problem.initial.v).max(r);
         values.retain(|value| value.abs() <= extent);
@@ -196,11 +197,12 @@ fn time_series(session: &Session, plot: usize) -> Option<Window> {
     if shown(Layer::Friction) {
         values.extend([-r, r]);
     }
-    let end = match found.outcome {
-        Outcome::Captured { tau, .. } => (REST * tau).min(found.problem.until),
+    let end = |motion: &Trajectory| match motion.outcome {
+        Outcome::Captured { tau, .. } => (REST * tau).min(motion.problem.until),
         Outcome::Moving { tau, .. } => tau,
         Outcome::Escaped { tau } | Outcome::GaveUp { tau, .. } => ROOM * tau,
     };
+    let end = motions.iter().map(|(_, motion)| end(motion)).fold(0.0, f64::max);
     let y = Span::covering(values)?;
     Some(Window { x: Span::new(0.0, end).ok()?, y: y.scaled(y.center(), ROOM) })
 }

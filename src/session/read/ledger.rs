@@ -14,8 +14,8 @@ use crate::study::works::works_until;
 pub enum Owner {
     /// One turn of a cycle.
     Cycle(Cycle),
-    /// The motion on show, from its start to its end.
-    Motion,
+    /// A motion on show from its start to its end, by its place among these and its number.
+    Motion(usize, Option<usize>),
 }
 
 /// A line of the ledger.
@@ -51,12 +51,14 @@ impl Session {
                 add(&mut lines, Owner::Cycle(*cycle), ledger, None, &found.parameters);
             }
         }
-        if self.layers.contains(&Layer::MotionWorks)
-            && let Some(found) = self.trajectory()
-            && let Some(ledger) = &found.ledger
-        {
-            let until = self.head().and_then(|head| works_until(found, head.tau));
-            add(&mut lines, Owner::Motion, ledger, until.as_ref(), &found.problem.parameters);
+        if self.layers.contains(&Layer::MotionWorks) {
+            for (place, found) in self.motions() {
+                let Some(ledger) = &found.ledger else { continue };
+                let head = self.head().filter(|_| place == 0);
+                let until = head.and_then(|head| works_until(found, head.tau));
+                let owner = Owner::Motion(place, self.number(place));
+                add(&mut lines, owner, ledger, until.as_ref(), &found.problem.parameters);
+            }
         }
         lines
     }
@@ -72,7 +74,9 @@ impl Session {
         });
         match line {
             Some((_, Entry::Title(Owner::Cycle(cycle)))) => Some(State { q: cycle.q_max, v: 0.0 }),
-            Some((_, Entry::Title(Owner::Motion))) => Some(self.problem.initial),
+            Some((_, Entry::Title(Owner::Motion(place, _)))) => {
+                self.problems().get(*place).map(|problem| problem.initial)
+            }
             _ => None,
         }
     }
@@ -110,7 +114,7 @@ fn add(
     for (source, _, read) in sources.iter().filter(|(_, strength, _)| *strength != 0.0) {
         add(source, *read);
     }
-    if owner == Owner::Motion {
+    if matches!(owner, Owner::Motion(..)) {
         add("stored", stored);
     }
     lines.push(Entry::Residual(part(ledger.residual)));

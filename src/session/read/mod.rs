@@ -8,6 +8,7 @@ pub mod fit;
 pub mod ledger;
 pub mod lists;
 pub mod motion;
+pub mod motions;
 pub mod numbers;
 pub mod palette;
 pub mod playback;

@@ -19,7 +19,7 @@ pub(in crate::session) fn range(problem: &Problem, row: Row) -> (f64, f64) {
 
 /// The value of a row that is a number; 0 for a belt where there is none.
 pub(in crate::session) fn number(stand: &Stand, row: Row) -> f64 {
-    let Stand { problem, belt_speed } = stand;
+    let Stand { problem, belt_speed, .. } = stand;
     match row {
         Row::Belt => belt_speed.unwrap_or(0.0),
         Row::Parameter(symbol) => symbol.get(&problem.parameters, &problem.initial),
@@ -55,5 +55,10 @@ pub(in crate::session) fn difference(old: &Stand, new: &Stand) -> String {
         let unit = if row == Row::Belt { " m/s" } else { "" };
         format!("{} = {}{unit}", row.name_in(&new.problem), value(new, row))
     });
-    said.collect::<Vec<_>>().join(", ")
+    let count = |stand: &Stand| stand.others.all().len() + 1;
+    let motions = (count(old) != count(new)).then(|| match count(new) {
+        1 => "1 motion".to_owned(),
+        count => format!("{count} motions"),
+    });
+    said.chain(motions).collect::<Vec<_>>().join(", ")
 }

@@ -44,11 +44,17 @@ impl Session {
     /// there is none.
     #[must_use]
     pub fn contact(&self) -> Option<(f64, f64)> {
+        self.contact_of(self.trajectory()?)
+    }
+
+    /// The same of any motion on show.
+    #[must_use]
+    pub fn contact_of(&self, motion: &Trajectory) -> Option<(f64, f64)> {
         if self.course().is_some() {
             return None;
         }
         let sticking = self.running()?.reduced.sticking_velocity;
-        Followed::of(self.trajectory()?, sticking).sticks
+        Followed::of(motion, sticking).sticks
     }
 
     /// Dimensionless time that passes in a second.

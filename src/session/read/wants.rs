@@ -132,6 +132,7 @@ impl Session {
     pub fn requests(&self, topic: Topic, plot: usize) -> Vec<(usize, Request)> {
         let problems = match self.variants(plot).filter(|_| topic.is_of_variants()) {
             Some(variants) => variants.iter().map(|variant| variant.of(self.problem)).collect(),
+            None if topic == Topic::Trajectory => self.problems(),
             None => vec![self.problem],
         };
         let request = |problem| self.request_for(topic, plot, problem);

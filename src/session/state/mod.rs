@@ -18,6 +18,7 @@ pub mod scan_form;
 pub mod session;
 pub mod settings;
 pub mod setup;
+pub mod starts;
 pub mod step_size;
 pub mod stop;
 pub mod waiting;

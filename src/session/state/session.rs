@@ -27,6 +27,7 @@ use crate::session::state::scan::Scanned;
 use crate::session::state::scan_form::Form;
 use crate::session::state::settings::Look;
 use crate::session::state::setup::Stand;
+use crate::session::state::starts::Starts;
 use crate::session::state::stop::Stop;
 use crate::session::state::waiting::Waiting;
 
@@ -84,8 +85,10 @@ pub struct Size {
 pub struct Session {
     /// The scene that was opened last.
     pub scene: Arc<Scene>,
-    /// The motion on show: parameters, start, end time, method and tolerance.
+    /// The present motion: parameters, start, end time, method and tolerance.
     pub problem: Problem,
+    /// Where the motions start that are shown beside it.
+    pub others: Starts,
     /// Speed of the belt, in m/s; `None` where the scene is of no machine.
     pub belt_speed: Option<f64>,
     /// Step sizes of the parameter pane.
@@ -160,6 +163,7 @@ impl Session {
     pub fn opened(scene: Arc<Scene>, size: Size, keymap: Arc<Keymap>) -> Self {
         Session {
             problem: scene.problem,
+            others: Starts::default(),
             belt_speed: Stand::of_scene(&scene).belt_speed,
             steps: Steps::of_scene(&scene),
             selected: Row::FIRST,

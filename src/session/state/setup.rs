@@ -1,13 +1,16 @@
-//! The motion on show and the speed of the belt, which change together.
+//! The motions on show and the speed of the belt, which change together.
 
 use crate::flow::Problem;
 use crate::scene::{Rig, Scene};
+use crate::session::state::starts::Starts;
 
-/// What a change changes: a motion, and the speed of the belt that its units are those of.
+/// What a change changes: the motions, and the speed of the belt that their units are those of.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stand {
-    /// Parameters, start, end time, method and tolerance.
+    /// The present motion: parameters, start, end time, method and tolerance.
     pub problem: Problem,
+    /// Where the motions beside it start.
+    pub others: Starts,
     /// Speed of the belt, in m/s; `None` where the scene is of no machine.
     pub belt_speed: Option<f64>,
 }
@@ -17,12 +20,13 @@ impl Stand {
     #[must_use]
     pub fn of_scene(scene: &Scene) -> Self {
         let speed = |rig: &Rig| rig.machine.belt.belt_speed;
-        Stand { problem: scene.problem, belt_speed: scene.machine.as_deref().map(speed) }
+        let belt_speed = scene.machine.as_deref().map(speed);
+        Stand { belt_speed, ..Stand::alone(scene.problem) }
     }
 
-    /// A motion of no machine.
+    /// One motion of no machine.
     #[must_use]
     pub fn alone(problem: Problem) -> Self {
-        Stand { problem, belt_speed: None }
+        Stand { problem, others: Starts::default(), belt_speed: None }
     }
 }

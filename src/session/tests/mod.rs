@@ -9,6 +9,7 @@ mod dial;
 mod drafts;
 mod entries;
 mod language;
+mod motions;
 mod names;
 mod plots;
 mod recorded;

@@ -1,0 +1,62 @@
+//! Where motions start that are shown beside the present one.
+
+use crate::oscillator::State;
+
+/// Motions that are shown at once, the present one among them.
+pub const MOST_MOTIONS: usize = 8;
+
+const REST: State = State { q: 0.0, v: 0.0 };
+
+/// Starts, the oldest first; as many as there is room for beside the present motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Starts {
+    states: [State; MOST_MOTIONS - 1],
+    count: usize,
+}
+
+impl Default for Starts {
+    fn default() -> Self {
+        Starts { states: [REST; MOST_MOTIONS - 1], count: 0 }
+    }
+}
+
+impl Starts {
+    /// These starts; `None` where there are too many.
+    #[must_use]
+    pub fn of(states: &[State]) -> Option<Self> {
+        let mut starts = Starts::default();
+        starts.states.get_mut(..states.len())?.copy_from_slice(states);
+        Some(Starts { count: states.len(), ..starts })
+    }
+
+    /// All of them, the oldest first.
+    #[must_use]
+    pub fn all(&self) -> &[State] {
+        &self.states[..self.count]
+    }
+
+    /// Adds a start, or makes it the newest; returns whether the oldest had to give way.
+    pub fn add(&mut self, start: State) -> bool {
+        let mut states: Vec<State> =
+            self.all().iter().copied().filter(|known| *known != start).collect();
+        states.push(start);
+        let full = states.len() == MOST_MOTIONS;
+        *self = Starts::of(&states[usize::from(full)..]).unwrap_or(*self);
+        full
+    }
+
+    /// The same without one.
+    #[must_use]
+    pub fn without(&self, start: State) -> Self {
+        let states: Vec<State> =
+            self.all().iter().copied().filter(|known| *known != start).collect();
+        Starts::of(&states).unwrap_or(*self)
+    }
+
+    /// Every start changed alike.
+    #[must_use]
+    pub fn map(mut self, change: impl Fn(State) -> State) -> Self {
+        self.states[..self.count].iter_mut().for_each(|state| *state = change(*state));
+        self
+    }
+}
