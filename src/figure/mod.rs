@@ -85,6 +85,15 @@ pub fn file(figure: &Figure, form: Form) -> Result<Vec<u8>, String> {
 const UNITS: &str =
     "dimensionless, as in equation (4): time tau in 1/omega_0, q in x0, v in omega_0 x0";
 
+/// What a plot of a session shows.
+fn panel(session: &Session, plot: usize) -> Panel {
+    let mut picture = picture::of(session, plot);
+    if session.has_equal_units(plot) {
+        picture.window = picture.window.with_equal_units(layout::PLOT.0, layout::PLOT.1);
+    }
+    Panel::of(&picture)
+}
+
 impl Figure {
     /// What these plots of a session show.
     #[must_use]
@@ -100,7 +109,7 @@ impl Figure {
             until,
             method: method.to_string(),
             tolerance,
-            panels: plots.into_iter().map(|plot| Panel::of(&picture::of(session, plot))).collect(),
+            panels: plots.into_iter().map(|plot| panel(session, plot)).collect(),
         }
     }
 }

@@ -57,6 +57,60 @@ const FILES: [(&str, &str); 37] = [
     scene_file!("fig17"),
 ];
 
+/// Lessons that show the phenomenon of a figure of the paper, and that figure.
+const TWINS: [(&str, &str); 5] = [
+    ("linear", "fig07"),
+    ("marginal", "fig16a"),
+    ("supercritical", "fig16b"),
+    ("subcritical", "fig16c"),
+    ("asymmetry", "fig13"),
+];
+
+/// The figure of the paper that shows what a lesson shows.
+#[must_use]
+pub fn figure_of(lesson: &str) -> Option<&'static str> {
+    TWINS.into_iter().find(|(name, _)| *name == lesson).map(|(_, figure)| figure)
+}
+
+/// The lesson that shows what a figure of the paper shows.
+#[must_use]
+pub fn lesson_of(figure: &str) -> Option<&'static str> {
+    TWINS.into_iter().find(|(_, name)| *name == figure).map(|(lesson, _)| lesson)
+}
+
+/// What a scene is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Group {
+    /// To learn about the oscillator.
+    Lesson,
+    /// To see a figure of the paper.
+    Figure,
+    /// A mass on a belt, in physical units.
+    Machine,
+}
+
+impl Group {
+    /// The group of a scene of the program.
+    #[must_use]
+    pub fn of(scene: &Scene) -> Self {
+        match scene.machine {
+            _ if scene.name.starts_with("fig") => Group::Figure,
+            Some(_) => Group::Machine,
+            None => Group::Lesson,
+        }
+    }
+
+    /// Its heading in a list.
+    #[must_use]
+    pub fn title(self) -> &'static str {
+        match self {
+            Group::Lesson => "Lessons",
+            Group::Figure => "Figures of the paper",
+            Group::Machine => "Machines",
+        }
+    }
+}
+
 /// The scenes that come with the program, in the order in which they are listed.
 ///
 /// # Panics
@@ -229,6 +283,21 @@ mod tests {
         on_disk.sort();
         listed.sort();
         assert_eq!(on_disk, listed);
+    }
+
+    #[test]
+    fn twins_are_a_lesson_and_a_figure_with_the_same_terms() {
+        for (lesson, figure) in TWINS {
+            let [one, other] = [lesson, figure].map(|name| find(name).unwrap());
+            assert_eq!((Group::of(&one), Group::of(&other)), (Group::Lesson, Group::Figure));
+            assert_eq!(one.terms, other.terms, "{lesson}");
+            let number = |title: &str| title.rsplit_once('(').map(|(_, number)| number.to_owned());
+            assert_eq!(
+                number(&one.title),
+                number(&other.title),
+                "{lesson}: the figure in its title"
+            );
+        }
     }
 
     #[test]

@@ -203,6 +203,23 @@ impl Window {
         Point { x: self.x.clamp(point.x), y: self.y.clamp(point.y) }
     }
 
+    /// The smallest window around this one, with the same middle, in which a circle looks like one in a
+    /// picture that is so wide and high; unchanged at the limits, and where the picture would be lost in it.
+    #[must_use]
+    pub fn with_equal_units(self, width: f64, height: f64) -> Self {
+        /// The most that is added, as a factor of the width or the height.
+        const MOST: f64 = 8.0;
+        let factor = (self.x.width() / width) / (self.y.width() / height);
+        let about = self.center();
+        if !(1.0 / MOST..=MOST).contains(&factor) {
+            self
+        } else if factor < 1.0 {
+            Window { x: self.x.scaled(about.x, 1.0 / factor), ..self }
+        } else {
+            Window { y: self.y.scaled(about.y, factor), ..self }
+        }
+    }
+
     /// The middle.
     #[must_use]
     pub fn center(self) -> Point {
@@ -212,6 +229,17 @@ impl Window {
 
 #[cfg(test)]
 mod tests {
+    #[test]
+    fn equal_units_add_to_one_side_and_keep_the_middle() {
+        let window = Window { x: Span::known(-1.0, 1.0), y: Span::known(0.0, 1.0) };
+        let wide = window.with_equal_units(400.0, 100.0);
+        assert_eq!(wide, Window { x: Span::known(-2.0, 2.0), ..window });
+        let high = window.with_equal_units(100.0, 100.0);
+        assert_eq!(high, Window { y: Span::known(-0.5, 1.5), ..window });
+        assert_eq!(window.with_equal_units(200.0, 100.0), window);
+        assert_eq!(window.with_equal_units(1e9, 1.0), window, "nothing would be left of it");
+    }
+
     use proptest::prelude::*;
 
     use super::*;

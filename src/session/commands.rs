@@ -324,6 +324,8 @@ const COMMANDS: &[Row] = &[
         "Copy the characters on the screen", |_, _| vec![Effect::CopyScreen]),
     row("glyphs", &[(Everywhere, &["g"])], "",
         "Draw with other characters: braille, octants, blocks, ASCII", |s, _| general::glyphs(s)),
+    row("equal", &[(Everywhere, &["E"])], "",
+        "Draw phase planes with equal units, or over all of their place", |s, _| general::equal(s)),
     row("mouse", &[(Everywhere, &["<f2>"])], "",
         "Let the mouse start motions and zoom, or leave it to the terminal", |s, _| mouse::toggle(s)),
     row("theme", &[(Everywhere, &["T"])], "",

@@ -92,6 +92,8 @@ const LINES: &[Row] = &[
         Words::Registers, files::read_macro),
     row("theme", "NAME", "Use these colours",
         Words::Themes, values::theme),
+    row("equal", "on|off", "Draw a circle in a phase plane as one, or use all room",
+        Words::Switch, values::equal),
     row("glyphs", "NAME", "Draw with these characters",
         Words::Glyphs, values::glyphs),
     row("color", "DEPTH", "Use this many colours",
@@ -130,6 +132,6 @@ mod tests {
     fn a_name_may_mean_a_key_too_only_where_the_key_takes_the_next_of_the_same() {
         let is_key = |name: &&str| commands().any(|command| command.name == *name);
         let both: Vec<_> = lines().map(|line| line.name).filter(is_key).collect();
-        assert_eq!(both, ["theme", "glyphs"]);
+        assert_eq!(both, ["theme", "equal", "glyphs"]);
     }
 }

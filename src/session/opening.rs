@@ -48,10 +48,12 @@ fn looks(look: Look) -> Vec<Step> {
         row.map(|row| Step::Run(format!("{name} {}", row.1)))
     }
     let mouse = look.mouse.then(|| Step::Run("mouse".to_owned()));
+    let equal = look.stretched.then(|| Step::Run("equal off".to_owned()));
     let lines = [
         line("glyphs", &GLYPHS, look.glyphs),
         line("color", &COLORS, look.colors),
         line("theme", &THEMES, look.theme),
+        equal,
         mouse,
     ];
     lines.into_iter().flatten().collect()

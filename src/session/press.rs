@@ -39,7 +39,7 @@ fn act(session: &mut Session, key: Key) -> Vec<Effect> {
     }
     if let Some(char) = key.typed().filter(|_| contexts[0].takes_text()) {
         typing::insert(session, &char.to_string());
-    } else if let Some(command) = elsewhere(session, key).filter(|_| session.overlay.is_none()) {
+    } else if let Some(command) = elsewhere(session, key) {
         return run_where_it_belongs(session, command, key);
     } else {
         let help = session.keymap.key_of("help");

@@ -8,6 +8,7 @@ use super::layout::{Layout, SMALLEST, layout};
 use super::look::Look;
 use super::paint::paint;
 use super::pane::Heading;
+use super::plot::shown;
 use super::{caption, energy_ledger, footer, lists, parameters, scan, scan_form, status};
 use crate::picture::role::Role;
 use crate::picture::{self, items::Picture};
@@ -41,13 +42,21 @@ pub fn render(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer)
 fn panes(parts: &Layout, session: &Session, look: &Look, buffer: &mut Buffer) {
     status::title(parts.title, session, look, buffer);
     let shown = parts.plots.iter().enumerate().filter(|(_, area)| !area.is_empty());
-    let pictures: Vec<_> = shown.clone().map(|(index, _)| picture::of(session, index)).collect();
+    let pictures = shown.clone().map(|(index, area)| framed(*area, session, index));
+    let pictures: Vec<_> = pictures.collect();
     parameters::draw(parts.parameters, session, &pictures, look, buffer);
     for ((index, area), picture) in shown.zip(pictures) {
         plot(*area, session, index, picture, look, buffer);
     }
     status::draw(parts.status, session, look, buffer);
     footer::draw(parts.footer, session, look, buffer);
+}
+
+/// The picture of a plot in its place.
+fn framed(area: Rect, session: &Session, index: usize) -> Picture {
+    let mut picture = picture::of(session, index);
+    picture.window = shown(area, session, index, picture.scales);
+    picture
 }
 
 /// Draws the plot with this index.
@@ -100,7 +109,7 @@ pub fn panels(session: &Session, (width, height): (u16, u16), look: &Look) -> Ve
     let area = Rect { x: 0, y: 0, width, height };
     let panel = |index: usize| {
         let mut buffer = Buffer::empty(area);
-        plot(area, session, index, picture::of(session, index), look, &mut buffer);
+        plot(area, session, index, framed(area, session, index), look, &mut buffer);
         buffer
     };
     (0..session.plots.len()).map(panel).collect()

@@ -14,6 +14,7 @@ use super::look::Look;
 use super::pane;
 use super::paper;
 use crate::picture::role::Role;
+use crate::scene::library::{Group, figure_of};
 use crate::scene::said::said;
 use crate::scene::{Layer, ViewSpec, letters};
 use crate::session::read::palette::PaletteRow;
@@ -172,24 +173,34 @@ fn keys_of(session: &Session, row: PaletteRow, look: &Look) -> Vec<String> {
     }
 }
 
-/// The scenes, and what there is to see and to do in the selected one.
+/// The scenes in their groups, and what there is to see and to do in the selected one.
 fn scenes(session: &Session, list: &List, look: &Look) -> Content {
     let found = session.scene_rows(list);
-    let row = |name: &str, title: &str| {
-        Entry::Row(vec![
-            Span::styled(format!("{name:<14}"), look.style(Role::Key)),
-            Span::styled(title.to_owned(), look.style(Role::Text)),
-        ])
-    };
+    let whole = list.search.is_empty();
+    let mut rows = Vec::new();
+    let mut group = None;
+    for scene in &found {
+        if whole && group != Some(Group::of(scene)) {
+            group = Some(Group::of(scene));
+            rows.extend(group.map(|group| Entry::Heading(group.title())));
+        }
+        let figure = figure_of(&scene.name).filter(|_| whole).unwrap_or_default();
+        rows.push(Entry::Row(vec![
+            Span::styled(format!("{:<14}", scene.name), look.style(Role::Key)),
+            Span::styled(format!("{figure:<7}"), look.style(Role::Quiet)),
+            Span::styled(scene.title.as_str(), look.style(Role::Text)),
+        ]));
+    }
     let about = found.get(list.selected).map(|scene| {
         let quiet = look.style(Role::Quiet);
         // Nothing is known yet of a scene that is not open.
         let always = |text: &str| said(text, |_| false);
         let text =
             |text: &str| Line::styled(keys::sentence(&always(text), &session.keymap, look), quiet);
-        vec![text(&scene.look), Line::default(), text(&scene.press)]
+        let figure = figure_of(&scene.name)
+            .map(|name| Line::styled(format!(":scene {name} is the picture of the paper."), quiet));
+        [text(&scene.look), Line::default(), text(&scene.press)].into_iter().chain(figure).collect()
     });
-    let rows = found.iter().map(|scene| row(&scene.name, &scene.title)).collect();
     Content { title: "scenes", rows, about: about.unwrap_or_default(), below: TEXT }
 }
 

@@ -245,7 +245,7 @@ mod tests {
     use crate::session::settings::THEMES;
 
     fn look(theme: Theme, glyphs: Glyphs, colors: Colors) -> Look {
-        Look::new(settings::Look { glyphs, colors, theme, mouse: false })
+        Look::new(settings::Look { glyphs, colors, theme, ..settings::Look::default() })
     }
 
     #[test]

@@ -4,7 +4,7 @@ use ratatui::layout::{Position, Rect};
 
 use super::energy_ledger;
 use super::layout::layout;
-use super::plot::point_at;
+use super::plot::{point_at, shown};
 use super::scan;
 use crate::picture;
 use crate::scene::View;
@@ -19,8 +19,9 @@ pub fn place(screen: Rect, session: &Session, cell: Position) -> Option<Place> {
         return (cell.y - parts.parameters.y).checked_sub(1).map(|row| Place::Row(row.into()));
     }
     let index = parts.plots.iter().position(|area| area.contains(cell))?;
-    let (area, window) = (parts.plots[index], session.plots[index].window);
+    let area = parts.plots[index];
     let scales = picture::scales(session, index);
+    let window = shown(area, session, index, scales);
     let point = match session.plots[index].view {
         View::EnergyLedger => {
             let (window, marks) = energy_ledger::marks(area, session, window);

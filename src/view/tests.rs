@@ -231,7 +231,7 @@ fn without_colour_no_cell_has_any_and_stable_still_differs_from_unstable() {
     for (glyphs, _) in GLYPHS {
         for (theme, _) in THEMES {
             let colors = Colors::Never;
-            let look = settings::Look { glyphs, colors, theme, mouse: false };
+            let look = settings::Look { glyphs, colors, theme, ..braille() };
             let session = settled("supercritical", 80, 24, "");
             let colourless = draw(&session, look);
             let coloured = draw(&session, settings::Look { colors: Colors::Sixteen, ..look });

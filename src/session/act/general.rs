@@ -78,6 +78,18 @@ pub fn theme(session: &mut Session) -> Vec<Effect> {
     Vec::new()
 }
 
+/// Draws phase planes with equal units, or over all of their place.
+pub fn equal(session: &mut Session) -> Vec<Effect> {
+    session.look.stretched = !session.look.stretched;
+    let text = if session.look.stretched {
+        "phase planes fill their place: a circle need not look like one"
+    } else {
+        "equal units: a circle looks like one"
+    };
+    inform(session, text);
+    Vec::new()
+}
+
 /// Closes what is open.
 pub fn back(session: &mut Session) -> Vec<Effect> {
     session.overlay = None;

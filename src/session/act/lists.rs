@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use crate::scene::{find, letters, library};
+use crate::scene::library::lesson_of;
+use crate::scene::{find, letters};
 use crate::session::act::desk::show;
 use crate::session::act::general::toggle;
 use crate::session::act::history::open_scene;
@@ -18,7 +19,10 @@ pub const PAGE: isize = 10;
 
 /// Opens the scene picker, with the present scene selected.
 pub fn open_scenes(session: &mut Session) -> Vec<Effect> {
-    let present = library().iter().position(|scene| scene.name == session.scene.name);
+    let name = session.scene.name.as_str();
+    let shown = lesson_of(name).unwrap_or(name);
+    let rows = session.scene_rows(&List::default());
+    let present = rows.iter().position(|scene| scene.name == shown);
     let list = List { selected: present.unwrap_or(0), ..List::default() };
     session.overlay = Some(Overlay::List(Listed::Scenes, list));
     Vec::new()

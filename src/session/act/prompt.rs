@@ -4,7 +4,7 @@ use crate::session::effect::Effect;
 use crate::session::read::completion::completion;
 use crate::session::state::command::Chosen;
 use crate::session::state::input::Input;
-use crate::session::state::overlay::{Completion, Overlay, Prompt};
+use crate::session::state::overlay::{Completion, List, Listed, Overlay, Prompt};
 use crate::session::state::session::Session;
 
 /// Lines that are remembered at most.
@@ -21,7 +21,8 @@ pub fn open_with(session: &mut Session, text: String) -> Vec<Effect> {
     Vec::new()
 }
 
-/// The typed command, to be run. An empty line is closed.
+/// The typed command, to be run. An empty line is closed; words that are no command are looked for in the
+/// list of everything, which stays open if they are found there.
 pub fn accept(session: &mut Session) -> Option<Chosen> {
     let Some(Overlay::Prompt(prompt)) = &session.overlay else { return None };
     let text = prompt.input.text().trim().to_owned();
@@ -29,8 +30,22 @@ pub fn accept(session: &mut Session) -> Option<Chosen> {
         session.overlay = None;
         return None;
     }
+    if let Some(found) = search(session, &text) {
+        session.overlay = Some(Overlay::List(Listed::Palette, found));
+        return None;
+    }
     remember(session, &text);
     Some(Chosen::Line(text))
+}
+
+/// The list of everything, searched for words that begin with no command; `None` if nothing is found.
+fn search(session: &Session, text: &str) -> Option<List> {
+    let name = text.split_whitespace().next()?;
+    if session.keymap.named(name).is_some() || session.keymap.line(name).is_some() {
+        return None;
+    }
+    let list = List { search: text.to_owned(), searching: true, ..List::default() };
+    (!session.palette_rows(&list).is_empty()).then_some(list)
 }
 
 /// Keeps a line, as the newest one and only once.

@@ -202,6 +202,16 @@ pub fn glyphs(session: &mut Session, name: &str) -> Done {
     Ok(Vec::new())
 }
 
+/// Draws phase planes with equal units, or not.
+pub fn equal(session: &mut Session, state: &str) -> Done {
+    session.look.stretched = match state {
+        "on" => false,
+        "off" => true,
+        _ => return Err(format!("equal units can be on or off, not {state:?}")),
+    };
+    Ok(Vec::new())
+}
+
 /// Uses so many colours.
 pub fn color(session: &mut Session, name: &str) -> Done {
     session.look.colors = look(&COLORS, name)?;

@@ -25,6 +25,7 @@ fn complete(session: &Session, kind: Words, given: &[&str]) -> Vec<String> {
         Words::Views => owned(&VIEWS.map(|row| row.name)),
         Words::Layers if first => owned(&LAYERS.map(|row| row.name)),
         Words::Layers if given.len() == 2 => owned(&["on", "off"]),
+        Words::Switch if first => owned(&["on", "off"]),
         Words::Axes if first => owned(&ABSCISSAE.map(|(symbol, _)| symbol.spec().name)),
         Words::Axes if given.len() == 2 => properties().collect(),
         Words::Window => windows(session),
@@ -34,7 +35,7 @@ fn complete(session: &Session, kind: Words, given: &[&str]) -> Vec<String> {
         Words::Themes => owned(&THEMES.map(|row| row.1)),
         Words::Glyphs => owned(&GLYPHS.map(|row| row.1)),
         Words::Colors => owned(&COLORS.map(|row| row.1)),
-        Words::Unknown | Words::Layers | Words::Axes => Vec::new(),
+        Words::Unknown | Words::Layers | Words::Switch | Words::Axes => Vec::new(),
     }
 }
 

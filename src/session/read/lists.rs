@@ -2,16 +2,24 @@
 
 use std::sync::Arc;
 
+use crate::scene::library::{Group, lesson_of};
 use crate::scene::{LAYERS, LayerSpec, Scene, VIEWS, View, ViewSpec, library};
 use crate::session::state::overlay::{List, Listed, Overlay};
 use crate::session::state::session::Session;
 use crate::study::claims::{Claim, Examined, Verdict, claims};
 
 impl Session {
-    /// The scenes that the picker lists.
+    /// The scenes that the picker lists, in groups. A lesson stands for the figure that shows the same, as
+    /// long as nothing is searched.
     #[must_use]
     pub fn scene_rows(&self, list: &List) -> Vec<&'static Arc<Scene>> {
-        library().iter().filter(|scene| list.matches(&[&scene.name, &scene.title])).collect()
+        let all = list.search.trim().is_empty();
+        let found = library().iter().filter(|scene| {
+            list.matches(&[&scene.name, &scene.title]) && !(all && lesson_of(&scene.name).is_some())
+        });
+        let mut rows: Vec<_> = found.collect();
+        rows.sort_by_key(|scene| Group::of(scene));
+        rows
     }
 
     /// The layers that the layer list shows: those of the plot in use first.

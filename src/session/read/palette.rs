@@ -52,6 +52,7 @@ pub(in crate::session) const ALIASES: &[(&str, &str)] = &[
     ("add-plot", "split window"),
     ("remove-plot", "close window"),
     ("enlarge", "zoom maximize full"),
+    ("equal", "aspect circle square isometric"),
     ("theme", "colour dark light contrast"),
     ("color", "colour depth"),
     ("glyphs", "braille ascii characters"),
@@ -203,8 +204,11 @@ pub(in crate::session) fn place(
 }
 
 /// The command that a key has in a plot that is on show but not in focus; else one of a view that no plot
-/// shows.
+/// shows. What is open keeps its keys.
 pub(in crate::session) fn elsewhere(session: &Session, key: Key) -> Option<&'static Command> {
+    if session.overlay.is_some() {
+        return None;
+    }
     let views = VIEWS.iter().map(|row| Context::of(row.view));
     let found = views.filter_map(|context| {
         let command = session.keymap.command(&[context], key)?;

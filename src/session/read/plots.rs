@@ -6,6 +6,12 @@ use crate::session::state::plot::{Framing, Pane, Plot};
 use crate::session::state::session::Session;
 
 impl Session {
+    /// Whether a plot shows a circle as a circle.
+    #[must_use]
+    pub fn has_equal_units(&self, plot: usize) -> bool {
+        self.plots[plot].view == View::Phase && !self.look.stretched
+    }
+
     /// The indices of the plots on show.
     #[must_use]
     pub fn on_show(&self) -> std::ops::Range<usize> {

@@ -10,8 +10,7 @@ use crate::session::message::Msg;
 use crate::session::message::key::{Code, Key};
 use crate::session::message::pointer::{Place, Pointed};
 use crate::session::read::fit;
-use crate::session::read::palette::PaletteRow;
-use crate::session::read::palette::place;
+use crate::session::read::palette::{PaletteRow, elsewhere, place};
 use crate::session::read::wants::COMPARED;
 use crate::session::state::command::Command;
 use crate::session::state::context::Context;
@@ -94,7 +93,9 @@ impl Session {
             Some(Pending::Letter { .. }) => return None,
             Some(Pending::Count(_)) | None => {}
         }
-        let command = self.keymap.command(self.contexts_at_rest(), key)?;
+        let Some(command) = self.keymap.command(self.contexts_at_rest(), key) else {
+            return self.awaited_by_command(elsewhere(self, key)?);
+        };
         match (&self.overlay, command.name) {
             (Some(Overlay::Prompt(prompt)), "run-line") => {
                 self.awaited_by_line(prompt.input.text().trim())

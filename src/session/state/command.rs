@@ -59,6 +59,8 @@ pub enum Words {
     Views,
     /// A layer, then on or off.
     Layers,
+    /// On or off.
+    Switch,
     /// A window.
     Window,
     /// A parameter, then a property of the cycles.

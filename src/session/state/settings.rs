@@ -83,6 +83,8 @@ pub struct Look {
     pub theme: Theme,
     /// Whether the terminal reports the mouse; without, it selects text.
     pub mouse: bool,
+    /// Whether phase planes fill their place, a unit across not as long as a unit up.
+    pub stretched: bool,
 }
 
 /// The value and name that follow `current` in a table such as [`GLYPHS`], around the end.

@@ -282,6 +282,30 @@ fn scenes_views_layers_and_claims_are_run_from_the_palette() {
 }
 
 #[test]
+fn words_that_are_no_command_are_looked_for_in_the_list_of_everything() {
+    let mut desk = Desk::open("supercritical");
+    run(&mut desk, "animate");
+    assert!(
+        matches!(&desk.session.overlay, Some(Overlay::List(Listed::Palette, list)) if list.search == "animate")
+    );
+    desk.press("<enter>");
+    assert!(desk.session.overlay.is_none() && desk.session.playback.playing, "{}", desk.notice());
+    run(&mut desk, "fig 16");
+    assert!(matches!(desk.session.overlay, Some(Overlay::List(Listed::Palette, _))));
+}
+
+#[test]
+fn scenes_are_picked_from_groups_in_which_a_lesson_stands_for_its_figure() {
+    let mut desk = Desk::open("fig16b");
+    desk.press("s<enter>");
+    assert_eq!(desk.session.scene.name, "supercritical");
+    desk.press("s/fig16b<enter>");
+    assert_eq!(desk.session.scene.name, "fig16b");
+    desk.press("s<end><enter>");
+    assert!(desk.session.scene.machine.is_some());
+}
+
+#[test]
 fn a_key_of_another_plot_on_show_goes_there() {
     let mut desk = Desk::open("plain");
     desk.press("<tab> N");

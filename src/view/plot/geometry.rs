@@ -10,6 +10,7 @@ use ratatui::layout::{Position, Rect};
 
 use crate::picture::ticks::{Scale, Tick, Ticks};
 use crate::scene::{Point, Span, Window};
+use crate::session::Session;
 use crate::words::number::resolved;
 
 /// Smallest area in which axes stand outside the picture; below it labels lie inside.
@@ -51,6 +52,22 @@ impl Geometry {
         let rightward = Some(spaced(3)).filter(|ticks| ticks.ticks.len() > 1).unwrap_or(spaced(1));
         Geometry { inner, roomy, rightward, upward }
     }
+}
+
+/// The part of the world that a plot shows in `area`: its window, and more where units are to be as long
+/// across as up.
+#[must_use]
+pub fn shown(area: Rect, session: &Session, index: usize, scales: [Scale; 2]) -> Window {
+    let window = session.plots[index].window;
+    if !session.has_equal_units(index) {
+        return window;
+    }
+    // A cell is twice as high as wide. The labels at the left may need more room in the wider window.
+    let equal = |shown: Window| {
+        let Rect { width, height, .. } = Geometry::of(area, shown, scales, None).inner;
+        window.with_equal_units(f64::from(width), 2.0 * f64::from(height))
+    };
+    equal(equal(window))
 }
 
 /// Rows of the raster of a plot in `area`.

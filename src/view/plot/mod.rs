@@ -17,7 +17,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use geometry::{Geometry, centred, column};
-pub use geometry::{point_at, rows};
+pub use geometry::{point_at, rows, shown};
 
 use super::dots::{Dots, Pen};
 use super::look::Look;
