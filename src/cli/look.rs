@@ -33,6 +33,7 @@ impl Looks {
             colors: self.color.or(config.colors).unwrap_or_default(),
             theme: self.theme.or(config.theme).unwrap_or_default(),
             mouse: self.mouse || config.mouse,
+            stretched: false,
         }
     }
 }

@@ -28,7 +28,10 @@ impl Files {
     /// Keeps a copy, and says what became of it.
     #[must_use]
     pub fn copy(&self, text: &str) -> Notice {
-        let sent = "sent to the terminal's clipboard".to_owned();
+        /// Longest text that is told as a whole.
+        const SHORT: usize = 60;
+        let told = if text.chars().count() <= SHORT && !text.contains('\n') { text } else { "" };
+        let sent = format!("{told} sent to the terminal's clipboard").trim_start().to_owned();
         match &self.copies {
             None => Notice { error: false, text: sent },
             Some(path) => {

@@ -10,7 +10,7 @@ use crate::session::lines;
 use crate::session::message::key::{Code, Key};
 use crate::session::read::completion::names;
 use crate::session::read::palette::{elsewhere, place};
-use crate::session::state::command::{Chosen, Command};
+use crate::session::state::command::{Chosen, Command, full_name};
 use crate::session::state::context::Context;
 use crate::session::state::history::Before;
 use crate::session::state::overlay::{Overlay, Prompt};
@@ -182,7 +182,7 @@ fn run_typed(session: &mut Session, text: &str) -> Vec<Effect> {
 /// One line that says what is wrong and what is allowed; the session is as it was.
 pub fn run_line(session: &mut Session, text: &str) -> Result<Vec<Effect>, String> {
     let (name, rest) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
-    let rest = rest.trim();
+    let (name, rest) = (full_name(name), rest.trim());
     let (line, command) = (session.keymap.line(name), session.keymap.named(name));
     match (line, command) {
         (_, Some(command)) if rest.is_empty() => Ok(run_where_it_belongs(session, command, ENTER)),

@@ -111,6 +111,11 @@ fn paste(session: &mut Session, text: &str) -> Vec<Effect> {
         session.overlay = Some(Overlay::Entry(entry));
         return Vec::new();
     }
+    // Words without any key by its name are rather pasted by mistake.
+    if !text.contains('<') && !text.trim_start().starts_with('#') {
+        refuse(session, "the pasted text names no key, as <right>: it is no keystroke file");
+        return Vec::new();
+    }
     match parse(text) {
         Ok(script) if script.keys() > 0 => session.overlay = Some(Overlay::Offer(script)),
         Ok(_) => inform(session, "the pasted text presses no key"),

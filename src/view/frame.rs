@@ -53,7 +53,7 @@ fn panes(parts: &Layout, session: &Session, look: &Look, buffer: &mut Buffer) {
 }
 
 /// The picture of a plot in its place.
-fn framed(area: Rect, session: &Session, index: usize) -> Picture {
+fn framed(area: Rect, session: &Session, index: usize) -> Picture<'_> {
     let mut picture = picture::of(session, index);
     picture.window = shown(area, session, index, picture.scales);
     picture

@@ -3,6 +3,7 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
+use ratatui::style::Modifier;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Clear, Widget};
 
@@ -119,7 +120,10 @@ pub fn title(
     let order = if names_first { [names, title, held] } else { [title, held, names] };
     let shown = order.into_iter().find(|text| whole(text) && !text.is_empty());
     let shown = shown.filter(|_| !both).unwrap_or(title);
-    let mut left = vec![Span::styled(format!("{pointer}{shown}"), look.style(role))];
+    // The pane that has the keys is told at a glance, in any colours.
+    let style = look.style(role);
+    let style = if heading.focused { style.add_modifier(Modifier::REVERSED) } else { style };
+    let mut left = vec![Span::styled(format!("{pointer}{shown}"), style)];
     if both {
         left.push(Span::styled(format!("  {names}"), look.style(Role::Quiet)));
     }

@@ -10,7 +10,7 @@ use super::look::Look;
 use crate::flow::{Method, Outcome, Problem, Reason, Sample};
 use crate::oscillator::{Parameters, State, Symbol};
 use crate::scene::answer::Failure;
-use crate::scene::library::{find, library};
+use crate::scene::library::{find, lesson_of, library};
 use crate::scene::{
     Answer, Answered, Axes, Exhibit, LAYERS, Layer, Point, Scene, Span, View, Window,
 };
@@ -175,7 +175,12 @@ fn a_search_leaves_what_contains_it() {
 fn the_scene_picker_shows_every_scene_and_what_the_selected_one_is_about() {
     let session = settled("linear", 100, 60, "s");
     let screen = text(&draw(&session, letters()));
-    assert!(library().iter().all(|scene| screen.contains(&scene.title)), "{screen}");
+    let mut own = library().iter().filter(|scene| lesson_of(&scene.name).is_none());
+    assert!(own.all(|scene| screen.contains(&scene.title)), "{screen}");
+    assert!(screen.contains("supercritical fig16b Friction turns"), "{screen}");
+    assert!(
+        ["Lessons", "Figures of the paper", "Machines"].iter().all(|group| screen.contains(group))
+    );
     let always = crate::scene::said::said(&session.scene.look, |_| false);
     let first: Vec<&str> = always.split_whitespace().take(4).collect();
     assert!(screen.contains(&first.join(" ")), "{screen}");

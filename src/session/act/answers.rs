@@ -8,7 +8,7 @@ use crate::scene::{Answer, Answered, Fit, Topic, View};
 use crate::session::act::notice::refuse;
 use crate::session::read::fit::{fitted, is_pending};
 use crate::session::state::plot::Framing;
-use crate::session::state::scan::Progress;
+use crate::session::state::scan::{Progress, SCANNING};
 use crate::session::state::session::{Recomputed, Session};
 
 impl Session {
@@ -67,6 +67,9 @@ impl Session {
         }
         if scanned.rows.len() == scanned.scan.points() {
             scanned.progress = Progress::Done;
+            if let Some(notice) = self.notice.as_mut().filter(|notice| notice.text == SCANNING) {
+                notice.text = format!("scanned: {} rows", scanned.rows.len());
+            }
         }
         for plot in self.plots.iter_mut().filter(|plot| plot.view == View::Scan) {
             plot.window = scanned.window();

@@ -1,12 +1,17 @@
-//! Copies: the pane in focus as a command line for the shell.
+//! Copies: a number or a point, with what belongs to it, and the pane in focus as a command line for the shell.
 
 use crate::flow::Problem;
 use crate::flow::method::Dial;
+use crate::oscillator::parameters::ParameterSpec;
 use crate::oscillator::{PARAMETERS, Symbol};
-use crate::scene::View;
+use crate::scene::{Axes, View};
+use crate::session::act::notice::refuse;
 use crate::session::effect::Effect;
+use crate::session::read::numbers;
+use crate::session::state::rows::Row;
 use crate::session::state::session::Session;
 use crate::session::state::step_size::shortest;
+use crate::study::measure::Value;
 
 /// Points of a copied branch: as many as a wide plot has columns.
 const BRANCH_POINTS: usize = 200;
@@ -14,6 +19,110 @@ const BRANCH_POINTS: usize = 200;
 /// Copies the command line that gives the numbers of the pane in focus.
 pub fn command(session: &mut Session) -> Vec<Effect> {
     vec![Effect::Copy(command_line(session))]
+}
+
+/// Copies the number or the point that is looked at.
+pub fn number(session: &mut Session) -> Vec<Effect> {
+    let looked_at = point(session);
+    copied(session, looked_at.into_iter().map(|(_, value)| value).collect())
+}
+
+/// Copies what is looked at with all that belongs to it, as a line of `set` would have it.
+pub fn row(session: &mut Session) -> Vec<Effect> {
+    let mut named = point(session);
+    if !named.is_empty() {
+        named.extend(belonging(session));
+    }
+    let mut known = std::collections::BTreeSet::new();
+    named.retain(|(name, _)| known.insert(name.clone()));
+    copied(session, named.into_iter().map(|(name, value)| format!("{name}={value}")).collect())
+}
+
+fn copied(session: &mut Session, words: Vec<String>) -> Vec<Effect> {
+    if words.is_empty() {
+        refuse(session, "nothing is pointed at: arrows show a cursor");
+        return Vec::new();
+    }
+    vec![Effect::Copy(words.join(" "))]
+}
+
+/// A number and what it is called.
+type Named = (String, String);
+
+fn named(name: &str, value: f64) -> Named {
+    (name.to_owned(), shortest(value))
+}
+
+fn measured(value: &Value) -> String {
+    match value {
+        Value::Nothing => "-".to_owned(),
+        Value::Number(value) => shortest(*value),
+        Value::Count(count) => count.to_string(),
+        Value::Word(word) => (*word).to_owned(),
+    }
+}
+
+/// What is looked at: the held point of a branch, the point of a scan, the selected value, the cursor.
+fn point(session: &Session) -> Vec<Named> {
+    let Some(plot) = session.focused() else {
+        let row = session.selected;
+        return vec![match row {
+            Row::Method => (row.name().to_owned(), session.problem.method.to_string()),
+            row => named(row.name(), numbers::number(&session.stand(), row)),
+        }];
+    };
+    let Axes { abscissa, against, ordinate, .. } = plot.axes;
+    if let Some(held) = session.held {
+        let height = held.cycle.map(|cycle| named("q_max", cycle.q_max));
+        return std::iter::once(named(abscissa.spec().name, held.value)).chain(height).collect();
+    }
+    if let (View::Scan, Some(scanned)) = (plot.view, &session.scanned) {
+        let column = scanned.scan.measured().get(scanned.column).copied();
+        let value = scanned.rows.get(scanned.at).and_then(|row| row.values.get(scanned.column));
+        return column
+            .zip(value)
+            .map(|(name, value)| (name.to_string(), measured(value)))
+            .into_iter()
+            .collect();
+    }
+    let Some(at) = plot.cursor else { return Vec::new() };
+    let [x, y] = match plot.view {
+        View::Phase => ["q", "v"],
+        View::Diagram => [abscissa.spec().name, ordinate.spec().name],
+        View::Regimes => [abscissa.spec().name, against.spec().name],
+        View::TimeSeries => ["tau", "value"],
+        View::ReturnMap => ["q", "next"],
+        View::EnergyRate => ["v", "rate"],
+        View::Eigenvalues => ["Re", "Im"],
+        View::Speeds => ["v0", "x_max"],
+        View::Belt | View::EnergyLedger | View::Trade | View::Scan => ["x", "y"],
+    };
+    vec![named(x, at.x), named(y, at.y)]
+}
+
+/// What belongs to it: the other numbers of a cycle or of a row of a scan, and the parameters.
+fn belonging(session: &Session) -> Vec<Named> {
+    let mut all = Vec::new();
+    if let Some(cycle) = session.held.and_then(|held| held.cycle) {
+        all.extend([
+            named("q_min", cycle.q_min),
+            named("v_min", cycle.v_min),
+            named("v_max", cycle.v_max),
+            named("period", cycle.period),
+        ]);
+    }
+    let mut problem = session.problem;
+    if let Some(scanned) = session.scanned.as_ref().filter(|_| session.focuses_scan()) {
+        problem = scanned.scan.problem(scanned.at);
+        let values = scanned.rows.get(scanned.at).into_iter().flat_map(|row| &row.values);
+        let columns = scanned.scan.measured();
+        all.extend(
+            columns.iter().zip(values).map(|(name, value)| (name.to_string(), measured(value))),
+        );
+    }
+    let value = |row: &ParameterSpec| row.symbol.get(&problem.parameters, &problem.initial);
+    all.extend(PARAMETERS.iter().map(|row| named(row.name, value(row))));
+    all
 }
 
 /// The command line that gives the numbers of the pane in focus. It writes out every number, so that

@@ -1,6 +1,6 @@
 //! Commands of the parameter pane: select, step, reset.
 
-use crate::flow::{METHODS, Problem, QUALITIES};
+use crate::flow::{METHODS, Method, Problem, QUALITIES};
 use crate::numerics::elementary::log10;
 use crate::scene::Running;
 use crate::session::act::notice::{inform, refuse};
@@ -162,10 +162,13 @@ fn turn(session: &mut Session, decades: i32) -> Vec<Effect> {
 
 /// Takes the next method of the list, around its end.
 pub fn next_method(session: &mut Session, by: isize) -> Vec<Effect> {
-    let methods = METHODS.iter().map(|row| row.method);
-    let at = methods.clone().position(|method| method == session.problem.method).unwrap_or(0);
-    let next = at.checked_add_signed(by).unwrap_or(METHODS.len() - 1) % METHODS.len();
-    let row = &METHODS[next];
+    // Where there is no closed form its method could only give up.
+    let nonlinear = session.problem.parameters.d2 != 0.0 || session.problem.parameters.d3 != 0.0;
+    let usable = METHODS.iter().filter(|row| !(nonlinear && row.method == Method::Exact));
+    let rows: Vec<_> = usable.collect();
+    let at = rows.iter().position(|row| row.method == session.problem.method).unwrap_or(0);
+    let next = at.checked_add_signed(by).unwrap_or(rows.len() - 1) % rows.len();
+    let row = rows[next];
     session.measuring = true;
     change(session, Problem { method: row.method, ..session.problem });
     inform(session, format!("{}: {}", row.name, row.guarantee));

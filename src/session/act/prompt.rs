@@ -2,7 +2,7 @@
 
 use crate::session::effect::Effect;
 use crate::session::read::completion::completion;
-use crate::session::state::command::Chosen;
+use crate::session::state::command::{Chosen, full_name};
 use crate::session::state::input::Input;
 use crate::session::state::overlay::{Completion, List, Listed, Overlay, Prompt};
 use crate::session::state::session::Session;
@@ -40,7 +40,7 @@ pub fn accept(session: &mut Session) -> Option<Chosen> {
 
 /// The list of everything, searched for words that begin with no command; `None` if nothing is found.
 fn search(session: &Session, text: &str) -> Option<List> {
-    let name = text.split_whitespace().next()?;
+    let name = full_name(text.split_whitespace().next()?);
     if session.keymap.named(name).is_some() || session.keymap.line(name).is_some() {
         return None;
     }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::flow::Problem;
 use crate::scene::View;
-use crate::session::act::desk::show;
+use crate::session::act::desk::{add, show};
 use crate::session::act::focus::focus_on;
 use crate::session::act::notice::{inform, refuse};
 use crate::session::act::parameters::change;
@@ -15,7 +15,7 @@ use crate::session::state::input::Input;
 use crate::session::state::overlay::Overlay;
 use crate::session::state::plot::Pane;
 use crate::session::state::rows::Row;
-use crate::session::state::scan::{Progress, Scanned};
+use crate::session::state::scan::{Progress, SCANNING, Scanned};
 use crate::session::state::scan_form::Form;
 use crate::session::state::session::Session;
 use crate::session::state::step_size::shortest;
@@ -72,7 +72,10 @@ pub fn go_to_field(session: &mut Session, by: isize) -> Vec<Effect> {
 /// Takes the next choice of a field that has some; moves the caret of any other.
 pub fn sideways(session: &mut Session, by: isize) -> Vec<Effect> {
     let Some(form) = form(session) else { return Vec::new() };
-    let choices = Form::choices(form.at);
+    let mut choices = Form::choices(form.at);
+    // Over one parameter there is one scan.
+    let other = form.inputs[if form.at == 0 { Form::SECOND } else { 0 }].text().trim().to_owned();
+    choices.retain(|choice| choice.is_empty() || *choice != other);
     if choices.is_empty() {
         form.input_mut().move_caret(by);
         return Vec::new();
@@ -111,11 +114,27 @@ pub fn start(session: &mut Session, scan: Scan) -> Vec<Effect> {
     let mut shown = session.on_show().filter(|index| session.plots[*index].view == View::Scan);
     match shown.next() {
         Some(index) => focus_on(session, Pane::Plot(index)),
-        None => drop(show(session, View::Scan)),
+        None => beside(session),
     }
     refit(session);
-    inform(session, "scanning");
+    inform(session, SCANNING);
     Vec::new()
+}
+
+/// Shows the scan beside the phase plane into which its points are taken: in the plot in use, in another one,
+/// or in a new one.
+fn beside(session: &mut Session) {
+    let is_plane = |session: &Session, index: usize| session.plots[index].view == View::Phase;
+    session.enlarged = false;
+    let others = (0..session.plots.len()).filter(|index| *index != session.plot);
+    let planes = others.clone().filter(|index| is_plane(session, *index)).count();
+    if is_plane(session, session.plot) && planes == 0 {
+        match others.clone().find(|index| !is_plane(session, *index)) {
+            Some(index) => focus_on(session, Pane::Plot(index)),
+            None => drop(add(session)),
+        }
+    }
+    show(session, View::Scan);
 }
 
 /// Stops the scan, and keeps what is done.
@@ -136,7 +155,7 @@ pub fn pause(session: &mut Session) -> Vec<Effect> {
         Progress::Running { .. } => return stop(session),
         Progress::Stopped => {
             scanned.progress = Progress::Running { from: scanned.rows.len() };
-            inform(session, "scanning");
+            inform(session, SCANNING);
         }
         Progress::Done => inform(session, "the scan is done"),
     }

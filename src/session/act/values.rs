@@ -28,6 +28,8 @@ fn listed<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
 /// The row of the parameter pane with this name.
 fn row_named(session: &Session, name: &str) -> Result<Row, String> {
     let all = || listed(rows(session).map(Row::name));
+    // The command that sets it alone is called so.
+    let name = if name == "tol" { Row::Tolerance.name() } else { name };
     let found = rows(session).find(|row| row.name() == name);
     found.ok_or_else(|| format!("no value {name:?}; there are {}", all()))
 }

@@ -63,7 +63,9 @@ impl Session {
         for context in self.contexts() {
             for command in self.keymap.commands().filter(|command| !command.hint.is_empty()) {
                 let Some(key) = self.keymap.keys_in(*context, command).next() else { continue };
-                if !shown.insert(command.name) {
+                // A scan that is done cannot be held.
+                let over = command.name == "scan-pause" && self.scan_request().is_none();
+                if over || !shown.insert(command.name) {
                     continue;
                 }
                 match hints.iter_mut().find(|hint| hint.text == command.hint) {

@@ -53,6 +53,8 @@ pub(in crate::session) const ALIASES: &[(&str, &str)] = &[
     ("remove-plot", "close window"),
     ("enlarge", "zoom maximize full"),
     ("equal", "aspect circle square isometric"),
+    ("copy-number", "yank clipboard value"),
+    ("copy-row", "yank clipboard values"),
     ("theme", "colour dark light contrast"),
     ("color", "colour depth"),
     ("glyphs", "braille ascii characters"),

@@ -25,6 +25,16 @@ impl PartialEq for Command {
     }
 }
 
+/// Short names that other programs have for commands, and what those are called here.
+const SHORT: [(&str, &str); 5] =
+    [("q", "quit"), ("q!", "quit"), ("w", "write"), ("w!", "write!"), ("e", "open")];
+
+/// The name of the command that a word stands for: itself, unless it is a short one.
+#[must_use]
+pub fn full_name(word: &str) -> &str {
+    SHORT.iter().find(|(short, _)| *short == word).map_or(word, |(_, name)| name)
+}
+
 /// A command that takes words.
 #[derive(Clone, Copy, Debug)]
 pub struct LineCommand {

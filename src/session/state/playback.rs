@@ -11,7 +11,7 @@ pub enum Pace {
 
 /// The paces, in the order in which the key visits them.
 pub(in crate::session) const PACES: [Pace; 5] =
-    [Pace::Period(4.0), Pace::Period(2.0), Pace::Period(1.0), Pace::Period(8.0), Pace::Real];
+    [Pace::Period(4.0), Pace::Period(2.0), Pace::Period(1.0), Pace::Real, Pace::Period(8.0)];
 
 /// What is played.
 #[derive(Clone, Copy, Debug, PartialEq)]

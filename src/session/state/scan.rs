@@ -12,6 +12,9 @@ use crate::study::scan::{Row, Scan, Spacing, Sweep};
 /// Words of measures, each with the number at which it is plotted.
 pub const WORDS: [&str; 4] = ["captured", "moving", "escaped", "gave-up"];
 
+/// What is said while one goes on.
+pub const SCANNING: &str = "scanning";
+
 /// How a scan goes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Progress {

@@ -65,6 +65,9 @@ pub struct Form {
 }
 
 impl Form {
+    /// The field of the second parameter.
+    pub const SECOND: usize = 4;
+
     /// The form as it opens the first time: over a parameter and its values.
     #[must_use]
     pub fn new(symbol: Symbol, (from, to): (f64, f64)) -> Self {

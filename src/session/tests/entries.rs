@@ -102,6 +102,8 @@ fn pasted_text_that_is_nothing_gets_one_line() {
         desk.notice().split("; ").next(),
         Some("the pasted text is no keystroke file: line 2, column 3: unknown key <wrold>")
     );
+    desk.give(Msg::Paste("hello".to_owned()));
+    assert!(desk.notice().starts_with("the pasted text names no key"), "{}", desk.notice());
     desk.give(Msg::Paste("# only a comment".to_owned()));
     assert_eq!(desk.notice(), "the pasted text presses no key");
     assert_eq!(desk.session.overlay, None);

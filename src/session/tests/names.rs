@@ -315,3 +315,38 @@ fn a_key_of_another_plot_on_show_goes_there() {
     desk.press("t");
     assert!(desk.notice().contains("needs the scan"), "{}", desk.notice());
 }
+
+#[test]
+fn short_names_of_other_programs_are_known() {
+    let mut desk = Desk::open("plain");
+    run(&mut desk, "w");
+    assert!(
+        prompt(&desk).refused.as_deref().is_some_and(|why| why.starts_with("write needs FILE"))
+    );
+    desk.press("<esc>");
+    run(&mut desk, "set tol=1e-8");
+    assert_eq!(desk.session.problem.tolerance, 1e-8);
+    run(&mut desk, "q");
+    assert!(desk.session.quit);
+}
+
+#[test]
+fn numbers_points_and_rows_are_copied() {
+    let copied = |scene: &str, keys: &str| {
+        let mut desk = Desk::open(scene);
+        desk.press(keys);
+        match desk.effects.last() {
+            Some(Effect::Copy(text)) => text.clone(),
+            _ => desk.notice().to_owned(),
+        }
+    };
+    assert_eq!(copied("supercritical", "y"), "-0.3");
+    assert_eq!(copied("supercritical", "<A-r>"), "D=-0.3 D2=0 D3=0.5 r=0.1 q0=0.3 v0=0");
+    assert_eq!(copied("supercritical", "<tab>y"), "nothing is pointed at: arrows show a cursor");
+    assert_eq!(copied("supercritical", "<tab><right>y").split(' ').count(), 2);
+    let held = copied("supercritical", "w<tab><A-r>");
+    let names = held.split(' ').filter_map(|word| Some(word.split_once('=')?.0));
+    let names: Vec<&str> = names.collect();
+    let expected = ["D", "q_max", "q_min", "v_min", "v_max", "period", "D2", "D3", "r", "q0", "v0"];
+    assert_eq!(names, expected, "{held}");
+}

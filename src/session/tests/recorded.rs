@@ -157,6 +157,7 @@ proptest! {
             colors: COLORS[color].0,
             theme: THEMES[theme].0,
             mouse,
+            stretched: mouse,
         };
         let (mut live, mut recorder) = started(scene, look);
         // The tour expects what a screen shows.

@@ -104,18 +104,21 @@ impl Plot<'_> {
         let cell =
             |column: i32, row: i32| Some((u16::try_from(column).ok()?, u16::try_from(row).ok()?));
         let no_symbol = |(x, y)| self.dots.covering(x, y) != Covering::Symbol;
-        let fits = |(x, y): &(i32, i32)| {
-            let apart = [x - 1, x + length].into_iter().filter_map(|column| cell(column, *y));
+        let fits = |((x, y), own): &((i32, i32), (i32, i32))| {
+            // Two texts never run together; the mark of its own point a text may touch where it hides curves.
+            let may_touch = |at: &(i32, i32)| over == Covering::Curve && at == own;
+            let apart = [(x - 1, *y), (x + length, *y)].into_iter().filter(|at| !may_touch(at));
+            let apart = apart.filter_map(|(column, row)| cell(column, row));
             let within = (0..length).filter_map(|offset| cell(x + offset, *y));
             (0..=width - length).contains(x)
                 && (0..height).contains(y)
-                && (over == Covering::Curve || apart.into_iter().all(no_symbol))
+                && apart.into_iter().all(no_symbol)
                 && within.into_iter().all(|(x, y)| self.dots.covering(x, y) <= over)
         };
         let places = cells
             .iter()
-            .flat_map(|(column, row)| beside.iter().map(move |(x, y)| (column + x, row + y)));
-        let (column, row) = places.into_iter().find(fits)?;
+            .flat_map(|own| beside.iter().map(move |(x, y)| ((own.0 + x, own.1 + y), *own)));
+        let ((column, row), _) = places.into_iter().find(fits)?;
         cell(column, row)
     }
 
