@@ -50,7 +50,7 @@ pub fn seconds(unit: &str) -> Option<f64> {
 }
 
 impl Named {
-    /// `name [unit]`, `name (unit)`, `name / unit` or `name_unit` for times.
+    /// `name [unit]`, `name (unit)`, `name / unit`, `name, unit` or `name_unit` for times.
     fn read(cell: &str) -> Self {
         for (open, close) in [('[', ']'), ('(', ')')] {
             if let Some((name, rest)) = cell.split_once(open) {
@@ -59,7 +59,7 @@ impl Named {
                 return Named { name: name.trim().to_owned(), unit };
             }
         }
-        for sign in ["/", " in ", "_"] {
+        for sign in ["/", " in ", ", ", "_"] {
             if let Some((name, unit)) = cell.rsplit_once(sign)
                 && (sign != "_" || seconds(unit).is_some())
             {

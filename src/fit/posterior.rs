@@ -120,15 +120,21 @@ impl Normal {
         let scaled = DMatrix::from_fn(columns.len(), columns.len(), |i, j| {
             estimate.covariance.of(columns[i], columns[j]) / (scale[i] * scale[j])
         });
-        let eigen = scaled.symmetric_eigen();
+        // Where every number is held there is one point.
+        let (directions, values) = if columns.is_empty() {
+            (scaled, Vec::new())
+        } else {
+            let eigen = scaled.symmetric_eigen();
+            (eigen.eigenvectors, eigen.eigenvalues.iter().copied().collect())
+        };
         let mut centers: Vec<(f64, Unknowns)> =
             estimate.contenders().map(|it| (exp(-0.5 * it.delta_chi2), it.p)).collect();
         let sum: f64 = centers.iter().map(|(weight, _)| weight).sum();
         for (weight, _) in &mut centers {
             *weight /= sum;
         }
-        let deviations = eigen.eigenvalues.iter().map(|value| value.max(0.0).sqrt()).collect();
-        Normal { columns, scale, directions: eigen.eigenvectors, deviations, centers }
+        let deviations = values.into_iter().map(|value: f64| value.max(0.0).sqrt()).collect();
+        Normal { columns, scale, directions, deviations, centers }
     }
 
     /// Draw number `index`.

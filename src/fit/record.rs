@@ -154,7 +154,7 @@ impl Separator {
 
     fn cells(self, text: &str) -> Vec<&str> {
         match self {
-            Separator::Sign(sign) => text.split(sign).map(unquoted).collect(),
+            Separator::Sign(sign) => split(text, sign).into_iter().map(unquoted).collect(),
             Separator::Blanks => text.split_whitespace().map(unquoted).collect(),
         }
     }
@@ -162,6 +162,18 @@ impl Separator {
     fn comma_is_decimal(self) -> bool {
         self != Separator::Sign(',')
     }
+}
+
+/// The parts between separators that stand outside of quotation marks; where these do not pair they are nothing
+/// special.
+fn split(text: &str, sign: char) -> Vec<&str> {
+    let mut inside = false;
+    let cells = text.split(|char| {
+        inside ^= char == '"';
+        char == sign && !inside
+    });
+    let cells = cells.collect();
+    if inside { text.split(sign).collect() } else { cells }
 }
 
 fn unquoted(cell: &str) -> &str {
@@ -409,6 +421,15 @@ mod tests {
             let record = parse(text.as_bytes(), &reading).unwrap();
             assert_eq!((record.t, record.x), (times, vec![8.0, -6.0]), "{text}");
         }
+    }
+
+    #[test]
+    fn a_separator_within_quotation_marks_belongs_to_its_cell() {
+        let text = "\"time, ms\",\"displacement, mm\"\n\"0\",\"1.5\"\n\"10\",\"1.2\"\n";
+        let record = read(text).unwrap();
+        assert_eq!((record.t, record.x), (Some(vec![0.0, 0.01]), vec![1.5, 1.2]));
+        assert_eq!(record.unit.as_deref(), Some("mm"));
+        assert_eq!(split("a \"b,c", ','), ["a \"b", "c"], "a mark alone is nothing special");
     }
 
     #[test]

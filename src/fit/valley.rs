@@ -137,16 +137,15 @@ fn through_the_valley(
     known: &[Valley],
     effort: &mut Effort,
 ) -> Result<Vec<Unknowns>, NoFit> {
-    /// Steps on each side, and their size.
-    const STEPS: u32 = 6;
-    const FACTOR: f64 = 1.04;
+    /// Steps on each side: a valley may be no wider than a percent of r.
+    const FACTORS: [f64; 9] = [1.01, 1.01, 1.01, 1.02, 1.02, 1.04, 1.04, 1.04, 1.04];
     let mut held = *task;
     held.free[R] = false;
     let mut closest = Closest::default();
-    for factor in [FACTOR, 1.0 / FACTOR] {
+    for up in [true, false] {
         let mut p = optimum.p;
-        for _ in 0..STEPS {
-            p[R] *= factor;
+        for factor in FACTORS {
+            p[R] *= if up { factor } else { 1.0 / factor };
             let Ok(found) = interrupted(held.solve_roughly(p, effort))? else { break };
             p = found.p;
             closest.see(found.seen.turns.len(), found.cost, p);

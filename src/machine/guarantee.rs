@@ -75,6 +75,17 @@ impl fmt::Display for Uncertain {
 /// # Errors
 /// [`Trouble`] where a machine within the tolerances has no model, or one that bounds them has no portrait.
 pub fn guaranteed(belt: &Belt, known: &Tolerances) -> Result<Result<Kicks, Uncertain>, Trouble> {
+    Ok(worst(belt, known)?.map(|(corners, portrait)| kicks(&corners, &portrait)))
+}
+
+/// The machine whose basin lies within those of all others, or why there is none.
+///
+/// # Errors
+/// As [`guaranteed`].
+pub fn worst(
+    belt: &Belt,
+    known: &Tolerances,
+) -> Result<Result<(Corners, Portrait), Uncertain>, Trouble> {
     let corners = match Corners::new(belt, known)? {
         Ok(corners) => corners,
         Err(TooMany) => return Ok(Err(Uncertain::TooMany)),
@@ -84,10 +95,31 @@ pub fn guaranteed(belt: &Belt, known: &Tolerances) -> Result<Result<Kicks, Uncer
         let friction = corners.belts[0].friction;
         return Ok(Err(Uncertain::Disturbance { disturbance: known.disturbance, friction }));
     }
-    if corners.numbers == 0 {
-        return Ok(Ok(corners.kicks(&portrait(&corners.worst(0, 0.0))?)));
-    }
-    corners.bounded(belt)
+    let found = if corners.numbers == 0 {
+        Ok(portrait(&corners.worst(0, 0.0))?)
+    } else {
+        corners.bounded(belt)?
+    };
+    Ok(found.map(|portrait| (corners, portrait)))
+}
+
+/// The machine outside of whose basin nothing comes to rest: with the largest friction and damping. `None` where
+/// other numbers are uncertain.
+///
+/// # Errors
+/// As [`guaranteed`].
+pub fn best(belt: &Belt, known: &Tolerances) -> Result<Option<Portrait>, Trouble> {
+    known.best(belt).map(|best| portrait(&best)).transpose()
+}
+
+/// The kicks within the basin of a machine that bounds those of all others.
+#[must_use]
+pub fn kicks(corners: &Corners, portrait: &Portrait) -> Kicks {
+    let infinite = Kicks { displacement: f64::INFINITY, impulse: f64::INFINITY };
+    portrait.margin.map_or(infinite, |margin| Kicks {
+        displacement: margin.least_displacement(),
+        impulse: margin.least_velocity() / portrait.model.omega_0 * corners.lightest(),
+    })
 }
 
 /// A portrait whose basin of rest is bordered by a cycle of slip.
@@ -106,16 +138,8 @@ fn slip_border(portrait: &Portrait) -> Option<(f64, f64)> {
 }
 
 impl Corners {
-    fn kicks(&self, portrait: &Portrait) -> Kicks {
-        let infinite = Kicks { displacement: f64::INFINITY, impulse: f64::INFINITY };
-        portrait.margin.map_or(infinite, |margin| Kicks {
-            displacement: margin.least_displacement(),
-            impulse: margin.least_velocity() / portrait.model.omega_0 * self.lightest(),
-        })
-    }
-
-    /// The kicks within a border that holds for all machines at its own velocities.
-    fn bounded(&self, belt: &Belt) -> Result<Result<Kicks, Uncertain>, Trouble> {
+    /// A machine whose border bounds all others at its own velocities.
+    fn bounded(&self, belt: &Belt) -> Result<Result<Portrait, Uncertain>, Trouble> {
         /// Ranges of velocities that are tried, each larger than the border of the one before.
         const ROUNDS: usize = 8;
         const ROOM: f64 = 1.2;
@@ -135,7 +159,7 @@ impl Corners {
             };
             let (low, high) = found.velocities;
             if low >= range.0 && high <= range.1 {
-                return Ok(Ok(self.kicks(&found.portrait)));
+                return Ok(Ok(found.portrait));
             }
             range = (range.0.min(ROOM * low), range.1.max(ROOM * high).min(slowest));
         }

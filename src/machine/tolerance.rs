@@ -41,6 +41,26 @@ impl Tolerances {
         all.filter(|(_, interval)| !interval.is_point()).collect()
     }
 
+    /// The machine with the largest friction and damping; `None` where other numbers are uncertain, of which
+    /// no end is the best at every velocity.
+    #[must_use]
+    pub fn best(&self, belt: &Belt) -> Option<Belt> {
+        let mut best = belt.clone();
+        for (varied, interval) in self.intervals(belt) {
+            if !MONOTONE.contains(&varied) {
+                return None;
+            }
+            set(&mut best, varied, interval.high);
+        }
+        if self.disturbance > 0.0 {
+            let stronger = |force: f64| (force + self.disturbance).next_up();
+            best.static_guide = best.static_guide.map(stronger);
+            best.friction = stronger(best.friction);
+        }
+        best.static_guide = best.static_guide.map(|at_rest| at_rest.max(best.friction));
+        Some(best)
+    }
+
     /// Checks that every number has its tolerance within its range.
     ///
     /// # Errors

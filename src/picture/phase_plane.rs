@@ -13,6 +13,7 @@ use crate::flow::{Outcome, Problem, Sample, Trajectory};
 use crate::machine;
 use crate::numerics::elementary::sin_cos;
 use crate::oscillator::{HalfPlane, Parameters, Side, State};
+use crate::scene::zones::Extent;
 use crate::scene::{Answer, Layer, Point, Topic, View};
 use crate::session::starts::MOST_MOTIONS;
 use crate::session::{self, Session, Shown};
@@ -51,6 +52,14 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
             if let Answer::Cycles(found) = answer {
                 basin(&mut picture, found, &variant, shows(Layer::Cycles));
             }
+        }
+    }
+    if let Some(found) = session.zones() {
+        if shows(Layer::Safe) {
+            safe(&mut picture, &found.safe);
+        }
+        if shows(Layer::Lost) {
+            lost(&mut picture, &found.hopeful);
         }
     }
     if shows(Layer::Bands) {
@@ -234,6 +243,22 @@ fn basin(picture: &mut Picture, found: &Cycles, variant: &Variant, with_cycles: 
     }
     let line = Line::new("edge of the basin", Role::Unstable, Dash::Dashed);
     picture.curve(line.of(variant), edge);
+}
+
+/// What no motion leaves, whatever the parameters and the disturbance are.
+fn safe(picture: &mut Picture, extent: &Extent) {
+    let Extent::Within(border) = extent else { return };
+    let border: Vec<Point> = border.iter().map(point).collect();
+    let area = Line::new("surely safe", Role::Stable, Dash::Solid);
+    picture.items.push(Item::Shade(area, border.clone()));
+    picture.curve(Line::new("border of the surely safe", Role::Stable, Dash::Dotted), border);
+}
+
+/// Beyond which nothing comes to rest, whatever the parameters and the disturbance are.
+fn lost(picture: &mut Picture, extent: &Extent) {
+    let Extent::Within(border) = extent else { return };
+    let line = Line::new("border of the surely lost", Role::Danger, Dash::Dotted);
+    picture.curve(line.briefly("surely lost outside"), border.iter().map(point));
 }
 
 fn circle(picture: &mut Picture, parameters: &Parameters, variant: &Variant) {

@@ -4,6 +4,7 @@ use super::recording::Fit;
 use super::request::Request;
 use super::speeds::{Speeds, speeds};
 use super::whole::{self, Course, Kinds};
+use super::zones::{self, Zones};
 use crate::flow::quality::DRAFT;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Detail, Limits, Problem, Reason, Trajectory};
@@ -31,6 +32,8 @@ pub enum Answer {
     Whole(Box<Whole>),
     /// To [`Request::Speeds`].
     Speeds(Speeds),
+    /// To [`Request::Zones`] and [`Request::MachineZones`].
+    Zones(Zones),
     /// To [`Request::Capture`].
     Capture(Borders),
     /// To [`Request::Balance`].
@@ -230,6 +233,13 @@ pub fn answer_for(
         Request::Speeds { belt, range, count } => {
             speeds(belt, *range, *count, limits).map(Answer::Speeds)
         }
+        Request::Zones { known, disturbance } => {
+            zones::of_oscillator(known, *disturbance, fineness.points_per_step, limits)
+                .map(Answer::Zones)
+        }
+        Request::MachineZones { belt, tolerances } => {
+            zones::of_machine(belt, tolerances, fineness.points_per_step).map(Answer::Zones)
+        }
         Request::Capture { parameters, reach, most } => {
             let found = bands(parameters, *reach, *most, limits)?;
             let curves = found.curves(fineness.points_per_step);
@@ -284,6 +294,7 @@ impl Answer {
             Answer::Cycles(answer) => answer.cost,
             Answer::Whole(answer) => answer.drawn.cost(),
             Answer::Speeds(answer) => answer.cost,
+            Answer::Zones(answer) => answer.cost,
             Answer::Capture(answer) => answer.cost,
             Answer::Balance(answer) => answer.cost,
             Answer::Branch(answer) => answer.cost,

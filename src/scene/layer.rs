@@ -92,6 +92,10 @@ pub enum Layer {
     Whole,
     /// The cycles over the speed of the belt.
     Speeds,
+    /// Starts that are safe whatever the parameters and the disturbance are.
+    Safe,
+    /// The border outside of which every start is lost.
+    Lost,
 }
 
 /// One row of [`LAYERS`].
@@ -113,7 +117,7 @@ pub struct LayerSpec {
 
 /// Every layer, in the order in which they are listed.
 #[rustfmt::skip]
-pub const LAYERS: [LayerSpec; 40] = [
+pub const LAYERS: [LayerSpec; 42] = [
     row(Layer::Trajectory, "trajectory", View::Phase, Some(Topic::Trajectory), true, "the motion from (q0, v0)"),
     row(Layer::Sticking, "sticking", View::Phase, None, true, "the sticking set: every point of it is at rest"),
     row(Layer::Cycles, "cycles", View::Phase, Some(Topic::Cycles), true, "limit cycles, stable and unstable"),
@@ -154,6 +158,8 @@ pub const LAYERS: [LayerSpec; 40] = [
     row(Layer::Recorded, "recorded", View::Phase, Some(Topic::Fit), false, "measured displacements over their fitted velocity"),
     row(Layer::Whole, "whole", View::Phase, None, false, "the whole model in place of its cubic expansion"),
     row(Layer::Speeds, "speeds", View::Speeds, Some(Topic::Speeds), true, "cycles over the belt's speed, and the jumps"),
+    row(Layer::Safe, "safe", View::Phase, Some(Topic::Zones), false, "surely safe, for all half widths and disturbances"),
+    row(Layer::Lost, "lost", View::Phase, Some(Topic::Zones), false, "surely lost outside, for the same"),
 ];
 
 const fn row(

@@ -18,6 +18,7 @@ pub mod usual;
 pub mod views;
 pub mod whole;
 pub mod window;
+pub mod zones;
 
 pub use answer::{Answer, Answered};
 pub use layer::{LAYERS, Layer, LayerSpec, letters};

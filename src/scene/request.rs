@@ -5,7 +5,8 @@ use std::sync::Arc;
 use super::recording::Recording;
 use crate::flow::quality::DRAFT;
 use crate::flow::{Method, Problem};
-use crate::oscillator::{Belt, Parameters, State, Symbol};
+use crate::machine::Tolerances;
+use crate::oscillator::{Belt, ParameterBox, Parameters, State, Symbol};
 use crate::study::chart::Plane;
 use crate::study::scan::Scan;
 
@@ -43,6 +44,20 @@ pub enum Request {
         range: (f64, f64),
         /// Speeds that are looked at.
         count: usize,
+    },
+    /// What is safe and what is lost for certain.
+    Zones {
+        /// Where the parameters lie.
+        known: ParameterBox,
+        /// Bound on the disturbance.
+        disturbance: f64,
+    },
+    /// The same of a machine by the whole model.
+    MachineZones {
+        /// The machine.
+        belt: Arc<Belt>,
+        /// Its tolerances, and the disturbance.
+        tolerances: Tolerances,
     },
     /// The borders of the bands of capture.
     Capture {
@@ -134,6 +149,8 @@ pub enum Topic {
     Trajectory,
     /// Cycles and basin edge.
     Cycles,
+    /// What is safe and what is lost for certain.
+    Zones,
     /// The bands of capture.
     Capture,
     /// The diagram.
@@ -157,10 +174,11 @@ pub enum Topic {
 }
 
 /// Every topic, the most urgent first.
-pub const TOPICS: [Topic; 13] = [
+pub const TOPICS: [Topic; 14] = [
     Topic::Fit,
     Topic::Trajectory,
     Topic::Cycles,
+    Topic::Zones,
     Topic::Capture,
     Topic::Branch,
     Topic::Balance,
@@ -186,6 +204,7 @@ impl Topic {
         match self {
             Topic::Trajectory => "motion",
             Topic::Cycles => "cycles",
+            Topic::Zones => "certainty",
             Topic::Capture => "bands",
             Topic::Branch => "branch",
             Topic::Balance => "harmonics",
@@ -208,6 +227,7 @@ impl Request {
         match self {
             Request::Trajectory(_) | Request::Machine { .. } => Topic::Trajectory,
             Request::Cycles { .. } | Request::Portrait { .. } => Topic::Cycles,
+            Request::Zones { .. } | Request::MachineZones { .. } => Topic::Zones,
             Request::Capture { .. } => Topic::Capture,
             Request::Balance { .. } => Topic::Balance,
             Request::Branch { .. } => Topic::Branch,
@@ -255,6 +275,8 @@ impl Request {
             Request::Cycles { .. }
             | Request::Machine { .. }
             | Request::Portrait { .. }
+            | Request::Zones { .. }
+            | Request::MachineZones { .. }
             | Request::Capture { .. }
             | Request::Balance { .. }
             | Request::ReturnMap { .. }
@@ -308,6 +330,12 @@ impl Request {
             Request::Cycles { parameters }
             | Request::Portrait { parameters, .. }
             | Request::Balance { parameters, .. } => of(parameters, [0.0; 4]),
+            Request::Zones { known, disturbance } => {
+                of(&known.middle(), [*disturbance, 0.0, 0.0, 0.0])
+            }
+            Request::MachineZones { belt, tolerances } => {
+                [belt.belt_speed, tolerances.disturbance, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
+            }
             Request::Capture { parameters, reach, .. } => of(parameters, [*reach, 0.0, 0.0, 0.0]),
             Request::Branch { parameters, range: (from, to), .. }
             | Request::ReturnMap { parameters, range: (from, to) } => {

@@ -162,7 +162,7 @@ pub fn portrait(
     limits: &Limits,
 ) -> Result<(Cycles, Option<Kinds>), Reason> {
     let expansion = cycle::cycles_drawn(parameters, points, limits);
-    let found = model(belt).and_then(|model| Portrait::new(&model).map_err(reason));
+    let found = found(belt);
     let expanded = expansion.as_ref().ok().and_then(|found| found.picture.as_ref());
     let expanded = expanded.map(|picture| picture.margin);
     let kinds = found.as_ref().ok().map(|found| Kinds {
@@ -176,12 +176,33 @@ pub fn portrait(
     Ok((drawn, kinds))
 }
 
-fn margin(found: &Portrait) -> Option<Margin> {
+/// The portrait of a machine.
+///
+/// # Errors
+/// The [`Reason`] why there is none.
+pub fn found(belt: &Belt) -> Result<Portrait, Reason> {
+    model(belt).and_then(|model| Portrait::new(&model).map_err(reason))
+}
+
+/// The kicks that a machine survives; `None` where every one is.
+#[must_use]
+pub fn margin(found: &Portrait) -> Option<Margin> {
     let units = Units::of(&found.model);
     found.margin.map(|margin| Margin {
         displacement: Some(margin.least_displacement() / units.x),
         impulse: Some(margin.least_velocity() / units.v),
     })
+}
+
+/// Kicks in m and N s, infinite where every one is survived, without units.
+#[must_use]
+pub fn margin_of(model: &Model, displacement: f64, impulse: f64) -> Margin {
+    let units = Units::of(model);
+    let finite = |value: f64| Some(value).filter(|it| it.is_finite());
+    Margin {
+        displacement: finite(displacement / units.x),
+        impulse: finite(impulse / (model.mass * units.v)),
+    }
 }
 
 fn drawn(found: &Portrait, parameters: &Parameters, points: u16) -> Result<Cycles, Reason> {
@@ -219,7 +240,7 @@ fn drawn(found: &Portrait, parameters: &Parameters, points: u16) -> Result<Cycle
 }
 
 /// A closed curve as points.
-fn places(curve: &Curve, model: &Model, points: u16) -> Vec<State> {
+pub(super) fn places(curve: &Curve, model: &Model, points: u16) -> Vec<State> {
     let state = |x: f64, y: f64| State { q: x / model.pull, v: y / model.pull };
     let mut found = Vec::new();
     for piece in &curve.pieces {

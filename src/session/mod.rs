@@ -40,6 +40,7 @@ pub use read::{fate, ledger, motion, requirement};
 pub use state::answers::Standing;
 pub use state::command::{Command, LineCommand};
 pub use state::context::Context;
+pub use state::doubt::Doubt;
 pub use state::input::Input;
 pub use state::keymap::{self, Keymap};
 pub use state::overlay::{self, Entry, List, Listed, Overlay, Prompt};

@@ -20,6 +20,7 @@ use crate::scene::{
 };
 use crate::session::replay;
 use crate::session::replay::script::Step;
+use crate::session::state::doubt::Doubt;
 use crate::session::state::history::{Before, Desk, History, Snapshot};
 use crate::session::state::marks::{Mark, Marks};
 use crate::session::state::overlay::Overlay;
@@ -60,12 +61,17 @@ struct File {
     /// Where the motions start beside those of marks.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     beside: BTreeMap<char, Vec<State>>,
+    /// What is not known exactly at marks.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    doubts: BTreeMap<char, Doubt>,
     /// The point left last for a mark.
     left: Option<Problem>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     left_beside: Vec<State>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     left_belt: Option<f64>,
+    #[serde(default, skip_serializing_if = "Doubt::is_none")]
+    left_doubt: Doubt,
     /// Recorded keys, as keystroke files.
     #[serde(default)]
     registers: BTreeMap<char, String>,
@@ -96,6 +102,8 @@ struct Show {
     beside: Vec<State>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     belt: Option<f64>,
+    #[serde(default, skip_serializing_if = "Doubt::is_none")]
+    doubt: Doubt,
     scene: Named,
 }
 
@@ -117,10 +125,25 @@ struct Look {
 #[serde(rename_all = "kebab-case")]
 enum Change {
     Motion(Problem),
-    MotionOnBelt { motion: Problem, belt: f64 },
-    Motions { motion: Problem, beside: Vec<State>, belt: Option<f64> },
-    Plots { arrangement: Arrangement, plots: Vec<Exhibit> },
-    Scene { plots: Vec<Exhibit>, show: Box<Show> },
+    MotionOnBelt {
+        motion: Problem,
+        belt: f64,
+    },
+    Motions {
+        motion: Problem,
+        beside: Vec<State>,
+        belt: Option<f64>,
+        #[serde(default, skip_serializing_if = "Doubt::is_none")]
+        doubt: Doubt,
+    },
+    Plots {
+        arrangement: Arrangement,
+        plots: Vec<Exhibit>,
+    },
+    Scene {
+        plots: Vec<Exhibit>,
+        show: Box<Show>,
+    },
 }
 
 /// The session as the text of a file.
@@ -148,6 +171,7 @@ pub fn text(session: &Session) -> Result<String, String> {
             motion: session.problem,
             beside: session.others.all().to_vec(),
             belt: session.belt_speed,
+            doubt: session.doubt,
             scene: named(&session.scene),
         },
         plots: session.plots.iter().map(look).collect(),
@@ -170,6 +194,13 @@ pub fn text(session: &Session) -> Result<String, String> {
             .map(|(name, mark)| (*name, mark.stand.others.all().to_vec()))
             .filter(|(_, beside)| !beside.is_empty())
             .collect(),
+        doubts: session
+            .marks
+            .places
+            .iter()
+            .map(|(name, mark)| (*name, mark.stand.doubt))
+            .filter(|(_, doubt)| !doubt.is_none())
+            .collect(),
         left: session.marks.left.as_ref().map(|mark| mark.stand.problem),
         left_beside: session
             .marks
@@ -177,6 +208,7 @@ pub fn text(session: &Session) -> Result<String, String> {
             .as_ref()
             .map_or_else(Vec::new, |mark| mark.stand.others.all().to_vec()),
         left_belt: session.marks.left.as_ref().and_then(|mark| mark.stand.belt_speed),
+        left_doubt: session.marks.left.as_ref().map_or_else(Doubt::default, |it| it.stand.doubt),
         registers: session
             .macros
             .registers
@@ -204,13 +236,17 @@ fn look(plot: &Plot) -> Look {
 
 fn change(before: &Before) -> Change {
     match before {
-        Before::Stand(Stand { problem, others, belt_speed }) => match (others.all(), belt_speed) {
-            ([], None) => Change::Motion(*problem),
-            ([], Some(belt)) => Change::MotionOnBelt { motion: *problem, belt: *belt },
-            (others, belt) => {
-                Change::Motions { motion: *problem, beside: others.to_vec(), belt: *belt }
+        Before::Stand(Stand { problem, others, belt_speed, doubt }) => {
+            let motion = *problem;
+            match (others.all(), belt_speed) {
+                ([], None) if doubt.is_none() => Change::Motion(motion),
+                ([], Some(belt)) if doubt.is_none() => Change::MotionOnBelt { motion, belt: *belt },
+                (others, belt) => {
+                    let (beside, doubt) = (others.to_vec(), *doubt);
+                    Change::Motions { motion, beside, belt: *belt, doubt }
+                }
             }
-        },
+        }
         Before::Desk(Desk { plots, arrangement }) => {
             Change::Plots { arrangement: *arrangement, plots: plots.clone() }
         }
@@ -223,6 +259,7 @@ fn change(before: &Before) -> Change {
                 motion: snapshot.stand.problem,
                 beside: snapshot.stand.others.all().to_vec(),
                 belt: snapshot.stand.belt_speed,
+                doubt: snapshot.stand.doubt,
                 scene: named(&snapshot.scene),
             }),
         },
@@ -237,6 +274,7 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     let file = read(text)?;
     let scene = scene(file.present.scene)?;
     let stand = checked(file.present.motion, &file.present.beside, file.present.belt)?;
+    let stand = Stand { doubt: file.present.doubt.checked()?, ..stand };
     let plots = checked_plots(file.plots, |look| opened(&look))?;
     let in_range = |index: usize| index < plots.len();
     let focus = match file.focus.checked_sub(1) {
@@ -256,14 +294,22 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     if !(1..=most).contains(&file.harmonics) {
         return Err(format!("harmonics = {}, not 1 to {most}", file.harmonics));
     }
-    let mark = |problem, beside: &[State], belt| checked(problem, beside, belt).map(Mark::new);
+    let mark = |problem, beside: &[State], belt, doubt| {
+        let doubt = Doubt::checked(doubt)?;
+        checked(problem, beside, belt).map(|it| Mark::new(Stand { doubt, ..it }))
+    };
+    let doubt = |name: &char| file.doubts.get(name).copied().unwrap_or_default();
     let beside = |name: &char| file.beside.get(name).map_or(&[][..], Vec::as_slice);
     let belt = |name: &char| file.belts.get(name).copied();
     let places = file.marks.into_iter();
-    let places =
-        places.map(|(name, problem)| Ok((name, mark(problem, beside(&name), belt(&name))?)));
+    let places = places.map(|(name, problem)| {
+        Ok((name, mark(problem, beside(&name), belt(&name), doubt(&name))?))
+    });
     let places = places.collect::<Result<BTreeMap<_, _>, String>>()?;
-    let left = file.left.map(|left| mark(left, &file.left_beside, file.left_belt)).transpose()?;
+    let left = file
+        .left
+        .map(|left| mark(left, &file.left_beside, file.left_belt, file.left_doubt))
+        .transpose()?;
     let register = |(name, keys): (char, String)| Ok((name, steps(name, &keys)?));
     let registers = file.registers.into_iter().map(register);
     let registers = registers.collect::<Result<BTreeMap<_, _>, String>>()?;
@@ -353,7 +399,7 @@ fn checked(problem: Problem, beside: &[State], belt_speed: Option<f64>) -> Resul
     {
         symbol.spec().check(value).map_err(|refused| refused.to_string())?;
     }
-    Ok(Stand { problem, others, belt_speed })
+    Ok(Stand { problem, others, belt_speed, doubt: Doubt::default() })
 }
 
 /// As many plots as a screen can have.
@@ -383,15 +429,17 @@ fn before(change: Change) -> Result<Before, String> {
     Ok(match change {
         Change::Motion(problem) => Before::Stand(checked(problem, &[], None)?),
         Change::MotionOnBelt { motion, belt } => Before::Stand(checked(motion, &[], Some(belt))?),
-        Change::Motions { motion, beside, belt } => Before::Stand(checked(motion, &beside, belt)?),
+        Change::Motions { motion, beside, belt, doubt } => {
+            Before::Stand(Stand { doubt: doubt.checked()?, ..checked(motion, &beside, belt)? })
+        }
         Change::Plots { arrangement, plots } => {
             Before::Desk(Desk { plots: checked_plots(plots, |plot| plot)?, arrangement })
         }
         Change::Scene { plots, show } => {
-            let Show { arrangement, layers, steps, motion, beside, belt, scene } = *show;
+            let Show { arrangement, layers, steps, motion, beside, belt, doubt, scene } = *show;
             Before::Scene(Box::new(Snapshot {
                 scene: self::scene(scene)?,
-                stand: checked(motion, &beside, belt)?,
+                stand: Stand { doubt: doubt.checked()?, ..checked(motion, &beside, belt)? },
                 steps,
                 layers,
                 desk: Desk { plots: checked_plots(plots, |plot| plot)?, arrangement },

@@ -31,7 +31,7 @@ use crate::oscillator::{Parameters, Side, State};
 const CURVE_POINTS: u16 = 12;
 
 /// How far a separatrix is followed for a picture, in units of `1/abs(D2)`.
-const PICTURE_REACH: f64 = 20.0;
+pub(crate) const PICTURE_REACH: f64 = 20.0;
 
 /// Finds all limit cycles at these parameters; `curves` asks for a picture too.
 ///

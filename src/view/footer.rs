@@ -114,6 +114,10 @@ fn entry(entry: &Entry, session: &Session, look: &Look) -> Vec<Span<'static>> {
             let text = "  speed of the belt, such as 0.3 m/s or 30 cm/s";
             Span::styled(text, look.style(Role::Quiet))
         }
+        (None, Row::Disturbance) => {
+            let text = "  bound on a force that varies in any way, in the unit of r";
+            Span::styled(text, look.style(Role::Quiet))
+        }
         (None, Row::Until | Row::Method) => Span::raw(""),
     };
     let lead = Span::styled(

@@ -5,6 +5,7 @@
 //! decided in [`look`] alone.
 
 pub mod caption;
+mod certain;
 mod content;
 mod costs;
 pub mod dots;

@@ -5,6 +5,7 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
 use super::caption::wrapped;
+use super::certain;
 use super::keys;
 use super::layout::DESIGNED;
 use super::legend;
@@ -110,12 +111,14 @@ fn row_line(
     let role = if selected { Role::Selected } else { Role::Text };
     let name = row.name_in(&session.problem);
     let room = VALUES - name.len() - 2;
-    let (value, of_scene) = (value(&session.stand(), row, room), Stand::of_scene(&session.scene));
-    let changed = value != self::value(&of_scene, row, room);
+    let sign = look.symbols().plus_minus;
+    let text = |stand: &Stand| value(stand, row, room, sign);
+    let (value, of_scene) = (text(&session.stand()), text(&Stand::of_scene(&session.scene)));
+    let changed = value != of_scene;
     // Numbers changed by hand are those of no belt speed: its row is out of use until it is set again.
     let off = row == Row::Belt && session.is_on_the_belt() == Some(false);
     let value = if off { format!("({value})") } else { value };
-    let gap = VALUES.saturating_sub(name.len() + value.len() + 1).max(1);
+    let gap = VALUES.saturating_sub(name.len() + value.chars().count() + 1).max(1);
     let style = look.style(role);
     let value_style = if off && !selected {
         look.style(Role::Quiet)
@@ -160,17 +163,27 @@ fn physical(session: &Session, row: Row) -> Option<(&'static str, String)> {
         }
         Row::Belt => ("v0", running.speed, "m/s"),
         Row::Parameter(symbol) => running.meaning(symbol, session.value(symbol))?,
+        Row::Disturbance => ("w", session.doubt.disturbance * running.reduced.units.force, "N"),
         Row::Until => ("t", session.problem.until * running.reduced.units.time, "s"),
         Row::Method | Row::Tolerance => return None,
     };
     Some((name, with_unit(value, 4, unit)))
 }
 
-fn value(stand: &Stand, row: Row, width: usize) -> String {
-    let Stand { problem, belt_speed, .. } = stand;
+fn value(stand: &Stand, row: Row, width: usize, sign: &str) -> String {
+    let Stand { problem, belt_speed, doubt, .. } = stand;
     match row {
         Row::Belt => belt_speed.map_or_else(String::new, |speed| exact(speed, width)),
-        Row::Parameter(symbol) => exact(symbol.get(&problem.parameters, &problem.initial), width),
+        Row::Parameter(symbol) => {
+            let value = symbol.get(&problem.parameters, &problem.initial);
+            let half = doubt.half_width(symbol);
+            if half == 0.0 {
+                return exact(value, width);
+            }
+            let half = format!(" {sign}{}", exact(half, width / 2 - 1));
+            exact(value, width.saturating_sub(half.chars().count())) + &half
+        }
+        Row::Disturbance => exact(doubt.disturbance, width),
         Row::Until => exact(problem.until, width),
         Row::Method => problem.method.to_string(),
         Row::Tolerance => exact(problem.setting(), width),
@@ -191,6 +204,7 @@ fn meaning(problem: &Problem, row: Row) -> &'static str {
     match row {
         Row::Belt => Quantity::BeltSpeed.spec().meaning,
         Row::Parameter(symbol) => symbol.spec().meaning,
+        Row::Disturbance => "bound on a disturbance",
         Row::Until => "end time",
         Row::Method => "integrator of half swings",
         Row::Tolerance => problem.method.spec().dial.meaning(),
@@ -297,12 +311,24 @@ fn basin(session: &Session, found: &Cycles, width: usize) -> Vec<String> {
     });
     let kicks = kicks.into_iter().chain(spread(session));
     let physical = on_the_machine(session, found, width);
+    let certain = certain::line(session, width);
     let lines = std::iter::once(edge.to_owned());
     if session.size.height >= DESIGNED {
         // The second status line says the rest.
-        return lines.chain(spread(session)).chain(physical).chain(area(found)).collect();
+        return lines
+            .chain(spread(session))
+            .chain(physical)
+            .chain(certain)
+            .chain(area(found))
+            .collect();
     }
-    lines.chain(kicks).chain(physical).chain(share(found)).chain(area(found)).collect()
+    lines
+        .chain(kicks)
+        .chain(physical)
+        .chain(certain)
+        .chain(share(found))
+        .chain(area(found))
+        .collect()
 }
 
 /// Where the smallest displacement that is not survived lies with 95 %, by the record.

@@ -5,6 +5,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::Span;
 
+use super::certain;
 use super::keys;
 use super::look::Look;
 use super::machine;
@@ -242,7 +243,7 @@ fn verdict(fate: &Fate, motion: &Trajectory) -> String {
 
 /// What the parameters say about kicks out of rest; `None` where that is not known.
 fn margin(session: &Session) -> Option<String> {
-    if let Some(line) = machine::margin(session) {
+    if let Some(line) = certain::status(session).or_else(|| machine::margin(session)) {
         return Some(line);
     }
     let found = session.cycles().filter(|_| !session.is_stale(Topic::Cycles, session.plot))?;

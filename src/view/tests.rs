@@ -11,6 +11,7 @@ use crate::flow::{Method, Outcome, Problem, Reason, Sample};
 use crate::oscillator::{Parameters, State, Symbol};
 use crate::scene::answer::Failure;
 use crate::scene::library::{find, lesson_of, library};
+use crate::scene::zones::Extent;
 use crate::scene::{
     Answer, Answered, Axes, Exhibit, LAYERS, Layer, Point, Scene, Span, View, Window,
 };
@@ -378,6 +379,7 @@ proptest! {
                         (line.at, line.fold, line.harmonic) = (*at, Some(*fold), Some(low));
                     }
                 }
+                Ok(Answer::Zones(found)) => found.safe = Extent::Within(states.clone()),
                 Ok(Answer::Capture(found)) => found.curves = vec![states.clone()],
                 Ok(
                     Answer::Whole(_)

@@ -70,22 +70,37 @@ impl<'a> Running<'a> {
     /// `None` for D2, which no part of the machine sets by itself.
     #[must_use]
     pub fn meaning(&self, symbol: Symbol, value: f64) -> Option<(&'static str, f64, &'static str)> {
-        let Reduced { units, mu, .. } = &self.reduced;
+        let Reduced { mu, .. } = &self.reduced;
         let belt = &self.machine.belt;
         Some(match symbol {
             Symbol::D => {
-                let whole = 2.0 * value * belt.mass * units.omega_0;
+                let whole = value * self.scale(symbol);
                 ("d1", rest_of(whole, belt.normal_force * mu.first), "N s/m")
             }
             Symbol::D2 => return None,
             Symbol::D3 => {
-                let whole = value * belt.mass / (units.omega_0 * powi(units.displacement, 2));
+                let whole = value * self.scale(symbol);
                 ("d3", rest_of(whole, belt.normal_force * mu.third / 6.0), "N s^3/m^3")
             }
-            Symbol::R => ("R", value * units.force, "N"),
-            Symbol::Q0 => ("x", value * units.displacement, "m"),
-            Symbol::V0 => ("v", value * units.velocity, "m/s"),
+            Symbol::R => ("R", value * self.scale(symbol), "N"),
+            Symbol::Q0 => ("x", value * self.scale(symbol), "m"),
+            Symbol::V0 => ("v", value * self.scale(symbol), "m/s"),
         })
+    }
+
+    /// What 1 of a number of the motion stands for on the machine, in SI units; for D2 the damper per velocity.
+    #[must_use]
+    pub fn scale(&self, symbol: Symbol) -> f64 {
+        let units = &self.reduced.units;
+        let mass = self.machine.belt.mass;
+        match symbol {
+            Symbol::D => 2.0 * mass * units.omega_0,
+            Symbol::D2 => mass / units.displacement,
+            Symbol::D3 => mass / (units.omega_0 * powi(units.displacement, 2)),
+            Symbol::R => units.force,
+            Symbol::Q0 => units.displacement,
+            Symbol::V0 => units.velocity,
+        }
     }
 
     /// The pull of the belt on the mass at a dimensionless velocity, as a part of that at rest; `None`

@@ -2,12 +2,14 @@
 
 use crate::flow::{METHODS, Method, Problem, QUALITIES};
 use crate::oscillator::belt::Quantity;
+use crate::oscillator::{Interval, ParameterBox, Symbol};
 use crate::scene::machine::file::value_of;
 use crate::scene::machine::unit::measured;
 use crate::session::act::parameters::put;
 use crate::session::effect::Effect;
 use crate::session::message::key::Key;
-use crate::session::read::numbers::{number, range, with_number};
+use crate::session::read::numbers::{number, range, today, with_number};
+use crate::session::state::doubt::Doubt;
 use crate::session::state::overlay::{Entry, Overlay};
 use crate::session::state::rows::Row;
 use crate::session::state::session::Session;
@@ -20,7 +22,9 @@ pub fn edit(session: &mut Session) -> Vec<Effect> {
     let text = match row {
         Row::Method => session.problem.method.to_string(),
         Row::Belt => format!("{} m/s", shortest(number(&session.stand(), row))),
-        Row::Parameter(_) | Row::Until | Row::Tolerance => shortest(number(&session.stand(), row)),
+        Row::Parameter(_) | Row::Disturbance | Row::Until | Row::Tolerance => {
+            today(&session.stand(), row)
+        }
     };
     session.overlay = Some(Overlay::Entry(Entry::new(row, text)));
     Vec::new()
@@ -60,10 +64,50 @@ pub(in crate::session) fn read(
     if row == Row::Belt {
         let text = plain_minus(text);
         let speed = value_of(Quantity::BeltSpeed, &measured(&text)?)?;
-        return session.at_belt_speed(stand.problem, speed);
+        return session.at_belt_speed(stand, speed);
+    }
+    if row == Row::Disturbance {
+        return disturbed(stand, text);
+    }
+    if let Row::Parameter(symbol) = row {
+        return within(stand, symbol, text);
     }
     let problem = read_number(stand.problem, row, text)?;
     Ok(Stand { problem, ..stand })
+}
+
+/// What stands there with the typed bound on the disturbance.
+fn disturbed(stand: Stand, text: &str) -> Result<Stand, String> {
+    let value = plain_minus(text).parse().ok().filter(|it: &f64| it.is_finite() && *it >= 0.0);
+    let disturbance =
+        value.ok_or_else(|| format!("{text:?} is no disturbance; w takes 0 or more"))?;
+    Ok(Stand { doubt: Doubt { disturbance: disturbance + 0.0, ..stand.doubt }, ..stand })
+}
+
+/// What stands there with the typed value of a parameter, which may have a half width; without one it is
+/// known exactly.
+fn within(stand: Stand, symbol: Symbol, text: &str) -> Result<Stand, String> {
+    let row = Row::Parameter(symbol);
+    let typed = plain_minus(text).replace('\u{b1}', "+-");
+    if !(typed.contains("+-") || typed.contains("..")) {
+        let problem = read_number(stand.problem, row, text)?;
+        let doubt = stand.doubt.with_half_width(symbol, 0.0).unwrap_or(stand.doubt);
+        return Ok(Stand { problem, doubt, ..stand });
+    }
+    let known: Interval = typed.parse()?;
+    let mut within = ParameterBox::from(stand.problem.parameters);
+    within.set(symbol, known)?;
+    // The numbers that were typed, and not those rounded outwards that enclose them.
+    let (value, half) = match typed.split_once("+-") {
+        Some((value, half)) => (number_in(value)?, number_in(half)?),
+        None => (known.middle(), known.half_width()),
+    };
+    let problem = with_number(stand.problem, row, value + 0.0);
+    Ok(Stand { problem, doubt: stand.doubt.with_half_width(symbol, half)?, ..stand })
+}
+
+fn number_in(text: &str) -> Result<f64, String> {
+    text.trim().parse().map_err(|_| format!("{text:?} is no number"))
 }
 
 /// Documents print the minus sign as a character of its own.

@@ -6,6 +6,7 @@ use crate::scene::Running;
 use crate::session::act::notice::{inform, refuse};
 use crate::session::effect::Effect;
 use crate::session::read::numbers::{number, range, with_number};
+use crate::session::state::doubt::Doubt;
 use crate::session::state::history::Before;
 use crate::session::state::rows::{Row, Steps};
 use crate::session::state::session::Session;
@@ -48,6 +49,7 @@ pub fn step(session: &mut Session, count: i32) -> Vec<Effect> {
         Row::Method => return next_method(session, count.signum() as isize),
         Row::Tolerance => return turn(session, count.signum()),
         Row::Belt => return step_belt(session, count),
+        Row::Disturbance => return step_disturbance(session, count),
         Row::Parameter(_) | Row::Until => {}
     }
     let row = session.selected;
@@ -72,10 +74,41 @@ pub fn step(session: &mut Session, count: i32) -> Vec<Effect> {
 /// the range, far below any belt, would be no place to stop at.
 fn step_belt(session: &mut Session, count: i32) -> Vec<Effect> {
     let speed = session.steps.belt.from(number(&session.stand(), Row::Belt), count);
-    match session.at_belt_speed(session.problem, speed) {
+    match session.at_belt_speed(session.stand(), speed) {
         Ok(stand) => {
             if !put(session, stand) {
                 refuse(session, format!("the step is too small to change {} m/s", shortest(speed)));
+            }
+        }
+        Err(why) => refuse(session, why),
+    }
+    Vec::new()
+}
+
+/// Steps the bound on the disturbance, which is not negative.
+fn step_disturbance(session: &mut Session, count: i32) -> Vec<Effect> {
+    let present = session.stand();
+    let stepped = session.steps.disturbance.from(present.doubt.disturbance, count).max(0.0);
+    let doubt = Doubt { disturbance: stepped, ..present.doubt };
+    if !put(session, Stand { doubt, ..present }) {
+        refuse(session, "w ends at 0");
+    }
+    Vec::new()
+}
+
+/// Makes the half width of the selected parameter wider or narrower by a step.
+pub fn half_width(session: &mut Session, count: i32) -> Vec<Effect> {
+    let present = session.stand();
+    let Row::Parameter(symbol) = session.selected else {
+        refuse(session, "only D, D2, D3 and r have a half width");
+        return Vec::new();
+    };
+    let step = session.steps.parameters[symbol as usize];
+    let half = step.from(present.doubt.half_width(symbol), count).max(0.0);
+    match present.doubt.with_half_width(symbol, half) {
+        Ok(doubt) => {
+            if !put(session, Stand { doubt, ..present }) {
+                refuse(session, format!("{symbol} has no half width"));
             }
         }
         Err(why) => refuse(session, why),
@@ -103,12 +136,23 @@ pub fn reset_row(session: &mut Session) -> Vec<Effect> {
     let reset = match row {
         Row::Belt => session.scene.machine.as_ref().map_or_else(
             || Ok(present),
-            |rig| session.at_belt_speed(session.problem, rig.machine.belt.belt_speed),
+            |rig| session.at_belt_speed(present, rig.machine.belt.belt_speed),
         ),
         Row::Method => {
             Ok(Stand { problem: Problem { method: scene.method, ..session.problem }, ..present })
         }
-        Row::Parameter(_) | Row::Until | Row::Tolerance => {
+        Row::Disturbance => {
+            let disturbance = Stand::of_scene(&session.scene).doubt.disturbance;
+            Ok(Stand { doubt: Doubt { disturbance, ..present.doubt }, ..present })
+        }
+        Row::Parameter(symbol) => {
+            let value = number(&Stand::alone(scene), row);
+            let half = Stand::of_scene(&session.scene).doubt.half_width(symbol);
+            let doubt = present.doubt.with_half_width(symbol, half).unwrap_or(present.doubt);
+            let problem = with_number(session.problem, row, value);
+            Ok(Stand { problem, doubt, ..present })
+        }
+        Row::Until | Row::Tolerance => {
             let value = number(&Stand::alone(scene), row);
             Ok(Stand { problem: with_number(session.problem, row, value), ..present })
         }
@@ -178,7 +222,8 @@ pub fn next_method(session: &mut Session, by: isize) -> Vec<Effect> {
 impl Session {
     /// Makes this what is on show, with a speed of the belt if and only if there is one.
     pub(in crate::session) fn set_stand(&mut self, stand: Stand) {
-        let Stand { problem, others, belt_speed } = stand;
+        let Stand { problem, others, belt_speed, doubt } = stand;
+        self.doubt = doubt;
         let rig = self.scene.machine.as_ref();
         let can_run =
             |speed: &f64| rig.is_some_and(|rig| Running::at(&rig.machine, *speed).is_ok());

@@ -187,7 +187,7 @@ pub fn use_method(session: &mut Session) -> Vec<Effect> {
 /// Gives the belt the speed under the cursor.
 pub fn take_speed(session: &mut Session) -> Vec<Effect> {
     let Some(Point { x, .. }) = cursor(session) else { return Vec::new() };
-    match session.at_belt_speed(session.problem, x) {
+    match session.at_belt_speed(session.stand(), x) {
         Ok(stand) => {
             put(session, stand);
         }

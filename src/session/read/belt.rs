@@ -17,7 +17,8 @@ impl Session {
     /// The motion on show and the speed of the belt.
     #[must_use]
     pub fn stand(&self) -> Stand {
-        Stand { problem: self.problem, others: self.others, belt_speed: self.belt_speed }
+        let Session { problem, others, belt_speed, doubt, .. } = *self;
+        Stand { problem, others, belt_speed, doubt }
     }
 
     /// The machine of the scene at the present speed of its belt.
@@ -108,14 +109,16 @@ impl Session {
     /// One line, where there is no belt or no machine at that speed.
     pub(in crate::session) fn at_belt_speed(
         &self,
-        problem: Problem,
+        stand: Stand,
         speed: f64,
     ) -> Result<Stand, String> {
         let running = self.running().ok_or("the scene is of no machine: it has no belt")?;
         let other = Running::at(running.machine, speed)?;
+        let Stand { problem, others, doubt, .. } = stand;
         let brought = |initial| running.brought_to(&other, Problem { initial, ..problem }).initial;
-        let others = self.others.map(brought);
+        let others = others.map(brought);
         let problem = running.brought_to(&other, problem);
-        Ok(Stand { problem, others, belt_speed: Some(speed) })
+        let doubt = doubt.brought_to(&running, &other);
+        Ok(Stand { problem, others, belt_speed: Some(speed), doubt })
     }
 }

@@ -1,6 +1,7 @@
 //! Questions about a session, each a pure function of its state.
 
 pub mod belt;
+pub(in crate::session) mod certain;
 pub mod completion;
 pub mod contexts;
 pub mod fate;

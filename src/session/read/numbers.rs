@@ -12,6 +12,7 @@ pub(in crate::session) fn range(problem: &Problem, row: Row) -> (f64, f64) {
     match row {
         Row::Belt => (Quantity::BeltSpeed.spec().min, Quantity::BeltSpeed.spec().max),
         Row::Parameter(symbol) => (symbol.spec().min, symbol.spec().max),
+        Row::Disturbance => (0.0, f64::MAX),
         Row::Until => UNTIL_RANGE,
         Row::Tolerance | Row::Method => problem.method.spec().dial.range(),
     }
@@ -19,10 +20,11 @@ pub(in crate::session) fn range(problem: &Problem, row: Row) -> (f64, f64) {
 
 /// The value of a row that is a number; 0 for a belt where there is none.
 pub(in crate::session) fn number(stand: &Stand, row: Row) -> f64 {
-    let Stand { problem, belt_speed, .. } = stand;
+    let Stand { problem, belt_speed, doubt, .. } = stand;
     match row {
         Row::Belt => belt_speed.unwrap_or(0.0),
         Row::Parameter(symbol) => symbol.get(&problem.parameters, &problem.initial),
+        Row::Disturbance => doubt.disturbance,
         Row::Until => problem.until,
         Row::Tolerance | Row::Method => problem.setting(),
     }
@@ -34,9 +36,20 @@ pub(in crate::session) fn with_number(mut problem: Problem, row: Row, value: f64
         Row::Parameter(symbol) => symbol.set(&mut problem.parameters, &mut problem.initial, value),
         Row::Until => problem.until = value,
         Row::Tolerance => problem = problem.with_setting(value),
-        Row::Method | Row::Belt => {}
+        Row::Method | Row::Belt | Row::Disturbance => {}
     }
     problem
+}
+
+/// The value of a row that is a number of the oscillator, with its half width, as it can be typed.
+pub(in crate::session) fn today(stand: &Stand, row: Row) -> String {
+    let value = shortest(number(stand, row));
+    match row {
+        Row::Parameter(symbol) if stand.doubt.half_width(symbol) > 0.0 => {
+            format!("{value}+-{}", shortest(stand.doubt.half_width(symbol)))
+        }
+        _ => value,
+    }
 }
 
 /// What is different in `new`, as `name = value`; of a belt at another speed that alone, because the
@@ -45,7 +58,7 @@ pub(in crate::session) fn difference(old: &Stand, new: &Stand) -> String {
     let value = |stand: &Stand, row: Row| match row {
         Row::Method => stand.problem.method.to_string(),
         Row::Belt => stand.belt_speed.map(shortest).unwrap_or_default(),
-        row => shortest(number(stand, row)),
+        row => today(stand, row),
     };
     let belt = new.belt_speed.is_some() && old.belt_speed != new.belt_speed;
     let follows = |row: &Row| belt && matches!(row, Row::Parameter(_));

@@ -85,7 +85,7 @@ impl Session {
         stepped.selected = row;
         // At the end of a range the step goes the other way.
         for count in [1, -1] {
-            if stepped.problem == self.problem {
+            if stepped.stand() == self.stand() {
                 parameters::step(&mut stepped, count);
             }
         }

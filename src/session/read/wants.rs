@@ -124,7 +124,8 @@ impl Session {
     #[must_use]
     pub fn needs(&self, plot: usize) -> BTreeSet<Topic> {
         let shown = |layer: &&Layer| self.shows_in(**layer, plot);
-        self.layers.iter().filter(shown).filter_map(|layer| layer.spec().needs).collect()
+        let needed = self.layers.iter().filter(shown).filter_map(|layer| layer.spec().needs);
+        needed.chain(self.tells_certain(plot).then_some(Topic::Zones)).collect()
     }
 
     /// The question about this topic for each problem that a plot shows, with its place among these.
@@ -184,6 +185,7 @@ impl Session {
                 let Problem { initial, until, .. } = self.problem;
                 Request::Reference { parameters, initial, until }
             }
+            Topic::Zones => self.zones_request(&parameters)?,
             Topic::Capture if parameters.r == 0.0 => return None,
             Topic::Capture => {
                 let reach = reach(own(View::Phase)?.window);

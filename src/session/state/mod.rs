@@ -3,6 +3,7 @@
 pub mod answers;
 pub mod command;
 pub mod context;
+pub mod doubt;
 pub mod history;
 pub mod input;
 pub mod keymap;

@@ -14,6 +14,8 @@ pub enum Row {
     Belt,
     /// One of the six numbers that define a motion.
     Parameter(Symbol),
+    /// Bound w on a force that varies in any way.
+    Disturbance,
     /// Time at which the motion stops.
     Until,
     /// How to integrate.
@@ -23,12 +25,13 @@ pub enum Row {
 }
 
 /// Every row, in the order in which they stand.
-pub const ROWS: [Row; 10] = [
+pub const ROWS: [Row; 11] = [
     Row::Belt,
     Row::Parameter(Symbol::D),
     Row::Parameter(Symbol::D2),
     Row::Parameter(Symbol::D3),
     Row::Parameter(Symbol::R),
+    Row::Disturbance,
     Row::Parameter(Symbol::Q0),
     Row::Parameter(Symbol::V0),
     Row::Until,
@@ -46,6 +49,7 @@ impl Row {
         match self {
             Row::Belt => "belt",
             Row::Parameter(symbol) => symbol.spec().name,
+            Row::Disturbance => "w",
             Row::Until => "until",
             Row::Method => "method",
             Row::Tolerance => "tolerance",
@@ -62,7 +66,7 @@ impl Row {
     }
 }
 
-/// The step sizes of the six numbers, of the end time, and of the belt.
+/// The step sizes of the six numbers, of the end time, of the belt and of the disturbance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Steps {
     /// Step of each parameter, in the order of the table.
@@ -72,6 +76,9 @@ pub struct Steps {
     /// Step of the speed of the belt, in m/s.
     #[serde(default = "usual_belt_step")]
     pub belt: StepSize,
+    /// Step of the bound on the disturbance.
+    #[serde(default = "usual_disturbance_step")]
+    pub disturbance: StepSize,
 }
 
 /// Part of the speed of a belt by which it is stepped at first.
@@ -79,6 +86,13 @@ const BELT_STEP: f64 = 1.0 / 30.0;
 
 fn usual_belt_step() -> StepSize {
     StepSize::near(BELT_STEP)
+}
+
+/// First step of the disturbance.
+const DISTURBANCE_STEP: f64 = 0.01;
+
+fn usual_disturbance_step() -> StepSize {
+    StepSize::near(DISTURBANCE_STEP)
 }
 
 /// First step of the end time: somewhat more than one and a half periods.
@@ -91,6 +105,7 @@ impl Steps {
         match row {
             Row::Belt => Some(self.belt),
             Row::Parameter(symbol) => Some(self.parameters[symbol as usize]),
+            Row::Disturbance => Some(self.disturbance),
             Row::Until => Some(self.until),
             Row::Method | Row::Tolerance => None,
         }
@@ -101,6 +116,7 @@ impl Steps {
         match row {
             Row::Belt => Some(&mut self.belt),
             Row::Parameter(symbol) => Some(&mut self.parameters[symbol as usize]),
+            Row::Disturbance => Some(&mut self.disturbance),
             Row::Until => Some(&mut self.until),
             Row::Method | Row::Tolerance => None,
         }
@@ -121,10 +137,17 @@ impl Steps {
                 step(Symbol::Q0),
                 step(Symbol::V0),
             ],
+            disturbance: step_of_disturbance(scene),
             until: StepSize::near(UNTIL_STEP),
             belt: scene.machine.as_ref().map_or_else(usual_belt_step, |rig| {
                 StepSize::near(BELT_STEP * rig.machine.belt.belt_speed)
             }),
         }
     }
+}
+
+/// A tenth of the friction, as the steps go.
+fn step_of_disturbance(scene: &Scene) -> StepSize {
+    let r = scene.problem.parameters.r;
+    if r > 0.0 { StepSize::near(0.1 * r) } else { usual_disturbance_step() }
 }

@@ -14,6 +14,7 @@ use crate::scene::{Arrangement, Layer, Scene, Topic};
 use crate::session::message::Notice;
 use crate::session::message::key::Key;
 use crate::session::state::answers::Answers;
+use crate::session::state::doubt::Doubt;
 use crate::session::state::history::History;
 use crate::session::state::keymap::Keymap;
 use crate::session::state::macros::Macros;
@@ -91,6 +92,8 @@ pub struct Session {
     pub others: Starts,
     /// Speed of the belt, in m/s; `None` where the scene is of no machine.
     pub belt_speed: Option<f64>,
+    /// Half widths of the parameters, and the disturbance.
+    pub doubt: Doubt,
     /// Step sizes of the parameter pane.
     pub steps: Steps,
     /// The selected row of the parameter pane, always one of [`Session::rows`].
@@ -165,6 +168,7 @@ impl Session {
             problem: scene.problem,
             others: Starts::default(),
             belt_speed: Stand::of_scene(&scene).belt_speed,
+            doubt: Stand::of_scene(&scene).doubt,
             steps: Steps::of_scene(&scene),
             selected: Row::FIRST,
             unfolded: false,
@@ -214,6 +218,11 @@ impl Session {
             Row::Belt => self.scene.machine.is_some(),
             Row::Parameter(symbol) => {
                 self.unfolded || self.scene.declares(symbol) || self.value(symbol) != 0.0
+            }
+            Row::Disturbance => {
+                self.unfolded
+                    || !self.doubt.is_none()
+                    || [Layer::Safe, Layer::Lost].iter().any(|it| self.layers.contains(it))
             }
             Row::Until | Row::Method | Row::Tolerance => true,
         };

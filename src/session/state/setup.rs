@@ -1,10 +1,12 @@
-//! The motions on show and the speed of the belt, which change together.
+//! The motions on show, the speed of the belt and what is not known exactly, which change together.
 
 use crate::flow::Problem;
 use crate::scene::{Rig, Scene};
+use crate::session::state::doubt::Doubt;
 use crate::session::state::starts::Starts;
 
-/// What a change changes: the motions, and the speed of the belt that their units are those of.
+/// What a change changes: the motions, the speed of the belt that their units are those of, and what is not known
+/// exactly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stand {
     /// The present motion: parameters, start, end time, method and tolerance.
@@ -13,20 +15,23 @@ pub struct Stand {
     pub others: Starts,
     /// Speed of the belt, in m/s; `None` where the scene is of no machine.
     pub belt_speed: Option<f64>,
+    /// Half widths of the parameters, and the disturbance.
+    pub doubt: Doubt,
 }
 
 impl Stand {
     /// What a scene opens with.
     #[must_use]
     pub fn of_scene(scene: &Scene) -> Self {
+        let rig = scene.machine.as_deref();
         let speed = |rig: &Rig| rig.machine.belt.belt_speed;
-        let belt_speed = scene.machine.as_deref().map(speed);
-        Stand { belt_speed, ..Stand::alone(scene.problem) }
+        let doubt = rig.map_or_else(Doubt::default, |rig| Doubt::of_machine(&rig.running()));
+        Stand { belt_speed: rig.map(speed), doubt, ..Stand::alone(scene.problem) }
     }
 
-    /// One motion of no machine.
+    /// One motion of no machine, known exactly.
     #[must_use]
     pub fn alone(problem: Problem) -> Self {
-        Stand { problem, others: Starts::default(), belt_speed: None }
+        Stand { problem, others: Starts::default(), belt_speed: None, doubt: Doubt::default() }
     }
 }

@@ -13,18 +13,19 @@ use crate::session::act::parameters;
 use crate::session::{Row, Session};
 
 /// Whether an answer of this kind changes with a number, whatever a plot looks at. The columns are the
-/// four parameters of the equation, the two of the start, the end time, the method, and its accuracy.
-const DEPENDS: [(Topic, &str); 9] = [
-    //                   equation start until method accuracy
-    (Topic::Trajectory, "  xxxx     xx    x     x       x"),
-    (Topic::Cycles, "      xxxx     ..    .     .       ."),
-    (Topic::Capture, "     xxxx     ..    .     .       ."),
-    (Topic::Branch, "      xxxx     ..    .     .       x"),
-    (Topic::Balance, "     xxxx     ..    .     .       ."),
-    (Topic::ReturnMap, "   xxxx     ..    .     .       ."),
-    (Topic::Regimes, "     xxxx     ..    .     .       ."),
-    (Topic::Trade, "       xxxx     xx    x     .       ."),
-    (Topic::Claims, "      ....     ..    .     .       ."),
+/// four parameters of the equation, the disturbance, the two of the start, the end time, the method, and its accuracy.
+const DEPENDS: [(Topic, &str); 10] = [
+    //                   equation w start until method accuracy
+    (Topic::Trajectory, "  xxxx  .     xx    x     x       x"),
+    (Topic::Cycles, "      xxxx  .     ..    .     .       ."),
+    (Topic::Zones, "       xxxx  x     ..    .     .       ."),
+    (Topic::Capture, "     xxxx  .     ..    .     .       ."),
+    (Topic::Branch, "      xxxx  .     ..    .     .       x"),
+    (Topic::Balance, "     xxxx  .     ..    .     .       ."),
+    (Topic::ReturnMap, "   xxxx  .     ..    .     .       ."),
+    (Topic::Regimes, "     xxxx  .     ..    .     .       ."),
+    (Topic::Trade, "       xxxx  .     xx    x     .       ."),
+    (Topic::Claims, "      ....  .     ..    .     .       ."),
 ];
 
 fn depends(topic: Topic, row: Row) -> bool {
@@ -32,9 +33,9 @@ fn depends(topic: Topic, row: Row) -> bool {
     let mut letters = letters.chars().filter(|letter| *letter != ' ');
     if row == Row::Belt {
         // Its speed moves the equation, and the start with the unit of length.
-        return letters.take(6).any(|letter| letter == 'x');
+        return letters.take(7).any(|letter| letter == 'x');
     }
-    // The rows are D, D2, D3, r, q0, v0, until, method, tolerance.
+    // The rows are D, D2, D3, r, w, q0, v0, until, method, tolerance.
     let mut rows = ROWS.iter().filter(|row| **row != Row::Belt);
     let column = rows.position(|other| *other == row).unwrap();
     letters.nth(column).unwrap() == 'x'

@@ -6,6 +6,8 @@ mod belt;
 mod dependence;
 mod desk;
 mod dial;
+mod doubt;
+
 mod drafts;
 mod entries;
 mod language;
@@ -33,6 +35,7 @@ use crate::numerics::twofold::Twofold;
 use crate::oscillator::{Ledger, State};
 use crate::scene::answer::{Borders, Rows};
 use crate::scene::speeds::Speeds;
+use crate::scene::zones::{Extent, Zones};
 use crate::scene::{Answer, Answered, Fit, Request, Topic, find};
 use crate::study::accuracy::{Deviation, Ending, Reference, Source};
 use crate::study::chart::Chart;
@@ -181,6 +184,18 @@ fn trade(cost: Cost) -> Trade {
     Trade { problem, reference, rows }
 }
 
+/// Certainty by hand: a margin, and half of it for certain.
+fn zones() -> Zones {
+    let margin = |part: f64| Margin { displacement: Some(part), impulse: Some(part) };
+    Zones {
+        safe: Extent::Within(Vec::new()),
+        hopeful: Extent::Everything,
+        nominal: margin(0.5),
+        guaranteed: Ok(margin(0.25)),
+        cost: Cost { evaluations: COST, steps: 1, rejected: 0 },
+    }
+}
+
 /// An answer by hand: a motion that stays where it starts, two cycles, one fold.
 fn answered(request: Request) -> Answered {
     let cost = Cost { evaluations: COST, steps: 1, rejected: 0 };
@@ -218,6 +233,7 @@ fn answered(request: Request) -> Answered {
         Request::Trade { .. } => Answer::Trade(Box::new(trade(cost))),
         // Nothing is known better than by hand.
         Request::Reference { .. } => Answer::Reference(Err(Reason::OutOfRange)),
+        Request::Zones { .. } | Request::MachineZones { .. } => Answer::Zones(zones()),
         Request::Capture { .. } => Answer::Capture(Borders { curves: Vec::new(), cost }),
         Request::Balance { parameters, harmonics } => Answer::Balance(HarmonicBalance {
             parameters: *parameters,

@@ -92,9 +92,11 @@ fn terms_that_a_scene_does_not_declare_are_zero_until_the_user_unfolds_them() {
         let parameters = match request {
             Request::Claims | Request::Fit { .. } => continue,
             Request::Trajectory(problem) => problem.parameters,
-            Request::Machine { .. } | Request::Portrait { .. } | Request::Speeds { .. } => {
-                unreachable!("the scene is of no machine")
-            }
+            Request::Machine { .. }
+            | Request::Portrait { .. }
+            | Request::MachineZones { .. }
+            | Request::Speeds { .. } => unreachable!("the scene is of no machine"),
+            Request::Zones { known, .. } => known.middle(),
             Request::Cycles { parameters }
             | Request::Capture { parameters, .. }
             | Request::Balance { parameters, .. }
@@ -112,7 +114,7 @@ fn terms_that_a_scene_does_not_declare_are_zero_until_the_user_unfolds_them() {
     };
     assert_eq!(names(&desk), "D r q0 v0 until method tolerance");
     desk.press("x");
-    assert_eq!(names(&desk), "D D2 D3 r q0 v0 until method tolerance");
+    assert_eq!(names(&desk), "D D2 D3 r w q0 v0 until method tolerance");
     desk.press("<down*2><right>x");
     assert_eq!(
         names(&desk),

@@ -5,6 +5,7 @@ use crate::numerics::elementary::{cos, ln, sin, sin_cos};
 use crate::oscillator::{Ledger, Parameters, State, Symbol};
 use crate::scene::answer::{Borders, Rows};
 use crate::scene::library::find;
+use crate::scene::zones::{Extent, Zones};
 use crate::scene::{Answer, Answered, Fit, Layer, Request};
 use crate::session::{Key, Msg, Session, Size, update};
 use crate::study::chart::{Band, Chart, Line, Plane};
@@ -95,6 +96,13 @@ pub(super) fn by_hand(request: &Request) -> Answer {
             let rows = (*from..scan.points()).map(row).collect();
             Answer::Rows(Rows { first: *from, rows })
         }
+        Request::Zones { .. } | Request::MachineZones { .. } => Answer::Zones(Zones {
+            safe: Extent::Within(circle(0.4)),
+            hopeful: Extent::Within(circle(0.6)),
+            nominal: Margin { displacement: Some(0.5), impulse: Some(0.5) },
+            guaranteed: Ok(Margin { displacement: Some(0.4), impulse: Some(0.4) }),
+            cost: Cost { evaluations: 400, steps: 20, rejected: 0 },
+        }),
         Request::Capture { .. } => Answer::Capture(Borders {
             curves: vec![circle(0.2), circle(0.35)],
             cost: Cost { evaluations: 800, steps: 40, rejected: 0 },

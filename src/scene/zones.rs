@@ -1,0 +1,99 @@
+//! What is safe and what is lost for certain, whatever the parameters are within their intervals and whatever
+//! a bounded disturbance does: as the phase plane draws it and the pane tells it.
+
+use crate::flow::{Cost, Limits, Reason};
+use crate::machine::guarantee::{best, kicks, worst};
+use crate::machine::{Portrait, Tolerances};
+use crate::oscillator::{Belt, ParameterBox, State};
+use crate::scene::whole;
+use crate::study::Margin;
+use crate::study::basin::Basin;
+use crate::study::cycle::PICTURE_REACH;
+use crate::study::guarantee::{guarantee, uncertain, zones};
+
+/// A part of the phase plane around the sticking set.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Extent {
+    /// None of it.
+    Nothing,
+    /// What a curve does not separate from the origin.
+    Within(Vec<State>),
+    /// All of it.
+    Everything,
+}
+
+/// What is certain.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Zones {
+    /// Starts that no motion leaves.
+    pub safe: Extent,
+    /// Starts outside of which nothing comes to rest; everything where that is not known.
+    pub hopeful: Extent,
+    /// The margin without doubt and disturbance.
+    pub nominal: Margin,
+    /// The margin that holds for certain, or why none does.
+    pub guaranteed: Result<Margin, String>,
+    /// What it cost.
+    pub cost: Cost,
+}
+
+fn extent(basin: Option<&Basin>, otherwise: Extent, points: u16) -> Extent {
+    match basin.map(|basin| basin.borders.first()) {
+        None => otherwise,
+        Some(None) => Extent::Everything,
+        Some(Some(border)) => Extent::Within(border.curve(points)),
+    }
+}
+
+/// The zones of an oscillator, with so many points on each step of a border.
+///
+/// # Errors
+/// The [`Reason`] why a border could not be computed.
+pub fn of_oscillator(
+    known: &ParameterBox,
+    disturbance: f64,
+    points: u16,
+    limits: &Limits,
+) -> Result<Zones, Reason> {
+    let d2 = known.d2.low.abs().min(known.d2.high.abs());
+    let found = guarantee(known, disturbance, limits)?;
+    let drawn = zones(known, disturbance, PICTURE_REACH / d2.max(f64::MIN_POSITIVE), limits)?;
+    let guaranteed = match uncertain(known, disturbance) {
+        Some(why) => Err(why.to_string()),
+        None => Ok(found.guaranteed.margin),
+    };
+    Ok(Zones {
+        safe: extent(drawn.safe.as_ref(), Extent::Nothing, points),
+        hopeful: extent(drawn.lost.as_ref(), Extent::Everything, points),
+        nominal: found.nominal,
+        guaranteed,
+        cost: found.cost,
+    })
+}
+
+/// The zones of a machine by the whole model, in the units of its oscillator.
+///
+/// # Errors
+/// The [`Reason`] why a machine within the tolerances has no portrait.
+pub fn of_machine(belt: &Belt, known: &Tolerances, points: u16) -> Result<Zones, Reason> {
+    let needs = "a friction law that reaches the slips of all machines within the tolerances";
+    let trouble = |_| Reason::NotApplicable { needs };
+    let nominal = whole::found(belt)?;
+    let drawn = |portrait: &Portrait| match portrait.border.curve() {
+        Some(curve) => Extent::Within(whole::places(curve, &nominal.model, points)),
+        None => Extent::Everything,
+    };
+    let margin =
+        |displacement: f64, impulse: f64| whole::margin_of(&nominal.model, displacement, impulse);
+    let (safe, guaranteed) = match worst(belt, known).map_err(trouble)? {
+        Err(why) => (Extent::Nothing, Err(why.to_string())),
+        Ok((corners, portrait)) => {
+            let least = kicks(&corners, &portrait);
+            (drawn(&portrait), Ok(margin(least.displacement, least.impulse)))
+        }
+    };
+    let hopeful = best(belt, known).map_err(trouble)?.as_ref().map_or(Extent::Everything, drawn);
+    let none = Margin { displacement: None, impulse: None };
+    let nominal = whole::margin(&nominal).unwrap_or(none);
+    Ok(Zones { safe, hopeful, nominal, guaranteed, cost: Cost::default() })
+}

@@ -1,0 +1,130 @@
+//! How exactly the parameters are known, and what disturbs the motion.
+
+use serde::{Deserialize, Serialize};
+
+use crate::machine::Tolerances;
+use crate::oscillator::belt::Quantity;
+use crate::oscillator::{Belt, Interval, ParameterBox, Parameters, Symbol};
+use crate::scene::Running;
+
+/// By how much the parameters may differ from their values, and the bound on a force that varies in any way.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Doubt {
+    /// Half widths of D, D2, D3 and r.
+    pub half_widths: [f64; 4],
+    /// Bound w on the disturbance, in the unit of r.
+    pub disturbance: f64,
+}
+
+/// The parameters that may have a half width.
+const UNSURE: [Symbol; 4] = [Symbol::D, Symbol::D2, Symbol::D3, Symbol::R];
+
+/// The numbers of a machine that such a parameter stands for.
+const ON_A_MACHINE: [(Symbol, Quantity); 3] = [
+    (Symbol::D, Quantity::Damping),
+    (Symbol::D3, Quantity::CubicDamping),
+    (Symbol::R, Quantity::Friction),
+];
+
+impl Doubt {
+    /// Whether everything is known exactly and nothing disturbs.
+    #[must_use]
+    pub fn is_none(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// The same, if no number of it is negative.
+    ///
+    /// # Errors
+    /// One line that names the number.
+    pub fn checked(self) -> Result<Self, String> {
+        let mut all = self.half_widths.into_iter().chain([self.disturbance]);
+        match all.find(|it| !(it.is_finite() && *it >= 0.0)) {
+            Some(value) => {
+                Err(format!("doubt: {value:?}; half widths and disturbance are 0 or more"))
+            }
+            None => Ok(self),
+        }
+    }
+
+    /// The half width of a number; 0 for those that have none.
+    #[must_use]
+    pub fn half_width(&self, symbol: Symbol) -> f64 {
+        UNSURE.iter().position(|it| *it == symbol).map_or(0.0, |place| self.half_widths[place])
+    }
+
+    /// The same with another half width of a parameter.
+    ///
+    /// # Errors
+    /// One line, where the number is no parameter.
+    pub fn with_half_width(mut self, symbol: Symbol, half: f64) -> Result<Self, String> {
+        let place = UNSURE.iter().position(|it| *it == symbol).ok_or_else(|| {
+            format!("{symbol} is the start of a motion; only D, D2, D3, r have half widths")
+        })?;
+        self.half_widths[place] = half;
+        Ok(self)
+    }
+
+    /// Where the parameters lie, as far as their ranges reach.
+    #[must_use]
+    pub fn known(&self, parameters: &Parameters) -> ParameterBox {
+        let mut known = ParameterBox::from(*parameters);
+        for symbol in UNSURE {
+            let spec = symbol.spec();
+            let value = symbol.get(parameters, &crate::oscillator::State { q: 0.0, v: 0.0 });
+            let Interval { low, high } = Interval::around(value, self.half_width(symbol));
+            let interval = Interval { low: low.max(spec.min), high: high.min(spec.max) };
+            // Both ends are within the range of the parameter.
+            let _ = known.set(symbol, interval);
+        }
+        known
+    }
+
+    /// What a machine's file says, in the units of its oscillator.
+    #[must_use]
+    pub fn of_machine(running: &Running) -> Self {
+        let Tolerances { half_widths, disturbance } = &running.machine.tolerances;
+        let mut doubt = Doubt::default();
+        for (symbol, quantity) in ON_A_MACHINE {
+            let half = half_widths.get(quantity.spec().name).copied().unwrap_or(0.0);
+            let half = half / running.scale(symbol);
+            doubt = doubt.with_half_width(symbol, half).unwrap_or(doubt);
+        }
+        Doubt { disturbance: disturbance / running.reduced.units.force, ..doubt }
+    }
+
+    /// The same as tolerances of the machine on show; those of its other numbers are the file's.
+    ///
+    /// # Errors
+    /// One line, where a number of no part of the machine has a half width.
+    pub fn on_machine(&self, running: &Running, belt: &Belt) -> Result<Tolerances, String> {
+        if self.half_width(Symbol::D2) > 0.0 {
+            return Err("no part of the machine sets D2 alone: it has no half width".to_owned());
+        }
+        let mut half_widths = running.machine.tolerances.half_widths.clone();
+        for (symbol, quantity) in ON_A_MACHINE {
+            let value = belt.get(quantity);
+            let half = self.half_width(symbol) * running.scale(symbol);
+            // Friction and dampers are not negative, whatever is known of them.
+            let half = half.min((value - quantity.spec().min).abs());
+            half_widths.insert(quantity.spec().name.to_owned(), half);
+        }
+        Ok(Tolerances { half_widths, disturbance: self.disturbance * running.reduced.units.force })
+    }
+
+    /// The same on the machine at another speed of its belt, where units are others.
+    #[must_use]
+    pub fn brought_to(self, from: &Running, to: &Running) -> Self {
+        if self == Self::of_machine(from) {
+            return Self::of_machine(to);
+        }
+        let mut moved = self;
+        for (symbol, _) in ON_A_MACHINE {
+            let half = self.half_width(symbol) * (from.scale(symbol) / to.scale(symbol));
+            moved = moved.with_half_width(symbol, half).unwrap_or(moved);
+        }
+        let force = from.reduced.units.force / to.reduced.units.force;
+        Doubt { disturbance: self.disturbance * force, ..moved }
+    }
+}
