@@ -83,7 +83,12 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         picture.curve(Line::new("record", Role::Ghost, Dash::Dotted), points);
     }
     if shows(Layer::Trajectory) {
-        for (variant, answer) in found(session, Topic::Trajectory, index) {
+        let mut found = found(session, Topic::Trajectory, index);
+        if !family {
+            // The present one over the others.
+            found.reverse();
+        }
+        for (variant, answer) in found {
             if let Answer::Trajectory(found) = answer {
                 let (line, variant) = if family {
                     (Line::new("motion", Role::Trajectory, Dash::Solid), variant)
