@@ -28,7 +28,8 @@
 //!   a start ends as is read off the next turning point ([`machine::Portrait`]).
 //! - [`fit`] turns a recorded motion into estimates of all these numbers, with their errors, and the margin
 //!   that they leave.
-//! - [`scene`] says what is on show, as [`scene::Request`] values that name exactly their inputs, and
+//! - [`question`] has a file for each kind of question that the screen asks: a [`question::Request`] names exactly the
+//!   inputs that its answer depends on. [`scene`] says what is on show, and
 //!   [`session`] is a pure machine: `update(&mut Session, Msg) -> Vec<Effect>` and
 //!   `Session::wants() -> Vec<Request>`. What has not changed is not asked again; a hidden layer asks
 //!   nothing. One table of commands feeds keys, footer and help.
@@ -69,6 +70,9 @@ pub mod figure;
 #[cfg(feature = "explorer")]
 #[doc(hidden)]
 pub mod picture;
+#[cfg(feature = "explorer")]
+#[doc(hidden)]
+pub mod question;
 #[cfg(feature = "explorer")]
 #[doc(hidden)]
 pub mod report;

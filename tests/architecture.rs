@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules, from the innermost ring to the outermost; those of one ring may use each other.
-const RINGS: [&[&str]; 13] = [
+const RINGS: [&[&str]; 14] = [
     &["numerics"],
     &["check"],
     &["oscillator", "closed_form"],
@@ -17,6 +17,7 @@ const RINGS: [&[&str]; 13] = [
     &["study", "machine"],
     &["fit"],
     &["words"],
+    &["question"],
     &["session", "scene"],
     &["picture"],
     &["report"],
@@ -28,7 +29,7 @@ const RINGS: [&[&str]; 13] = [
 const SIBLINGS: [(&str, &str); 2] = [("view", "figure"), ("view", "report")];
 
 /// Rings that know no terminal, thread, clock, environment variable or file: all within `view`.
-const PURE: usize = 11;
+const PURE: usize = 12;
 
 /// Crates and modules that only the outer rings may use, and what they stand for.
 const OUTSIDE: [(&str, &str); 13] = [

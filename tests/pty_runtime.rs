@@ -10,6 +10,7 @@ use std::time::Duration;
 
 use hopfscope::flow::{Cost, Limits, Reason};
 use hopfscope::oscillator::Parameters;
+use hopfscope::question;
 use hopfscope::runtime::worker::Tell;
 use hopfscope::runtime::{Machine, Options, launch};
 use hopfscope::scene::{Answer, Answered, Request};
@@ -32,12 +33,14 @@ struct Machinery {
 /// The request that stands for a number.
 fn request(number: u32) -> Request {
     let parameters = Parameters { d: f64::from(number), d2: 0.0, d3: 0.0, r: 0.0 };
-    Request::Cycles { parameters }
+    Request::Cycles(question::cycles::Asked { parameters })
 }
 
 /// The worker: panics at 3.
 fn confirm(request: &Request, _: &Limits, _: &Tell) -> Result<Answer, Reason> {
-    let Request::Cycles { parameters, .. } = *request else { return Err(Reason::OutOfRange) };
+    let Request::Cycles(question::cycles::Asked { parameters, .. }) = *request else {
+        return Err(Reason::OutOfRange);
+    };
     assert!(parameters.d != 3.0, "three is too much");
     Ok(Answer::Cycles(Cycles {
         parameters,

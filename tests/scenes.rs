@@ -5,7 +5,7 @@ use hopfscope::flow::{Detail, Limits, Outcome};
 use hopfscope::machine::Fate;
 use hopfscope::numerics::elementary::hypot;
 use hopfscope::oscillator::Symbol;
-use hopfscope::scene::answer::answer;
+use hopfscope::question::answer;
 use hopfscope::scene::{Answered, Topic, find};
 use hopfscope::session::replay::{Action, Player, parse};
 use hopfscope::session::{Msg, Session, Size, update};

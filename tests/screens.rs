@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::rc::Rc;
 
 use hopfscope::flow::Limits;
-use hopfscope::scene::answer::{Failure, answer};
+use hopfscope::question::{Failure, answer};
 use hopfscope::scene::library::library;
 use hopfscope::scene::{Answered, Scene};
 use hopfscope::session::settings::{self, Colors, Glyphs};

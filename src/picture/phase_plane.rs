@@ -13,7 +13,7 @@ use crate::flow::{Outcome, Problem, Sample, Trajectory};
 use crate::machine;
 use crate::numerics::elementary::sin_cos;
 use crate::oscillator::{HalfPlane, Parameters, Side, State};
-use crate::scene::zones::Extent;
+use crate::question::zones::Extent;
 use crate::scene::{Answer, Layer, Point, Topic, View};
 use crate::session::starts::MOST_MOTIONS;
 use crate::session::{self, Session, Shown};

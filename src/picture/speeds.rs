@@ -7,7 +7,7 @@ use super::reading::reading;
 use super::role::{Dash, Role};
 use crate::machine::Cycle;
 use crate::machine::special::{Kind, Special};
-use crate::scene::speeds::{Speed, Speeds};
+use crate::question::speeds::{Speed, Speeds};
 use crate::scene::{Layer, Point, View};
 use crate::session::{self, Session};
 use crate::words::quantity::with_unit;

@@ -139,9 +139,12 @@ mod tests {
     use super::*;
     use crate::flow::Problem;
     use crate::oscillator::Parameters;
+    use crate::question;
 
     fn cycles(d: f64) -> Request {
-        Request::Cycles { parameters: Parameters { d, d2: 0.0, d3: 0.0, r: 0.1 } }
+        Request::Cycles(question::cycles::Asked {
+            parameters: Parameters { d, d2: 0.0, d3: 0.0, r: 0.1 },
+        })
     }
 
     #[test]

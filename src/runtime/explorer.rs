@@ -16,9 +16,11 @@ use super::worker::Tell;
 use super::{print, scanning};
 use crate::figure::{self, Form};
 use crate::flow::{Limits, Reason};
-use crate::scene::{Answer, Request, answer as scene_answer};
+use crate::question::{self, Fineness, Means};
+use crate::scene::{Answer, Request};
 use crate::session::replay::Script;
 use crate::session::{Effect, Msg, Place, Session, save, settings, update};
+use crate::study::scan::Scan;
 use crate::terminal::Environment;
 use crate::view::{self, Look};
 
@@ -109,10 +111,8 @@ impl Machine for Explorer {
 /// # Errors
 /// The [`Reason`] why there is no answer.
 pub fn answer(request: &Request, limits: &Limits, tell: &Tell) -> Result<Answer, Reason> {
-    match request {
-        Request::Scan { scan, from } => scanning::answer(scan, *from, limits, tell),
-        _ => scene_answer::answer(request, limits),
-    }
+    let rows = |scan: &Scan, from| scanning::answer(scan, from, limits, tell);
+    question::answer_by(request, &Means { fineness: Fineness::SCREEN, limits, rows: &rows })
 }
 
 /// Runs a session in the terminal, until the user leaves or a signal ends the program.

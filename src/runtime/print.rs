@@ -2,7 +2,7 @@
 
 use crate::figure::{FAINT, Figure};
 use crate::flow::{Limits, Reason};
-use crate::scene::answer::{Fineness, answer_for};
+use crate::question::{Fineness, answer_for};
 use crate::scene::{Answered, Request, Topic};
 use crate::session::{Msg, Session, update};
 

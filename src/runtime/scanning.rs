@@ -14,8 +14,8 @@ use rayon::ThreadPoolBuilder;
 use super::panics;
 use super::worker::Tell;
 use crate::flow::{Limits, Reason};
+use crate::question::Rows;
 use crate::scene::Answer;
-use crate::scene::answer::Rows;
 use crate::study::scan::{Row, Scan};
 
 /// Rows that each thread may be ahead of the first one that is not done yet: enough that one slow row
@@ -103,7 +103,7 @@ pub fn rows(
 ///
 /// # Errors
 /// [`Reason::Interrupted`]; what was told before stays true.
-pub fn answer(scan: &Scan, from: usize, limits: &Limits, tell: &Tell) -> Result<Answer, Reason> {
+pub fn answer(scan: &Scan, from: usize, limits: &Limits, tell: &Tell) -> Result<Rows, Reason> {
     /// How long rows are gathered before they are shown: some frames.
     const EVERY: Duration = Duration::from_millis(60);
     let mut piece = Rows { first: from, rows: Vec::new() };
@@ -119,7 +119,7 @@ pub fn answer(scan: &Scan, from: usize, limits: &Limits, tell: &Tell) -> Result<
         ControlFlow::Continue(())
     })
     .map_err(|_| Reason::NotApplicable { needs: "threads, and the system gives none" })?;
-    if (limits.interrupted)() { Err(Reason::Interrupted) } else { Ok(Answer::Rows(piece)) }
+    if (limits.interrupted)() { Err(Reason::Interrupted) } else { Ok(piece) }
 }
 
 /// A row, or nothing if the scan is over.

@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 use super::desk::{self, Desk};
 use super::panics::{self, Notes};
 use crate::flow::{Limits, Reason};
-use crate::scene::answer::Failure;
+use crate::question::Failure;
 use crate::scene::{Answer, Answered, Request};
 use crate::session::Msg;
 
@@ -179,17 +179,18 @@ mod tests {
     use super::*;
     use crate::flow::Cost;
     use crate::oscillator::Parameters;
+    use crate::question;
     use crate::study::{Cycles, Edge};
 
     /// A request told apart from others by its number.
     fn request(number: f64) -> Request {
         let parameters = Parameters { d: number, d2: 0.0, d3: 0.0, r: 0.1 };
-        Request::Cycles { parameters }
+        Request::Cycles(question::cycles::Asked { parameters })
     }
 
     fn number(request: &Request) -> f64 {
         match request {
-            Request::Cycles { parameters, .. } => parameters.d,
+            Request::Cycles(question::cycles::Asked { parameters, .. }) => parameters.d,
             other => unreachable!("{other:?}"),
         }
     }

@@ -5,8 +5,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::request::Topic;
 use super::views::View;
+use crate::question::Topic;
 
 /// Something drawn in a view that can be switched on and off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]

@@ -10,11 +10,11 @@ use serde::{Deserialize, Serialize};
 
 use super::layer::Layer;
 use super::machine::Rig;
-use super::recording::Recording;
 use super::usual::{TOLERANCE, UNTIL};
 use super::views::{Arrangement, Axes, Exhibit, View};
 use crate::flow::Problem;
 use crate::oscillator::Symbol;
+use crate::question::Recording;
 
 /// A phenomenon, set up to be looked at.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -5,8 +5,8 @@
 //! concern each.
 
 use crate::flow::Reason;
+use crate::question::Failure;
 use crate::scene::Answered;
-use crate::scene::answer::Failure;
 use crate::session::act::notice::{inform, refuse};
 use crate::session::act::{answers, files, history, macros, mouse, typing, walk};
 use crate::session::effect::Effect;

@@ -9,9 +9,9 @@ use super::layout::layout;
 use super::look::Look;
 use crate::flow::{Method, Outcome, Problem, Reason, Sample};
 use crate::oscillator::{Parameters, State, Symbol};
-use crate::scene::answer::Failure;
+use crate::question::Failure;
+use crate::question::zones::Extent;
 use crate::scene::library::{find, lesson_of, library};
-use crate::scene::zones::Extent;
 use crate::scene::{
     Answer, Answered, Axes, Exhibit, LAYERS, Layer, Point, Scene, Span, View, Window,
 };

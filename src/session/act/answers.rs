@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::flow::Reason;
-use crate::scene::answer::{Failure, Rows};
+use crate::question::{Failure, Rows};
 use crate::scene::{Answer, Answered, Fit, Topic, View};
 use crate::session::act::notice::refuse;
 use crate::session::read::fit::{fitted, is_pending};

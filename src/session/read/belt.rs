@@ -6,9 +6,9 @@
 use crate::flow::Problem;
 use crate::oscillator::belt::Quantity;
 use crate::oscillator::{Belt, Parameters, State, Symbol};
-use crate::scene::answer::Whole;
-use crate::scene::speeds::Speeds;
-use crate::scene::whole::{Course, Kinds};
+use crate::question::Whole;
+use crate::question::speeds::Speeds;
+use crate::question::whole::{Course, Kinds};
 use crate::scene::{Answer, Layer, Running, Topic};
 use crate::session::state::session::Session;
 use crate::session::state::setup::Stand;

@@ -4,7 +4,8 @@
 use std::sync::Arc;
 
 use crate::oscillator::Parameters;
-use crate::scene::zones::Zones;
+use crate::question;
+use crate::question::zones::Zones;
 use crate::scene::{Answer, Layer, Request, Topic, View};
 use crate::session::state::session::Session;
 
@@ -22,14 +23,14 @@ impl Session {
     pub(in crate::session) fn zones_request(&self, parameters: &Parameters) -> Option<Request> {
         let running = self.running().filter(|_| self.draws_whole());
         Some(match running.zip(self.machine()) {
-            Some((running, belt)) => Request::MachineZones {
+            Some((running, belt)) => Request::MachineZones(question::machine_zones::Asked {
                 tolerances: self.doubt.on_machine(&running, &belt).ok()?,
                 belt: Arc::new(belt),
-            },
-            None => Request::Zones {
+            }),
+            None => Request::Zones(question::zones::Asked {
                 known: self.doubt.known(parameters),
                 disturbance: self.doubt.disturbance,
-            },
+            }),
         })
     }
 

@@ -7,8 +7,8 @@
 use crate::flow::{Outcome, Sample, Trajectory};
 use crate::machine;
 use crate::numerics::elementary::hypot;
+use crate::question::whole::Course;
 use crate::scene::said::{self, Condition};
-use crate::scene::whole::Course;
 use crate::session::state::session::Session;
 use crate::study::{Cycle, Cycles, Edge};
 

@@ -141,7 +141,7 @@ mod tests {
         assert_eq!(session.state_at(1.0), None);
         session.problem = Problem { parameters: BRAKED, initial: START, ..session.problem };
         let request = session.request(crate::scene::Topic::Trajectory, 0).unwrap();
-        let answer = crate::scene::answer::answer(&request, &Limits::PATIENT).unwrap();
+        let answer = crate::question::answer(&request, &Limits::PATIENT).unwrap();
         session.take(crate::scene::Answered {
             request,
             result: Ok(answer),

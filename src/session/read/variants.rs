@@ -4,6 +4,7 @@
 
 use crate::flow::Problem;
 use crate::oscillator::Symbol;
+use crate::question;
 use crate::scene::{Answer, Height, Request, Topic, Variant};
 use crate::session::state::answers::Standing;
 use crate::session::state::session::Session;
@@ -90,7 +91,7 @@ impl Session {
         let standing = asked.map(|(_, request)| self.answers.standing(&request));
         let answered = standing.and_then(Standing::answered);
         let friction = match answered.map(|found| &found.request) {
-            Some(Request::Branch { parameters, .. }) => parameters.r,
+            Some(Request::Branch(question::branch::Asked { parameters, .. })) => parameters.r,
             _ => self.problem.parameters.r,
         };
         self.plots.get(plot).map(|plot| plot.axes).unwrap_or_default().height(friction)

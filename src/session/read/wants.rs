@@ -11,8 +11,9 @@ use crate::flow::{Problem, Trajectory};
 use crate::numerics::elementary::{exp2, hypot, log2};
 use crate::oscillator::belt::Quantity;
 use crate::oscillator::{Belt, Symbol};
-use crate::scene::answer::{Borders, Failure};
-use crate::scene::request::SPEEDS;
+use crate::question;
+use crate::question::speeds::SPEEDS;
+use crate::question::{Borders, Failure};
 use crate::scene::{Answer, Axes, Fitted, Layer, Request, Span, TOPICS, Topic, View, Window};
 use crate::session::state::answers::Standing;
 use crate::session::state::overlay::{Listed, Overlay};
@@ -79,7 +80,10 @@ impl Session {
         let claims = matches!(self.overlay, Some(Overlay::List(Listed::Paper, _)));
         let each = needed.into_iter().flat_map(|(topic, plot)| self.requests(topic, plot));
         let last = self.measures().then(|| self.request(Topic::Reference, self.plot)).flatten();
-        let all = claims.then_some(Request::Claims).into_iter().chain(each.map(|each| each.1));
+        let all = claims
+            .then_some(Request::Claims(question::claims::Asked))
+            .into_iter()
+            .chain(each.map(|each| each.1));
         let mut asked = Vec::new();
         for request in all.chain(last).chain(self.scan_request()) {
             if !asked.contains(&request) {
@@ -161,10 +165,14 @@ impl Session {
         let Problem { parameters, tolerance, initial, .. } = problem;
         let own = |view: View| self.plots.get(plot).filter(|plot| plot.view == view);
         Some(match topic {
-            Topic::Claims => Request::Claims,
-            Topic::Fit => Request::Fit { recording: self.scene.recording.clone()? },
+            Topic::Claims => Request::Claims(question::claims::Asked),
+            Topic::Fit => {
+                Request::Fit(question::fit::Asked { recording: self.scene.recording.clone()? })
+            }
             Topic::Trajectory => match self.machine().filter(|_| self.draws_whole()) {
-                Some(belt) => Request::Machine { belt: Arc::new(belt), problem },
+                Some(belt) => {
+                    Request::Machine(question::machine::Asked { belt: Arc::new(belt), problem })
+                }
                 None => Request::Trajectory(problem),
             },
             Topic::Scan => return self.scan_request(),
@@ -172,24 +180,30 @@ impl Session {
                 // The error of the expansion is told beside it.
                 Some(belt) => {
                     let cubic = !self.draws_whole();
-                    Request::Portrait { belt: Arc::new(belt), parameters, cubic }
+                    Request::Portrait(question::portrait::Asked {
+                        belt: Arc::new(belt),
+                        parameters,
+                        cubic,
+                    })
                 }
-                None => Request::Cycles { parameters },
+                None => Request::Cycles(question::cycles::Asked { parameters }),
             },
-            Topic::Balance => Request::Balance { parameters, harmonics: self.harmonics },
+            Topic::Balance => {
+                Request::Balance(question::balance::Asked { parameters, harmonics: self.harmonics })
+            }
             Topic::Trade => {
                 let Problem { initial, until, .. } = self.problem;
-                Request::Trade { parameters, initial, until }
+                Request::Trade(question::trade::Asked { parameters, initial, until })
             }
             Topic::Reference => {
                 let Problem { initial, until, .. } = self.problem;
-                Request::Reference { parameters, initial, until }
+                Request::Reference(question::reference::Asked { parameters, initial, until })
             }
             Topic::Zones => self.zones_request(&parameters)?,
             Topic::Capture if parameters.r == 0.0 => return None,
             Topic::Capture => {
                 let reach = reach(own(View::Phase)?.window);
-                Request::Capture { parameters, reach, most: MOST_BANDS }
+                Request::Capture(question::capture::Asked { parameters, reach, most: MOST_BANDS })
             }
             Topic::Branch => {
                 let plot = own(View::Diagram)?;
@@ -198,25 +212,32 @@ impl Session {
                 let range = plot.window.x.within(spec.min, spec.max)?;
                 let mut others = parameters;
                 parameter.set(&mut others, &mut { initial }, 0.0);
-                Request::Branch {
+                Request::Branch(question::branch::Asked {
                     parameters: others,
                     parameter,
                     range: (range.from(), range.to()),
                     tolerance,
-                }
+                })
             }
             Topic::Speeds => {
                 let plot = own(View::Speeds)?;
                 let spec = Quantity::BeltSpeed.spec();
                 let range = plot.window.x.within(spec.min, spec.max)?;
                 let belt = Arc::new(Belt { belt_speed: 1.0, ..self.machine()? });
-                Request::Speeds { belt, range: (range.from(), range.to()), count: SPEEDS }
+                Request::Speeds(question::speeds::Asked {
+                    belt,
+                    range: (range.from(), range.to()),
+                    count: SPEEDS,
+                })
             }
             Topic::ReturnMap => {
                 // As long as the window is not known there is nothing to ask.
                 let plot = own(View::ReturnMap)?;
                 let range = (plot.framing != Framing::Fitting).then_some(plot.window.x)?;
-                Request::ReturnMap { parameters, range: (range.from(), range.to()) }
+                Request::ReturnMap(question::return_map::Asked {
+                    parameters,
+                    range: (range.from(), range.to()),
+                })
             }
             Topic::Regimes => {
                 let plot = own(View::Regimes)?;
@@ -235,7 +256,11 @@ impl Session {
                 for symbol in [abscissa, against] {
                     symbol.set(&mut others, &mut { self.problem.initial }, 0.0);
                 }
-                Request::Regimes { parameters: others, plane, rough: false }
+                Request::Regimes(question::regimes::Asked {
+                    parameters: others,
+                    plane,
+                    rough: false,
+                })
             }
         })
     }

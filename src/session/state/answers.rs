@@ -7,7 +7,7 @@
 use std::sync::Arc;
 
 use crate::flow::Reason;
-use crate::scene::answer::Failure;
+use crate::question::Failure;
 use crate::scene::{Answer, Answered, Request};
 
 /// Integration steps whose points are kept beyond what is asked: some ten megabytes.

@@ -5,6 +5,7 @@
 use std::sync::Arc;
 
 use crate::numerics::elementary::log10;
+use crate::question;
 use crate::scene::{Point, Request, Span, View, Window};
 use crate::study::measure::Value;
 use crate::study::scan::{Row, Scan, Spacing, Sweep};
@@ -68,7 +69,7 @@ impl Scanned {
     pub fn request(&self) -> Option<Request> {
         match self.progress {
             Progress::Running { from } => {
-                Some(Request::Scan { scan: Arc::clone(&self.scan), from })
+                Some(Request::Scan(question::scan::Asked { scan: Arc::clone(&self.scan), from }))
             }
             Progress::Stopped | Progress::Done => None,
         }

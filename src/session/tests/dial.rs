@@ -3,7 +3,7 @@
 use super::{COST, Desk, answered};
 use crate::flow::{Limits, Method, Reason};
 use crate::oscillator::Symbol;
-use crate::scene::answer::{Failure, answer};
+use crate::question::{Failure, answer};
 use crate::scene::{Answer, Answered, Request, TOPICS, Topic, find};
 use crate::session::act::parameters;
 use crate::session::read::wants::Unmeasured;

@@ -3,7 +3,8 @@
 use super::Desk;
 use crate::machine::Tolerances;
 use crate::oscillator::{Interval, Symbol};
-use crate::scene::answer::answer;
+use crate::question;
+use crate::question::answer;
 use crate::scene::{Answer, Request, Topic};
 use crate::session::{Doubt, Row, run_line, save};
 
@@ -75,7 +76,10 @@ fn what_is_certain_is_asked_with_the_box_and_answers_the_reference() {
     assert!((margin - 0.1743).abs() < 5e-5, "{margin}");
     assert!((found.nominal.displacement.unwrap() - 0.2190).abs() < 5e-5);
     desk.press(":set<space>D3=0.5+-0.1<enter>");
-    let Some(Request::Zones { known, disturbance }) = certainty(&desk) else { panic!() };
+    let Some(Request::Zones(question::zones::Asked { known, disturbance })) = certainty(&desk)
+    else {
+        panic!()
+    };
     assert_eq!((known.d3, disturbance), (Interval::around(0.5, 0.1), 0.02));
 }
 
@@ -96,5 +100,5 @@ fn a_machine_brings_its_tolerances_and_keeps_them_in_newtons_at_another_speed() 
     assert!((after.0 / before.0 - 1.0).abs() < 1e-12, "{before:?} {after:?}");
     assert!((after.1 / before.1 - 1.0).abs() < 1e-12, "{before:?} {after:?}");
     desk.press(":layer<space>whole<space>on<enter>");
-    assert!(matches!(certainty(&desk), Some(Request::MachineZones { .. })), "by the whole model");
+    assert!(matches!(certainty(&desk), Some(Request::MachineZones(_))), "by the whole model");
 }

@@ -6,7 +6,8 @@ use crate::flow::Limits;
 use crate::flow::quality::DRAFT;
 use crate::numerics::elementary::hypot;
 use crate::oscillator::Symbol;
-use crate::scene::answer::{Failure, answer};
+use crate::question;
+use crate::question::{Failure, answer};
 use crate::scene::{Answer, Answered, Request, TOPICS, Topic, library};
 use crate::session::act::parameters;
 use crate::session::{Msg, Row, Session, Size, update};
@@ -147,7 +148,9 @@ fn wherever_the_numbers_are_no_first_answer_takes_more_than_a_few_frames() {
 /// The branch that a request asks for, with the parameter in units of its range and displacements in
 /// units of the largest.
 fn diagram(request: &Request, extent: Option<f64>) -> (Vec<Vec<(f64, f64)>>, f64) {
-    let Request::Branch { range, .. } = request else { panic!("{request:?}") };
+    let Request::Branch(question::branch::Asked { range, .. }) = request else {
+        panic!("{request:?}")
+    };
     let Ok(Answer::Branch(Branch { pieces, .. })) = answer(request, &Limits::PATIENT) else {
         panic!("no branch")
     };

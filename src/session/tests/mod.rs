@@ -33,9 +33,10 @@ use crate::flow::{Cost, Limits, Method, Outcome, Problem, Reason, Sample, Trajec
 use crate::numerics::elementary::ln;
 use crate::numerics::twofold::Twofold;
 use crate::oscillator::{Ledger, State};
-use crate::scene::answer::{Borders, Rows};
-use crate::scene::speeds::Speeds;
-use crate::scene::zones::{Extent, Zones};
+use crate::question;
+use crate::question::speeds::Speeds;
+use crate::question::zones::{Extent, Zones};
+use crate::question::{Borders, Rows};
 use crate::scene::{Answer, Answered, Fit, Request, Topic, find};
 use crate::study::accuracy::{Deviation, Ending, Reference, Source};
 use crate::study::chart::Chart;
@@ -200,7 +201,8 @@ fn zones() -> Zones {
 fn answered(request: Request) -> Answered {
     let cost = Cost { evaluations: COST, steps: 1, rejected: 0 };
     let answer = match &request {
-        Request::Trajectory(problem) | Request::Machine { problem, .. } => {
+        Request::Trajectory(problem)
+        | Request::Machine(question::machine::Asked { problem, .. }) => {
             let Problem { initial: State { q, v }, until, .. } = *problem;
             Answer::Trajectory(Trajectory {
                 problem: *problem,
@@ -213,7 +215,8 @@ fn answered(request: Request) -> Answered {
                 cost,
             })
         }
-        Request::Cycles { parameters } | Request::Portrait { parameters, .. } => {
+        Request::Cycles(question::cycles::Asked { parameters })
+        | Request::Portrait(question::portrait::Asked { parameters, .. }) => {
             Answer::Cycles(Cycles {
                 parameters: *parameters,
                 cycles: vec![cycle(false, parameters.r), cycle(true, parameters.r)],
@@ -230,38 +233,47 @@ fn answered(request: Request) -> Answered {
                 cost,
             })
         }
-        Request::Trade { .. } => Answer::Trade(Box::new(trade(cost))),
+        Request::Trade(_) => Answer::Trade(Box::new(trade(cost))),
         // Nothing is known better than by hand.
-        Request::Reference { .. } => Answer::Reference(Err(Reason::OutOfRange)),
-        Request::Zones { .. } | Request::MachineZones { .. } => Answer::Zones(zones()),
-        Request::Capture { .. } => Answer::Capture(Borders { curves: Vec::new(), cost }),
-        Request::Balance { parameters, harmonics } => Answer::Balance(HarmonicBalance {
-            parameters: *parameters,
-            harmonics: *harmonics,
-            balanced: Vec::new(),
-            unknown: None,
-            cost,
-        }),
-        Request::ReturnMap { parameters, .. } => Answer::ReturnMap(ReturnMap {
-            parameters: *parameters,
-            sides: [Vec::new(), Vec::new()],
-            cost,
-        }),
-        Request::Claims => Answer::Claims(Vec::new()),
-        Request::Fit { recording } => {
+        Request::Reference(_) => Answer::Reference(Err(Reason::OutOfRange)),
+        Request::Zones(_) | Request::MachineZones(_) => Answer::Zones(zones()),
+        Request::Capture(_) => Answer::Capture(Borders { curves: Vec::new(), cost }),
+        Request::Balance(question::balance::Asked { parameters, harmonics }) => {
+            Answer::Balance(HarmonicBalance {
+                parameters: *parameters,
+                harmonics: *harmonics,
+                balanced: Vec::new(),
+                unknown: None,
+                cost,
+            })
+        }
+        Request::ReturnMap(question::return_map::Asked { parameters, .. }) => {
+            Answer::ReturnMap(ReturnMap {
+                parameters: *parameters,
+                sides: [Vec::new(), Vec::new()],
+                cost,
+            })
+        }
+        Request::Claims(question::claims::Asked) => Answer::Claims(Vec::new()),
+        Request::Fit(question::fit::Asked { recording }) => {
             Answer::Fit(Fit::of(recording, &Limits::PATIENT).expect("nobody interrupts"))
         }
-        Request::Speeds { .. } => {
+        Request::Speeds(_) => {
             Answer::Speeds(Speeds { points: Vec::new(), special: Vec::new(), cost })
         }
-        Request::Regimes { plane, .. } => {
+        Request::Regimes(question::regimes::Asked { plane, .. }) => {
             let along = plane.along();
             Answer::Regimes(Chart { plane: *plane, along, lines: Vec::new(), cost })
         }
-        Request::Scan { scan, from } => {
+        Request::Scan(question::scan::Asked { scan, from }) => {
             Answer::Rows(Rows { first: *from, rows: scan::rows(scan, *from..scan.points()) })
         }
-        Request::Branch { parameter, range: (from, to), parameters, .. } => {
+        Request::Branch(question::branch::Asked {
+            parameter,
+            range: (from, to),
+            parameters,
+            ..
+        }) => {
             let fold = Cycle { q_max: 1.5, log_multiplier: 0.0, ..cycle(false, parameters.r) };
             let point = |stable| BranchPoint { value: *from, cycle: cycle(stable, parameters.r) };
             Answer::Branch(Branch {

@@ -3,7 +3,8 @@
 use super::{COST, Desk, answered};
 use crate::flow::Reason;
 use crate::oscillator::{Parameters, Symbol};
-use crate::scene::answer::Failure;
+use crate::question;
+use crate::question::Failure;
 use crate::scene::{Answered, Request, Topic};
 use crate::session::{Msg, update};
 
@@ -90,22 +91,22 @@ fn terms_that_a_scene_does_not_declare_are_zero_until_the_user_unfolds_them() {
     assert_eq!((d2, d3), (0.0, 0.0));
     for request in desk.session.wants() {
         let parameters = match request {
-            Request::Claims | Request::Fit { .. } => continue,
+            Request::Claims(question::claims::Asked) | Request::Fit(_) => continue,
             Request::Trajectory(problem) => problem.parameters,
-            Request::Machine { .. }
-            | Request::Portrait { .. }
-            | Request::MachineZones { .. }
-            | Request::Speeds { .. } => unreachable!("the scene is of no machine"),
-            Request::Zones { known, .. } => known.middle(),
-            Request::Cycles { parameters }
-            | Request::Capture { parameters, .. }
-            | Request::Balance { parameters, .. }
-            | Request::ReturnMap { parameters, .. }
-            | Request::Regimes { parameters, .. }
-            | Request::Branch { parameters, .. }
-            | Request::Trade { parameters, .. }
-            | Request::Reference { parameters, .. } => parameters,
-            Request::Scan { .. } => unreachable!("nobody asked for a scan"),
+            Request::Machine(_)
+            | Request::Portrait(_)
+            | Request::MachineZones(_)
+            | Request::Speeds(_) => unreachable!("the scene is of no machine"),
+            Request::Zones(question::zones::Asked { known, .. }) => known.middle(),
+            Request::Cycles(question::cycles::Asked { parameters })
+            | Request::Capture(question::capture::Asked { parameters, .. })
+            | Request::Balance(question::balance::Asked { parameters, .. })
+            | Request::ReturnMap(question::return_map::Asked { parameters, .. })
+            | Request::Regimes(question::regimes::Asked { parameters, .. })
+            | Request::Branch(question::branch::Asked { parameters, .. })
+            | Request::Trade(question::trade::Asked { parameters, .. })
+            | Request::Reference(question::reference::Asked { parameters, .. }) => parameters,
+            Request::Scan(_) => unreachable!("nobody asked for a scan"),
         };
         assert!(parameters.is_piecewise_linear());
     }

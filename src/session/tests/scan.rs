@@ -6,7 +6,8 @@ use std::sync::Arc;
 use super::Desk;
 use crate::flow::Cost;
 use crate::oscillator::Symbol;
-use crate::scene::answer::Rows;
+use crate::question;
+use crate::question::Rows;
 use crate::scene::{Answer, Answered, Request, Topic, View};
 use crate::session::scan::Progress;
 use crate::session::{Effect, Msg, Overlay, Pane, Scanned, Session, update};
@@ -29,7 +30,7 @@ fn scanned(session: &Session) -> &Scanned {
 
 /// Gives some rows to the session as the worker does.
 fn piece(session: &mut Session, request: &Request, points: Range<usize>) {
-    let Request::Scan { scan, .. } = request else { panic!("{request:?}") };
+    let Request::Scan(question::scan::Asked { scan, .. }) = request else { panic!("{request:?}") };
     let complete = points.end == scan.points();
     let rows = Rows { first: points.start, rows: rows(scan, points) };
     let (request, result) = (request.clone(), Ok(Answer::Rows(rows)));
@@ -140,7 +141,10 @@ fn escape_stops_a_scan_and_keeps_what_is_done_and_a_key_goes_on() {
     assert_eq!(scanned(&session).rows.len(), 4);
     press(&mut session, "P");
     let again = session.scan_request().expect("a question");
-    assert_eq!(again, Request::Scan { scan: Arc::clone(&scanned(&session).scan), from: 4 });
+    assert_eq!(
+        again,
+        Request::Scan(question::scan::Asked { scan: Arc::clone(&scanned(&session).scan), from: 4 })
+    );
     piece(&mut session, &again, 4..6);
     assert_eq!(scanned(&session).progress, Progress::Done);
     assert_eq!(scanned(&session).rows, rows(&scanned(&session).scan, 0..6));

@@ -3,6 +3,7 @@
 use proptest::prelude::*;
 
 use super::Desk;
+use crate::question;
 use crate::scene::{Request, library};
 use crate::session::commands;
 use crate::session::{Effect, Key, Msg, Plot, Session, update};
@@ -39,7 +40,9 @@ pub(super) fn check(session: &Session) {
         assert_eq!(row.check(value), Ok(value));
     }
     for request in session.wants() {
-        if let Request::Branch { range: (from, to), parameter, .. } = request {
+        if let Request::Branch(question::branch::Asked { range: (from, to), parameter, .. }) =
+            request
+        {
             let spec = parameter.spec();
             assert!(from < to && spec.min <= from && to <= spec.max);
         }

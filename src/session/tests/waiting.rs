@@ -6,7 +6,7 @@ use super::recorded::assert_alike;
 use super::strange::any_key;
 use super::{Desk, answered};
 use crate::flow::Reason;
-use crate::scene::answer::Failure;
+use crate::question::Failure;
 use crate::scene::{Answered, library};
 use crate::session::read::waiting::NEEDS;
 use crate::session::replay::{Action, Player, parse};

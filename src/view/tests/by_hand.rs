@@ -3,9 +3,10 @@
 use crate::flow::{Cost, Crossing, Limits, Outcome, Problem, Reason, Sample, Trajectory};
 use crate::numerics::elementary::{cos, ln, sin, sin_cos};
 use crate::oscillator::{Ledger, Parameters, State, Symbol};
-use crate::scene::answer::{Borders, Rows};
+use crate::question;
+use crate::question::zones::{Extent, Zones};
+use crate::question::{Borders, Rows};
 use crate::scene::library::find;
-use crate::scene::zones::{Extent, Zones};
 use crate::scene::{Answer, Answered, Fit, Layer, Request};
 use crate::session::{Key, Msg, Session, Size, update};
 use crate::study::chart::{Band, Chart, Line, Plane};
@@ -62,10 +63,12 @@ pub(super) fn drawn_over(layer: Layer) -> bool {
 
 pub(super) fn by_hand(request: &Request) -> Answer {
     match request {
-        Request::Trajectory(problem) | Request::Machine { problem, .. } => {
+        Request::Trajectory(problem)
+        | Request::Machine(question::machine::Asked { problem, .. }) => {
             Answer::Trajectory(spiral(*problem))
         }
-        Request::Cycles { parameters } | Request::Portrait { parameters, .. } => {
+        Request::Cycles(question::cycles::Asked { parameters })
+        | Request::Portrait(question::portrait::Asked { parameters, .. }) => {
             let cycles = vec![cycle(0.5, false), cycle(1.2, true)];
             let curves: Vec<Vec<State>> = vec![circle(0.5), circle(1.2)];
             Answer::Cycles(Cycles {
@@ -77,7 +80,7 @@ pub(super) fn by_hand(request: &Request) -> Answer {
                 picture: Some(picture(curves[0].clone(), curves)),
             })
         }
-        Request::Scan { scan, from } => {
+        Request::Scan(question::scan::Asked { scan, from }) => {
             let measured = scan.measured().len();
             let row = |index: usize| Row {
                 // A slope with a hole in it.
@@ -96,34 +99,40 @@ pub(super) fn by_hand(request: &Request) -> Answer {
             let rows = (*from..scan.points()).map(row).collect();
             Answer::Rows(Rows { first: *from, rows })
         }
-        Request::Zones { .. } | Request::MachineZones { .. } => Answer::Zones(Zones {
+        Request::Zones(_) | Request::MachineZones(_) => Answer::Zones(Zones {
             safe: Extent::Within(circle(0.4)),
             hopeful: Extent::Within(circle(0.6)),
             nominal: Margin { displacement: Some(0.5), impulse: Some(0.5) },
             guaranteed: Ok(Margin { displacement: Some(0.4), impulse: Some(0.4) }),
             cost: Cost { evaluations: 400, steps: 20, rejected: 0 },
         }),
-        Request::Capture { .. } => Answer::Capture(Borders {
+        Request::Capture(_) => Answer::Capture(Borders {
             curves: vec![circle(0.2), circle(0.35)],
             cost: Cost { evaluations: 800, steps: 40, rejected: 0 },
         }),
-        Request::Balance { parameters, harmonics } => Answer::Balance(HarmonicBalance {
-            parameters: *parameters,
-            harmonics: *harmonics,
-            balanced: Vec::new(),
-            unknown: None,
-            cost: Cost { evaluations: 200, steps: 10, rejected: 0 },
-        }),
-        Request::Branch { parameter, .. } => Answer::Branch(folded(*parameter)),
-        Request::ReturnMap { parameters, .. } => Answer::ReturnMap(halving(*parameters)),
-        Request::Regimes { plane, .. } => Answer::Regimes(parted(*plane)),
-        Request::Trade { .. } => Answer::Trade(compared()),
-        Request::Reference { .. } => Answer::Reference(Err(Reason::OutOfRange)),
-        Request::Claims => Answer::Claims(Vec::new()),
-        Request::Fit { recording } => {
+        Request::Balance(question::balance::Asked { parameters, harmonics }) => {
+            Answer::Balance(HarmonicBalance {
+                parameters: *parameters,
+                harmonics: *harmonics,
+                balanced: Vec::new(),
+                unknown: None,
+                cost: Cost { evaluations: 200, steps: 10, rejected: 0 },
+            })
+        }
+        Request::Branch(question::branch::Asked { parameter, .. }) => {
+            Answer::Branch(folded(*parameter))
+        }
+        Request::ReturnMap(question::return_map::Asked { parameters, .. }) => {
+            Answer::ReturnMap(halving(*parameters))
+        }
+        Request::Regimes(question::regimes::Asked { plane, .. }) => Answer::Regimes(parted(*plane)),
+        Request::Trade(_) => Answer::Trade(compared()),
+        Request::Reference(_) => Answer::Reference(Err(Reason::OutOfRange)),
+        Request::Claims(question::claims::Asked) => Answer::Claims(Vec::new()),
+        Request::Fit(question::fit::Asked { recording }) => {
             Answer::Fit(Fit::of(recording, &Limits::PATIENT).expect("nobody interrupts"))
         }
-        Request::Speeds { .. } => Answer::Speeds(crate::scene::speeds::Speeds {
+        Request::Speeds(_) => Answer::Speeds(crate::question::speeds::Speeds {
             points: Vec::new(),
             special: Vec::new(),
             cost: Cost::default(),

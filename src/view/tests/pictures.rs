@@ -7,7 +7,7 @@ use crate::oscillator::Symbol;
 use crate::picture::items::{Item, Line};
 use crate::picture::role::Dash;
 use crate::picture::role::Role;
-use crate::scene::answer::answer;
+use crate::question::answer;
 use crate::scene::library::{find, library};
 use crate::scene::{Answered, Ordinate, Point, View};
 use crate::session::{Msg, Session, Size, update};

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::means::Means;
 use crate::fit::observation::{D, D2, D3, Data, LAST, OFFSET, OMEGA0, Observation, Q0, R, Start};
 use crate::fit::{Estimate, Margins, Question, Record, Unfit, estimate, margins, parameters};
 use crate::flow::{Limits, Problem, Reason};
@@ -46,6 +47,25 @@ impl Recording {
     #[must_use]
     pub fn record(&self) -> &Record {
         &self.0.1
+    }
+}
+
+/// What is asked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Asked {
+    /// The record.
+    pub recording: Recording,
+}
+
+impl super::kind::Question for Asked {
+    type Found = Fit;
+
+    fn answer(&self, means: &Means) -> Result<Fit, Reason> {
+        Fit::of(&self.recording, means.limits)
+    }
+
+    fn numbers(&self) -> [f64; 8] {
+        [0.0; 8]
     }
 }
 

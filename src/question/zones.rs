@@ -1,15 +1,38 @@
 //! What is safe and what is lost for certain, whatever the parameters are within their intervals and whatever
 //! a bounded disturbance does: as the phase plane draws it and the pane tells it.
 
+use super::kind::{Question, numbers};
+use super::means::Means;
+use super::whole;
 use crate::flow::{Cost, Limits, Reason};
 use crate::machine::guarantee::{best, kicks, worst};
 use crate::machine::{Portrait, Tolerances};
 use crate::oscillator::{Belt, ParameterBox, State};
-use crate::scene::whole;
 use crate::study::Margin;
 use crate::study::basin::Basin;
 use crate::study::cycle::PICTURE_REACH;
 use crate::study::guarantee::{guarantee, uncertain, zones};
+
+/// What is asked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Asked {
+    /// Where the parameters lie.
+    pub known: ParameterBox,
+    /// Bound on the disturbance.
+    pub disturbance: f64,
+}
+
+impl Question for Asked {
+    type Found = Zones;
+
+    fn answer(&self, means: &Means) -> Result<Zones, Reason> {
+        of_oscillator(&self.known, self.disturbance, means.fineness.points_per_step, means.limits)
+    }
+
+    fn numbers(&self) -> [f64; 8] {
+        numbers(&self.known.middle(), [self.disturbance, 0.0, 0.0, 0.0])
+    }
+}
 
 /// A part of the phase plane around the sticking set.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,7 +72,7 @@ fn extent(basin: Option<&Basin>, otherwise: Extent, points: u16) -> Extent {
 ///
 /// # Errors
 /// The [`Reason`] why a border could not be computed.
-pub fn of_oscillator(
+fn of_oscillator(
     known: &ParameterBox,
     disturbance: f64,
     points: u16,

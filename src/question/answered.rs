@@ -1,0 +1,36 @@
+//! Answers as they come back from the worker.
+
+use super::answer::Answer;
+use super::request::Request;
+use crate::flow::Reason;
+
+/// An answer with its question and its price, as it comes back from the worker.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Answered {
+    /// The question.
+    pub request: Request,
+    /// The answer, or why there is none.
+    pub result: Result<Answer, Failure>,
+    /// Wall-clock seconds that it took so far.
+    pub seconds: f64,
+    /// Whether this is all; a long question is answered in pieces.
+    pub complete: bool,
+}
+
+/// Why a request has no answer.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Failure {
+    /// The computation gave up.
+    Reason(Reason),
+    /// The computation panicked, with this message; a defect of the program.
+    Panic(String),
+}
+
+impl std::fmt::Display for Failure {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Failure::Reason(reason) => write!(out, "{reason}"),
+            Failure::Panic(message) => write!(out, "internal error: {message}"),
+        }
+    }
+}

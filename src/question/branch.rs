@@ -1,0 +1,46 @@
+//! The cycles along a parameter.
+
+use super::kind::{Question, numbers};
+use super::means::Means;
+use crate::flow::Reason;
+use crate::flow::quality::DRAFT;
+use crate::oscillator::{Parameters, Symbol};
+use crate::study::Branch;
+use crate::study::branch::{Points, branch};
+
+/// What is asked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Asked {
+    /// The parameters; the one that varies is set to 0 so that stepping it changes nothing here.
+    pub parameters: Parameters,
+    /// The parameter that varies.
+    pub parameter: Symbol,
+    /// From and to.
+    pub range: (f64, f64),
+    /// Relative error wanted.
+    pub tolerance: f64,
+}
+
+impl Question for Asked {
+    type Found = Branch;
+
+    fn answer(&self, means: &Means) -> Result<Branch, Reason> {
+        let Asked { parameters, parameter, range, tolerance } = self;
+        let rough = *tolerance >= DRAFT.tolerance;
+        let points = if rough { Points::Followed } else { Points::Even(means.fineness.branch) };
+        branch(parameters, *parameter, *range, points, *tolerance, means.limits)
+    }
+
+    fn draft(&self) -> Option<Self> {
+        let finer = self.tolerance < DRAFT.tolerance;
+        finer.then(|| Asked { tolerance: DRAFT.tolerance, ..self.clone() })
+    }
+
+    fn numbers(&self) -> [f64; 8] {
+        numbers(&self.parameters, [self.range.0, self.range.1, 0.0, 0.0])
+    }
+
+    fn compares(&self, wanted: &Self) -> bool {
+        self.parameter == wanted.parameter
+    }
+}

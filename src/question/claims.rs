@@ -1,0 +1,22 @@
+//! The claims of the paper against computation.
+
+use super::kind::Question;
+use super::means::Means;
+use crate::flow::Reason;
+use crate::study::claims::{Examined, examine_all};
+
+/// What is asked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Asked;
+
+impl Question for Asked {
+    type Found = Vec<Examined>;
+
+    fn answer(&self, means: &Means) -> Result<Self::Found, Reason> {
+        examine_all(means.limits)
+    }
+
+    fn numbers(&self) -> [f64; 8] {
+        [0.0; 8]
+    }
+}

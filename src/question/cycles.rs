@@ -1,0 +1,27 @@
+//! All cycles at some parameters, with their curves and the basin's edge.
+
+use super::kind::{Question, numbers};
+use super::means::Means;
+use crate::flow::Reason;
+use crate::oscillator::Parameters;
+use crate::study::Cycles;
+use crate::study::cycle::cycles_drawn;
+
+/// What is asked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Asked {
+    /// The parameters.
+    pub parameters: Parameters,
+}
+
+impl Question for Asked {
+    type Found = Cycles;
+
+    fn answer(&self, means: &Means) -> Result<Cycles, Reason> {
+        cycles_drawn(&self.parameters, means.fineness.points_per_step, means.limits)
+    }
+
+    fn numbers(&self) -> [f64; 8] {
+        numbers(&self.parameters, [0.0; 4])
+    }
+}

@@ -1,0 +1,34 @@
+//! All cycles of a machine and the border of its basin.
+
+use std::sync::Arc;
+
+use super::kind::{Question, numbers};
+use super::means::Means;
+use super::whole::{self, Kinds};
+use crate::flow::Reason;
+use crate::oscillator::{Belt, Parameters};
+use crate::study::Cycles;
+
+/// What is asked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Asked {
+    /// The machine.
+    pub belt: Arc<Belt>,
+    /// Its cubic expansion.
+    pub parameters: Parameters,
+    /// Whether the cycles of the expansion are to be drawn, and not those of the whole model.
+    pub cubic: bool,
+}
+
+impl Question for Asked {
+    type Found = (Cycles, Option<Kinds>);
+
+    fn answer(&self, means: &Means) -> Result<Self::Found, Reason> {
+        let points = means.fineness.points_per_step;
+        whole::portrait(&self.belt, &self.parameters, self.cubic, points, means.limits)
+    }
+
+    fn numbers(&self) -> [f64; 8] {
+        numbers(&self.parameters, [0.0; 4])
+    }
+}

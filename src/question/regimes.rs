@@ -1,0 +1,57 @@
+//! What becomes of kicks, over two parameters.
+
+use super::kind::{Question, numbers};
+use super::means::Means;
+use crate::flow::Reason;
+use crate::oscillator::Parameters;
+use crate::study::chart::{Chart, Plane, Resolution, chart};
+
+/// Lines of a chart of regimes, evenly spaced; borders between them are interpolated.
+const CHART_LINES: usize = 40;
+
+/// The same in a draft.
+const DRAFT_LINES: usize = 4;
+
+/// Relative error of clearances at the borders of a chart.
+const BORDER_TOLERANCE: f64 = 1e-13;
+
+/// The same in a draft.
+const DRAFT_BORDER_TOLERANCE: f64 = 1e-3;
+
+/// What is asked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Asked {
+    /// The parameters; the two that vary are set to 0 so that stepping them changes nothing here.
+    pub parameters: Parameters,
+    /// The two that vary, and their ranges.
+    pub plane: Plane,
+    /// Whether few lines are enough for now.
+    pub rough: bool,
+}
+
+impl Question for Asked {
+    type Found = Chart;
+
+    fn answer(&self, means: &Means) -> Result<Chart, Reason> {
+        let (lines, chord, tolerance) = if self.rough {
+            (DRAFT_LINES, f64::INFINITY, DRAFT_BORDER_TOLERANCE)
+        } else {
+            (CHART_LINES, means.fineness.chord, BORDER_TOLERANCE)
+        };
+        let resolution = Resolution { lines, chord, tolerance };
+        chart(&self.parameters, self.plane, resolution, means.limits)
+    }
+
+    fn draft(&self) -> Option<Self> {
+        (!self.rough).then(|| Asked { rough: true, ..self.clone() })
+    }
+
+    fn numbers(&self) -> [f64; 8] {
+        let ((left, right), (low, high)) = (self.plane.right_range, self.plane.up_range);
+        numbers(&self.parameters, [left, right, low, high])
+    }
+
+    fn compares(&self, wanted: &Self) -> bool {
+        (self.plane.right, self.plane.up) == (wanted.plane.right, wanted.plane.up)
+    }
+}

@@ -1,0 +1,29 @@
+//! From turning points to the next ones.
+
+use super::kind::{Question, numbers};
+use super::means::Means;
+use crate::flow::Reason;
+use crate::oscillator::Parameters;
+use crate::study::ReturnMap;
+use crate::study::return_map::return_map;
+
+/// What is asked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Asked {
+    /// The parameters.
+    pub parameters: Parameters,
+    /// Displacements, from and to.
+    pub range: (f64, f64),
+}
+
+impl Question for Asked {
+    type Found = ReturnMap;
+
+    fn answer(&self, means: &Means) -> Result<ReturnMap, Reason> {
+        return_map(&self.parameters, self.range, means.fineness.map, means.limits)
+    }
+
+    fn numbers(&self) -> [f64; 8] {
+        numbers(&self.parameters, [self.range.0, self.range.1, 0.0, 0.0])
+    }
+}

@@ -1,0 +1,29 @@
+//! The rows of a scan that are not there yet.
+
+use std::sync::Arc;
+
+use super::kind::Question;
+use super::means::{Means, Rows};
+use crate::flow::Reason;
+use crate::study::scan::Scan;
+
+/// What is asked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Asked {
+    /// The scan.
+    pub scan: Arc<Scan>,
+    /// Number of the first point wanted.
+    pub from: usize,
+}
+
+impl Question for Asked {
+    type Found = Rows;
+
+    fn answer(&self, means: &Means) -> Result<Rows, Reason> {
+        (means.rows)(&self.scan, self.from)
+    }
+
+    fn numbers(&self) -> [f64; 8] {
+        [0.0; 8]
+    }
+}
