@@ -39,6 +39,9 @@ pub struct Explore {
     /// Goes on with a saved session
     #[arg(long, value_name = "FILE", conflicts_with_all = ["named", "scene", "set", "method", "tol", "step", "epsilon"])]
     open: Option<PathBuf>,
+    /// Resumes the session that was left last
+    #[arg(long, conflicts_with_all = ["named", "scene", "set", "method", "tol", "step", "epsilon", "belt", "open"])]
+    last: bool,
     /// Plays a keystroke file at the start, then goes on
     #[arg(long, value_name = "FILE")]
     play: Option<PathBuf>,
@@ -65,13 +68,22 @@ impl Explore {
         let mut session = Session::new(scene, Size { width: 80, height: 24 });
         session.look = self.looks.wishes(&config);
         session.keymap = Arc::new(config.keymap);
-        if let Some(path) = &self.open {
+        let last = self.last.then(last).transpose()?;
+        if let Some(path) = self.open.as_ref().or(last.as_ref()) {
             open(&mut session, path)?;
             let text = format!("opened {}", path.display());
             session.notice = Some(Notice { error: false, text });
         }
         go(session, &play, self.record.as_deref().map(|path| (path, self.force)))
     }
+}
+
+/// The session that was left last.
+fn last() -> Result<PathBuf, Failure> {
+    let path = Memory::open().map(|memory| memory.last()).filter(|path| path.exists());
+    path.ok_or_else(|| {
+        Failure::Usage("no session has been left yet in which something was done".to_owned())
+    })
 }
 
 /// The steps that play a file, which is understood before anything runs.
@@ -115,15 +127,18 @@ pub fn go(
     let files = Files { copies: memory.as_ref().map(Memory::copies) };
     let mouse = session.look.mouse;
     let keep = memory.as_ref().map(Memory::keep);
+    let last = memory.as_ref().map(Memory::last);
     let replay = (!play.is_empty()).then(|| Script::repeated(play, 1));
-    let options = Options { replay, started, recorder, record, keep, mouse, files };
+    let options = Options { replay, started, recorder, record, keep, last, mouse, files };
     explore(session, environment, options)
         .map_err(|error| Failure::Unanswered(format!("the terminal: {error}")))
 }
 
 /// What is said before the first key: that a session was interrupted, or what to press at the first start.
 fn welcome(session: &Session, memory: &Memory) -> Option<String> {
-    let said = if session.interrupted.is_some() {
+    let said = if session.interrupted.len() > 1 {
+        "sessions were interrupted: {restore} resumes the newest, {forget-interrupted} forgets all"
+    } else if !session.interrupted.is_empty() {
         "a session was interrupted: {restore} resumes it, {forget-interrupted} forgets it"
     } else if memory.is_new {
         "arrows change the numbers; {help} keys, {palette} commands, {explain} what to see, {tour} a tour"

@@ -6,6 +6,9 @@ use std::time::SystemTime;
 /// How the names of kept sessions begin.
 const INTERRUPTED: &str = "interrupted-";
 
+/// The name of the session that was left last.
+const LAST: &str = "last.toml";
+
 /// A directory from the environment, if it is set to something.
 fn variable(name: &str) -> Option<PathBuf> {
     std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from)
@@ -49,9 +52,14 @@ impl Memory {
         self.folder.join(format!("{INTERRUPTED}{}.toml", std::process::id()))
     }
 
-    /// The session that was interrupted last and has not been put aside since.
-    pub fn interrupted(&self) -> Option<PathBuf> {
-        let entries = std::fs::read_dir(&self.folder).ok()?;
+    /// The session that was left or put aside last.
+    pub fn last(&self) -> PathBuf {
+        self.folder.join(LAST)
+    }
+
+    /// The sessions that were interrupted and have not been put aside since, the newest first.
+    pub fn interrupted(&self) -> Vec<PathBuf> {
+        let Ok(entries) = std::fs::read_dir(&self.folder) else { return Vec::new() };
         let kept = entries.filter_map(|entry| {
             let entry = entry.ok()?;
             let name = entry.file_name().into_string().ok()?;
@@ -59,6 +67,8 @@ impl Memory {
             let when = entry.metadata().and_then(|data| data.modified());
             is_kept.then(|| (when.unwrap_or(SystemTime::UNIX_EPOCH), entry.path()))
         });
-        kept.max().map(|(_, path)| path)
+        let mut kept: Vec<_> = kept.collect();
+        kept.sort_by(|one, other| other.cmp(one));
+        kept.into_iter().map(|(_, path)| path).collect()
     }
 }

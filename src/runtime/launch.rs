@@ -41,6 +41,8 @@ pub struct Options {
     pub record: Option<Record>,
     /// Where to keep a session that is interrupted.
     pub keep: Option<PathBuf>,
+    /// Where to keep a session that is left.
+    pub last: Option<PathBuf>,
     /// Whether the terminal reports the mouse at the start.
     pub mouse: bool,
     /// Where copies go, besides the clipboard.
@@ -77,9 +79,9 @@ pub fn launch(
     // A panic has been reported by now, and the terminal given back; it ends the program all the same.
     let conducted = catch_unwind(AssertUnwindSafe(|| conduct(&mut pump, &guard)));
     pump.close_record();
-    if !matches!(conducted, Ok(Ok(Stop::Quit))) {
-        keep(&pump, options.keep.as_deref());
-    }
+    let left = matches!(conducted, Ok(Ok(Stop::Quit)));
+    let place = if left { &options.last } else { &options.keep };
+    keep(&pump, place.as_deref());
     let ended = match conducted.unwrap_or_else(|panic| resume_unwind(panic)) {
         // A terminal that is gone refuses what is written to it, before its signal arrives.
         Err(error) if error.raw_os_error() == Some(Errno::IO.raw_os_error()) => Ok(Stop::Closed),
@@ -99,7 +101,7 @@ pub fn launch(
     Ok(code)
 }
 
-/// Keeps what would be missed of an interrupted session. It is the last thing that is done, and if it
+/// Keeps what would be missed of a session that was interrupted or left. It is the last thing that is done, and if it
 /// fails there is nobody to tell.
 fn keep<M: Machine, W: io::Write>(pump: &Pump<M, W>, path: Option<&Path>) {
     // After a panic the state may be one that nobody has thought of.

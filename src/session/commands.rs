@@ -314,7 +314,7 @@ const COMMANDS: &[Row] = &[
     row("restore", &[(Everywhere, &["<f3>"])], "",
         "Go on with the session that was interrupted", |s, _| files::restore(s)),
     row("forget-interrupted", &[(Everywhere, &["<f4>"])], "",
-        "Offer the interrupted session no longer", |s, _| files::forget(s)),
+        "Offer interrupted sessions no longer", |s, _| files::forget(s)),
 
     row("costs", &[(Everywhere, &["$"])], "",
         "List what the picture costs, and what each step asks again", |s, _| lists::open_cost(s)),

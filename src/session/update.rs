@@ -69,9 +69,9 @@ fn take_in(session: &mut Session, message: Msg) -> Vec<Effect> {
             history::begin(session, names);
             Vec::new()
         }
-        Msg::Say(caption) => {
+        Msg::Say(caption, place) => {
             session.caption =
-                if caption.is_empty() { Caption::Nothing } else { Caption::Tour(caption) };
+                if caption.is_empty() { Caption::Nothing } else { Caption::Tour(caption, place) };
             Vec::new()
         }
         Msg::Read { path, purpose, result } => files::read(session, &path, purpose, result),

@@ -19,8 +19,10 @@ const WIDTH: u16 = 100;
 pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let filled = |text: &str| session.keymap.fill(text, |key| keys::name(key, look));
     let (heading, paragraphs) = match &session.caption {
-        Caption::Tour(caption) => {
-            (" any key: on, esc: leave the tour ".to_owned(), vec![filled(caption)])
+        Caption::Tour(caption, place) => {
+            let place = place.map_or(String::new(), |(step, of)| format!("{step} of {of}, "));
+            let heading = format!(" {place}any key: on, esc: leave the tour, backspace: back ");
+            (heading, vec![filled(caption)])
         }
         Caption::Scene => {
             let heading = filled(" {explain}: hide ");
@@ -42,8 +44,10 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let place =
         Rect { x: area.x + (area.width - width) / 2, y: area.bottom() - height, width, height };
     pane::clear(place, buffer);
+    // Who presents is read from afar.
+    let role = if session.caption == Caption::Scene { Role::Text } else { Role::Title };
     for (y, line) in (place.y + 1..place.bottom() - 1).zip(lines) {
-        buffer.set_stringn(place.x + 2, y, line, inner.into(), look.style(Role::Text));
+        buffer.set_stringn(place.x + 2, y, line, inner.into(), look.style(role));
     }
     frame(place, &heading, "", look, buffer);
 }

@@ -28,6 +28,10 @@ enum Pause {
 #[derive(Debug)]
 pub(super) struct Playing {
     player: Player,
+    /// What is played, to begin anew.
+    script: Script,
+    /// Captions that are passed by, on the way back to the one before.
+    passed: usize,
     /// A register: what the user does comes after it.
     register: bool,
     /// Presses that asked for it, the last ones recorded.
@@ -42,12 +46,24 @@ pub(super) struct Playing {
 impl Playing {
     pub(super) fn new(script: Script, register: bool, asked: u32) -> Self {
         Playing {
-            player: Player::new(script),
+            player: Player::new(script.clone()),
+            script,
+            passed: 0,
             register,
             asked,
             given: Recorder::default(),
             timed: false,
             pause: Pause::Not,
+        }
+    }
+}
+
+impl Playing {
+    /// Goes back to the caption before this one: all is played again up to there.
+    fn go_back(&mut self) {
+        if let Some(passed) = self.player.said().checked_sub(2) {
+            self.player = Player::new(self.script.clone());
+            (self.passed, self.pause) = (passed, Pause::Not);
         }
     }
 }
@@ -93,6 +109,8 @@ impl<M: Machine, W: Write> Pump<M, W> {
         }
         if playing.register {
             self.held_back.push_back(Event::Session(msg));
+        } else if caption && is_key(&msg, Code::Backspace) {
+            playing.go_back();
         } else if caption && matches!(msg, Msg::Key(_)) {
             playing.pause = Pause::Not;
         } else if is_key(&msg, Code::Char('q')) {
@@ -172,7 +190,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
                 Ok(Action::Give(Msg::Resize { .. }) | Action::Keep(_)) => continue,
                 Ok(Action::Wait) => Ok(None),
                 Ok(Action::Give(msg)) => {
-                    if matches!(msg, Msg::Say(_)) {
+                    if matches!(msg, Msg::Say(..)) && playing.player.said() > playing.passed {
                         playing.pause = Pause::Caption;
                     }
                     playing.given.note(&msg);
@@ -192,7 +210,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
     /// Ends a replay; `whole` if it was played to its end.
     fn played(&mut self, error: bool, text: String, whole: bool) -> io::Result<Option<Stop>> {
         self.settle(whole);
-        self.update(Msg::Say(String::new()))?;
+        self.update(Msg::Say(String::new(), None))?;
         self.update(Msg::Told(Notice { error, text }))
     }
 

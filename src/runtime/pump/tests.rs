@@ -44,7 +44,7 @@ impl Machine for Counter {
                 self.moving = self.elapsed < Self::MOVES;
             }
             Msg::Told(notice) | Msg::Written(notice) => self.notice = notice.text,
-            Msg::Say(caption) => self.notice = caption,
+            Msg::Say(caption, _) => self.notice = caption,
             _ => {}
         }
         vec![]

@@ -122,7 +122,11 @@ fn take(
         }
         Purpose::Restore => {
             save::open(session, &text).map_err(of_file)?;
-            inform(session, "the interrupted session is back");
+            let others = match session.interrupted.len() {
+                0 => String::new(),
+                count => told(session, &format!("; {{restore}} brings one of {count} older ones")),
+            };
+            inform(session, format!("the interrupted session is back{others}"));
             return Ok(vec![Effect::PutAside(path.to_owned())]);
         }
         Purpose::Fit => {
@@ -148,21 +152,23 @@ fn take(
 
 /// Goes on with the session that was interrupted.
 pub fn restore(session: &mut Session) -> Vec<Effect> {
-    match session.interrupted.take() {
-        Some(path) => vec![Effect::Read { path, purpose: Purpose::Restore }],
-        None => none_interrupted(session),
+    if session.interrupted.is_empty() {
+        return none_interrupted(session);
     }
+    let path = session.interrupted.remove(0);
+    vec![Effect::Read { path, purpose: Purpose::Restore }]
 }
 
-/// Offers the interrupted session no longer.
+/// Offers interrupted sessions no longer.
 pub fn forget(session: &mut Session) -> Vec<Effect> {
-    match session.interrupted.take() {
-        Some(path) => {
-            inform(session, "the interrupted session is not offered again");
-            vec![Effect::PutAside(path)]
-        }
-        None => none_interrupted(session),
+    let paths = std::mem::take(&mut session.interrupted);
+    match paths.len() {
+        0 => return none_interrupted(session),
+        1 => inform(session, "the interrupted session is not offered again"),
+        count => inform(session, format!("{count} interrupted sessions are not offered again")),
     }
+    // The newest is put aside last, and so stays the last one.
+    paths.into_iter().rev().map(Effect::PutAside).collect()
 }
 
 fn none_interrupted(session: &mut Session) -> Vec<Effect> {

@@ -116,7 +116,7 @@ pub(in crate::session) fn begin(session: &mut Session, names: Vec<Symbol>) {
     *session = Session {
         look: session.look,
         keymap: Arc::clone(&session.keymap),
-        interrupted: session.interrupted.take(),
+        interrupted: std::mem::take(&mut session.interrupted),
         ..Session::new(scene, session.size)
     };
 }

@@ -34,8 +34,9 @@ pub enum Msg {
     Run(String),
     /// What stands here is what the session starts with; these parameters belong to its scene.
     Start(Vec<Symbol>),
-    /// A caption of a tour, to be shown until the next one; empty: none.
-    Say(String),
+    /// A caption of a tour, to be shown until the next one; empty: none. With it which it is of how many,
+    /// where that is known.
+    Say(String, Option<(usize, usize)>),
     /// A file that was asked for, or why it cannot be read.
     Read {
         /// The file.

@@ -54,17 +54,25 @@ pub struct Player {
     asynchronous: bool,
     /// The texts that the file has for those who read files while it is played.
     files: BTreeMap<PathBuf, String>,
+    /// How many captions have been said, and how many there are.
+    captions: (usize, usize),
 }
 
 /// Files played by files by files: more are one that plays itself.
 const DEEPEST: u32 = 1000;
 
+/// How many captions a file has.
+fn captions(script: &Script) -> usize {
+    script.steps.iter().filter(|located| matches!(located.step, Step::Say(_))).count()
+}
+
 impl Player {
     /// Plays a file from its beginning.
     #[must_use]
     pub fn new(script: Script) -> Self {
+        let captions = (0, captions(&script));
         let steps = script.steps.into_iter().map(|step| (step, 0)).collect();
-        Player { steps, depth: 0, asynchronous: false, files: BTreeMap::new() }
+        Player { steps, depth: 0, asynchronous: false, files: BTreeMap::new(), captions }
     }
 
     /// Plays another file first, and then what is left of this one. One that plays itself without end is
@@ -74,10 +82,17 @@ impl Player {
         if depth > DEEPEST {
             return false;
         }
+        self.captions.1 += captions(&script);
         for step in script.steps.into_iter().rev() {
             self.steps.push_front((step, depth));
         }
         true
+    }
+
+    /// How many captions have been said.
+    #[must_use]
+    pub fn said(&self) -> usize {
+        self.captions.0
     }
 
     /// The text that was played for a file, if there was one.
@@ -107,6 +122,10 @@ impl Player {
                 Step::Screen(name) => return Ok(Action::Keep(name)),
                 Step::Expect(text) if !screen().contains(&text) => {
                     return Err(Unmet { line, column, text });
+                }
+                Step::Say(text) => {
+                    self.captions.0 += 1;
+                    return Ok(Action::Give(Msg::Say(text, Some(self.captions))));
                 }
                 step => {
                     if let Some(message) = step.message() {

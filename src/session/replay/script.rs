@@ -67,10 +67,10 @@ impl Step {
             Msg::Elapsed { seconds } => Step::Elapse(*seconds),
             Msg::Resize { width, height } => Step::Resize { width: *width, height: *height },
             Msg::Run(line) => Step::Run(line.clone()),
-            Msg::Say(text) if !text.is_empty() => Step::Say(text.clone()),
+            Msg::Say(text, _) if !text.is_empty() => Step::Say(text.clone()),
             Msg::Start(names) => Step::Start(names.clone()),
             Msg::Paste(_)
-            | Msg::Say(_)
+            | Msg::Say(..)
             | Msg::Read { .. }
             | Msg::Answered(_)
             | Msg::Idle
@@ -89,7 +89,7 @@ impl Step {
             Step::Elapse(seconds) => Msg::Elapsed { seconds: *seconds },
             Step::Resize { width, height } => Msg::Resize { width: *width, height: *height },
             Step::Run(line) => Msg::Run(line.clone()),
-            Step::Say(text) => Msg::Say(text.clone()),
+            Step::Say(text) => Msg::Say(text.clone(), None),
             Step::Start(names) => Msg::Start(names.clone()),
             Step::Wait | Step::Async | Step::Expect(_) | Step::Screen(_) | Step::File { .. } => {
                 return None;

@@ -67,8 +67,8 @@ pub enum Caption {
     Nothing,
     /// What there is to see in the scene, and what to press.
     Scene,
-    /// A caption of a tour.
-    Tour(String),
+    /// A caption of a tour, and which it is of how many.
+    Tour(String, Option<(usize, usize)>),
 }
 
 /// A list with a selected row and a search.

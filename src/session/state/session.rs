@@ -132,8 +132,8 @@ pub struct Session {
     pub marks: Marks,
     /// What is said in words above the status lines.
     pub caption: Caption,
-    /// The file of a session that was interrupted and could be gone on with.
-    pub interrupted: Option<PathBuf>,
+    /// The files of sessions that were interrupted and could be gone on with, the newest first.
+    pub interrupted: Vec<PathBuf>,
     /// The figure that is being written.
     pub writing: Option<PathBuf>,
     /// The lines typed on the command line, the newest last.
@@ -188,7 +188,7 @@ impl Session {
             macros: Macros::default(),
             marks: Marks::default(),
             caption: Caption::Nothing,
-            interrupted: None,
+            interrupted: Vec::new(),
             writing: None,
             lines: Vec::new(),
             answers: Answers::default(),

@@ -48,7 +48,7 @@ fn alike(session: &Session) -> Session {
     session.answers = Answers::default();
     session.marks.places.values_mut().for_each(|mark| mark.asked.clear());
     session.marks.left.iter_mut().for_each(|mark| mark.asked.clear());
-    session.interrupted = None;
+    session.interrupted.clear();
     session.history.forget_windows();
     session
 }

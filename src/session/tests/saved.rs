@@ -134,7 +134,7 @@ fn an_interrupted_session_is_offered_until_it_is_taken_or_forgotten() {
     let mut desk = Desk::open("plain");
     desk.press("<f3>");
     assert_eq!(desk.notice(), "no session was interrupted");
-    desk.session.interrupted = Some(path.clone());
+    desk.session.interrupted = vec![path.clone()];
     desk.press("<f3>");
     let asked = Effect::Read { path: path.clone(), purpose: Purpose::Restore };
     assert_eq!(desk.effects.last(), Some(&asked));
@@ -144,7 +144,7 @@ fn an_interrupted_session_is_offered_until_it_is_taken_or_forgotten() {
     );
     assert_eq!(effects, [Effect::PutAside(path.clone())]);
     assert_eq!(desk.session.scene.name, "supercritical");
-    desk.session.interrupted = Some(path.clone());
+    desk.session.interrupted = vec![path.clone()];
     desk.press("<f4>");
     assert_eq!(desk.effects.last(), Some(&Effect::PutAside(path)));
 }
