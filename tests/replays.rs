@@ -49,3 +49,34 @@ fn every_keystroke_file_of_the_handbook_plays() {
         assert_eq!(played.unmet, None);
     }
 }
+
+/// What a newcomer reads on the way: a screen of the walk, and words on it, at every size.
+const READ: [(&str, &[&str]); 8] = [
+    ("opened", &["parameters", "phase plane", "grows without bound", "q quit"]),
+    ("captured", &["comes to rest at q = ", "survives kicks up to q "]),
+    ("scenes", &["Lessons", "supercritical fig16b"]),
+    ("supercritical", &["onto the stable cycle, q_max 1.158", "survives kicks up to q 0.2247"]),
+    ("beyond-the-fold", &["comes to rest", "every kick is survived"]),
+    ("inside", &["comes to rest at q = ", "(inside the unstable cycle)"]),
+    ("outside", &["grows onto the stable cycle", "(outside the unstable cycle)"]),
+    ("help-undo", &["undo"]),
+];
+
+#[test]
+fn a_newcomer_reads_a_verdict_on_every_screen_of_every_size() {
+    let script = parse(include_str!("../assets/replays/newcomer.keys")).unwrap();
+    for (width, height) in [(80, 24), (120, 40), (200, 60)] {
+        let session = Session::new(plain(), Size { width, height });
+        let size = layout::Size { width, height };
+        let played = replay(session, Environment::default(), script.clone(), size).unwrap();
+        assert_eq!(played.unmet, None, "{width}x{height}");
+        for (name, words) in READ {
+            let kept = played.kept.iter().find(|(kept, _)| kept == name);
+            let (_, screen) = kept.unwrap_or_else(|| panic!("{name} is kept"));
+            let screen = hopfscope::view::screen::text(screen);
+            for word in words {
+                assert!(screen.contains(word), "{name} at {width}x{height}: {word}\n{screen}");
+            }
+        }
+    }
+}

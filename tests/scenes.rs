@@ -374,3 +374,48 @@ fn a_text_about_a_start_leaves_with_it() {
     let text = inside.0.said(&inside.0.scene.look);
     assert!(!text.contains("grow") && text.contains("comes to rest"), "{text}");
 }
+
+/// Sentences that hold only under a condition, and that condition, by what the equations give.
+type Holds = fn(&Stage) -> bool;
+const SENTENCES: [(&str, Holds); 10] = [
+    ("no cycle is left", |stage| stage.edge() == Edge::None && stage.cycles().is_empty()),
+    ("Here nothing borders", |stage| stage.edge() == Edge::None),
+    ("Two cycles: the inner one is unstable", |stage| {
+        stage.cycles().first().is_some_and(|cycle| !cycle.stable)
+            && stage.cycles().last().is_some_and(|cycle| cycle.stable)
+    }),
+    ("There is one cycle, unstable", |stage| stage.cycles().iter().any(|cycle| !cycle.stable)),
+    ("Here an unstable cycle is the border", |stage| stage.edge() == Edge::Cycle),
+    ("come to rest; the unstable cycle is its border", |stage| stage.edge() == Edge::Cycle),
+    ("Here no cycle exists", |stage| stage.edge() == Edge::Separatrix),
+    ("Here the cycle has gone to infinity", |stage| stage.edge() == Edge::Separatrix),
+    ("so the motion comes to rest", |stage| stage.is_captured()),
+    ("From here it swings up to the stable cycle", |stage| {
+        !stage.is_captured() && stage.cycles().iter().any(|cycle| cycle.stable)
+    }),
+];
+
+#[test]
+fn no_text_contradicts_the_verdict_wherever_a_scene_is_taken() {
+    let mut said = std::collections::BTreeSet::new();
+    for scene in hopfscope::scene::library() {
+        // The numbers of a machine are those of its belt.
+        if scene.machine.is_some() || !scene.declares(Symbol::D) {
+            continue;
+        }
+        let mut stage = Stage::open(&scene.name);
+        for d in [None, Some(-0.9), Some(-0.5), Some(-0.15), Some(-0.02), Some(0.1), Some(0.4)] {
+            if let Some(d) = d {
+                update(&mut stage.0, Msg::Run(format!("set D={d}")));
+                stage.settle();
+            }
+            let text = [&scene.look, &scene.press].map(|text| stage.0.said(text)).join(" ");
+            assert!(!text.contains('['), "{}: {text}", scene.name);
+            for (sentence, holds) in SENTENCES.iter().filter(|(part, _)| text.contains(part)) {
+                assert!(holds(&stage), "{} at D = {d:?}: {sentence}", scene.name);
+                said.insert(*sentence);
+            }
+        }
+    }
+    assert!(said.len() >= SENTENCES.len() - 1, "sentences that were never said: only {said:?}");
+}

@@ -89,6 +89,8 @@ impl Panel {
                 self.arrows.extend(sample::lattice(self.window).map(|at| (at, flow(at))));
             }
             Item::Marks(marks) => self.marks(marks),
+            // What a screen writes beside a curve stands in the legend.
+            Item::Caption { long, .. } if long.is_empty() => {}
             Item::Caption { at, or_at, long, short, role } => self.captions.push(Caption {
                 at: *at,
                 or_at: or_at.clone(),

@@ -216,6 +216,14 @@ fn branch(picture: &mut Picture, piece: &[BranchPoint], found: &Found) {
         let (role, dash) = stability(first.cycle.stable);
         let name = if first.cycle.stable { "stable cycle" } else { "unstable cycle" };
         let line = Line::new(name, role, dash).of(variant);
+        if variant.label.is_empty() {
+            let points: Vec<Point> = run.iter().map(place).collect();
+            picture.label_curve(
+                &points,
+                if first.cycle.stable { "stable" } else { "unstable" },
+                role,
+            );
+        }
         picture.curve(line, start.into_iter().chain(run.iter().map(place)).chain(end));
         // Without a fold the runs share a point, which this one has as its last.
         start = end.filter(|end| next.is_none_or(|next| *end != place(next)));

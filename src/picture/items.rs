@@ -313,6 +313,15 @@ impl<'a> Picture<'a> {
 
     /// Adds the name of a curve, beside the highest of its points in the window that has room.
     pub fn name_curve(&mut self, curve: &[Point], name: &str, role: Role) {
+        self.name_along(curve, name.to_owned().into(), name, role);
+    }
+
+    /// Adds what a curve is, to stand beside it on screens where it hides nothing; figures have legends.
+    pub fn label_curve(&mut self, curve: &[Point], label: &str, role: Role) {
+        self.name_along(curve, Text::default(), label, role);
+    }
+
+    fn name_along(&mut self, curve: &[Point], long: Text, name: &str, role: Role) {
         /// Points that are tried: more than a screen has rows.
         const PLACES: usize = 60;
         let mut points: Vec<Point> =
@@ -321,9 +330,8 @@ impl<'a> Picture<'a> {
         let step = points.len().div_ceil(PLACES).max(1);
         let mut places = points.into_iter().step_by(step);
         if let Some(at) = places.next().filter(|_| !name.is_empty()) {
-            let long: Text = name.to_owned().into();
             let or_at = places.collect();
-            self.items.push(Item::Caption { at, or_at, short: long.clone(), long, role });
+            self.items.push(Item::Caption { at, or_at, short: name.to_owned().into(), long, role });
         }
     }
 

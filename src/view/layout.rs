@@ -6,7 +6,7 @@
 
 use ratatui::layout::Rect;
 
-use crate::scene::{Arrangement, View};
+use crate::scene::Arrangement;
 use crate::session::Session;
 
 /// Smallest screen on which anything but a card is drawn.
@@ -63,8 +63,7 @@ pub fn layout(screen: Rect, session: &Session) -> Option<Layout> {
 fn plots(area: Rect, session: &Session) -> Vec<Rect> {
     let mut shown: Vec<usize> = session.on_show().collect();
     loop {
-        let views: Vec<View> = shown.iter().map(|index| session.plots[*index].view).collect();
-        let places = divided(area, &views, session.arrangement);
+        let places = divided(area, shown.len(), session.arrangement);
         let fits = |place: &Rect| place.width >= SMALLEST_PLOT.0 && place.height >= SMALLEST_PLOT.1;
         let dropped = shown.iter().rposition(|index| *index != session.plot);
         if let Some(dropped) = dropped.filter(|_| !places.iter().all(fits)) {
@@ -79,14 +78,15 @@ fn plots(area: Rect, session: &Session) -> Vec<Rect> {
     }
 }
 
-/// Divides an area among views.
-fn divided(area: Rect, views: &[View], arrangement: Arrangement) -> Vec<Rect> {
-    match (views, arrangement) {
-        ([] | [_], _) => vec![area],
-        (_, Arrangement::Columns) => columns(area, views.len()),
-        (_, Arrangement::Rows) => rows(area, views.len()),
-        (&[first, second], Arrangement::Auto) => pair(area, first, second).to_vec(),
-        (&[_, _, _], Arrangement::Auto) => {
+/// Divides an area among so many plots.
+fn divided(area: Rect, count: usize, arrangement: Arrangement) -> Vec<Rect> {
+    match (count, arrangement) {
+        (0 | 1, _) => vec![area],
+        (_, Arrangement::Columns) => columns(area, count),
+        (_, Arrangement::Rows) => rows(area, count),
+        (2, Arrangement::Auto) if is_wide(area) => beside(area).to_vec(),
+        (2, Arrangement::Auto) => above(area).to_vec(),
+        (3, Arrangement::Auto) => {
             let [main, others] = if is_wide(area) { beside(area) } else { above(area) };
             let others = if is_wide(area) { above(others) } else { beside(others) };
             std::iter::once(main).chain(others).collect()
@@ -143,31 +143,4 @@ fn rows(area: Rect, count: usize) -> Vec<Rect> {
         ..area
     };
     (0..count).map(row).collect()
-}
-
-/// Two plots beside or above each other. A view that gains by a square gets one beside one that does not.
-fn pair(area: Rect, first: View, second: View) -> [Rect; 2] {
-    match (is_wide(area), square_only(first, second), square_only(second, first)) {
-        (false, ..) => above(area),
-        (true, true, false) => at_column(area, square(area)),
-        (true, false, true) => at_column(area, area.width - 1 - square(area)),
-        (true, ..) => beside(area),
-    }
-}
-
-/// Whether a view gains by a square, and the other does not.
-fn square_only(view: View, other: View) -> bool {
-    let gains = |view| matches!(view, View::Phase | View::ReturnMap);
-    gains(view) && !gains(other)
-}
-
-/// Columns of a square beside another plot, so that circles look round and a diagonal lies at 45 degrees,
-/// if that leaves the other its share; never less than half.
-fn square(area: Rect) -> u16 {
-    /// Columns that the other plot needs to be legible.
-    const LEGIBLE: u16 = 36;
-    let half = area.width / 2;
-    let square = 2 * area.height;
-    let most = (area.width / 5 * 3).min(area.width.saturating_sub(LEGIBLE + 1));
-    square.min(most).max(half)
 }

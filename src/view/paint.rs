@@ -10,7 +10,10 @@ use crate::picture::items::{Item, Marks, Pattern, Picture};
 use crate::picture::role::Mark;
 
 /// Plots at least this wide have the long form of captions.
-const WIDE: u16 = 44;
+const WIDE: u16 = 36;
+
+/// Plots at least this wide say beside a curve what it is.
+const LABELLED: u16 = 30;
 
 /// Columns between marks that are left out where they would touch.
 const APART: usize = 4;
@@ -25,7 +28,9 @@ pub fn paint(area: Rect, picture: Picture, mut heading: Heading, look: &Look, bu
     // to go to.
     let is_text = |item: &Item| matches!(item, Item::Caption { .. } | Item::Cross(_));
     let (texts, rest): (Vec<&Item>, Vec<&Item>) = items.iter().partition(|item| is_text(item));
-    let names = texts.iter().copied().filter_map(name).collect::<Vec<_>>();
+    let labelled = plot.inner().width >= LABELLED;
+    let names = texts.iter().copied().filter_map(name);
+    let names = names.filter(|name| labelled || !name.only_free).collect::<Vec<_>>();
     let beside_points = texts.iter().copied().filter(|item| name(item).is_none());
     for item in rest.into_iter().chain(beside_points) {
         put(&mut plot, item, look);
@@ -37,9 +42,9 @@ pub fn paint(area: Rect, picture: Picture, mut heading: Heading, look: &Look, bu
 /// The name of a curve: a caption that may stand beside several points.
 fn name<'a>(item: &'a Item) -> Option<Name<'a>> {
     match item {
-        Item::Caption { at, or_at, short, role, .. } if !or_at.is_empty() => {
+        Item::Caption { at, or_at, long, short, role } if !or_at.is_empty() => {
             let points = std::iter::once(at).chain(or_at).copied().collect();
-            Some(Name { text: short, points, role: *role })
+            Some(Name { text: short, points, role: *role, only_free: long.is_empty() })
         }
         _ => None,
     }

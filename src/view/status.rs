@@ -49,7 +49,7 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     };
     // That a computation goes on matters more than the end of the sentence.
     let room = usize::from(area.width).saturating_sub(busy.chars().count());
-    let text = pane::cut(&format!(" {text}"), room, look);
+    let text = pane::cut(&shorter(session, format!(" {text}"), room), room, look);
     let left = Span::styled(text, look.style(role));
     pane::line(area, 0, left, Span::styled(busy, look.style(Role::Warning)), look, buffer);
 
@@ -64,6 +64,21 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     };
     let (left, right) = WORDS.iter().map(line).find(fits).unwrap_or_else(|| line(&WORDS[3]));
     pane::line(area, 1, quiet(format!(" {left}")), quiet(format!("{right} ")), look, buffer);
+}
+
+/// A verdict that fits into so many columns, if that is possible: why it is so matters more than after how many
+/// half swings, or how large a cycle is that the parameter pane lists.
+fn shorter(session: &Session, mut text: String, room: usize) -> String {
+    let too_long = |text: &String| text.chars().count() > room;
+    if let Some(swings) = session.trajectory().map(swings).filter(|_| too_long(&text)) {
+        text = text.replacen(&swings, "", 1);
+    }
+    let size =
+        text.split_once(", q_max ").and_then(|(head, rest)| Some((head, rest.split_once(" (")?)));
+    match size {
+        Some((head, (_, why))) if too_long(&text) => format!("{head} ({why}"),
+        _ => text,
+    }
 }
 
 /// The words of the second line.

@@ -51,6 +51,8 @@ pub struct Name<'a> {
     pub points: Vec<Point>,
     /// What the curve stands for.
     pub role: Role,
+    /// Whether it is rather left out than hide anything.
+    pub only_free: bool,
 }
 
 /// A plot being drawn.

@@ -48,8 +48,8 @@ impl Plot<'_> {
                 (&clear, Covering::Curve),
                 (&near, Covering::Curve),
             ];
-            let found =
-                tries.into_iter().find_map(|(cells, over)| self.free(cells, name.text, over));
+            let mut tries = tries.into_iter().take(if name.only_free { 3 } else { 5 });
+            let found = tries.find_map(|(cells, over)| self.free(cells, name.text, over));
             if let Some((column, row)) = found {
                 self.letters(column, row, name.text, name.role);
             }
