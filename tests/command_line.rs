@@ -28,7 +28,17 @@ fn a_trajectory_document_has_its_fields() {
     let motion = json("trajectory --until 50 --set D=-0.1 --set r=0.5 --set q0=2");
     assert_eq!(
         keys(&motion),
-        ["cost", "energy", "events", "initial", "method", "outcome", "parameters", "tolerance"]
+        [
+            "cost",
+            "energy",
+            "events",
+            "initial",
+            "method",
+            "outcome",
+            "parameters",
+            "provenance",
+            "tolerance"
+        ]
     );
     assert_eq!(
         motion["parameters"],
@@ -126,8 +136,11 @@ fn every_method_is_accepted_and_named() {
 fn repetitions_change_nothing_but_the_time() {
     let mut once = json("trajectory --until 40 --set D3=0.1");
     let mut often = json("trajectory --until 40 --set D3=0.1 --repeat 9");
+    let command = |answer: &Value| answer["provenance"]["command"].as_str().unwrap().to_owned();
+    assert_eq!(command(&once), command(&often).replace(" --repeat 9", ""));
     for answer in [&mut once, &mut often] {
         answer["cost"]["seconds"] = Value::Null;
+        answer["provenance"] = Value::Null;
     }
     assert_eq!(once, often);
 }
@@ -142,7 +155,10 @@ fn the_last_of_two_values_counts_and_scenes_give_the_others() {
 #[test]
 fn a_cycles_document_has_its_fields() {
     let answer = json("cycles --set D=-0.2 --set D2=0.2 --set D3=0.5 --set r=0.1");
-    assert_eq!(keys(&answer), ["basin", "cost", "count", "cycles", "harmonic", "parameters"]);
+    assert_eq!(
+        keys(&answer),
+        ["basin", "cost", "count", "cycles", "harmonic", "parameters", "provenance"]
+    );
     assert_eq!(keys(&answer["cost"]), ["evaluations", "rejected", "seconds", "steps"]);
     let cycles = answer["cycles"].as_array().unwrap();
     assert_eq!(cycles.len(), 2);
@@ -174,7 +190,7 @@ fn a_harmonic_balance_stands_beside_the_cycles_if_asked_for() {
     let answer = json("cycles --set D=-0.7 --set r=0.1 --harmonics 9");
     assert_eq!(
         keys(&answer),
-        ["balance", "basin", "cost", "count", "cycles", "harmonic", "parameters"]
+        ["balance", "basin", "cost", "count", "cycles", "harmonic", "parameters", "provenance"]
     );
     let rows = answer["balance"].as_array().unwrap();
     let harmonics: Vec<f64> = rows.iter().map(|row| number(&row["harmonics"])).collect();
@@ -235,7 +251,7 @@ fn without_a_cycle_the_list_is_empty_and_the_basin_has_no_edge() {
 fn a_branch_document_has_its_fields_and_finds_the_fold() {
     let line = "branch --over D=-0.95:0:60 --set r=0.1 --set D2=0.2 --set D3=0.5 --tol 1e-10";
     let answer = json(line);
-    assert_eq!(keys(&answer), ["cost", "parameter", "points", "special", "vague"]);
+    assert_eq!(keys(&answer), ["cost", "parameter", "points", "provenance", "special", "vague"]);
     assert_eq!(answer["parameter"], "D");
     let points = answer["points"].as_array().unwrap();
     assert!(points.len() >= 60, "{}", points.len());
@@ -415,4 +431,22 @@ fn scenes_say_what_they_cost_and_what_a_step_asks_anew() {
         }
         assert!(!start["reused"].as_array().unwrap().contains(&Value::from("motion")));
     }
+}
+
+#[test]
+fn an_answer_in_a_file_says_where_it_comes_from_and_replaces_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("motion.csv").display().to_string();
+    let line = ["trajectory", "--until", "9", "--format", "csv", "--write", &path];
+    assert_eq!((run(&line).code, run(&line).out.as_str()), (0, ""));
+    let plain = run(&line[..5]).out;
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), plain);
+    let beside = std::fs::read_to_string(path.clone() + ".provenance").unwrap();
+    let origin: Value = serde_json::from_str(&beside).unwrap();
+    assert_eq!(origin["version"], env!("CARGO_PKG_VERSION"));
+    assert_eq!(origin["command"], format!("hopfscope {}", line.join(" ")));
+    let other = run(&["trajectory", "--until", "8", "--format", "csv", "--write", &path]);
+    assert_eq!((other.code, other.err.lines().count()), (2, 1), "{}", other.err);
+    assert!(other.err.contains(&path), "{}", other.err);
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), plain);
 }

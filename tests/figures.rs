@@ -468,7 +468,15 @@ fn files_of_every_form_are_written_and_nothing_is_lost() {
     assert_eq!((size(16), size(20)), (3 * 920, 3 * 456));
     // What is printed is what is written.
     let printed = run(&["figure", "fig09", "--format", "csv"]);
-    assert_eq!(printed.out, fs::read_to_string(name("a.csv")).unwrap());
+    let written = fs::read_to_string(name("a.csv")).unwrap();
+    let origin =
+        |text: &str| text.lines().find(|line| line.starts_with("# hopfscope")).unwrap().to_owned();
+    assert!(
+        origin(&written)
+            .ends_with(&format!(": hopfscope figure fig09 --output {} --force", name("a.csv")))
+    );
+    assert!(origin(&printed.out).ends_with(": hopfscope figure fig09 --format csv"));
+    assert_eq!(printed.out.replace(&origin(&printed.out), &origin(&written)), written);
     let ran = run(&["figure", "fig08", "--output", &name("a.pdf")]);
     assert_eq!((ran.code, ran.err.lines().count()), (2, 1), "{}", ran.err);
     assert!(ran.err.contains(".svg, .png, .csv or .json"), "{}", ran.err);

@@ -346,7 +346,7 @@ fn every_reference_escape_point_is_enclosed() {
         (1.0, -0.776_232),
     ] {
         let parameters = Parameters { d: 0.0, d2, d3: 0.0, r: 1.0 };
-        let near = escape_point(&parameters, &Limits::PATIENT).unwrap().unwrap();
+        let near = escape_point(&parameters, &Limits::PATIENT).unwrap().0.unwrap();
         let all = ParameterBox::from(&parameters);
         let value = enclose_escape(&all, Symbol::D, near).unwrap();
         assert!(value.width() < 3e-10 * -expected, "{value}");

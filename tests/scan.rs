@@ -223,6 +223,49 @@ fn a_file_of_something_else_is_refused_and_left_alone() {
     assert_eq!(fs::read_to_string(&path).unwrap(), whole);
 }
 
+/// A scan whose first row takes long, as its motion never ends, and whose other rows take no time.
+const HELD_UP: &str =
+    "--over D=-0.2:0.6:21 --set D3=0.5 --set D2=0.2 --set q0=2 --measure rest --jobs 2";
+
+#[test]
+fn rows_that_wait_behind_a_slow_one_outlive_a_kill() {
+    let folder = tempfile::tempdir().unwrap();
+    let [path, ahead] = ["rows.csv", "rows.csv.ahead"].map(|name| folder.path().join(name));
+    let line = format!("{HELD_UP} --until 100000 --output {}", path.display());
+    let words = || std::iter::once("scan").chain(line.split_whitespace());
+    let mut child = command(&words().collect::<Vec<_>>()).spawn().unwrap();
+    let noted = || fs::read_to_string(&ahead).unwrap_or_default();
+    while noted().lines().count() < 21 {
+        assert!(child.try_wait().unwrap().is_none(), "the first row takes longer than all others");
+        std::thread::yield_now();
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert_eq!(fs::read_to_string(&path).unwrap().lines().count(), 1, "only the line of names");
+    // Where a row comes from is seen by a mark; a line without its end is cut, and computed again.
+    let (journal, last) = (noted(), noted().lines().last().unwrap().to_owned());
+    let second = journal.lines().find(|line| line.starts_with("1\t")).unwrap().to_owned();
+    assert_ne!(second, last);
+    let marked = format!("{},from the journal", second.trim_end_matches(','));
+    let cut = journal.len() - last.len() / 2;
+    fs::write(&ahead, journal[..cut].replace(&second, &marked)).unwrap();
+    let resumed = command(&words().chain(["--resume"]).collect::<Vec<_>>()).status().unwrap();
+    assert!(resumed.success() && !ahead.exists());
+    let found = fs::read_to_string(&path).unwrap();
+    let whole = scan(&format!("{HELD_UP} --until 100000")).out;
+    let row = |text: &str| text.split_once('\t').unwrap().1.to_owned();
+    assert!(found.contains(&row(&marked)), "{found}");
+    assert_eq!(found.replace(&row(&marked), &row(&second)), whole);
+    // A journal of another scan says nothing.
+    fs::write(&path, "").unwrap();
+    fs::write(&ahead, "Dear diary,\n1\t-0.1,nonsense\n").unwrap();
+    let short = line.replace("100000", "1");
+    let again = words().collect::<Vec<_>>().join(" ").replace(&line, &short) + " --force";
+    assert!(command(&again.split(' ').collect::<Vec<_>>()).status().unwrap().success());
+    assert_eq!(fs::read_to_string(&path).unwrap(), scan(&format!("{HELD_UP} --until 1")).out);
+    assert!(!ahead.exists());
+}
+
 #[test]
 fn an_interrupt_keeps_what_is_done_and_says_so() {
     let folder = tempfile::tempdir().unwrap();

@@ -4,7 +4,7 @@ use clap::Args;
 
 use super::failure::Failure;
 use super::input;
-use super::output::{Certify, Format, Output, print};
+use super::output::{Certify, Format, Output};
 use super::start::Start;
 use super::timing::timed;
 use crate::flow::Limits;
@@ -47,7 +47,7 @@ impl Basin {
         };
         let certified = self.certify.ask(self.output.format, enclose)?;
         let lines = certified.as_ref().map(certified::kicks_lines);
-        print(&match self.output.format {
+        self.output.print(&match self.output.format {
             Format::Table => report::table(&found, seconds) + &lines.unwrap_or_default(),
             Format::Json => report::json(&found, certified.as_ref(), seconds),
             Format::Csv => report::csv(&found),

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::failure::Failure;
 use super::input::{self, Over};
-use super::output::{Certify, Format, Output, print};
+use super::output::{Certify, Format, Output};
 use super::start::Start;
 use super::timing::timed;
 use crate::flow::Limits;
@@ -43,7 +43,7 @@ impl Border {
         })?;
         let certified = self.certify.ask(self.output.format, || enclosed(&found))?;
         let lines = certified.as_ref().map(|it| certified::border_lines(it, symbol));
-        print(&match self.output.format {
+        self.output.print(&match self.output.format {
             Format::Table => report::table(&found, seconds) + &lines.unwrap_or_default(),
             Format::Json => report::json(&found, certified.as_deref(), seconds),
             Format::Csv => report::csv(&found),

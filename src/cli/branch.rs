@@ -4,7 +4,7 @@ use clap::Args;
 
 use super::failure::Failure;
 use super::input::{self, Over};
-use super::output::{Certify, Format, Output, print};
+use super::output::{Certify, Format, Output};
 use super::start::Start;
 use super::timing::timed;
 use crate::flow::Limits;
@@ -52,7 +52,7 @@ impl Branch {
         let decide = || proof::range::range(&ParameterBox::from(base), symbol, range);
         let certified = self.certify.ask(self.output.format, decide)?;
         let decided = certified.as_ref().map(|it| certified::range_table(it, symbol));
-        print(&match self.output.format {
+        self.output.print(&match self.output.format {
             Format::Table => {
                 report::table(&found, base, tolerance, seconds) + &decided.unwrap_or_default()
             }

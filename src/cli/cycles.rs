@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::failure::Failure;
-use super::output::{Format, Output, print, write};
+use super::output::{Format, Output, write};
 use super::start::Start;
 use super::timing::timed;
 use crate::check::check;
@@ -57,7 +57,7 @@ impl Cycles {
         let Answer { found, proof, rungs } = found?;
         self.certify(&proof)?;
         let rungs = rungs.as_deref();
-        print(&match self.output.format {
+        self.output.print(&match self.output.format {
             Format::Table => {
                 report::table(&found, &proof, seconds)
                     + &rungs.map(harmonic_balance::table).unwrap_or_default()
@@ -75,7 +75,7 @@ impl Cycles {
         }
         let proof = prove(known, &[]);
         self.certify(&proof)?;
-        print(&match self.output.format {
+        self.output.print(&match self.output.format {
             Format::Json => json::text(&certified::boxed(&proof)),
             Format::Table | Format::Csv => certified::box_table(&proof),
         })

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::failure::Failure;
 use super::input;
-use super::output::{Format, print};
+use super::output::{Format, print, sourced};
 use crate::flow::Limits;
 use crate::oscillator::Parameters;
 use crate::report::{extreme_cycles, extremes};
@@ -43,19 +43,21 @@ impl Extremes {
             let sets: Vec<Parameters> = sets(!self.long).collect();
             let verdicts: Vec<_> =
                 sets.par_iter().map(|set| judge_set(set, &Limits::PATIENT)).collect();
-            return print(&match self.format {
+            let told = match self.format {
                 Format::Table => extreme_cycles::table(&verdicts),
                 Format::Json => extreme_cycles::json(&verdicts),
                 Format::Csv => extreme_cycles::csv(&verdicts),
-            });
+            };
+            return print(&sourced(self.format, &told));
         }
         let cases: Vec<Case> = cases(!self.long).collect();
         let verdicts: Vec<_> =
             cases.par_iter().map(|case| judge(case, self.tol, &Limits::PATIENT)).collect();
-        print(&match self.format {
+        let told = match self.format {
             Format::Table => extremes::table(&verdicts, &named(&Limits::PATIENT), self.tol),
             Format::Json => extremes::json(&verdicts, &named(&Limits::PATIENT), self.tol),
             Format::Csv => extremes::csv(&verdicts),
-        })
+        };
+        print(&sourced(self.format, &told))
     }
 }

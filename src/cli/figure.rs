@@ -11,6 +11,7 @@ use crate::figure::{self as forms, Form};
 use crate::flow::Limits;
 use crate::question::Fineness;
 use crate::runtime::print::{complete, figure};
+use crate::runtime::provenance_file;
 use crate::scene::library::library;
 use crate::session::{Session, Size};
 use crate::view::screen;
@@ -71,7 +72,8 @@ impl Figure {
             Failure::Unanswered(format!("{} not computed: {reason}", topic.name()))
         })?;
         let plots: Vec<usize> = (0..session.plots.len()).collect();
-        let mut drawn = || figure(&mut session, &plots, &Limits::PATIENT);
+        let mut drawn =
+            || figure(&mut session, &plots, &Limits::PATIENT).from(provenance_file::of_process());
         if let Some((path, form)) = &self.output {
             let content = forms::file(&drawn(), *form).map_err(Failure::Unanswered)?;
             return write(path, &content, self.force);

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use clap::{Args, ValueEnum};
 
 use super::failure::Failure;
-use super::output::{Format, Output, print, write};
+use super::output::{Format, Output, write};
 use super::timing::timed;
 use crate::figure::{self, Figure, Form};
 use crate::fit::contour::{RISES, contour};
@@ -22,6 +22,7 @@ use crate::fit::{
 use crate::flow::Limits;
 use crate::oscillator::belt::Dimension;
 use crate::report::fit as forms;
+use crate::runtime::provenance_file;
 use crate::scene::machine::unit::measured;
 
 /// Estimates omega0, offset, D, D2, D3 and r of a recorded motion, with errors, and the margin that follows
@@ -183,11 +184,11 @@ impl Fit {
     pub fn run(&self) -> Result<(), Failure> {
         let fitted = self.fitted()?;
         if let Some((path, form)) = &self.pictures {
-            let content =
-                figure::file(&Figure::of_fit(&fitted), *form).map_err(Failure::Unanswered)?;
+            let drawn = Figure::of_fit(&fitted).from(provenance_file::of_process());
+            let content = figure::file(&drawn, *form).map_err(Failure::Unanswered)?;
             write(path, &content, self.force)?;
         }
-        print(&match self.output.format {
+        self.output.print(&match self.output.format {
             Format::Table => forms::table(&fitted),
             Format::Json => forms::json(&fitted),
             Format::Csv => forms::csv(&fitted),

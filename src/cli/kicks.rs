@@ -3,7 +3,7 @@
 use clap::Args;
 
 use super::failure::Failure;
-use super::output::{Format, Output, print};
+use super::output::{Format, Output};
 use super::start::Start;
 use super::timing::timed;
 use crate::flow::Limits;
@@ -38,7 +38,7 @@ impl Kicks {
         let found = found.map_err(|reason| {
             Failure::Unanswered(format!("the kicks could not be followed: {reason}"))
         })?;
-        print(&match self.output.format {
+        self.output.print(&match self.output.format {
             Format::Table => kicks::table(&parameters, &self.law, &found, seconds),
             Format::Json => kicks::json(&parameters, &self.law, &found, seconds),
             Format::Csv => kicks::csv(&parameters, &found),

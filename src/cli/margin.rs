@@ -4,7 +4,7 @@ use clap::Args;
 
 use super::failure::Failure;
 use super::input;
-use super::output::{Format, Output, print};
+use super::output::{Format, Output};
 use super::timing::timed;
 use crate::flow::Limits;
 use crate::oscillator::{Interval, ParameterBox, Symbol};
@@ -42,7 +42,7 @@ impl Margin {
         let found = found.map_err(|reason| {
             Failure::Unanswered(format!("the margin could not be computed: {reason}"))
         })?;
-        print(&match self.output.format {
+        self.output.print(&match self.output.format {
             Format::Table => guarantee::table(&found, seconds),
             Format::Json => guarantee::json(&found, seconds),
             Format::Csv => guarantee::csv(&found),

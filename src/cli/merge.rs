@@ -13,10 +13,10 @@ use super::output::{holds_something, without};
 use super::part::Shard;
 use super::scan::{Asked, ScanCommand};
 use crate::flow::Limits;
-use crate::report::provenance::Provenance;
 use crate::report::scan::Form;
 use crate::runtime::merging::{Conflict, Part, merge};
 use crate::runtime::provenance_file;
+use crate::words::provenance::Provenance;
 
 /// Puts the parts of a scan together, or says which rows are missing and how to compute them
 #[derive(Debug, Args)]

@@ -1,14 +1,15 @@
 //! The options that say how an answer is printed, and the printing.
 
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
 use super::failure::Failure;
+use crate::runtime::provenance_file;
 
 /// How an answer is printed.
-#[derive(Clone, Copy, Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct Output {
     /// Form of the answer
     #[arg(long, value_enum, default_value_t = Format::Table, value_name = "FORM")]
@@ -18,6 +19,36 @@ pub struct Output {
     #[arg(long, value_name = "N", default_value_t = 1, hide_default_value = true,
           value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub repeat: u32,
+
+    /// Writes the answer to FILE, and where it comes from (program, version, command line) to FILE.provenance
+    #[arg(long, value_name = "FILE")]
+    write: Option<PathBuf>,
+}
+
+impl Output {
+    /// Prints or writes an answer; a JSON document says itself where it comes from.
+    pub fn print(&self, answer: &str) -> Result<(), Failure> {
+        let Some(path) = &self.write else { return print(&sourced(self.format, answer)) };
+        let content = sourced(self.format, answer).into_bytes();
+        if holds_something(path) && std::fs::read(path).ok().as_ref() != Some(&content) {
+            let line = format!("{} holds something else; --write replaces nothing", path.display());
+            return Err(Failure::Usage(line));
+        }
+        write(path, &content, true)?;
+        if self.format == Format::Json {
+            return Ok(());
+        }
+        provenance_file::write(path, &provenance_file::of_process())
+            .map_err(|error| Failure::file(path, &error))
+    }
+}
+
+/// An answer, and within it, where it is a JSON document, where it comes from.
+pub fn sourced(format: Format, answer: &str) -> String {
+    match format {
+        Format::Json => provenance_file::of_process().within(answer),
+        Format::Table | Format::Csv => answer.to_owned(),
+    }
 }
 
 /// Whether an answer is also enclosed.
@@ -69,11 +100,6 @@ pub fn write(path: &Path, content: &[u8], force: bool) -> Result<(), Failure> {
     }
     std::fs::write(path, content)
         .map_err(|error| Failure::Unanswered(format!("{} not written: {error}", path.display())))
-}
-
-/// The arguments of this process.
-pub fn arguments() -> Vec<String> {
-    std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned()).collect()
 }
 
 /// A command line without these options, each with whether it has a value.

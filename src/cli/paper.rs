@@ -3,7 +3,7 @@
 use clap::Args;
 
 use super::failure::Failure;
-use super::output::{Format, Output, print};
+use super::output::{Format, Output};
 use super::timing::timed;
 use crate::flow::Limits;
 use crate::report::claims;
@@ -22,7 +22,7 @@ impl Paper {
         let (examined, seconds) = timed(self.output.repeat, || examine_all(&Limits::PATIENT));
         let examined = examined
             .map_err(|reason| Failure::Unanswered(format!("the examination gave up: {reason}")))?;
-        print(&match self.output.format {
+        self.output.print(&match self.output.format {
             Format::Table => claims::table(&examined, seconds),
             Format::Json => claims::json(&examined, seconds),
             Format::Csv => claims::csv(&examined),

@@ -8,8 +8,8 @@ use clap::{Args, ValueEnum};
 use super::failure::Failure;
 use super::output::{print, without, write};
 use super::part::MOST;
-use crate::report::provenance::{Provenance, quoted};
 use crate::report::scan::Form;
+use crate::words::provenance::{Provenance, quoted};
 
 /// The options that ask for a recipe.
 #[derive(Clone, Debug, Args)]

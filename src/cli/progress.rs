@@ -1,11 +1,32 @@
-//! How far a long command is, on the last line of the terminal.
+//! How far a long command is, on the last line of the terminal or in a log.
 
 use std::io::{self, Write};
 use std::time::{Duration, Instant};
 
-use crate::words::number::remaining;
+use crate::words::number::{remaining, significant};
 
-/// A line that says how many rows are done and how long the rest will take.
+/// Where progress is told.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// Nobody wants to know.
+    Nowhere,
+    /// A line of the terminal that is written again and again.
+    Line,
+    /// Line after line of a log.
+    Log,
+}
+
+impl Place {
+    /// How often it is told.
+    fn pause(self) -> Duration {
+        match self {
+            Place::Line => Duration::from_millis(250),
+            Place::Nowhere | Place::Log => Duration::from_secs(10),
+        }
+    }
+}
+
+/// Says how many rows are done, how fast, and how long the rest will take.
 #[derive(Debug)]
 pub struct Progress {
     wanted: usize,
@@ -14,35 +35,43 @@ pub struct Progress {
     done: usize,
     started: Instant,
     written: Option<Instant>,
-    shown: bool,
+    place: Place,
 }
 
-/// How often the line is written again.
-const EVERY: Duration = Duration::from_millis(250);
-
 impl Progress {
-    /// The progress of `wanted` rows that begin now, after `before` that are done; `shown` if somebody
-    /// sees it.
-    pub fn new(wanted: usize, before: usize, shown: bool) -> Self {
-        Progress { wanted, before, done: 0, started: Instant::now(), written: None, shown }
+    /// The progress of `wanted` rows that begin now, after `before` that are done.
+    pub fn new(wanted: usize, before: usize, place: Place) -> Self {
+        Progress { wanted, before, done: 0, started: Instant::now(), written: None, place }
     }
 
     /// One row more is done.
     pub fn step(&mut self) {
         self.done += 1;
         let now = Instant::now();
-        let due = self.written.unwrap_or(self.started) + EVERY;
-        if self.shown && now >= due {
-            self.written = Some(now);
-            let left = remaining((now - self.started).as_secs_f64(), self.done, self.wanted);
-            let (done, all) = (self.before + self.done, self.before + self.wanted);
-            write(&format!("\r{done} of {all} rows, {left} left\x1b[K"));
+        if now < self.written.unwrap_or(self.started) + self.place.pause() {
+            return;
         }
+        let told = self.told((now - self.started).as_secs_f64());
+        match self.place {
+            Place::Nowhere => return,
+            Place::Line => write(&format!("\r{told}\x1b[K")),
+            Place::Log => write(&format!("hopfscope: {told}\n")),
+        }
+        self.written = Some(now);
+    }
+
+    /// What is told after so many seconds.
+    fn told(&self, seconds: f64) -> String {
+        #[expect(clippy::cast_precision_loss, reason = "a rough number")]
+        let rate = significant(self.done as f64 / seconds, 2);
+        let left = remaining(seconds, self.done, self.wanted);
+        let (done, all) = (self.before + self.done, self.before + self.wanted);
+        format!("{done} of {all} rows, {rate} rows a second, {left} left")
     }
 
     /// Takes the line away.
     pub fn end(&self) {
-        if self.written.is_some() {
+        if self.written.is_some() && self.place == Place::Line {
             write("\r\x1b[K");
         }
     }
@@ -52,4 +81,15 @@ impl Progress {
 fn write(text: &str) {
     let mut out = io::stderr().lock();
     drop(out.write_all(text.as_bytes()).and_then(|()| out.flush()));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_that_were_there_count_as_done_but_not_as_fast() {
+        let progress = Progress { done: 300, ..Progress::new(900, 100, Place::Log) };
+        assert_eq!(progress.told(10.0), "400 of 1000 rows, 30 rows a second, 20 s left");
+    }
 }

@@ -13,18 +13,17 @@ use signal_hook::flag;
 
 use super::failure::Failure;
 use super::input;
-use super::output::{arguments, holds_something};
+use super::output::holds_something;
 use super::part::{Part, Shard};
 use super::plan::Plan;
-use super::progress::Progress;
+use super::progress::{Place, Progress};
 use super::start::Start;
 use crate::flow::Limits;
 use crate::oscillator::Symbol;
-use crate::report::provenance::Provenance;
 use crate::report::scan::Form;
 use crate::runtime::provenance_file;
 use crate::runtime::scan_file::{Refusal, ScanFile};
-use crate::runtime::scanning::{Effort, rows};
+use crate::runtime::scanning::{Effort, Taker, rows};
 use crate::runtime::signals::exit_code;
 use crate::study::basin::Window;
 use crate::study::kicks::Kicks;
@@ -143,6 +142,14 @@ enum Sink {
 }
 
 impl Sink {
+    /// How many rows wait in a journal for their turn.
+    fn ahead(&self) -> usize {
+        match self {
+            Sink::Standard(_) => 0,
+            Sink::File(file) => file.ahead(),
+        }
+    }
+
     fn add(&mut self, scan: &Scan, index: usize, row: &Row) -> io::Result<()> {
         match self {
             Sink::Standard(form) => {
@@ -151,6 +158,45 @@ impl Sink {
             }
             Sink::File(file) => file.add(scan, index, row),
         }
+    }
+}
+
+/// Writes rows and counts them.
+struct Writer<'a> {
+    scan: &'a Scan,
+    sink: Sink,
+    tally: Tally,
+    progress: Progress,
+    /// What ended the writing.
+    broken: Option<io::Error>,
+}
+
+impl Writer<'_> {
+    fn goes_on(&mut self, written: io::Result<()>) -> ControlFlow<()> {
+        self.broken = written.err();
+        if self.broken.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}
+
+impl Taker for Writer<'_> {
+    fn has(&self, index: usize) -> bool {
+        matches!(&self.sink, Sink::File(file) if file.has(index))
+    }
+
+    fn keep(&mut self, index: usize, row: &Row) -> ControlFlow<()> {
+        let Sink::File(file) = &mut self.sink else { return ControlFlow::Continue(()) };
+        let kept = file.keep(self.scan, index, row);
+        self.goes_on(kept)
+    }
+
+    fn take(&mut self, index: usize, row: Row) -> ControlFlow<()> {
+        let added = self.sink.add(self.scan, index, &row);
+        if added.is_ok() {
+            self.tally.rows += 1;
+            self.tally.given_up += usize::from(row.reason.is_some());
+            self.progress.step();
+        }
+        self.goes_on(added)
     }
 }
 
@@ -167,31 +213,37 @@ impl ScanCommand {
         let asked = self.asked()?;
         if self.plan.is_wanted() {
             let jobs = self.jobs.unwrap_or(1);
-            return self.plan.run(&arguments(), jobs, self.output.as_deref(), self.force);
+            return self.plan.run(
+                &provenance_file::arguments(),
+                jobs,
+                self.output.as_deref(),
+                self.force,
+            );
         }
         let stop = Stop::listen()?;
         let interrupted = || stop.signal().is_some();
-        let (mut sink, done) = self.sink(&asked, &interrupted)?;
+        let (sink, done) = self.sink(&asked, &interrupted)?;
         let Asked { scan, mut points, .. } = asked;
         points.start += done;
+        let ahead = sink.ahead();
 
         let mut effort = Effort::whole();
         effort.jobs = self.jobs.map_or(effort.jobs, usize::from);
-        let mut tally = Tally { wanted: points.len(), ..Tally::default() };
-        let shown =
-            io::stderr().is_terminal() && !(self.output.is_none() && io::stdout().is_terminal());
-        let mut progress = Progress::new(points.len(), done, shown);
-        let mut broken = None;
-        let took = rows(&scan, points, effort, &interrupted, |index, row| {
-            if let Err(error) = sink.add(&scan, index, &row) {
-                broken = Some(error);
-                return ControlFlow::Break(());
-            }
-            tally.rows += 1;
-            tally.given_up += usize::from(row.reason.is_some());
-            progress.step();
-            ControlFlow::Continue(())
-        });
+        let wanted = points.len() - ahead;
+        let place = match (io::stderr().is_terminal(), &self.output) {
+            (true, None) if io::stdout().is_terminal() => Place::Nowhere,
+            (true, _) => Place::Line,
+            (false, _) => Place::Log,
+        };
+        let mut writer = Writer {
+            scan: &scan,
+            sink,
+            tally: Tally { wanted, ..Tally::default() },
+            progress: Progress::new(wanted, done + ahead, place),
+            broken: None,
+        };
+        let took = rows(&scan, points, effort, &interrupted, &mut writer);
+        let Writer { tally, progress, broken, .. } = writer;
         progress.end();
         took.map_err(|error| Failure::Unanswered(format!("no threads to scan with: {error}")))?;
         match broken {
@@ -250,7 +302,7 @@ impl ScanCommand {
                 format!("{name} holds something; --resume continues it, --force starts over");
             return Err(Failure::Usage(line));
         }
-        let provenance = Provenance::of(&arguments());
+        let provenance = provenance_file::of_process();
         let earlier =
             provenance_file::read(path).ok().filter(|_| self.resume && holds_something(path));
         if let Some(earlier) = earlier.filter(|earlier| earlier.build() != provenance.build()) {
@@ -263,7 +315,7 @@ impl ScanCommand {
         let opened = if self.resume {
             ScanFile::resume(path, scan, form, headed, points.clone(), &limits)
         } else {
-            ScanFile::create(path, scan, form, headed).map(|file| (file, 0))
+            ScanFile::create(path, scan, form, headed, points.clone()).map(|file| (file, 0))
         };
         let (file, done) = opened.map_err(|refusal| match refusal {
             Refusal::Io(error) => Failure::file(path, &error),

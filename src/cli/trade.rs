@@ -4,7 +4,7 @@ use clap::Args;
 
 use super::failure::Failure;
 use super::input;
-use super::output::{Format, Output, print};
+use super::output::{Format, Output};
 use super::start::Start;
 use super::timing::in_turn;
 use crate::flow::trajectory::trajectory;
@@ -46,7 +46,7 @@ impl Trade {
             row.error().map(|_| trajectory(&row.problem, Detail::default(), &Limits::PATIENT))
         });
         let timed = report::Timed { trade, seconds };
-        print(&match self.output.format {
+        self.output.print(&match self.output.format {
             Format::Table => {
                 let plot = in_letters(&timed.trade, &timed.seconds);
                 report::table(&timed, &plot)

@@ -4,7 +4,7 @@ use clap::Args;
 
 use super::failure::Failure;
 use super::input;
-use super::output::{Certify, Format, Output, print};
+use super::output::{Certify, Format, Output};
 use super::start::Start;
 use super::timing::timed;
 use crate::flow::trajectory::trajectory;
@@ -50,7 +50,7 @@ impl Trajectory {
         };
         let certified = self.certify.ask(self.output.format, enclose)?;
         let line = |it: &Motion| certified::motion_line(it, problem.until);
-        print(&match self.output.format {
+        self.output.print(&match self.output.format {
             Format::Table => {
                 report::table(&motion, seconds) + &certified.as_ref().map(line).unwrap_or_default()
             }

@@ -9,6 +9,7 @@ use crate::picture::items;
 use crate::picture::role::{self, Role};
 use crate::picture::ticks::Scale;
 use crate::scene::{Point, Window};
+use crate::words::provenance::Provenance;
 
 /// What plots show, as data.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -19,6 +20,9 @@ pub struct Figure {
     pub title: String,
     /// Name and version of the program.
     pub program: String,
+    /// What wrote the figure: program, version, revision and command line.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub provenance: Option<Provenance>,
     /// What the numbers are measured in.
     pub units: &'static str,
     /// Parameters of the present motion; curves have their own.

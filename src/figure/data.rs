@@ -67,6 +67,9 @@ pub(super) fn remarks(figure: &Figure) -> Vec<String> {
         format!("method {}, tolerance {:?}, {}", figure.method, figure.tolerance, figure.program),
         figure.units.to_owned(),
     ];
+    if let Some(provenance) = &figure.provenance {
+        remarks.push(format!("{}: {}", provenance.build(), provenance.command));
+    }
     for (number, panel) in (1..).zip(&figure.panels) {
         remarks.push(format!(
             "panel {number}: {}, {} over {}",

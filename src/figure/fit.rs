@@ -17,6 +17,7 @@ impl Figure {
             figure: "fit".into(),
             title: format!("{}: fitted motion", fitted.name),
             program: format!("hopfscope {}", env!("CARGO_PKG_VERSION")),
+            provenance: None,
             units: "lengths in the unit of the record, times in s, velocities and impulses over omega0",
             parameters: parameters(p),
             initial: State { q: p[Q0], v: velocity },

@@ -32,6 +32,7 @@ use std::path::Path;
 use crate::flow::Problem;
 use crate::picture;
 use crate::session::Session;
+use crate::words::provenance::Provenance;
 
 /// The form in which a figure is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -95,6 +96,12 @@ fn panel(session: &Session, plot: usize) -> Panel {
 }
 
 impl Figure {
+    /// The same, which says what wrote it.
+    #[must_use]
+    pub fn from(self, provenance: Provenance) -> Self {
+        Figure { provenance: Some(provenance), ..self }
+    }
+
     /// What these plots of a session show.
     #[must_use]
     pub fn of(session: &Session, plots: impl IntoIterator<Item = usize>) -> Self {
@@ -103,6 +110,7 @@ impl Figure {
             figure: session.scene.name.clone(),
             title: session.scene.title.clone(),
             program: format!("hopfscope {}", env!("CARGO_PKG_VERSION")),
+            provenance: None,
             units: UNITS,
             parameters,
             initial,

@@ -18,7 +18,6 @@ pub mod harmonic_balance;
 pub mod json;
 pub mod kicks;
 mod proof;
-pub mod provenance;
 pub mod scan;
 pub mod scene_cost;
 pub mod scenes;

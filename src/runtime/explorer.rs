@@ -13,7 +13,7 @@ use super::headless::{self, Played};
 use super::launch::{Options, launch};
 use super::machine::Machine;
 use super::worker::Tell;
-use super::{print, scanning};
+use super::{print, provenance_file, scanning};
 use crate::figure::{self, Form};
 use crate::flow::{Limits, Reason};
 use crate::question::{self, Fineness, Means};
@@ -86,6 +86,7 @@ impl Machine for Explorer {
     fn figure(&self, path: &Path, plot: Option<usize>) -> Result<Work, String> {
         let form = Form::of_file(path)?;
         let mut session = self.session.clone();
+        let provenance = provenance_file::of_process();
         Ok(Box::new(move |limits: &Limits| {
             print::refine(&mut session, limits);
             let plots: Vec<usize> = match plot {
@@ -93,7 +94,8 @@ impl Machine for Explorer {
                 None => session.on_show().collect(),
             };
             let limits = Limits { evaluations: print::MOST, ..*limits };
-            figure::file(&print::figure(&mut session, &plots, &limits), form)
+            let drawn = print::figure(&mut session, &plots, &limits).from(provenance);
+            figure::file(&drawn, form)
         }))
     }
 

@@ -10,7 +10,8 @@ use std::io;
 use std::ops::Range;
 use std::path::PathBuf;
 
-use super::scan_file::{Line, Lines, Refusal, compare};
+use super::lines::{Line, Lines, Refusal};
+use super::scan_file::compare;
 use crate::flow::Limits;
 use crate::report::scan::Form;
 use crate::study::scan::Scan;

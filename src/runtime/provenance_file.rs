@@ -7,10 +7,22 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::report::provenance::Provenance;
+use crate::words::provenance::Provenance;
 
 /// What the name of a file of rows is followed by.
 const ENDING: &str = ".provenance";
+
+/// What this process was started as.
+#[must_use]
+pub fn of_process() -> Provenance {
+    Provenance::of(&arguments())
+}
+
+/// The arguments of this process.
+#[must_use]
+pub fn arguments() -> Vec<String> {
+    std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned()).collect()
+}
 
 /// The file beside this one.
 #[must_use]

@@ -1,16 +1,20 @@
 //! The file of a scan: it grows by one line a row, and can be gone on with after any end.
 //!
-//! Each line is handed to the system in one piece as soon as it is known, so that a process that is
-//! killed loses what it was computing and at most leaves a line without its end. [`ScanFile::resume`]
+//! Each line is handed to the system in one piece as soon as it is known, to the file or, before its turn, to the
+//! [`Journal`], so that a process that is killed loses what it was computing and at most leaves a line without its end. [`ScanFile::resume`]
 //! trusts nothing: it compares the heading and the beginning of every line with what this scan would
 //! write, computes the first and the last row again, and cuts a line that has no end.
 
-use std::fmt;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{File, OpenOptions, TryLockError};
-use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
+use std::io::{self, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::Path;
 
+use super::journal::Journal;
+pub use super::lines::Refusal;
+use super::lines::{Line, Lines};
+use super::provenance_file;
 use crate::flow::{Limits, Reason};
 use crate::report::scan::Form;
 use crate::session::Notice;
@@ -21,43 +25,12 @@ use crate::study::scan::{Row, Scan};
 pub struct ScanFile {
     file: File,
     form: Form,
-}
-
-/// Why a file cannot take rows.
-#[derive(Debug)]
-pub enum Refusal {
-    /// It cannot be opened, read or written.
-    Io(io::Error),
-    /// Another process writes to it.
-    Busy,
-    /// It holds something else.
-    Foreign {
-        /// The line, from 1.
-        line: usize,
-        /// What is wrong with it.
-        why: &'static str,
-    },
-    /// The check was interrupted.
-    Interrupted,
-}
-
-impl From<io::Error> for Refusal {
-    fn from(error: io::Error) -> Self {
-        Refusal::Io(error)
-    }
-}
-
-impl fmt::Display for Refusal {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Refusal::Io(error) => write!(out, "{error}"),
-            Refusal::Busy => write!(out, "another scan is writing to it"),
-            Refusal::Foreign { line, why } => {
-                write!(out, "not a part of this scan: line {line} {why}")
-            }
-            Refusal::Interrupted => write!(out, "interrupted"),
-        }
-    }
+    journal: Journal,
+    /// Rows that the journal of an earlier process has, and whose turn has not come.
+    ahead: BTreeMap<usize, String>,
+    /// Rows that this process has noted in the journal, and whose turn has not come.
+    noted: BTreeSet<usize>,
+    points: Range<usize>,
 }
 
 impl ScanFile {
@@ -65,8 +38,21 @@ impl ScanFile {
     ///
     /// # Errors
     /// The [`Refusal`].
-    pub fn create(path: &Path, scan: &Scan, form: Form, headed: bool) -> Result<Self, Refusal> {
-        let mut this = ScanFile { file: opened(path)?, form };
+    pub fn create(
+        path: &Path,
+        scan: &Scan,
+        form: Form,
+        headed: bool,
+        points: Range<usize>,
+    ) -> Result<Self, Refusal> {
+        let mut this = ScanFile {
+            file: opened(path)?,
+            form,
+            journal: Journal::new(path),
+            ahead: BTreeMap::new(),
+            noted: BTreeSet::new(),
+            points,
+        };
         if this.file.metadata()?.is_file() {
             this.file.set_len(0)?;
         }
@@ -87,79 +73,123 @@ impl ScanFile {
         points: Range<usize>,
         limits: &Limits,
     ) -> Result<(Self, usize), Refusal> {
-        let file = opened(path)?;
-        let mut this = ScanFile { file, form };
-        let Some(kept) = this.kept(scan, headed, points, limits)? else {
-            this.file.set_len(0)?;
-            this.file.rewind()?;
-            this.begin(scan, headed)?;
-            return Ok((this, 0));
-        };
-        this.file.set_len(kept.bytes)?;
+        let mut file = opened(path)?;
+        let kept = kept((&mut file, form), scan, headed, &points, limits)?;
+        let rows = kept.map_or(0, |kept| kept.rows);
+        let left = points.start + rows..points.end;
+        let (journal, ahead) = Journal::resume(path, scan, form, &left);
+        let mut this =
+            ScanFile { file, form, journal, ahead, noted: BTreeSet::new(), points: left };
+        this.file.set_len(kept.map_or(0, |kept| kept.bytes))?;
         this.file.seek(SeekFrom::End(0))?;
-        Ok((this, kept.rows))
+        if kept.is_none() {
+            this.begin(scan, headed)?;
+        }
+        let done = this.catch_up()?;
+        Ok((this, rows + done))
     }
 
-    /// Adds a row.
+    /// Whether an earlier process has computed this row, whose turn has not come.
+    #[must_use]
+    pub fn has(&self, index: usize) -> bool {
+        self.ahead.contains_key(&index)
+    }
+
+    /// How many those are.
+    #[must_use]
+    pub fn ahead(&self) -> usize {
+        self.ahead.len()
+    }
+
+    /// Keeps a row whose turn has not come.
+    ///
+    /// # Errors
+    /// If the journal cannot be written.
+    pub fn keep(&mut self, scan: &Scan, index: usize, row: &Row) -> io::Result<()> {
+        self.noted.insert(index);
+        self.journal.note(scan, self.form, (index, &self.form.line(scan, index, row)))
+    }
+
+    /// Adds the next row that an earlier process has not computed, and those after it that one has.
     ///
     /// # Errors
     /// If the file cannot be written.
     pub fn add(&mut self, scan: &Scan, index: usize, row: &Row) -> io::Result<()> {
-        self.file.write_all(self.form.line(scan, index, row).as_bytes())
+        self.file.write_all(self.form.line(scan, index, row).as_bytes())?;
+        self.points.start = index + 1;
+        self.noted.remove(&index);
+        self.catch_up().map(drop)
+    }
+
+    /// Adds rows that the journal had, as far as their turn has come, and says how many; removes the journal where it
+    /// is of no further use.
+    fn catch_up(&mut self) -> io::Result<usize> {
+        let mut count = 0;
+        while let Some(row) = self.ahead.remove(&self.points.start) {
+            self.file.write_all(row.as_bytes())?;
+            self.points.start += 1;
+            count += 1;
+        }
+        if self.points.is_empty() {
+            self.journal.end();
+        } else if self.ahead.is_empty() && self.noted.is_empty() {
+            self.journal.is_served();
+        }
+        Ok(count)
     }
 
     fn begin(&mut self, scan: &Scan, headed: bool) -> io::Result<()> {
         let heading = if headed { self.form.heading(scan) } else { String::new() };
         self.file.write_all(heading.as_bytes())
     }
+}
 
-    /// What of the file belongs to this scan; nothing where not even the heading is whole.
-    fn kept(
-        &mut self,
-        scan: &Scan,
-        headed: bool,
-        points: Range<usize>,
-        limits: &Limits,
-    ) -> Result<Option<Kept>, Refusal> {
-        let mut lines = Lines::new(&self.file);
-        let heading = if headed { self.form.heading(scan) } else { String::new() };
-        if !lines.heading(&heading)? {
-            return Ok(None);
-        }
-        let mut kept = Kept { rows: 0, bytes: lines.bytes };
-        let mut last = None;
-        loop {
-            let index = points.start + kept.rows;
-            let line = match lines.next(usize::MAX)? {
-                Line::Whole(line) => line,
-                Line::Cut(begun) => {
-                    let expected = self.form.beginning(scan, index.min(points.end - 1));
-                    let common = begun.len().min(expected.len());
-                    if begun[..common] != expected.as_bytes()[..common] {
-                        return Err(lines.foreign("is of another point"));
-                    }
-                    break;
-                }
-            };
-            if index >= points.end {
-                return Err(lines.foreign("is one more than it has points"));
-            }
-            if !line.starts_with(self.form.beginning(scan, index).as_bytes()) {
-                return Err(lines.foreign("is of another point"));
-            }
-            kept = Kept { rows: kept.rows + 1, bytes: lines.bytes };
-            if kept.rows == 1 {
-                compare(scan, self.form, (index, &line), lines.number, limits)?;
-            } else {
-                last = Some((index, line));
-            }
-        }
-        if let Some((index, line)) = last {
-            let number = kept.rows + usize::from(!heading.is_empty());
-            compare(scan, self.form, (index, &line), number, limits)?;
-        }
-        Ok(Some(kept))
+/// What of the file belongs to this scan; nothing where not even the heading is whole.
+fn kept(
+    (file, form): (&mut File, Form),
+    scan: &Scan,
+    headed: bool,
+    points: &Range<usize>,
+    limits: &Limits,
+) -> Result<Option<Kept>, Refusal> {
+    let mut lines = Lines::new(file);
+    let heading = if headed { form.heading(scan) } else { String::new() };
+    if !lines.heading(&heading)? {
+        return Ok(None);
     }
+    let mut kept = Kept { rows: 0, bytes: lines.bytes() };
+    let mut last = None;
+    loop {
+        let index = points.start + kept.rows;
+        let line = match lines.next(usize::MAX)? {
+            Line::Whole(line) => line,
+            Line::Cut(begun) => {
+                let expected = form.beginning(scan, index.min(points.end - 1));
+                let common = begun.len().min(expected.len());
+                if begun[..common] != expected.as_bytes()[..common] {
+                    return Err(lines.foreign("is of another point"));
+                }
+                break;
+            }
+        };
+        if index >= points.end {
+            return Err(lines.foreign("is one more than it has points"));
+        }
+        if !line.starts_with(form.beginning(scan, index).as_bytes()) {
+            return Err(lines.foreign("is of another point"));
+        }
+        kept = Kept { rows: kept.rows + 1, bytes: lines.bytes() };
+        if kept.rows == 1 {
+            compare(scan, form, (index, &line), lines.number(), limits)?;
+        } else {
+            last = Some((index, line));
+        }
+    }
+    if let Some((index, line)) = last {
+        let number = kept.rows + usize::from(!heading.is_empty());
+        compare(scan, form, (index, &line), number, limits)?;
+    }
+    Ok(Some(kept))
 }
 
 /// Computes the row that stands in line `number` again: the same program on the same scan writes the same line.
@@ -199,7 +229,12 @@ pub fn save(path: &Path, scan: &Scan, rows: &[Row]) -> Notice {
     let name = path.display();
     let written = opened.and_then(|(mut file, done)| {
         for (index, row) in rows.iter().enumerate().skip(done) {
-            file.add(scan, index, row)?;
+            if !file.has(index) {
+                file.add(scan, index, row)?;
+            }
+        }
+        if done == 0 {
+            provenance_file::write(path, &provenance_file::of_process())?;
         }
         Ok(rows.len().max(done))
     });
@@ -214,62 +249,4 @@ pub fn save(path: &Path, scan: &Scan, rows: &[Row]) -> Notice {
 struct Kept {
     rows: usize,
     bytes: u64,
-}
-
-/// The lines of a file, counted.
-pub(super) struct Lines<R> {
-    reader: BufReader<R>,
-    /// The line read last, from 1.
-    number: usize,
-    /// Bytes up to the end of the last whole line.
-    bytes: u64,
-}
-
-/// A line of a file.
-pub(super) enum Line {
-    /// With its end.
-    Whole(Vec<u8>),
-    /// Without: the last one, perhaps empty.
-    Cut(Vec<u8>),
-}
-
-impl<R: Read> Lines<R> {
-    pub(super) fn new(file: R) -> Self {
-        Lines { reader: BufReader::new(file), number: 0, bytes: 0 }
-    }
-
-    /// The number of the line read last, from 1.
-    pub(super) fn number(&self) -> usize {
-        self.number
-    }
-
-    /// Reads this heading, if it is not empty; false where the file ends within it.
-    pub(super) fn heading(&mut self, heading: &str) -> Result<bool, Refusal> {
-        if heading.is_empty() {
-            return Ok(true);
-        }
-        match self.next(heading.len())? {
-            Line::Whole(line) if line == heading.as_bytes() => Ok(true),
-            Line::Cut(begun) if heading.as_bytes().starts_with(&begun) => Ok(false),
-            _ => Err(self.foreign("names other columns")),
-        }
-    }
-
-    /// The next line; a line longer than `most` is cut there.
-    pub(super) fn next(&mut self, most: usize) -> io::Result<Line> {
-        let mut line = Vec::new();
-        let most = u64::try_from(most).unwrap_or(u64::MAX);
-        (&mut self.reader).take(most).read_until(b'\n', &mut line)?;
-        self.number += 1;
-        if line.last() == Some(&b'\n') {
-            self.bytes += line.len() as u64;
-            Ok(Line::Whole(line))
-        } else {
-            Ok(Line::Cut(line))
-        }
-    }
-
-    pub(super) fn foreign(&self, why: &'static str) -> Refusal {
-        Refusal::Foreign { line: self.number, why }
-    }
 }

@@ -1,6 +1,6 @@
 //! A scan on all cores: rows are computed side by side and come out in order.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::ops::{ControlFlow, Range};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -19,7 +19,7 @@ use crate::scene::Answer;
 use crate::study::scan::{Row, Scan};
 
 /// Rows that each thread may be ahead of the first one that is not done yet: enough that one slow row
-/// does not hold the others up, few enough that little is lost when the process is killed.
+/// does not hold the others up, few enough that they are held in memory.
 const AHEAD: usize = 32;
 
 /// What a scan may use of the machine.
@@ -39,8 +39,30 @@ impl Effort {
     }
 }
 
-/// Computes the rows of these points and hands each to `take`, in their order, as soon as it and all
-/// before it are known; until `take` breaks off or `interrupted` says so.
+/// Who takes the rows of a scan.
+pub trait Taker {
+    /// Whether this row is known already: then it is neither computed nor taken.
+    fn has(&self, _index: usize) -> bool {
+        false
+    }
+
+    /// A row that is known before its turn; it comes again when that is there.
+    fn keep(&mut self, _index: usize, _row: &Row) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    /// The next row.
+    fn take(&mut self, index: usize, row: Row) -> ControlFlow<()>;
+}
+
+impl<F: FnMut(usize, Row) -> ControlFlow<()>> Taker for F {
+    fn take(&mut self, index: usize, row: Row) -> ControlFlow<()> {
+        self(index, row)
+    }
+}
+
+/// Computes the rows of these points and hands each to `taker`, in their order, as soon as it and all
+/// before it are known; until the taker breaks off or `interrupted` says so.
 ///
 /// A row whose computation panics has the panic for its reason.
 ///
@@ -51,7 +73,7 @@ pub fn rows(
     points: Range<usize>,
     effort: Effort,
     interrupted: &(dyn Fn() -> bool + Sync),
-    mut take: impl FnMut(usize, Row) -> ControlFlow<()>,
+    taker: &mut impl Taker,
 ) -> io::Result<()> {
     let jobs = effort.jobs.clamp(1, points.len().max(1));
     let pool = ThreadPoolBuilder::new()
@@ -79,19 +101,33 @@ pub fn rows(
         let mut next = points.start;
         let mut given = points.start;
         let mut waiting = BTreeMap::new();
+        let mut known = BTreeSet::new();
         while next < points.end {
             while given < points.end && given < next + AHEAD * jobs {
-                let _ = ticket.send(given);
+                if taker.has(given) {
+                    known.insert(given);
+                } else {
+                    let _ = ticket.send(given);
+                }
                 given += 1;
             }
-            let Ok((index, row)) = found.recv() else { break };
-            waiting.insert(index, row);
-            while let Some(row) = waiting.remove(&next) {
-                if take(next, row).is_break() {
-                    stopped.store(true, Ordering::Relaxed);
-                    return drop(ticket);
-                }
+            if known.remove(&next) {
                 next += 1;
+                continue;
+            }
+            let flow = if let Some(row) = waiting.remove(&next) {
+                next += 1;
+                taker.take(next - 1, row)
+            } else {
+                let Ok((index, row)) = found.recv() else { break };
+                let early = index != next;
+                let flow = if early { taker.keep(index, &row) } else { ControlFlow::Continue(()) };
+                waiting.insert(index, row);
+                flow
+            };
+            if flow.is_break() {
+                stopped.store(true, Ordering::Relaxed);
+                return drop(ticket);
             }
         }
         drop(ticket);
@@ -109,7 +145,7 @@ pub fn answer(scan: &Scan, from: usize, limits: &Limits, tell: &Tell) -> Result<
     let mut piece = Rows { first: from, rows: Vec::new() };
     let mut told: Option<Instant> = None;
     let effort = Effort { polite: true, ..Effort::whole() };
-    rows(scan, from..scan.points(), effort, limits.interrupted, |index, row| {
+    rows(scan, from..scan.points(), effort, limits.interrupted, &mut |index, row| {
         piece.rows.push(row);
         if told.is_none_or(|told| told.elapsed() >= EVERY) {
             told = Some(Instant::now());

@@ -417,11 +417,16 @@ impl Tracer<'_> {
         let parameters = self.curve.parameters_at(0.0);
         self.hopf(parameters.r, from, to);
         let values = match self.parameter {
-            Symbol::D => [escape_point(&parameters, self.curve.limits())?, None],
+            Symbol::D => {
+                let (value, cost) = escape_point(&parameters, self.curve.limits())?;
+                self.found.cost += cost;
+                [value, None]
+            }
             Symbol::D2 | Symbol::R if parameters.d3 == 0.0 => {
                 // Only the product of friction and asymmetric damping matters.
                 let other = if self.parameter == Symbol::R { parameters.d2 } else { parameters.r };
-                let product = escape_product(parameters.d, self.curve.limits())?;
+                let (product, cost) = escape_product(parameters.d, self.curve.limits())?;
+                self.found.cost += cost;
                 let value = product.map(|product| product / other.abs());
                 [value, value.filter(|_| self.parameter == Symbol::D2).map(|value| -value)]
             }

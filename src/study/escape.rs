@@ -11,31 +11,45 @@
 //! use hopfscope::study::escape::escape_point;
 //!
 //! let parameters = Parameters { d: 0.0, d2: 0.5, d3: 0.0, r: 0.2 };
-//! let found = escape_point(&parameters, &Limits::PATIENT)?.unwrap();
+//! let found = escape_point(&parameters, &Limits::PATIENT)?.0.unwrap();
 //! assert!((found + 0.079_769).abs() < 1e-6);
 //! # Ok::<(), hopfscope::flow::Reason>(())
 //! ```
 
 use super::balance::weighed_residual;
 use super::closing::{Equation, Route};
-use crate::flow::{Limits, Reason};
+use crate::flow::{Cost, Limits, Reason};
 use crate::numerics::elementary::ln;
 use crate::numerics::root::{Change, illinois};
 use crate::oscillator::Parameters;
 
-/// `D_c` at these values of D2 and r, or `None` where no cycle escapes (`D3 != 0`, `D2 = 0` or `r = 0`).
+/// `D_c` at these values of D2 and r, or `None` where no cycle escapes (`D3 != 0`, `D2 = 0` or `r = 0`); and what it
+/// cost.
 ///
 /// Bracketing secant (the Illinois rule) on the difference of the two swings from and to infinity, to
 /// rounding. To leading order `D_c = -sqrt(2/pi) r abs(D2)`.
 ///
 /// # Errors
 /// The [`Reason`] why a swing failed.
-pub fn escape_point(parameters: &Parameters, limits: &Limits) -> Result<Option<f64>, Reason> {
+pub fn escape_point(
+    parameters: &Parameters,
+    limits: &Limits,
+) -> Result<(Option<f64>, Cost), Reason> {
+    let mut cost = Cost::default();
+    let excess = |d: f64| excess_at_infinity(&Parameters { d, ..*parameters }, limits, &mut cost);
+    let found = least_without_cycle(parameters, excess)?;
+    Ok((found, cost))
+}
+
+/// `D_c` from the excess at each D.
+fn least_without_cycle(
+    parameters: &Parameters,
+    mut excess: impl FnMut(f64) -> Result<f64, Reason>,
+) -> Result<Option<f64>, Reason> {
     let Parameters { d2, d3, r, .. } = *parameters;
     if d3 != 0.0 || d2 == 0.0 || r == 0.0 {
         return Ok(None);
     }
-    let excess = |d: f64| excess_at_infinity(&Parameters { d, ..*parameters }, limits);
     let leading = -(2.0 / std::f64::consts::PI).sqrt() * r * d2.abs();
     // The excess falls from positive at D = -1 to negative at D = 0 (no cycle without self-excitation).
     let mut low = (f64::max(1.2 * leading, -1.0 + f64::EPSILON), 0.0);
@@ -61,29 +75,36 @@ pub fn escape_point(parameters: &Parameters, limits: &Limits) -> Result<Option<f
 ///
 /// # Errors
 /// The [`Reason`] why a swing failed.
-pub fn escape_product(d: f64, limits: &Limits) -> Result<Option<f64>, Reason> {
+pub fn escape_product(d: f64, limits: &Limits) -> Result<(Option<f64>, Cost), Reason> {
     /// The bracket, in units of the leading order.
     const AROUND: (f64, f64) = (0.25, 4.0);
-    let excess =
-        |product: f64| excess_at_infinity(&Parameters { d, d2: product, d3: 0.0, r: 1.0 }, limits);
+    let mut cost = Cost::default();
+    let mut excess = |product: f64| {
+        let unit = Parameters { d, d2: product, d3: 0.0, r: 1.0 };
+        excess_at_infinity(&unit, limits, &mut cost)
+    };
     if !(d < 0.0 && d > -1.0) {
-        return Ok(None);
+        return Ok((None, cost));
     }
     let leading = -d * (std::f64::consts::PI / 2.0).sqrt();
     let ends = [AROUND.0 * leading, AROUND.1 * leading];
     let ends = [(ends[0], excess(ends[0])?), (ends[1], excess(ends[1])?)];
     if !(ends[0].1 > 0.0 && ends[1].1 < 0.0) {
-        return Ok(None);
+        return Ok((None, cost));
     }
-    let [(product, _), _] = illinois(ends, 0.0, Change::Relative(2.0 * f64::EPSILON), excess)?;
-    Ok(Some(product))
+    let [(product, _), _] = illinois(ends, 0.0, Change::Relative(2.0 * f64::EPSILON), &mut excess)?;
+    Ok((Some(product), cost))
 }
 
-/// By how much, as a logarithm, the swing from infinity passes the one to infinity.
+/// By how much, as a logarithm, the swing from infinity passes the one to infinity; adds what it cost.
 ///
 /// # Errors
 /// The [`Reason`] why a swing failed.
-pub fn excess_at_infinity(parameters: &Parameters, limits: &Limits) -> Result<f64, Reason> {
+fn excess_at_infinity(
+    parameters: &Parameters,
+    limits: &Limits,
+    cost: &mut Cost,
+) -> Result<f64, Reason> {
     /// Clearance, in units of `1/abs(D2)`, from which a swing has forgotten its start to rounding: what
     /// is left of it decays as `exp(-2 D2 c)`.
     const FAR: f64 = 40.0;
@@ -91,12 +112,14 @@ pub fn excess_at_infinity(parameters: &Parameters, limits: &Limits) -> Result<f6
     const NEAR: f64 = 1e-2;
     let far = ln(FAR / parameters.d2.abs() + 2.0 * parameters.r);
     let mut equation = Equation::new(parameters, f64::EPSILON);
-    let plain = equation.at(Route::Mixed, far, limits)?.node.value();
-    if plain.abs() >= NEAR {
-        return Ok(plain);
-    }
+    let plain = equation.at(Route::Mixed, far, limits).map(|found| found.node.value());
     // Weighed as energy, it keeps the digits that the difference loses near `D_c`.
-    let weighed = weighed_residual(&mut equation, far, limits)?;
+    let weighed = match plain {
+        Ok(plain) if plain.abs() < NEAR => weighed_residual(&mut equation, far, limits),
+        _ => Ok(None),
+    };
+    *cost += equation.cost();
+    let (plain, weighed) = (plain?, weighed?);
     Ok(weighed.filter(|(_, noise)| *noise < f64::EPSILON).map_or(plain, |(weighed, _)| weighed))
 }
 
@@ -117,7 +140,7 @@ mod tests {
         for (product, expected) in table {
             for (d2, r) in [(1.0, product), (product / 0.3, 0.3), (-product, 1.0)] {
                 let parameters = Parameters { d: 0.0, d2, d3: 0.0, r };
-                let d = escape_point(&parameters, &Limits::PATIENT).unwrap().unwrap();
+                let d = escape_point(&parameters, &Limits::PATIENT).unwrap().0.unwrap();
                 assert!((d - expected).abs() < 5e-7, "r D2 = {product}: {d}");
             }
         }

@@ -156,12 +156,14 @@ pub fn border(
             return Err(Reason::Interrupted);
         }
         let (fold, cost) = found.unwrap_or_default();
+        let (escape, further) = escape.unwrap_or_default();
         border.cost += cost;
+        border.cost += further;
         border.points.push(BorderPoint {
             value,
             fold,
             harmonic_fold: harmonic::fold(here.d3, here.r).map(|fold| fold.d),
-            escape: escape.unwrap_or_default(),
+            escape,
             reason: reason.map(|reason| reason.to_string()),
         });
     }
@@ -229,7 +231,7 @@ mod tests {
     fn weak_cubic_damping_folds_where_the_cycle_escapes_without_it() {
         for d2 in [0.1, 0.3, 1.0] {
             let without = Parameters { d: 0.0, d2, d3: 0.0, r: 1.0 };
-            let escape = escape_point(&without, &Limits::PATIENT).unwrap().unwrap();
+            let escape = escape_point(&without, &Limits::PATIENT).unwrap().0.unwrap();
             let [near, far] = [1e-6, 1e-4].map(|d3| (found(d2, d3, 1.0).d - escape).abs());
             assert!(near < 5e-5 && near < 0.02 * far, "D2 = {d2}: {near} {far}");
         }

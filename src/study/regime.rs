@@ -122,7 +122,7 @@ pub fn regime(parameters: &Parameters, limits: &Limits) -> Result<Regime, Reason
     let Parameters { d, d3, r, .. } = *parameters;
     // Without self-excitation neither is needed: no cycle folds there.
     let fold = if d3 > 0.0 && r > 0.0 && d < 0.0 { fold(parameters, limits)?.0 } else { None };
-    let escape = if d < 0.0 { escape_point(parameters, limits)? } else { None };
+    let escape = if d < 0.0 { escape_point(parameters, limits)?.0 } else { None };
     Ok(Regime::of(parameters, fold.map(|fold| fold.d), escape))
 }
 

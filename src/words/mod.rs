@@ -4,6 +4,7 @@ pub mod claim;
 pub mod measured;
 pub mod motion;
 pub mod number;
+pub mod provenance;
 pub mod quantity;
 
 /// Whether something attracts.

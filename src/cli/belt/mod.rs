@@ -12,7 +12,7 @@ use self::input::{
 };
 use super::failure::Failure;
 use super::input::method;
-use super::output::{Format, Output, print};
+use super::output::{Format, Output};
 use super::start::tolerance;
 use super::timing::timed;
 use crate::flow::Limits;
@@ -173,7 +173,7 @@ impl Belt {
         if let Some(range) = self.sweep {
             let (swept, seconds) = timed(self.output.repeat, || self.swept(&machine, range));
             let answer = Sweep { seconds, ..swept? };
-            return print(&match self.output.format {
+            return self.output.print(&match self.output.format {
                 Format::Table => belt::sweep_table(&answer),
                 Format::Json => belt::sweep_json(&answer),
                 Format::Csv => belt::sweep_csv(&answer),
@@ -193,7 +193,7 @@ impl Belt {
         let incomplete = survey.course.portrait.incomplete();
         let answer =
             Answer { machine: &machine, survey: &survey, rest_share, design, certain, seconds };
-        print(&match self.output.format {
+        self.output.print(&match self.output.format {
             Format::Table => belt::table(&answer),
             Format::Json => belt::json(&answer),
             Format::Csv => belt::csv(&answer),
@@ -219,7 +219,7 @@ impl Belt {
         let rest_share = self.window.map(share);
         let incomplete = course.portrait.incomplete();
         let answer = ModeAnswer { mode: &mode, course: &course, rest_share, seconds };
-        print(&match self.output.format {
+        self.output.print(&match self.output.format {
             Format::Table => belt::mode::table(&answer),
             Format::Json => belt::mode::json(&answer),
             Format::Csv => belt::mode::csv(&answer),
@@ -237,7 +237,7 @@ impl Belt {
             });
             let (rows, varied) = (rows.map_err(Failure::Usage)?, (varied, other.varied));
             let found = Borders { machine, varied, rows, seconds };
-            return print(&match self.output.format {
+            return self.output.print(&match self.output.format {
                 Format::Table => belt::branch::borders_table(&found),
                 Format::Json => belt::branch::borders_json(&found),
                 Format::Csv => belt::branch::borders_csv(&found),
@@ -246,7 +246,7 @@ impl Belt {
         let (found, seconds) =
             timed(self.output.repeat, || branch(&machine.belt, varied, ends, count));
         let found = Branched { machine, varied, branch: found.map_err(Failure::Usage)?, seconds };
-        print(&match self.output.format {
+        self.output.print(&match self.output.format {
             Format::Table => belt::branch::table(&found),
             Format::Json => belt::branch::json(&found),
             Format::Csv => belt::branch::csv(&found),

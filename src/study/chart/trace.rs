@@ -8,7 +8,7 @@ use crate::numerics::elementary::{exp, hypot, ln, powi};
 use crate::numerics::root::{Change, illinois};
 use crate::oscillator::{Parameters, State, Symbol};
 use crate::study::cycle::cycles;
-use crate::study::escape::escape_point;
+use crate::study::escape::{escape_point, escape_product};
 use crate::study::extended::{Fold, Guess, fold_near};
 use crate::study::fold::fold_within;
 use crate::study::regime::Regime;
@@ -161,7 +161,7 @@ impl Tracer<'_> {
             return Ok(Borders::default());
         }
         if here.d3 == 0.0 {
-            let escape = escape_point(here, self.limits)?;
+            let escape = self.escape(here)?;
             return Ok(Borders { fold: None, escape: escape.or(Some(f64::NEG_INFINITY)) });
         }
         let strong = harmonic::fold(here.d3, here.r).is_none_or(|fold| fold.d < DOUBTFUL)
@@ -189,7 +189,7 @@ impl Tracer<'_> {
                 return nowhere;
             }
             // As D3 goes to 0 the fold goes to D_c: if that lies below D, so do all folds.
-            let least = escape_point(&Parameters { d3: 0.0, ..*here }, self.limits)?;
+            let least = self.escape(&Parameters { d3: 0.0, ..*here })?;
             let none = d2 != 0.0 && least.is_none_or(|least| d >= least);
             let fold = if none { Some(0.0) } else { self.seek(here)? };
             return Ok(Borders { fold, escape: None });
@@ -206,11 +206,16 @@ impl Tracer<'_> {
 
     /// The product `r abs(D2)` whose escape point is `d`.
     fn product_of_escape(&mut self, d: f64) -> Result<f64, Reason> {
-        let excess = |product: f64| -> Result<f64, Reason> {
-            let unit = Parameters { d: 0.0, d2: 1.0, d3: 0.0, r: product };
-            Ok(ln(-escape_point(&unit, self.limits)?.unwrap_or(-2.0) / -d))
-        };
-        root(ln(-1.25 * d), 0.1, SLACK * self.tolerance, |z| excess(exp(z))).map(exp)
+        let (found, cost) = escape_product(d, self.limits)?;
+        self.cost += cost;
+        found.ok_or(Reason::NoConvergence { sought: "the escape point", change: f64::NAN })
+    }
+
+    /// `D_c`.
+    fn escape(&mut self, here: &Parameters) -> Result<Option<f64>, Reason> {
+        let (found, cost) = escape_point(here, self.limits)?;
+        self.cost += cost;
+        Ok(found)
     }
 
     /// The value along the line at which the fold is at the line's D; infinite where none is.

@@ -258,5 +258,5 @@ fn enclosed_integral(d2: f64, q: Interval, v: Interval) -> Interval {
 /// `D_c`.
 fn end_of_cycle(parameters: &Parameters, limits: &Limits) -> Result<f64, Reason> {
     let lost = Reason::NoConvergence { sought: "the end of the cycle", change: f64::NAN };
-    escape_point(parameters, limits)?.ok_or(lost)
+    escape_point(parameters, limits)?.0.ok_or(lost)
 }

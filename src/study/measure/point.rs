@@ -113,7 +113,11 @@ impl Point {
                 self.cost += cost;
                 self.fold = found;
             }
-            Need::Escape => self.escape = escape_point(parameters, limits)?,
+            Need::Escape => {
+                let (found, cost) = escape_point(parameters, limits)?;
+                self.cost += cost;
+                self.escape = found;
+            }
             Need::Guarantee => {
                 let known = conditions.around(parameters);
                 let (found, cost) = guaranteed(&known, conditions.disturbance, limits)?;

@@ -28,6 +28,23 @@ impl Provenance {
         }
     }
 
+    /// A JSON document with one field more, `provenance`; what is not an object stays as it is.
+    ///
+    /// # Panics
+    /// Never: a struct of strings can always be written.
+    #[must_use]
+    pub fn within(&self, document: &str) -> String {
+        let Some(fields) = document.strip_suffix("}\n").filter(|it| it.starts_with('{')) else {
+            return document.to_owned();
+        };
+        let own = match serde_json::to_string(self) {
+            Ok(own) => own,
+            Err(error) => unreachable!("strings cannot be written: {error}"),
+        };
+        let comma = if fields == "{" { "" } else { "," };
+        format!("{fields}{comma}\"provenance\":{own}}}\n")
+    }
+
     /// The program with its version, and revision where it is known.
     #[must_use]
     pub fn build(&self) -> String {
@@ -96,6 +113,19 @@ mod tests {
         assert_eq!(line, r"hopfscope scan --over D=-0.9:0:200 'a b' 'it'\''s' ''");
         let torn = Provenance { command: "hopfscope 'a".to_owned(), ..Provenance::of(&[]) };
         assert_eq!(torn.arguments(), None);
+    }
+
+    #[test]
+    fn a_document_keeps_its_fields_and_says_where_it_comes_from() {
+        let own = Provenance::of(&["cycles".to_owned()]);
+        for document in ["{\"a\":[1.0,{\"b\":null}]}\n", "{}\n"] {
+            let told: serde_json::Value = serde_json::from_str(&own.within(document)).unwrap();
+            assert_eq!(told["provenance"]["command"], "hopfscope cycles", "{told}");
+            let mut plain = told.clone();
+            plain.as_object_mut().unwrap().remove("provenance");
+            assert_eq!(plain.to_string() + "\n", document);
+        }
+        assert_eq!(own.within("[1]\n"), "[1]\n");
     }
 
     proptest! {

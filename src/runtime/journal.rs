@@ -1,0 +1,129 @@
+//! Rows that are known before their turn: a file beside that of a scan, `rows.csv.ahead` beside `rows.csv`.
+//!
+//! Rows stand in the file of a scan in their order, and a slow one holds up those behind it. What is known of these is
+//! noted here at once, so that a process that is killed loses only what it was computing. The first line names the
+//! columns; each other one is the number of a point, a tab, and its row. A journal of anything else is no loss and is
+//! ignored: all in it can be computed again.
+
+use std::collections::BTreeMap;
+use std::ffi::OsString;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Write};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use super::lines::{Line, Lines};
+use crate::report::scan::Form;
+use crate::study::scan::Scan;
+
+/// What the name of a file of rows is followed by.
+const ENDING: &str = ".ahead";
+
+/// Bytes after which rows that have had their turn are removed.
+const MOST: u64 = 1 << 20;
+
+/// The journal of a scan.
+#[derive(Debug)]
+pub struct Journal {
+    path: PathBuf,
+    /// None until there is something to note.
+    file: Option<File>,
+    bytes: u64,
+}
+
+impl Journal {
+    /// The journal beside this file, which knows nothing; what an earlier scan has left is removed.
+    pub fn new(path: &Path) -> Self {
+        let journal = Journal { path: beside(path), file: None, bytes: 0 };
+        journal.remove();
+        journal
+    }
+
+    /// The journal beside this file, and the rows of these points that it has.
+    pub fn resume(
+        path: &Path,
+        scan: &Scan,
+        form: Form,
+        points: &Range<usize>,
+    ) -> (Self, BTreeMap<usize, String>) {
+        let open = OpenOptions::new().read(true).append(true).open(beside(path));
+        let Ok(file) = open else { return (Self::new(path), BTreeMap::new()) };
+        let (found, bytes) = rows(&file, scan, form, points);
+        if found.is_empty() || file.set_len(bytes).is_err() {
+            return (Self::new(path), BTreeMap::new());
+        }
+        (Journal { path: beside(path), file: Some(file), bytes }, found)
+    }
+
+    /// Notes a row.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn note(&mut self, scan: &Scan, form: Form, (index, row): (usize, &str)) -> io::Result<()> {
+        let file = match &mut self.file {
+            Some(file) => file,
+            none => {
+                let file = OpenOptions::new().append(true).create(true).open(&self.path)?;
+                file.set_len(0)?;
+                let file = none.insert(file);
+                file.write_all(heading(scan, form).as_bytes())?;
+                file
+            }
+        };
+        let line = format!("{index}\t{row}");
+        self.bytes += line.len() as u64;
+        file.write_all(line.as_bytes())
+    }
+
+    /// All that was noted has had its turn.
+    pub fn is_served(&mut self) {
+        if self.bytes > MOST {
+            self.end();
+        }
+    }
+
+    /// Removes the file.
+    pub fn end(&mut self) {
+        if self.file.take().is_some() {
+            self.remove();
+        }
+        self.bytes = 0;
+    }
+
+    fn remove(&self) {
+        // One that stays is a nuisance, no error: its rows are known not to be needed.
+        drop(fs::remove_file(&self.path));
+    }
+}
+
+/// The name of the journal beside this file.
+fn beside(path: &Path) -> PathBuf {
+    let mut name = OsString::from(path);
+    name.push(ENDING);
+    name.into()
+}
+
+/// The rows of these points that a journal has, and its bytes without a last line that has no end.
+fn rows(
+    file: &File,
+    scan: &Scan,
+    form: Form,
+    points: &Range<usize>,
+) -> (BTreeMap<usize, String>, u64) {
+    let mut found = BTreeMap::new();
+    let mut lines = Lines::new(file);
+    let Ok(true) = lines.heading(&heading(scan, form)) else { return (found, 0) };
+    while let Ok(Line::Whole(line)) = lines.next(usize::MAX) {
+        found.extend(String::from_utf8(line).ok().and_then(|line| {
+            let (index, row) = line.split_once('\t')?;
+            let index = index.parse().ok().filter(|index| points.contains(index))?;
+            row.starts_with(&form.beginning(scan, index)).then(|| (index, row.to_owned()))
+        }));
+    }
+    (found, lines.bytes())
+}
+
+/// The first line: the columns, in any form.
+fn heading(scan: &Scan, form: Form) -> String {
+    format!("{form:?},{}", Form::Csv.heading(scan))
+}

@@ -1,0 +1,104 @@
+//! The lines of a file of rows, one at a time, and why a file is refused.
+
+use std::fmt;
+use std::io::{self, BufRead, BufReader, Read};
+
+/// Why a file cannot take rows.
+#[derive(Debug)]
+pub enum Refusal {
+    /// It cannot be opened, read or written.
+    Io(io::Error),
+    /// Another process writes to it.
+    Busy,
+    /// It holds something else.
+    Foreign {
+        /// The line, from 1.
+        line: usize,
+        /// What is wrong with it.
+        why: &'static str,
+    },
+    /// The check was interrupted.
+    Interrupted,
+}
+
+impl From<io::Error> for Refusal {
+    fn from(error: io::Error) -> Self {
+        Refusal::Io(error)
+    }
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Refusal::Io(error) => write!(out, "{error}"),
+            Refusal::Busy => write!(out, "another scan is writing to it"),
+            Refusal::Foreign { line, why } => {
+                write!(out, "not a part of this scan: line {line} {why}")
+            }
+            Refusal::Interrupted => write!(out, "interrupted"),
+        }
+    }
+}
+
+/// The lines of a file, counted.
+pub(super) struct Lines<R> {
+    reader: BufReader<R>,
+    /// The line read last, from 1.
+    number: usize,
+    /// Bytes up to the end of the last whole line.
+    bytes: u64,
+}
+
+/// A line of a file.
+pub(super) enum Line {
+    /// With its end.
+    Whole(Vec<u8>),
+    /// Without: the last one, perhaps empty.
+    Cut(Vec<u8>),
+}
+
+impl<R: Read> Lines<R> {
+    pub(super) fn new(file: R) -> Self {
+        Lines { reader: BufReader::new(file), number: 0, bytes: 0 }
+    }
+
+    /// The number of the line read last, from 1.
+    pub(super) fn number(&self) -> usize {
+        self.number
+    }
+
+    /// Reads this heading, if it is not empty; false where the file ends within it.
+    pub(super) fn heading(&mut self, heading: &str) -> Result<bool, Refusal> {
+        if heading.is_empty() {
+            return Ok(true);
+        }
+        match self.next(heading.len())? {
+            Line::Whole(line) if line == heading.as_bytes() => Ok(true),
+            Line::Cut(begun) if heading.as_bytes().starts_with(&begun) => Ok(false),
+            _ => Err(self.foreign("names other columns")),
+        }
+    }
+
+    /// The next line; a line longer than `most` is cut there.
+    pub(super) fn next(&mut self, most: usize) -> io::Result<Line> {
+        let mut line = Vec::new();
+        let most = u64::try_from(most).unwrap_or(u64::MAX);
+        (&mut self.reader).take(most).read_until(b'\n', &mut line)?;
+        self.number += 1;
+        if line.last() == Some(&b'\n') {
+            self.bytes += line.len() as u64;
+            Ok(Line::Whole(line))
+        } else {
+            Ok(Line::Cut(line))
+        }
+    }
+
+    /// Bytes up to the end of the last whole line.
+    pub(super) fn bytes(&self) -> u64 {
+        self.bytes
+    }
+
+    pub(super) fn foreign(&self, why: &'static str) -> Refusal {
+        Refusal::Foreign { line: self.number, why }
+    }
+}
