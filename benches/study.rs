@@ -113,10 +113,10 @@ fn a_scan_of_margins_and_cycles() -> usize {
     let measures = vec![Measure::Margin, Measure::Cycles];
     let scan = Scan::new(problem, vec![sweep], measures, window).unwrap();
     let mut counted = 0;
-    let count = |_, _| {
+    let mut count = |_, _| {
         counted += 1;
         std::ops::ControlFlow::Continue(())
     };
-    rows(&scan, 0..scan.points(), Effort::whole(), &|| false, count).unwrap();
+    rows(&scan, 0..scan.points(), Effort::whole(), &|| false, &mut count).unwrap();
     counted
 }

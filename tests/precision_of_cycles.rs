@@ -68,7 +68,7 @@ fn errors_are_never_below_the_true_ones() {
 #[test]
 fn the_cycle_lives_up_to_the_escape_point_and_no_further() {
     for (d2, r) in [(1.0, 1.0), (0.168, 0.185), (0.004_155_840_696_472_669_5, 1.0)] {
-        let escape = escape_point(&set([0.0, d2, 0.0, r]), &LIMITS).unwrap().unwrap();
+        let escape = escape_point(&set([0.0, d2, 0.0, r]), &LIMITS).unwrap().0.unwrap();
         for gap in [1e-3, 1e-7, 1e-10, 1e-13] {
             let below = found([escape * (1.0 + gap), d2, 0.0, r]);
             assert_eq!(below.len(), 1, "D2 = {d2}, {gap:e} below {escape}: {below:?}");
@@ -185,7 +185,7 @@ fn a_branch_over_d2_goes_to_its_escapes_and_marks_them() {
     let escapes = specials(&found, SpecialKind::Escape);
     assert_eq!(escapes.len(), 2, "{escapes:?}");
     assert_eq!(escapes[0], -escapes[1]);
-    let at = escape_point(&set([0.0, escapes[1], 0.0, base[3]]), &LIMITS).unwrap().unwrap();
+    let at = escape_point(&set([0.0, escapes[1], 0.0, base[3]]), &LIMITS).unwrap().0.unwrap();
     assert!((at / base[0] - 1.0).abs() < 1e-12, "{at}");
     let values = || found.pieces.iter().flatten().map(|point| point.value);
     let ends = values().fold((0.0, 0.0), |(low, high): (f64, f64), it| (low.min(it), high.max(it)));
@@ -197,7 +197,7 @@ fn a_branch_over_d2_goes_to_its_escapes_and_marks_them() {
 fn a_branch_over_r_marks_its_escape() {
     let found = followed([-0.5, 0.7, 0.0, 1.0], Symbol::R, (0.1, 2.0), 20);
     let [escape] = specials(&found, SpecialKind::Escape)[..] else { panic!("{found:?}") };
-    let at = escape_point(&set([0.0, 0.7, 0.0, escape]), &LIMITS).unwrap().unwrap();
+    let at = escape_point(&set([0.0, 0.7, 0.0, escape]), &LIMITS).unwrap().0.unwrap();
     assert!((at / -0.5 - 1.0).abs() < 1e-12, "{at}");
 }
 

@@ -11,6 +11,8 @@ use super::timing::timed;
 use crate::flow::Limits;
 use crate::oscillator::{State, Symbol};
 use crate::proof::ParameterBox;
+use crate::proof::escape::enclose_escape;
+use crate::proof::fold::enclose_fold;
 use crate::proof::range::change_near;
 use crate::report::border as report;
 use crate::report::certified::{self, Bordered};
@@ -51,19 +53,23 @@ impl Border {
     }
 }
 
-/// The fold and the escape point in D at each point of a border: between values at which the numbers of cycles are
-/// proved and differ.
+/// The fold and the escape point in D at each point of a border, enclosed.
 fn enclosed(found: &Found) -> Vec<Bordered> {
     let nowhere = State { q: 0.0, v: 0.0 };
     let at = |point: &BorderPoint| {
         let mut parameters = found.parameters;
         found.second.set(&mut parameters, &mut nowhere.clone(), point.value);
         let known = ParameterBox::from(&parameters);
-        let near = |d: f64| Some(change_near(&known, Symbol::D, d)?.between.into());
-        let (fold, escape) = (point.fold.map(|fold| fold.d), point.escape);
-        let [folds, escapes] = [fold, escape].map(|d| d.and_then(near));
-        let proved = fold.is_some() == folds.is_some() && escape.is_some() == escapes.is_some();
-        Bordered { value: point.value, fold: folds, escape: escapes, proved }
+        // Where no two cycles meet smoothly, as at a grazing, the numbers of cycles on both sides are left.
+        let changes = |d: f64| Some(change_near(&known, Symbol::D, d)?.between);
+        let fold = point.fold.and_then(|fold| {
+            let clearance = fold.q_max - parameters.r;
+            let met = enclose_fold(&known, Symbol::D, fold.d, clearance).map(|met| met.value);
+            met.or_else(|| changes(fold.d))
+        });
+        let escape =
+            point.escape.and_then(|d| enclose_escape(&known, Symbol::D, d).or_else(|| changes(d)));
+        Bordered::new(point, fold, escape)
     };
     found.points.par_iter().map(at).collect()
 }

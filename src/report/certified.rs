@@ -12,6 +12,7 @@ use crate::proof::cycles::Proof;
 use crate::proof::kicks::{Edge, Kicks};
 use crate::proof::motion::{Fate, Motion};
 use crate::proof::range::{Change, Range};
+use crate::study::fold::BorderPoint;
 use crate::words::number::significant;
 
 /// Digits for reading.
@@ -224,6 +225,28 @@ pub struct Bordered {
     pub escape: Option<Bounds>,
     /// Whether what the search found is proved.
     pub proved: bool,
+    /// What of it is not.
+    pub open: Vec<&'static str>,
+}
+
+impl Bordered {
+    /// What is enclosed of a point.
+    #[must_use]
+    pub fn new(point: &BorderPoint, fold: Option<Interval>, escape: Option<Interval>) -> Self {
+        let missing = [
+            ("the fold", point.fold.is_some() && fold.is_none()),
+            ("the escape point", point.escape.is_some() && escape.is_none()),
+        ];
+        let open: Vec<_> =
+            missing.into_iter().filter_map(|(what, open)| open.then_some(what)).collect();
+        Bordered {
+            value: point.value,
+            fold: fold.map(Bounds::from),
+            escape: escape.map(Bounds::from),
+            proved: open.is_empty(),
+            open,
+        }
+    }
 }
 
 /// Points of a border as lines.
