@@ -2,12 +2,13 @@
 
 use crate::flow::{METHODS, Method, Problem, QUALITIES};
 use crate::numerics::elementary::log10;
-use crate::scene::Running;
+use crate::scene::{Running, View};
 use crate::session::act::notice::{inform, refuse};
 use crate::session::effect::Effect;
 use crate::session::read::numbers::{number, range, with_number};
 use crate::session::state::doubt::Doubt;
 use crate::session::state::history::Before;
+use crate::session::state::plot::{Framing, Plot};
 use crate::session::state::rows::{Row, Steps};
 use crate::session::state::session::Session;
 use crate::session::state::setup::Stand;
@@ -230,6 +231,12 @@ impl Session {
         let own = rig.map(|rig| rig.machine.belt.belt_speed);
         let present = self.belt_speed.filter(can_run);
         self.belt_speed = belt_speed.filter(can_run).or(present).or(own);
+        // The ledger has lines for each motion.
+        if self.others.all().len() != others.all().len() {
+            let ledgers =
+                |plot: &&mut Plot| plot.view == View::EnergyLedger && plot.framing != Framing::User;
+            self.plots.iter_mut().filter(ledgers).for_each(|plot| plot.framing = Framing::Fitting);
+        }
         (self.problem, self.others) = (problem, others);
     }
 }

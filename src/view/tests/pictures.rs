@@ -5,8 +5,7 @@ use super::{braille, draw, letters, settled};
 use crate::flow::Limits;
 use crate::oscillator::Symbol;
 use crate::picture::items::{Item, Line};
-use crate::picture::role::Dash;
-use crate::picture::role::Role;
+use crate::picture::role::{Dash, Mark, Role};
 use crate::question::answer;
 use crate::scene::library::{find, library};
 use crate::scene::{Answered, Ordinate, Point, View};
@@ -170,4 +169,63 @@ fn a_map_labels_decades_and_is_the_stronger_the_more_dangerous_in_one_hue() {
     let colours: Vec<_> = shades.map(|cell| cell.fg).collect();
     let hue = look.style(Role::Danger).fg.unwrap();
     assert!(!colours.is_empty() && colours.iter().all(|fg| *fg == hue));
+}
+
+/// By computation, not by hand: the motion from inside of the unstable cycle comes to rest, the one from outside
+/// does not, and both stand in one picture, told apart, with the numbers at their starts.
+#[test]
+fn both_sides_of_the_unstable_cycle_stand_in_one_picture() {
+    let mut session = computed("supercritical");
+    for key in ["i", "o"] {
+        update(&mut session, Msg::Key(key.parse().unwrap()));
+        for request in session.asks() {
+            let result = Ok(answer(&request, &Limits::default()).unwrap());
+            let answered = Answered { request, result, seconds: 0.0, complete: true };
+            update(&mut session, Msg::Answered(Box::new(answered)));
+        }
+    }
+    let picture = crate::picture::of(&session, 0);
+    let mut motions = Vec::new();
+    let mut numbers = Vec::new();
+    let mut rests = Vec::new();
+    for item in &picture.items {
+        match item {
+            Item::Curve(line, points) if line.name.starts_with("motion ") => {
+                motions.push((line.name.to_string(), line.role, line.dash, points[0]));
+            }
+            Item::Caption { long, at, .. } if long.parse::<usize>().is_ok() => {
+                numbers.push((long.to_string(), *at));
+            }
+            Item::Marks(marks) if marks.mark == Mark::Rest => rests.push(marks.role),
+            _ => {}
+        }
+    }
+    motions.sort_by(|one, other| one.0.cmp(&other.0));
+    numbers.sort_by(|one, other| one.0.cmp(&other.0));
+    let found = session.cycles().unwrap();
+    let edge = found.cycles.iter().find(|cycle| !cycle.stable).unwrap().q_max;
+    let [(_, _, _, first), inside, outside] = &motions[..] else { panic!("{motions:?}") };
+    assert!(inside.3.x < edge && edge < outside.3.x, "{edge} between {inside:?} and {outside:?}");
+    assert_eq!((inside.1, outside.1, outside.2), (Role::Beside, Role::Trajectory, Dash::Solid));
+    let at = |number: &str, at: Point| (number.to_owned(), at);
+    assert_eq!(numbers, [at("1", *first), at("2", inside.3), at("3", outside.3)]);
+    assert_eq!(rests, [Role::Beside], "the one from inside, and no other");
+    let screen = text(&draw(&session, braille()));
+    assert!(screen.contains("of motion 3"), "{screen}");
+    assert!(screen.contains("motion 3 grows onto the stable cycle"), "{screen}");
+}
+
+#[test]
+fn the_ledger_has_room_for_the_works_of_each_motion() {
+    let mut session = settled("supercritical", 120, 60, "<tab> V / l e d g <enter>");
+    assert_eq!(session.plots[0].view, View::EnergyLedger);
+    let mut lines = Vec::new();
+    for key in ["i", "o", "d", "u", "c"] {
+        press(&mut session, key);
+        lines.push(session.ledger().len());
+        #[expect(clippy::cast_precision_loss, reason = "a few dozen lines")]
+        let count = session.ledger().len() as f64;
+        assert_eq!(session.plots[0].window.y.width(), count, "{key}");
+    }
+    assert!(lines[0] < lines[1] && lines[1] > lines[2] && lines[2] > lines[4], "{lines:?}");
 }
