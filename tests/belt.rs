@@ -214,8 +214,30 @@ fn a_tolerance_is_that_of_the_steps() {
     let error = |tolerance| (margin(&["--tol", tolerance]) / exact - 1.0).abs();
     assert!(error("1e-6") > 1e-11 && error("1e-6") < 1e-4, "{:e}", error("1e-6"));
     assert!(error("1e-15") < 1e-13, "{:e}", error("1e-15"));
-    let ran = run(&["belt", "bstab", "--method", "dop853"]);
-    assert!(ran.code == 0 && ran.err.contains("--method is ignored"), "{}", ran.err);
+    // A second method, of another kind, finds the same.
+    for (machine, start) in [
+        ("bstab", "x=2,v=0"),
+        ("bstab", "x=-1,v=2.5"),
+        ("groan", "x=1.5 mm"),
+        ("textbook", "x=3 mm,v=0.4 m/s"),
+        ("slideway", "x=1 mm"),
+    ] {
+        for (method, tolerance, least) in [("dop853", "1e-13", 1e-9), ("dopri5", "1e-9", 1e-5)] {
+            let found = belt(&[machine, "--start", start, "--method", method, "--tol", tolerance]);
+            let second = &found["motion"]["second"];
+            assert_eq!(second["method"], method, "{second}");
+            let speed = number(&found["motion"]["velocity"][1]);
+            let size = number(&found["motion"]["displacement"][1]);
+            assert!(number(&second["difference"]["x"]).abs() < least * size, "{machine} {second}");
+            assert!(number(&second["difference"]["v"]).abs() < least * speed, "{machine} {second}");
+        }
+    }
+    let refused = run(&["belt", "bstab", "--method", "rk4"]);
+    assert!(
+        refused.code == 2 && refused.err.contains("allowed are auto, taylor"),
+        "{}",
+        refused.err
+    );
 }
 
 #[test]
@@ -240,8 +262,17 @@ fn a_mode_is_answered_by_the_same_command() {
     let found = belt(&[name]);
     assert_eq!(found["motion"]["outcome"]["kind"], "cycle");
     assert_eq!(found["cycles"].as_array().unwrap().len(), 2);
-    let refused = run(&["belt", name, "--sweep", "v0=1:2:3"]);
-    assert_eq!((refused.code, refused.err.lines().count()), (2, 1));
+    // What has no belt has no speed of one, and no tolerances.
+    for refused in [
+        ["--sweep", "v0=1:2:3"],
+        ["--branch", "mu_s=0.1:1:3"],
+        ["--set", "ratio3=1"],
+        ["--set", "R=3N+-1N"],
+        ["--disturbance", "1 N"],
+    ] {
+        let refused = run(&["belt", name, refused[0], refused[1]]);
+        assert_eq!((refused.code, refused.err.lines().count()), (2, 1), "{}", refused.err);
+    }
     fs::write(&path, text.replace("-0.05", "\"1 kg\"")).unwrap();
     let refused = run(&["belt", name]);
     assert!(
@@ -249,6 +280,75 @@ fn a_mode_is_answered_by_the_same_command() {
         "{}",
         refused.err
     );
+}
+
+#[test]
+fn the_study_of_the_open_benchmark_is_one_sweep() {
+    let window = "--window=-2:2,0:2";
+    let study = belt(&["bstab", "--sweep", "v0=1.625:1.775:2", window, "--elongation"]);
+    let shares: Vec<f64> = study["points"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|point| number(&point["rest_share"]))
+        .collect();
+    for (share, expected) in shares.iter().zip([0.428_097_973_459_205_5, 0.558_366_582_309_877_2]) {
+        assert!((share - expected).abs() < 1e-12, "{share} {expected}");
+    }
+    // Counted from the steady position, which lies at more than 0.5 m, the window is another one.
+    let half = "--window=0:2,0:2";
+    let alone = |more: &[&str]| {
+        let asked = [&["bstab", "--set", "v0=1.625", half], more].concat();
+        number(&belt(&asked)["rest_share"])
+    };
+    assert!(alone(&["--elongation"]) > alone(&[]) + 0.05);
+}
+
+#[test]
+fn a_mode_is_set_swept_followed_and_designed_as_a_belt_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mode.toml");
+    let text = "frequency = 120\nmodal_mass = 0.2\ndamping_ratio = [-0.05]\nR = 3\n";
+    fs::write(&path, text).unwrap();
+    let name = path.to_str().unwrap();
+    let omega = 240.0 * std::f64::consts::PI;
+    let amplitude = |ratio: f64, force: f64| {
+        let swing = ratio * std::f64::consts::PI / (1.0 - ratio * ratio).sqrt();
+        force / (0.2 * omega * omega) / tanh(0.5 * swing)
+    };
+    let close = |found: &Value, expected: f64| (number(found) / expected - 1.0).abs() < 1e-12;
+    let set = belt(&[name, "--set", "ratio0=-0.1", "--set", "R=5 N"]);
+    assert!(close(&set["margin"]["displacement"], amplitude(0.1, 5.0)));
+    let swept = belt(&[name, "--sweep", "R=1:3:3"]);
+    for (point, force) in swept["points"].as_array().unwrap().iter().zip([1.0, 2.0, 3.0]) {
+        assert!(close(&point["margin"]["displacement"], amplitude(0.05, force)), "{point}");
+    }
+    let wanted = amplitude(0.05, 4.0);
+    let designed = belt(&[name, "--design", &format!("{wanted:?} m")]);
+    assert!((number(&designed["design"]["R"]) - 4.0).abs() < 1e-9, "{}", designed["design"]);
+    // Damping of third degree bounds the growth; the two cycles fold where friction takes all that is fed, at a
+    // ratio that is larger the more friction there is.
+    let bounded = text.replace("[-0.05]", "[-0.05, 0, 0.02]");
+    fs::write(&path, bounded).unwrap();
+    let folds = belt(&[name, "--branch", "ratio0=-0.2:0.05:6", "--against", "R=1:3:3"]);
+    let rows = folds["rows"].as_array().unwrap();
+    let values: Vec<f64> = rows
+        .iter()
+        .map(|row| {
+            assert_eq!(
+                (&row["special"][0]["kind"], row["special"].as_array().unwrap().len()),
+                (&"fold".into(), 1)
+            );
+            number(&row["special"][0]["value"])
+        })
+        .collect();
+    assert!(values[0] > values[1] && values[1] > values[2] && values[0] < 0.0, "{values:?}");
+    // --tol holds along a branch too.
+    let coarse = belt(&[name, "--branch", "ratio0=-0.2:0.05:6", "--tol", "1e-6"]);
+    let error = (number(&coarse["special"][0]["value"]) - values[2]).abs();
+    assert!(error > 0.0 && error < 1e-5, "{error:e}");
+    assert_eq!(coarse["special"][0]["jumps"]["up"]["to"]["kind"], "rest");
+    assert!(coarse["special"][0]["jumps"]["down"].is_null());
 }
 
 #[test]

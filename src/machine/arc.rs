@@ -8,7 +8,7 @@
 use std::fmt;
 
 use super::model::{Model, Phase};
-use super::series::Series;
+use super::series::{FINEST, Series};
 use crate::numerics::elementary::ln;
 use crate::numerics::polynomial::{derivative, value, value_and_slope};
 use crate::numerics::root::{Bracket, Change, newton};
@@ -103,6 +103,10 @@ impl End {
 /// Most steps of an arc.
 const STEPS: u32 = 20_000;
 
+/// Steps of a loosened tolerance are no longer than this, in `1/omega_0`, so that none of them turns twice; at
+/// the finest one the terms of a swing see to that.
+const LONGEST: f64 = 1.0;
+
 /// A motion that has shrunk by this factor within one arc turns no more.
 const SETTLED: f64 = 1e-200;
 
@@ -164,6 +168,7 @@ impl<'a> Flow<'a> {
             let acceleration = forward * series.y[1];
             let entered = *first.get_or_insert(acceleration);
             let length = series.length(model.tolerance);
+            let length = if model.tolerance > FINEST { length.min(LONGEST) } else { length };
             if !(length > 0.0 && length.is_finite()) {
                 // Without terms nothing moves; with terms that overflow it moves beyond all bounds.
                 return Err(if length == f64::INFINITY { Stop::Settled } else { Stop::Escaped });

@@ -2,9 +2,9 @@
 
 use super::portrait::Portrait;
 use super::special::{Special, between};
-use super::survey::{Trouble, portrait};
+use super::subject::Subject;
+use super::survey::Trouble;
 use super::varied::Varied;
-use crate::oscillator::Belt;
 
 /// A point of a branch.
 #[derive(Clone, Debug)]
@@ -40,12 +40,12 @@ pub fn spaced((from, to): (f64, f64), index: usize, count: usize) -> f64 {
 /// # Errors
 /// One line, where the machine's law has no such number.
 pub fn branch(
-    belt: &Belt,
+    subject: impl Into<Subject>,
     varied: Varied,
     range: (f64, f64),
     count: usize,
 ) -> Result<Branch, String> {
-    branch_while(belt, varied, range, count, &|| true)
+    branch_while(&subject.into(), varied, range, count, &|| true)
 }
 
 /// The same as long as it is wanted: a branch that is not ends early.
@@ -53,23 +53,16 @@ pub fn branch(
 /// # Errors
 /// One line, where the machine's law has no such number.
 pub fn branch_while(
-    belt: &Belt,
+    subject: &Subject,
     varied: Varied,
     range: (f64, f64),
     count: usize,
     wanted: &dyn Fn() -> bool,
 ) -> Result<Branch, String> {
-    varied.set(&mut belt.clone(), range.0)?;
-    let family = |value: f64| {
-        let mut here = belt.clone();
-        varied.set(&mut here, value).ok()?;
-        Some(here)
-    };
+    let family = |value: f64| subject.with(varied, value).ok()?.model().ok();
     let point = |index| {
         let value = spaced(range, index, count);
-        let mut here = belt.clone();
-        varied.set(&mut here, value)?;
-        Ok(BranchPoint { value, found: portrait(&here) })
+        Ok(BranchPoint { value, found: subject.with(varied, value)?.portrait() })
     };
     let points = (0..count).take_while(|_| wanted()).map(point);
     let points = points.collect::<Result<Vec<_>, String>>()?;
@@ -87,15 +80,14 @@ pub fn branch_while(
 /// # Errors
 /// One line, where the machine's law has no such numbers.
 pub fn borders(
-    belt: &Belt,
+    subject: &Subject,
     (along, range, count): (Varied, (f64, f64), usize),
     (against, values, rows): (Varied, (f64, f64), usize),
 ) -> Result<Vec<(f64, Vec<Special>)>, String> {
     let row = |index| {
         let value = spaced(values, index, rows);
-        let mut here = belt.clone();
-        against.set(&mut here, value)?;
-        Ok((value, branch(&here, along, range, count)?.special))
+        let here = subject.with(against, value)?;
+        Ok((value, branch(here, along, range, count)?.special))
     };
     (0..rows).map(row).collect()
 }

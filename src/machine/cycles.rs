@@ -35,6 +35,14 @@ pub struct Cycle {
     pub ride: Option<(f64, f64)>,
 }
 
+impl Cycle {
+    /// Whether it is followed backward in time, where it attracts.
+    #[must_use]
+    pub fn is_followed_backward(&self) -> bool {
+        !self.stable && !self.sticks && !self.overtakes
+    }
+}
+
 /// Extremes of the velocity and times along a motion.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Extremes {
@@ -79,6 +87,9 @@ pub struct FixedPoints {
     pub stop: Option<Stop>,
     /// Intervals in which the search did not settle.
     pub unresolved: Vec<(f64, f64)>,
+    /// Right turning point up to which the guide catches the mass within a return, where beyond it motions
+    /// grow: the border of rest is then the motion that comes to the end of what the guide holds.
+    pub capture: Option<f64>,
 }
 
 /// Logarithm of a multiplier from which on cycles are computed backward in time.
@@ -128,6 +139,12 @@ impl Flow<'_> {
         }
         // By rounding a motion from there may still come to rest.
         smallest *= 1.0 + 1e-12;
+        let held = self.model.guide_static;
+        let touches_before = touch.is_some_and(|touch| touch > held && touch <= smallest);
+        if held > 0.0 && smallest.is_finite() && !touches_before && found.points.is_empty() {
+            let grows = self.growth(at(smallest), scale)?.f > 0.0;
+            found.capture = grows.then_some(smallest);
+        }
         let slipping = match touch {
             _ if smallest.is_infinite() => None,
             Some(touch) if touch > smallest => {
@@ -236,12 +253,15 @@ impl Flow<'_> {
     fn innermost(&mut self, smallest: f64) -> Result<Option<(f64, Image)>, Stop> {
         /// Turns at most.
         const TURNS: usize = 8;
-        if self.model.guide_static == 0.0 || smallest.is_infinite() {
+        let held = self.model.guide_static;
+        if held == 0.0 || smallest.is_infinite() {
             return Ok(None);
         }
         let mut x = smallest;
         for _ in 0..TURNS {
-            let Some(image) = self.preimage(x)? else { return Ok(None) };
+            // A turning point that the guide holds is on no cycle, nor is the balance of a phase.
+            let moves = |image: &Image| image.x >= held && image.log_slope.is_finite();
+            let Some(image) = self.preimage(x)?.filter(moves) else { return Ok(None) };
             if (image.x - x).abs() <= 2.0 * f64::EPSILON * x {
                 return Ok(Some((x, image)));
             }

@@ -4,13 +4,12 @@
 //! inwards wherever the mass moves, so that the basin of rest grows with it.
 
 use super::guarantee::guaranteed;
-use super::model::Model;
 use super::portrait::{Border, Portrait};
-use super::survey::{Trouble, portrait};
+use super::subject::{Body, Subject};
+use super::survey::Trouble;
 use super::tolerance::Tolerances;
 use crate::flow::Reason;
 use crate::numerics::elementary::ln;
-use crate::oscillator::Belt;
 use crate::study::design::{Kick, Needed, least_friction};
 
 /// The size of a margin of this kind, in m or N s; infinite where every kick is survived.
@@ -23,11 +22,13 @@ fn margin(portrait: &Portrait, kick: Kick) -> f64 {
 
 /// The logarithm of the guaranteed margin of this kind, as a part of `wanted`.
 fn guaranteed_excess(
-    belt: &Belt,
+    subject: &Subject,
     known: &Tolerances,
     kick: Kick,
     wanted: f64,
 ) -> Result<f64, Trouble> {
+    // Only belts have tolerances.
+    let Body::Belt(belt) = &subject.body else { return Ok(f64::MIN) };
     let found = guaranteed(belt, known)?.map_or(0.0, |kicks| match kick {
         Kick::Displacement => kicks.displacement,
         Kick::Impulse => kicks.impulse,
@@ -41,29 +42,25 @@ fn guaranteed_excess(
 /// # Errors
 /// [`Trouble`] where a machine on the way has no portrait.
 pub fn friction_for(
-    belt: &Belt,
+    subject: &Subject,
     known: &Tolerances,
     kick: Kick,
     wanted: f64,
 ) -> Result<Option<Needed>, Trouble> {
-    let model = Model::new(belt)?;
+    let model = subject.model()?;
     let mut trouble = None;
-    let machine = |held: f64| {
-        let friction = held * belt.stiffness;
-        let static_guide = belt.static_guide.map(|at_rest| at_rest.max(friction));
-        Belt { friction, static_guide, ..belt.clone() }
-    };
+    let machine = |held: f64| subject.with_friction(held * model.stiffness);
     // As a length: what the guide holds at rest.
     let length = match kick {
         Kick::Displacement => wanted,
         Kick::Impulse => wanted / (model.mass * model.omega_0),
     };
     let told = |held: f64| {
-        let belt = machine(held);
+        let machine = machine(held);
         if !known.is_none() {
-            return guaranteed_excess(&belt, known, kick, wanted);
+            return guaranteed_excess(&machine, known, kick, wanted);
         }
-        let found = portrait(&belt)?;
+        let found = machine.portrait()?;
         Ok(match found.border {
             Border::NoBasin => f64::MIN,
             _ => ln(margin(&found, kick) / wanted).max(f64::MIN),
@@ -72,7 +69,7 @@ pub fn friction_for(
     if !known.is_none() {
         // As much friction holds a displacement by itself; where even that guarantees nothing, no friction does.
         let half = known.half_widths.get("R").copied().unwrap_or(0.0);
-        let ample = 8.0 * (length + (known.disturbance + half) / belt.stiffness);
+        let ample = 8.0 * (length + (known.disturbance + half) / model.stiffness);
         if told(ample)? < 0.0 {
             return Ok(None);
         }
@@ -88,7 +85,7 @@ pub fn friction_for(
     if let Some(trouble) = trouble {
         return Err(trouble);
     }
-    let force = |r: f64| r * belt.stiffness;
+    let force = |r: f64| r * model.stiffness;
     Ok(found.ok().map(|needed| match needed {
         Needed::Any => Needed::Any,
         Needed::Friction { r } => Needed::Friction { r: force(r) },

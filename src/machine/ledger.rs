@@ -1,6 +1,7 @@
 //! Where the energy of a motion comes from and goes: the belt's work against the damper's and the guide's.
 
-use super::arc::{Step, Watch};
+use super::arc::{Flow, Step, Stop, Watch};
+use super::cycles::Cycle;
 use super::model::{Model, Phase};
 use crate::numerics::polynomial::value;
 use crate::numerics::quadrature::GAUSS;
@@ -87,6 +88,19 @@ impl Watch for Works {
 
     fn stick(&mut self, model: &Model, from: f64, to: f64) {
         self.ride(model, from, to);
+    }
+}
+
+impl Flow<'_> {
+    /// The ledger of one turn of a cycle.
+    ///
+    /// # Errors
+    /// [`Stop`], where rounding carries the motion off.
+    pub fn works_around(&mut self, cycle: &Cycle) -> Result<Ledger, Stop> {
+        let mut works = Works::default();
+        let start = (cycle.x.1, 0.0);
+        self.around(cycle.x.1, cycle.is_followed_backward(), &mut works)?;
+        Ok(works.ledger(self.model, start, start))
     }
 }
 

@@ -25,6 +25,7 @@
 //! ```
 
 pub(crate) mod arc;
+mod border;
 #[doc(hidden)]
 pub mod branch;
 pub(crate) mod curve;
@@ -33,9 +34,12 @@ pub(crate) mod design;
 mod force;
 #[doc(hidden)]
 pub mod guarantee;
+#[doc(hidden)]
+pub mod jumps;
 pub(crate) mod landmarks;
 pub(crate) mod law;
 pub(crate) mod ledger;
+pub(crate) mod modal;
 pub(crate) mod model;
 #[doc(hidden)]
 pub mod motion;
@@ -48,6 +52,9 @@ mod series;
 #[doc(hidden)]
 pub mod special;
 #[doc(hidden)]
+pub mod stepped;
+pub(crate) mod subject;
+#[doc(hidden)]
 pub mod survey;
 pub(crate) mod tolerance;
 #[doc(hidden)]
@@ -58,8 +65,10 @@ pub mod varied;
 pub use arc::{Flow, Stop};
 pub use cycles::Cycle;
 pub use ledger::Ledger;
+pub use modal::Modal;
 pub use model::{Lines, Model, Phase, Unfit};
 pub use motion::Motion;
 pub use portrait::{Border, Fate, Margin, Portrait};
 pub use series::ORDER;
+pub use subject::{Body, Subject};
 pub use tolerance::Tolerances;

@@ -11,6 +11,7 @@ use super::landmarks::Landmarks;
 use super::model::{Model, Phase};
 use super::return_map::Return;
 use super::turn::Place;
+use crate::numerics::root::bisect;
 
 /// What a motion ends as.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,7 +33,8 @@ pub enum Fate {
 pub enum Border {
     /// The unstable cycle of this index.
     Cycle(usize, Curve),
-    /// An orbit that touches the belt's line, and a piece of that line.
+    /// An orbit that touches the belt's line, and a piece of that line; or one that just comes to the end of
+    /// what the guide holds.
     Grazing(Curve),
     /// Nothing: everything comes to rest.
     None,
@@ -50,6 +52,14 @@ impl Border {
             Border::None => "none",
             Border::NoBasin => "no-basin",
         }
+    }
+
+    /// Whether the border touches the belt's line; where it does not, a cycle or the end of what the guide
+    /// holds borders the basin.
+    #[must_use]
+    pub fn touches(&self) -> bool {
+        let line = |piece: &Piece| matches!(piece, Piece::Line { .. });
+        matches!(self, Border::Grazing(curve) if curve.pieces.iter().any(line))
     }
 
     /// The closed curve, where there is one.
@@ -91,6 +101,8 @@ struct Gap {
     /// Its upper end.
     to: f64,
     fate: Fate,
+    /// What becomes of a motion that turns at the upper end itself.
+    end: Fate,
 }
 
 /// What a machine does.
@@ -126,6 +138,8 @@ pub struct Portrait {
 enum Mark {
     Cycle(usize),
     Jump,
+    /// Up to here the guide catches the mass; motions from beyond grow.
+    Capture,
 }
 
 impl Portrait {
@@ -144,6 +158,7 @@ impl Portrait {
             .map(|(index, (x, _))| (*x, Mark::Cycle(index)))
             .collect();
         marks.extend(jumps(model, landmarks.as_ref()).into_iter().map(|x| (x, Mark::Jump)));
+        marks.extend(found.capture.map(|x| (x, Mark::Capture)));
         marks.sort_by(|one, other| one.0.total_cmp(&other.0));
         let ways = ways(&mut flow, &marks, found.end)?;
         let mut cycles = Vec::new();
@@ -188,7 +203,7 @@ impl Portrait {
         let last = self.gaps.iter().take_while(|gap| gap.fate == inner).count();
         let Some((x, mark)) = marks.get(last - 1).filter(|_| last < self.gaps.len()) else {
             if matches!(self.stop, Some(Stop::OutsideLaw { .. })) {
-                self.margin = Some(self.covered(flow)?);
+                self.margin = Some(self.covered());
             }
             return Ok(());
         };
@@ -205,6 +220,11 @@ impl Portrait {
                 self.border = Border::Grazing(curve.clone());
                 left
             }
+            Mark::Capture => {
+                let left = flow.capture_border(*x, self.landmarks.as_ref(), &mut curve)?;
+                self.border = Border::Grazing(curve.clone());
+                left
+            }
         };
         let (up, down) = curve.velocities_at(0.0, model.speed);
         let speed = |y: Option<f64>| y.map_or(f64::INFINITY, |y| (y * model.omega_0).abs());
@@ -213,20 +233,27 @@ impl Portrait {
         Ok(())
     }
 
-    /// The kicks whose motions turn within [`Self::known`], where all of these come to rest.
-    fn covered(&self, flow: &mut Flow) -> Result<Margin, Stop> {
-        let (x, model) = (self.known, &self.model);
-        let (mut after, mut before) = (Curve::default(), Curve::default());
-        let next = flow.turn(Place::Slips(Phase::Below), (x, 0.0), &mut after)?.x;
-        let from = match flow.arc(Phase::Between, (x, 0.0), true, &mut before) {
-            Ok(end) if !end.on_belt => end.x,
-            Ok(_) | Err(Stop::Settled) => next,
-            Err(stop) => return Err(stop),
+    /// The kicks that come to rest for certain, where motions that slip faster than the law covers are not
+    /// known; motions do not cross, so in each direction these are the kicks up to one.
+    fn covered(&self) -> Margin {
+        /// To rounding.
+        const HALVINGS: u32 = 60;
+        let model = &self.model;
+        let rests = |x: f64, y: f64| self.fate(x, y * model.omega_0) == Ok(Fate::Rest);
+        let most = |far: f64, rests: &dyn Fn(f64) -> bool| {
+            if rests(far) { far } else { bisect(0.0, far, HALVINGS, |kick| !rests(kick)).0 }
         };
-        let up = before.velocities_at(0.0, model.speed).0.unwrap_or(model.speed);
-        let down = after.velocities_at(0.0, model.speed).1.unwrap_or(0.0);
-        let velocity = (up * model.omega_0, -down * model.omega_0);
-        Ok(Margin { displacement: (x, -from), velocity })
+        let (x, y) = (4.0 * self.known, 4.0 * self.known.max(-model.least_velocity()));
+        Margin {
+            displacement: (
+                most(self.known, &|kick| rests(kick, 0.0)),
+                most(x, &|kick| rests(-kick, 0.0)),
+            ),
+            velocity: (
+                most(y, &|kick| rests(0.0, kick)) * model.omega_0,
+                most(y, &|kick| rests(0.0, -kick)) * model.omega_0,
+            ),
+        }
     }
 
     /// What becomes of a motion that starts at displacement `x` (m) with velocity `v` (m/s).
@@ -267,8 +294,8 @@ impl Portrait {
 
     /// What becomes of a motion that turns on the right at `x`.
     fn fate_of_turn(&self, x: f64) -> Fate {
-        let gap = self.gaps.iter().find(|gap| x < gap.to).or(self.gaps.last());
-        gap.map_or(Fate::Rest, |gap| gap.fate)
+        let gap = self.gaps.iter().find(|gap| x <= gap.to).or(self.gaps.last());
+        gap.map_or(Fate::Rest, |gap| if x == gap.to { gap.end } else { gap.fate })
     }
 
     /// The part of a window, in m and m/s, from which the mass comes to rest.
@@ -313,7 +340,13 @@ fn ways(flow: &mut Flow, marks: &[(f64, Mark)], end: f64) -> Result<Vec<Way>, St
     let mut ways = Vec::with_capacity(marks.len() + 1);
     let held = flow.model.guide_static;
     let mut low = held;
-    for high in marks.iter().map(|(x, _)| Some(*x)).chain([None]) {
+    for mark in marks.iter().map(Some).chain([None]) {
+        if let Some((x, Mark::Capture)) = mark {
+            ways.push(Way::Inward);
+            low = *x;
+            continue;
+        }
+        let high = mark.map(|(x, _)| *x);
         let high = high.unwrap_or(if end > low { end } else { 2.0 * low });
         let x = low + 0.5 * (high - low);
         ways.push(match flow.returned(x) {
@@ -355,12 +388,21 @@ fn gaps(marks: &[(f64, Mark)], ways: &[Way], stop: Option<Stop>) -> Vec<Gap> {
                 None => return stop.map_or(Fate::Escaped, Fate::Unknown),
                 Some((_, Mark::Cycle(index))) => return Fate::Cycle(*index),
                 // Motions go on across a jump; the map rises there, so it never sends them back.
-                Some((_, Mark::Jump)) => here = next,
+                Some((_, Mark::Jump | Mark::Capture)) => here = next,
             }
         }
     };
-    let ends = marks.iter().map(|(x, _)| *x).chain([f64::INFINITY]);
-    ends.enumerate().map(|(gap, to)| Gap { to, fate: fate(gap) }).collect()
+    let gap = |(gap, mark): (usize, Option<&(f64, Mark)>)| {
+        let (to, mark) = mark.map_or((f64::INFINITY, Mark::Capture), |(x, mark)| (*x, *mark));
+        let end = match mark {
+            Mark::Cycle(index) => Fate::Cycle(index),
+            // What touches the belt sticks to it.
+            Mark::Jump => fate(gap + 1),
+            Mark::Capture => fate(gap),
+        };
+        Gap { to, fate: fate(gap), end }
+    };
+    marks.iter().map(Some).chain([None]).enumerate().map(gap).collect()
 }
 
 impl Flow<'_> {
@@ -384,29 +426,6 @@ impl Flow<'_> {
             (x, y) = (turn.x, 0.0);
         }
         Ok(None)
-    }
-
-    /// The closed border through a jump of the return map at the right turning point `x`, backward in time
-    /// from the belt's line to the line again, and the piece of line between.
-    fn jump_border(
-        &mut self,
-        x: f64,
-        landmarks: Option<&Landmarks>,
-        curve: &mut Curve,
-    ) -> Result<f64, Stop> {
-        let speed = self.model.speed;
-        let Some(marks) = landmarks else { return Err(Stop::Steps) };
-        let corner =
-            if Some(x) == marks.grazing.right { marks.lines.fold } else { marks.lines.low };
-        let left = self.left_before(corner, speed, curve)?;
-        let left = left.min(-self.model.guide_static);
-        self.arc(Phase::Below, (left, 0.0), true, curve)?;
-        let mut end = self.arc(Phase::Between, (x, 0.0), true, curve)?;
-        if end.on_belt && end.x > marks.lines.release {
-            end = self.arc(Phase::Above, (end.x, speed), true, curve)?;
-        }
-        curve.pieces.push(Piece::Line { from: corner, to: end.x });
-        Ok(left)
     }
 }
 

@@ -104,6 +104,8 @@ impl Flow<'_> {
             Ok(end) if end.on_belt => return Ok(None),
             Ok(end) => (end.x, end.log_ratio()),
             Err(Stop::Settled) => (-self.model.guide, f64::NEG_INFINITY),
+            // Backward in time damping feeds: from however far away, a motion turns before `x`.
+            Err(Stop::Escaped) => return Ok(None),
             Err(stop) => return Err(stop),
         };
         let before = self.right_before(left, &mut divergence)?;

@@ -7,6 +7,7 @@
 use serde::Serialize;
 
 use super::arc::{Flow, Stop};
+use super::jumps::{Family, Jumps};
 use super::landmarks::Landmarks;
 use super::model::{Model, Phase};
 use super::portrait::{Border, Portrait};
@@ -14,7 +15,6 @@ use super::search::Sample;
 use super::turn::Place;
 use crate::numerics::elementary::{exp, ln};
 use crate::numerics::root::{Change, illinois};
-use crate::oscillator::Belt;
 
 /// A kind of change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -43,6 +43,8 @@ pub struct Special {
     pub value: f64,
     /// Largest displacement of the cycle that it happens to, in m; none at rest.
     pub x_max: Option<f64>,
+    /// The stable states that end there.
+    pub jumps: Jumps,
 }
 
 /// The numbers whose zeros are special, at one place; `None` where they do not exist.
@@ -124,18 +126,16 @@ impl Signs {
             Kind::Grazing => self.turns.0,
             _ => self.turns.1,
         };
-        Special { kind: if ends { Kind::Annihilation } else { kind }, value, x_max }
+        let kind = if ends { Kind::Annihilation } else { kind };
+        Special { kind, value, x_max, jumps: Jumps::default() }
     }
 }
 
 /// Relative width to which a special value is narrowed.
 const WIDTH: f64 = 4.0 * f64::EPSILON;
 
-/// A machine along a number: `None` where there is none.
-pub type Family<'a> = &'a dyn Fn(f64) -> Option<Belt>;
-
 fn signs_at(family: Family, value: f64) -> Option<Signs> {
-    Signs::new(&Model::new(&family(value)?).ok()?).ok()
+    Signs::new(&family(value)?).ok()
 }
 
 /// All special values between two neighbouring ones, with the portraits there.
@@ -161,7 +161,7 @@ pub fn between(family: Family, left: (f64, &Portrait), right: (f64, &Portrait)) 
         .collect();
     found.sort_by(|one, other| (one.value - left.0).abs().total_cmp(&(other.value - left.0).abs()));
     // Between these the portrait keeps its form, unless cycles fold.
-    let portrait_at = |value| Portrait::new(&Model::new(&family(value)?).ok()?).ok();
+    let portrait_at = |value| Portrait::new(&family(value)?).ok();
     let aside = 1e-6 * (right.0 - left.0);
     let mut stretches = Vec::new();
     let mut begin = (left.0, Some(left.1.clone()));
@@ -177,6 +177,9 @@ pub fn between(family: Family, left: (f64, &Portrait), right: (f64, &Portrait)) 
         {
             found.push(fold);
         }
+    }
+    for special in &mut found {
+        special.jumps = Jumps::at(family, special.value, aside.abs());
     }
     found.sort_by(|one, other| (one.value - left.0).abs().total_cmp(&(other.value - left.0).abs()));
     found
@@ -206,7 +209,7 @@ fn fold(family: Family, left: (f64, Portrait), right: (f64, Portrait)) -> Option
         if left.1.cycles.len() > right.1.cycles.len() { (left, right) } else { (right, left) };
     for _ in 0..NEAR {
         let middle = 0.5 * (with.0 + without.0);
-        let portrait = Portrait::new(&Model::new(&family(middle)?).ok()?).ok()?;
+        let portrait = Portrait::new(&family(middle)?).ok()?;
         if count(&portrait) == count(&with.1) {
             with = (middle, portrait);
         } else {
@@ -221,13 +224,12 @@ fn fold(family: Family, left: (f64, Portrait), right: (f64, Portrait)) -> Option
     let pair = pairs.min_by(|one, other| gap(one).total_cmp(&gap(other)))?;
     let (low, high) = (pair[0].x.1, pair[1].x.1);
     let extremum = |value: f64| -> Option<Sample> {
-        let model = Model::new(&family(value)?).ok()?;
-        steepest(&model, (low * high).sqrt(), ln(high / low))
+        steepest(&family(value)?, (low * high).sqrt(), ln(high / low))
     };
     let ends = (extremum(with.0)?, extremum(without.0)?);
     let value = zero(&|value| Some(extremum(value)?.f), (with.0, ends.0.f), (without.0, ends.1.f))?;
     let x = exp(extremum(value)?.u);
-    Some(Special { kind: Kind::Fold, value, x_max: Some(x) })
+    Some(Special { kind: Kind::Fold, value, x_max: Some(x), jumps: Jumps::default() })
 }
 
 /// The extremum of the growth `ln(image/x)` over `u = ln x` near a place, by secants on its exact slope.

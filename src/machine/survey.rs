@@ -7,6 +7,7 @@ use super::arc::{Flow, Stop};
 use super::model::{Model, Unfit};
 use super::motion::Motion;
 use super::portrait::{Fate, Portrait};
+use super::stepped::{Stepped, Way, stepped};
 use crate::flow::{Limits, Reason};
 use crate::oscillator::Belt;
 use crate::oscillator::belt::{BeltError, Reduced};
@@ -36,6 +37,19 @@ pub struct Course {
     pub fate: Fate,
     /// Where it comes to rest, in m.
     pub rest: Option<f64>,
+    /// The same motion by another method, if asked for.
+    pub second: Option<Second>,
+}
+
+/// A motion by a method that is not Taylor series.
+#[derive(Clone, Copy, Debug)]
+pub struct Second {
+    /// The method.
+    pub way: Way,
+    /// Its tolerance.
+    pub tolerance: f64,
+    /// What it found.
+    pub found: Result<Stepped, Stop>,
 }
 
 impl Course {
@@ -53,7 +67,15 @@ impl Course {
         let rest =
             (fate == Fate::Rest).then(|| Flow::new(model).rest_of(x, model.scaled_velocity(v)));
         let motion = Motion::new(model, x, v, until);
-        Ok(Course { motion, fate, rest: rest.transpose()?, portrait })
+        Ok(Course { motion, fate, rest: rest.transpose()?, portrait, second: None })
+    }
+}
+
+impl Course {
+    /// Follows the motion once more by another method.
+    pub fn follow_by(&mut self, way: Way, tolerance: f64, start: (f64, f64), until: f64) {
+        let found = stepped(&self.portrait.model, way, tolerance, start, until);
+        self.second = Some(Second { way, tolerance, found });
     }
 }
 

@@ -1,6 +1,7 @@
 //! The numbers of a machine that can be set and varied: its quantities, static friction, and those of its
 //! friction law.
 
+use super::modal::Modal;
 use crate::oscillator::Belt;
 use crate::oscillator::belt::{Dimension, FrictionLaw, QUANTITIES, Quantity};
 
@@ -17,6 +18,12 @@ pub enum Varied {
     Law(usize),
     /// A coefficient of a polynomial law.
     Coefficient(usize),
+    /// The frequency of a vibration mode.
+    Frequency,
+    /// The mass of a vibration mode.
+    ModalMass,
+    /// A coefficient of the damping ratio of a vibration mode.
+    Ratio(usize),
 }
 
 /// Names of the numbers of friction laws, with their dimensions and units.
@@ -32,6 +39,9 @@ const LAW_NUMBERS: [(&str, Dimension, &str); 6] = [
 /// Names of the coefficients of a polynomial law.
 const COEFFICIENTS: [&str; 6] = ["mu0", "mu1", "mu2", "mu3", "mu4", "mu5"];
 
+/// Names of the coefficients of a damping ratio, in powers of the velocity.
+const RATIOS: [&str; 6] = ["ratio0", "ratio1", "ratio2", "ratio3", "ratio4", "ratio5"];
+
 /// Units of these coefficients.
 const COEFFICIENT_UNITS: [&str; 6] = ["", "s/m", "s^2/m^2", "s^3/m^3", "s^4/m^4", "s^5/m^5"];
 
@@ -43,6 +53,8 @@ impl Varied {
             .chain([Varied::StaticCoefficient, Varied::StaticGuide])
             .chain((0..LAW_NUMBERS.len()).map(Varied::Law))
             .chain((0..COEFFICIENTS.len()).map(Varied::Coefficient))
+            .chain([Varied::Frequency, Varied::ModalMass])
+            .chain((0..RATIOS.len()).map(Varied::Ratio))
     }
 
     /// The one with this name, compared exactly.
@@ -66,6 +78,9 @@ impl Varied {
             Varied::StaticGuide => "R_static",
             Varied::Law(row) => LAW_NUMBERS[row].0,
             Varied::Coefficient(power) => COEFFICIENTS[power],
+            Varied::Frequency => "frequency",
+            Varied::ModalMass => "modal_mass",
+            Varied::Ratio(power) => RATIOS[power],
         }
     }
 
@@ -77,7 +92,9 @@ impl Varied {
             Varied::StaticCoefficient => "",
             Varied::StaticGuide => "N",
             Varied::Law(row) => LAW_NUMBERS[row].2,
-            Varied::Coefficient(power) => COEFFICIENT_UNITS[power],
+            Varied::Coefficient(power) | Varied::Ratio(power) => COEFFICIENT_UNITS[power],
+            Varied::Frequency => "1/s",
+            Varied::ModalMass => "kg",
         }
     }
 
@@ -89,7 +106,9 @@ impl Varied {
             Varied::StaticCoefficient => Dimension::ONE,
             Varied::StaticGuide => Dimension::FORCE,
             Varied::Law(row) => LAW_NUMBERS[row].1,
-            Varied::Coefficient(power) => {
+            Varied::Frequency => Dimension::new(0, 0, -1),
+            Varied::ModalMass => Quantity::Mass.spec().dimension,
+            Varied::Coefficient(power) | Varied::Ratio(power) => {
                 let power = i8::try_from(power).unwrap_or(i8::MAX);
                 Dimension::ONE.times(Dimension::new(0, -1, 1), power).unwrap_or(Dimension::ONE)
             }
@@ -107,9 +126,11 @@ impl Varied {
                 return quantity.check(value).map_err(|outside| outside.to_string());
             }
             Varied::StaticCoefficient | Varied::StaticGuide => (0.0, 1e12),
+            Varied::Frequency => (1e-9, 1e12),
+            Varied::ModalMass => (Quantity::Mass.spec().min, Quantity::Mass.spec().max),
             Varied::Law(3) => (1e-12, 1e12),
             Varied::Law(4) => (0.1, 10.0),
-            Varied::Law(_) | Varied::Coefficient(_) => any,
+            Varied::Law(_) | Varied::Coefficient(_) | Varied::Ratio(_) => any,
         };
         let (name, unit) = (self.name(), self.unit());
         if (min..=max).contains(&value) {
@@ -142,6 +163,7 @@ impl Varied {
             Varied::StaticCoefficient => belt.static_coefficient.or_else(|| belt.law.mu(0.0)),
             Varied::StaticGuide => Some(belt.static_guide.unwrap_or(belt.friction)),
             Varied::Law(_) | Varied::Coefficient(_) => self.place(&mut belt.clone()).copied(),
+            Varied::Frequency | Varied::ModalMass | Varied::Ratio(_) => None,
         }
     }
 
@@ -160,7 +182,39 @@ impl Varied {
                     || format!("the friction law ({law}) of this machine has no {}", self.name());
                 *self.place(belt).ok_or_else(missing)? = value;
             }
+            Varied::Frequency | Varied::ModalMass | Varied::Ratio(_) => {
+                return Err(format!(
+                    "a mass on a belt has no {}; a vibration mode has",
+                    self.name()
+                ));
+            }
         }
+        Ok(())
+    }
+
+    /// Gives it a value in SI units, in a vibration mode.
+    ///
+    /// # Errors
+    /// One line, if a mode has no such number.
+    pub fn set_of_mode(self, mode: &mut Modal, value: f64) -> Result<(), String> {
+        let powers = mode.damping_ratio.len();
+        let place = match self {
+            Varied::Frequency => Some(&mut mode.frequency),
+            Varied::ModalMass => Some(&mut mode.mass),
+            Varied::Quantity(Quantity::Friction) => Some(&mut mode.friction),
+            Varied::StaticGuide => {
+                mode.static_guide = Some(value);
+                return Ok(());
+            }
+            Varied::Ratio(power) => mode.damping_ratio.get_mut(power),
+            _ => None,
+        };
+        let refused = || {
+            let ratios = RATIOS[..powers.min(RATIOS.len())].join(", ");
+            let name = self.name();
+            format!("this mode has no {name}; it has frequency, modal_mass, R, R_static, {ratios}")
+        };
+        *place.ok_or_else(refused)? = value;
         Ok(())
     }
 }

@@ -59,6 +59,12 @@ pub fn of(session: &Session, index: usize) -> Picture<'_> {
         View::Speeds => speeds::picture(session, index),
         View::Belt => belt::picture(session, index),
     };
+    // These know the paper's oscillator alone.
+    const EXPANDED: [View; 5] =
+        [View::Diagram, View::ReturnMap, View::Regimes, View::EnergyRate, View::Trade];
+    if session.draws_whole() && EXPANDED.contains(&session.plots[index].view) {
+        picture.title = format!("{}, cubic expansion", picture.title).into();
+    }
     picture.scales = scales(session, index);
     let shown = session.shown(index);
     picture.variants = shown.iter().map(|shown| shown.problem.parameters).collect();

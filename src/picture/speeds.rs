@@ -6,8 +6,9 @@ use super::items::{Item, Line, Picture};
 use super::reading::reading;
 use super::role::{Dash, Role};
 use crate::machine::Cycle;
+use crate::machine::jumps::{Jump, Landing};
 use crate::machine::special::{Kind, Special};
-use crate::question::speeds::{Speed, Speeds};
+use crate::question::speeds::Speed;
 use crate::scene::{Layer, Point, View};
 use crate::session::{self, Session};
 use crate::words::quantity::with_unit;
@@ -53,7 +54,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         }
         rest(&mut picture, &found.points);
         for special in &found.special {
-            changes(&mut picture, found, special);
+            changes(&mut picture, special);
         }
     }
     picture.cross(cursor);
@@ -90,25 +91,27 @@ fn rest(picture: &mut Picture, points: &[Speed]) {
     picture.curve(line, touching.collect::<Vec<_>>());
 }
 
-/// A change, by its letter, and the jump from the state that ends there to the one that is left.
-fn changes(picture: &mut Picture, found: &Speeds, special: &Special) {
-    let (letter, ends) = match special.kind {
-        Kind::Hopf => ("H", None),
-        Kind::Grazing => ("G", None),
-        Kind::Annihilation => ("A", special.x_max),
-        Kind::Overtaking => ("O", None),
-        Kind::Unsticking => ("U", None),
-        Kind::Fold => ("F", special.x_max),
+/// A change, by its letter, and the jumps from the stable states that end there.
+fn changes(picture: &mut Picture, special: &Special) {
+    let letter = match special.kind {
+        Kind::Hopf => "H",
+        Kind::Grazing => "G",
+        Kind::Annihilation => "A",
+        Kind::Overtaking => "O",
+        Kind::Unsticking => "U",
+        Kind::Fold => "F",
     };
     let at = special.value;
-    // Where rest ends it goes up to the smallest stable cycle of the nearest speed.
-    let near = found.points.iter().filter(|point| !point.rests);
-    let near = near.min_by(|one, other| (one.v0 - at).abs().total_cmp(&(other.v0 - at).abs()));
-    let smallest = near.and_then(|point| point.cycles.iter().find(|cycle| cycle.stable));
-    let up = smallest.filter(|_| special.kind == Kind::Hopf).map(|cycle| (0.0, cycle.x.1));
-    if let Some((from, to)) = ends.map(|x| (x, 0.0)).or(up) {
-        let line = Line::new("jump", Role::Warning, Dash::Dotted);
-        picture.curve(line, [from, to].map(|y| Point { x: at, y }));
+    let ways = [("jump on a faster belt", Dash::Dotted), ("jump on a slower belt", Dash::Sparse)];
+    for (jump, (name, dash)) in [special.jumps.up, special.jumps.down].into_iter().zip(ways) {
+        let Some(Jump { from, to }) = jump else { continue };
+        let to = match to {
+            Landing::Rest => 0.0,
+            Landing::Cycle { x_max } => x_max,
+            Landing::Escaped | Landing::Unknown => picture.window.y.to(),
+        };
+        let ends = [from, to].map(|y| Point { x: at, y });
+        picture.curve(Line::new(name, Role::Warning, dash), ends);
     }
     picture.items.push(Item::Caption {
         at: Point { x: at, y: special.x_max.unwrap_or(0.0) },

@@ -4,11 +4,12 @@ use std::sync::Arc;
 
 use super::kind::Question;
 use super::means::Means;
+use crate::flow::quality::DRAFT;
 use crate::flow::{Cost, Reason};
 use crate::machine::branch::{BranchPoint, branch_while};
 use crate::machine::special::Special;
 use crate::machine::varied::Varied;
-use crate::machine::{Cycle, ORDER};
+use crate::machine::{Cycle, ORDER, Subject};
 use crate::oscillator::Belt;
 use crate::oscillator::belt::Quantity;
 
@@ -39,7 +40,7 @@ pub struct Speed {
 
 /// Speeds of the belt that are looked at, and in a draft.
 pub const SPEEDS: usize = 81;
-const ROUGH: usize = 11;
+const ROUGH: usize = 5;
 
 /// What is asked.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,7 +60,9 @@ impl Question for Asked {
         let varied = Varied::Quantity(Quantity::BeltSpeed);
         let go = || !(means.limits.interrupted)();
         let lost = |_| Reason::NotApplicable { needs: "a belt that runs" };
-        let found = branch_while(&self.belt, varied, self.range, self.count, &go).map_err(lost)?;
+        let rough = (self.count <= ROUGH).then_some(DRAFT.tolerance);
+        let subject = Subject { tolerance: rough, ..self.belt.as_ref().into() };
+        let found = branch_while(&subject, varied, self.range, self.count, &go).map_err(lost)?;
         if !go() {
             return Err(Reason::Interrupted);
         }

@@ -6,7 +6,7 @@ use crate::flow::{Cost, Limits, Method, Problem, Reason};
 use crate::machine::curve::{Curve, Piece};
 use crate::machine::motion::{self, Motion};
 use crate::machine::turn::Place;
-use crate::machine::{Fate, Flow, Model, Phase, Portrait, Stop};
+use crate::machine::{Fate, Flow, Ledger, Model, Phase, Portrait, Stop};
 use crate::numerics::elementary::ln;
 use crate::oscillator::{Belt, Parameters, State};
 use crate::study::cycle::CycleErrors;
@@ -21,8 +21,12 @@ pub struct Course {
     pub cycles: Vec<crate::machine::Cycle>,
     /// Name of the kind of border of the basin.
     pub border: &'static str,
+    /// Whether the border touches the belt's line.
+    pub touches: bool,
     /// From where to where it rides on the belt.
     pub rides: Vec<[Sample; 2]>,
+    /// Where its energy comes from and goes, in the units of the paper's oscillator.
+    pub ledger: Ledger,
 }
 
 /// What cycles are like.
@@ -30,8 +34,12 @@ pub struct Course {
 pub struct Kinds {
     /// The cycles by the whole model, in SI units.
     pub cycles: Vec<crate::machine::Cycle>,
+    /// Where the energy of one turn of each comes from and goes, in the units of the paper's oscillator.
+    pub works: Vec<Ledger>,
     /// Name of the kind of border of the basin.
     pub border: &'static str,
+    /// Whether that touches the belt's line.
+    pub touches: bool,
     /// Kicks that are survived by the whole model and by the cubic expansion, without units; `None` where
     /// every kick is, or where one of the two has no answer.
     pub margins: [Option<Margin>; 2],
@@ -52,6 +60,14 @@ struct Units {
 impl Units {
     fn of(model: &Model) -> Self {
         Units { x: model.pull, v: model.pull * model.omega_0, t: 1.0 / model.omega_0 }
+    }
+
+    fn ledger(self, ledger: &Ledger, model: &Model) -> Ledger {
+        let unit = model.stiffness * self.x * self.x;
+        let Ledger { start, end, belt, damper, guide } = *ledger;
+        let [start, end, belt, damper, guide] =
+            [start, end, belt, damper, guide].map(|energy| energy / unit);
+        Ledger { start, end, belt, damper, guide }
     }
 
     fn sample(self, state: &motion::State) -> Sample {
@@ -99,7 +115,9 @@ pub fn motion(
         fate,
         cycles: portrait.cycles.clone(),
         border: portrait.border.kind(),
+        touches: portrait.border.touches(),
         rides: rides(&found, model.speed * model.omega_0, units),
+        ledger: units.ledger(&found.ledger, &model),
     };
     Ok((trajectory(&found, problem, between, units), course))
 }
@@ -167,13 +185,22 @@ pub fn portrait(
     let expanded = expanded.map(|picture| picture.margin);
     let kinds = found.as_ref().ok().map(|found| Kinds {
         cycles: found.cycles.clone(),
+        works: works(found),
         border: found.border.kind(),
+        touches: found.border.touches(),
         margins: [margin(found), expanded],
         neutral: found.neutral,
         stop: found.stop,
     });
     let drawn = if cubic { expansion? } else { drawn(&found?, parameters, points)? };
     Ok((drawn, kinds))
+}
+
+/// The ledgers of its cycles.
+fn works(found: &Portrait) -> Vec<Ledger> {
+    let (mut flow, units) = (Flow::new(&found.model), Units::of(&found.model));
+    let ledger = |cycle| flow.works_around(cycle).unwrap_or_default();
+    found.cycles.iter().map(ledger).map(|one| units.ledger(&one, &found.model)).collect()
 }
 
 /// The portrait of a machine.
@@ -211,8 +238,7 @@ fn drawn(found: &Portrait, parameters: &Parameters, points: u16) -> Result<Cycle
     let mut curves = Vec::new();
     for cycle in &found.cycles {
         let mut curve = Curve::default();
-        let backward = !cycle.stable && !cycle.sticks && !cycle.overtakes;
-        flow.around(cycle.x.1, backward, &mut curve).map_err(reason)?;
+        flow.around(cycle.x.1, cycle.is_followed_backward(), &mut curve).map_err(reason)?;
         curves.push(places(&curve, model, points));
     }
     let edge = found.border.curve().map(|curve| places(curve, model, points));

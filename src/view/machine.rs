@@ -20,7 +20,8 @@ pub fn outcome(session: &Session, motion: &Trajectory) -> String {
     let units = &running.reduced.units;
     let within = match course.border {
         "cycle" => " (inside the unstable cycle)",
-        "grazing" => " (inside the motion that touches the belt)",
+        "grazing" if course.touches => " (inside the motion that touches the belt)",
+        "grazing" => " (inside the motion that ends where the guide just holds)",
         _ => "",
     };
     match (course.fate, motion.outcome) {

@@ -294,7 +294,13 @@ fn cycles(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) -> u1
 
 /// What borders the basin of the sticking set, and which kicks it survives.
 fn basin(session: &Session, found: &Cycles, width: usize) -> Vec<String> {
+    let kinds = session.kinds().filter(|_| session.draws_whole());
     let edge = match found.edge {
+        _ if kinds.is_some_and(|kinds| kinds.border == "no-basin") => "rest repels",
+        Edge::Separatrix if kinds.is_some_and(|kinds| kinds.touches) => "edge: touches the belt",
+        Edge::Separatrix if kinds.is_some() => "edge: where the guide holds",
+        Edge::None if kinds.is_some_and(|kinds| kinds.neutral) => "all motions periodic",
+        Edge::None if kinds.is_some() => "all motions come to rest",
         Edge::None if found.parameters.r == 0.0 => "no sticking set",
         Edge::None => "all motions captured",
         Edge::Cycle => "edge: unstable cycle",

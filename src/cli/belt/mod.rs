@@ -20,16 +20,17 @@ use crate::flow::Method;
 use crate::machine::branch::{borders, branch, spaced};
 use crate::machine::design::friction_for;
 use crate::machine::guarantee::guaranteed;
-use crate::machine::survey::{Course, Trouble, portrait, survey};
-use crate::machine::{Portrait, Tolerances};
-use crate::oscillator;
+use crate::machine::stepped::Way;
+use crate::machine::survey::{Course, Trouble, survey};
+use crate::machine::{Body, Portrait, Subject, Tolerances};
 use crate::report::belt::branch::{Borders, Branched};
 use crate::report::belt::mode::ModeAnswer;
-use crate::report::belt::{self, Answer, Designed, Sweep, SweepPoint};
+use crate::report::belt::{self, Answer, Designed, Head, Sweep, SweepPoint};
 use crate::scene::machine::file::parse;
 use crate::scene::machine::library::{TEXTBOOK, find, machines};
 use crate::scene::machine::mode::{self, Mode, is_mode};
 use crate::scene::machine::unit::Toleranced;
+use crate::scene::usual::TOLERANCE;
 use crate::scene::{Machine, Rig, Scene};
 use crate::study::design::Kick;
 
@@ -53,6 +54,9 @@ pub struct Belt {
     /// Window "XMIN:XMAX,VMIN:VMAX": tells the part of it from which the mass comes to rest
     #[arg(long, value_name = "WINDOW", value_parser = window, allow_hyphen_values = true)]
     window: Option<Window>,
+    /// Counts the window's displacements from the relaxed spring, and not from the steady position
+    #[arg(long, requires = "window")]
+    elongation: bool,
     /// Varies a number, such as "v0=0.1 m/s:0.5 m/s:21": margins and cycles along its way
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = range, allow_hyphen_values = true)]
     sweep: Option<Range>,
@@ -67,12 +71,12 @@ pub struct Belt {
     /// Asks how much friction R a margin needs: a displacement ("2 mm") or an impulse ("0.1 N s")
     #[arg(long, value_name = "MARGIN", value_parser = margin, allow_hyphen_values = true)]
     design: Option<(Kick, f64)>,
-    /// Way of integrating: auto or taylor; each phase is followed by Taylor series
+    /// Way of integrating: auto or taylor, by Taylor series; dop853 or dopri5 follow the motion once more, and the
+    /// difference is told
     #[arg(long, value_name = "NAME", value_parser = method)]
     method: Option<Method>,
     /// Size of the last terms of a step, relative to the state, 1e-15 .. 0.01 (default: below rounding)
-    #[arg(long, value_name = "X", value_parser = tolerance, allow_hyphen_values = true,
-          conflicts_with_all = ["sweep", "branch", "design"])]
+    #[arg(long, value_name = "X", value_parser = tolerance, allow_hyphen_values = true)]
     tol: Option<f64>,
     #[command(flatten)]
     output: Output,
@@ -128,6 +132,9 @@ fn mode(name: &str) -> Result<Option<Mode>, Failure> {
 
 /// The machine of a file, or of the program, to be looked at.
 pub fn scene(name: &str) -> Result<Arc<Scene>, Failure> {
+    if mode(name)?.is_some() {
+        return Err(Failure::Usage(format!("{name}: {}", mode::NO_BELT)));
+    }
     let rig =
         Rig::new(machine(name)?).map_err(|error| Failure::Usage(format!("{name}: {error}")))?;
     Ok(Arc::new(rig.scene()))
@@ -156,38 +163,64 @@ impl Belt {
         Ok(machine)
     }
 
+    /// The method beside Taylor series.
+    fn second(&self) -> Result<Option<Way>, Failure> {
+        let way = match self.method {
+            None | Some(Method::Auto | Method::Taylor) => return Ok(None),
+            Some(Method::Dop853) => Way::Dop853,
+            Some(Method::Dopri5) => Way::Dopri5,
+            Some(other) => {
+                let line = format!(
+                    "--method {other} knows one switching line only; a machine has two: allowed are auto, taylor, \
+                     dop853 and dopri5"
+                );
+                return Err(Failure::Usage(line));
+            }
+        };
+        if self.branch.is_some() || self.sweep.is_some() {
+            let line =
+                "--method dop853 and dopri5 follow one motion; --sweep and --branch have none";
+            return Err(Failure::Usage(line.to_owned()));
+        }
+        Ok(Some(way))
+    }
+
+    /// The tolerance of that method.
+    fn dial(&self) -> f64 {
+        self.tol.unwrap_or(TOLERANCE)
+    }
+
+    /// The tolerance of the Taylor steps, which stay exact beside another method.
+    fn own(&self, second: Option<Way>) -> Option<f64> {
+        self.tol.filter(|_| second.is_none())
+    }
+
     /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
-        if self.method.is_some_and(|method| !matches!(method, Method::Auto | Method::Taylor)) {
-            eprintln!(
-                "hopfscope: note: a mass on a belt is followed by Taylor series; --method is ignored"
-            );
-        }
+        let second = self.second()?;
         if let Some(mode) = mode(&self.machine)? {
-            return self.of_mode(mode);
+            return self.of_mode(mode, second);
         }
         let machine = self.machine()?;
-        if let Some(range) = self.branch {
-            return self.branched(&machine, range);
-        }
-        if let Some(range) = self.sweep {
-            let (swept, seconds) = timed(self.output.repeat, || self.swept(&machine, range));
-            let answer = Sweep { seconds, ..swept? };
-            return self.output.print(&match self.output.format {
-                Format::Table => belt::sweep_table(&answer),
-                Format::Json => belt::sweep_json(&answer),
-                Format::Csv => belt::sweep_csv(&answer),
-            });
+        let subject = Subject {
+            tolerance: self.own(second),
+            ..Body::Belt(Box::new(machine.belt.clone())).into()
+        };
+        if self.branch.is_some() || self.sweep.is_some() {
+            return self.along(&subject, &Head::of_machine(&machine), &machine.tolerances);
         }
         let start = (machine.displacement, machine.velocity);
         let (found, seconds) = timed(self.output.repeat, || {
-            let survey = survey(&machine.belt, start, machine.until, self.tol, &Limits::PATIENT)?;
-            let share =
-                self.window.map(|window| survey.course.portrait.rest_share(window.x, window.v));
+            let mut survey =
+                survey(&machine.belt, start, machine.until, subject.tolerance, &Limits::PATIENT)?;
+            if let Some(way) = second {
+                survey.course.follow_by(way, self.dial(), start, machine.until);
+            }
+            let share = self.share(&survey.course.portrait);
             let Machine { belt, tolerances, .. } = &machine;
             let asked = !tolerances.is_none();
             let certain = asked.then(|| guaranteed(belt, tolerances)).transpose()?;
-            Ok((survey, share, self.designed(belt, tolerances)?, certain))
+            Ok((survey, share, self.designed(&subject, tolerances)?, certain))
         });
         let (survey, rest_share, design, certain) = found.map_err(troubled)?;
         let incomplete = survey.course.portrait.incomplete();
@@ -202,23 +235,44 @@ impl Belt {
     }
 
     /// The answer about a vibration mode, which has no belt.
-    fn of_mode(&self, mut mode: Mode) -> Result<(), Failure> {
-        let numbers = !self.set.is_empty() || self.design.is_some() || self.disturbance.is_some();
-        if numbers || self.sweep.is_some() || self.branch.is_some() {
-            let line = "a mode takes --start and --window; --set, --disturbance, --sweep, --branch and --design are \
-                        for belts";
+    fn of_mode(&self, mut mode: Mode, second: Option<Way>) -> Result<(), Failure> {
+        if self.disturbance.is_some() {
+            let line = "--disturbance is for belts: guaranteed margins of a mode are not computed";
             return Err(Failure::Usage(line.to_owned()));
         }
+        for &(name, Toleranced { middle, half_width }) in &self.set {
+            match name {
+                Name::Number(_) if half_width > 0.0 => {
+                    let line =
+                        "a mode takes no tolerances: its guaranteed margins are not computed";
+                    return Err(Failure::Usage(line.to_owned()));
+                }
+                Name::Number(varied) => {
+                    varied.set_of_mode(&mut mode.numbers, middle.value).map_err(Failure::Usage)?;
+                }
+                Name::Displacement => mode.start.0 = middle.value,
+                Name::Velocity => mode.start.1 = middle.value,
+            }
+        }
         let Start { x, v } = self.start.unwrap_or_default();
-        mode.model.tolerance = self.tol.unwrap_or(mode.model.tolerance);
         mode.start = (x.unwrap_or(mode.start.0), v.unwrap_or(mode.start.1));
-        let (found, seconds) =
-            timed(self.output.repeat, || Course::new(&mode.model, mode.start, mode.until));
-        let course = found.map_err(troubled)?;
-        let share = |window: Window| course.portrait.rest_share(window.x, window.v);
-        let rest_share = self.window.map(share);
+        let subject =
+            Subject { tolerance: self.own(second), ..Body::Mode(mode.numbers.clone()).into() };
+        let none = Tolerances::default();
+        if self.branch.is_some() || self.sweep.is_some() {
+            return self.along(&subject, &Head::of_mode(&mode), &none);
+        }
+        let (found, seconds) = timed(self.output.repeat, || {
+            let mut course = Course::new(&subject.model()?, mode.start, mode.until)?;
+            if let Some(way) = second {
+                course.follow_by(way, self.dial(), mode.start, mode.until);
+            }
+            Ok((course, self.designed(&subject, &none)?))
+        });
+        let (course, design) = found.map_err(troubled)?;
+        let rest_share = self.share(&course.portrait);
         let incomplete = course.portrait.incomplete();
-        let answer = ModeAnswer { mode: &mode, course: &course, rest_share, seconds };
+        let answer = ModeAnswer { mode: &mode, course: &course, rest_share, design, seconds };
         self.output.print(&match self.output.format {
             Format::Table => belt::mode::table(&answer),
             Format::Json => belt::mode::json(&answer),
@@ -227,16 +281,32 @@ impl Belt {
         incomplete.map_or(Ok(()), |stop| Err(troubled(stop.into())))
     }
 
+    /// The answer along a number: a branch, or a sweep.
+    fn along(&self, subject: &Subject, head: &Head, known: &Tolerances) -> Result<(), Failure> {
+        if let Some(range) = self.branch {
+            return self.branched(subject, head, range);
+        }
+        let Some(range) = self.sweep else { return Ok(()) };
+        let (swept, seconds) =
+            timed(self.output.repeat, || self.swept(subject, head, known, range));
+        let answer = Sweep { seconds, ..swept? };
+        self.output.print(&match self.output.format {
+            Format::Table => belt::sweep_table(&answer),
+            Format::Json => belt::sweep_json(&answer),
+            Format::Csv => belt::sweep_csv(&answer),
+        })
+    }
+
     /// The branch, or the changes along it at values of another number.
-    fn branched(&self, machine: &Machine, range: Range) -> Result<(), Failure> {
+    fn branched(&self, subject: &Subject, head: &Head, range: Range) -> Result<(), Failure> {
         let Range { varied, ends, count } = range;
         if let Some(other) = self.against {
             let (rows, seconds) = timed(self.output.repeat, || {
                 let against = (other.varied, other.ends, other.count);
-                borders(&machine.belt, (varied, ends, count), against)
+                borders(subject, (varied, ends, count), against)
             });
             let (rows, varied) = (rows.map_err(Failure::Usage)?, (varied, other.varied));
-            let found = Borders { machine, varied, rows, seconds };
+            let found = Borders { head, varied, rows, seconds };
             return self.output.print(&match self.output.format {
                 Format::Table => belt::branch::borders_table(&found),
                 Format::Json => belt::branch::borders_json(&found),
@@ -244,8 +314,8 @@ impl Belt {
             });
         }
         let (found, seconds) =
-            timed(self.output.repeat, || branch(&machine.belt, varied, ends, count));
-        let found = Branched { machine, varied, branch: found.map_err(Failure::Usage)?, seconds };
+            timed(self.output.repeat, || branch(subject.clone(), varied, ends, count));
+        let found = Branched { head, varied, branch: found.map_err(Failure::Usage)?, seconds };
         self.output.print(&match self.output.format {
             Format::Table => belt::branch::table(&found),
             Format::Json => belt::branch::json(&found),
@@ -253,37 +323,44 @@ impl Belt {
         })
     }
 
+    /// The part of the window from which the mass comes to rest, if asked for.
+    fn share(&self, portrait: &Portrait) -> Option<f64> {
+        let Window { x: (from, to), v } = self.window?;
+        let steady = if self.elongation { portrait.model.pull } else { 0.0 };
+        Some(portrait.rest_share((from - steady, to - steady), v))
+    }
+
     /// The friction for the margin, if asked for.
-    fn designed(
-        &self,
-        belt: &oscillator::Belt,
-        known: &Tolerances,
-    ) -> Result<Option<Designed>, Trouble> {
+    fn designed(&self, subject: &Subject, known: &Tolerances) -> Result<Option<Designed>, Trouble> {
         let Some((kick, wanted)) = self.design else { return Ok(None) };
-        let needed = friction_for(belt, known, kick, wanted)?;
-        Ok(needed.map(|needed| Designed { kick, wanted, needed }))
+        let needed = friction_for(subject, known, kick, wanted)?;
+        let at = subject.of_belt().map(|belt| belt.belt_speed);
+        let has = subject.friction();
+        Ok(needed.map(|needed| Designed { kick, wanted, needed, at, has }))
     }
 
     /// The sweep, with the friction for the margin at each point if asked for.
-    fn swept<'a>(&self, machine: &'a Machine, range: Range) -> Result<Sweep<'a>, Failure> {
+    fn swept<'a>(
+        &self,
+        subject: &Subject,
+        head: &'a Head,
+        known: &Tolerances,
+        range: Range,
+    ) -> Result<Sweep<'a>, Failure> {
         let Range { varied, ends, count } = range;
         let point = |index: usize| {
             let value = spaced(ends, index, count);
-            let mut here = machine.belt.clone();
-            varied.set(&mut here, value).map_err(Failure::Usage)?;
-            let found = portrait(&here).map_err(|trouble| trouble.to_string());
-            let share = |portrait: &Portrait| {
-                self.window.map(|window| portrait.rest_share(window.x, window.v))
-            };
-            let rest_share = found.as_ref().ok().and_then(share);
+            let here = subject.with(varied, value).map_err(Failure::Usage)?;
+            let found = here.portrait().map_err(|trouble| trouble.to_string());
+            let rest_share = found.as_ref().ok().and_then(|found| self.share(found));
             let design = match &found {
-                Ok(_) => self.designed(&here, &machine.tolerances).map_err(troubled)?,
+                Ok(_) => self.designed(&here, known).map_err(troubled)?,
                 Err(_) => None,
             };
             Ok(SweepPoint { value, found, rest_share, design })
         };
         let points = (0..count).map(point).collect::<Result<_, Failure>>()?;
-        Ok(Sweep { machine, varied, points, seconds: 0.0 })
+        Ok(Sweep { head, varied, points, seconds: 0.0 })
     }
 }
 

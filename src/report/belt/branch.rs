@@ -3,21 +3,21 @@
 use serde::Serialize;
 
 use super::document::{Cost, CycleOf, kind};
-use super::{PLACES, quantities};
+use super::{Head, PLACES};
 use crate::machine::branch::Branch;
+use crate::machine::jumps::{Jump, Landing};
 use crate::machine::special::{Kind, Special};
 use crate::machine::varied::Varied;
 use crate::report::csv::Sheet;
 use crate::report::json::text;
 use crate::report::table::Table;
-use crate::scene::Machine;
 use crate::words::number::{duration, significant};
 use crate::words::quantity::with_unit;
 
 /// A branch with what it is a branch of.
 pub struct Branched<'a> {
-    /// The machine.
-    pub machine: &'a Machine,
+    /// What it is about.
+    pub head: &'a Head<'a>,
     /// The number that varies.
     pub varied: Varied,
     /// What was found.
@@ -28,8 +28,8 @@ pub struct Branched<'a> {
 
 /// The changes along one number at values of another.
 pub struct Borders<'a> {
-    /// The machine.
-    pub machine: &'a Machine,
+    /// What it is about.
+    pub head: &'a Head<'a>,
     /// The number along which the changes lie, and the other.
     pub varied: (Varied, Varied),
     /// The changes at each value of the other.
@@ -82,7 +82,7 @@ fn points(branched: &Branched) -> Vec<Point> {
 pub fn json(branched: &Branched) -> String {
     let found = branched.branch.points.iter().filter_map(|point| point.found.as_ref().ok());
     text(&Document {
-        machine: &branched.machine.name,
+        machine: branched.head.name,
         model: "whole",
         quantity: branched.varied.name(),
         unit: branched.varied.unit(),
@@ -102,6 +102,25 @@ fn words(kind: Kind) -> &'static str {
         Kind::Unsticking => "the cycle overtakes the belt without sticking",
         Kind::Fold => "fold: two cycles meet",
     }
+}
+
+/// The stable states that end at a change, while the number grows and while it falls.
+fn jumps(special: &Special) -> String {
+    let told = |jump: Option<Jump>, way: &str| {
+        jump.map_or_else(String::new, |Jump { from, to }| {
+            let length = |x| with_unit(x, 5, "m");
+            let from =
+                if from == 0.0 { "rest".to_owned() } else { format!("x = {}", length(from)) };
+            let to = match to {
+                Landing::Rest => "rest".to_owned(),
+                Landing::Cycle { x_max } => format!("x = {}", length(x_max)),
+                Landing::Escaped => "beyond all bounds".to_owned(),
+                Landing::Unknown => "where the friction law ends".to_owned(),
+            };
+            format!("; {way}, from {from} to {to}")
+        })
+    };
+    told(special.jumps.up, "growing") + &told(special.jumps.down, "falling")
 }
 
 /// The branch, to read.
@@ -137,14 +156,15 @@ pub fn table(branched: &Branched) -> String {
     let mut changes = Table::new(&[name, "x", "what happens"]);
     for special in &branched.branch.special {
         let x = special.x_max.map_or_else(String::new, |x| with_unit(x, PLACES, "m"));
-        changes.row(vec![with_unit(special.value, 13, unit), x, words(special.kind).to_owned()]);
+        let what = format!("{}{}", words(special.kind), jumps(special));
+        changes.row(vec![with_unit(special.value, 13, unit), x, what]);
     }
-    let machine = branched.machine;
+    let head = branched.head;
     format!(
         "{}: {}\n{}\n\n{}\n{}\n{}\n",
-        machine.name,
-        machine.title,
-        quantities(&machine.belt, Some(name)),
+        head.name,
+        head.title,
+        head.but(name),
         rows.aligned_left(),
         changes.aligned_left(),
         duration(branched.seconds)
@@ -231,7 +251,7 @@ struct Seconds {
 pub fn borders_json(borders: &Borders) -> String {
     let rows = borders.rows.iter().map(|(value, special)| BorderRow { value: *value, special });
     text(&BordersDocument {
-        machine: &borders.machine.name,
+        machine: borders.head.name,
         model: "whole",
         quantity: borders.varied.0.name(),
         unit: borders.varied.0.unit(),
@@ -256,9 +276,9 @@ pub fn borders_table(borders: &Borders) -> String {
             ]);
         }
     }
-    let machine = borders.machine;
+    let head = borders.head;
     let seconds = duration(borders.seconds);
-    format!("{}: {}\n\n{}\n{seconds}\n", machine.name, machine.title, table.aligned_left())
+    format!("{}: {}\n\n{}\n{seconds}\n", head.name, head.title, table.aligned_left())
 }
 
 /// A change along one number at a value of the other.

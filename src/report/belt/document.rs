@@ -7,8 +7,8 @@ use serde::Serialize;
 use super::expansion::Expansion;
 use super::{Answer, Designed, finite, margins};
 use crate::machine::guarantee::{Kicks, Uncertain};
-use crate::machine::motion::Outcome;
-use crate::machine::survey::Course;
+use crate::machine::motion::{Outcome, State};
+use crate::machine::survey::{Course, Second};
 use crate::machine::turn::Place;
 use crate::machine::{Cycle, Fate, Ledger, Portrait};
 use crate::oscillator::belt::{Derivatives, FrictionLaw, QUANTITIES, Units};
@@ -218,6 +218,50 @@ pub(super) struct MotionOf {
     velocity: (f64, f64),
     phases: Vec<PhaseOf>,
     energy: Energy,
+    end: StateOf,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    second: Option<SecondOf>,
+}
+
+#[derive(Serialize)]
+struct StateOf {
+    t: f64,
+    x: f64,
+    v: f64,
+}
+
+impl StateOf {
+    fn new(State { t, x, v }: State) -> Self {
+        StateOf { t, x, v }
+    }
+}
+
+/// The motion by another method, and by how much its end differs.
+#[derive(Serialize)]
+struct SecondOf {
+    method: &'static str,
+    tolerance: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    end: Option<StateOf>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    difference: Option<StateOf>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<String>,
+}
+
+impl SecondOf {
+    fn new(Second { way, tolerance, found }: &Second, first: State) -> Self {
+        let end = found.map(|found| found.end);
+        let less =
+            |end: State| StateOf { t: end.t - first.t, x: end.x - first.x, v: end.v - first.v };
+        SecondOf {
+            method: way.name(),
+            tolerance: *tolerance,
+            end: end.ok().map(StateOf::new),
+            difference: end.ok().map(less),
+            reason: end.err().map(|stop| stop.to_string()),
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -289,6 +333,8 @@ impl MotionOf {
                 .map(|leg| PhaseOf { t: leg.t, x: leg.x, phase: phase(leg.place) })
                 .collect(),
             energy: Energy { start, end, belt, damper, guide, residual },
+            end: StateOf::new(motion.end),
+            second: course.second.as_ref().map(|second| SecondOf::new(second, motion.end)),
         }
     }
 }
@@ -306,13 +352,13 @@ pub(super) struct DesignOf {
 }
 
 impl DesignOf {
-    pub(super) fn new(designed: &Designed, belt: &Belt) -> Self {
+    pub(super) fn new(designed: &Designed) -> Self {
         DesignOf {
             kick: designed.kick,
             margin: designed.wanted,
             force: designed.force(),
             needed: designed.needed,
-            message: designed.sentence(belt),
+            message: designed.sentence(),
         }
     }
 }
@@ -351,7 +397,7 @@ pub fn json(answer: &Answer) -> String {
         ),
         guaranteed: answer.certain.as_ref().map(|certain| GuaranteedOf::new(answer, certain)),
         rest_share: answer.rest_share,
-        design: answer.design.as_ref().map(|designed| DesignOf::new(designed, belt)),
+        design: answer.design.as_ref().map(DesignOf::new),
         expansion: Expansion::new(survey),
         cost: Cost { steps: survey.course.portrait.steps, seconds: answer.seconds },
     })

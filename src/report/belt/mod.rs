@@ -11,14 +11,16 @@ pub use document::json;
 pub use sweep::{Sweep, SweepPoint, csv as sweep_csv, json as sweep_json, table as sweep_table};
 pub use table::{csv, table};
 
-use crate::machine::Portrait;
 use crate::machine::guarantee::{Kicks, Uncertain};
 use crate::machine::survey::Survey;
 use crate::machine::varied::Varied;
+use crate::machine::{Modal, Portrait};
 use crate::oscillator::belt::QUANTITIES;
 use crate::oscillator::{Belt, Interval};
 use crate::scene::Machine;
+use crate::scene::machine::mode::Mode;
 use crate::study::design::{Kick, Needed};
+use crate::words::number::significant;
 use crate::words::quantity::with_unit;
 
 /// Everything that is said about a machine.
@@ -58,6 +60,54 @@ pub struct Designed {
     pub wanted: f64,
     /// The friction, in N.
     pub needed: Needed,
+    /// Speed of the belt, if there is one, in m/s.
+    pub at: Option<f64>,
+    /// The friction that there is, in N.
+    pub has: f64,
+}
+
+/// What stands above an answer: what it is about.
+pub struct Head<'a> {
+    /// The name by which it is opened.
+    pub name: &'a str,
+    /// One line.
+    pub title: &'a str,
+    /// Its numbers, each with its name.
+    numbers: Vec<(String, String)>,
+}
+
+impl<'a> Head<'a> {
+    /// Of a mass on a belt.
+    #[must_use]
+    pub fn of_machine(machine: &'a Machine) -> Self {
+        Head { name: &machine.name, title: &machine.title, numbers: numbers(&machine.belt) }
+    }
+
+    /// Of a vibration mode.
+    #[must_use]
+    pub fn of_mode(mode: &'a Mode) -> Self {
+        let Modal { frequency, mass, damping_ratio, friction, static_guide } = &mode.numbers;
+        let force = |value| with_unit(value, 12, "N");
+        let named = [
+            ("frequency", with_unit(*frequency, 12, "1/s")),
+            ("modal_mass", with_unit(*mass, 12, "kg")),
+            ("R", force(*friction)),
+        ];
+        let ratio = |(power, value): (usize, &f64)| {
+            let unit = if power == 0 { String::new() } else { format!(" s^{power}/m^{power}") };
+            (format!("ratio{power}"), format!("{}{unit}", significant(*value, 12)))
+        };
+        let mut numbers: Vec<(String, String)> =
+            named.into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
+        numbers.extend(static_guide.map(|value| ("R_static".to_owned(), force(value))));
+        numbers.extend(damping_ratio.iter().enumerate().map(ratio));
+        Head { name: &mode.name, title: &mode.title, numbers }
+    }
+
+    /// Its numbers in one line, but for one of them.
+    fn but(&self, but: &str) -> String {
+        line(self.numbers.iter().filter(|(name, _)| name != but))
+    }
 }
 
 /// Digits of a physical quantity in a text.
@@ -83,15 +133,15 @@ impl Designed {
     }
 
     /// The answer in a sentence.
-    fn sentence(&self, belt: &Belt) -> String {
+    fn sentence(&self) -> String {
         let (name, unit) = match self.kick {
             Kick::Displacement => ("displacement", "m"),
             Kick::Impulse => ("impulse", "N s"),
         };
         let wanted = with_unit(self.wanted, PLACES, unit);
-        let speed = with_unit(belt.belt_speed, PLACES, "m/s");
-        let has = with_unit(belt.friction, PLACES, "N");
-        let lead = format!("for a margin of {wanted} ({name}) at v0 = {speed}: ");
+        let at = self.at.map(|v0| format!(" at v0 = {}", with_unit(v0, PLACES, "m/s")));
+        let has = with_unit(self.has, PLACES, "N");
+        let lead = format!("for a margin of {wanted} ({name}){}: ", at.unwrap_or_default());
         let force = self.force().map(|force| with_unit(force, 10, "N")).unwrap_or_default();
         lead + &match self.needed {
             Needed::Any => "any R suffices, however small; damping alone keeps it".to_owned(),
@@ -105,12 +155,18 @@ impl Designed {
     }
 }
 
-/// The quantities of a belt in one line, but for one of them.
-fn quantities(belt: &Belt, but: Option<&str>) -> String {
-    let shown = QUANTITIES.iter().filter(|row| Some(row.name) != but);
-    let one = shown
-        .map(|row| format!("{} = {}", row.name, with_unit(belt.get(row.quantity), 12, row.unit)));
-    let mu_s = belt.static_coefficient.map(|mu| format!("mu_s = {}", with_unit(mu, 12, "")));
-    let held = belt.static_guide.map(|force| format!("R_static = {}", with_unit(force, 12, "N")));
-    one.chain(mu_s).chain(held).collect::<Vec<_>>().join(", ")
+/// The numbers of a belt, each with its name.
+fn numbers(belt: &Belt) -> Vec<(String, String)> {
+    let one = QUANTITIES
+        .iter()
+        .map(|row| (row.name.to_owned(), with_unit(belt.get(row.quantity), 12, row.unit)));
+    let mu_s = belt.static_coefficient.map(|mu| ("mu_s".to_owned(), with_unit(mu, 12, "")));
+    let held = belt.static_guide.map(|force| ("R_static".to_owned(), with_unit(force, 12, "N")));
+    one.chain(mu_s).chain(held).collect()
+}
+
+/// Numbers with their names in one line.
+fn line<'a>(numbers: impl IntoIterator<Item = &'a (String, String)>) -> String {
+    let one = numbers.into_iter().map(|(name, value)| format!("{name} = {value}"));
+    one.collect::<Vec<_>>().join(", ")
 }

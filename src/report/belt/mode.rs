@@ -2,9 +2,9 @@
 
 use serde::Serialize;
 
-use super::document::{Cost, MotionOf, Whole};
+use super::document::{Cost, DesignOf, MotionOf, Whole};
 use super::table::{border, csv_rows, cycles, fate, gaps, sheet};
-use super::{PLACES, margins};
+use super::{Designed, Head, PLACES, margins};
 use crate::machine::survey::Course;
 use crate::report::json::text;
 use crate::scene::machine::mode::Mode;
@@ -19,6 +19,8 @@ pub struct ModeAnswer<'a> {
     pub course: &'a Course,
     /// The part of a window from which it comes to rest, if asked for.
     pub rest_share: Option<f64>,
+    /// The friction for a margin, if asked for.
+    pub design: Option<Designed>,
     /// What it took.
     pub seconds: f64,
 }
@@ -32,6 +34,8 @@ struct Document<'a> {
     motion: MotionOf,
     #[serde(skip_serializing_if = "Option::is_none")]
     rest_share: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    design: Option<DesignOf>,
     cost: Cost,
 }
 
@@ -45,6 +49,7 @@ pub fn json(answer: &ModeAnswer) -> String {
         whole: Whole::new(&course.portrait),
         motion: MotionOf::new(answer.mode.start, course),
         rest_share: answer.rest_share,
+        design: answer.design.as_ref().map(DesignOf::new),
         cost: Cost { steps: course.portrait.steps, seconds: answer.seconds },
     })
 }
@@ -57,7 +62,7 @@ pub fn table(answer: &ModeAnswer) -> String {
     let all = |value: Option<f64>, unit| {
         value.map_or_else(|| "every one".to_owned(), |value| with_unit(value, PLACES, unit))
     };
-    let mut out = format!("{}: {}\n\n", mode.name, mode.title);
+    let mut out = format!("{}: {}\n{}\n\n", mode.name, mode.title, Head::of_mode(mode).but(""));
     out += &format!("survives displacements up to: {}\n", all(displacement, "m"));
     out += &format!("survives impulses up to: {}\n", all(impulse, "N s"));
     out += &format!("{}\n\n{}", border(&course.portrait), cycles(&course.portrait.cycles));
@@ -65,6 +70,9 @@ pub fn table(answer: &ModeAnswer) -> String {
     out += &format!("{}\n", fate(mode.start, course));
     if let Some(share) = answer.rest_share {
         out += &format!("of the window, {} comes to rest\n", significant(share, 10));
+    }
+    if let Some(designed) = &answer.design {
+        out += &format!("{}\n", designed.sentence());
     }
     out + &format!("{} steps, {}\n", course.portrait.steps, duration(answer.seconds))
 }

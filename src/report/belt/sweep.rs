@@ -3,14 +3,12 @@
 use serde::Serialize;
 
 use super::document::{Cost, DesignOf, Whole};
-use super::{Designed, PLACES, margins, quantities};
+use super::{Designed, Head, PLACES, margins};
 use crate::machine::varied::Varied;
 use crate::machine::{Border, Portrait};
-use crate::oscillator::Belt;
 use crate::report::csv::Sheet;
 use crate::report::json::text;
 use crate::report::table::Table;
-use crate::scene::Machine;
 use crate::words::number::{duration, significant};
 use crate::words::quantity::with_unit;
 
@@ -28,8 +26,8 @@ pub struct SweepPoint {
 
 /// A sweep with what is asked about it.
 pub struct Sweep<'a> {
-    /// The machine.
-    pub machine: &'a Machine,
+    /// What it is about.
+    pub head: &'a Head<'a>,
     /// The number that varies.
     pub varied: Varied,
     /// The points.
@@ -61,14 +59,6 @@ struct Point<'a> {
     design: Option<DesignOf>,
 }
 
-/// The belt at a point of the sweep.
-fn belt_at(sweep: &Sweep, value: f64) -> Belt {
-    let mut belt = sweep.machine.belt.clone();
-    // A sweep has points only where this can be done.
-    let _ = sweep.varied.set(&mut belt, value);
-    belt
-}
-
 fn steps(sweep: &Sweep) -> u64 {
     sweep.points.iter().filter_map(|point| point.found.as_ref().ok()).map(|found| found.steps).sum()
 }
@@ -81,15 +71,12 @@ pub fn json(sweep: &Sweep) -> String {
         reason: None,
         whole: point.found.as_ref().ok().map(Whole::new),
         rest_share: point.rest_share,
-        design: point
-            .design
-            .as_ref()
-            .map(|designed| DesignOf::new(designed, &belt_at(sweep, point.value))),
+        design: point.design.as_ref().map(DesignOf::new),
     };
     let points = sweep.points.iter();
     let points = points.map(|one| Point { reason: one.found.as_ref().err(), ..point(one) });
     text(&Document {
-        machine: &sweep.machine.name,
+        machine: sweep.head.name,
         model: "whole",
         quantity: sweep.varied.name(),
         unit: sweep.varied.unit(),
@@ -105,7 +92,8 @@ fn regime(found: &Portrait) -> String {
         _ if found.neutral => "periodic",
         Border::None => "all come to rest",
         Border::Cycle(..) => "basin within a cycle",
-        Border::Grazing(_) => "basin up to the belt",
+        Border::Grazing(_) if found.border.touches() => "basin up to the belt",
+        Border::Grazing(_) => "basin up to what the guide holds",
     };
     let stable = found.cycles.iter().filter(|cycle| cycle.stable);
     let kinds = stable.map(|cycle| match (cycle.sticks, cycle.overtakes) {
@@ -160,12 +148,12 @@ pub fn table(sweep: &Sweep) -> String {
         }
         table.row(cells);
     }
-    let machine = sweep.machine;
+    let head = sweep.head;
     format!(
         "{}: {}\n{}\n\n{}\n{} steps, {}\n",
-        machine.name,
-        machine.title,
-        quantities(&machine.belt, Some(name)),
+        head.name,
+        head.title,
+        head.but(name),
         table.aligned_left(),
         steps(sweep),
         duration(sweep.seconds)

@@ -4,10 +4,11 @@ use serde::Serialize;
 
 use super::document::kind;
 use super::expansion::Expansion;
-use super::{Answer, PLACES, finite, margins, quantities};
+use super::{Answer, PLACES, finite, line, margins, numbers};
 use crate::machine::guarantee::{Kicks, Uncertain};
-use crate::machine::motion::Outcome;
-use crate::machine::survey::Course;
+use crate::machine::motion::{Outcome, State};
+use crate::machine::stepped::Stepped;
+use crate::machine::survey::{Course, Second};
 use crate::machine::varied::Varied;
 use crate::machine::{Border, Cycle, Fate, Portrait};
 use crate::oscillator::Interval;
@@ -63,7 +64,7 @@ pub fn table(answer: &Answer) -> String {
     let (belt, reduced) = (&survey.belt, &survey.reduced);
     let machine = answer.machine;
     let mut out = format!("{}: {}\n", machine.name, machine.title);
-    out += &format!("{}\n{}\n\n", quantities(belt, None), friction(&belt.law, &reduced.mu));
+    out += &format!("{}\n{}\n\n", line(&numbers(belt)), friction(&belt.law, &reduced.mu));
     let mut numbers = Table::new(&["", "dimensionless", "physical"]);
     for Row { what, dimensionless, physical } in rows(answer) {
         let number = |value| significant(value, DIGITS);
@@ -86,7 +87,7 @@ pub fn table(answer: &Answer) -> String {
     }
     out += &format!("{}\n", expansion(answer));
     if let Some(designed) = &answer.design {
-        out += &format!("{}\n", designed.sentence(belt));
+        out += &format!("{}\n", designed.sentence());
     }
     out + &format!("{} steps, {}\n", survey.course.portrait.steps, duration(answer.seconds))
 }
@@ -124,7 +125,12 @@ pub(super) fn border(portrait: &Portrait) -> &'static str {
         Border::Grazing(_) if portrait.neutral => {
             "within the margin every motion is periodic; beyond it the mass sticks to the belt"
         }
-        Border::Grazing(_) => "beyond the margin the mass comes to stick to the belt",
+        Border::Grazing(_) if portrait.border.touches() => {
+            "beyond the margin the mass comes to stick to the belt"
+        }
+        Border::Grazing(_) => {
+            "beyond the margin the guide catches the mass no more, and it is carried off"
+        }
     }
 }
 
@@ -219,6 +225,23 @@ pub(super) fn fate((x, v): (f64, f64), course: &Course) -> String {
         Fate::Neutral => "is periodic, one of a family".to_owned(),
         Fate::Escaped => "grows without bound".to_owned(),
         Fate::Unknown(stop) => format!("is not known: {stop}"),
+    } + &course.second.as_ref().map_or_else(String::new, |second| by(second, course))
+}
+
+/// The motion by another method beside the first, in a sentence.
+fn by(Second { way, tolerance, found }: &Second, course: &Course) -> String {
+    let State { t, x, v } = course.motion.end;
+    let lead = format!("\nby {} at {tolerance:e}: ", way.name());
+    lead + &match found {
+        Ok(Stepped { end, .. }) => format!(
+            "at t = {} x = {}, v = {}; Taylor series differ by {} and {}",
+            with_unit(t, PLACES, "s"),
+            with_unit(end.x, 12, "m"),
+            with_unit(end.v, 12, "m/s"),
+            with_unit((end.x - x).abs(), 2, "m"),
+            with_unit((end.v - v).abs(), 2, "m/s"),
+        ),
+        Err(stop) => stop.to_string(),
     }
 }
 

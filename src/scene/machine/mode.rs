@@ -5,7 +5,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::file::{FARTHEST_START, Number, Start, UNTIL_RANGE, number, quantity_as};
-use crate::machine::Model;
+use crate::machine::Modal;
 use crate::oscillator::belt::{Dimension, Quantity};
 use crate::scene::misread::{self, Complaint, Misread};
 
@@ -16,8 +16,8 @@ pub struct Mode {
     pub name: String,
     /// One line.
     pub title: String,
-    /// Its model.
-    pub model: Model,
+    /// Its numbers.
+    pub numbers: Modal,
     /// Displacement (m) and velocity (m/s) at the start.
     pub start: (f64, f64),
     /// How long the motion is followed, in s.
@@ -50,6 +50,10 @@ pub fn is_mode(text: &str) -> bool {
     text.lines().any(|line| line.trim_start().starts_with("modal_mass"))
 }
 
+/// Why a mode is not drawn.
+pub const NO_BELT: &str =
+    "a vibration mode has no belt to be drawn; `hopfscope belt FILE` answers about it";
+
 /// Reads a mode; `name` is the name by which it is opened, `file` the one in error messages.
 ///
 /// # Errors
@@ -78,9 +82,10 @@ fn mode(name: &str, read: &File) -> Result<Mode, Complaint> {
     let ratios: Vec<f64> = ratios.collect::<Result<_, _>>()?;
     let guide = |given| quantity_as("R", Quantity::Friction, given);
     let moving = read.guide.as_ref().map(guide).transpose()?.unwrap_or(0.0);
-    let at_rest = read.guide_static.as_ref().map(guide).transpose()?.unwrap_or(moving);
-    let omega_0 = std::f64::consts::TAU * frequency;
-    let model = Model::of_mode(omega_0, mass, &ratios, moving, at_rest)
+    let static_guide = read.guide_static.as_ref().map(guide).transpose()?;
+    let numbers = Modal { frequency, mass, damping_ratio: ratios, friction: moving, static_guide };
+    numbers
+        .model()
         .map_err(|unfit| Complaint { at: read.damping_ratio.span(), message: unfit.to_string() })?;
     let far = (-FARTHEST_START, FARTHEST_START);
     let x = number("x", read.start.x.as_ref(), Dimension::LENGTH, "m", far, 0.0)?;
@@ -88,5 +93,5 @@ fn mode(name: &str, read: &File) -> Result<Mode, Complaint> {
     let periods = PERIODS / frequency;
     let until = number("until", read.until.as_ref(), Dimension::TIME, "s", UNTIL_RANGE, periods)?;
     let title = if read.title.is_empty() { name } else { &read.title }.to_owned();
-    Ok(Mode { name: name.to_owned(), title, model, start: (x, v), until })
+    Ok(Mode { name: name.to_owned(), title, numbers, start: (x, v), until })
 }

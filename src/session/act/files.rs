@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::fit::Reading;
-use crate::scene::Recording;
+use crate::scene::machine::file::parse;
+use crate::scene::machine::mode::{NO_BELT, is_mode};
+use crate::scene::{Recording, Rig};
 use crate::session::act::notice::{inform, refuse, told};
 use crate::session::act::values::letter;
 use crate::session::act::{history, macros, prompt};
@@ -112,6 +114,9 @@ fn take(
     purpose: Purpose,
     result: Result<String, String>,
 ) -> Done {
+    if let Purpose::Table { path: of, machine } = purpose {
+        return open_machine(session, &of, machine, Some(result));
+    }
     let text = result?;
     let of_file = |why: String| format!("{}: {why}", path.display());
     let script = || replay::parse(&text).map_err(|error| of_file(error.to_string()));
@@ -136,6 +141,9 @@ fn take(
             let recording = Recording::from((name.into_owned(), record));
             history::open_scene(session, Arc::new(recording.scene()));
         }
+        Purpose::Machine => return open_machine(session, path, text, None),
+        // Taken above, with a table that cannot be read too.
+        Purpose::Table { .. } => {}
         Purpose::Play => {
             let script = script()?;
             macros::inline(session);
@@ -147,6 +155,35 @@ fn take(
             inform(session, format!("register {name} has the keys of {}", path.display()));
         }
     }
+    Ok(Vec::new())
+}
+
+/// Opens the machine of a file; the table of friction that the file names is asked for first.
+fn open_machine(
+    session: &mut Session,
+    path: &Path,
+    text: String,
+    table: Option<Result<String, String>>,
+) -> Done {
+    let file = path.display().to_string();
+    let title = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
+    if is_mode(&text) {
+        return Err(format!("{file}: {NO_BELT}"));
+    }
+    let mut wanted = None;
+    let found = parse(&title, &file, &text, |name| {
+        table.unwrap_or_else(|| {
+            wanted = Some(path.with_file_name(name));
+            Err(String::new())
+        })
+    });
+    if let Some(table) = wanted {
+        let purpose = Purpose::Table { path: path.to_owned(), machine: text };
+        return Ok(vec![Effect::Read { path: table, purpose }]);
+    }
+    let machine = found.map_err(|error| error.to_string())?;
+    let rig = Rig::new(machine).map_err(|error| format!("{file}: {error}"))?;
+    history::open_scene(session, Arc::new(rig.scene()));
     Ok(Vec::new())
 }
 

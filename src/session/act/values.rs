@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
+use crate::scene::machine::library::machines;
 use crate::scene::{
-    ABSCISSAE, Axes, LAYERS, ORDINATES, Ordinate, Span, Unit, VIEWS, View, Window, find,
+    ABSCISSAE, Axes, LAYERS, ORDINATES, Ordinate, Rig, Span, Unit, VIEWS, View, Window, find,
 };
 use crate::session::act::notice::inform;
 use crate::session::act::{axes as axis, desk, entry, general, macros, marks, parameters};
@@ -65,6 +66,16 @@ pub fn set_row(session: &mut Session, row: &str, value: &str) -> Done {
 pub fn scene(session: &mut Session, name: &str) -> Done {
     let scene = find(name).map_err(|missing| missing.to_string())?;
     history::open_scene(session, Arc::clone(&scene));
+    Ok(Vec::new())
+}
+
+/// Opens a machine of the program.
+pub fn belt(session: &mut Session, name: &str) -> Done {
+    let names = || listed(machines().iter().map(|machine| machine.name.as_str()));
+    let machine = machines().iter().find(|machine| machine.name == name);
+    let machine = machine.ok_or_else(|| format!("no machine {name:?}; there are {}", names()))?;
+    let rig = Rig::new(machine.clone()).map_err(|error| format!("{name}: {error}"))?;
+    history::open_scene(session, Arc::new(rig.scene()));
     Ok(Vec::new())
 }
 

@@ -58,7 +58,7 @@ pub enum Msg {
 }
 
 /// What a file is read for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// To go on with the session that it holds.
     Open,
@@ -70,6 +70,15 @@ pub enum Purpose {
     Register(char),
     /// To be fitted, as a record of a motion.
     Fit,
+    /// To be looked at, as a machine.
+    Machine,
+    /// The table of friction that a machine names.
+    Table {
+        /// The file of the machine.
+        path: PathBuf,
+        /// Its text.
+        machine: String,
+    },
 }
 
 /// A line for the user.

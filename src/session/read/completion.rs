@@ -2,6 +2,7 @@
 
 use crate::flow::METHODS;
 use crate::oscillator::PARAMETERS;
+use crate::scene::machine::library::machines;
 use crate::scene::ordinate::OrdinateSpec;
 use crate::scene::{ABSCISSAE, LAYERS, ORDINATES, VIEWS, Window, library};
 use crate::session::read::numbers::number;
@@ -22,6 +23,7 @@ fn complete(session: &Session, kind: Words, given: &[&str]) -> Vec<String> {
         Words::Assignments => assignments(session, given),
         Words::Methods => methods(),
         Words::Scenes => library().iter().map(|scene| scene.name.clone()).collect(),
+        Words::Machines => machines().iter().map(|machine| machine.name.clone()).collect(),
         Words::Views => owned(&VIEWS.map(|row| row.name)),
         Words::Layers if first => owned(&LAYERS.map(|row| row.name)),
         Words::Layers if given.len() == 2 => owned(&["on", "off"]),

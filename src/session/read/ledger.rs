@@ -3,6 +3,7 @@
 //! Line `i` stands between the heights `-i` and `-i - 1` of the view's world, so that the view draws the
 //! same lines at every size and the cursor points at one of them.
 
+use crate::machine;
 use crate::oscillator::{Ledger, Parameters, State};
 use crate::scene::Layer;
 use crate::session::state::session::Session;
@@ -43,6 +44,10 @@ impl Session {
     #[must_use]
     pub fn ledger(&self) -> Vec<Entry> {
         let mut lines = Vec::new();
+        if self.draws_whole() {
+            self.ledger_of_machine(&mut lines);
+            return lines;
+        }
         if self.layers.contains(&Layer::CycleWorks)
             && let Some(found) = self.cycles()
         {
@@ -63,6 +68,22 @@ impl Session {
         lines
     }
 
+    /// The same by the whole model of a machine.
+    fn ledger_of_machine(&self, lines: &mut Vec<Entry>) {
+        if self.layers.contains(&Layer::CycleWorks)
+            && let (Some(found), Some(kinds)) = (self.cycles(), self.kinds())
+        {
+            for (cycle, ledger) in found.cycles.iter().zip(&kinds.works) {
+                add_works(lines, Owner::Cycle(*cycle), ledger);
+            }
+        }
+        if self.layers.contains(&Layer::MotionWorks)
+            && let Some(course) = self.course()
+        {
+            add_works(lines, Owner::Motion(0, self.number(0)), &course.ledger);
+        }
+    }
+
     /// The state that a line of the ledger leads to: a start on its cycle, or the start of the motion.
     #[must_use]
     pub fn start_of_line(&self, height: f64) -> Option<State> {
@@ -80,6 +101,20 @@ impl Session {
             _ => None,
         }
     }
+}
+
+/// Adds the lines of one owner by the whole model.
+fn add_works(lines: &mut Vec<Entry>, owner: Owner, ledger: &machine::Ledger) {
+    let machine::Ledger { start, end, belt, damper, guide } = *ledger;
+    let works = [("belt", belt), ("damper", -damper), ("guide", -guide)];
+    let stored = matches!(owner, Owner::Motion(..)).then_some(("stored", end - start));
+    let largest = works.iter().chain(&stored).map(|(_, work)| work.abs()).fold(0.0, f64::max);
+    let part = |work: f64| if largest > 0.0 { work / largest } else { 0.0 };
+    lines.push(Entry::Title(owner));
+    for (source, work) in works.into_iter().filter(|(_, work)| *work != 0.0).chain(stored) {
+        lines.push(Entry::Work { source, work, part: part(work), so_far: None });
+    }
+    lines.push(Entry::Residual(part(end - start - (belt - damper - guide))));
 }
 
 /// What works on a motion: its name, how strong it is, and what it did.

@@ -65,6 +65,8 @@ pub enum Words {
     Methods,
     /// A scene.
     Scenes,
+    /// A machine of the program.
+    Machines,
     /// A view.
     Views,
     /// A layer, then on or off.

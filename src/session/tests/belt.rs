@@ -3,7 +3,7 @@
 use super::Desk;
 use crate::oscillator::belt::Reduced;
 use crate::scene::{Layer, Rig};
-use crate::session::{Msg, Overlay, Row, save};
+use crate::session::{Effect, Msg, Overlay, Purpose, Row, save};
 
 /// The textbook machine at a speed of its belt, reduced without the session.
 fn at(speed: f64) -> Reduced {
@@ -167,4 +167,65 @@ fn the_path_over_the_speed_asks_nothing() {
     assert_eq!(desk.session.not_drawn(Layer::BeltPath), None);
     let plain = Desk::open("regimes").session;
     assert!(plain.not_drawn(Layer::BeltPath).is_some_and(|why| why.contains("no machine")));
+}
+
+/// Why the line that is typed is refused.
+fn refused(desk: &Desk) -> String {
+    let Some(Overlay::Prompt(prompt)) = &desk.session.overlay else { panic!("it is taken") };
+    prompt.refused.clone().unwrap_or_default()
+}
+
+#[test]
+fn a_machine_of_the_program_opens_by_its_name_which_can_be_completed() {
+    let mut desk = Desk::open("plain");
+    desk.press(":belt<space>cl<tab><enter>");
+    let running = desk.session.running().unwrap();
+    assert_eq!(running.machine.name, "clutch");
+    assert!(desk.session.draws_whole());
+    desk.press(":belt<space>tractor<enter>");
+    assert_eq!(
+        refused(&desk),
+        "belt: no machine \"tractor\"; there are textbook, clutch, slideway, straight, bstab, groan"
+    );
+    desk.press("<esc> u");
+    assert_eq!(desk.session.scene.name, "plain");
+}
+
+#[test]
+fn a_machine_opens_from_its_file_and_the_table_beside_it() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/belts/");
+    let text = |name: &str| std::fs::read_to_string(format!("{folder}{name}")).unwrap();
+    let mut desk = Desk::open("plain");
+    let read = |desk: &mut Desk, path: &str, text: Result<String, String>| {
+        desk.press(&format!(":machine<space>{path}<enter>"));
+        let asked = Effect::Read { path: path.into(), purpose: Purpose::Machine };
+        assert_eq!(desk.effects.last(), Some(&asked));
+        desk.give(Msg::Read { path: path.into(), purpose: Purpose::Machine, result: text });
+    };
+    read(&mut desk, "a/clutch.toml", Ok(text("clutch.toml")));
+    assert_eq!(desk.session.running().unwrap().machine.name, "clutch");
+    // The table is asked for, beside the file.
+    for (table, opens) in
+        [(Err("no such file".to_owned()), false), (Ok(text("slideway.csv")), true)]
+    {
+        read(&mut desk, "a/slideway.toml", Ok(text("slideway.toml")));
+        let Some(Effect::Read { path, purpose }) = desk.effects.last().cloned() else { panic!() };
+        assert_eq!(path.to_str(), Some("a/slideway.csv"));
+        desk.give(Msg::Read { path, purpose, result: table });
+        let name = &desk.session.running().unwrap().machine.name;
+        assert_eq!(name == "slideway", opens, "{name}");
+        assert_eq!(desk.notice().starts_with("a/slideway.toml:"), !opens, "{}", desk.notice());
+    }
+    // What is wrong stands in one line, and everything stays.
+    for (text, words) in [
+        (Err("b.toml: no such file".to_owned()), "b.toml: no such file"),
+        (Ok("m = 1".to_owned()), "b.toml:1:1: missing field `friction`"),
+        (Ok(text("clutch.toml").replace("v0", "v9")), "b.toml:"),
+        (Ok("modal_mass = 1".to_owned()), "b.toml: a vibration mode has no belt"),
+    ] {
+        read(&mut desk, "b.toml", text);
+        assert!(desk.notice().starts_with(words), "{}", desk.notice());
+        assert!(!desk.notice().contains('\n'));
+        assert_eq!(desk.session.running().unwrap().machine.name, "slideway");
+    }
 }

@@ -14,7 +14,7 @@ use crate::session::{Row, Session};
 
 /// Whether an answer of this kind changes with a number, whatever a plot looks at. The columns are the
 /// four parameters of the equation, the disturbance, the two of the start, the end time, the method, and its accuracy.
-const DEPENDS: [(Topic, &str); 10] = [
+const DEPENDS: [(Topic, &str); 11] = [
     //                   equation w start until method accuracy
     (Topic::Trajectory, "  xxxx  .     xx    x     x       x"),
     (Topic::Cycles, "      xxxx  .     ..    .     .       ."),
@@ -25,6 +25,7 @@ const DEPENDS: [(Topic, &str); 10] = [
     (Topic::ReturnMap, "   xxxx  .     ..    .     .       ."),
     (Topic::Regimes, "     xxxx  .     ..    .     .       ."),
     (Topic::Trade, "       xxxx  .     xx    x     .       ."),
+    (Topic::Speeds, "      xxxx  .     ..    .     .       ."),
     (Topic::Claims, "      ....  .     ..    .     .       ."),
 ];
 
@@ -43,7 +44,7 @@ fn depends(topic: Topic, row: Row) -> bool {
 
 /// Whether a plot looks along this number, or holds it for all of its variants: then it does not matter.
 fn is_free(session: &Session, topic: Topic, plot: usize, row: Row) -> bool {
-    let Row::Parameter(symbol) = row else { return true };
+    let Row::Parameter(symbol) = row else { return row != Row::Belt || topic != Topic::Speeds };
     let Axes { abscissa, against, .. } = session.plots[plot].axes;
     let along = match topic {
         Topic::Branch => symbol == abscissa,

@@ -1,0 +1,100 @@
+//! Where a stable state ends along a number of a machine, and what its motions become there.
+
+use serde::Serialize;
+
+use super::model::Model;
+use super::portrait::{Border, Fate, Portrait};
+
+/// The model along a number: `None` where there is none.
+pub type Family<'a> = &'a dyn Fn(f64) -> Option<Model>;
+
+/// What motions become whose state has ended.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case", tag = "kind")]
+pub enum Landing {
+    /// They come to rest.
+    Rest,
+    /// They go to another cycle.
+    Cycle {
+        /// Its largest displacement, in m.
+        x_max: f64,
+    },
+    /// They grow without bound.
+    Escaped,
+    /// They leave the friction law.
+    Unknown,
+}
+
+/// The end of a stable state.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Jump {
+    /// Largest displacement of the cycle that ends, in m; 0 for rest.
+    pub from: f64,
+    /// Where its motions go.
+    pub to: Landing,
+}
+
+impl Jump {
+    /// How far it goes.
+    fn size(&self) -> f64 {
+        let to = match self.to {
+            Landing::Rest => 0.0,
+            Landing::Cycle { x_max } => x_max,
+            Landing::Escaped | Landing::Unknown => f64::INFINITY,
+        };
+        (to - self.from).abs()
+    }
+}
+
+/// The jumps at a place, on the way up and on the way down.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Jumps {
+    /// While the number grows.
+    pub up: Option<Jump>,
+    /// While it falls.
+    pub down: Option<Jump>,
+}
+
+impl Jumps {
+    /// The jumps at `value`, found from the states so far `aside` of it. What shrinks with the distance, as
+    /// a cycle does that is born at rest, is no jump.
+    #[must_use]
+    pub fn at(family: Family, value: f64, aside: f64) -> Self {
+        /// How much farther one looks as well.
+        const FARTHER: f64 = 100.0;
+        let portrait = |value| Portrait::new(&family(value)?).ok();
+        let jumps = |aside: f64| {
+            let (below, above) = (portrait(value - aside)?, portrait(value + aside)?);
+            Some(Jumps { up: jump(&below, &above), down: jump(&above, &below) })
+        };
+        let (Some(far), Some(near)) = (jumps(FARTHER * aside), jumps(aside)) else {
+            return Jumps::default();
+        };
+        let stays = |far: Option<Jump>, near: Option<Jump>| {
+            far.zip(near).filter(|(far, near)| near.size() > 0.5 * far.size()).map(|(_, near)| near)
+        };
+        Jumps { up: stays(far.up, near.up), down: stays(far.down, near.down) }
+    }
+}
+
+/// The first stable state of one machine that its neighbour does not have.
+fn jump(from: &Portrait, to: &Portrait) -> Option<Jump> {
+    /// A state that has moved by less, as a part of the largest cycle, is the same.
+    const MOVED: f64 = 1e-3;
+    /// The kick that shows whether rest holds, as a part of the same.
+    const KICK: f64 = 1e-9;
+    let cycles = from.cycles.iter().chain(&to.cycles).map(|cycle| cycle.x.1);
+    let size = cycles.fold(0.0, f64::max);
+    let rests = !from.neutral && !matches!(from.border, Border::NoBasin);
+    let stable = from.cycles.iter().filter(|cycle| cycle.stable).map(|cycle| cycle.x.1);
+    rests.then_some(0.0).into_iter().chain(stable).find_map(|state| {
+        let to = match to.fate(state.max(KICK * size), 0.0) {
+            Ok(Fate::Rest) => Landing::Rest,
+            Ok(Fate::Cycle(index)) => Landing::Cycle { x_max: to.cycles[index].x.1 },
+            Ok(Fate::Neutral) => return None,
+            Ok(Fate::Escaped) => Landing::Escaped,
+            Ok(Fate::Unknown(_)) | Err(_) => Landing::Unknown,
+        };
+        Some(Jump { from: state, to }).filter(|jump| jump.size() > MOVED * size)
+    })
+}

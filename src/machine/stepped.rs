@@ -1,0 +1,201 @@
+//! A motion by an explicit Runge-Kutta method in place of Taylor series: a second opinion that shares with the
+//! first the model and what happens at its lines, but neither the steps nor the search for the lines.
+
+use super::arc::Stop;
+use super::model::{Model, Phase};
+use super::motion::{Outcome, State};
+use super::turn::Place;
+use crate::flow::explicit::{Dop853, Dopri5};
+use crate::flow::step::{Field, Point, Step, Stepper};
+use crate::numerics::root::bisect;
+
+/// The methods that can follow a machine beside Taylor series.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// Dormand and Prince's pair of order 8.
+    Dop853,
+    /// Dormand and Prince's pair of order 5.
+    Dopri5,
+}
+
+impl Way {
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Way::Dop853 => "dop853",
+            Way::Dopri5 => "dopri5",
+        }
+    }
+}
+
+/// The end of a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stepped {
+    /// Where it ends, or how far it was followed.
+    pub end: State,
+    /// How it ends.
+    pub outcome: Outcome,
+    /// Evaluations of the force.
+    pub evaluations: u64,
+}
+
+/// The field of one phase about its balance.
+#[derive(Clone, Copy)]
+struct Slope<'a> {
+    model: &'a Model,
+    phase: Phase,
+}
+
+impl Field for Slope<'_> {
+    fn acceleration(&self, x: f64, v: f64) -> f64 {
+        self.model.force(self.phase, v).0 - x
+    }
+
+    fn divergence(&self, v: f64) -> f64 {
+        self.model.force(self.phase, v).1
+    }
+
+    fn magnitude(&self, x: f64, v: f64) -> f64 {
+        x.abs() + self.model.force(self.phase, v).0.abs()
+    }
+}
+
+/// Longest step, in `1/omega_0`: a small part of a swing, in which the velocity turns once at most.
+const LONGEST: f64 = 0.125;
+
+/// Halvings that narrow an event to rounding.
+const HALVINGS: u32 = 60;
+
+/// Most steps of a motion.
+const STEPS: u64 = 2_000_000;
+
+/// Follows a motion from displacement `x` (m) and velocity `v` (m/s) for `until` seconds; each step has an
+/// estimated relative error below `tolerance`.
+///
+/// # Errors
+/// [`Stop`] where it leaves the law, runs away, or needs too many steps.
+pub fn stepped(
+    model: &Model,
+    way: Way,
+    tolerance: f64,
+    (x, v): (f64, f64),
+    until: f64,
+) -> Result<Stepped, Stop> {
+    let start = (x, model.scaled_velocity(v));
+    let field = Slope { model, phase: Phase::Between };
+    match way {
+        Way::Dop853 => follow(Dop853::dop853(field, tolerance), model, start, until),
+        Way::Dopri5 => follow(Dopri5::dopri5(field, tolerance), model, start, until),
+    }
+}
+
+fn follow<'a>(
+    mut stepper: impl Stepper<Slope<'a>>,
+    model: &'a Model,
+    (mut x, mut y): (f64, f64),
+    until: f64,
+) -> Result<Stepped, Stop> {
+    let whole = until * model.omega_0;
+    let (mut left, mut steps) = (whole, 0);
+    let mut place = model.place(x, y);
+    let outcome = loop {
+        let phase = match place {
+            Place::Rests => break Outcome::Rests,
+            Place::Slips(phase) => phase,
+            Place::Sticks => {
+                let release = model.lines.map_or(x, |lines| lines.release);
+                let ride = (release - x) / model.speed;
+                x = if ride <= left { release } else { x + left * model.speed };
+                left -= ride;
+                Phase::Between
+            }
+        };
+        if left <= 0.0 {
+            break Outcome::Moves;
+        }
+        let field = Slope { model, phase };
+        let offset = model.offset(phase);
+        let from = Point { x: x + offset, v: y };
+        let end = arc(&mut stepper, field, from, (&mut left, &mut steps))?;
+        (x, y) = (end.x - offset, end.v);
+        place = model.place(x, y);
+    };
+    let t = (whole - left.max(0.0)) / model.omega_0;
+    let end = State { t, x, v: y * model.omega_0 };
+    Ok(Stepped { end, outcome, evaluations: stepper.evaluations() })
+}
+
+/// Follows a motion to the end of its phase, or until no time is left.
+fn arc<'a>(
+    stepper: &mut impl Stepper<Slope<'a>>,
+    field: Slope<'a>,
+    mut from: Point,
+    (left, steps): (&mut f64, &mut u64),
+) -> Result<Point, Stop> {
+    let Slope { model, phase } = field;
+    let (least, most) = model.range(phase);
+    let pieces = &model.side(phase).pieces;
+    let known = |v: f64| {
+        pieces.first().is_some_and(|piece| piece.low <= v)
+            && pieces.last().is_some_and(|piece| v <= piece.high)
+    };
+    // What has just been released is not faster than the belt, whatever rounding says.
+    let mut leaves = phase == Phase::Between && from.v == most;
+    stepper.begin(&field);
+    while *left > 0.0 {
+        *steps += 1;
+        if *steps > STEPS {
+            return Err(Stop::Steps);
+        }
+        let step = stepper.pass(from, LONGEST.min(*left)).map_err(|_| Stop::Escaped)?;
+        let outer = if leaves { f64::INFINITY } else { most };
+        let hit = hit(stepper, field, (from, &step), (least, outer));
+        leaves = false;
+        if let Some((time, level)) = hit {
+            let last = stepper.pass(from, time).map_err(|_| Stop::Escaped)?;
+            *left -= last.duration;
+            if last.duration >= time {
+                return Ok(Point { x: last.end.x, v: level });
+            }
+            // The shorter step was refused: it ends before the line.
+            from = Point { x: last.end.x, v: last.end.v.clamp(least, most) };
+            continue;
+        }
+        *left -= step.duration;
+        from = Point { x: step.end.x, v: step.end.v.clamp(least, most) };
+        if !known(from.v) {
+            return Err(Stop::OutsideLaw { slip: (model.speed - from.v).abs() * model.omega_0 });
+        }
+    }
+    Ok(from)
+}
+
+/// When a step first reaches one of the two levels that bound its phase, and which.
+fn hit<'a>(
+    stepper: &mut impl Stepper<Slope<'a>>,
+    field: Slope<'a>,
+    (from, step): (Point, &Step),
+    (least, most): (f64, f64),
+) -> Option<(f64, f64)> {
+    let sign = field.phase.sign();
+    let (outer, inner) = if sign > 0.0 { (most, least) } else { (least, most) };
+    let grows = |at: Point| sign * field.acceleration(at.x, at.v) > 0.0;
+    let beyond = |at: Point, level: f64| sign * (at.v - level) >= 0.0;
+    let turns = grows(from) && !grows(step.end);
+    let falls = !beyond(step.end, inner) || step.end.v == inner;
+    if !turns && !falls && !beyond(step.end, outer) {
+        return None;
+    }
+    stepper.prepare_dense();
+    let end = step.duration;
+    let first = |from: f64, to: f64, holds: &dyn Fn(Point) -> bool| {
+        bisect(from, to, HALVINGS, |time| holds(stepper.at(time))).1
+    };
+    let peak = if turns { first(0.0, end, &|at| !grows(at)) } else { end };
+    if beyond(stepper.at(peak), outer) {
+        return Some((first(0.0, peak, &|at| beyond(at, outer)), outer));
+    }
+    let start = if turns { peak } else { 0.0 };
+    falls.then(|| (first(start, end, &|at| !beyond(at, inner)), inner))
+}

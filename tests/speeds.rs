@@ -1,0 +1,149 @@
+//! The view of the cycles over the speed of the belt: every kind of cycle in its own way, and the jumps where a
+//! stable state ends, up and down, as its motions make them.
+
+use hopfscope::flow::Limits;
+use hopfscope::machine::branch::branch;
+use hopfscope::machine::jumps::{Jump, Landing};
+use hopfscope::machine::special::{Kind, Special};
+use hopfscope::machine::varied::Varied;
+use hopfscope::oscillator::Belt;
+use hopfscope::oscillator::belt::FrictionLaw;
+use hopfscope::picture::items::Item;
+use hopfscope::question::answer;
+use hopfscope::scene::machine::library::machines;
+use hopfscope::scene::{Answered, Topic, View, find};
+use hopfscope::session::{Msg, Session, Size, update};
+
+fn machine(name: &str) -> Belt {
+    machines().iter().find(|machine| machine.name == name).unwrap().belt.clone()
+}
+
+fn specials(belt: &Belt, from: f64, to: f64, count: usize) -> Vec<Special> {
+    branch(belt, Varied::named("v0").unwrap(), (from, to), count).unwrap().special
+}
+
+#[test]
+fn rest_and_stick_slip_end_at_different_speeds() {
+    // Up: stick-slip ends, and all comes to rest; down: rest ends, and all comes to stick-slip.
+    for (from, to) in [(0.5, 2.0), (2.0, 0.5)] {
+        let mut found = specials(&machine("bstab"), from, to, 4);
+        found.sort_by(|one, other| one.value.total_cmp(&other.value));
+        let [hopf, end] = found[..] else { panic!("{found:?}") };
+        assert_eq!((hopf.kind, end.kind), (Kind::Hopf, Kind::Annihilation));
+        assert_eq!((hopf.jumps.up, end.jumps.down), (None, None), "{found:?}");
+        let Some(Jump { from: 0.0, to: Landing::Cycle { x_max } }) = hopf.jumps.down else {
+            panic!("{hopf:?}")
+        };
+        // Stick-slip of that speed.
+        assert!((x_max - 1.5).abs() < 0.3, "{x_max}");
+        let Some(Jump { from, to: Landing::Rest }) = end.jumps.up else { panic!("{end:?}") };
+        assert!((from / end.x_max.unwrap() - 1.0).abs() < 0.01, "{end:?}");
+    }
+}
+
+#[test]
+fn a_cycle_that_grows_into_the_line_does_not_jump_and_one_that_folds_does() {
+    let found = specials(&machine("textbook"), 0.05, 0.9, 6);
+    let [touch, fold] = found[..] else { panic!("{found:?}") };
+    assert_eq!((touch.kind, fold.kind), (Kind::Grazing, Kind::Fold));
+    assert_eq!((touch.jumps.up, touch.jumps.down, fold.jumps.down), (None, None, None));
+    assert!(matches!(fold.jumps.up, Some(Jump { to: Landing::Rest, .. })), "{fold:?}");
+}
+
+#[test]
+fn where_friction_at_rest_is_higher_stick_slip_and_slip_change_into_each_other() {
+    let belt = Belt { static_coefficient: Some(0.6), ..machine("textbook") };
+    let found = specials(&belt, 0.1, 0.5, 9);
+    let cycle = |jump: Option<Jump>| match jump {
+        Some(Jump { from, to: Landing::Cycle { x_max } }) => Some((from, x_max)),
+        _ => None,
+    };
+    // Down: the cycle that slips touches the line, and is carried on to the larger one that sticks.
+    let touch = found.iter().find(|special| special.kind == Kind::Grazing).unwrap();
+    let (from, to) = cycle(touch.jumps.down).unwrap();
+    assert!(from > 0.0 && to > 1.02 * from, "{touch:?}");
+    // Up: stick-slip ends on a faster belt than that, and falls back to slip where that is there, not to rest.
+    let end = found.iter().find(|special| special.kind == Kind::Annihilation).unwrap();
+    assert!(end.value > touch.value, "{found:?}");
+    let fold = found.iter().find(|special| special.kind == Kind::Fold).unwrap();
+    if end.value < fold.value {
+        let (from, to) = cycle(end.jumps.up).unwrap();
+        assert!(to > 0.0 && to < 0.98 * from, "{end:?}");
+    } else {
+        assert!(matches!(end.jumps.up, Some(Jump { to: Landing::Rest, .. })), "{end:?}");
+    }
+}
+
+#[test]
+fn a_cycle_that_is_born_at_rest_is_no_jump() {
+    // Viscous friction that grows: the damper of third degree holds a small cycle beyond a Hopf point.
+    let law = FrictionLaw::Polynomial { coefficients: vec![0.5, -0.2] };
+    let belt = Belt { law, friction: 0.0, damping: 0.0, ..machine("bstab") };
+    let belt = Belt { cubic_damping: 0.3, belt_speed: 1.0, normal_force: 1.0, ..belt };
+    let found = branch(&belt, Varied::named("d1").unwrap(), (0.1, 0.3), 4).unwrap().special;
+    let [hopf] = found[..] else { panic!("{found:?}") };
+    assert!(hopf.kind == Kind::Hopf && (hopf.value - 0.2).abs() < 1e-12, "{hopf:?}");
+    assert_eq!((hopf.jumps.up, hopf.jumps.down), (None, None));
+}
+
+/// A scene with all its questions answered.
+fn shown(scene: &str) -> Session {
+    let mut session = Session::new(find(scene).unwrap(), Size { width: 160, height: 50 });
+    for request in session.wants() {
+        if request.topic() != Topic::Branch && session.is_open(&request) {
+            let result = Ok(answer(&request, &Limits::PATIENT).unwrap());
+            let answered = Answered { request, result, seconds: 0.0, complete: true };
+            update(&mut session, Msg::Answered(Box::new(answered)));
+        }
+    }
+    session
+}
+
+#[test]
+fn the_view_draws_each_kind_its_own_way_and_marks_the_jumps() {
+    for (scene, jumps, kinds) in [
+        (
+            "slow-belt",
+            ["jump on a faster belt"].as_slice(),
+            ["stick-slip cycle", "unstable slip cycle"],
+        ),
+        (
+            "benchmark",
+            &["jump on a slower belt", "jump on a faster belt"],
+            ["stick-slip cycle", "unstable slip cycle"],
+        ),
+    ] {
+        let session = shown(scene);
+        let index = session.plots.iter().position(|plot| plot.view == View::Speeds).unwrap();
+        let picture = hopfscope::picture::of(&session, index);
+        let mut looks = Vec::new();
+        let mut jumping = Vec::new();
+        let mut letters = 0;
+        for item in &picture.items {
+            match item {
+                Item::Curve(line, points) if line.name.starts_with("jump") => {
+                    assert!(points.iter().all(|point| point.x == points[0].x));
+                    assert!(points.iter().any(|point| point.y == 0.0), "to or from rest");
+                    jumping.push(line.name.to_string());
+                }
+                Item::Curve(line, _) => looks.push((line.name.to_string(), Some(line.dash))),
+                Item::Bar(line, ..) => looks.push((line.name.to_string(), None)),
+                Item::Caption { .. } => letters += 1,
+                _ => {}
+            }
+        }
+        assert_eq!(jumping, jumps, "{scene}");
+        assert_eq!(letters, 2, "{scene}: both changes have their letter");
+        for kind in kinds {
+            assert!(looks.iter().any(|(name, _)| name == kind), "{scene}: {looks:?}");
+        }
+        // Told apart without colour: no two kinds of cycle share a line.
+        looks.retain(|(name, _)| name.ends_with("cycle"));
+        looks.sort_by(|one, other| one.0.cmp(&other.0));
+        looks.dedup();
+        let mut dashes: Vec<_> = looks.iter().map(|(_, dash)| format!("{dash:?}")).collect();
+        dashes.sort();
+        dashes.dedup();
+        assert_eq!(dashes.len(), looks.len(), "{looks:?}");
+    }
+}

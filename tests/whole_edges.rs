@@ -1,0 +1,166 @@
+//! Machines of which the reference has none: the guide catches what no cycle holds, rest without swings, laws
+//! that end beyond the cycles.
+
+use hopfscope::machine::{Body, Border, Fate, Flow, Modal, Model, Portrait, Subject};
+use hopfscope::numerics::elementary::exp;
+use hopfscope::oscillator::Belt;
+use hopfscope::oscillator::belt::FrictionLaw;
+use hopfscope::scene::machine::file::parse;
+
+fn portrait(belt: &Belt) -> Portrait {
+    Portrait::new(&Model::new(belt).unwrap()).unwrap()
+}
+
+/// A slow belt whose friction falls so steeply that rest is a node that repels.
+fn node(guide_static: f64) -> Belt {
+    let friction = 0.011_265_246_624_523_249;
+    Belt {
+        mass: 1.119_672_575_862_049_2,
+        stiffness: 17_998.281_964_583_042,
+        damping: 0.0,
+        cubic_damping: 936_488.339_107_141_4,
+        normal_force: 3.243_884_327_265_006,
+        friction,
+        belt_speed: 0.001_051_212_574_713_570_2,
+        law: FrictionLaw::Stribeck {
+            rest: 0.615_720_952_756_171_3,
+            kinetic: 0.246_562_109_014_203_78,
+            velocity: 0.000_496_389_768_690_595_6,
+            exponent: 1.0,
+            viscous: 0.0,
+        },
+        static_coefficient: Some(0.942_423_272_986_699_9),
+        static_guide: Some(guide_static * friction),
+    }
+}
+
+#[test]
+fn where_no_cycle_repels_the_basin_ends_where_the_guide_just_holds() {
+    for guide_static in [1.0, 2.0, 4.0] {
+        let belt = node(guide_static);
+        let found = portrait(&belt);
+        assert!(matches!(found.border, Border::Grazing(_)) && !found.border.touches());
+        assert!(found.cycles.iter().all(|cycle| cycle.sticks), "{:?}", found.cycles);
+        let held = guide_static * belt.friction / belt.stiffness;
+        let margin = found.margin.unwrap();
+        for size in [margin.displacement.0, margin.displacement.1] {
+            assert!((size / held - 1.0).abs() < 1e-11, "{guide_static}: {size} {held}");
+        }
+        // Followed in time, the border is where it is said to be.
+        for (sign, kick) in [(1.0, margin.velocity.0), (-1.0, margin.velocity.1)] {
+            assert_eq!(found.fate(0.0, sign * kick * (1.0 - 1e-9)), Ok(Fate::Rest));
+            assert_eq!(found.fate(0.0, sign * kick * (1.0 + 1e-9)), Ok(Fate::Cycle(0)));
+        }
+        assert_eq!(found.fate(held, 0.0), Ok(Fate::Rest));
+        assert_eq!(found.fate(held * (1.0 + 1e-9), 0.0), Ok(Fate::Cycle(0)));
+        // A window within the basin is all of it; one of half its width and height is not.
+        let (x, v) = (1e-3 * held, 1e-3 * margin.velocity.0.min(margin.velocity.1));
+        assert!((found.rest_share((-x, x), (-v, v)) - 1.0).abs() < 1e-12);
+        let x = 10.0 * held;
+        let share = found.rest_share((-x, x), (-x * found.model.omega_0, x * found.model.omega_0));
+        assert!(share > 0.0 && share < 0.5, "{share}");
+    }
+}
+
+/// A light mass without friction of the guide, whose law is a table that falls by half up to some slip.
+fn measured(damping: f64, velocity: f64, end: f64) -> Belt {
+    let point = |index: i32| {
+        let part = f64::from(index) / 40.0;
+        let slip = end * part * part;
+        format!("[{slip:?}, {:?}]", 0.3 + 0.3 * exp(-slip / velocity))
+    };
+    let points: Vec<_> = (0..=40).map(point).collect();
+    let text = format!(
+        "m = 0.25\nc = 100\nd1 = {damping}\nF = 6\nv0 = 0.02\nfriction.table.points = [{}]",
+        points.join(", ")
+    );
+    parse("measured", "measured.toml", &text, |_| Err(String::new())).unwrap().belt
+}
+
+#[test]
+fn an_overdamped_mass_rests_after_every_kick_that_the_law_covers() {
+    let end = 0.2;
+    let found = portrait(&measured(40.0, 0.05, end));
+    assert!(found.model.damping > 2.0 && found.cycles.is_empty());
+    assert!(matches!(found.border, Border::None) && found.stop.is_some());
+    let margin = found.margin.unwrap();
+    // A kick against the belt slips fastest at once.
+    assert!((margin.velocity.1 - (end - 0.02)).abs() < 1e-12, "{margin:?}");
+    for (x, v) in [
+        (margin.displacement.0, 0.0),
+        (-margin.displacement.1, 0.0),
+        (0.0, margin.velocity.0),
+        (0.0, -margin.velocity.1),
+    ] {
+        assert!(x != 0.0 || v != 0.0);
+        assert_eq!(found.fate(0.999 * x, 0.999 * v), Ok(Fate::Rest), "{x} {v}");
+    }
+}
+
+#[test]
+fn what_the_belt_releases_is_on_its_cycle_even_where_all_beyond_is_unknown() {
+    // The cycle slips by less than 0.1 m/s, and the law ends there.
+    let long = portrait(&measured(0.5, 0.02, 1.0));
+    let cycle = long.cycles.iter().find(|cycle| cycle.sticks).unwrap();
+    let end = 0.02 - 1.0001 * cycle.v.0;
+    let short = portrait(&measured(0.5, 0.02, end));
+    let last = short.cycles.len() - 1;
+    assert!(short.cycles[last].sticks && short.stop.is_some());
+    let release = short.model.lines.unwrap().release;
+    for part in [0.0, 0.3, 0.9] {
+        assert_eq!(short.fate(release - part * cycle.x.1, 0.02), Ok(Fate::Cycle(last)));
+    }
+    assert_eq!(short.fate(cycle.x.1, 0.0), Ok(Fate::Cycle(last)));
+}
+
+/// A tool whose cut feeds its mode at small velocities.
+fn tool(friction: f64) -> Portrait {
+    let damping_ratio = vec![-0.02, 0.002, 0.3];
+    let mode = Modal { frequency: 250.0, mass: 4.0, damping_ratio, friction, static_guide: None };
+    Subject::from(Body::Mode(mode)).portrait().unwrap()
+}
+
+#[test]
+fn however_much_friction_a_mode_has_it_has_an_answer() {
+    let kinds: Vec<_> =
+        [0.0, 1.0, 20.0, 1e2, 1e4, 1e8].map(|force| tool(force).border.kind()).into();
+    assert_eq!(kinds, ["no-basin", "cycle", "cycle", "none", "none", "none"]);
+}
+
+#[test]
+fn a_loosened_tolerance_changes_no_margin_by_more_than_it_allows() {
+    for speed in [0.1, 0.2, 0.3] {
+        let textbook = hopfscope::scene::machine::library::find("textbook").unwrap();
+        let belt = Belt { belt_speed: speed, ..textbook.belt.clone() };
+        let exact = portrait(&belt).margin.unwrap();
+        for tolerance in [1e-12, 1e-8, 1e-6, 1e-4] {
+            let subject = Subject { tolerance: Some(tolerance), ..(&belt).into() };
+            let margin = subject.portrait().unwrap().margin.unwrap();
+            for (one, other) in [
+                (margin.displacement.0, exact.displacement.0),
+                (margin.displacement.1, exact.displacement.1),
+                (margin.velocity.0, exact.velocity.0),
+                (margin.velocity.1, exact.velocity.1),
+            ] {
+                let error = (one / other - 1.0).abs();
+                assert!(error < 100.0 * tolerance, "{speed} {tolerance:e}: {error:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn in_one_turn_of_a_cycle_the_belt_gives_what_damper_and_guide_take() {
+    let mut looked = 0;
+    for machine in hopfscope::scene::machine::library::machines() {
+        let found = portrait(&machine.belt);
+        for cycle in &found.cycles {
+            let ledger = Flow::new(&found.model).works_around(cycle).unwrap();
+            let size = ledger.belt.abs() + ledger.damper.abs() + ledger.guide;
+            let left = ledger.belt - ledger.damper - ledger.guide;
+            assert!(size > 0.0 && left.abs() < 1e-11 * size, "{}: {ledger:?}", machine.name);
+            looked += 1;
+        }
+    }
+    assert!(looked >= 6, "{looked}");
+}
