@@ -34,7 +34,6 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     });
     let shows = |layer| session.layers.contains(&layer);
     let shown = session.shown(index);
-    let family = session.variants(index).is_some();
 
     if shows(Layer::Field)
         && let Some(first) = shown.first()
@@ -83,25 +82,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         picture.curve(Line::new("record", Role::Ghost, Dash::Dotted), points);
     }
     if shows(Layer::Trajectory) {
-        let mut found = found(session, Topic::Trajectory, index);
-        if !family {
-            // The present one over the others.
-            found.reverse();
-        }
-        for (variant, answer) in found {
-            if let Answer::Trajectory(found) = answer {
-                let (line, variant) = if family {
-                    (Line::new("motion", Role::Trajectory, Dash::Solid), variant)
-                } else {
-                    (motion(session, variant.index), Variant::default())
-                };
-                // Where the mass sticks to its belt the model ends, and the curve with it.
-                let last = session.contact_of(found).map_or(f64::INFINITY, |(tau, _)| tau);
-                let samples = found.samples.iter().take_while(|sample| sample.tau <= last);
-                let points = samples.map(|sample| Point { x: sample.q, y: sample.v });
-                picture.curve(line.of(&variant), points);
-            }
-        }
+        motions(&mut picture, session, index);
     }
     // The cycle lies over the half turns that it is made of, so that its dashes are seen.
     if shows(Layer::Spirals) {
@@ -200,6 +181,30 @@ fn found(session: &Session, topic: Topic, index: usize) -> Vec<(Variant, &Answer
 pub(super) fn variants(shown: &[Shown]) -> impl Iterator<Item = (Variant, &Shown)> {
     let all = shown.iter().enumerate();
     all.map(|(index, shown)| (Variant { index, label: shown.label.clone() }, shown))
+}
+
+/// The motions of a plot.
+fn motions(picture: &mut Picture, session: &Session, index: usize) {
+    let family = session.variants(index).is_some();
+    let mut found = found(session, Topic::Trajectory, index);
+    if !family {
+        // The present one over the others.
+        found.reverse();
+    }
+    for (variant, answer) in found {
+        if let Answer::Trajectory(found) = answer {
+            let (line, variant) = if family {
+                (Line::new("motion", Role::Trajectory, Dash::Solid), variant)
+            } else {
+                (motion(session, variant.index), Variant::default())
+            };
+            // Where the mass sticks to its belt the model ends, and the curve with it.
+            let last = session.contact_of(found).map_or(f64::INFINITY, |(tau, _)| tau);
+            let samples = found.samples.iter().take_while(|sample| sample.tau <= last);
+            let points = samples.map(|sample| Point { x: sample.q, y: sample.v });
+            picture.curve(line.of(&variant), points);
+        }
+    }
 }
 
 /// How the motion in this place among those on show is drawn, and what it is called.

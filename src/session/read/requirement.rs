@@ -103,7 +103,9 @@ impl Session {
 #[must_use]
 pub fn named(topics: &[Topic]) -> String {
     let mut counted: BTreeMap<Topic, usize> = BTreeMap::new();
-    topics.iter().for_each(|topic| *counted.entry(*topic).or_default() += 1);
+    for topic in topics {
+        *counted.entry(*topic).or_default() += 1;
+    }
     let named = counted.into_iter().map(|(topic, count)| match count {
         1 => topic.name().to_owned(),
         _ => format!("{} x{count}", topic.name()),

@@ -82,6 +82,10 @@ pub struct Size {
 }
 
 /// Everything that a session is.
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "what is on or off has nothing to do with each other"
+)]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Session {
     /// The scene that was opened last.
