@@ -5,6 +5,7 @@ use hopfscope::flow::Limits;
 use hopfscope::numerics::elementary::sin;
 use hopfscope::numerics::random::Random;
 use hopfscope::oscillator::{Interval, ParameterBox, Parameters, State};
+use hopfscope::study::basin::basin;
 use hopfscope::study::guarantee::{Sided, guarantee, zones};
 
 fn between(random: &mut Random, Interval { low, high }: Interval) -> f64 {
@@ -201,6 +202,28 @@ fn no_disturbance_of_very_many_leads_out_of_the_guaranteed_margin() {
     for (known, w) in cases() {
         assert_eq!(leaving(&known, w, 20_000, &mut random), 0, "{known:?}, w = {w}");
     }
+}
+
+/// A thousand systems of the boxes, none of which loses a kick that is guaranteed.
+#[test]
+fn no_parameters_of_a_box_have_a_smaller_margin() {
+    let mut random = Random::new(4);
+    let mut looked = 0;
+    for (known, _) in cases() {
+        let guaranteed = guarantee(&known, 0.0, &Limits::PATIENT).unwrap().guaranteed.margin;
+        let (q, v) = (guaranteed.displacement.unwrap(), guaranteed.impulse.unwrap());
+        let ParameterBox { d, d2, d3, r } = known;
+        for _ in 0..200 {
+            let [d, d2, d3, r] = [d, d2, d3, r].map(|interval| between(&mut random, interval));
+            let parameters = Parameters { d, d2, d3, r };
+            let own = basin(&parameters, 0.0, &Limits::PATIENT).unwrap().margin();
+            let within = own.displacement.is_none_or(|own| own >= q)
+                && own.impulse.is_none_or(|own| own >= v);
+            assert!(within, "{parameters:?}: {own:?} within {q}, {v}");
+            looked += 1;
+        }
+    }
+    assert_eq!(looked, 1000);
 }
 
 #[test]

@@ -34,6 +34,7 @@ impl Looks {
             theme: self.theme.or(config.theme).unwrap_or_default(),
             mouse: self.mouse || config.mouse,
             stretched: false,
+            dimensionless: false,
         }
     }
 }

@@ -28,7 +28,7 @@ impl Panel {
             title: title.to_string(),
             x: axis(x, scales[0], window.x),
             y: axis(y, scales[1], window.y),
-            names: [x.to_string(), y.to_string()],
+            names: [scales[0].title(x).to_owned(), scales[1].title(y).to_owned()],
             scales: *scales,
             curves: Vec::new(),
             areas: Vec::new(),

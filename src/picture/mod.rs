@@ -25,6 +25,7 @@ mod speeds;
 pub mod ticks;
 mod time_series;
 pub mod trade;
+pub(crate) mod units;
 
 use items::Picture;
 use ticks::Scale;
@@ -38,7 +39,7 @@ pub fn scales(session: &Session, index: usize) -> [Scale; 2] {
     match session.plots[index].view {
         View::Scan => session.scanned.as_ref().map_or_else(Default::default, scan::scales),
         View::Trade => [Scale::Logarithmic; 2],
-        _ => [Scale::Even; 2],
+        _ => units::scales(session, index).unwrap_or_default(),
     }
 }
 

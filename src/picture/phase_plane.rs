@@ -6,8 +6,9 @@
 
 use super::construction;
 use super::items::{Item, Line, Picture, Variant};
-use super::reading::reading;
+use super::reading::{CELLS, reading};
 use super::role::{Dash, Mark, Role};
+use super::units;
 use crate::closed_form::lyapunov;
 use crate::flow::{Outcome, Problem, Sample, Trajectory};
 use crate::machine;
@@ -30,7 +31,8 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     }
     picture.reading = cursor.map(|cursor| {
         let (q, v) = reading(cursor, window);
-        format!("q {q} v {v}")
+        units::reading(session, cursor.x, cursor.y, window, CELLS)
+            .unwrap_or_else(|| format!("q {q} v {v}"))
     });
     let shows = |layer| session.layers.contains(&layer);
     let shown = session.shown(index);

@@ -33,11 +33,18 @@ pub struct Ticks {
 }
 
 /// What the numbers along an axis stand for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Scale {
     /// Themselves.
     #[default]
     Even,
+    /// Themselves in another unit.
+    Times {
+        /// What 1 is in that unit.
+        factor: f64,
+        /// What the axis is called there.
+        name: &'static str,
+    },
     /// Decimal logarithms of a quantity, whose own values are labelled.
     Logarithmic,
     /// The same of a negative quantity's magnitude.
@@ -49,10 +56,16 @@ impl Scale {
     #[must_use]
     pub fn of_numbers(self, name: &str) -> String {
         match self {
-            Scale::Even => name.to_owned(),
+            Scale::Even | Scale::Times { .. } => name.to_owned(),
             Scale::Logarithmic => format!("log10 {name}"),
             Scale::NegativeLogarithmic => format!("log10 -{name}"),
         }
+    }
+
+    /// What the axis of a quantity is called where its ticks are labelled.
+    #[must_use]
+    pub fn title(self, name: &str) -> &str {
+        if let Scale::Times { name, .. } = self { name } else { name }
     }
 }
 
@@ -84,6 +97,11 @@ impl Ticks {
     pub fn on(scale: Scale, axis: Span, fit: impl Fn(&[Tick]) -> bool) -> Self {
         let sign = match scale {
             Scale::Even => return Ticks::fitting(axis, fit),
+            Scale::Times { factor, .. } => {
+                // Places on the axis are parts of it, whatever the unit.
+                let scaled = Span::new(factor * axis.from(), factor * axis.to());
+                return Ticks::fitting(scaled.unwrap_or(axis), fit);
+            }
             Scale::Logarithmic => "",
             Scale::NegativeLogarithmic => "-",
         };

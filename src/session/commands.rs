@@ -332,6 +332,8 @@ const COMMANDS: &[Row] = &[
         "Copy the characters on the screen", |_, _| vec![Effect::CopyScreen]),
     row("glyphs", &[(Everywhere, &["g"])], "",
         "Draw with other characters: braille, octants, blocks, ASCII", |s, _| general::glyphs(s)),
+    row("units", &[(Everywhere, &["<A-m>"])], "",
+        "Show axes of machines in mm, mm/s and s, or as q, v, tau", |s, _| general::units(s)),
     row("equal", &[(Everywhere, &["E"])], "",
         "Draw phase planes with equal units, or over all of their place", |s, _| general::equal(s)),
     row("mouse", &[(Everywhere, &["<f2>"])], "",

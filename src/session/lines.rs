@@ -96,6 +96,8 @@ const LINES: &[Row] = &[
         Words::Registers, files::read_macro),
     row("theme", "NAME", "Use these colours",
         Words::Themes, values::theme),
+    row("units", "on|off", "Show axes of machines in mm, mm/s and s, or as q, v, tau",
+        Words::Switch, values::units),
     row("equal", "on|off", "Draw a circle in a phase plane as one, or use all room",
         Words::Switch, values::equal),
     row("glyphs", "NAME", "Draw with these characters",
@@ -136,6 +138,6 @@ mod tests {
     fn a_name_may_mean_a_key_too_only_where_the_key_takes_the_next_of_the_same() {
         let is_key = |name: &&str| commands().any(|command| command.name == *name);
         let both: Vec<_> = lines().map(|line| line.name).filter(is_key).collect();
-        assert_eq!(both, ["theme", "equal", "glyphs"]);
+        assert_eq!(both, ["theme", "units", "equal", "glyphs"]);
     }
 }

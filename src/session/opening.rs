@@ -49,11 +49,13 @@ fn looks(look: Look) -> Vec<Step> {
     }
     let mouse = look.mouse.then(|| Step::Run("mouse".to_owned()));
     let equal = look.stretched.then(|| Step::Run("equal off".to_owned()));
+    let units = look.dimensionless.then(|| Step::Run("units off".to_owned()));
     let lines = [
         line("glyphs", &GLYPHS, look.glyphs),
         line("color", &COLORS, look.colors),
         line("theme", &THEMES, look.theme),
         equal,
+        units,
         mouse,
     ];
     lines.into_iter().flatten().collect()

@@ -22,7 +22,8 @@ const APART: usize = 4;
 pub fn paint(area: Rect, picture: Picture, mut heading: Heading, look: &Look, buffer: &mut Buffer) {
     let Picture { title, x, y, scales, window, reading, items, .. } = picture;
     heading.reading = reading;
-    let names = Names { title: &title, x: &x, y: &y, scales, marks: None };
+    let (x, y) = (scales[0].title(&x), scales[1].title(&y));
+    let names = Names { title: &title, x, y, scales, marks: None };
     let mut plot = Plot::new(area, window, names, &heading, look, buffer);
     // Texts find their places when all else is there; names of curves last, since they have many places
     // to go to.

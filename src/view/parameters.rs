@@ -132,6 +132,9 @@ fn row_line(
         Span::styled(value, value_style),
     ];
     let step = step.unwrap_or_default();
+    // Two numbers after a sign of either would not be told apart.
+    let half = matches!(row, Row::Parameter(symbol) if session.doubt.half_width(symbol) > 0.0);
+    let step = if half && !selected { String::new() } else { step };
     let physical = physical(session, row).map(|(name, value)| format!("{name} {value}"));
     // Of a fitted number its error says more than what the step is.
     let physical = physical.or_else(|| error(session, row, look));
@@ -364,7 +367,12 @@ fn on_the_machine(session: &Session, found: &Cycles, width: usize) -> Vec<String
     let alarms = found.cycles.iter().filter(fast).map(|cycle| {
         format!("! {} > belt", if cycle.stable { "stable cycle" } else { "unstable cycle" })
     });
-    kick.into_iter().chain(alarms).collect()
+    let units = &running.reduced.units;
+    let d = significant(session.value(Symbol::D), 3);
+    let hertz = with_unit(units.omega_0 / std::f64::consts::TAU, 3, "Hz");
+    let natural = format!("f0 {hertz}, damping ratio {d}");
+    let natural = Some(natural).filter(|text| text.len() < width).unwrap_or(format!("f0 {hertz}"));
+    std::iter::once(natural).chain(kick).chain(alarms).collect()
 }
 
 /// What the cycles of N harmonics are worth: the errors of amplitude and frequency of each.

@@ -90,6 +90,18 @@ pub fn equal(session: &mut Session) -> Vec<Effect> {
     Vec::new()
 }
 
+/// Shows axes of machines in their units, or without units.
+pub fn units(session: &mut Session) -> Vec<Effect> {
+    session.look.dimensionless = !session.look.dimensionless;
+    let text = if session.look.dimensionless {
+        "axes without units: q, v and tau"
+    } else {
+        "axes of machines in their units"
+    };
+    inform(session, text);
+    Vec::new()
+}
+
 /// Closes what is open.
 pub fn back(session: &mut Session) -> Vec<Effect> {
     session.overlay = None;

@@ -215,6 +215,16 @@ pub fn glyphs(session: &mut Session, name: &str) -> Done {
     Ok(Vec::new())
 }
 
+/// Shows axes of machines in their units, or not.
+pub fn units(session: &mut Session, state: &str) -> Done {
+    session.look.dimensionless = match state {
+        "on" => false,
+        "off" => true,
+        _ => return Err(format!("units can be on or off, not {state:?}")),
+    };
+    Ok(Vec::new())
+}
+
 /// Draws phase planes with equal units, or not.
 pub fn equal(session: &mut Session, state: &str) -> Done {
     session.look.stretched = match state {

@@ -85,6 +85,8 @@ pub struct Look {
     pub mouse: bool,
     /// Whether phase planes fill their place, a unit across not as long as a unit up.
     pub stretched: bool,
+    /// Whether axes of machines are without units.
+    pub dimensionless: bool,
 }
 
 /// The value and name that follow `current` in a table such as [`GLYPHS`], around the end.

@@ -158,6 +158,7 @@ proptest! {
             theme: THEMES[theme].0,
             mouse,
             stretched: mouse,
+            dimensionless: mouse,
         };
         let (mut live, mut recorder) = started(scene, look);
         // The tour expects what a screen shows.
