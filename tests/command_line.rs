@@ -450,3 +450,38 @@ fn an_answer_in_a_file_says_where_it_comes_from_and_replaces_nothing() {
     assert!(other.err.contains(&path), "{}", other.err);
     assert_eq!(std::fs::read_to_string(&path).unwrap(), plain);
 }
+
+#[test]
+fn a_certified_border_encloses_its_folds_and_escape_points() {
+    let folds = json("border --over D3=0.5:1:2 --set D2=0.2 --certify");
+    let fold = &folds["certified"][0]["fold"];
+    // The fold of `the_fold_is_where_it_was_computed_elsewhere`.
+    let known = -0.172_784_103_071_94;
+    let [lower, upper] = ["lower", "upper"].map(|end| number(&fold[end]));
+    assert!(lower - 1e-14 <= known && known <= upper + 1e-14 && upper - lower < 1e-13, "{fold}");
+    let escapes = json("border --over r=0.2:1:2 --set D2=0.5 --certify");
+    for (point, known) in
+        escapes["certified"].as_array().unwrap().iter().zip([-0.079_769, -0.396_442])
+    {
+        let [lower, upper] = ["lower", "upper"].map(|end| number(&point["escape"][end]));
+        assert!((lower - known).abs() < 1e-6 && (0.0..1e-10).contains(&(upper - lower)), "{point}");
+    }
+    for document in [folds, escapes] {
+        for (point, plain) in document["certified"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .zip(document["points"].as_array().unwrap())
+        {
+            assert!(
+                point["proved"] == true && point["open"].as_array().unwrap().is_empty(),
+                "{point}"
+            );
+            for (bounds, found) in
+                [(&point["escape"], &plain["escape"]), (&point["fold"], &plain["fold"])]
+            {
+                assert_eq!(bounds.is_null(), found.is_null(), "{point} {plain}");
+            }
+        }
+    }
+}
