@@ -467,7 +467,7 @@ fn a_played_motion_moves_with_the_time_it_is_told_and_then_stands_still() {
     let (again, _) = screen(figure(), "<f8> <elapse 600> <f8> <elapse 1>");
     assert!((again.head().unwrap().tau - 0.25 * std::f64::consts::TAU).abs() < 1e-12);
     // In real time a second is omega_0 = 50.
-    let (real, _) = screen(figure(), "<C-t*4> <f8> <elapse 0.01>");
+    let (real, _) = screen(figure(), "<C-t*3> <f8> <elapse 0.01>");
     assert!((real.head().unwrap().tau - 0.5).abs() < 1e-12);
 }
 
