@@ -268,3 +268,41 @@ fn keys_that_need_an_answer_end_on_the_same_screen_in_one_write_and_one_by_one()
         assert_eq!(end(&[keys.concat()]), end(&one_by_one), "{keys:?} in {scene}");
     }
 }
+
+#[test]
+fn a_session_that_is_left_is_the_last_one_unless_nothing_was_done() {
+    let memory = tempfile::tempdir().unwrap();
+    leave(explorer(&["linear"], memory.path()));
+    assert!(!memory.path().join("hopfscope/last.toml").exists(), "nothing was done");
+    let mut terminal = explorer(&["linear"], memory.path());
+    terminal.types(":set D=-0.345\r");
+    terminal.wait_for("-0.345");
+    leave(terminal);
+    let mut terminal = explorer(&["--last"], memory.path());
+    terminal.wait_for("-0.345");
+    terminal.types("u");
+    terminal.wait_for("undo: D = -0.4");
+    leave(terminal);
+}
+
+#[test]
+fn interrupted_sessions_are_offered_newest_first_and_forgotten_all_at_once() {
+    let memory = tempfile::tempdir().unwrap();
+    let folder = memory.path().join("hopfscope");
+    for damping in ["-0.345", "-0.456"] {
+        let mut terminal = explorer(&["linear"], memory.path());
+        terminal.types(&format!(":set D={damping}\r"));
+        terminal.wait_for(damping);
+        terminal.signal(Signal::TERM);
+        assert_eq!(terminal.end(), 143);
+    }
+    assert_eq!(kept(memory.path()).len(), 2);
+    let mut terminal = explorer(&[], memory.path());
+    terminal.wait_for("<f3> resumes the newest, <f4> forgets all");
+    terminal.types("\x1bOS");
+    terminal.wait_for("2 interrupted sessions are not offered again");
+    assert_eq!(kept(memory.path()), [] as [PathBuf; 0]);
+    leave(terminal);
+    let last = fs::read_to_string(folder.join("last.toml")).unwrap();
+    assert!(last.contains("-0.456"), "the newest is the last one");
+}
