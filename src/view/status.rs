@@ -162,6 +162,8 @@ fn outcome(session: &Session) -> (String, Role) {
         return (format!("no motion: {failure}"), Role::Failure);
     }
     match session.trajectory() {
+        // Nobody asks for it where no plot shows it.
+        None if !asked => ("the motion is not shown".into(), Role::Quiet),
         None => ("computing the motion".into(), Role::Quiet),
         Some(found) if session.course().is_some() => (machine::outcome(session, found), Role::Text),
         Some(found) => alarm(session).unwrap_or_else(|| {

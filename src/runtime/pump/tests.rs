@@ -255,6 +255,25 @@ fn a_caption_waits_for_a_key_that_does_nothing_else() {
 }
 
 #[test]
+fn a_tour_goes_back_to_the_caption_before() {
+    let Bench { pump, events, written } = bench();
+    let file = replay::parse("<right> <say \"one\"> <right> <say \"two\"> <right>").unwrap();
+    let mut pump = pump.playing(Some(file));
+    let running = std::thread::spawn(move || (pump.run().unwrap(), pump));
+    let seen_and_pressed =
+        [("one", "<space>"), ("two", "<backspace>"), ("one", "<space>"), ("two", "<space>")];
+    for (caption, pressed) in seen_and_pressed {
+        while !written.recv().unwrap().contains(caption) {}
+        events.send(key(pressed)).unwrap();
+    }
+    while !written.recv().unwrap().contains("done") {}
+    events.send(key("q")).unwrap();
+    let (_, pump) = running.join().unwrap();
+    // Once to the first caption and on to the second, back to the first, on again and to the end.
+    assert_eq!(pump.machine().count, 2 + 3);
+}
+
+#[test]
 fn a_tour_is_left_at_any_caption_by_escape() {
     let Bench { pump, events, written } = bench();
     let file = replay::parse("<right> <say \"look\"> <right>").unwrap();
