@@ -146,7 +146,8 @@ fn a_key_writes_the_plot_in_use_as_a_figure_and_replaces_none() {
 /// The rows of a screen that are not blank, without the line of costs, which are those of the machine.
 fn screen(text: &str) -> Vec<String> {
     let rows = text.trim_end().lines().map(|row| row.trim_end().to_owned());
-    rows.filter(|row| !row.is_empty() && !row.contains(" ms")).collect()
+    let costs = |row: &String| row.contains(" ms") || row.contains("recomputed ");
+    rows.filter(|row| !row.is_empty() && !costs(row)).collect()
 }
 
 /// Waits until everything is computed and shown.
