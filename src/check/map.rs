@@ -19,13 +19,10 @@ pub struct Map {
 /// What is known of a motion one turn later.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum After {
-    /// It rests.
     Rest,
     /// It has this clearance.
     At(Interval),
-    /// It never turns.
     Never,
-    /// Nothing is known.
     Unknown,
 }
 
@@ -42,14 +39,12 @@ pub struct Turn {
 
 impl Map {
     /// The map for `D`, `D2`, `D3`, `r`.
-    #[must_use]
     pub fn new([d, d2, d3, r]: [Interval; 4]) -> Self {
         let fields = [-d2, d2].map(|b| Field([d.twice(), b, d3]));
         Map { fields, gap: r.twice() }
     }
 
     /// G at a clearance, or its inverse.
-    #[must_use]
     pub fn after(&self, inverse: bool, z: f64) -> After {
         let mut at = Interval::point(z);
         for half in order(inverse) {
@@ -78,7 +73,6 @@ impl Map {
     ///
     /// The derivative of a half swing is `z/X exp(-(a T + 2 b (X + z) + 3 c W))` by Liouville's theorem: T is its time
     /// and W the area below it.
-    #[must_use]
     pub fn turn(&self, inverse: bool, over: Interval) -> Option<Turn> {
         let mut at = over;
         let mut turn = Turn { slope: Interval::point(1.0), time: Interval::point(0.0), left: over };
@@ -137,7 +131,6 @@ impl Map {
     }
 
     /// Upper bound of all images of G; infinite where none is found.
-    #[must_use]
     pub fn greatest_image(&self) -> f64 {
         (Interval::point(self.greatest(1)) - self.gap).upper()
     }

@@ -59,7 +59,6 @@ pub struct Parameters {
     pub r: Bounds,
 }
 
-/// One statement.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "step", rename_all = "kebab-case", deny_unknown_fields)]
 #[expect(missing_docs, reason = "the table above says what the fields are")]
@@ -98,9 +97,7 @@ pub struct Numbers {
     pub clearance: Bounds,
     /// Clearance of its left turning point.
     pub left: Bounds,
-    /// Period.
     pub period: Bounds,
-    /// Floquet multiplier.
     pub multiplier: Bounds,
 }
 
@@ -128,7 +125,6 @@ enum Side {
 
 impl Certificate {
     /// A certificate with its digest.
-    #[must_use]
     pub fn new(parameters: Parameters, cycles: usize, steps: Vec<Step>) -> Self {
         let mut made = Certificate { parameters, cycles, steps, digest: String::new() };
         made.digest = made.fingerprint();
@@ -136,7 +132,6 @@ impl Certificate {
     }
 
     /// FNV-1a, 64 bits, of the contents in their shortest form.
-    #[must_use]
     pub fn fingerprint(&self) -> String {
         let text = format!("{:?} {} {:?}", self.parameters, self.cycles, self.steps);
         let mix = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
@@ -329,7 +324,6 @@ fn cycle(map: &Map, (from, to): (f64, f64), stable: bool, numbers: &Numbers) -> 
 
 impl Theorem {
     /// Whether its conditions hold for all of these parameters.
-    #[must_use]
     pub fn applies(self, [d, d2, d3, r]: [Interval; 4]) -> bool {
         let zero = |it: Interval| it == Interval::point(0.0);
         match self {

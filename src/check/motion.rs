@@ -26,7 +26,6 @@ pub struct Field(pub [Interval; 3]);
 /// A half swing, of all starts and coefficients.
 #[derive(Clone, Copy, Debug)]
 pub struct Swing {
-    /// Where it ends.
     pub end: Interval,
     /// How long it takes.
     pub time: Interval,
@@ -37,15 +36,11 @@ pub struct Swing {
 /// What is certain of a half swing.
 #[derive(Clone, Copy, Debug)]
 pub enum Passage {
-    /// It ends.
     Ends(Swing),
-    /// It never ends.
     Never,
-    /// Nothing.
     Unknown,
 }
 
-/// Number of coefficients.
 const ORDER: usize = 22;
 
 /// Size of a remainder relative to the state.
@@ -66,7 +61,6 @@ fn point(value: f64) -> Interval {
 
 impl Field {
     /// The field of motions run against time, in the frame `y = -x`.
-    #[must_use]
     pub fn reversed(&self) -> Field {
         Field(self.0.map(|it| -it))
     }
@@ -229,7 +223,6 @@ fn arrival(series: &Series, longest: f64) -> Option<f64> {
 }
 
 /// The half swing from rest at `-z`, for all z of an interval.
-#[must_use]
 pub fn swing(field: &Field, z: Interval) -> Passage {
     let start = -z;
     if start.upper() < 0.0 {
@@ -240,7 +233,6 @@ pub fn swing(field: &Field, z: Interval) -> Passage {
 }
 
 /// The half swing of all motions within `radius` of a point, which are at rest if the point is.
-#[must_use]
 pub fn run(field: &Field, centre: [f64; 2], radius: f64) -> Passage {
     let mut disc = Disc { centre, radius, time: point(0.0), area: point(0.0) };
     for _ in 0..STEPS {

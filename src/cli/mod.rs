@@ -123,7 +123,6 @@ impl Command {
 }
 
 /// Parses the command line of this process, runs one command and says how it ended.
-#[must_use]
 pub fn main() -> ExitCode {
     let result = match Cli::try_parse() {
         Ok(Cli { command: Some(command), .. }) => command.run(),

@@ -16,7 +16,6 @@ const CORNER: f64 = 0.3;
 
 impl Panel {
     /// The largest distance between a curve and its chords within the window, in pixels; an estimate.
-    #[must_use]
     pub fn chord(&self) -> f64 {
         self.lines().map(|line| missed(line, self.window)).fold(0.0, f64::max)
     }
@@ -31,7 +30,6 @@ impl Panel {
 impl Figure {
     /// Leaves out all but one of `times` points where no one looks, so that what was computed for one
     /// window does not fill a file.
-    #[must_use]
     pub fn thinned(mut self, times: usize) -> Self {
         if times > 1 {
             for panel in &mut self.panels {

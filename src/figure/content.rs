@@ -44,13 +44,10 @@ pub struct Figure {
 pub struct Panel {
     /// What it is called.
     pub title: String,
-    /// The horizontal axis.
     pub x: Axis,
-    /// The vertical axis.
     pub y: Axis,
     /// Lines, from back to front.
     pub curves: Vec<Curve>,
-    /// Shaded areas.
     pub areas: Vec<Area>,
     /// Points with a meaning.
     pub marks: Vec<Mark>,
@@ -63,7 +60,6 @@ pub struct Panel {
     /// The part of the world on show.
     #[serde(skip)]
     pub window: Window,
-    /// Texts beside points.
     #[serde(skip)]
     pub captions: Vec<Caption>,
     /// Lines to be read against.
@@ -77,11 +73,9 @@ pub struct Panel {
 /// A text beside a point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Caption {
-    /// The point.
     pub at: Point,
     /// Points beside which it says the same.
     pub or_at: Vec<Point>,
-    /// What it says.
     pub text: String,
     /// What it says where the text would cover a curve.
     pub short: String,
@@ -100,7 +94,6 @@ pub struct Axis {
     pub to: f64,
 }
 
-/// A line.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Curve {
     /// What it is, and which values it has of its own.
@@ -121,10 +114,8 @@ pub struct Curve {
     pub pen: Role,
 }
 
-/// A shaded area.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Area {
-    /// What it is.
     pub name: String,
     /// What it stands for.
     pub role: &'static str,
@@ -143,7 +134,6 @@ pub struct Area {
 /// A point with a meaning.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Mark {
-    /// What it says.
     pub name: items::Text,
     /// Along the horizontal axis.
     pub x: f64,

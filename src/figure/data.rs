@@ -7,14 +7,12 @@ use crate::report::csv::Sheet;
 use crate::report::json::text;
 
 /// One document; what is not a number is `null`.
-#[must_use]
 pub fn json(figure: &Figure) -> String {
     text(figure)
 }
 
 /// What it was computed with in lines that begin with `#`, then one row for each point of each curve,
 /// area and mark.
-#[must_use]
 pub fn csv(figure: &Figure) -> String {
     let mut out = String::new();
     for remark in remarks(figure) {

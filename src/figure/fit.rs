@@ -8,7 +8,6 @@ use crate::picture::fit::pictures;
 
 impl Figure {
     /// What a fitted record shows.
-    #[must_use]
     pub fn of_fit(fitted: &Fitted) -> Self {
         let estimate = &fitted.estimate;
         let p = &estimate.p;

@@ -52,7 +52,6 @@ pub(super) fn columns(panels: u32) -> u32 {
     if panels == 4 { 2 } else { panels.clamp(1, 3) }
 }
 
-/// Rows of panels.
 pub(super) fn rows(panels: u32) -> u32 {
     panels.div_ceil(columns(panels))
 }

@@ -37,7 +37,6 @@ use crate::words::provenance::Provenance;
 /// The form in which a figure is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// A vector picture.
     Svg,
     /// The same picture as dots, 288 to the inch.
     Png,
@@ -97,13 +96,11 @@ fn panel(session: &Session, plot: usize) -> Panel {
 
 impl Figure {
     /// The same, which says what wrote it.
-    #[must_use]
     pub fn from(self, provenance: Provenance) -> Self {
         Figure { provenance: Some(provenance), ..self }
     }
 
     /// What these plots of a session show.
-    #[must_use]
     pub fn of(session: &Session, plots: impl IntoIterator<Item = usize>) -> Self {
         let Problem { parameters, initial, until, method, tolerance, .. } = session.problem;
         Figure {

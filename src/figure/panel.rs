@@ -16,7 +16,6 @@ type Held = BTreeMap<&'static str, f64>;
 
 impl Panel {
     /// What a picture shows, with every function sampled and everything once.
-    #[must_use]
     pub fn of(picture: &Picture) -> Self {
         let Picture { title, x, y, scales, window, .. } = picture;
         let axis = |name: &str, scale: Scale, span: Span| Axis {

@@ -15,7 +15,6 @@ use crate::picture::ticks::Ticks;
 use crate::scene::Point;
 
 /// The figure as an SVG document.
-#[must_use]
 pub fn svg(figure: &Figure) -> String {
     let panels = u32::try_from(figure.panels.len()).unwrap_or(u32::MAX).max(1);
     let (width, height) = layout::panel();

@@ -14,7 +14,6 @@ pub use libm::{
 };
 
 /// `base` to a whole power, by repeated squaring.
-#[must_use]
 pub fn powi(base: f64, power: i32) -> f64 {
     let (mut left, mut square, mut product) = (power.unsigned_abs(), base, 1.0);
     while left > 0 {

@@ -18,7 +18,6 @@ impl Hermite {
     }
 
     /// The value; exact at both ends.
-    #[must_use]
     pub fn at(&self, t: f64) -> f64 {
         let s = 1.0 - t;
         let ends =
@@ -27,14 +26,12 @@ impl Hermite {
     }
 
     /// The derivative.
-    #[must_use]
     pub fn slope(&self, t: f64) -> f64 {
         let [a, b, c] = self.coefficients();
         a + t * (2.0 * b + t * 3.0 * c)
     }
 
     /// Where its slope vanishes between 0 and 1, in order.
-    #[must_use]
     pub fn extrema(&self) -> [Option<f64>; 2] {
         let [a, b, c] = self.coefficients();
         let root = (b * b - 3.0 * a * c).sqrt();

@@ -39,19 +39,16 @@ impl Interval {
     pub const ALL: Interval = Interval { lower: f64::NEG_INFINITY, upper: f64::INFINITY };
 
     /// The numbers from `lower` to `upper`; every number if they are out of order or one is not a number.
-    #[must_use]
     pub const fn new(lower: f64, upper: f64) -> Self {
         if lower <= upper { Interval { lower, upper } } else { Interval::ALL }
     }
 
     /// One double.
-    #[must_use]
     pub const fn point(value: f64) -> Self {
         Interval::new(value, value)
     }
 
     /// The numbers within `radius` of `middle`.
-    #[must_use]
     pub fn around(middle: f64, radius: f64) -> Self {
         Interval::outward(middle - radius, middle + radius)
     }
@@ -64,26 +61,22 @@ impl Interval {
     }
 
     /// Lower bound.
-    #[must_use]
     pub const fn lower(self) -> f64 {
         self.lower
     }
 
     /// Upper bound.
-    #[must_use]
     pub const fn upper(self) -> f64 {
         self.upper
     }
 
     /// A double within, near the middle; 0 if both bounds are infinite.
-    #[must_use]
     pub fn middle(self) -> f64 {
         let middle = 0.5 * self.lower + 0.5 * self.upper;
         if middle.is_nan() { 0.0 } else { middle.clamp(self.lower, self.upper) }
     }
 
     /// A number that no member is further away from [`Interval::middle`] than.
-    #[must_use]
     pub fn radius(self) -> f64 {
         let middle = self.middle();
         if self.lower == self.upper {
@@ -93,56 +86,47 @@ impl Interval {
     }
 
     /// Width, rounded up.
-    #[must_use]
     pub fn width(self) -> f64 {
         if self.lower == self.upper { 0.0 } else { (self.upper - self.lower).next_up() }
     }
 
     /// Whether a number is a member.
-    #[must_use]
     pub fn contains(self, value: f64) -> bool {
         self.lower <= value && value <= self.upper
     }
 
     /// Whether every member of `self` is one of `other`.
-    #[must_use]
     pub fn is_within(self, other: Self) -> bool {
         other.lower <= self.lower && self.upper <= other.upper
     }
 
     /// Whether both bounds are finite.
-    #[must_use]
     pub fn is_finite(self) -> bool {
         self.lower.is_finite() && self.upper.is_finite()
     }
 
     /// Whether it is a single double.
-    #[must_use]
     pub fn is_point(self) -> bool {
         self.lower == self.upper
     }
 
     /// The members of both; `None` if there are none.
-    #[must_use]
     pub fn intersection(self, other: Self) -> Option<Self> {
         let (lower, upper) = (self.lower.max(other.lower), self.upper.min(other.upper));
         (lower <= upper).then_some(Interval { lower, upper })
     }
 
     /// The smallest interval that holds both.
-    #[must_use]
     pub fn hull(self, other: Self) -> Self {
         Interval { lower: self.lower.min(other.lower), upper: self.upper.max(other.upper) }
     }
 
     /// The largest magnitude of a member.
-    #[must_use]
     pub fn magnitude(self) -> f64 {
         self.lower.abs().max(self.upper.abs())
     }
 
     /// All squares of members.
-    #[must_use]
     pub fn square(self) -> Self {
         let (one, other) = (self.lower * self.lower, self.upper * self.upper);
         let smallest = if self.contains(0.0) { 0.0 } else { one.min(other).next_down() };
@@ -150,37 +134,31 @@ impl Interval {
     }
 
     /// All square roots of members, which must not be negative.
-    #[must_use]
     pub fn sqrt(self) -> Self {
         Interval::outward(self.lower.sqrt(), self.upper.sqrt())
     }
 
     /// Twice: exact, unless it overflows.
-    #[must_use]
     pub fn twice(self) -> Self {
         Interval::new(2.0 * self.lower, 2.0 * self.upper)
     }
 
     /// `exp` of all members.
-    #[must_use]
     pub fn exp(self) -> Self {
         Interval::new(exp(self.lower).lower, exp(self.upper).upper)
     }
 
     /// `exp(x) - 1` of all members.
-    #[must_use]
     pub fn exp_m1(self) -> Self {
         Interval::new(exp_m1(self.lower).lower, exp_m1(self.upper).upper)
     }
 
     /// `atan` of all members.
-    #[must_use]
     pub fn atan(self) -> Self {
         Interval::new(atan(self.lower).lower, atan(self.upper).upper)
     }
 
     /// A polynomial with these coefficients, by Horner's rule, lowest power first.
-    #[must_use]
     pub fn polynomial(self, coefficients: &[Interval]) -> Self {
         coefficients.iter().rev().fold(Interval::point(0.0), |sum, &next| sum * self + next)
     }

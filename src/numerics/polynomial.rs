@@ -1,7 +1,6 @@
 //! Polynomials and power series, lowest power first.
 
 /// `1, 1/2, 1/3, ..` behind a zero: the reciprocals of `0 .. N`, with 0 for that of 0.
-#[must_use]
 pub const fn reciprocals<const N: usize>() -> [f64; N] {
     let mut table = [0.0; N];
     let mut k = 1;
@@ -16,7 +15,6 @@ pub const fn reciprocals<const N: usize>() -> [f64; N] {
 }
 
 /// The coefficients of the derivative, with a zero at the end.
-#[must_use]
 pub fn derivative<const N: usize>(coefficients: &[f64; N]) -> [f64; N] {
     #[expect(clippy::cast_precision_loss, reason = "series are short")]
     std::array::from_fn(|k| match coefficients.get(k + 1) {
@@ -26,14 +24,12 @@ pub fn derivative<const N: usize>(coefficients: &[f64; N]) -> [f64; N] {
 }
 
 /// The value, by Horner's rule.
-#[must_use]
 #[inline]
 pub fn value(coefficients: &[f64], t: f64) -> f64 {
     coefficients.iter().rev().fold(0.0, |sum, coefficient| sum * t + coefficient)
 }
 
 /// The value and the derivative, by Horner's rule.
-#[must_use]
 #[inline]
 pub fn value_and_slope(coefficients: &[f64], t: f64) -> (f64, f64) {
     coefficients.iter().rev().fold((0.0, 0.0), |(value, slope), coefficient| {
@@ -56,20 +52,17 @@ pub struct Derivatives {
 
 impl Derivatives {
     /// The cubic Taylor polynomial with these derivatives, `step` away from its centre.
-    #[must_use]
     pub fn cubic(&self, step: f64) -> f64 {
         self.value + step * (self.first + step * (self.second / 2.0 + step * self.third / 6.0))
     }
 
     /// Whether all four are finite.
-    #[must_use]
     pub fn is_finite(&self) -> bool {
         [self.value, self.first, self.second, self.third].iter().all(|number| number.is_finite())
     }
 }
 
 /// The value by Horner's rule, and three derivatives by the same rule differentiated.
-#[must_use]
 pub fn derivatives(coefficients: &[f64], t: f64) -> Derivatives {
     let mut sum = Derivatives::default();
     for coefficient in coefficients.iter().rev() {
@@ -83,7 +76,6 @@ pub fn derivatives(coefficients: &[f64], t: f64) -> Derivatives {
 
 /// The value by Horner's rule in even and odd powers: two chains of half the length, which do not wait for
 /// each other.
-#[must_use]
 #[inline]
 pub fn value_in_two(coefficients: &[f64], t: f64) -> f64 {
     let square = t * t;
@@ -100,7 +92,6 @@ pub fn value_in_two(coefficients: &[f64], t: f64) -> f64 {
 }
 
 /// The value and the derivative by Horner's rule in even and odd powers.
-#[must_use]
 #[inline]
 pub fn value_and_slope_in_two(coefficients: &[f64], t: f64) -> (f64, f64) {
     let square = t * t;

@@ -15,7 +15,6 @@ pub const GAUSS: [(f64, f64); 10] = [
 ];
 
 /// The integral over `[0, 1]` by Gauss's rule.
-#[must_use]
 pub fn gauss(function: impl Fn(f64) -> f64) -> f64 {
     GAUSS.iter().map(|&(node, weight)| weight * function(node)).sum()
 }
@@ -36,7 +35,6 @@ pub struct Integral {
 /// rules, a large overestimate where the function is smooth.
 ///
 /// Hard-wired: an interval is halved 30 times at most, when a kink is within 1e-9 of the range.
-#[must_use]
 pub fn integrate(function: &impl Fn(f64) -> f64, range: (f64, f64), tolerance: f64) -> Integral {
     const DEPTH: u32 = 30;
     let mut total = Integral { value: 0.0, error: 0.0 };

@@ -12,7 +12,6 @@ pub struct Random {
 
 impl Random {
     /// The stream of this seed.
-    #[must_use]
     pub fn new(seed: u64) -> Self {
         Random { state: seed }
     }

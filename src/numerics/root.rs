@@ -23,25 +23,21 @@ pub struct Bracket {
 
 impl Bracket {
     /// A bracket of a function that is positive at `high` and not at `low`.
-    #[must_use]
     pub fn rising(low: f64, high: f64) -> Self {
         Bracket { low, high, rising: true }
     }
 
     /// A bracket of a function that is positive at `low` and not at `high`.
-    #[must_use]
     pub fn falling(low: f64, high: f64) -> Self {
         Bracket { low, high, rising: false }
     }
 
     /// The middle.
-    #[must_use]
     pub fn middle(&self) -> f64 {
         0.5 * (self.low + self.high)
     }
 
     /// `place` if it lies between the ends, otherwise the middle.
-    #[must_use]
     pub fn inside(&self, place: f64) -> f64 {
         if place > self.low && place < self.high { place } else { self.middle() }
     }

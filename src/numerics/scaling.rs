@@ -1,7 +1,6 @@
 //! Powers of two as units: multiplying by one is exact, so nothing is lost on the way.
 
 /// The exponent `k` with `2^k <= abs(value) < 2^(k + 1)`; 0 for zero.
-#[must_use]
 pub fn exponent(value: f64) -> i32 {
     const FRACTION_BITS: i32 = 52;
     const BIAS: i32 = 1023;
@@ -22,7 +21,6 @@ fn power(k: i32) -> f64 {
 }
 
 /// `value * 2^k`, rounded once at most, for every `k`.
-#[must_use]
 pub fn times_power(value: f64, k: i32) -> f64 {
     if (-1022..=1023).contains(&k) {
         value * power(k)
@@ -41,7 +39,6 @@ pub fn times_power(value: f64, k: i32) -> f64 {
 
 /// `log2(value)` to about two digits, from the bits alone: step sizes need no more, and this way they
 /// do not depend on any mathematical library.
-#[must_use]
 pub fn rough_log2(value: f64) -> f64 {
     let k = exponent(value);
     let fraction = times_power(value, -k) - 1.0;
@@ -50,7 +47,6 @@ pub fn rough_log2(value: f64) -> f64 {
 }
 
 /// `2^power` to about three digits, from the bits alone.
-#[must_use]
 pub fn rough_exp2(power: f64) -> f64 {
     let whole = power.floor().clamp(-1100.0, 1100.0);
     let fraction = power - whole;

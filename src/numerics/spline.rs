@@ -122,19 +122,16 @@ impl SmoothingSpline {
     }
 
     /// First and last abscissa.
-    #[must_use]
     pub fn range(&self) -> (f64, f64) {
         (self.x[0], self.x[self.x.len() - 1])
     }
 
     /// How many points it has.
-    #[must_use]
     pub fn points(&self) -> usize {
         self.x.len()
     }
 
     /// By how much it misses the points, in the quadratic mean.
-    #[must_use]
     pub fn missed(&self) -> f64 {
         self.missed
     }
@@ -150,7 +147,6 @@ impl SmoothingSpline {
     }
 
     /// The curve and its derivatives at `x`; beyond the ends its last pieces go on.
-    #[must_use]
     pub fn at(&self, x: f64) -> Derivatives {
         let after = self.x.partition_point(|&knot| knot <= x);
         let piece = after.clamp(1, self.x.len() - 1) - 1;

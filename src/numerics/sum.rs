@@ -9,19 +9,16 @@ pub struct Sum {
 
 impl Sum {
     /// The sum, rounded.
-    #[must_use]
     pub fn value(self) -> f64 {
         self.plus(0.0)
     }
 
     /// The sum with one more term, rounded.
-    #[must_use]
     pub fn plus(self, term: f64) -> f64 {
         self.sum + (self.lost + term)
     }
 
     /// `end` less the sum.
-    #[must_use]
     pub fn until(self, end: f64) -> f64 {
         (end - self.sum) - self.lost
     }

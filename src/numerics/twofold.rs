@@ -25,13 +25,11 @@ pub const UNIT: f64 = 1e-31;
 
 impl Twofold {
     /// A double.
-    #[must_use]
     pub fn of(value: f64) -> Self {
         Twofold { high: value, low: 0.0 }
     }
 
     /// `a + b` without error.
-    #[must_use]
     pub fn sum(a: f64, b: f64) -> Self {
         let high = a + b;
         let b_part = high - a;
@@ -39,14 +37,12 @@ impl Twofold {
     }
 
     /// `a * b` without error, as long as nothing over- or underflows.
-    #[must_use]
     pub fn product(a: f64, b: f64) -> Self {
         let high = a * b;
         Twofold { high, low: a.mul_add(b, -high) }
     }
 
     /// `abs(1 - d^2)`, right to all digits however near `abs(d)` is to 1.
-    #[must_use]
     pub fn from_one_minus_square(d: f64) -> Self {
         let square = Self::product(d, d);
         let difference = Self::sum(1.0, -square.high);
@@ -55,7 +51,6 @@ impl Twofold {
     }
 
     /// The sum of two of them, right to its last digits also where they cancel.
-    #[must_use]
     pub fn plus(self, other: Self) -> Self {
         let (high, low) = (Self::sum(self.high, other.high), Self::sum(self.low, other.low));
         let middle = Self::sum(high.high, high.low + low.high);
@@ -63,33 +58,28 @@ impl Twofold {
     }
 
     /// The difference of two of them.
-    #[must_use]
     pub fn minus(self, other: Self) -> Self {
         self.plus(other.opposite())
     }
 
     /// `-self`.
-    #[must_use]
     pub fn opposite(self) -> Self {
         Twofold { high: -self.high, low: -self.low }
     }
 
     /// `1 - self`.
-    #[must_use]
     pub fn one_minus(self) -> Self {
         let difference = Self::sum(1.0, -self.high);
         Self::sum(difference.high, difference.low - self.low)
     }
 
     /// The product with a double.
-    #[must_use]
     pub fn times(self, factor: f64) -> Self {
         let product = Self::product(self.high, factor);
         Self::sum(product.high, self.low.mul_add(factor, product.low))
     }
 
     /// The product of two of them.
-    #[must_use]
     pub fn by(self, other: Self) -> Self {
         let product = Self::product(self.high, other.high);
         let cross = self.high.mul_add(other.low, self.low * other.high);
@@ -97,7 +87,6 @@ impl Twofold {
     }
 
     /// The quotient; the divisor is not zero.
-    #[must_use]
     pub fn over(self, divisor: Self) -> Self {
         let first = self.high / divisor.high;
         let back = divisor.times(first);
@@ -106,7 +95,6 @@ impl Twofold {
     }
 
     /// The square root of a number that is not negative.
-    #[must_use]
     pub fn sqrt(self) -> Self {
         let root = self.high.sqrt();
         if root == 0.0 {
@@ -117,28 +105,24 @@ impl Twofold {
     }
 
     /// The exponential as a double, right to its last digits even where the exponent is large.
-    #[must_use]
     pub fn exp(self) -> f64 {
         let value = exp(self.high);
         if value.is_finite() { value.mul_add(self.low, value) } else { value }
     }
 
     /// `exp(self) - 1` as a double.
-    #[must_use]
     pub fn exp_m1(self) -> f64 {
         let value = exp_m1(self.high);
         if value.is_finite() { (value + 1.0).mul_add(self.low, value) } else { value }
     }
 
     /// `(sin, cos)` as doubles.
-    #[must_use]
     pub fn sin_cos(self) -> (f64, f64) {
         let (sin, cos) = sin_cos(self.high);
         (cos.mul_add(self.low, sin), sin.mul_add(-self.low, cos))
     }
 
     /// Rounded to a double.
-    #[must_use]
     pub fn value(self) -> f64 {
         self.high + self.low
     }

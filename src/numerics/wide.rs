@@ -19,7 +19,6 @@ pub struct Wide {
 
 impl Wide {
     /// A positive double; subnormal ones are no exception.
-    #[must_use]
     pub fn of(value: f64) -> Self {
         let exponent = exponent(value);
         Wide { mantissa: times_power(value, -exponent), exponent }
@@ -31,39 +30,33 @@ impl Wide {
     }
 
     /// The product.
-    #[must_use]
     pub fn times(self, other: Self) -> Self {
         Self::normal(self.mantissa * other.mantissa, self.exponent + other.exponent)
     }
 
     /// The quotient.
-    #[must_use]
     pub fn over(self, other: Self) -> Self {
         Self::normal(self.mantissa / other.mantissa, self.exponent - other.exponent)
     }
 
     /// The square root.
-    #[must_use]
     pub fn sqrt(self) -> Self {
         let odd = self.exponent.rem_euclid(2);
         Self::normal(times_power(self.mantissa, odd).sqrt(), self.exponent.div_euclid(2))
     }
 
     /// The cube root.
-    #[must_use]
     pub fn cbrt(self) -> Self {
         let rest = self.exponent.rem_euclid(3);
         Self::normal(cbrt(times_power(self.mantissa, rest)), self.exponent.div_euclid(3))
     }
 
     /// The nearest double; 0 or infinite beyond its range.
-    #[must_use]
     pub fn rounded(self) -> f64 {
         times_power(self.mantissa, self.exponent)
     }
 
     /// The nearest double, if that is neither 0 nor infinite.
-    #[must_use]
     pub fn value(self) -> Option<f64> {
         let value = self.rounded();
         (value > 0.0 && value.is_finite()).then_some(value)

@@ -50,7 +50,6 @@ const GAP: f64 = 1.0 / 8.0;
 const ARROW: f64 = 0.16;
 
 /// What the plot with this index shows.
-#[must_use]
 pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     let session::Plot { window, cursor, .. } = session.plots[index];
     let mut picture = Picture::new(View::Belt.spec().title, "q", "", window);

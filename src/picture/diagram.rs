@@ -20,7 +20,6 @@ use crate::study::{Branch, BranchPoint, Special, SpecialKind};
 use crate::words::number::significant;
 
 /// What the plot with this index shows.
-#[must_use]
 pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     let diagram = &session.plots[index];
     let Axes { abscissa, ordinate, .. } = diagram.axes;

@@ -10,7 +10,6 @@ use crate::scene::{Layer, Point, View};
 use crate::session::{self, Session};
 
 /// What the plot with this index shows.
-#[must_use]
 pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     let session::Plot { window, cursor, .. } = session.plots[index];
     let title = View::Eigenvalues.spec().title;

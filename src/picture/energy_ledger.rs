@@ -10,7 +10,6 @@ use crate::session::ledger::{Entry, Owner};
 use crate::words::number::significant;
 
 /// The same for a file: each work a bar with its name and number.
-#[must_use]
 pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     let lines = session.ledger();
     let spec = View::EnergyLedger.spec();
@@ -38,13 +37,11 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
 
 /// The height in the middle of a line.
 #[expect(clippy::cast_precision_loss, reason = "a few dozen lines")]
-#[must_use]
 pub fn middle(line: usize) -> f64 {
     -(line as f64) - 0.5
 }
 
 /// A line in numbers.
-#[must_use]
 pub fn reading(entry: &Entry) -> String {
     match entry {
         Entry::Title(Owner::Motion(_, None)) => "motion".to_owned(),

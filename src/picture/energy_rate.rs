@@ -11,7 +11,6 @@ use crate::session::{self, Session};
 use crate::words::number::resolved;
 
 /// What the plot with this index shows.
-#[must_use]
 pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     let session::Plot { window, cursor, .. } = session.plots[index];
     let mut picture = Picture::new(View::EnergyRate.spec().title, "v", "V'", window);

@@ -42,25 +42,21 @@ impl Line {
     }
 
     /// The same line of one of several variants.
-    #[must_use]
     pub fn of(self, variant: &Variant) -> Self {
         Line { variant: Some(variant.clone()), ..self }
     }
 
     /// The same line with other words in the legend of the screen.
-    #[must_use]
     pub fn briefly(self, words: &'static str) -> Self {
         Line { brief: Some(words), ..self }
     }
 
     /// The same line with its name beside it: the legend of the screen leaves it out.
-    #[must_use]
     pub fn captioned(self) -> Self {
         self.briefly("")
     }
 
     /// Its name, and the variant that it belongs to.
-    #[must_use]
     pub fn full_name(&self) -> Text {
         match self.variant.as_ref().map(|variant| variant.label.as_str()) {
             None | Some("") => self.name.clone(),
@@ -69,7 +65,6 @@ impl Line {
     }
 
     /// An axis or another line that is there to be read against.
-    #[must_use]
     pub fn guide() -> Self {
         Line::new("", Role::Axis, Dash::Sparse)
     }
@@ -78,13 +73,10 @@ impl Line {
 /// How a part of the world is filled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pattern {
-    /// Shaded.
     Shade,
     /// With arrows that lead away.
     Arrows,
-    /// With stable points.
     Stable,
-    /// With unstable points.
     Unstable,
 }
 
@@ -111,11 +103,9 @@ pub type Flow<'a> = Box<dyn Fn(Point) -> Point + 'a>;
 /// Marks of one meaning.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Marks {
-    /// How they look.
     pub mark: Mark,
     /// What they stand for, as far as their colour goes.
     pub role: Role,
-    /// Where they stand.
     pub at: Vec<Point>,
     /// What files call each of them.
     pub name: Text,
@@ -127,7 +117,6 @@ pub struct Marks {
 
 impl Marks {
     /// Marks with the usual name, which no legend explains.
-    #[must_use]
     pub fn new(mark: Mark, role: Role, at: Vec<Point>) -> Self {
         Marks { mark, role, at, name: mark.name().into(), brief: "", sparse: false }
     }
@@ -159,16 +148,13 @@ pub enum Item<'a> {
     Marks(Marks),
     /// A text beside a point, and a shorter one for where there is little room.
     Caption {
-        /// The point.
         at: Point,
         /// Points beside which it says the same, for where there is no room beside the first; the best
         /// first.
         or_at: Vec<Point>,
-        /// The text.
         long: Text,
         /// The text for small plots.
         short: Text,
-        /// What it is.
         role: Role,
     },
     /// The cross of the cursor.
@@ -212,7 +198,6 @@ impl fmt::Debug for Picture<'_> {
 
 impl Item<'_> {
     /// The line of a curve, an area or a bar that has a name and is seen in this window.
-    #[must_use]
     pub fn seen(&self, window: Window) -> Option<&Line> {
         let (line, seen) = match self {
             Item::Curve(line, points) | Item::Path(line, points) => (line, passes(points, window)),
@@ -233,7 +218,6 @@ impl Item<'_> {
 }
 
 /// Whether a polyline is seen in a window: one of its points, or the middle of one of its chords.
-#[must_use]
 pub fn passes(points: &[Point], window: Window) -> bool {
     let middle = |pair: &[Point]| Point {
         x: f64::midpoint(pair[0].x, pair[1].x),
@@ -253,7 +237,6 @@ fn is_met(value: &Function, window: Window) -> bool {
 }
 
 impl<'a> Picture<'a> {
-    /// An empty picture.
     pub fn new(
         title: impl Into<Text>,
         x: impl Into<Text>,
@@ -274,12 +257,10 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// Adds a polyline.
     pub fn curve(&mut self, line: Line, points: impl IntoIterator<Item = Point>) {
         self.items.push(Item::Curve(line, points.into_iter().collect()));
     }
 
-    /// Adds a graph.
     pub fn graph(&mut self, line: Line, value: impl Fn(f64) -> Option<f64> + 'a) {
         self.items.push(Item::Graph(line, Box::new(value)));
     }
@@ -289,7 +270,6 @@ impl<'a> Picture<'a> {
         self.graph(line, move |_| Some(y));
     }
 
-    /// Adds an upright.
     pub fn upright(&mut self, line: Line, x: f64) {
         self.items.push(Item::Upright(line, x));
     }
@@ -299,12 +279,10 @@ impl<'a> Picture<'a> {
         self.items.push(Item::Bar(line, from, to));
     }
 
-    /// Adds a mark.
     pub fn mark(&mut self, mark: Mark, at: Point, role: Role) {
         self.items.push(Item::Marks(Marks::new(mark, role, vec![at])));
     }
 
-    /// Adds a text.
     pub fn caption(&mut self, at: Point, text: impl Into<Text>, role: Role) {
         let long = text.into();
         let or_at = Vec::new();

@@ -6,15 +6,10 @@ use super::role::{Dash, Role};
 /// What a sample in the legend shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Sample {
-    /// A line.
     Line(Dash),
-    /// A thick line.
     Bar,
-    /// A shaded area.
     Shade,
-    /// An arrow.
     Arrow,
-    /// A point.
     Point,
 }
 
@@ -25,12 +20,10 @@ pub struct Entry {
     pub sample: Sample,
     /// What it stands for, as far as its colour goes.
     pub role: Role,
-    /// What it is.
     pub text: String,
 }
 
 /// What these pictures have to explain, in the order in which they are painted.
-#[must_use]
 pub fn entries(pictures: &[Picture]) -> Vec<Entry> {
     let mut entries: Vec<Entry> = Vec::new();
     for picture in pictures {

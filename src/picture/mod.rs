@@ -34,7 +34,6 @@ use crate::scene::View;
 use crate::session::Session;
 
 /// What the numbers along the axes of the plot with this index stand for.
-#[must_use]
 pub fn scales(session: &Session, index: usize) -> [Scale; 2] {
     match session.plots[index].view {
         View::Scan => session.scanned.as_ref().map_or_else(Default::default, scan::scales),
@@ -43,8 +42,11 @@ pub fn scales(session: &Session, index: usize) -> [Scale; 2] {
     }
 }
 
+/// Views that know the paper's oscillator alone.
+const EXPANDED: [View; 5] =
+    [View::Diagram, View::ReturnMap, View::Regimes, View::EnergyRate, View::Trade];
+
 /// What the plot with this index shows.
-#[must_use]
 pub fn of(session: &Session, index: usize) -> Picture<'_> {
     let mut picture = match session.plots[index].view {
         View::Phase => phase_plane::picture(session, index),
@@ -60,9 +62,6 @@ pub fn of(session: &Session, index: usize) -> Picture<'_> {
         View::Speeds => speeds::picture(session, index),
         View::Belt => belt::picture(session, index),
     };
-    // These know the paper's oscillator alone.
-    const EXPANDED: [View; 5] =
-        [View::Diagram, View::ReturnMap, View::Regimes, View::EnergyRate, View::Trade];
     if session.draws_whole() && EXPANDED.contains(&session.plots[index].view) {
         picture.title = format!("{}, cubic expansion", picture.title).into();
     }

@@ -21,7 +21,6 @@ use crate::session::{self, Session, Shown};
 use crate::study::{Cycles, Edge};
 
 /// What the plot with this index shows.
-#[must_use]
 pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     let session::Plot { window, cursor, .. } = session.plots[index];
     let mut picture = Picture::new(View::Phase.spec().title, "q", "v", window);
@@ -323,7 +322,6 @@ fn ghost(picture: &mut Picture, session: &Session) {
 }
 
 /// How stable and unstable cycles are drawn, here and in the diagram.
-#[must_use]
 pub fn stability(stable: bool) -> (Role, Dash) {
     if stable { (Role::Stable, Dash::Solid) } else { (Role::Unstable, Dash::Dashed) }
 }

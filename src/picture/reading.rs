@@ -4,7 +4,6 @@ use crate::scene::{Point, Window};
 use crate::words::number::resolved;
 
 /// The coordinates of a point, to the digits that can be told apart in a window.
-#[must_use]
 pub fn reading(point: Point, window: Window) -> (String, String) {
     (resolved(point.x, window.x.width() / CELLS), resolved(point.y, window.y.width() / CELLS))
 }

@@ -15,7 +15,6 @@ use crate::study::chart::{Border, Chart};
 use crate::study::regime::{REGIMES, Regime};
 
 /// What the plot with this index shows.
-#[must_use]
 pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     let session::Plot { window, cursor, axes, .. } = session.plots[index];
     let Axes { abscissa, against, .. } = axes;

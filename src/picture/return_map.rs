@@ -13,7 +13,6 @@ use crate::session::motion::turning_points;
 use crate::session::{self, Session};
 
 /// What the plot with this index shows.
-#[must_use]
 pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     let session::Plot { window, cursor, .. } = session.plots[index];
     let mut picture = Picture::new(View::ReturnMap.spec().title, "q", "next q", window);

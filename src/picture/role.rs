@@ -3,15 +3,12 @@
 /// What a piece of the screen is, as far as its style goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// Ordinary text.
     Text,
     /// Text of second rank: labels, units, explanations.
     Quiet,
-    /// Headings.
     Title,
     /// Heading of the pane that the keys go to.
     Focus,
-    /// The selected row.
     Selected,
     /// A value that the last key changed.
     Changed,
@@ -19,11 +16,9 @@ pub enum Role {
     Key,
     /// What needs attention: stale, busy, a limit reached.
     Warning,
-    /// What went wrong.
     Failure,
     /// Axes, ticks and their labels.
     Axis,
-    /// Direction field.
     Field,
     /// Shading of the basin of attraction.
     Basin,
@@ -39,21 +34,15 @@ pub enum Role {
     Trajectory,
     /// Motions beside the one on show.
     Beside,
-    /// Velocity over time.
     Velocity,
-    /// Energy over time.
     Energy,
-    /// The return map.
     Map,
-    /// Stable cycles.
     Stable,
     /// Unstable cycles, and the separatrix.
     Unstable,
     /// What a map shades, the stronger the more dangerous.
     Danger,
-    /// First-order harmonic curve.
     Harmonic,
-    /// Asymptotes.
     Asymptote,
     /// Special points and their names.
     Special,
@@ -98,7 +87,6 @@ pub const ROLES: [(Role, &str, char); 29] = [
 
 impl Role {
     /// The name in theme files and figures.
-    #[must_use]
     pub fn name(self) -> &'static str {
         ROLES[self as usize].1
     }
@@ -107,13 +95,9 @@ impl Role {
 /// How a stroke is interrupted; told apart without colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dash {
-    /// Not at all.
     Solid,
-    /// Long dashes.
     Dashed,
-    /// Dot by dot.
     Dotted,
-    /// Few dots.
     Sparse,
 }
 
@@ -126,17 +110,13 @@ pub enum Mark {
     Rest,
     /// A motion is here at its end time.
     Head,
-    /// A turning point.
     Turn,
-    /// A stable point.
     Stable,
-    /// An unstable point.
     Unstable,
 }
 
 impl Mark {
     /// The name in files.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Mark::Start => "start",

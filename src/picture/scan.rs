@@ -9,13 +9,11 @@ use crate::session::scan::Scanned;
 use crate::study::scan::{Spacing, Sweep};
 
 /// The name of what is plotted.
-#[must_use]
 pub fn measured(scanned: &Scanned) -> &'static str {
     scanned.scan.measured().get(scanned.column).copied().unwrap_or_default()
 }
 
 /// The names of both axes.
-#[must_use]
 pub fn names(scanned: &Scanned) -> (&'static str, &'static str) {
     let over = scanned.scan.over();
     let name = |sweep: &Sweep| sweep.symbol.spec().name;
@@ -23,7 +21,6 @@ pub fn names(scanned: &Scanned) -> (&'static str, &'static str) {
 }
 
 /// What the numbers along both axes stand for.
-#[must_use]
 pub fn scales(scanned: &Scanned) -> [Scale; 2] {
     let over = scanned.scan.over();
     [0, 1].map(|axis| match over.get(axis) {
@@ -36,7 +33,6 @@ pub fn scales(scanned: &Scanned) -> [Scale; 2] {
 }
 
 /// The curve over one parameter as data; a map of shades is for the screen, and its rows for files.
-#[must_use]
 pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     let title = View::Scan.spec().title;
     let window = session.plots[index].window;

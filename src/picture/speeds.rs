@@ -34,7 +34,6 @@ const KINDS: [Row; 5] = [
 ];
 
 /// What the plot with this index shows.
-#[must_use]
 pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     let session::Plot { window, cursor, .. } = session.plots[index];
     let title = View::Speeds.spec().title;

@@ -35,7 +35,6 @@ pub struct Ticks {
 /// What the numbers along an axis stand for.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Scale {
-    /// Themselves.
     #[default]
     Even,
     /// Themselves in another unit.
@@ -53,7 +52,6 @@ pub enum Scale {
 
 impl Scale {
     /// What the numbers along the axis of a quantity are called in files.
-    #[must_use]
     pub fn of_numbers(self, name: &str) -> String {
         match self {
             Scale::Even | Scale::Times { .. } => name.to_owned(),
@@ -63,7 +61,6 @@ impl Scale {
     }
 
     /// What the axis of a quantity is called where its ticks are labelled.
-    #[must_use]
     pub fn title(self, name: &str) -> &str {
         if let Scale::Times { name, .. } = self { name } else { name }
     }
@@ -93,7 +90,6 @@ const DIGITS: i32 = 6;
 impl Ticks {
     /// The finest ticks on an axis of this scale that `fit`: decades where the axis is logarithmic, and
     /// round numbers between them where it is too short for two decades.
-    #[must_use]
     pub fn on(scale: Scale, axis: Span, fit: impl Fn(&[Tick]) -> bool) -> Self {
         let sign = match scale {
             Scale::Even => return Ticks::fitting(axis, fit),
@@ -123,7 +119,6 @@ impl Ticks {
     }
 
     /// The finest ticks that `fit`; none at all if not even a single one fits.
-    #[must_use]
     pub fn fitting(axis: Span, fit: impl Fn(&[Tick]) -> bool) -> Self {
         let mut step = Step::at_least(axis.width() / MOST);
         loop {

@@ -19,7 +19,6 @@ use crate::words::number::resolved;
 /// state.
 type Quantity = (Layer, &'static str, &'static str, Role, Dash, fn(State) -> f64);
 
-/// The smooth quantities.
 const QUANTITIES: [Quantity; 3] = [
     (Layer::Energy, "V", "energy V", Role::Energy, Dash::Dotted, energy),
     (Layer::Velocity, "v", "velocity v", Role::Velocity, Dash::Dashed, |state| state.v),
@@ -27,7 +26,6 @@ const QUANTITIES: [Quantity; 3] = [
 ];
 
 /// What the plot with this index shows.
-#[must_use]
 pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     let session::Plot { window, cursor, .. } = session.plots[index];
     let shows = |layer| session.layers.contains(&layer);

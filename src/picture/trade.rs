@@ -12,7 +12,6 @@ use crate::study::trade::{Row, Trade};
 use crate::words::number::{count, significant};
 
 /// What the plot with this index shows.
-#[must_use]
 pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     let session::Plot { window, cursor, .. } = session.plots[index];
     let title = View::Trade.spec().title;

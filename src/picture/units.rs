@@ -35,7 +35,6 @@ fn scale(units: &Units, one: f64, span: Span) -> Scale {
 
 /// The axes of the plot with this index in the units of the machine; `None` where there is none, or where the plot
 /// has no such axes.
-#[must_use]
 pub fn scales(session: &Session, index: usize) -> Option<[Scale; 2]> {
     let units = machine(session)?.reduced.units;
     let plot = session.plots.get(index)?;
@@ -56,7 +55,6 @@ pub fn scales(session: &Session, index: usize) -> Option<[Scale; 2]> {
 }
 
 /// A place of the phase plane in the units of the machine, to the digits that can be told apart.
-#[must_use]
 pub fn reading(session: &Session, x: f64, y: f64, window: Window, cells: f64) -> Option<String> {
     let units = machine(session)?.reduced.units;
     let text = |table: &Units, one: f64, value: f64, span: Span| {

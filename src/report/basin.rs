@@ -31,8 +31,6 @@ struct Row {
     lyapunov_share: Option<f64>,
 }
 
-/// One document.
-#[must_use]
 pub fn json(found: &Survey, certified: Option<&Kicks>, seconds: f64) -> String {
     json::text(&Document {
         found,
@@ -41,8 +39,6 @@ pub fn json(found: &Survey, certified: Option<&Kicks>, seconds: f64) -> String {
     })
 }
 
-/// One row.
-#[must_use]
 pub fn csv(found: &Survey) -> String {
     let row = Row {
         counts: found.counts,
@@ -64,7 +60,6 @@ pub(super) fn edge(edge: Edge) -> &'static str {
 }
 
 /// The counts, the margins and the area.
-#[must_use]
 pub fn table(found: &Survey, seconds: f64) -> String {
     const PLACES: usize = 10;
     let mut out = format!("{}\n{}\n", parameters(&found.parameters, None), edge(found.edge));

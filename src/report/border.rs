@@ -35,8 +35,6 @@ struct Row<'a> {
     reason: Option<&'a str>,
 }
 
-/// One document.
-#[must_use]
 pub fn json(found: &Border, certified: Option<&[Bordered]>, seconds: f64) -> String {
     json::text(&Document {
         parameters: &found.parameters,
@@ -48,7 +46,6 @@ pub fn json(found: &Border, certified: Option<&[Bordered]>, seconds: f64) -> Str
 }
 
 /// One row for each value of the second parameter.
-#[must_use]
 pub fn csv(found: &Border) -> String {
     let mut sheet = Sheet::like(&Row::default(), &[("value", found.second.spec().name)]);
     for point in &found.points {
@@ -66,7 +63,6 @@ pub fn csv(found: &Border) -> String {
 }
 
 /// One row for each value of the second parameter, to read.
-#[must_use]
 pub fn table(found: &Border, seconds: f64) -> String {
     const PLACES: usize = 12;
     let kind = |grazes: bool| if grazes { "grazing" } else { "fold" };

@@ -36,8 +36,6 @@ struct Document<'a> {
     cost: Price,
 }
 
-/// One document.
-#[must_use]
 pub fn json(branch: &Branch, certified: Option<&Range>, seconds: f64) -> String {
     json::text(&Document {
         parameter: branch.parameter,
@@ -50,7 +48,6 @@ pub fn json(branch: &Branch, certified: Option<&Range>, seconds: f64) -> String 
 }
 
 /// One row for each point.
-#[must_use]
 pub fn csv(branch: &Branch) -> String {
     let mut sheet = Sheet::like(&Row::default(), &[("value", branch.parameter.spec().name)]);
     rows(branch).for_each(|row| sheet.row(&row));
@@ -58,7 +55,6 @@ pub fn csv(branch: &Branch) -> String {
 }
 
 /// Piece by piece, then the special points.
-#[must_use]
 pub fn table(branch: &Branch, base: &Parameters, tolerance: f64, seconds: f64) -> String {
     let places = digits(tolerance).min(10);
     let mut out = format!("{}\n", parameters(base, Some(branch.parameter)));

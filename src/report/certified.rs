@@ -15,7 +15,6 @@ use crate::proof::range::{Change, Range};
 use crate::study::fold::BorderPoint;
 use crate::words::number::significant;
 
-/// Digits for reading.
 const PLACES: usize = 12;
 
 /// An interval as a document has it; what is infinite is null.
@@ -37,7 +36,6 @@ struct Turn {
     q: Bounds,
 }
 
-/// A motion, enclosed.
 #[derive(Serialize)]
 pub struct Followed {
     outcome: &'static str,
@@ -51,7 +49,6 @@ pub struct Followed {
 }
 
 /// A motion until a time, for documents.
-#[must_use]
 pub fn followed(motion: &Motion, until: f64) -> Followed {
     let turns = motion.turns.iter().map(|turn| Turn { tau: turn.tau.into(), q: turn.q.into() });
     let (outcome, tau, q, v, open) = match motion.fate {
@@ -73,7 +70,6 @@ pub fn followed(motion: &Motion, until: f64) -> Followed {
 }
 
 /// The same in a line.
-#[must_use]
 pub fn motion_line(motion: &Motion, until: f64) -> String {
     let number = |it| certain(it, PLACES);
     let swings = match motion.turns.len() {
@@ -114,8 +110,6 @@ fn name(edge: Edge) -> &'static str {
     }
 }
 
-/// Kicks, for documents.
-#[must_use]
 pub fn survived(kicks: &Kicks) -> Survived {
     Survived {
         edge: kicks.edge.map(name),
@@ -127,7 +121,6 @@ pub fn survived(kicks: &Kicks) -> Survived {
 }
 
 /// The same in lines.
-#[must_use]
 pub fn kicks_lines(kicks: &Kicks) -> String {
     let edge = match kicks.edge {
         Some(Edge::None) => "proved: every start is captured\n".to_owned(),
@@ -171,7 +164,6 @@ pub struct Decided {
 }
 
 /// A range, for documents.
-#[must_use]
 pub fn decided(range: &Range) -> Decided {
     let piece = |piece: &crate::proof::range::Piece| PieceRow {
         over: piece.over.into(),
@@ -195,7 +187,6 @@ pub fn decided(range: &Range) -> Decided {
 }
 
 /// The same as a table.
-#[must_use]
 pub fn range_table(range: &Range, symbol: Symbol) -> String {
     let name = symbol.spec().name;
     let mut table = Table::new(&["from", "to", "cycles"]);
@@ -217,11 +208,8 @@ pub fn range_table(range: &Range, symbol: Symbol) -> String {
 /// A value of a second parameter, and where in D the cycles change.
 #[derive(Serialize)]
 pub struct Bordered {
-    /// The value.
     pub value: f64,
-    /// The fold.
     pub fold: Option<Bounds>,
-    /// The escape point.
     pub escape: Option<Bounds>,
     /// Whether what the search found is proved.
     pub proved: bool,
@@ -231,7 +219,6 @@ pub struct Bordered {
 
 impl Bordered {
     /// What is enclosed of a point.
-    #[must_use]
     pub fn new(point: &BorderPoint, fold: Option<Interval>, escape: Option<Interval>) -> Self {
         let missing = [
             ("the fold", point.fold.is_some() && fold.is_none()),
@@ -250,7 +237,6 @@ impl Bordered {
 }
 
 /// Points of a border as lines.
-#[must_use]
 pub fn border_lines(points: &[Bordered], symbol: Symbol) -> String {
     let mut table = Table::new(&[symbol.spec().name, "D_F, proved", "D_c, proved"]);
     let cell = |it: Option<Bounds>| {
@@ -263,7 +249,6 @@ pub fn border_lines(points: &[Bordered], symbol: Symbol) -> String {
 }
 
 /// What holds for every value in an interval of parameters, as a table.
-#[must_use]
 pub fn box_table(proof: &Proof) -> String {
     let mut table =
         Table::new(&["cycle", "q_min", "q_max", "v_min", "v_max", "period", "multiplier"]);
@@ -328,7 +313,6 @@ struct BoxDocument<'a> {
 }
 
 /// The same for documents.
-#[must_use]
 pub fn boxed(proof: &Proof) -> impl Serialize {
     let cycles = proof.cycles.iter().map(|cycle| BoxCycle {
         stable: cycle.stable,
@@ -339,7 +323,6 @@ pub fn boxed(proof: &Proof) -> impl Serialize {
 }
 
 /// What a checked certificate says.
-#[must_use]
 pub fn certificate_table(certificate: &Certificate) -> String {
     let interval = |[lower, upper]: Pair| Interval::new(lower, upper);
     let parameters = certificate.parameters;

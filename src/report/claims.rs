@@ -9,7 +9,6 @@ use crate::study::claims::{Examined, Finding, Mark, Sense, Verdict};
 use crate::words::claim;
 use crate::words::number::{duration, significant};
 
-/// One claim.
 #[derive(Default, Serialize)]
 struct Row<'a> {
     equation: &'a str,
@@ -91,7 +90,6 @@ fn row(examined: &Examined) -> Row<'_> {
 }
 
 /// One document with every claim.
-#[must_use]
 pub fn json(examined: &[Examined], seconds: f64) -> String {
     let reason = |examined: &Examined| examined.finding.as_ref().err().map(Reason::to_string);
     let claim = |examined| Claim { row: row(examined), reason: reason(examined) };
@@ -100,13 +98,11 @@ pub fn json(examined: &[Examined], seconds: f64) -> String {
 }
 
 /// One row for each claim.
-#[must_use]
 pub fn csv(examined: &[Examined]) -> String {
     csv::sheet(&Row::default(), examined.iter().map(row))
 }
 
 /// Columns for reading: the numbers first, because what is claimed has no fixed length.
-#[must_use]
 pub fn table(examined: &[Examined], seconds: f64) -> String {
     let titles = ["where", "verdict", "proof", "paper", "corrected", "computed", "claim"];
     let rows = examined.iter().map(|examined| {
@@ -143,7 +139,6 @@ fn mark(finding: Option<&Finding>) -> String {
 }
 
 /// The claim, and where it was tested.
-#[must_use]
 pub fn sentence(examined: &Examined) -> String {
     let statement = examined.claim.statement;
     match &examined.finding {

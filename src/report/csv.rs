@@ -15,7 +15,6 @@ pub struct Sheet {
 impl Sheet {
     /// No rows yet, with a column for each field of such a row; a field that is itself a record or a list has none.
     /// Columns may be called otherwise than their fields: `(field, name)`.
-    #[must_use]
     pub fn like(row: &impl Serialize, called: &[(&str, &str)]) -> Self {
         let single = |(_, value): &(String, Value)| !value.is_object() && !value.is_array();
         let names: Vec<String> =
@@ -43,8 +42,6 @@ impl Sheet {
         let _ = self.out.write_record(cells);
     }
 
-    /// The lines.
-    #[must_use]
     pub fn into_text(self) -> String {
         let bytes = self.out.into_inner().unwrap_or_default();
         String::from_utf8(bytes).unwrap_or_default()
@@ -52,7 +49,6 @@ impl Sheet {
 }
 
 /// These rows, below the names of the fields of one.
-#[must_use]
 pub fn sheet<R: Serialize>(like: &impl Serialize, rows: impl IntoIterator<Item = R>) -> String {
     let mut sheet = Sheet::like(like, &[]);
     rows.into_iter().for_each(|row| sheet.row(&row));
@@ -81,7 +77,6 @@ fn exact(value: f64) -> String {
 }
 
 /// Cells as a line; those with a separator or quotes in them are quoted.
-#[must_use]
 pub fn line(cells: &[String]) -> String {
     let mut sheet = Sheet { names: Vec::new(), out: Writer::from_writer(Vec::new()) };
     sheet.write(cells);

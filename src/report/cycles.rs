@@ -34,7 +34,6 @@ struct Document<'a> {
 }
 
 /// Every cycle with what is proved about it, and beside them the harmonic balance if asked for.
-#[must_use]
 pub fn json(
     found: &Cycles,
     proof: &Proof,
@@ -53,7 +52,6 @@ pub fn json(
 }
 
 /// One row for each cycle.
-#[must_use]
 pub fn csv(found: &Cycles) -> String {
     csv::sheet(&Cycle::default(), &found.cycles)
 }
@@ -95,7 +93,6 @@ fn certain_cycle(cycle: &Cycle, bounds: &Enclosure, places: usize) -> Vec<String
 }
 
 /// Every cycle in the digits that are proved, the harmonic answer beside it, and what borders the basin.
-#[must_use]
 pub fn table(found: &Cycles, proof: &Proof, seconds: f64) -> String {
     /// Cycles are computed to rounding; this many digits are for reading.
     const PLACES: usize = 12;

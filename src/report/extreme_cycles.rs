@@ -15,7 +15,6 @@ use crate::words::stability;
 const CLOSED: f64 = 1e-11;
 
 /// As a table to read.
-#[must_use]
 pub fn table(verdicts: &[SetVerdict]) -> String {
     let list = |verdict: &SetVerdict, digits: usize, value: &dyn Fn(&Found) -> f64| {
         let values = verdict.cycles().iter().map(|it| significant(value(it), digits));
@@ -45,7 +44,6 @@ pub fn table(verdicts: &[SetVerdict]) -> String {
 }
 
 /// As comma-separated values: one row for each cycle, or for a set without any.
-#[must_use]
 pub fn csv(verdicts: &[SetVerdict]) -> String {
     let row = |verdict: &SetVerdict, answer, found: Option<&Found>| Row {
         parameters: verdict.parameters,
@@ -96,7 +94,6 @@ struct Document<'a> {
 }
 
 /// As one JSON document.
-#[must_use]
 pub fn json(verdicts: &[SetVerdict]) -> String {
     json::text(&Document { budget: BUDGET, sets: verdicts })
 }

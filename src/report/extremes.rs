@@ -12,7 +12,6 @@ use crate::study::extremes::{Answer, Named, Verdict};
 use crate::words::number::{exact as short, significant};
 
 /// As a table to read: the answer of `auto` and its cost, then the digits that each method lost.
-#[must_use]
 pub fn table(verdicts: &[Verdict], named: &[Named], tolerance: f64) -> String {
     let mut titles = vec!["D", "r", "D2", "D3", "start", "answer", "evaluations", "sensitive"];
     titles.extend(METHODS.map(|method| method.spec().name));
@@ -39,7 +38,6 @@ pub fn table(verdicts: &[Verdict], named: &[Named], tolerance: f64) -> String {
 }
 
 /// As comma-separated values: one row for each motion and method, all digits.
-#[must_use]
 pub fn csv(verdicts: &[Verdict]) -> String {
     let rows = verdicts
         .iter()
@@ -110,7 +108,6 @@ struct Document<'a> {
 }
 
 /// As one JSON document.
-#[must_use]
 pub fn json(verdicts: &[Verdict], named: &[Named], tolerance: f64) -> String {
     json::text(&Document { tolerance, budget: BUDGET, motions: verdicts, named })
 }

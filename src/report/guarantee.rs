@@ -27,8 +27,6 @@ struct Row {
     reason: Option<String>,
 }
 
-/// One document.
-#[must_use]
 pub fn json(found: &Guarantee, seconds: f64) -> String {
     text(&Document {
         nominal: found.nominal,
@@ -40,7 +38,6 @@ pub fn json(found: &Guarantee, seconds: f64) -> String {
 }
 
 /// One row for the nominal and one for the guaranteed margin.
-#[must_use]
 pub fn csv(found: &Guarantee) -> String {
     let nominal = Row { margin: "nominal", found: found.nominal, reason: None };
     let Guaranteed { margin, reason } = found.guaranteed;
@@ -52,7 +49,6 @@ pub fn csv(found: &Guarantee) -> String {
 const BELOW: f64 = 1.0 - 5e-12;
 
 /// Sentences for reading; the guaranteed numbers are not rounded up.
-#[must_use]
 pub fn table(found: &Guarantee, seconds: f64) -> String {
     let ParameterBox { d, d2, d3, r } = found.known;
     let names = [Symbol::D, Symbol::D2, Symbol::D3, Symbol::R].map(|symbol| symbol.spec().name);

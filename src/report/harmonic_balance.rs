@@ -56,7 +56,6 @@ impl Row {
 }
 
 /// All rows, branch by branch.
-#[must_use]
 pub fn rows(rungs: &[HarmonicBalance]) -> Vec<Row> {
     let branches = rungs.first().map_or(0, |rung| rung.balanced.len());
     let row = |branch: usize, rung: &HarmonicBalance| {
@@ -68,7 +67,6 @@ pub fn rows(rungs: &[HarmonicBalance]) -> Vec<Row> {
 }
 
 /// As a table, with what is to be said about its rows below it.
-#[must_use]
 pub fn table(rungs: &[HarmonicBalance]) -> String {
     /// Digits of a cycle that is an approximation.
     const PLACES: usize = 6;
@@ -114,8 +112,6 @@ fn note(row: &Row) -> Option<String> {
     row.lost.clone().or(more)
 }
 
-/// As comma-separated values.
-#[must_use]
 pub fn csv(rungs: &[HarmonicBalance]) -> String {
     csv::sheet(&Row::default(), rows(rungs))
 }

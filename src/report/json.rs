@@ -7,7 +7,6 @@ use crate::flow::Cost;
 /// What an answer cost, counted and timed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Price {
-    /// Counted.
     #[serde(flatten)]
     pub counted: Cost,
     /// Wall-clock seconds inside the process.

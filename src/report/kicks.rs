@@ -41,7 +41,6 @@ struct Row {
 }
 
 /// One document; `mean` is null where no kick is ever lost.
-#[must_use]
 pub fn json(parameters: &Parameters, kicks: &Kicks, found: &Repeated, seconds: f64) -> String {
     text(&Document {
         parameters,
@@ -58,14 +57,11 @@ pub fn json(parameters: &Parameters, kicks: &Kicks, found: &Repeated, seconds: f
 }
 
 /// The density of the places of rest, one cell a row.
-#[must_use]
 pub fn csv(parameters: &Parameters, found: &Repeated) -> String {
     let row = |(q, density)| Row { q, density };
     csv::sheet(&Row::default(), found.places(parameters.r).map(row))
 }
 
-/// Sentences for reading.
-#[must_use]
 pub fn table(parameters: &Parameters, kicks: &Kicks, found: &Repeated, seconds: f64) -> String {
     let Repeated { first, later, mean, error, cost, .. } = found;
     let number = |value: f64| significant(value, 6);

@@ -25,7 +25,6 @@ const WIDTH: usize = 14;
 
 impl Form {
     /// The form that the name of a file asks for: JSON where it ends so, else CSV.
-    #[must_use]
     pub fn of_file(path: &std::path::Path) -> Self {
         let ending = path.extension();
         let json = ending.is_some_and(|ending| ending == "json" || ending == "jsonl");
@@ -33,7 +32,6 @@ impl Form {
     }
 
     /// The line before the rows; empty where there is none.
-    #[must_use]
     pub fn heading(self, scan: &Scan) -> String {
         let inputs = scan.inputs(0).into_iter().map(|(name, _)| name);
         let names = inputs.chain(scan.measured()).chain(["reason"]);
@@ -50,7 +48,6 @@ impl Form {
     }
 
     /// How the row of point number `index` begins, whatever is measured there.
-    #[must_use]
     pub fn beginning(self, scan: &Scan, index: usize) -> String {
         let inputs = scan.inputs(index).into_iter();
         match self {
@@ -71,7 +68,6 @@ impl Form {
     }
 
     /// The row of point number `index`.
-    #[must_use]
     pub fn line(self, scan: &Scan, index: usize, row: &Row) -> String {
         let mut line = self.beginning(scan, index);
         let values = row.values.iter().copied();

@@ -15,7 +15,6 @@ use crate::words::number::{count, duration};
 /// A question that was answered, and its price.
 #[derive(Clone, Debug)]
 pub struct Question {
-    /// Its kind.
     pub topic: Topic,
     /// The layers that draw the answer.
     pub layers: Vec<Layer>,
@@ -28,7 +27,6 @@ pub struct Question {
 /// What a step of a number costs.
 #[derive(Clone, Debug)]
 pub struct StepCost {
-    /// The number.
     pub name: &'static str,
     /// What was asked again.
     pub recomputed: Vec<Question>,
@@ -39,7 +37,6 @@ pub struct StepCost {
 /// What a scene costs.
 #[derive(Clone, Debug)]
 pub struct SceneCost {
-    /// The scene.
     pub scene: Arc<Scene>,
     /// The questions with which it opens.
     pub questions: Vec<Question>,
@@ -99,7 +96,6 @@ fn topics(topics: &[Topic]) -> Vec<&'static str> {
 }
 
 /// One document with all scenes.
-#[must_use]
 pub fn json(scenes: &[SceneCost]) -> String {
     let question = |question: &Question| QuestionDocument {
         question: question.topic.name(),
@@ -136,7 +132,6 @@ pub fn json(scenes: &[SceneCost]) -> String {
 }
 
 /// One line for each question of each scene, when it opens and after each step.
-#[must_use]
 pub fn csv(scenes: &[SceneCost]) -> String {
     let mut sheet = Sheet::like(&Row::default(), &[]);
     for found in scenes {
@@ -168,7 +163,6 @@ struct Row<'a> {
 }
 
 /// To read: one paragraph for each scene.
-#[must_use]
 pub fn table(scenes: &[SceneCost]) -> String {
     let one = |found: &SceneCost| {
         let mut table = Table::new(&["", "evaluations", "steps", "time", ""]);

@@ -27,8 +27,6 @@ struct Row<'a> {
     title: &'a str,
 }
 
-/// One document.
-#[must_use]
 pub fn json<'a>(scenes: impl IntoIterator<Item = &'a Scene>) -> String {
     let keymap = Keymap::default();
     // What always holds, and what holds of the numbers given here.
@@ -47,7 +45,6 @@ pub fn json<'a>(scenes: impl IntoIterator<Item = &'a Scene>) -> String {
 }
 
 /// One row for each scene.
-#[must_use]
 pub fn csv<'a>(scenes: impl IntoIterator<Item = &'a Scene>) -> String {
     let row = |scene: &'a Scene| Row { name: &scene.name, title: &scene.title };
     csv::sheet(&Row::default(), scenes.into_iter().map(row))

@@ -19,32 +19,27 @@ pub type Column<'a, R> = (&'static str, &'a dyn Fn(&R) -> String);
 
 impl Table {
     /// Whether there are no rows.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
 
     /// A table with these titles and no rows.
-    #[must_use]
     pub fn new(titles: &[&'static str]) -> Self {
         Table { titles: titles.to_vec(), rows: Vec::new() }
     }
 
     /// Columns by their titles, and what stands in each for a row.
-    #[must_use]
     pub fn of<R>(rows: &[R], columns: &[Column<R>]) -> Self {
         let cells = |row: &R| columns.iter().map(|(_, cell)| cell(row)).collect();
         let titles = columns.iter().map(|(title, _)| *title).collect();
         Table { titles, rows: rows.iter().map(cells).collect() }
     }
 
-    /// Adds a row.
     pub fn row(&mut self, cells: Vec<String>) {
         self.rows.push(cells);
     }
 
     /// The table as text with every column aligned at its left end: for words.
-    #[must_use]
     pub fn aligned_left(&self) -> String {
         let titles = self.titles.iter().map(|title| (*title).to_owned()).collect();
         let rows: Vec<&Vec<String>> = std::iter::once(&titles).chain(&self.rows).collect();

@@ -15,7 +15,6 @@ use crate::words::number::{count, duration, significant};
 /// A trade with the seconds that each row took, measured by someone with a clock.
 #[derive(Clone, Debug)]
 pub struct Timed {
-    /// The rows.
     pub trade: Trade,
     /// Seconds of each row.
     pub seconds: Vec<f64>,
@@ -138,7 +137,6 @@ impl Timed {
 }
 
 /// Where the reference comes from and how good it is, in a sentence.
-#[must_use]
 pub fn reference(trade: &Trade) -> String {
     let reference = &trade.reference;
     let (first, second) = match reference.source {
@@ -162,8 +160,6 @@ pub fn reference(trade: &Trade) -> String {
     format!("{first}; {second} {differs}{closed}")
 }
 
-/// The document.
-#[must_use]
 pub fn json(timed: &Timed) -> String {
     let Trade { problem, reference: known, .. } = &timed.trade;
     super::json::text(&Document {
@@ -180,7 +176,6 @@ pub fn json(timed: &Timed) -> String {
 }
 
 /// One line for each method and accuracy, those without an error at the end.
-#[must_use]
 pub fn csv(timed: &Timed) -> String {
     let (rows, unanswered) = (timed.rows(), timed.unanswered());
     let Some(first) = rows.first() else { return csv::sheet(&unanswered.first(), &unanswered) };
@@ -196,7 +191,6 @@ pub fn csv(timed: &Timed) -> String {
 
 /// Every row to read, and below them a plot of them: the best choices are marked with `*`, the method in use
 /// with `<`.
-#[must_use]
 pub fn table(timed: &Timed, plot: &str) -> String {
     let Trade { problem, reference: known, .. } = &timed.trade;
     let mut out = format!(
@@ -271,7 +265,6 @@ const LEVELS: [(f64, &str); 5] =
     [(1e-2, "1e-2"), (1e-4, "1e-4"), (1e-6, "1e-6"), (1e-9, "1e-9"), (1e-12, "1e-12")];
 
 /// What digits cost: for each method its cheapest row with at most an error, and what one digit more adds.
-#[must_use]
 pub fn digits(timed: &Timed) -> String {
     let mut titles = vec!["evaluations (time) for an error of"];
     titles.extend(LEVELS.map(|level| level.1));

@@ -35,8 +35,6 @@ struct Row {
     v: Option<f64>,
 }
 
-/// One document.
-#[must_use]
 pub fn json(motion: &Trajectory, certified: Option<&Motion>, seconds: f64) -> String {
     json::text(&Document {
         parameters: &motion.problem.parameters,
@@ -52,7 +50,6 @@ pub fn json(motion: &Trajectory, certified: Option<&Motion>, seconds: f64) -> St
 }
 
 /// One row for each point.
-#[must_use]
 pub fn csv(motion: &Trajectory) -> String {
     let State { q, v } = motion.problem.initial;
     let start = Row { what: "start", tau: 0.0, q: Some(q), v: Some(v) };
@@ -72,7 +69,6 @@ pub fn csv(motion: &Trajectory) -> String {
 }
 
 /// The question, every turning point, the outcome, where the energy went, the cost.
-#[must_use]
 pub fn table(motion: &Trajectory, seconds: f64) -> String {
     let problem = &motion.problem;
     let places = digits(problem.tolerance);

@@ -40,7 +40,6 @@ impl std::fmt::Debug for Clerk {
 
 impl Clerk {
     /// A clerk with nothing to do.
-    #[must_use]
     pub fn new(report: Report, notes: Notes) -> Clerk {
         Clerk { report, notes, task: None }
     }
@@ -91,7 +90,6 @@ impl Clerk {
     }
 
     /// Whether a file is being written.
-    #[must_use]
     pub fn is_writing(&self) -> bool {
         self.task.as_ref().is_some_and(|task| !task.thread.is_finished())
     }

@@ -75,7 +75,6 @@ impl Crew {
     }
 
     /// Whether nothing is in progress and nothing waits.
-    #[must_use]
     pub fn is_idle(&self) -> bool {
         self.quick.is_idle() && self.long.is_idle()
     }

@@ -76,7 +76,6 @@ impl Desk {
     }
 
     /// Whether another request waits that has had no more turns than the one in progress.
-    #[must_use]
     pub fn is_contested(&self) -> bool {
         let running = self.wanted.iter().find(|it| self.running.as_ref() == Some(&it.request));
         running.is_some_and(|running| self.waiting().any(|other| other.turns <= running.turns))
@@ -102,7 +101,6 @@ impl Desk {
     }
 
     /// Whether the answer of the request in progress is still wanted.
-    #[must_use]
     pub fn is_wanted(&self) -> bool {
         self.running.is_some()
     }
@@ -122,13 +120,11 @@ impl Desk {
     }
 
     /// Whether nothing is to be done any more.
-    #[must_use]
     pub fn is_closed(&self) -> bool {
         self.closed
     }
 
     /// Whether nothing is in progress and nothing waits.
-    #[must_use]
     pub fn is_idle(&self) -> bool {
         !self.busy && self.waiting().next().is_none()
     }

@@ -17,7 +17,6 @@ pub struct Files {
 
 impl Files {
     /// The sequence that puts a text on the terminal's clipboard: OSC 52.
-    #[must_use]
     pub fn clipboard(text: &str) -> String {
         let mut sequence = String::new();
         // A string takes any text: this cannot fail.
@@ -26,7 +25,6 @@ impl Files {
     }
 
     /// Keeps a copy, and says what became of it.
-    #[must_use]
     pub fn copy(&self, text: &str) -> Notice {
         /// Longest text that is told as a whole.
         const SHORT: usize = 60;
@@ -56,7 +54,6 @@ impl Files {
 
     /// Writes a file, and says how that ended. Whatever happens, the file is there as a whole or as it
     /// was; one that is there already is replaced only on demand.
-    #[must_use]
     pub fn write(path: &Path, content: impl AsRef<[u8]>, replace: bool) -> Notice {
         if let Err(text) = Files::admit(path, replace) {
             return Notice { error: true, text };

@@ -8,14 +8,7 @@ pub enum Event {
     /// Something for the session.
     Session(Msg),
     /// The mouse did something in a cell of the screen, counted from 0.
-    Mouse {
-        /// What it did.
-        gesture: Gesture,
-        /// The cell's column.
-        column: u16,
-        /// The cell's row.
-        row: u16,
-    },
+    Mouse { gesture: Gesture, column: u16, row: u16 },
     /// A cursor position report: the terminal has shown everything sent before the request.
     Shown,
     /// The terminal's size may have changed.
@@ -25,10 +18,7 @@ pub enum Event {
     /// The process goes on after having been stopped.
     Continued,
     /// A signal asks the program to end.
-    Ended {
-        /// Its number.
-        signal: i32,
-    },
+    Ended { signal: i32 },
     /// There will be no more input: the terminal is gone.
     Closed,
 }
@@ -47,10 +37,7 @@ pub enum Stop {
     /// The process goes on after a stop.
     Continued,
     /// A signal ends the program.
-    Ended {
-        /// Its number.
-        signal: i32,
-    },
+    Ended { signal: i32 },
     /// The terminal is gone.
     Closed,
 }

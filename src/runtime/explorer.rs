@@ -36,15 +36,12 @@ pub struct Explorer {
 
 impl Explorer {
     /// A session that looks as the environment allows.
-    #[must_use]
     pub fn new(session: Session, environment: Environment) -> Explorer {
         let wishes = session.look;
         let look = Look::new(environment.fit(wishes));
         Explorer { session, environment, wishes, look }
     }
 
-    /// The session.
-    #[must_use]
     pub fn session(&self) -> &Session {
         &self.session
     }

@@ -82,7 +82,6 @@ impl Journal {
         }
     }
 
-    /// Removes the file.
     pub fn end(&mut self) {
         if self.file.take().is_some() {
             self.remove();

@@ -51,7 +51,6 @@ pub(super) struct Lines<R> {
 
 /// A line of a file.
 pub(super) enum Line {
-    /// With its end.
     Whole(Vec<u8>),
     /// Without: the last one, perhaps empty.
     Cut(Vec<u8>),

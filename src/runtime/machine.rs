@@ -11,7 +11,6 @@ use crate::session::{Effect, Msg, Place};
 
 /// A session and the way it is drawn; tests have simpler ones.
 pub trait Machine {
-    /// Something happened.
     fn update(&mut self, msg: Msg) -> Vec<Effect>;
 
     /// The requests to be computed now: wanted, and neither answered nor failed.
@@ -51,6 +50,5 @@ pub trait Machine {
         Err("nothing to write".to_owned())
     }
 
-    /// Draws the state.
     fn draw(&self, frame: &mut Frame);
 }

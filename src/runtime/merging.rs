@@ -19,7 +19,6 @@ use crate::study::scan::Scan;
 /// A file with some of the rows of a scan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Part {
-    /// The file.
     pub path: PathBuf,
     /// The points it is for.
     pub points: Range<usize>,
@@ -36,7 +35,6 @@ pub enum Conflict {
     Twice {
         /// The row, from 1.
         row: usize,
-        /// The parts.
         paths: [PathBuf; 2],
     },
     /// The whole cannot be written.
@@ -121,7 +119,6 @@ struct Reader<'a> {
     lines: Lines<File>,
     /// The point of the row.
     index: usize,
-    /// The row.
     line: Vec<u8>,
 }
 

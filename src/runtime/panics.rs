@@ -16,7 +16,6 @@ impl Notes {
     }
 
     /// The note of the last panic, once.
-    #[must_use]
     pub fn take(&self) -> Option<String> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).take()
     }
@@ -26,7 +25,6 @@ impl Notes {
 ///
 /// A panic in any other thread is not reported and leaves the terminal alone, since the interface
 /// goes on and shows it; the notes tell what to show.
-#[must_use]
 pub fn install(guard: Guard, interface: ThreadId) -> Notes {
     let notes = Notes::default();
     let kept = notes.clone();
@@ -44,7 +42,6 @@ pub fn install(guard: Guard, interface: ThreadId) -> Notes {
 }
 
 /// What a panic said.
-#[must_use]
 pub fn message(payload: &(dyn Any + Send)) -> String {
     let text = payload.downcast_ref::<&str>().copied();
     let owned = || payload.downcast_ref::<String>().map(String::as_str);

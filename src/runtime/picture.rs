@@ -8,7 +8,6 @@ use ratatui::layout::Size;
 use super::machine::Machine;
 
 /// The picture at this size, as ratatui's cells.
-#[must_use]
 pub fn of(machine: &impl Machine, size: Size) -> Buffer {
     let Ok(mut terminal) = Terminal::new(TestBackend::new(size.width, size.height));
     let Ok(drawn) = terminal.draw(|frame| machine.draw(frame));

@@ -13,19 +13,16 @@ use crate::words::provenance::Provenance;
 const ENDING: &str = ".provenance";
 
 /// What this process was started as.
-#[must_use]
 pub fn of_process() -> Provenance {
     Provenance::of(&arguments())
 }
 
 /// The arguments of this process.
-#[must_use]
 pub fn arguments() -> Vec<String> {
     std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned()).collect()
 }
 
 /// The file beside this one.
-#[must_use]
 pub fn beside(path: &Path) -> PathBuf {
     let mut name = OsString::from(path);
     name.push(ENDING);

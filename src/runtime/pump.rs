@@ -33,7 +33,6 @@ use playing::Playing;
 /// How long a frame waits for the worker before it shows what is there, marked as old.
 const ANSWER_TIME: Duration = Duration::from_millis(8);
 
-/// The loop's state.
 #[derive(Debug)]
 pub struct Pump<M, W: Write> {
     machine: M,
@@ -51,7 +50,6 @@ pub struct Pump<M, W: Write> {
     beat: Option<Instant>,
     /// No frames are drawn while the terminal is not ours.
     held: bool,
-    /// What is played.
     playing: Option<Playing>,
     /// What the user did that comes after something else.
     held_back: VecDeque<Event>,
@@ -96,7 +94,6 @@ impl<M: Machine, W: Write> Pump<M, W> {
     }
 
     /// Plays a keystroke file: each key when the answer to the last one is on the screen.
-    #[must_use]
     pub fn playing(mut self, script: Option<Script>) -> Self {
         self.playing = script.map(|script| Playing::new(script, false, 0));
         self
@@ -104,7 +101,6 @@ impl<M: Machine, W: Write> Pump<M, W> {
 
     /// Says how the session was started, and begins the recording of what is done with what that stands
     /// for; what is played at the start is its last step.
-    #[must_use]
     pub fn started(mut self, started: String, recorder: Recorder, record: Option<Record>) -> Self {
         if let Some(playing) = &mut self.playing {
             playing.asked = 1;

@@ -90,13 +90,11 @@ impl ScanFile {
     }
 
     /// Whether an earlier process has computed this row, whose turn has not come.
-    #[must_use]
     pub fn has(&self, index: usize) -> bool {
         self.ahead.contains_key(&index)
     }
 
     /// How many those are.
-    #[must_use]
     pub fn ahead(&self) -> usize {
         self.ahead.len()
     }
@@ -221,7 +219,6 @@ fn opened(path: &Path) -> Result<File, Refusal> {
 /// Writes rows that are known to a file, in the form that its name ends with, and says how that ended.
 ///
 /// A file that holds the beginning of the same scan is gone on with, one of anything else left alone.
-#[must_use]
 pub fn save(path: &Path, scan: &Scan, rows: &[Row]) -> Notice {
     let form = Form::of_file(path);
     let points = 0..scan.points();

@@ -25,15 +25,12 @@ const AHEAD: usize = 32;
 /// What a scan may use of the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Effort {
-    /// Threads.
     pub jobs: usize,
     /// Whether others, such as the keys of the explorer, go first.
     pub polite: bool,
 }
 
 impl Effort {
-    /// All cores.
-    #[must_use]
     pub fn whole() -> Self {
         Effort { jobs: available_parallelism().map_or(1, usize::from), polite: false }
     }
@@ -51,7 +48,6 @@ pub trait Taker {
         ControlFlow::Continue(())
     }
 
-    /// The next row.
     fn take(&mut self, index: usize, row: Row) -> ControlFlow<()>;
 }
 

@@ -63,7 +63,6 @@ fn end_after(time: Duration, guard: Guard, signal: i32) {
 }
 
 /// The exit code of a program that a signal has ended.
-#[must_use]
 pub fn exit_code(signal: i32) -> u8 {
     u8::try_from(128 + signal).unwrap_or(u8::MAX)
 }
@@ -72,7 +71,6 @@ pub fn exit_code(signal: i32) -> u8 {
 ///
 /// There is none above the leader of a session, as in `ssh -t host hopfscope`: stopped, it would hang
 /// for ever.
-#[must_use]
 pub fn can_be_continued() -> bool {
     getsid(None).is_ok_and(|session| session != getpgrp())
 }

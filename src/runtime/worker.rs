@@ -158,7 +158,6 @@ impl Worker {
     }
 
     /// Whether nothing is in progress and nothing waits.
-    #[must_use]
     pub fn is_idle(&self) -> bool {
         self.shared.desk().is_idle()
     }

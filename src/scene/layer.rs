@@ -16,7 +16,6 @@ pub enum Layer {
     Trajectory,
     /// The segment of equilibria.
     Sticking,
-    /// The limit cycles.
     Cycles,
     /// The basin of attraction of the sticking set, shaded.
     Basin,
@@ -36,19 +35,15 @@ pub enum Layer {
     Mass,
     /// Computed cycles along the diagram's parameter.
     Branch,
-    /// First-order harmonic amplitudes.
     Harmonic,
     /// The asymptotes of the harmonic amplitudes.
     Asymptotes,
     /// Labels at the special points.
     Special,
-    /// Displacement over time.
     Position,
-    /// Velocity over time.
     Velocity,
     /// The force of dry friction over time.
     Friction,
-    /// Energy over time.
     Energy,
     /// Turning points and capture on the time axis.
     Events,
@@ -56,7 +51,6 @@ pub enum Layer {
     CycleWorks,
     /// Works along the motion.
     MotionWorks,
-    /// The return map.
     Map,
     /// The turning points of the motion, as a cobweb.
     Cobweb,
@@ -101,7 +95,6 @@ pub enum Layer {
 /// One row of [`LAYERS`].
 #[derive(Clone, Copy, Debug)]
 pub struct LayerSpec {
-    /// The layer.
     pub layer: Layer,
     /// Its name in scene files and on the screen.
     pub name: &'static str,
@@ -175,7 +168,6 @@ const fn row(
 
 impl Layer {
     /// The row of [`LAYERS`] that describes this layer.
-    #[must_use]
     pub fn spec(self) -> &'static LayerSpec {
         &LAYERS[self as usize]
     }

@@ -67,13 +67,11 @@ const TWINS: [(&str, &str); 5] = [
 ];
 
 /// The figure of the paper that shows what a lesson shows.
-#[must_use]
 pub fn figure_of(lesson: &str) -> Option<&'static str> {
     TWINS.into_iter().find(|(name, _)| *name == lesson).map(|(_, figure)| figure)
 }
 
 /// The lesson that shows what a figure of the paper shows.
-#[must_use]
 pub fn lesson_of(figure: &str) -> Option<&'static str> {
     TWINS.into_iter().find(|(_, name)| *name == figure).map(|(lesson, _)| lesson)
 }
@@ -91,7 +89,6 @@ pub enum Group {
 
 impl Group {
     /// The group of a scene of the program.
-    #[must_use]
     pub fn of(scene: &Scene) -> Self {
         match scene.machine {
             _ if scene.name.starts_with("fig") => Group::Figure,
@@ -101,7 +98,6 @@ impl Group {
     }
 
     /// Its heading in a list.
-    #[must_use]
     pub fn title(self) -> &'static str {
         match self {
             Group::Lesson => "Lessons",
@@ -115,7 +111,6 @@ impl Group {
 ///
 /// # Panics
 /// Never: a test reads every file.
-#[must_use]
 pub fn library() -> &'static [Arc<Scene>] {
     static SCENES: LazyLock<Vec<Arc<Scene>>> = LazyLock::new(|| {
         let read = |(name, text): (&str, &str)| match parse(name, &format!("{name}.toml"), text) {
@@ -128,7 +123,6 @@ pub fn library() -> &'static [Arc<Scene>] {
 }
 
 /// The plain oscillator: linear damping and dry friction with the defaults of the parameter table.
-#[must_use]
 pub fn plain() -> Arc<Scene> {
     Arc::clone(&library()[0])
 }
@@ -136,7 +130,6 @@ pub fn plain() -> Arc<Scene> {
 /// A name that no scene has.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NoScene {
-    /// The name.
     pub name: String,
     /// The names that look like it, best first.
     pub nearest: Vec<&'static str>,

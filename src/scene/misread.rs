@@ -9,7 +9,6 @@ use serde::de::DeserializeOwned;
 /// What is wrong in a file, and where.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Misread {
-    /// The file.
     pub file: String,
     /// Line, from 1.
     pub line: usize,
@@ -30,7 +29,6 @@ impl std::error::Error for Misread {}
 
 /// The same text with its control characters written out: a message quotes what it complains about, and
 /// a terminal must not obey that.
-#[must_use]
 pub fn printable(message: &str) -> Cow<'_, str> {
     if !message.contains(char::is_control) {
         return message.into();
@@ -44,7 +42,6 @@ pub fn printable(message: &str) -> Cow<'_, str> {
 /// A complaint about a part of a text, in bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Complaint {
-    /// Which part.
     pub at: Range<usize>,
     /// What is wrong and what is allowed, in one line.
     pub message: String,
@@ -52,7 +49,6 @@ pub struct Complaint {
 
 impl Complaint {
     /// The complaint with the place at which its part of this text begins.
-    #[must_use]
     pub fn in_file(self, file: &str, text: &str) -> Misread {
         let before = text.get(..self.at.start).unwrap_or(text);
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);

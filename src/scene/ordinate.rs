@@ -16,17 +16,13 @@ use crate::study::Cycle;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Ordinate {
-    /// Right turning point.
     QMax,
-    /// Left turning point.
     QMin,
-    /// Largest velocity.
     VMax,
     /// Half of the distance between the turning points.
     Amplitude,
     /// The middle between the turning points.
     Mean,
-    /// Period.
     Period,
     /// Floquet multiplier, as its decimal logarithm.
     Multiplier,
@@ -50,7 +46,6 @@ pub enum Unit {
 /// One row of [`ORDINATES`].
 #[derive(Clone, Copy, Debug)]
 pub struct OrdinateSpec {
-    /// The property.
     pub ordinate: Ordinate,
     /// Its name in scene files.
     pub name: &'static str,
@@ -145,13 +140,11 @@ pub const ORDINATES: [OrdinateSpec; 7] = [
 
 impl Ordinate {
     /// The row of [`ORDINATES`] that describes this property.
-    #[must_use]
     pub fn spec(self) -> &'static OrdinateSpec {
         &ORDINATES[self as usize]
     }
 
     /// Reads the property out of a cycle.
-    #[must_use]
     pub fn of(self, cycle: &Cycle) -> f64 {
         (self.spec().read)(cycle)
     }
@@ -160,7 +153,6 @@ impl Ordinate {
 /// How high things stand in a diagram.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Height {
-    /// The property.
     pub ordinate: Ordinate,
     /// What lengths are measured in.
     pub unit: Unit,
@@ -170,20 +162,17 @@ pub struct Height {
 
 impl Height {
     /// The height of a cycle at a value of the parameter of the diagram.
-    #[must_use]
     pub fn of(&self, value: f64, cycle: &Cycle) -> f64 {
         self.scaled(value, self.ordinate.of(cycle))
     }
 
     /// The height of something that has the property of this size; infinite or no number in units of a
     /// friction that is zero.
-    #[must_use]
     pub fn scaled(&self, value: f64, size: f64) -> f64 {
         if self.is_ratio() { size / self.friction.unwrap_or(value) } else { size }
     }
 
     /// Whether heights are in units of r.
-    #[must_use]
     pub fn is_ratio(&self) -> bool {
         self.unit == Unit::Friction && self.ordinate.spec().ratio.is_some()
     }
@@ -199,7 +188,6 @@ pub const ABSCISSAE: [(Symbol, Span); 4] = [
 ];
 
 /// The values of a parameter that are looked at first; of one that no diagram is drawn over, those of D.
-#[must_use]
 pub fn usual_values(symbol: Symbol) -> Span {
     ABSCISSAE.iter().find(|(row, _)| *row == symbol).map_or(ABSCISSAE[0].1, |(_, span)| *span)
 }

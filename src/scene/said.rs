@@ -42,7 +42,6 @@ pub const CONDITIONS: [(&str, &[Condition]); 10] = [
 
 /// A text without the parts whose conditions do not hold. Brackets that hold no conditions are left as they
 /// are.
-#[must_use]
 pub fn said(text: &str, holds: impl Fn(Condition) -> bool) -> String {
     let mut out = String::new();
     let mut rest = text;

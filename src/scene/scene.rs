@@ -22,7 +22,6 @@ use crate::question::Recording;
 pub struct Scene {
     /// The name by which it is opened.
     pub name: String,
-    /// One line.
     pub title: String,
     /// What to look at, in a sentence or two.
     pub look: String,
@@ -59,7 +58,6 @@ pub struct Variant {
 
 impl Variant {
     /// A motion with the values that are held.
-    #[must_use]
     pub fn of(&self, mut problem: Problem) -> Problem {
         for (symbol, value) in &self.held {
             symbol.set(&mut problem.parameters, &mut problem.initial, *value);
@@ -70,7 +68,6 @@ impl Variant {
 
 impl Scene {
     /// Whether a parameter belongs to this scene; initial values always do.
-    #[must_use]
     pub fn declares(&self, symbol: Symbol) -> bool {
         matches!(symbol, Symbol::Q0 | Symbol::V0) || self.terms.contains(&symbol)
     }
@@ -78,7 +75,6 @@ impl Scene {
 
 impl Rig {
     /// A scene of the machine: the mass on its belt beside the phase plane, and the cycles over D below.
-    #[must_use]
     pub fn scene(self) -> Scene {
         let layers = [
             Layer::Whole,
@@ -113,7 +109,6 @@ impl Rig {
 
 impl Recording {
     /// A scene of the record: over time and in the phase plane, with the motion that the fit will find.
-    #[must_use]
     pub fn scene(self) -> Scene {
         let layers = [
             Layer::Record,

@@ -45,7 +45,6 @@ pub enum View {
 /// One row of [`VIEWS`].
 #[derive(Clone, Copy, Debug)]
 pub struct ViewSpec {
-    /// The view.
     pub view: View,
     /// Its name in scene files.
     pub name: &'static str,
@@ -147,7 +146,6 @@ pub const VIEWS: [ViewSpec; 12] = [
 
 impl View {
     /// The row of [`VIEWS`] that describes this view.
-    #[must_use]
     pub fn spec(self) -> &'static ViewSpec {
         &VIEWS[self as usize]
     }
@@ -176,14 +174,12 @@ impl Default for Axes {
 
 impl Axes {
     /// The name of the ordinate of a diagram.
-    #[must_use]
     pub fn label(&self) -> &'static str {
         let spec = self.ordinate.spec();
         spec.ratio.filter(|_| self.unit == Unit::Friction).unwrap_or(spec.label)
     }
 
     /// How high things stand in a diagram whose cycles live at this friction.
-    #[must_use]
     pub fn height(&self, friction: f64) -> Height {
         let friction = (self.abscissa != Symbol::R).then_some(friction);
         Height { ordinate: self.ordinate, unit: self.unit, friction }
@@ -193,7 +189,6 @@ impl Axes {
 /// A plot as a scene sets it up: what it shows, over which axes, and which part of that.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Exhibit {
-    /// What is shown.
     pub view: View,
     /// Over which axes, where there is a choice.
     pub axes: Axes,
@@ -206,7 +201,6 @@ pub struct Exhibit {
 
 impl Exhibit {
     /// The window with which the plot opens; where none is given, the one from which fitting begins.
-    #[must_use]
     pub fn opening(&self) -> Window {
         let usual = self.view.spec().window;
         self.window.unwrap_or(match self.view {
@@ -229,9 +223,7 @@ pub enum Arrangement {
     /// As leaves each nearest to a square.
     #[default]
     Auto,
-    /// Beside each other.
     Columns,
-    /// Above each other.
     Rows,
 }
 

@@ -62,14 +62,12 @@ impl Span {
     ///
     /// # Panics
     /// Unless `from < to`; at compile time, in a constant.
-    #[must_use]
     pub const fn known(from: f64, to: f64) -> Self {
         assert!(from < to && -FARTHEST <= from && to <= FARTHEST);
         Span { from, to }
     }
 
     /// The smallest span around all finite values, widened where they coincide; `None` without any.
-    #[must_use]
     pub fn covering(values: impl IntoIterator<Item = f64>) -> Option<Self> {
         let (from, to) = values
             .into_iter()
@@ -87,56 +85,43 @@ impl Span {
         })
     }
 
-    /// The left end.
-    #[must_use]
     pub fn from(self) -> f64 {
         self.from
     }
 
-    /// The right end.
-    #[must_use]
     pub fn to(self) -> f64 {
         self.to
     }
 
-    /// The width, positive.
-    #[must_use]
     pub fn width(self) -> f64 {
         self.to - self.from
     }
 
-    /// The middle.
-    #[must_use]
     pub fn center(self) -> f64 {
         0.5 * (self.from + self.to)
     }
 
     /// Whether a value lies within, ends included.
-    #[must_use]
     pub fn contains(self, value: f64) -> bool {
         (self.from..=self.to).contains(&value)
     }
 
     /// The nearest value within; `NaN` becomes the middle.
-    #[must_use]
     pub fn clamp(self, value: f64) -> f64 {
         if value.is_nan() { self.center() } else { value.clamp(self.from, self.to) }
     }
 
     /// Where a value lies: 0 at the left end, 1 at the right one.
-    #[must_use]
     pub fn fraction(self, value: f64) -> f64 {
         (value - self.from) / self.width()
     }
 
     /// The value at a fraction of the width: the inverse of [`Span::fraction`].
-    #[must_use]
     pub fn at(self, fraction: f64) -> f64 {
         self.from + fraction * self.width()
     }
 
     /// The span `factor` times as wide, with `about` at the same fraction; unchanged at the limits.
-    #[must_use]
     pub fn scaled(self, about: f64, factor: f64) -> Self {
         let about = self.clamp(about);
         let from = about - (about - self.from) * factor;
@@ -145,14 +130,12 @@ impl Span {
     }
 
     /// The span moved by a fraction of its width; unchanged at the limits.
-    #[must_use]
     pub fn shifted(self, fraction: f64) -> Self {
         let by = fraction * self.width();
         Span::new(self.from + by, self.to + by).unwrap_or(self)
     }
 
     /// The part within `min ..= max`, if that is a span.
-    #[must_use]
     pub fn within(self, min: f64, max: f64) -> Option<Self> {
         Span::new(self.from.max(min), self.to.min(max)).ok()
     }
@@ -175,9 +158,7 @@ impl std::convert::From<Span> for [f64; 2] {
 /// A rectangle of a plot's world.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Window {
-    /// The horizontal axis.
     pub x: Span,
-    /// The vertical axis.
     pub y: Span,
 }
 
@@ -192,20 +173,17 @@ pub struct Point {
 
 impl Window {
     /// Whether a point lies within, edges included.
-    #[must_use]
     pub fn contains(self, point: Point) -> bool {
         self.x.contains(point.x) && self.y.contains(point.y)
     }
 
     /// The nearest point within.
-    #[must_use]
     pub fn clamp(self, point: Point) -> Point {
         Point { x: self.x.clamp(point.x), y: self.y.clamp(point.y) }
     }
 
     /// The smallest window around this one, with the same middle, in which a circle looks like one in a
     /// picture that is so wide and high; unchanged at the limits, and where the picture would be lost in it.
-    #[must_use]
     pub fn with_equal_units(self, width: f64, height: f64) -> Self {
         /// The most that is added, as a factor of the width or the height.
         const MOST: f64 = 8.0;
@@ -220,8 +198,6 @@ impl Window {
         }
     }
 
-    /// The middle.
-    #[must_use]
     pub fn center(self) -> Point {
         Point { x: self.x.center(), y: self.y.center() }
     }

@@ -478,7 +478,6 @@ impl Default for Keymap {
 
 impl Session {
     /// A session that has just opened a scene, with the default keys.
-    #[must_use]
     pub fn new(scene: Arc<Scene>, size: Size) -> Self {
         Session::opened(scene, size, Arc::new(Keymap::default()))
     }

@@ -31,7 +31,6 @@ pub struct Config {
     pub glyphs: Option<Glyphs>,
     /// How many colours to use.
     pub colors: Option<Colors>,
-    /// Which colours.
     pub theme: Option<Theme>,
     /// Whether the terminal reports the mouse.
     pub mouse: bool,

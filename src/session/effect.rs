@@ -26,16 +26,13 @@ pub enum Effect {
     CopyScreen,
     /// Write a file as a whole; the outcome comes back as a message line.
     Write {
-        /// Where.
         path: PathBuf,
-        /// What.
         text: String,
         /// Whether a file that is there may be replaced.
         replace: bool,
     },
     /// Write what was pressed since the start as a keystroke file.
     Record {
-        /// Where.
         path: PathBuf,
         /// How many presses at the end are no part of it.
         forget: u32,
@@ -45,7 +42,6 @@ pub enum Effect {
     /// Write what plots show as a figure; the ending of the file says in which form. `Msg::Written` comes
     /// back when that has ended.
     Figure {
-        /// Where.
         path: PathBuf,
         /// The plot; `None`: all that are on show.
         plot: Option<usize>,
@@ -55,20 +51,13 @@ pub enum Effect {
     /// Stop writing a figure.
     StopWriting,
     /// Read a file; it comes back as `Msg::Read`.
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// What for.
-        purpose: Purpose,
-    },
+    Read { path: PathBuf, purpose: Purpose },
     /// Put the kept file of an interrupted session aside, so that it is not offered again.
     PutAside(PathBuf),
     /// Write the rows of a scan to a file, in the form that its name ends with; a file of another scan
     /// is left alone. The outcome comes back as a message line.
     SaveScan {
-        /// Where.
         path: std::path::PathBuf,
-        /// The scan.
         scan: std::sync::Arc<crate::study::scan::Scan>,
         /// Its rows, from the first point on.
         rows: Vec<crate::study::scan::Row>,

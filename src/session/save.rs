@@ -38,7 +38,6 @@ const VERSION: u32 = 1;
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
-    /// The format.
     hopfscope: u32,
     /// The selected row of the parameter pane, by its name.
     selected: String,
@@ -450,7 +449,6 @@ fn before(change: Change) -> Result<Before, String> {
 
 impl Session {
     /// Whether the user did something that would be missed: a change, a mark, a register.
-    #[must_use]
     pub fn is_worth_keeping(&self) -> bool {
         let (past, future) = self.history.depth();
         past + future > 0

@@ -55,7 +55,6 @@ impl std::error::Error for Refusal {}
 
 impl Environment {
     /// The environment of this process.
-    #[must_use]
     pub fn of_process() -> Environment {
         use std::io::IsTerminal;
         let value = |name| std::env::var(name).ok().filter(|value| !value.is_empty());
@@ -88,7 +87,6 @@ impl Environment {
     }
 
     /// The user's wishes with every `Auto` decided by the terminal at hand.
-    #[must_use]
     pub fn fit(&self, wish: Look) -> Look {
         let glyphs = match wish.glyphs {
             Glyphs::Auto => self.glyphs(),
@@ -105,7 +103,6 @@ impl Environment {
     ///
     /// tmux counts because it draws UTF-8 itself, whatever locale a login over SSH left behind. The
     /// Linux console knows UTF-8 but its fonts have no braille.
-    #[must_use]
     pub fn glyphs(&self) -> Glyphs {
         let locale = [&self.lc_all, &self.lc_ctype, &self.lang].into_iter().flatten().next();
         let unicode = locale.is_some_and(|locale| {
@@ -124,7 +121,6 @@ impl Environment {
     ///
     /// Sixteen even where the terminal has more, since those follow the user's own palette and cost
     /// the fewest bytes; `--color 256` and `--color true` ask for more.
-    #[must_use]
     pub fn colors(&self) -> Colors {
         let term = self.term.as_deref().unwrap_or_default();
         if self.no_color.is_some() || MONOCHROME.iter().any(|name| term.starts_with(name)) {

@@ -17,9 +17,7 @@ use super::painter::{END, PLAIN};
 /// A mode of the terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Mode {
-    /// Turns it on.
     pub on: &'static str,
-    /// Turns it off.
     pub off: &'static str,
     /// What it does, for the handbook.
     pub meaning: &'static str,
@@ -83,7 +81,6 @@ impl Guard {
     }
 
     /// The terminal to write frames to.
-    #[must_use]
     pub fn out(&self) -> Arc<File> {
         Arc::clone(&self.out)
     }

@@ -40,13 +40,11 @@ impl Pacing {
     pub const PATIENCE: Duration = Duration::from_secs(1);
 
     /// Whether the next frame should ask for an answer.
-    #[must_use]
     pub fn asks(&self) -> bool {
         self.unanswered < TRIES
     }
 
     /// Earliest time for the next frame; it comes forward when the terminal answers.
-    #[must_use]
     pub fn next(&self, now: Instant) -> Instant {
         let spaced = self.last.map_or(now, |last| last + FRAME_TIME);
         match (self.waiting_since, self.slowest) {
@@ -84,7 +82,6 @@ impl Pacing {
 
     /// Until when to wait for an answer before the terminal is left, so that it does not turn up as
     /// garbage on the shell's command line; `None` if none is due.
-    #[must_use]
     pub fn last_wait(&self) -> Option<Instant> {
         let since = self.waiting_since?;
         match self.slowest {

@@ -29,7 +29,6 @@ pub const REQUEST: &str = "\x1b[6n";
 /// Back to the terminal's own colours and no attributes.
 pub const PLAIN: &str = "\x1b[m";
 
-/// Erases the screen.
 const ERASE: &str = "\x1b[2J";
 
 /// Bytes that hold any ordinary frame without growing: a full 200x60 screen has about 40 KB.
@@ -66,7 +65,6 @@ impl<W: Write> Painter<W> {
     }
 
     /// Bytes written so far.
-    #[must_use]
     pub fn written(&self) -> u64 {
         self.written
     }
@@ -77,7 +75,6 @@ impl<W: Write> Painter<W> {
     }
 
     /// The size that the painter was told.
-    #[must_use]
     pub fn shown_size(&self) -> Size {
         self.size
     }

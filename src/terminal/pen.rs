@@ -26,7 +26,6 @@ const SEEN_ON_BLANKS: Modifier =
 pub struct Pen {
     /// Colour of the character.
     pub foreground: Color,
-    /// Colour behind it.
     pub background: Color,
     /// Bold and the like.
     pub attributes: Modifier,
@@ -38,13 +37,11 @@ impl Pen {
         Pen { foreground: Color::Reset, background: Color::Reset, attributes: Modifier::empty() };
 
     /// The pen that a cell asks for.
-    #[must_use]
     pub fn of(cell: &Cell) -> Pen {
         Pen { foreground: cell.fg, background: cell.bg, attributes: cell.modifier }
     }
 
     /// Whether a blank looks the same with both pens.
-    #[must_use]
     pub fn is_alike_on_blanks(self, other: Pen) -> bool {
         let seen = self.attributes.union(other.attributes).intersects(SEEN_ON_BLANKS);
         self == other || (self.background == other.background && !seen)

@@ -50,7 +50,6 @@ impl<W: Write> Screen<W> {
     }
 
     /// Earliest time for the next frame.
-    #[must_use]
     pub fn next(&self, now: Instant) -> Instant {
         self.pacing.next(now)
     }
@@ -61,7 +60,6 @@ impl<W: Write> Screen<W> {
     }
 
     /// Until when to wait for an answer before the terminal is left.
-    #[must_use]
     pub fn last_wait(&self) -> Option<Instant> {
         self.pacing.last_wait()
     }
@@ -88,7 +86,6 @@ impl<W: Write> Screen<W> {
     }
 
     /// The size that frames have now, in cells.
-    #[must_use]
     pub fn size(&self) -> Size {
         self.terminal.backend().shown_size()
     }
@@ -115,7 +112,6 @@ impl<W: Write> Screen<W> {
     }
 
     /// What was sent so far.
-    #[must_use]
     pub fn traffic(&self) -> Traffic {
         Traffic { frames: self.frames, bytes: self.terminal.backend().written() }
     }

@@ -54,7 +54,6 @@ pub struct Shown {
 
 impl Shown {
     /// A screen of blanks.
-    #[must_use]
     pub fn blank(size: Size) -> Shown {
         Shown { size, cells: vec![Cell::EMPTY; usize::from(size.width) * usize::from(size.height)] }
     }
@@ -343,7 +342,6 @@ mod tests {
             self.after.set_string(x, y, text, Style::new().fg(color));
         }
 
-        /// Draws the difference.
         fn draw(&mut self) -> String {
             let changed = self.before.diff(&self.after);
             let (text, hand) = draw(changed.into_iter(), &mut self.shown, self.hand);

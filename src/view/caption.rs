@@ -12,7 +12,6 @@ use crate::picture::role::Role;
 use crate::session::Session;
 use crate::session::overlay::Caption;
 
-/// Widest box.
 const WIDTH: u16 = 100;
 
 /// Draws the box at the bottom of `area`, if there is something to say and room for it.

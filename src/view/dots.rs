@@ -46,11 +46,8 @@ enum Content {
 /// What a cell shows, as far as a text that would stand there is concerned; each hides less than the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Covering {
-    /// Nothing or texture.
     Texture,
-    /// A guide.
     Guide,
-    /// A curve.
     Curve,
     /// A letter or a mark.
     Symbol,
@@ -68,14 +65,11 @@ pub struct Dots {
 
 impl Dots {
     /// An empty raster over `area`.
-    #[must_use]
     pub fn new(area: Rect, glyphs: Glyphs) -> Self {
         let cells = usize::from(area.width) * usize::from(area.height);
         Dots { area, glyphs, cells: vec![Content::Empty; cells] }
     }
 
-    /// Size in dots.
-    #[must_use]
     pub fn size(&self) -> Point {
         let (across, down) = self.glyphs.dots();
         (
@@ -85,7 +79,6 @@ impl Dots {
     }
 
     /// The cell (column, row) in which a point lies, if it lies on the raster.
-    #[must_use]
     pub fn cell_at(&self, (x, y): Point) -> Option<(u16, u16)> {
         let (width, height) = self.size();
         let (across, down) = self.glyphs.dots();
@@ -192,7 +185,6 @@ impl Dots {
     }
 
     /// What a cell shows.
-    #[must_use]
     pub fn covering(&self, column: u16, row: u16) -> Covering {
         let index = usize::from(row) * usize::from(self.area.width) + usize::from(column);
         match self.cells.get(index).filter(|_| column < self.area.width) {
@@ -236,7 +228,6 @@ struct Stroke {
 
 impl Glyphs {
     /// Dots of one cell, across and down.
-    #[must_use]
     pub fn dots(self) -> (u8, u8) {
         match self {
             Glyphs::Auto | Glyphs::Braille | Glyphs::Octant => (2, 4),

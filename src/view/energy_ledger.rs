@@ -82,7 +82,6 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
 }
 
 /// The lines that are seen in `area`, each in whole rows, and the sources at the axis.
-#[must_use]
 pub fn marks(area: Rect, session: &Session, window: Window) -> (Window, Ticks) {
     let window = Window { y: whole_lines(window.y, rows(area)), ..window };
     let half = half_a_row(area, window);

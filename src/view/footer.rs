@@ -20,7 +20,6 @@ const ALWAYS: [&str; 5] = ["help", "accept", "replay", "forget", "quit"];
 /// The hint that joins them while something is open.
 const CLOSE: &str = "close";
 
-/// Draws the line.
 pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let hints = session.hints();
     let (always, others): (Vec<&Hint>, Vec<&Hint>) = hints.iter().partition(|hint| {

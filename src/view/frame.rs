@@ -104,7 +104,6 @@ fn only_letters(buffer: &mut Buffer) {
 }
 
 /// Every plot of a session for itself, each drawn in this size.
-#[must_use]
 pub fn panels(session: &Session, (width, height): (u16, u16), look: &Look) -> Vec<Buffer> {
     let area = Rect { x: 0, y: 0, width, height };
     let panel = |index: usize| {

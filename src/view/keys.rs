@@ -6,7 +6,6 @@ use crate::session::key::{Code, Key};
 use crate::session::settings::Glyphs;
 
 /// The name of a key on the screen.
-#[must_use]
 pub fn name(key: Key, look: &Look) -> String {
     let arrow = match key.code {
         Code::Left => Some('←'),
@@ -29,7 +28,6 @@ pub fn name(key: Key, look: &Look) -> String {
 }
 
 /// Several keys, side by side; single characters need no space between them.
-#[must_use]
 pub fn names(keys: impl IntoIterator<Item = Key>, look: &Look) -> String {
     let names: Vec<String> = keys.into_iter().map(|key| name(key, look)).collect();
     let short = names.iter().all(|name| name.chars().count() == 1);
@@ -37,7 +35,6 @@ pub fn names(keys: impl IntoIterator<Item = Key>, look: &Look) -> String {
 }
 
 /// A sentence of a scene, with the keys that the user has in place of the commands that it names.
-#[must_use]
 pub fn sentence(text: &str, keymap: &Keymap, look: &Look) -> String {
     keymap.fill(text, |key| name(key, look))
 }

@@ -25,20 +25,16 @@ const COLUMNS: [(u16, u16); 3] = [(150, 52), (110, 32), (0, 23)];
 /// The parts of the screen; an empty area is not shown.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Layout {
-    /// Scene.
     pub title: Rect,
-    /// Parameter pane.
     pub parameters: Rect,
     /// Plots, by their index in the session.
     pub plots: Vec<Rect>,
-    /// Status lines.
     pub status: Rect,
     /// Keys, notices and the entry line.
     pub footer: Rect,
 }
 
 /// Divides a screen among what the session has on show; `None` if it is too small.
-#[must_use]
 pub fn layout(screen: Rect, session: &Session) -> Option<Layout> {
     let Rect { width, height, .. } = screen;
     if width < SMALLEST.0 || height < SMALLEST.1 {

@@ -20,7 +20,6 @@ use crate::scene::{Layer, ViewSpec, letters};
 use crate::session::read::palette::PaletteRow;
 use crate::session::{List, Listed, Overlay, Session};
 
-/// Widest list.
 const WIDTH: u16 = 90;
 
 /// Columns of keys in the help.

@@ -27,15 +27,12 @@ fn text_of(theme: Theme) -> &'static str {
 pub struct Symbols {
     /// Marks the selected row.
     pub pointer: &'static str,
-    /// Plus or minus.
     pub plus_minus: &'static str,
     /// Separates remarks on a line.
     pub dot: &'static str,
     /// A cut text goes on.
     pub more: &'static str,
-    /// Horizontal rule.
     pub rule: &'static str,
-    /// Vertical rule.
     pub upright: &'static str,
     /// Corner of an axis: vertical line, tick on it, corner, horizontal line, tick on it.
     pub axis: [&'static str; 5],
@@ -53,7 +50,6 @@ pub struct Symbols {
     pub corners: [&'static str; 4],
     /// Direction of motion, from east counter-clockwise in eighths of a turn.
     pub arrows: [char; 8],
-    /// Sparse shading.
     pub shade: char,
     /// Cross of the cursor, and its horizontal and vertical arms.
     pub cross: [char; 3],
@@ -107,12 +103,7 @@ pub enum ThemeError {
     /// A role without a line.
     Missing(&'static str),
     /// A word that is neither a colour nor an attribute.
-    Word {
-        /// The role.
-        role: &'static str,
-        /// The word.
-        word: String,
-    },
+    Word { role: &'static str, word: String },
 }
 
 impl fmt::Display for ThemeError {
@@ -142,7 +133,6 @@ pub struct Look {
 
 impl Look {
     /// The look that these settings ask for; what they leave open becomes braille in 16 colours.
-    #[must_use]
     pub fn new(settings: settings::Look) -> Self {
         let settings::Look { glyphs, colors, theme, .. } = settings;
         // A test reads every theme, so the plain look never serves.
@@ -170,19 +160,16 @@ impl Look {
     }
 
     /// The style of a role.
-    #[must_use]
     pub fn style(&self, role: Role) -> Style {
         self.styles[role as usize]
     }
 
     /// The letter that draws the curves of a role where there are no dots.
-    #[must_use]
     pub fn letter(&self, role: Role) -> char {
         ROLES[role as usize].2
     }
 
     /// The symbols of this set of glyphs.
-    #[must_use]
     pub fn symbols(&self) -> &'static Symbols {
         if self.glyphs == Glyphs::Ascii { &LETTERS } else { &RICH }
     }

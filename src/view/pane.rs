@@ -12,7 +12,6 @@ use crate::picture::role::Role;
 use crate::session::{Pane, Session, Standing};
 
 /// The middle of the screen above the footer, for what stands over the panes.
-#[must_use]
 pub fn centred(screen: Rect, width: u16, height: u16) -> Rect {
     let x = screen.x + (screen.width - width) / 2;
     let y = screen.y + (screen.height.saturating_sub(1) - height) / 2;
@@ -58,7 +57,6 @@ pub struct Heading {
 
 impl Heading {
     /// The heading of a pane, as the session has it.
-    #[must_use]
     pub fn of(session: &Session, pane: Pane) -> Self {
         Heading {
             focused: session.focus == pane && session.overlay.is_none(),
@@ -147,7 +145,6 @@ fn kept(text: &str, width: usize, mark: usize) -> usize {
 }
 
 /// A text that fits into `width` columns; where it is cut, it ends with a mark, and numbers go whole.
-#[must_use]
 pub fn cut(text: &str, width: usize, look: &Look) -> String {
     let mark = look.symbols().more;
     let kept = kept(text, width, mark.chars().count());
@@ -159,7 +156,6 @@ pub fn cut(text: &str, width: usize, look: &Look) -> String {
 }
 
 /// [`cut`] for a text in several styles.
-#[must_use]
 pub fn fitted(line: Line<'static>, width: usize, look: &Look) -> Line<'static> {
     let text: String = line.spans.iter().map(|span| span.content.as_ref()).collect();
     let short = cut(&text, width, look);
@@ -175,7 +171,6 @@ pub fn fitted(line: Line<'static>, width: usize, look: &Look) -> Line<'static> {
 }
 
 /// The first of some texts that fits into this width, the last if none does.
-#[must_use]
 pub fn fitting(texts: impl IntoIterator<Item = String>, width: usize) -> String {
     let mut last = String::new();
     for text in texts {

@@ -30,7 +30,6 @@ const VALUES: usize = 16;
 /// Columns of a step.
 const STEP: usize = 7;
 
-/// Draws the pane.
 pub fn draw(area: Rect, session: &Session, pictures: &[Picture], look: &Look, buffer: &mut Buffer) {
     let heading = Heading::of(session, Pane::Parameters);
     let of = session.number(0).map_or_else(String::new, |number| format!("of motion {number}"));

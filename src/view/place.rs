@@ -11,7 +11,6 @@ use crate::scene::View;
 use crate::session::{Place, Session};
 
 /// What a cell of the screen stands for, if anything: a row of the parameter pane or a point of a plot.
-#[must_use]
 pub fn place(screen: Rect, session: &Session, cell: Position) -> Option<Place> {
     let parts = layout(screen, session)?;
     if parts.parameters.contains(cell) {

@@ -30,7 +30,6 @@ const DIGITS: [usize; 5] = [8, 6, 5, 4, 3];
 const BELOW: u16 = 2;
 
 /// The part of a pane that the plot itself takes.
-#[must_use]
 pub fn body(area: Rect) -> Rect {
     Rect { height: area.height.saturating_sub(BELOW), ..area }
 }
@@ -85,7 +84,6 @@ fn empty(area: Rect, keymap: &Keymap, heading: &Heading, look: &Look, buffer: &m
 }
 
 /// How far a scan is: `120 of 400, 3 s left`.
-#[must_use]
 pub fn progress(scanned: &Scanned) -> String {
     let (rows, points) = (scanned.rows.len(), scanned.scan.points());
     let given_up = scanned.rows.iter().filter(|row| row.reason.is_some()).count();

@@ -10,7 +10,6 @@ use ratatui::style::{Color, Modifier};
 use unicode_width::UnicodeWidthStr;
 
 /// The rows of a screen, without the blanks at their ends.
-#[must_use]
 pub fn text(screen: &Buffer) -> String {
     let mut out = String::new();
     for row in rows(screen) {
@@ -34,7 +33,6 @@ const INK: &str = "#d8d8d8";
 const GROUND: &str = "#101418";
 
 /// The picture of a screen.
-#[must_use]
 pub fn svg(screen: &Buffer) -> String {
     let (width, height) = (f64::from(screen.area.width), f64::from(screen.area.height));
     let (width, height) = (width * CELL.0, height * CELL.1);

@@ -17,7 +17,6 @@ use crate::study::trade::Trade;
 /// The logarithm of the error over that of the time; later methods lie below, the best choices are capitals.
 ///
 /// `seconds` are the times that the rows took. Empty where no row has both.
-#[must_use]
 pub fn in_letters(trade: &Trade, seconds: &[f64]) -> String {
     const AREA: Rect = Rect { x: 0, y: 0, width: 78, height: 24 };
     let front = trade.front(seconds);

@@ -9,7 +9,6 @@ use crate::words::number::significant;
 const DIGITS: [usize; 5] = [10, 8, 6, 5, 4];
 
 /// What is held, in a line of at most `width` columns if that is possible; `None` where nothing is.
-#[must_use]
 pub fn reading(session: &Session, look: &Look, width: u16) -> Option<String> {
     let held = session.held?;
     let name = session.plots[session.plot].axes.abscissa.spec().name;

@@ -7,13 +7,11 @@ use crate::study::claims::{Examined, Finding, Mark, Sense, Verdict};
 const UNKNOWN: &str = "unknown";
 
 /// The name of the verdict in documents.
-#[must_use]
 pub fn name(examined: &Examined) -> &'static str {
     examined.finding.as_ref().map_or(UNKNOWN, |finding| Finding::verdict(finding).name())
 }
 
 /// The verdict in words.
-#[must_use]
 pub fn verdict(examined: &Examined) -> String {
     let percent = |part: f64| format!("{} %", significant(100.0 * part, 2));
     let Ok(finding) = &examined.finding else { return UNKNOWN.to_owned() };
@@ -35,7 +33,6 @@ pub fn verdict(examined: &Examined) -> String {
 }
 
 /// How many claims have which verdict.
-#[must_use]
 pub fn summary(examined: &[Examined]) -> String {
     const NAMES: [(&str, &str); 6] = [
         ("agrees", "agree"),

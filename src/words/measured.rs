@@ -4,7 +4,6 @@ use super::number::significant;
 use crate::study::measure::Value;
 
 /// A value with all its digits; empty where there is none.
-#[must_use]
 pub fn exact(value: Value) -> String {
     match value {
         Value::Nothing => String::new(),
@@ -15,7 +14,6 @@ pub fn exact(value: Value) -> String {
 }
 
 /// A value to be read: eight digits, `-` where there is none.
-#[must_use]
 pub fn rounded(value: Value) -> String {
     match value {
         Value::Nothing => "-".to_owned(),

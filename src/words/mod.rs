@@ -8,7 +8,6 @@ pub mod provenance;
 pub mod quantity;
 
 /// Whether something attracts.
-#[must_use]
 pub fn stability(stable: bool) -> &'static str {
     if stable { "stable" } else { "unstable" }
 }

@@ -4,7 +4,6 @@ use super::number::significant;
 use crate::flow::{Outcome, Trajectory};
 
 /// How a motion ended, in a sentence.
-#[must_use]
 pub fn sentence(motion: &Trajectory) -> String {
     let swings = swings(motion);
     let three = |value| significant(value, 3);
@@ -28,7 +27,6 @@ pub fn sentence(motion: &Trajectory) -> String {
 }
 
 /// After how many half swings.
-#[must_use]
 pub fn swings(motion: &Trajectory) -> String {
     match motion.crossings.len() {
         0 => String::new(),

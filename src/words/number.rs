@@ -6,7 +6,6 @@ use crate::numerics::elementary::log10;
 /// Writes `value` with at most `digits` significant digits, without trailing zeros.
 ///
 /// Magnitudes from `1e-4` up to `1e6` are written plainly, others with an exponent.
-#[must_use]
 pub fn significant(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return "-".into();
@@ -29,7 +28,6 @@ pub fn significant(value: f64, digits: usize) -> String {
 }
 
 /// Writes `value` with the digits that matter where numbers `resolution` apart are told apart.
-#[must_use]
 pub fn resolved(value: f64, resolution: f64) -> String {
     let ratio = log10(value.abs() / resolution);
     #[expect(
@@ -43,7 +41,6 @@ pub fn resolved(value: f64, resolution: f64) -> String {
 
 /// Writes `value` so that it can be typed in again and means the same number, if `width` columns
 /// suffice; else rounds it to what fits.
-#[must_use]
 pub fn exact(value: f64, width: usize) -> String {
     let full = format!("{value:?}");
     let full = full.strip_suffix(".0").unwrap_or(&full);
@@ -62,7 +59,6 @@ pub fn exact(value: f64, width: usize) -> String {
 }
 
 /// Writes a count in at most six columns: `950`, `12.4k`, `3.1M`.
-#[must_use]
 pub fn count(value: u64) -> String {
     const UNITS: [(u64, f64, &str); 3] =
         [(1_000_000_000, 1e9, "G"), (1_000_000, 1e6, "M"), (10_000, 1e3, "k")];
@@ -77,7 +73,6 @@ pub fn count(value: u64) -> String {
 }
 
 /// Writes a duration given in seconds: `0.21 ms`, `35 ms`, `2.4 s`.
-#[must_use]
 pub fn duration(seconds: f64) -> String {
     if seconds < 1.0 {
         format!("{} ms", significant(seconds * 1e3, 2))
@@ -88,7 +83,6 @@ pub fn duration(seconds: f64) -> String {
 
 /// Writes how long `wanted` equal parts take of which `done` took `elapsed` seconds, from now on:
 /// `12 s`, `3 min`, `2.5 h`.
-#[must_use]
 pub fn remaining(elapsed: f64, done: usize, wanted: usize) -> String {
     #[expect(clippy::cast_precision_loss, reason = "a rough number")]
     let seconds = elapsed * wanted.saturating_sub(done) as f64 / done.max(1) as f64;

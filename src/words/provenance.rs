@@ -7,7 +7,6 @@ use serde::{Deserialize, Serialize};
 pub struct Provenance {
     /// Name of the program.
     pub program: String,
-    /// Its version.
     pub version: String,
     /// The revision of its source, where the build set `HOPFSCOPE_REVISION`.
     pub revision: Option<String>,
@@ -17,7 +16,6 @@ pub struct Provenance {
 
 impl Provenance {
     /// Of what this build answers to these arguments.
-    #[must_use]
     pub fn of(arguments: &[String]) -> Self {
         let program = env!("CARGO_PKG_NAME");
         Provenance {
@@ -32,7 +30,6 @@ impl Provenance {
     ///
     /// # Panics
     /// Never: a struct of strings can always be written.
-    #[must_use]
     pub fn within(&self, document: &str) -> String {
         let Some(fields) = document.strip_suffix("}\n").filter(|it| it.starts_with('{')) else {
             return document.to_owned();
@@ -46,14 +43,12 @@ impl Provenance {
     }
 
     /// The program with its version, and revision where it is known.
-    #[must_use]
     pub fn build(&self) -> String {
         let revision = self.revision.as_ref().map(|revision| format!(" ({revision})"));
         format!("{} {}{}", self.program, self.version, revision.unwrap_or_default())
     }
 
     /// The arguments of the command line; nothing if it is not one that [`quoted`] wrote.
-    #[must_use]
     pub fn arguments(&self) -> Option<Vec<String>> {
         let mut words = unquoted(&self.command)?.into_iter();
         words.next().filter(|program| *program == self.program)?;
@@ -62,7 +57,6 @@ impl Provenance {
 }
 
 /// Words as one line for a POSIX shell, with quotes around those that need them.
-#[must_use]
 pub fn quoted(words: &[String]) -> String {
     let plain = |char: char| char.is_ascii_alphanumeric() || "-_=+.,:/@%".contains(char);
     let quoted = |word: &String| {

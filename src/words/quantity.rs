@@ -12,7 +12,6 @@ const LEAST: f64 = 0.1;
 /// A value given in an SI unit with at most `digits` significant digits: `5.47 mm`, `27.4 N`.
 ///
 /// Units that begin with a prefix of their own (kg) and pure numbers get none.
-#[must_use]
 pub fn with_unit(value: f64, digits: usize, unit: &str) -> String {
     let plain = |value: f64| significant(value, digits);
     if unit.is_empty() {

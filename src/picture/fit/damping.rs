@@ -28,7 +28,6 @@ fn exact(parameters: &Parameters, from: f64) -> Option<Point> {
     pair(&turns)
 }
 
-/// The picture.
 pub fn damping(fitted: &Fitted) -> Option<Picture<'static>> {
     const POINTS: u32 = 160;
     let estimate = &fitted.estimate;

@@ -21,7 +21,6 @@ use crate::study::cycle::Edge;
 const EDGES: usize = 20;
 
 /// All pictures of a fit; peaks alone have no record to be drawn.
-#[must_use]
 pub fn pictures(fitted: &Fitted) -> Vec<Picture<'static>> {
     let seen = match &fitted.estimate.data {
         Data::Samples { t, x } => Some(Sampled::of(fitted, t, x)),
@@ -62,7 +61,6 @@ fn residuals(fitted: &Fitted, seen: &Sampled) -> Option<Picture<'static>> {
 
 /// The autocorrelation of the residuals over two periods.
 fn memory(fitted: &Fitted) -> Option<Picture<'static>> {
-    /// Most lags.
     const LAGS: usize = 400;
     let estimate = &fitted.estimate;
     let Data::Samples { t, .. } = &estimate.data else { return None };

@@ -7,7 +7,6 @@ use crate::scene::{Point, Span, Window};
 /// A curve before it stands in a picture.
 pub type Curve = (Line, Vec<Point>);
 
-/// A point.
 pub fn at(x: f64, y: f64) -> Point {
     Point { x, y }
 }

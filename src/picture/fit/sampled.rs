@@ -12,7 +12,6 @@ const POINTS: usize = 4000;
 pub struct Sampled {
     /// Times in s; not a number in a gap.
     pub t: Vec<f64>,
-    /// Measured displacements.
     pub x: Vec<f64>,
     /// Differences from the fitted motion.
     pub residual: Vec<f64>,
@@ -21,7 +20,6 @@ pub struct Sampled {
 }
 
 impl Sampled {
-    /// Of these samples.
     pub fn of(fitted: &Fitted, t: &[f64], x: &[f64]) -> Self {
         /// A step of so many usual ones is a gap.
         const GAP: f64 = 6.0;

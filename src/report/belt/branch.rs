@@ -20,9 +20,7 @@ pub struct Branched<'a> {
     pub head: &'a Head<'a>,
     /// The number that varies.
     pub varied: Varied,
-    /// What was found.
     pub branch: Branch,
-    /// What it took.
     pub seconds: f64,
 }
 
@@ -34,7 +32,6 @@ pub struct Borders<'a> {
     pub varied: (Varied, Varied),
     /// The changes at each value of the other.
     pub rows: Vec<(f64, Vec<Special>)>,
-    /// What it took.
     pub seconds: f64,
 }
 
@@ -78,7 +75,6 @@ fn points(branched: &Branched) -> Vec<Point> {
 }
 
 /// The branch as a document.
-#[must_use]
 pub fn json(branched: &Branched) -> String {
     let found = branched.branch.points.iter().filter_map(|point| point.found.as_ref().ok());
     text(&Document {
@@ -124,7 +120,6 @@ fn jumps(special: &Special) -> String {
 }
 
 /// The branch, to read.
-#[must_use]
 pub fn table(branched: &Branched) -> String {
     let (name, unit) = (branched.varied.name(), branched.varied.unit());
     let titles =
@@ -188,7 +183,6 @@ struct Row {
 }
 
 /// One row for each cycle, then one for each change, in SI units.
-#[must_use]
 pub fn csv(branched: &Branched) -> String {
     let mut sheet = Sheet::like(&Row::default(), &[("value", branched.varied.name())]);
     for point in &branched.branch.points {
@@ -247,7 +241,6 @@ struct Seconds {
 }
 
 /// The changes as a document.
-#[must_use]
 pub fn borders_json(borders: &Borders) -> String {
     let rows = borders.rows.iter().map(|(value, special)| BorderRow { value: *value, special });
     text(&BordersDocument {
@@ -263,7 +256,6 @@ pub fn borders_json(borders: &Borders) -> String {
 }
 
 /// The changes, to read.
-#[must_use]
 pub fn borders_table(borders: &Borders) -> String {
     let (along, against) = borders.varied;
     let mut table = Table::new(&[against.name(), along.name(), "what happens"]);
@@ -291,7 +283,6 @@ struct Change {
 }
 
 /// One row for each change, in SI units.
-#[must_use]
 pub fn borders_csv(borders: &Borders) -> String {
     let (along, against) = borders.varied;
     let called = [("against", against.name()), ("value", along.name())];

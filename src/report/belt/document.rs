@@ -371,7 +371,6 @@ pub(super) struct Cost {
 }
 
 /// Everything that is said about a machine, as a document.
-#[must_use]
 pub fn json(answer: &Answer) -> String {
     let survey = answer.survey;
     let (belt, reduced) = (&survey.belt, &survey.reduced);

@@ -25,9 +25,7 @@ use crate::words::quantity::with_unit;
 
 /// Everything that is said about a machine.
 pub struct Answer<'a> {
-    /// The machine.
     pub machine: &'a Machine,
-    /// What it does.
     pub survey: &'a Survey,
     /// The part of a window from which it comes to rest, if asked for.
     pub rest_share: Option<f64>,
@@ -35,7 +33,6 @@ pub struct Answer<'a> {
     pub design: Option<Designed>,
     /// The kicks that are survived for certain, or why none is; `None` if not asked for.
     pub certain: Option<Result<Kicks, Uncertain>>,
-    /// What it took.
     pub seconds: f64,
 }
 
@@ -70,7 +67,6 @@ pub struct Designed {
 pub struct Head<'a> {
     /// The name by which it is opened.
     pub name: &'a str,
-    /// One line.
     pub title: &'a str,
     /// Its numbers, each with its name.
     numbers: Vec<(String, String)>,
@@ -78,13 +74,11 @@ pub struct Head<'a> {
 
 impl<'a> Head<'a> {
     /// Of a mass on a belt.
-    #[must_use]
     pub fn of_machine(machine: &'a Machine) -> Self {
         Head { name: &machine.name, title: &machine.title, numbers: numbers(&machine.belt) }
     }
 
     /// Of a vibration mode.
-    #[must_use]
     pub fn of_mode(mode: &'a Mode) -> Self {
         let Modal { frequency, mass, damping_ratio, friction, static_guide } = &mode.numbers;
         let force = |value| with_unit(value, 12, "N");

@@ -13,15 +13,12 @@ use crate::words::quantity::with_unit;
 
 /// Everything that is said about a mode.
 pub struct ModeAnswer<'a> {
-    /// The mode.
     pub mode: &'a Mode,
-    /// What it does.
     pub course: &'a Course,
     /// The part of a window from which it comes to rest, if asked for.
     pub rest_share: Option<f64>,
     /// The friction for a margin, if asked for.
     pub design: Option<Designed>,
-    /// What it took.
     pub seconds: f64,
 }
 
@@ -40,7 +37,6 @@ struct Document<'a> {
 }
 
 /// The answer as a document, in SI units.
-#[must_use]
 pub fn json(answer: &ModeAnswer) -> String {
     let course = answer.course;
     text(&Document {
@@ -55,7 +51,6 @@ pub fn json(answer: &ModeAnswer) -> String {
 }
 
 /// The answer, to read.
-#[must_use]
 pub fn table(answer: &ModeAnswer) -> String {
     let (mode, course) = (answer.mode, answer.course);
     let [displacement, impulse] = margins(&course.portrait);
@@ -78,7 +73,6 @@ pub fn table(answer: &ModeAnswer) -> String {
 }
 
 /// One row for each number, in SI units.
-#[must_use]
 pub fn csv(answer: &ModeAnswer) -> String {
     let mut out = sheet();
     csv_rows(&mut out, &answer.course.portrait, answer.rest_share);

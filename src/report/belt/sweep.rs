@@ -30,9 +30,7 @@ pub struct Sweep<'a> {
     pub head: &'a Head<'a>,
     /// The number that varies.
     pub varied: Varied,
-    /// The points.
     pub points: Vec<SweepPoint>,
-    /// What it took.
     pub seconds: f64,
 }
 
@@ -64,7 +62,6 @@ fn steps(sweep: &Sweep) -> u64 {
 }
 
 /// The sweep as a document.
-#[must_use]
 pub fn json(sweep: &Sweep) -> String {
     let point = |point: &'_ SweepPoint| Point {
         value: point.value,
@@ -107,7 +104,6 @@ fn regime(found: &Portrait) -> String {
 }
 
 /// The sweep, to read.
-#[must_use]
 pub fn table(sweep: &Sweep) -> String {
     let (name, unit) = (sweep.varied.name(), sweep.varied.unit());
     let designs = sweep.points.iter().any(|point| point.design.is_some());
@@ -178,7 +174,6 @@ struct Row {
 }
 
 /// One row for each point, in SI units.
-#[must_use]
 pub fn csv(sweep: &Sweep) -> String {
     let mut sheet = Sheet::like(&Row::default(), &[("value", sweep.varied.name())]);
     for point in &sweep.points {

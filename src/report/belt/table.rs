@@ -58,7 +58,6 @@ fn rows(answer: &Answer) -> Vec<Row> {
 }
 
 /// Everything that is said about a machine, to read.
-#[must_use]
 pub fn table(answer: &Answer) -> String {
     let survey = answer.survey;
     let (belt, reduced) = (&survey.belt, &survey.reduced);
@@ -273,7 +272,6 @@ fn expansion(answer: &Answer) -> String {
 }
 
 /// One row for each number, in SI units.
-#[must_use]
 pub fn csv(answer: &Answer) -> String {
     let mut out = sheet();
     for Row { what, dimensionless, physical } in rows(answer) {
@@ -302,12 +300,10 @@ struct Number<'a> {
     unit: &'a str,
 }
 
-/// No numbers yet.
 pub(super) fn sheet() -> Sheet {
     Sheet::like(&Number::default(), &[])
 }
 
-/// Adds a row.
 fn put(
     sheet: &mut Sheet,
     what: &str,

@@ -126,8 +126,6 @@ struct Document<'a> {
     cost: Cost,
 }
 
-/// One document.
-#[must_use]
 pub fn json(fitted: &Fitted) -> String {
     let Fitted { record, estimate, margins, .. } = fitted;
     let parameters = estimate.wanted().map(|row| (row.name, number(fitted, row.place))).collect();
@@ -247,7 +245,6 @@ fn physical(fitted: &Fitted) -> Option<Physical> {
 }
 
 /// One row for each estimated number, then the margins.
-#[must_use]
 pub fn csv(fitted: &Fitted) -> String {
     let numbers = fitted.estimate.wanted().map(|row| {
         let Number { value, standard_error, lower, upper, .. } = number(fitted, row.place);

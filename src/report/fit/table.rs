@@ -22,7 +22,6 @@ fn unit(row: &NameSpec, length: &str) -> String {
 }
 
 /// Everything that is said about a fit.
-#[must_use]
 pub fn table(fitted: &Fitted) -> String {
     let estimate = &fitted.estimate;
     let mut out = format!("{}: {}\n\n", fitted.name, subject(fitted));

@@ -6,8 +6,6 @@ use crate::fit::observation::R;
 use crate::fit::separable::{Combination, combinations};
 use crate::words::number::significant;
 
-/// The sentences.
-#[must_use]
 pub fn sentences(fitted: &Fitted) -> Vec<String> {
     let mut all = left_out(fitted);
     all.extend(combinations(&fitted.estimate).iter().map(|one| inseparable(fitted, one)));

@@ -16,7 +16,6 @@ use crate::view;
 /// Why a play stands still.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Pause {
-    /// It does not.
     Not,
     /// A caption waits to be read.
     Caption,
@@ -24,7 +23,6 @@ enum Pause {
     Wished,
 }
 
-/// What is played.
 #[derive(Debug)]
 pub(super) struct Playing {
     player: Player,

@@ -11,7 +11,6 @@ use crate::oscillator::belt::{BeltError, Reduced};
 pub struct Machine {
     /// The name by which it is opened.
     pub name: String,
-    /// One line.
     pub title: String,
     /// What it is, and what to look at, in a sentence or two.
     pub look: String,

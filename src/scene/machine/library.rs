@@ -33,7 +33,6 @@ const TABLES: [(&str, &str); 1] =
 ///
 /// # Panics
 /// Never: a test reads every file.
-#[must_use]
 pub fn machines() -> &'static [Machine] {
     static MACHINES: LazyLock<Vec<Machine>> = LazyLock::new(|| {
         let read = |(name, text): (&str, &str)| match parse(
@@ -57,7 +56,6 @@ fn table_named(name: &str) -> Result<String, String> {
 }
 
 /// The machine of the program with this name.
-#[must_use]
 pub fn find(name: &str) -> Option<&'static Machine> {
     machines().iter().find(|machine| machine.name == name)
 }

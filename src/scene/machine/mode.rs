@@ -14,9 +14,7 @@ use crate::scene::misread::{self, Complaint, Misread};
 pub struct Mode {
     /// The name by which it is opened.
     pub name: String,
-    /// One line.
     pub title: String,
-    /// Its numbers.
     pub numbers: Modal,
     /// Displacement (m) and velocity (m/s) at the start.
     pub start: (f64, f64),
@@ -45,7 +43,6 @@ struct File {
 }
 
 /// Whether a text is that of a mode: no machine has a modal mass.
-#[must_use]
 pub fn is_mode(text: &str) -> bool {
     text.lines().any(|line| line.trim_start().starts_with("modal_mass"))
 }

@@ -21,7 +21,6 @@ pub type Station = (f64, Option<Parameters>);
 
 impl Running<'_> {
     /// Speeds in even ratios from slow to fast, with the parameters of the machine.
-    #[must_use]
     pub fn path(&self) -> Vec<Station> {
         let (slow, fast) = self.speeds();
         let ratio = ln(fast / slow);
@@ -31,7 +30,6 @@ impl Running<'_> {
     }
 
     /// The round speeds of the path, the roundest first.
-    #[must_use]
     pub fn milestones(&self) -> Vec<Station> {
         let (slow, fast) = self.speeds();
         #[expect(clippy::cast_possible_truncation, reason = "exponents of speeds have two digits")]

@@ -15,9 +15,7 @@ use crate::scene::usual::TOLERANCE;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Machine", into = "Machine")]
 pub struct Rig {
-    /// The machine.
     pub machine: Machine,
-    /// Its dimensionless form.
     pub reduced: Reduced,
 }
 
@@ -46,7 +44,6 @@ impl Rig {
     }
 
     /// The motion of the machine.
-    #[must_use]
     pub fn problem(&self) -> Problem {
         Problem {
             parameters: self.reduced.parameters,
@@ -58,7 +55,6 @@ impl Rig {
     }
 
     /// The terms of the model that it has.
-    #[must_use]
     pub fn terms(&self) -> BTreeSet<Symbol> {
         let parameters = &self.reduced.parameters;
         let has = |symbol: &Symbol| symbol.get(parameters, &State { q: 0.0, v: 0.0 }) != 0.0;
@@ -67,7 +63,6 @@ impl Rig {
     }
 
     /// The machine at its own speed of the belt.
-    #[must_use]
     pub fn running(&self) -> Running<'_> {
         let Rig { machine, reduced } = self;
         Running { machine, speed: machine.belt.belt_speed, reduced: *reduced }

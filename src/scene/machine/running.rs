@@ -13,7 +13,6 @@ use crate::oscillator::{Parameters, State, Symbol};
 /// A machine with its belt at a speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Running<'a> {
-    /// The machine.
     pub machine: &'a Machine,
     /// Speed v0 of the belt, in m/s.
     pub speed: f64,
@@ -33,13 +32,11 @@ impl<'a> Running<'a> {
     }
 
     /// Whether these parameters are those of the machine at this speed, to the last bit.
-    #[must_use]
     pub fn carries(&self, parameters: &Parameters) -> bool {
         self.reduced.parameters == *parameters
     }
 
     /// The start of the machine's motion, in the units of this speed.
-    #[must_use]
     pub fn start(&self) -> State {
         let units = &self.reduced.units;
         let Machine { displacement, velocity, .. } = self.machine;
@@ -48,7 +45,6 @@ impl<'a> Running<'a> {
 
     /// A motion at this speed as one at another: with the parameters of the machine there, and from the
     /// same place in metres with the same velocity in metres per second.
-    #[must_use]
     pub fn brought_to(&self, other: &Running, problem: Problem) -> Problem {
         let (own, others) = (self.start(), other.start());
         let (from, to) = (&self.reduced.units, &other.reduced.units);
@@ -68,7 +64,6 @@ impl<'a> Running<'a> {
     /// units and the unit. D stands for the damper d1, D3 for d3, r for R.
     ///
     /// `None` for D2, which no part of the machine sets by itself.
-    #[must_use]
     pub fn meaning(&self, symbol: Symbol, value: f64) -> Option<(&'static str, f64, &'static str)> {
         let Reduced { mu, .. } = &self.reduced;
         let belt = &self.machine.belt;
@@ -89,7 +84,6 @@ impl<'a> Running<'a> {
     }
 
     /// What 1 of a number of the motion stands for on the machine, in SI units; for D2 the damper per velocity.
-    #[must_use]
     pub fn scale(&self, symbol: Symbol) -> f64 {
         let units = &self.reduced.units;
         let mass = self.machine.belt.mass;
@@ -105,7 +99,6 @@ impl<'a> Running<'a> {
 
     /// The pull of the belt on the mass at a dimensionless velocity, as a part of that at rest; `None`
     /// where the friction law does not reach.
-    #[must_use]
     pub fn pull(&self, v: f64) -> Option<f64> {
         let relative = self.speed - v * self.reduced.units.velocity;
         Some(self.machine.belt.law.mu(relative)? / self.reduced.mu.value)

@@ -24,7 +24,8 @@ pub fn command(session: &mut Session) -> Vec<Effect> {
 /// Copies the number or the point that is looked at.
 pub fn number(session: &mut Session) -> Vec<Effect> {
     let looked_at = point(session);
-    copied(session, looked_at.into_iter().map(|(_, value)| value).collect())
+    let words: Vec<String> = looked_at.into_iter().map(|(_, value)| value).collect();
+    copied(session, &words)
 }
 
 /// Copies what is looked at with all that belongs to it, as a line of `set` would have it.
@@ -35,10 +36,12 @@ pub fn row(session: &mut Session) -> Vec<Effect> {
     }
     let mut known = std::collections::BTreeSet::new();
     named.retain(|(name, _)| known.insert(name.clone()));
-    copied(session, named.into_iter().map(|(name, value)| format!("{name}={value}")).collect())
+    let words: Vec<String> =
+        named.into_iter().map(|(name, value)| format!("{name}={value}")).collect();
+    copied(session, &words)
 }
 
-fn copied(session: &mut Session, words: Vec<String>) -> Vec<Effect> {
+fn copied(session: &mut Session, words: &[String]) -> Vec<Effect> {
     if words.is_empty() {
         refuse(session, "nothing is pointed at: arrows show a cursor");
         return Vec::new();
@@ -127,7 +130,6 @@ fn belonging(session: &Session) -> Vec<Named> {
 
 /// The command line that gives the numbers of the pane in focus. It writes out every number, so that
 /// it means the same whatever scenes there are.
-#[must_use]
 pub fn command_line(session: &Session) -> String {
     let Problem { until, method, tolerance, step, epsilon, .. } = session.problem;
     let diagram = session.focused().filter(|plot| plot.view == View::Diagram);

@@ -23,7 +23,6 @@ const TOUR: &str = include_str!("../../../assets/replays/tour.keys");
 /// What a line has done, or why not.
 type Done = Result<Vec<Effect>, String>;
 
-/// Saves the session.
 pub(in crate::session) fn write(session: &mut Session, path: &str, replace: bool) -> Done {
     let text = save::text(session)?;
     Ok(vec![Effect::Write { path: PathBuf::from(path), text, replace }])
@@ -221,7 +220,6 @@ pub fn tour_script() -> Result<Script, String> {
     replay::parse(TOUR).map_err(|error| format!("the tour: {error}"))
 }
 
-/// Starts the tour.
 pub fn tour(session: &mut Session) -> Vec<Effect> {
     match tour_script() {
         Ok(script) => {

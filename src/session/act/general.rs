@@ -130,7 +130,6 @@ pub fn accept_offer(session: &mut Session) -> Vec<Effect> {
     }
 }
 
-/// Leaves.
 pub fn quit(session: &mut Session) -> Vec<Effect> {
     session.quit = true;
     vec![Effect::Quit]

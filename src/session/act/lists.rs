@@ -128,7 +128,6 @@ pub fn search_delete(session: &mut Session) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Clears the search.
 pub fn search_clear(session: &mut Session) -> Vec<Effect> {
     if let Some(list) = session.list_mut() {
         list.search.clear();

@@ -49,7 +49,6 @@ pub fn record_or_end(session: &mut Session) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Begins to record.
 pub(in crate::session) fn record(session: &mut Session, register: char) -> Vec<Effect> {
     session.macros.recording = Some((register, Recorder::default()));
     inform(session, format!("recording into register {register}"));

@@ -52,7 +52,6 @@ fn go(session: &mut Session, mark: &Mark) {
     session.layers.insert(Layer::Ghost);
 }
 
-/// The present point.
 fn present(session: &Session) -> Mark {
     let asked = COMPARED.into_iter().filter_map(|topic| session.request(topic, session.plot));
     Mark { stand: session.stand(), asked: asked.collect() }

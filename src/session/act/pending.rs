@@ -31,7 +31,6 @@ pub fn ask(session: &mut Session, what: Letter) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Waits no longer.
 pub fn forget(session: &mut Session) -> Vec<Effect> {
     session.pending = None;
     Vec::new()

@@ -54,7 +54,6 @@ pub fn set(session: &mut Session, rest: &str) -> Done {
     Ok(Vec::new())
 }
 
-/// A single value.
 pub fn set_row(session: &mut Session, row: &str, value: &str) -> Done {
     let row = row_named(session, row)?;
     let stand = entry::read(session, session.stand(), row, value)?;
@@ -62,7 +61,6 @@ pub fn set_row(session: &mut Session, row: &str, value: &str) -> Done {
     Ok(Vec::new())
 }
 
-/// Opens a scene.
 pub fn scene(session: &mut Session, name: &str) -> Done {
     let scene = find(name).map_err(|missing| missing.to_string())?;
     history::open_scene(session, Arc::clone(&scene));
@@ -178,7 +176,6 @@ pub fn letter(text: &str) -> Result<char, String> {
     }
 }
 
-/// Marks this point.
 pub fn mark(session: &mut Session, rest: &str) -> Done {
     Ok(marks::set(session, letter(rest)?))
 }
@@ -203,7 +200,6 @@ fn look<T: Copy>(table: &[(T, &'static str)], name: &str) -> Result<T, String> {
     named(table, name).ok_or_else(|| format!("no {name:?}; there are {}", names()))
 }
 
-/// Uses a theme.
 pub fn theme(session: &mut Session, name: &str) -> Done {
     session.look.theme = look(&THEMES, name)?;
     Ok(Vec::new())

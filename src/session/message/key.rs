@@ -7,51 +7,34 @@
 use std::fmt;
 use std::str::FromStr;
 
-/// Which key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Code {
     /// A printable character, as typed (shift is already in it).
     Char(char),
     /// Function key 1 to 12.
     F(u8),
-    /// Arrow.
     Left,
-    /// Arrow.
     Right,
-    /// Arrow.
     Up,
-    /// Arrow.
     Down,
-    /// Enter.
     Enter,
-    /// Escape.
     Esc,
     /// Tab (with shift: back tab).
     Tab,
-    /// Backspace.
     Backspace,
-    /// Delete.
     Delete,
-    /// Insert.
     Insert,
-    /// Home.
     Home,
-    /// End.
     End,
-    /// Page up.
     PageUp,
-    /// Page down.
     PageDown,
 }
 
 /// A key with its modifiers. Shift is only recorded for keys that are not characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Key {
-    /// Which key.
     pub code: Code,
-    /// With Control.
     pub control: bool,
-    /// With Alt.
     pub alt: bool,
     /// With Shift, for keys that are not characters.
     pub shift: bool,
@@ -105,13 +88,11 @@ impl std::error::Error for NoKey {}
 
 impl Key {
     /// A key without modifiers.
-    #[must_use]
     pub const fn plain(code: Code) -> Self {
         Key { code, control: false, alt: false, shift: false }
     }
 
     /// A key as terminals mean it: shift is part of a character, and Control ignores its case.
-    #[must_use]
     pub fn new(code: Code, control: bool, alt: bool, shift: bool) -> Self {
         match code {
             Code::Char(char) => {
@@ -123,7 +104,6 @@ impl Key {
     }
 
     /// The character that this key types, if it types one.
-    #[must_use]
     pub fn typed(self) -> Option<char> {
         match self.code {
             Code::Char(char) if !self.control && !self.alt && !char.is_control() => Some(char),

@@ -20,12 +20,7 @@ pub enum Msg {
     /// The mouse did something.
     Pointed(Pointed),
     /// The screen has this size now, in cells.
-    Resize {
-        /// Columns.
-        width: u16,
-        /// Rows.
-        height: u16,
-    },
+    Resize { width: u16, height: u16 },
     /// The worker answered a request, or failed to.
     Answered(Box<Answered>),
     /// The worker has nothing left to do (sent after the last answer).
@@ -39,18 +34,13 @@ pub enum Msg {
     Say(String, Option<(usize, usize)>),
     /// A file that was asked for, or why it cannot be read.
     Read {
-        /// The file.
         path: PathBuf,
-        /// What for.
         purpose: Purpose,
         /// Its text, or one line.
         result: Result<String, String>,
     },
     /// So much time has passed since the last such message, or since the motion is played.
-    Elapsed {
-        /// Seconds.
-        seconds: f64,
-    },
+    Elapsed { seconds: f64 },
     /// The figure that was being written is, or is not.
     Written(Notice),
     /// The outer rings tell how an effect ended, such as a file written or not, or a replay.
@@ -76,7 +66,6 @@ pub enum Purpose {
     Table {
         /// The file of the machine.
         path: PathBuf,
-        /// Its text.
         machine: String,
     },
 }
@@ -86,6 +75,5 @@ pub enum Purpose {
 pub struct Notice {
     /// Whether something was refused or failed.
     pub error: bool,
-    /// The line.
     pub text: String,
 }

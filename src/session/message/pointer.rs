@@ -18,7 +18,6 @@ pub enum Gesture {
 pub struct Pointed {
     /// What the mouse did.
     pub gesture: Gesture,
-    /// Where.
     pub place: Place,
 }
 

@@ -15,14 +15,12 @@ use crate::session::state::setup::Stand;
 
 impl Session {
     /// The motion on show and the speed of the belt.
-    #[must_use]
     pub fn stand(&self) -> Stand {
         let Session { problem, others, belt_speed, doubt, .. } = *self;
         Stand { problem, others, belt_speed, doubt }
     }
 
     /// The machine of the scene at the present speed of its belt.
-    #[must_use]
     pub fn running(&self) -> Option<Running<'_>> {
         let rig = self.scene.machine.as_ref()?;
         let present = self.belt_speed.and_then(|speed| Running::at(&rig.machine, speed).ok());
@@ -30,14 +28,12 @@ impl Session {
     }
 
     /// Whether the numbers on show are those of the machine at the speed of its belt; `None` without one.
-    #[must_use]
     pub fn is_on_the_belt(&self) -> Option<bool> {
         Some(self.running()?.carries(&self.problem.parameters))
     }
 
     /// The machine on show, where the whole model can answer for it: D, D3 and r changed by hand stand for
     /// the dampers and the guide, D2 for nothing.
-    #[must_use]
     pub fn machine(&self) -> Option<Belt> {
         let running = self.running()?;
         let mut belt = Belt { belt_speed: running.speed, ..running.machine.belt.clone() };
@@ -64,19 +60,16 @@ impl Session {
     }
 
     /// Whether the whole model is drawn: the scene is of a machine for which it can answer, and it is wished.
-    #[must_use]
     pub fn draws_whole(&self) -> bool {
         self.layers.contains(&Layer::Whole) && self.machine().is_some()
     }
 
     /// What the whole model says about the motion on show; `None` while it is not drawn or not known.
-    #[must_use]
     pub fn course(&self) -> Option<&Course> {
         self.whole(Topic::Trajectory)?.motion.as_ref()
     }
 
     /// What the whole model says about the cycles; `None` while it is not known.
-    #[must_use]
     pub fn kinds(&self) -> Option<&Kinds> {
         self.whole(Topic::Cycles)?.cycles.as_ref()
     }
@@ -89,7 +82,6 @@ impl Session {
     }
 
     /// The cycles over the speed of the belt that were computed last for a plot, stale or not.
-    #[must_use]
     pub fn speeds(&self, plot: usize) -> Option<&Speeds> {
         match self.answer(Topic::Speeds, plot)? {
             Answer::Speeds(found) => Some(found),

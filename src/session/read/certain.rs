@@ -11,7 +11,6 @@ use crate::session::state::session::Session;
 
 impl Session {
     /// Whether margins that hold for certain are told in a plot: something is in doubt, or a layer asks.
-    #[must_use]
     pub fn tells_certain(&self, plot: usize) -> bool {
         let layers = [Layer::Safe, Layer::Lost].iter().any(|it| self.layers.contains(it));
         let phase = self.plots.get(plot).is_some_and(|plot| plot.view == View::Phase);
@@ -35,7 +34,6 @@ impl Session {
     }
 
     /// What is safe and lost for certain at the present parameters.
-    #[must_use]
     pub fn zones(&self) -> Option<&Zones> {
         match self.answer(Topic::Zones, self.plot)? {
             Answer::Zones(found) => Some(found),

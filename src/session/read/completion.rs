@@ -104,7 +104,6 @@ pub fn names(keymap: &Keymap) -> impl Iterator<Item = &'static str> {
 }
 
 /// What the last word of a text can become.
-#[must_use]
 pub fn completion(session: &Session, text: &str) -> Option<Completion> {
     let start = text.trim_end_matches(|char: char| !char.is_whitespace()).len();
     let (stem, word) = text.split_at(start);
@@ -121,7 +120,6 @@ pub fn completion(session: &Session, text: &str) -> Option<Completion> {
 }
 
 /// What is known about the line being typed: the command that it begins with.
-#[must_use]
 pub fn described(keymap: &Keymap, text: &str) -> Option<(&'static str, &'static str)> {
     let name = text.split_whitespace().next()?;
     let of_line = keymap.line(name).map(|line| (line.arguments, line.doc));

@@ -10,7 +10,6 @@ use crate::session::state::session::Session;
 
 impl Session {
     /// The contexts that hold now, the most specific first: one of [`chains`](crate::session::state::context::chains).
-    #[must_use]
     pub fn contexts(&self) -> &'static [Context] {
         match self.pending {
             Some(Pending::Count(_)) => chain(Context::Count),
@@ -56,7 +55,6 @@ impl Session {
     }
 
     /// The keys that matter now, with a word each: for the footer.
-    #[must_use]
     pub fn hints(&self) -> Vec<Hint> {
         let mut hints: Vec<Hint> = Vec::new();
         let mut shown = BTreeSet::new();
@@ -83,6 +81,5 @@ impl Session {
 pub struct Hint {
     /// The keys, one for each command that the word stands for.
     pub keys: Vec<Key>,
-    /// The word.
     pub text: &'static str,
 }

@@ -40,11 +40,9 @@ pub enum End {
 pub enum Place {
     /// Inside of the unstable cycle.
     InsideCycle,
-    /// Outside of it.
     OutsideCycle,
     /// On the side of the separatrix that is captured.
     InsideSeparatrix,
-    /// On the other.
     OutsideSeparatrix,
     /// Nothing borders the basin.
     Anywhere,
@@ -55,7 +53,6 @@ pub enum Place {
 pub struct Fate {
     /// What becomes of it.
     pub end: End,
-    /// Why.
     pub place: Place,
 }
 
@@ -67,7 +64,6 @@ const NEAR: [f64; 2] = [1e-12, 1e-8];
 const RESOLVED: f64 = 1e-6;
 
 /// What becomes of a motion among these cycles; `None` where that is not known.
-#[must_use]
 pub fn fate(found: &Cycles, motion: &Trajectory) -> Option<Fate> {
     match found.edge {
         _ if !found.cycles.is_empty() && found.edge != Edge::Separatrix => among(found, motion),
@@ -176,7 +172,6 @@ fn of_course(course: &Course, motion: &Trajectory) -> Option<Fate> {
 
 impl Session {
     /// What a text of the scene says about what is on show.
-    #[must_use]
     pub fn said(&self, text: &str) -> String {
         said::said(text, |condition| self.holds(condition))
     }
@@ -214,7 +209,6 @@ impl Session {
 
     /// What becomes of the motion that was computed last; `None` as long as its cycles are not known, and
     /// of methods that miss the turning points.
-    #[must_use]
     pub fn fate(&self) -> Option<Fate> {
         let motion = self.trajectory()?;
         if let Some(course) = self.course() {

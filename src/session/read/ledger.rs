@@ -26,7 +26,6 @@ pub enum Entry {
     Title(Owner),
     /// What a source did, and as a part of the largest work of its owner.
     Work {
-        /// The source.
         source: &'static str,
         /// Energy that it gave; negative where it took.
         work: f64,
@@ -41,7 +40,6 @@ pub enum Entry {
 
 impl Session {
     /// The lines of the energy ledger, of the layers that are on.
-    #[must_use]
     pub fn ledger(&self) -> Vec<Entry> {
         let mut lines = Vec::new();
         if self.draws_whole() {
@@ -85,7 +83,6 @@ impl Session {
     }
 
     /// The state that a line of the ledger leads to: a start on its cycle, or the start of the motion.
-    #[must_use]
     pub fn start_of_line(&self, height: f64) -> Option<State> {
         let lines = self.ledger();
         let line = lines.iter().enumerate().rev().find(|(index, entry)| {

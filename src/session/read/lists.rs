@@ -11,7 +11,6 @@ use crate::study::claims::{Claim, Examined, Verdict, claims};
 impl Session {
     /// The scenes that the picker lists, in groups. A lesson stands for the figure that shows the same, as
     /// long as nothing is searched.
-    #[must_use]
     pub fn scene_rows(&self, list: &List) -> Vec<&'static Arc<Scene>> {
         let all = list.search.trim().is_empty();
         let found = library().iter().filter(|scene| {
@@ -23,7 +22,6 @@ impl Session {
     }
 
     /// The layers that the layer list shows: those of the plot in use first.
-    #[must_use]
     pub fn layer_rows(&self, list: &List) -> Vec<&'static LayerSpec> {
         let found = LAYERS.iter().filter(|row| list.matches(&[row.name, row.meaning]));
         let mut rows: Vec<_> = found.collect();
@@ -32,19 +30,16 @@ impl Session {
     }
 
     /// What the plot in use shows.
-    #[must_use]
     pub fn view_in_use(&self) -> View {
         self.plots[self.plot].view
     }
 
     /// The views that the picker lists.
-    #[must_use]
     pub fn view_rows(&self, list: &List) -> Vec<&'static ViewSpec> {
         VIEWS.iter().filter(|row| list.matches(&[row.name, row.title, row.meaning])).collect()
     }
 
     /// The claims that the page of the paper lists, each with what became of it, if that is known.
-    #[must_use]
     pub fn claim_rows(&self, list: &List) -> Vec<(&'static Claim, Option<&Examined>)> {
         let examined = self.examined();
         let rows = claims().enumerate().map(|(index, claim)| (claim, examined.get(index)));

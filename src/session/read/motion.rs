@@ -7,7 +7,6 @@ use crate::session::state::session::Session;
 
 impl Session {
     /// The computed state of the motion nearest to a time; at rest the place of rest.
-    #[must_use]
     pub fn state_at(&self, tau: f64) -> Option<State> {
         let found = self.trajectory()?;
         if let Outcome::Captured { tau: rest, q } = found.outcome
@@ -29,7 +28,6 @@ impl Session {
 /// `v = 0`, the place of rest last.
 ///
 /// Without friction the arrivals are not looked for, and are read off the points of the motion.
-#[must_use]
 pub fn turning_points(motion: &Trajectory) -> Vec<f64> {
     let start = motion.problem.initial;
     let mut points: Vec<f64> = (start.v == 0.0).then_some(start.q).into_iter().collect();
@@ -51,7 +49,6 @@ fn between(pair: &[Sample]) -> Option<f64> {
 
 /// The force of dry friction along a motion as a polyline of (time, force), up to `end` if the motion is
 /// at rest: `-r sign(v)` while it moves, and what the spring asks for at rest. It lies in `[-r, r]`.
-#[must_use]
 pub fn friction_force(motion: &Trajectory, end: f64) -> Vec<(f64, f64)> {
     let Problem { parameters: Parameters { r, .. }, epsilon, .. } = motion.problem;
     let mut force = Vec::new();

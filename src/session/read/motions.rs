@@ -6,7 +6,6 @@ use crate::session::state::session::Session;
 
 impl Session {
     /// The present motion first, then those beside it, the oldest first.
-    #[must_use]
     pub fn problems(&self) -> Vec<Problem> {
         let others = self.others.all().iter();
         let others = others.map(|start| Problem { initial: *start, ..self.problem });
@@ -15,7 +14,6 @@ impl Session {
 
     /// The number of the motion in this place among [`Session::problems`], from 1 in the order in which they
     /// were started: the present one is the last. `None` where it is alone.
-    #[must_use]
     pub fn number(&self, place: usize) -> Option<usize> {
         match (self.others.all().len(), place) {
             (0, _) => None,
@@ -25,7 +23,6 @@ impl Session {
     }
 
     /// What has been computed of them, stale or not; each with its place.
-    #[must_use]
     pub fn motions(&self) -> Vec<(usize, &Trajectory)> {
         let asked = self.problems().into_iter().enumerate();
         let found = asked.filter_map(|(place, problem)| {

@@ -66,8 +66,6 @@ pub(in crate::session) const ALIASES: &[(&str, &str)] = &[
 ];
 
 impl PaletteRow {
-    /// Its name.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             PaletteRow::Command(command) => command.name,
@@ -80,7 +78,6 @@ impl PaletteRow {
     }
 
     /// What it does or shows, in one line.
-    #[must_use]
     pub fn meaning(self) -> &'static str {
         match self {
             PaletteRow::Command(command) => command.doc,
@@ -106,7 +103,6 @@ impl PaletteRow {
 impl Session {
     /// Every row that has all the words searched for; without a search, what belongs to the pane in focus
     /// comes first, and what works only inside a list or a line is left out.
-    #[must_use]
     pub fn palette_rows(&self, list: &List) -> Vec<PaletteRow> {
         let outside = |command: &&Command| home(command).is_some();
         let commands = self.keymap.commands().filter(outside).map(PaletteRow::Command);
@@ -127,7 +123,6 @@ impl Session {
     }
 
     /// The heading under which a row stands.
-    #[must_use]
     pub fn heading(&self, row: PaletteRow) -> &'static str {
         match row {
             PaletteRow::Command(command) => self.place_of(command).map_or("", Context::title),
@@ -148,7 +143,6 @@ impl Session {
     }
 
     /// Where a command is run: in the pane in focus if it has keys there.
-    #[must_use]
     pub fn place_of(&self, command: &Command) -> Option<Context> {
         let mut here = self.contexts_below().iter();
         let has_keys = |context: &&Context| command.keys.iter().any(|(at, _)| at == *context);

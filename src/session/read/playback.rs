@@ -13,28 +13,24 @@ use crate::study::belt::Followed;
 
 impl Session {
     /// Whether time matters to what is on show.
-    #[must_use]
     pub fn is_playing(&self) -> bool {
         self.playback.playing
     }
 
     /// Whether time passes for what is on show. It stands still while the motion is computed again, so that
     /// the head is where it is however long that takes.
-    #[must_use]
     pub fn is_moving(&self) -> bool {
         let asked = self.request(Topic::Trajectory, self.plot);
         self.is_playing() && asked.is_none_or(|request| !self.is_open(&request))
     }
 
     /// Where the head is on the motion; `None` before anything was played.
-    #[must_use]
     pub fn head(&self) -> Option<Sample> {
         let at = self.playback.at?;
         self.trajectory()?.at(at.min(self.last_moment()))
     }
 
     /// Where the motion ends: at its outcome, or where the mass would overtake its belt.
-    #[must_use]
     pub fn last_moment(&self) -> f64 {
         let contact = self.contact().map(|(tau, _)| tau);
         contact.or_else(|| self.trajectory().map(Trajectory::end)).unwrap_or(0.0)
@@ -42,13 +38,11 @@ impl Session {
 
     /// Time and displacement where the motion reaches the speed of its belt; `None` where it does not, or
     /// there is none.
-    #[must_use]
     pub fn contact(&self) -> Option<(f64, f64)> {
         self.contact_of(self.trajectory()?)
     }
 
     /// The same of any motion on show.
-    #[must_use]
     pub fn contact_of(&self, motion: &Trajectory) -> Option<(f64, f64)> {
         if self.course().is_some() {
             return None;
@@ -58,7 +52,6 @@ impl Session {
     }
 
     /// Dimensionless time that passes in a second.
-    #[must_use]
     pub fn rate(&self) -> f64 {
         match (self.playback.pace, self.running()) {
             (Pace::Period(seconds), _) => TAU / seconds,
@@ -68,7 +61,6 @@ impl Session {
     }
 
     /// The pace in words.
-    #[must_use]
     pub fn pace(&self) -> String {
         match (self.playback.pace, self.running()) {
             (Pace::Period(seconds), None) => format!("a period in {seconds} s"),

@@ -7,25 +7,21 @@ use crate::session::state::session::Session;
 
 impl Session {
     /// Whether a plot shows a circle as a circle.
-    #[must_use]
     pub fn has_equal_units(&self, plot: usize) -> bool {
         self.plots[plot].view == View::Phase && !self.look.stretched
     }
 
     /// The indices of the plots on show.
-    #[must_use]
     pub fn on_show(&self) -> std::ops::Range<usize> {
         if self.enlarged { self.plot..self.plot + 1 } else { 0..self.plots.len() }
     }
 
     /// The panes on show, in the order in which the focus visits them.
-    #[must_use]
     pub fn panes(&self) -> Vec<Pane> {
         std::iter::once(Pane::Parameters).chain(self.on_show().map(Pane::Plot)).collect()
     }
 
     /// The plot in focus.
-    #[must_use]
     pub fn focused(&self) -> Option<&Plot> {
         match self.focus {
             Pane::Parameters => None,
@@ -42,20 +38,17 @@ impl Session {
     }
 
     /// Whether a layer is on and a plot on show has its view.
-    #[must_use]
     pub fn shows(&self, layer: Layer) -> bool {
         self.on_show().any(|index| self.shows_in(layer, index))
     }
 
     /// Whether a layer is on and belongs to the view of a plot.
-    #[must_use]
     pub fn shows_in(&self, layer: Layer, plot: usize) -> bool {
         let view = layer.spec().view;
         self.layers.contains(&layer) && self.plots.get(plot).is_some_and(|plot| plot.view == view)
     }
 
     /// Why a layer that is on shows nothing, where that lies in the axes of every diagram on show.
-    #[must_use]
     pub fn not_drawn(&self, layer: Layer) -> Option<&'static str> {
         if layer == Layer::Ghost {
             return self.marks.left.is_none().then_some("not drawn: no mark has been gone to yet");
@@ -76,7 +69,6 @@ impl Session {
 
     /// What the scene shows in a plot: what it has at that place, else what it shows of that view
     /// anywhere.
-    #[must_use]
     pub fn exhibit_of_scene(&self, plot: usize, view: View) -> Option<Exhibit> {
         let plots = &self.scene.plots;
         let here = plots.get(plot).filter(|exhibit| exhibit.view == view);
@@ -84,7 +76,6 @@ impl Session {
     }
 
     /// What a plot shows, so that it can be set up again.
-    #[must_use]
     pub fn exhibit(&self, index: usize) -> Option<Exhibit> {
         let plot = self.plots.get(index)?;
         let of_scene = self.exhibit_of_scene(index, plot.view);

@@ -11,7 +11,6 @@ use crate::session::state::session::Session;
 /// One question of what is on show, and the layers for which it is asked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Requirement {
-    /// The question.
     pub request: Request,
     /// The layers that draw its answer.
     pub layers: Vec<Layer>,
@@ -30,7 +29,6 @@ pub enum CostRow {
 
 impl Session {
     /// The rows of the list of costs.
-    #[must_use]
     pub fn cost_rows(&self, list: &List) -> Vec<CostRow> {
         let topics = |requests: Vec<Request>| requests.iter().map(Request::topic).collect();
         let asked = self.requirements().into_iter().map(CostRow::Asked);
@@ -49,7 +47,6 @@ impl Session {
     }
 
     /// What is asked for what is on show, each question once, with the layers that need it.
-    #[must_use]
     pub fn requirements(&self) -> Vec<Requirement> {
         let mut found: Vec<Requirement> = Vec::new();
         for plot in self.on_show() {
@@ -71,7 +68,6 @@ impl Session {
     }
 
     /// The layers on show that need no answer: formulas draw them.
-    #[must_use]
     pub fn drawn_by_formulas(&self) -> Vec<Layer> {
         let shown = self.layers.iter().filter(|layer| self.shows(**layer));
         shown.filter(|layer| layer.spec().needs.is_none()).copied().collect()
@@ -79,7 +75,6 @@ impl Session {
 
     /// The questions of today that a step of this row would leave as they are, and those that it would
     /// ask again.
-    #[must_use]
     pub fn after_a_step(&self, row: Row) -> (Vec<Request>, Vec<Request>) {
         let mut stepped = self.clone();
         stepped.selected = row;
@@ -100,7 +95,6 @@ impl Session {
 }
 
 /// What questions are about, as text; how many, where there are several about one.
-#[must_use]
 pub fn named(topics: &[Topic]) -> String {
     let mut counted: BTreeMap<Topic, usize> = BTreeMap::new();
     for topic in topics {

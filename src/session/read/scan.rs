@@ -46,13 +46,11 @@ pub fn scan_of(session: &Session, over: Vec<Sweep>, measures: &str) -> Result<Sc
 
 impl Session {
     /// What the scan asks for, while it runs.
-    #[must_use]
     pub fn scan_request(&self) -> Option<Request> {
         self.scanned.as_ref()?.request()
     }
 
     /// Whether the keys go to a scan.
-    #[must_use]
     pub fn focuses_scan(&self) -> bool {
         match self.focus {
             Pane::Parameters => false,

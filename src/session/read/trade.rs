@@ -7,7 +7,6 @@ use crate::study::trade::{Row, Trade};
 
 impl Session {
     /// The last comparison of the methods, stale or not.
-    #[must_use]
     pub fn trade(&self) -> Option<&Trade> {
         match self.answer(Topic::Trade, self.plot)? {
             Answer::Trade(found) => Some(found),
@@ -16,7 +15,6 @@ impl Session {
     }
 
     /// The row that is nearest to the cursor of a plot, as the eye sees it.
-    #[must_use]
     pub fn row_under_cursor(&self, plot: usize) -> Option<&Row> {
         let plot = self.plots.get(plot).filter(|plot| plot.view == View::Trade)?;
         let Point { x, y } = plot.cursor?;

@@ -15,20 +15,17 @@ use crate::study::Branch;
 pub struct Shown {
     /// The values that are held; empty for the present motion.
     pub label: String,
-    /// The motion.
     pub problem: Problem,
 }
 
 impl Session {
     /// The variants that a plot shows in place of the present problem.
-    #[must_use]
     pub fn variants(&self, plot: usize) -> Option<&[Variant]> {
         let family = self.plots.get(plot)?.family?;
         self.scene.families.get(family).map(Vec::as_slice)
     }
 
     /// What a plot shows: the present problem, or its variants.
-    #[must_use]
     pub fn shown(&self, plot: usize) -> Vec<Shown> {
         let present = || vec![Shown { label: String::new(), problem: self.problem }];
         let variant = |(variant, label): (&Variant, String)| Shown {
@@ -41,7 +38,6 @@ impl Session {
     }
 
     /// The parameters that all variants of a plot hold alike, as text: what can be said of it once.
-    #[must_use]
     pub fn held_alike(&self, plot: usize) -> String {
         let Some(all) = self.variants(plot) else { return String::new() };
         let held = all.iter().take(1).flat_map(|variant| &variant.held);
@@ -50,7 +46,6 @@ impl Session {
 
     /// The answers about this topic for what a plot shows, stale or not; each with its place among that, and
     /// the values that are held.
-    #[must_use]
     pub fn found(&self, topic: Topic, plot: usize) -> Vec<(usize, String, &Answer)> {
         let labels = self.variants(plot).map(|all| labels(all, topic == Topic::Trajectory));
         let label = |index: usize| labels.as_ref()?.get(index).cloned();
@@ -71,7 +66,6 @@ impl Session {
 
     /// The last branches computed over the parameter of a diagram, stale or not; each with its place
     /// among what the plot shows.
-    #[must_use]
     pub fn branches(&self, plot: usize) -> Vec<(usize, &Branch)> {
         let over = self.plots.get(plot).map(|plot| plot.axes.abscissa);
         self.answers_for_each(Topic::Branch, plot)
@@ -84,7 +78,6 @@ impl Session {
 
     /// How high the cycles of a variant stand in a diagram, at the friction of the branch on show, stale or
     /// not.
-    #[must_use]
     pub fn height(&self, plot: usize, variant: usize) -> Height {
         let asked = self.requests(Topic::Branch, plot).into_iter();
         let asked = asked.into_iter().find(|(index, _)| *index == variant);

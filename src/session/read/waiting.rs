@@ -60,7 +60,6 @@ pub const NEEDS: [(Need, &[&str]); 9] = [
 
 impl Session {
     /// Whether a press waits for an answer: then what the user does has to wait as well.
-    #[must_use]
     pub fn is_waiting(&self) -> bool {
         self.waiting.is_some()
     }
@@ -158,7 +157,6 @@ impl Session {
 }
 
 /// Whether a key forgets the press that waits.
-#[must_use]
 pub fn forgets(message: &Msg) -> bool {
     matches!(message, Msg::Key(key) if *key == Key::plain(Code::Esc))
 }

@@ -21,7 +21,6 @@ type Place = (usize, usize);
 impl Way {
     /// The way along branches, each that of a variant; right is onward, from the end with the smaller
     /// value.
-    #[must_use]
     pub fn along(branches: &[(usize, &Branch)]) -> Self {
         let all = || branches.iter().flat_map(|(_, branch)| &branch.pieces).flatten();
         let values = || all().map(|point| point.value);
@@ -97,7 +96,6 @@ impl Way {
     }
 
     /// The stop for which `measure` is smallest.
-    #[must_use]
     pub fn nearest(&self, measure: impl Fn(&Stop) -> f64) -> Option<Stop> {
         let rated = self.stops().map(|(_, stop)| (measure(stop), *stop));
         rated.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, stop)| stop)
@@ -105,7 +103,6 @@ impl Way {
 
     /// Where a walk begins at a value of the parameter: beside it on the innermost cycle there, which
     /// borders the basin; else on the nearest value.
-    #[must_use]
     pub fn start(&self, value: f64) -> Option<Stop> {
         let distance = |stop: &Stop| (stop.value - value).abs();
         let beside = self.pieces.iter().flat_map(|piece| piece.windows(2)).filter_map(|pair| {
@@ -119,7 +116,6 @@ impl Way {
     }
 
     /// The same stop on this way, or the one next to it.
-    #[must_use]
     pub fn again(&self, held: &Stop) -> Option<Stop> {
         self.place(held).map(|(piece, place)| self.pieces[piece][place])
     }
@@ -132,7 +128,6 @@ impl Way {
     }
 
     /// The stop `count` stops further on the same piece, or its end.
-    #[must_use]
     pub fn further(&self, held: &Stop, count: isize) -> Option<Stop> {
         let (piece, place) = self.place(held)?;
         let stops = &self.pieces[piece];
@@ -140,7 +135,6 @@ impl Way {
     }
 
     /// The next special point or end of a piece, on to other pieces and around the last one.
-    #[must_use]
     pub fn landmark(&self, held: &Stop, onward: bool) -> Option<Stop> {
         let here = self.place(held)?;
         let marked = |(piece, place): Place, stop: &Stop| {

@@ -54,7 +54,6 @@ impl Session {
     /// Questions that took long last time are preceded by their drafts until these are answered: the
     /// picture follows the keys first and refines then. What the error of the motion is measured against
     /// comes last of all.
-    #[must_use]
     pub fn wants(&self) -> Vec<Request> {
         let asked = self.asks();
         let effort = |topic: Topic| -> u64 {
@@ -71,7 +70,6 @@ impl Session {
     }
 
     /// The same without drafts.
-    #[must_use]
     pub fn asks(&self) -> Vec<Request> {
         let needed: BTreeSet<(Topic, usize)> = self
             .on_show()
@@ -94,7 +92,6 @@ impl Session {
     }
 
     /// The questions of one plot.
-    #[must_use]
     pub fn asked_by(&self, plot: usize) -> Vec<Request> {
         let needed = self.needs(plot).into_iter();
         needed.flat_map(|topic| self.requests(topic, plot)).map(|(_, request)| request).collect()
@@ -116,7 +113,6 @@ impl Session {
 
     /// Whether the error of the motion on show is to be measured: while the user rests on the dial or the
     /// method, or has just turned them.
-    #[must_use]
     pub fn measures(&self) -> bool {
         let rests = self.focus == Pane::Parameters
             && self.overlay.is_none()
@@ -125,7 +121,6 @@ impl Session {
     }
 
     /// What the layers of a plot draw answers about.
-    #[must_use]
     pub fn needs(&self, plot: usize) -> BTreeSet<Topic> {
         let shown = |layer: &&Layer| self.shows_in(**layer, plot);
         let needed = self.layers.iter().filter(shown).filter_map(|layer| layer.spec().needs);
@@ -133,7 +128,6 @@ impl Session {
     }
 
     /// The question about this topic for each problem that a plot shows, with its place among these.
-    #[must_use]
     pub fn requests(&self, topic: Topic, plot: usize) -> Vec<(usize, Request)> {
         let problems = match self.variants(plot).filter(|_| topic.is_of_variants()) {
             Some(variants) => variants.iter().map(|variant| variant.of(self.problem)).collect(),
@@ -150,7 +144,6 @@ impl Session {
     ///
     /// `None` where there is nothing to ask: no bands without friction, no branch where the window of the
     /// diagram lies outside the range of its parameter, nothing that only another view asks.
-    #[must_use]
     pub fn request(&self, topic: Topic, plot: usize) -> Option<Request> {
         self.request_for(topic, plot, self.problem)
     }
@@ -266,39 +259,33 @@ impl Session {
     }
 
     /// How far the answer about this topic is for the present problem, as a plot asks it.
-    #[must_use]
     pub fn standing(&self, topic: Topic, plot: usize) -> Standing<'_> {
         let request = self.request(topic, plot);
         request.map_or(Standing::None, |request| self.answers.standing(&request))
     }
 
     /// The answer about this topic for the present problem, as a plot asks it; stale or not.
-    #[must_use]
     pub fn answer(&self, topic: Topic, plot: usize) -> Option<&Answer> {
         self.standing(topic, plot).answer()
     }
 
     /// Whether the answer about this topic is missing for the present problem.
-    #[must_use]
     pub fn is_stale(&self, topic: Topic, plot: usize) -> bool {
         !self.standing(topic, plot).is_fresh()
     }
 
     /// Whether the answer about this topic is there for every problem that a plot shows.
-    #[must_use]
     pub fn is_fresh(&self, topic: Topic, plot: usize) -> bool {
         let mut asked = self.requests(topic, plot).into_iter();
         asked.all(|(_, request)| self.answers.standing(&request).is_fresh())
     }
 
     /// Whether there is a draft of the answer to this to show meanwhile.
-    #[must_use]
     pub fn is_refinement(&self, request: &Request) -> bool {
         matches!(self.answers.standing(request), Standing::Draft(_))
     }
 
     /// Whether a question has neither an answer nor a reason for having none.
-    #[must_use]
     pub fn is_open(&self, request: &Request) -> bool {
         if request.topic() == Topic::Scan {
             return self.scan_request().as_ref() == Some(request);
@@ -307,19 +294,16 @@ impl Session {
     }
 
     /// Whether something on show is still to be computed.
-    #[must_use]
     pub fn is_busy(&self) -> bool {
         self.wants().iter().any(|request| self.is_open(request))
     }
 
     /// Why there is no answer about this topic for the present problem.
-    #[must_use]
     pub fn failure(&self, topic: Topic, plot: usize) -> Option<&Failure> {
         self.answers.failure(&self.request(topic, plot)?)
     }
 
     /// The last motion computed, stale or not.
-    #[must_use]
     pub fn trajectory(&self) -> Option<&Trajectory> {
         match self.answer(Topic::Trajectory, self.plot)? {
             Answer::Trajectory(found) => Some(found),
@@ -328,7 +312,6 @@ impl Session {
     }
 
     /// The fit of the record on show; `None` until it is found.
-    #[must_use]
     pub fn fitted(&self) -> Option<&Fitted> {
         match self.answer(Topic::Fit, self.plot)? {
             Answer::Fit(fit) if !self.is_stale(Topic::Fit, self.plot) => fit.found().ok(),
@@ -337,7 +320,6 @@ impl Session {
     }
 
     /// The last cycles computed, stale or not.
-    #[must_use]
     pub fn cycles(&self) -> Option<&Cycles> {
         match self.answer(Topic::Cycles, self.plot)? {
             Answer::Cycles(found) => Some(found),
@@ -346,7 +328,6 @@ impl Session {
     }
 
     /// The last harmonic balance computed, stale or not.
-    #[must_use]
     pub fn balance(&self) -> Option<&HarmonicBalance> {
         match self.answer(Topic::Balance, self.plot)? {
             Answer::Balance(found) => Some(found),
@@ -357,13 +338,11 @@ impl Session {
     /// The error of the motion on show, and what it was measured against, where both are known.
     ///
     /// `None` until both are computed, and where there is no error: [`Session::unmeasured`] says why.
-    #[must_use]
     pub fn measured(&self) -> Option<(Deviation, &Reference)> {
         self.comparison()?.ok()
     }
 
     /// Why the motion on show has no measured error; `None` as long as it may have one.
-    #[must_use]
     pub fn unmeasured(&self) -> Option<Unmeasured> {
         self.comparison()?.err()
     }
@@ -387,7 +366,6 @@ impl Session {
     }
 
     /// The last borders of capture bands computed for a phase plane, stale or not.
-    #[must_use]
     pub fn borders(&self, plot: usize) -> Option<&Borders> {
         match self.answer(Topic::Capture, plot)? {
             Answer::Capture(found) => Some(found),
@@ -396,7 +374,6 @@ impl Session {
     }
 
     /// The claims of the paper, examined; none until they are.
-    #[must_use]
     pub fn examined(&self) -> &[Examined] {
         match self.answer(Topic::Claims, self.plot) {
             Some(Answer::Claims(examined)) => examined,
@@ -405,7 +382,6 @@ impl Session {
     }
 
     /// The last chart computed over the two parameters of a plot, stale or not.
-    #[must_use]
     pub fn chart(&self, plot: usize) -> Option<&Chart> {
         let Axes { abscissa, against, .. } = self.plots.get(plot)?.axes;
         match self.answer(Topic::Regimes, plot)? {
@@ -419,7 +395,6 @@ impl Session {
     }
 
     /// The last return map computed for a plot, stale or not.
-    #[must_use]
     pub fn return_map(&self, plot: usize) -> Option<&ReturnMap> {
         match self.answer(Topic::ReturnMap, plot)? {
             Answer::ReturnMap(found) => Some(found),

@@ -182,7 +182,6 @@ fn screen(name: &str) -> Result<Step, String> {
     }
 }
 
-/// Names of parameters.
 fn start(rest: &str) -> Result<Step, String> {
     let symbol = |name: &str| {
         let row = PARAMETERS.iter().find(|row| row.name == name);

@@ -68,7 +68,6 @@ fn captions(script: &Script) -> usize {
 
 impl Player {
     /// Plays a file from its beginning.
-    #[must_use]
     pub fn new(script: Script) -> Self {
         let captions = (0, captions(&script));
         let steps = script.steps.into_iter().map(|step| (step, 0)).collect();
@@ -90,13 +89,11 @@ impl Player {
     }
 
     /// How many captions have been said.
-    #[must_use]
     pub fn said(&self) -> usize {
         self.captions.0
     }
 
     /// The text that was played for a file, if there was one.
-    #[must_use]
     pub fn file(&self, path: &Path) -> Option<&str> {
         self.files.get(path).map(String::as_str)
     }

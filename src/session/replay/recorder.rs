@@ -19,7 +19,6 @@ pub struct Recorder {
 
 impl Recorder {
     /// A recording that begins with these steps.
-    #[must_use]
     pub fn new(steps: Vec<Step>) -> Self {
         Recorder { steps, unchanged: 0 }
     }
@@ -49,8 +48,6 @@ impl Recorder {
         }
     }
 
-    /// What was noted.
-    #[must_use]
     pub fn steps(&self) -> &[Step] {
         &self.steps
     }
@@ -108,34 +105,28 @@ impl Recorder {
     }
 
     /// The file so far, below comments that say what it is and how the session was started.
-    #[must_use]
     pub fn text(&self, started: &str) -> String {
         text(&heading(started), &self.steps)
     }
 }
 
 /// The comments at the beginning of a recording, without their marks.
-#[must_use]
 pub fn heading(started: &str) -> String {
     let header = HEADER.trim_start_matches("# ");
     format!("{header}; `hopfscope replay FILE` plays it.\n{started}")
 }
 
 /// A keystroke file of these steps, below a comment.
-#[must_use]
 pub fn text(comment: &str, steps: &[Step]) -> String {
     let lines = lines(steps).into_iter().map(|(_, line)| line);
     std::iter::once(self::comment(comment)).chain(lines).collect()
 }
 
-/// Lines as comments.
-#[must_use]
 pub fn comment(lines: &str) -> String {
     lines.lines().flat_map(|line| ["# ", line, "\n"]).collect()
 }
 
 /// The lines of a keystroke file, each with the place of its first step and its end.
-#[must_use]
 pub fn lines(steps: &[Step]) -> Vec<(usize, String)> {
     let mut lines: Vec<(usize, String)> = Vec::new();
     let mut length = 0;

@@ -12,12 +12,7 @@ pub const LONGEST: f64 = 3600.0;
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step {
     /// A key, pressed so many times: `x`, `<right>`, `<right*5>`.
-    Key {
-        /// The key.
-        key: Key,
-        /// How many times.
-        count: u32,
-    },
+    Key { key: Key, count: u32 },
     /// The mouse: `<click 1 0.5 -0.25>` on the first plot, `<click row 2>`; `<nearer ..>` and `<farther ..>` for its wheel.
     Pointed(Pointed),
     /// Text pasted at once: `<paste "text">`.
@@ -29,12 +24,7 @@ pub enum Step {
     /// From here on, do not wait after each key: `<async>`.
     Async,
     /// Give the screen this size: `<resize 80x24>`.
-    Resize {
-        /// Columns.
-        width: u16,
-        /// Rows.
-        height: u16,
-    },
+    Resize { width: u16, height: u16 },
     /// The screen must show this text on one of its rows: `<expect "text">`.
     Expect(String),
     /// Run a line of the command line, whatever the keys are: `<run "set D=-0.3">`.
@@ -50,7 +40,6 @@ pub enum Step {
     File {
         /// The name by which it is asked for.
         name: String,
-        /// What it holds.
         text: String,
     },
 }
@@ -58,7 +47,6 @@ pub enum Step {
 impl Step {
     /// What a message stands for in a keystroke file; `None` where it comes by itself from something else
     /// that does.
-    #[must_use]
     pub fn of(message: &Msg) -> Option<Self> {
         Some(match message {
             Msg::Key(key) => Step::Key { key: *key, count: 1 },
@@ -80,7 +68,6 @@ impl Step {
     }
 
     /// What a step gives to a session; of a key, one press.
-    #[must_use]
     pub fn message(&self) -> Option<Msg> {
         Some(match self {
             Step::Key { key, .. } => Msg::Key(*key),
@@ -101,11 +88,8 @@ impl Step {
 /// A step and where it stands, counted from 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Located {
-    /// Line.
     pub line: usize,
-    /// Column, in characters.
     pub column: usize,
-    /// The step.
     pub step: Step,
 }
 
@@ -118,7 +102,6 @@ pub struct Script {
 
 impl Script {
     /// A file of these steps, so many times over.
-    #[must_use]
     pub fn repeated(steps: &[Step], times: u32) -> Self {
         let located = |(index, step): (usize, &Step)| Located {
             line: 1,
@@ -130,7 +113,6 @@ impl Script {
     }
 
     /// How many keys it presses.
-    #[must_use]
     pub fn keys(&self) -> u64 {
         let presses = |located: &Located| match located.step {
             Step::Key { count, .. } => u64::from(count),

@@ -19,7 +19,6 @@ const MOST: usize = 64;
 /// How far the answer to a question is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Standing<'a> {
-    /// It is there.
     Fresh(&'a Answered),
     /// A rough one is there.
     Draft(&'a Answered),
@@ -31,7 +30,6 @@ pub enum Standing<'a> {
 
 impl<'a> Standing<'a> {
     /// What there is, with its question.
-    #[must_use]
     pub fn answered(self) -> Option<&'a Answered> {
         match self {
             Standing::Fresh(found) | Standing::Draft(found) | Standing::Stale(found) => Some(found),
@@ -40,14 +38,12 @@ impl<'a> Standing<'a> {
     }
 
     /// What there is, as views draw it.
-    #[must_use]
     pub fn answer(self) -> Option<&'a Answer> {
         let found = self.answered()?.result.as_ref().ok()?;
         Some(if let Answer::Whole(whole) = found { &whole.drawn } else { found })
     }
 
     /// Whether the answer is there.
-    #[must_use]
     pub fn is_fresh(self) -> bool {
         matches!(self, Standing::Fresh(_))
     }
@@ -64,7 +60,6 @@ pub struct Answers {
 
 impl Answers {
     /// How far the answer to a question is.
-    #[must_use]
     pub fn standing(&self, request: &Request) -> Standing<'_> {
         if let Some(found) = self.good(request) {
             return Standing::Fresh(found);
@@ -78,7 +73,6 @@ impl Answers {
     }
 
     /// Evaluations that the answer to a question took, or that to the one most like it; drafts aside.
-    #[must_use]
     pub fn effort(&self, request: &Request) -> u64 {
         let found = self.nearest(request, |held| held.request.draft().is_some());
         let cost = found.and_then(|found| found.result.as_ref().ok()).map(Answer::cost);
@@ -86,13 +80,11 @@ impl Answers {
     }
 
     /// Why a question has no answer.
-    #[must_use]
     pub fn failure(&self, request: &Request) -> Option<&Failure> {
         self.held(request)?.result.as_ref().err()
     }
 
     /// Whether a question has neither an answer nor a reason for having none.
-    #[must_use]
     pub fn is_open(&self, request: &Request) -> bool {
         self.held(request).is_none()
     }

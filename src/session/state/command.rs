@@ -30,7 +30,6 @@ const SHORT: [(&str, &str); 5] =
     [("q", "quit"), ("q!", "quit"), ("w", "write"), ("w!", "write!"), ("e", "open")];
 
 /// The name of the command that a word stands for: itself, unless it is a short one.
-#[must_use]
 pub fn full_name(word: &str) -> &str {
     SHORT.iter().find(|(short, _)| *short == word).map_or(word, |(_, name)| name)
 }
@@ -38,7 +37,6 @@ pub fn full_name(word: &str) -> &str {
 /// A command that takes words.
 #[derive(Clone, Copy, Debug)]
 pub struct LineCommand {
-    /// Its name.
     pub name: &'static str,
     /// What follows the name, for the help.
     pub arguments: &'static str,
@@ -61,19 +59,14 @@ pub enum Words {
     Unknown,
     /// Names of values with `=` and a value.
     Assignments,
-    /// A method.
     Methods,
-    /// A scene.
     Scenes,
     /// A machine of the program.
     Machines,
-    /// A view.
     Views,
     /// A layer, then on or off.
     Layers,
-    /// On or off.
     Switch,
-    /// A window.
     Window,
     /// A parameter, then a property of the cycles.
     Axes,
@@ -83,7 +76,6 @@ pub enum Words {
     Marks,
     /// The letter of a register.
     Registers,
-    /// A theme.
     Themes,
     /// A set of characters.
     Glyphs,

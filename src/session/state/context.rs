@@ -67,7 +67,6 @@ pub enum Context {
     Form,
     /// A pasted keystroke file waits for a yes.
     Offer,
-    /// Whatever is open.
     Always,
 }
 
@@ -80,13 +79,11 @@ enum Kind {
     Plot(View),
     /// A point of the branch that is held.
     Held,
-    /// A list.
     List,
     /// A line in which characters are typed.
     Text,
     /// A question that one key answers.
     Question,
-    /// Holds with others.
     Shared,
     /// Holds with every list.
     SharedByLists,
@@ -95,7 +92,6 @@ enum Kind {
 /// A row of [`CONTEXTS`].
 #[derive(Clone, Copy, Debug)]
 pub struct ContextSpec {
-    /// The context.
     pub context: Context,
     /// Its name in settings files.
     pub name: &'static str,
@@ -108,7 +104,6 @@ const fn row(context: Context, name: &'static str, title: &'static str, kind: Ki
     ContextSpec { context, name, title, kind }
 }
 
-/// Every context.
 #[rustfmt::skip]
 pub const CONTEXTS: [ContextSpec; 31] = [
     row(Context::Parameters, "parameters", "Parameters", Kind::Pane(None)),
@@ -150,38 +145,32 @@ impl Context {
     }
 
     /// The context of a plot that shows a view.
-    #[must_use]
     pub fn of(view: View) -> Context {
         let about = |row: &&ContextSpec| row.context.view() == Some(view);
         CONTEXTS.iter().find(about).map_or(Context::Plots, |row| row.context)
     }
 
     /// The name in settings files.
-    #[must_use]
     pub fn name(self) -> &'static str {
         self.spec().name
     }
 
     /// A heading for the keys of this context.
-    #[must_use]
     pub fn title(self) -> &'static str {
         self.spec().title
     }
 
     /// Whether characters without a command are typed into a line.
-    #[must_use]
     pub fn takes_text(self) -> bool {
         self.spec().kind == Kind::Text
     }
 
     /// Whether this holds only while something is open or waited for.
-    #[must_use]
     pub fn is_overlay(self) -> bool {
         matches!(self.spec().kind, Kind::List | Kind::Text | Kind::Question | Kind::SharedByLists)
     }
 
     /// The view that must have the focus for this to hold, if it is about one.
-    #[must_use]
     pub fn view(self) -> Option<View> {
         match self.spec().kind {
             Kind::Plot(view) => Some(view),
@@ -192,7 +181,6 @@ impl Context {
 }
 
 /// Every set of contexts that can hold together, the most specific first.
-#[must_use]
 pub fn chains() -> &'static [Vec<Context>] {
     static CHAINS: LazyLock<Vec<Vec<Context>>> = LazyLock::new(|| {
         let others: fn(Kind) -> Option<&'static [Context]> = |kind| match kind {
@@ -209,7 +197,6 @@ pub fn chains() -> &'static [Vec<Context>] {
 }
 
 /// The contexts that hold together with this one, which is the most specific.
-#[must_use]
 pub fn chain(first: Context) -> &'static [Context] {
     let chains = chains();
     chains.iter().find(|chain| chain[0] == first).unwrap_or(&chains[0])

@@ -29,7 +29,6 @@ const ON_A_MACHINE: [(Symbol, Quantity); 3] = [
 
 impl Doubt {
     /// Whether everything is known exactly and nothing disturbs.
-    #[must_use]
     pub fn is_none(&self) -> bool {
         *self == Self::default()
     }
@@ -49,7 +48,6 @@ impl Doubt {
     }
 
     /// The half width of a number; 0 for those that have none.
-    #[must_use]
     pub fn half_width(&self, symbol: Symbol) -> f64 {
         UNSURE.iter().position(|it| *it == symbol).map_or(0.0, |place| self.half_widths[place])
     }
@@ -67,7 +65,6 @@ impl Doubt {
     }
 
     /// Where the parameters lie, as far as their ranges reach.
-    #[must_use]
     pub fn known(&self, parameters: &Parameters) -> ParameterBox {
         let mut known = ParameterBox::from(*parameters);
         for symbol in UNSURE {
@@ -82,7 +79,6 @@ impl Doubt {
     }
 
     /// What a machine's file says, in the units of its oscillator.
-    #[must_use]
     pub fn of_machine(running: &Running) -> Self {
         let Tolerances { half_widths, disturbance } = &running.machine.tolerances;
         let mut doubt = Doubt::default();
@@ -114,7 +110,6 @@ impl Doubt {
     }
 
     /// The same on the machine at another speed of its belt, where units are others.
-    #[must_use]
     pub fn brought_to(self, from: &Running, to: &Running) -> Self {
         if self == Self::of_machine(from) {
             return Self::of_machine(to);

@@ -22,11 +22,9 @@ pub enum Before {
 /// Everything that a scene sets.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snapshot {
-    /// The scene.
     pub scene: Arc<Scene>,
     /// The motion, and the speed of its belt.
     pub stand: Stand,
-    /// Step sizes.
     pub steps: Steps,
     /// Layers that are on.
     pub layers: BTreeSet<Layer>,
@@ -37,7 +35,6 @@ pub struct Snapshot {
 /// What is on show, and how it shares the screen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Desk {
-    /// The plots.
     pub plots: Vec<Exhibit>,
     /// How they share the screen.
     pub arrangement: Arrangement,
@@ -92,19 +89,16 @@ impl History {
     }
 
     /// A past and a future, the newest change last in each.
-    #[must_use]
     pub fn of(past: Vec<Before>, future: Vec<Before>) -> Self {
         History { past, future }
     }
 
     /// The past and the future, the newest change last in each.
-    #[must_use]
     pub fn parts(&self) -> (&[Before], &[Before]) {
         (&self.past, &self.future)
     }
 
     /// How many changes can be undone, and how many redone.
-    #[must_use]
     pub fn depth(&self) -> (usize, usize) {
         (self.past.len(), self.future.len())
     }

@@ -9,20 +9,17 @@ pub struct Input {
 
 impl Input {
     /// A line with this text, the caret behind it.
-    #[must_use]
     pub fn new(text: impl Into<String>) -> Self {
         let text = text.into();
         Input { caret: text.chars().count(), text }
     }
 
     /// What is typed so far.
-    #[must_use]
     pub fn text(&self) -> &str {
         &self.text
     }
 
     /// Characters of the text to the left of the caret.
-    #[must_use]
     pub fn caret(&self) -> usize {
         self.caret
     }
@@ -33,7 +30,6 @@ impl Input {
     }
 
     /// The text to the left of the caret, and that to the right of it.
-    #[must_use]
     pub fn halves(&self) -> (&str, &str) {
         self.text.split_at(self.byte(self.caret))
     }
@@ -71,7 +67,6 @@ impl Input {
         self.text.push_str(&after);
     }
 
-    /// Deletes everything.
     pub fn clear(&mut self) {
         *self = Input::default();
     }

@@ -30,11 +30,9 @@ pub struct Keymap {
 pub enum Unbindable {
     /// A key would mean two things where contexts hold together.
     Clash {
-        /// The key.
         key: Key,
         /// The command that has it.
         command: &'static str,
-        /// And where.
         context: Context,
     },
     /// A key that types a character cannot be a command where text is typed.
@@ -60,7 +58,6 @@ impl std::fmt::Display for Unbindable {
 
 impl Keymap {
     /// Commands with their default keys, and those that take words, each in the order of the help.
-    #[must_use]
     pub fn new(
         commands: impl Iterator<Item = &'static Command>,
         lines: impl Iterator<Item = &'static LineCommand>,
@@ -88,13 +85,11 @@ impl Keymap {
     }
 
     /// The command with this name.
-    #[must_use]
     pub fn named(&self, name: &str) -> Option<&'static Command> {
         self.commands().find(|command| command.name == name)
     }
 
     /// The command that takes words with this name.
-    #[must_use]
     pub fn line(&self, name: &str) -> Option<&'static LineCommand> {
         self.lines().find(|line| line.name == name)
     }
@@ -131,7 +126,6 @@ impl Keymap {
     }
 
     /// What a key means in contexts that hold together.
-    #[must_use]
     pub fn command(&self, contexts: &[Context], key: Key) -> Option<&'static Command> {
         let mut bound = contexts.iter().filter_map(|context| self.bindings.get(&(*context, key)));
         bound.next().map(|bound| bound.command)
@@ -148,14 +142,12 @@ impl Keymap {
     }
 
     /// The first key of the command with this name, for sentences that say what to press.
-    #[must_use]
     pub fn key_of(&self, name: &str) -> Option<Key> {
         let (_, keys) = self.places(self.named(name)?).into_iter().next()?;
         keys.first().copied()
     }
 
     /// A sentence in which `{command}` stands for the first key of that command, as `write` names it.
-    #[must_use]
     pub fn fill(&self, sentence: &str, write: impl Fn(Key) -> String) -> String {
         let mut filled = String::new();
         let mut rest = sentence;
@@ -174,7 +166,6 @@ impl Keymap {
     }
 
     /// The contexts in which a command has keys, with them.
-    #[must_use]
     pub fn places(&self, command: &Command) -> Vec<(Context, Vec<Key>)> {
         let contexts = command.keys.iter().map(|(context, _)| *context);
         contexts

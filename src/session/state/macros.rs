@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use crate::session::replay::recorder::Recorder;
 use crate::session::replay::script::Step;
 
-/// Recorded keys.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Macros {
     /// What was recorded, by letter.

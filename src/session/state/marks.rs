@@ -5,10 +5,8 @@ use std::collections::BTreeMap;
 use crate::scene::Request;
 use crate::session::state::setup::Stand;
 
-/// Marked points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Marks {
-    /// By letter.
     pub places: BTreeMap<char, Mark>,
     /// The point left last: what is compared with.
     pub left: Option<Mark>,
@@ -25,7 +23,6 @@ pub struct Mark {
 
 impl Mark {
     /// A point that has not been on show.
-    #[must_use]
     pub fn new(stand: Stand) -> Self {
         Mark { stand, asked: Vec::new() }
     }

@@ -39,7 +39,6 @@ pub enum Listed {
 
 impl Overlay {
     /// The list, if it is one.
-    #[must_use]
     pub fn list(&self) -> Option<&List> {
         if let Overlay::List(_, list) = self { Some(list) } else { None }
     }
@@ -50,7 +49,6 @@ impl Overlay {
     }
 
     /// Whether this is another kind of overlay than `other`, whatever stands in both.
-    #[must_use]
     pub fn differs(&self, other: &Self) -> bool {
         match (self, other) {
             (Overlay::List(one, _), Overlay::List(other, _)) => one != other,
@@ -62,7 +60,6 @@ impl Overlay {
 /// What is said in words above the status lines, without taking keys.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Caption {
-    /// Nothing.
     #[default]
     Nothing,
     /// What there is to see in the scene, and what to press.
@@ -123,7 +120,6 @@ pub struct Completion {
 
 impl List {
     /// Whether a row with these texts, in which all searched words stand, is among those searched for.
-    #[must_use]
     pub fn matches(&self, words: &[impl AsRef<str>]) -> bool {
         let words: Vec<String> = words.iter().map(|word| word.as_ref().to_lowercase()).collect();
         let found = |wanted: &str| words.iter().any(|word| word.contains(wanted));
@@ -133,7 +129,6 @@ impl List {
 
 impl Entry {
     /// A line with this text, the caret behind it.
-    #[must_use]
     pub fn new(row: Row, text: impl Into<String>) -> Self {
         Entry { row, input: Input::new(text), refused: None }
     }
@@ -141,7 +136,6 @@ impl Entry {
 
 impl Prompt {
     /// A line with this text, the caret behind it.
-    #[must_use]
     pub fn new(text: impl Into<String>) -> Self {
         Prompt { input: Input::new(text), ..Prompt::default() }
     }

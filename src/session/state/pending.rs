@@ -1,6 +1,5 @@
 //! What the next key completes: a count before a key, or the letter of a register or a mark.
 
-/// Largest count.
 pub const MOST: u32 = 9999;
 
 /// What the next key is waited for.
@@ -12,7 +11,6 @@ pub enum Pending {
     Letter {
         /// What to do with it.
         what: Letter,
-        /// How often.
         count: u32,
     },
 }
@@ -32,7 +30,6 @@ pub enum Letter {
 
 impl Letter {
     /// What is asked, for the footer.
-    #[must_use]
     pub fn question(self) -> &'static str {
         match self {
             Letter::Record => "record into which register? a to z",

@@ -13,14 +13,12 @@ pub enum Pace {
 pub(in crate::session) const PACES: [Pace; 5] =
     [Pace::Period(4.0), Pace::Period(2.0), Pace::Period(1.0), Pace::Real, Pace::Period(8.0)];
 
-/// What is played.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Playback {
     /// Dimensionless time of the head; `None` before anything was played.
     pub at: Option<f64>,
     /// Whether it moves by itself.
     pub playing: bool,
-    /// How fast.
     pub pace: Pace,
 }
 

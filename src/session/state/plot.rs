@@ -17,7 +17,6 @@ pub enum Pane {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Framing {
-    /// The scene.
     Scene,
     /// It was fitted to what is on show.
     Fitted,
@@ -30,7 +29,6 @@ pub enum Framing {
 /// A plot: what it shows, where one looks, and what one points at.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plot {
-    /// What it shows.
     pub view: View,
     /// Over which axes, where the view leaves a choice.
     pub axes: Axes,
@@ -46,7 +44,6 @@ pub struct Plot {
 
 impl Plot {
     /// A plot as a scene sets it up.
-    #[must_use]
     pub fn opened(exhibit: &Exhibit) -> Self {
         Plot {
             view: exhibit.view,

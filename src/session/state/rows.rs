@@ -18,7 +18,6 @@ pub enum Row {
     Disturbance,
     /// Time at which the motion stops.
     Until,
-    /// How to integrate.
     Method,
     /// What sets the accuracy of the method: relative error of a step, its length, or a width.
     Tolerance,
@@ -44,7 +43,6 @@ impl Row {
     pub const FIRST: Self = Row::Parameter(Symbol::D);
 
     /// The name on the screen.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Row::Belt => "belt",
@@ -57,7 +55,6 @@ impl Row {
     }
 
     /// The name on the screen where a motion is computed by a method of its own dial.
-    #[must_use]
     pub fn name_in(self, problem: &Problem) -> &'static str {
         match self {
             Row::Tolerance => problem.method.spec().dial.name(),
@@ -100,7 +97,6 @@ const UNTIL_STEP: f64 = 10.0;
 
 impl Steps {
     /// The step of a row; `None` where a step is not a number (method) or a factor of ten (tolerance).
-    #[must_use]
     pub fn of(&self, row: Row) -> Option<StepSize> {
         match row {
             Row::Belt => Some(self.belt),
@@ -123,7 +119,6 @@ impl Steps {
     }
 
     /// The steps with which a scene opens.
-    #[must_use]
     pub fn of_scene(scene: &Scene) -> Self {
         let step = |symbol: Symbol| {
             StepSize::near(scene.steps.get(&symbol).copied().unwrap_or(symbol.spec().step))

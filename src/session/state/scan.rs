@@ -24,7 +24,6 @@ pub enum Progress {
         /// The first row of this run.
         from: usize,
     },
-    /// It was stopped.
     Stopped,
     /// All rows are there.
     Done,
@@ -33,11 +32,9 @@ pub enum Progress {
 /// A scan and what it has found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scanned {
-    /// The scan.
     pub scan: Arc<Scan>,
     /// The rows so far, in order from the first point on.
     pub rows: Vec<Row>,
-    /// How it goes.
     pub progress: Progress,
     /// Seconds that this run has taken.
     pub seconds: f64,
@@ -51,7 +48,6 @@ pub struct Scanned {
 
 impl Scanned {
     /// A scan that begins.
-    #[must_use]
     pub fn begun(scan: Scan) -> Self {
         Scanned {
             scan: Arc::new(scan),
@@ -65,7 +61,6 @@ impl Scanned {
     }
 
     /// What it asks for, while it runs.
-    #[must_use]
     pub fn request(&self) -> Option<Request> {
         match self.progress {
             Progress::Running { from } => {
@@ -76,26 +71,22 @@ impl Scanned {
     }
 
     /// Whether its points make a plane.
-    #[must_use]
     pub fn is_grid(&self) -> bool {
         self.scan.over().len() > 1
     }
 
     /// The value that is plotted at a point, if it is known and a number.
-    #[must_use]
     pub fn height(&self, index: usize) -> Option<f64> {
         number(self.rows.get(index)?, self.column)
     }
 
     /// Whether words are plotted.
-    #[must_use]
     pub fn plots_words(&self) -> bool {
         let mut values = self.rows.iter().filter_map(|row| row.values.get(self.column));
         values.any(|value| matches!(value, Value::Word(_)))
     }
 
     /// The smallest and the largest value that is plotted.
-    #[must_use]
     pub fn range(&self) -> Option<(f64, f64)> {
         let heights = (0..self.rows.len()).filter_map(|index| self.height(index));
         heights.fold(None, |range: Option<(f64, f64)>, height| {
@@ -105,7 +96,6 @@ impl Scanned {
     }
 
     /// Where a value of a sweep stands on its axis, which is logarithmic where the sweep is.
-    #[must_use]
     pub fn coordinate(sweep: &Sweep, index: usize) -> f64 {
         let value = sweep.value(index);
         match sweep.spacing {
@@ -116,7 +106,6 @@ impl Scanned {
 
     /// The part of the world in which all points of a line stand, or all of a grid with half a step
     /// around them.
-    #[must_use]
     pub fn window(&self) -> Window {
         /// Room above and below a curve, as a factor of its height.
         const ROOM: f64 = 1.1;
@@ -139,7 +128,6 @@ impl Scanned {
     }
 
     /// Where a point stands in the plot; its height only where that is known.
-    #[must_use]
     pub fn place(&self, index: usize) -> Option<Point> {
         let over = self.scan.over();
         let place = self.scan.place(index);

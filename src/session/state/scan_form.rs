@@ -9,20 +9,15 @@ use crate::study::measure::MEASURES;
 pub enum Field {
     /// The name of a parameter.
     Parameter,
-    /// The first value.
     From,
-    /// The last value.
     To,
-    /// How many values.
     Count,
-    /// What is measured.
     Measure,
 }
 
 /// One row of [`FIELDS`].
 #[derive(Clone, Copy, Debug)]
 pub struct FieldSpec {
-    /// What is typed.
     pub field: Field,
     /// Its name on the screen.
     pub name: &'static str,
@@ -69,7 +64,6 @@ impl Form {
     pub const SECOND: usize = 4;
 
     /// The form as it opens the first time: over a parameter and its values.
-    #[must_use]
     pub fn new(symbol: Symbol, (from, to): (f64, f64)) -> Self {
         let text = |value: f64| format!("{value:?}");
         let name = symbol.spec().name.to_owned();
@@ -89,7 +83,6 @@ impl Form {
     }
 
     /// What a field offers to choose from.
-    #[must_use]
     pub fn choices(at: usize) -> Vec<&'static str> {
         match FIELDS[at].field {
             Field::Parameter => {

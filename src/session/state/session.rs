@@ -41,7 +41,6 @@ const HARMONICS: usize = 3;
 /// One recomputation that a key press caused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Recomputed {
-    /// What was recomputed.
     pub topic: Topic,
     /// What it cost, counted.
     pub cost: Cost,
@@ -60,13 +59,10 @@ pub struct Price {
 
 impl Price {
     /// Evaluations of the field in all.
-    #[must_use]
     pub fn evaluations(&self) -> u64 {
         self.recomputed.iter().map(|part| part.cost.evaluations).sum()
     }
 
-    /// Seconds in all.
-    #[must_use]
     pub fn seconds(&self) -> f64 {
         self.recomputed.iter().map(|part| part.seconds).sum()
     }
@@ -75,9 +71,7 @@ impl Price {
 /// The size of the screen, in cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Size {
-    /// Columns.
     pub width: u16,
-    /// Rows.
     pub height: u16,
 }
 
@@ -124,13 +118,11 @@ pub struct Session {
     pub layers: BTreeSet<Layer>,
     /// What lies over the panes and gets the keys.
     pub overlay: Option<Overlay>,
-    /// Undo and redo.
     pub history: History,
     /// A count or a letter that the next key completes.
     pub pending: Option<Pending>,
     /// A press that waits for an answer.
     pub waiting: Option<Waiting>,
-    /// Recorded keys.
     pub macros: Macros,
     /// Points to come back to, and the one that is compared with.
     pub marks: Marks,
@@ -166,7 +158,6 @@ pub struct Session {
 
 impl Session {
     /// A session that has just opened a scene, with these keys.
-    #[must_use]
     pub fn opened(scene: Arc<Scene>, size: Size, keymap: Arc<Keymap>) -> Self {
         Session {
             problem: scene.problem,
@@ -210,13 +201,11 @@ impl Session {
     }
 
     /// The value of one of the six numbers.
-    #[must_use]
     pub fn value(&self, symbol: Symbol) -> f64 {
         symbol.get(&self.problem.parameters, &self.problem.initial)
     }
 
     /// The rows of the parameter pane: what the scene declares, what is not zero, all when unfolded.
-    #[must_use]
     pub fn rows(&self) -> Vec<Row> {
         let stands = |row: &Row| match *row {
             Row::Belt => self.scene.machine.is_some(),

@@ -12,7 +12,6 @@ pub enum Glyphs {
     Octant,
     /// Two by two blocks a cell.
     Block,
-    /// Printable ASCII only.
     Ascii,
 }
 
@@ -35,12 +34,9 @@ pub enum Colors {
 /// A set of colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Theme {
-    /// For dark backgrounds.
     #[default]
     Dark,
-    /// For light backgrounds.
     Light,
-    /// Strong differences only.
     Contrast,
     /// No colour at all.
     Mono,
@@ -79,7 +75,6 @@ pub struct Look {
     pub glyphs: Glyphs,
     /// How many colours to use.
     pub colors: Colors,
-    /// Which colours.
     pub theme: Theme,
     /// Whether the terminal reports the mouse; without, it selects text.
     pub mouse: bool,
@@ -90,14 +85,12 @@ pub struct Look {
 }
 
 /// The value and name that follow `current` in a table such as [`GLYPHS`], around the end.
-#[must_use]
 pub fn next_of<T: Copy + PartialEq>(table: &[(T, &'static str)], current: T) -> (T, &'static str) {
     let index = table.iter().position(|(value, _)| *value == current).unwrap_or(0);
     table[(index + 1) % table.len()]
 }
 
 /// The value with this name in a table such as [`COLORS`].
-#[must_use]
 pub fn named<T: Copy>(table: &[(T, &'static str)], name: &str) -> Option<T> {
     table.iter().find(|(_, row)| *row == name).map(|(value, _)| *value)
 }

@@ -21,7 +21,6 @@ pub struct Stand {
 
 impl Stand {
     /// What a scene opens with.
-    #[must_use]
     pub fn of_scene(scene: &Scene) -> Self {
         let rig = scene.machine.as_deref();
         let speed = |rig: &Rig| rig.machine.belt.belt_speed;
@@ -30,7 +29,6 @@ impl Stand {
     }
 
     /// One motion of no machine, known exactly.
-    #[must_use]
     pub fn alone(problem: Problem) -> Self {
         Stand { problem, others: Starts::default(), belt_speed: None, doubt: Doubt::default() }
     }

@@ -22,7 +22,6 @@ impl Default for Starts {
 
 impl Starts {
     /// These starts; `None` where there are too many.
-    #[must_use]
     pub fn of(states: &[State]) -> Option<Self> {
         let mut starts = Starts::default();
         starts.states.get_mut(..states.len())?.copy_from_slice(states);
@@ -30,7 +29,6 @@ impl Starts {
     }
 
     /// All of them, the oldest first.
-    #[must_use]
     pub fn all(&self) -> &[State] {
         &self.states[..self.count]
     }
@@ -46,7 +44,6 @@ impl Starts {
     }
 
     /// The same without one.
-    #[must_use]
     pub fn without(&self, start: State) -> Self {
         let states: Vec<State> =
             self.all().iter().copied().filter(|known| *known != start).collect();
@@ -54,7 +51,6 @@ impl Starts {
     }
 
     /// Every start changed alike.
-    #[must_use]
     pub fn map(mut self, change: impl Fn(State) -> State) -> Self {
         self.states[..self.count].iter_mut().for_each(|state| *state = change(*state));
         self

@@ -37,7 +37,6 @@ const DIGITS: i32 = 15;
 
 impl StepSize {
     /// The step size nearest to a positive number, by ratio; 1 for what is no positive number.
-    #[must_use]
     pub fn near(value: f64) -> Self {
         if !(value > 0.0 && value.is_finite()) {
             return StepSize { mantissa: 1, exponent: 0 };
@@ -51,14 +50,11 @@ impl StepSize {
             .unwrap_or(below)
     }
 
-    /// The number.
-    #[must_use]
     pub fn value(self) -> f64 {
         decimal(&format!("{}e{}", self.mantissa, self.exponent))
     }
 
     /// The next larger one, or the same at the end of the range.
-    #[must_use]
     pub fn larger(self) -> Self {
         match self.mantissa {
             1 => StepSize { mantissa: 2, ..self },
@@ -69,7 +65,6 @@ impl StepSize {
     }
 
     /// The next smaller one, or the same at the end of the range.
-    #[must_use]
     pub fn smaller(self) -> Self {
         match self.mantissa {
             5 => StepSize { mantissa: 2, ..self },
@@ -80,14 +75,12 @@ impl StepSize {
     }
 
     /// `value` moved by `count` steps, rounded to its own decimals and those of the step.
-    #[must_use]
     pub fn from(self, value: f64, count: i32) -> f64 {
         decimal_sum(value, f64::from(count) * self.value())
     }
 
     /// The multiple of the step next to `value`, `count` multiples on; from between two multiples the
     /// first step goes to the neighbour.
-    #[must_use]
     pub fn multiple_from(self, value: f64, count: i32) -> f64 {
         let steps = value / self.value();
         // A value within rounding of a multiple counts as that multiple.
@@ -103,7 +96,6 @@ impl StepSize {
 }
 
 /// The shortest text that is read back as this number, without a needless `.0`.
-#[must_use]
 pub fn shortest(value: f64) -> String {
     // Debug, unlike Display, writes very large and very small numbers with an exponent.
     let text = format!("{value:?}");
@@ -122,7 +114,6 @@ fn decimal(text: &str) -> f64 {
 }
 
 /// The sum of two decimal numbers, rounded to the decimals that the larger can carry; never `-0.0`.
-#[must_use]
 pub fn decimal_sum(value: f64, by: f64) -> f64 {
     let largest = value.abs().max(by.abs());
     let sum = value + by;

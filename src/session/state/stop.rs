@@ -17,13 +17,11 @@ pub struct Stop {
 
 impl Stop {
     /// A point of the branch of a variant.
-    #[must_use]
     pub fn on(variant: usize, point: &BranchPoint) -> Self {
         Stop { variant, value: point.value, cycle: Some(point.cycle), special: None }
     }
 
     /// A special point of the branch of a variant.
-    #[must_use]
     pub fn at(variant: usize, point: &Special) -> Self {
         Stop { variant, value: point.value, cycle: point.cycle, special: Some(point.kind) }
     }

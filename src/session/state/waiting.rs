@@ -6,7 +6,6 @@ use crate::session::replay::script::Step;
 /// A press that waits, and for which answer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Waiting {
-    /// What was pressed.
     pub step: Step,
     /// The question that must be answered first.
     pub request: Request,

@@ -8,14 +8,12 @@ use crate::session::{
     Effect, Listed, Msg, Overlay, Pane, Prompt, commands, lines, run_line, update,
 };
 
-/// Runs a line.
 fn run(desk: &mut Desk, line: &str) -> Vec<Topic> {
     desk.press(":");
     desk.give(Msg::Paste(line.to_owned()));
     desk.press("<enter>")
 }
 
-/// The open line.
 fn prompt(desk: &Desk) -> &Prompt {
     match &desk.session.overlay {
         Some(Overlay::Prompt(prompt)) => prompt,

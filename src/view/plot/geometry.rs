@@ -25,7 +25,6 @@ pub(super) struct Geometry {
     pub inner: Rect,
     /// Whether the axes stand outside of them.
     pub roomy: bool,
-    /// Ticks below.
     pub rightward: Ticks,
     /// Ticks at the left.
     pub upward: Ticks,
@@ -56,7 +55,6 @@ impl Geometry {
 
 /// The part of the world that a plot shows in `area`: its window, and more where units are to be as long
 /// across as up.
-#[must_use]
 pub fn shown(area: Rect, session: &Session, index: usize, scales: [Scale; 2]) -> Window {
     let window = session.plots[index].window;
     if !session.has_equal_units(index) {
@@ -71,7 +69,6 @@ pub fn shown(area: Rect, session: &Session, index: usize, scales: [Scale; 2]) ->
 }
 
 /// Rows of the raster of a plot in `area`.
-#[must_use]
 pub fn rows(area: Rect) -> u16 {
     let height = area.height.saturating_sub(1);
     let roomy = area.width >= ROOMY.0 && height >= ROOMY.1;
@@ -81,7 +78,6 @@ pub fn rows(area: Rect) -> u16 {
 /// The point of a plot in `area` that a cell stands for, to the digits that cells tell apart; `None`
 /// for the cells outside of its axes. `upward` are the marks of its vertical axis if those are no round
 /// numbers.
-#[must_use]
 pub fn point_at(
     area: Rect,
     window: Window,

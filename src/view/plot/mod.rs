@@ -30,9 +30,7 @@ use crate::session::settings::Glyphs;
 /// What a plot is called.
 #[derive(Clone, Debug)]
 pub struct Names<'a> {
-    /// The plot.
     pub title: &'a str,
-    /// Its horizontal axis.
     pub x: &'a str,
     /// Its vertical axis; empty where heights mean nothing.
     pub y: &'a str,
@@ -45,7 +43,6 @@ pub struct Names<'a> {
 /// The name of a curve.
 #[derive(Clone, Debug)]
 pub struct Name<'a> {
-    /// The name.
     pub text: &'a str,
     /// Points of the curve beside which it may stand, the best first.
     pub points: Vec<Point>,
@@ -98,7 +95,6 @@ impl<'a> Plot<'a> {
     }
 
     /// The cells between the axes.
-    #[must_use]
     pub fn inner(&self) -> Rect {
         self.inner
     }
@@ -154,7 +150,6 @@ impl<'a> Plot<'a> {
     }
 
     /// The world at the middle of a cell.
-    #[must_use]
     pub fn world(&self, column: u16, row: u16) -> Point {
         let fraction = |cell: u16, cells: u16| (f64::from(cell) + 0.5) / f64::from(cells.max(1));
         Point {
@@ -163,7 +158,6 @@ impl<'a> Plot<'a> {
         }
     }
 
-    /// Draws a polyline.
     pub fn curve(&mut self, points: impl IntoIterator<Item = Point>, role: Role, dash: Dash) {
         let placed: Vec<_> = points.into_iter().map(|point| self.place(point)).collect();
         self.dots.stroke(placed, Pen { role, dash });
