@@ -110,12 +110,12 @@ fn vector_picture(figure: &Figure, svg: &str) {
     assert!(letters.contains(figure.title.as_str()), "{scene}");
     for panel in &figure.panels {
         assert!(
-            letters.iter().any(|text| text.starts_with(&panel.x.name)),
+            letters.iter().any(|text| text.starts_with(panel.scales[0].title(&panel.x.name))),
             "{scene}: {:?}",
             panel.x
         );
         assert!(
-            letters.iter().any(|text| text.starts_with(&panel.y.name)),
+            letters.iter().any(|text| text.starts_with(panel.scales[1].title(&panel.y.name))),
             "{scene}: {:?}",
             panel.y
         );
