@@ -1,6 +1,8 @@
 //! The view of the cycles over the speed of the belt: every kind of cycle in its own way, and the jumps where a
 //! stable state ends, up and down, as its motions make them.
 
+use std::sync::Arc;
+
 use hopfscope::flow::Limits;
 use hopfscope::machine::branch::branch;
 use hopfscope::machine::jumps::{Jump, Landing};
@@ -10,8 +12,9 @@ use hopfscope::oscillator::Belt;
 use hopfscope::oscillator::belt::FrictionLaw;
 use hopfscope::picture::items::Item;
 use hopfscope::question::answer;
+use hopfscope::scene::file::parse;
 use hopfscope::scene::machine::library::machines;
-use hopfscope::scene::{Answered, Topic, View, find};
+use hopfscope::scene::{Answered, Topic, View};
 use hopfscope::session::{Msg, Session, Size, update};
 
 fn machine(name: &str) -> Belt {
@@ -86,9 +89,14 @@ fn a_cycle_that_is_born_at_rest_is_no_jump() {
     assert_eq!((hopf.jumps.up, hopf.jumps.down), (None, None));
 }
 
-/// A scene with all its questions answered.
-fn shown(scene: &str) -> Session {
-    let mut session = Session::new(find(scene).unwrap(), Size { width: 160, height: 50 });
+/// A machine with the view in a window, and all questions answered.
+fn shown(machine: &str, x: [f64; 2], y: [f64; 2]) -> Session {
+    let text = format!(
+        "title = \"Speeds\"\nlook = \"-\"\npress = \"-\"\nmachine = \"{machine}\"\n\
+         layers = [\"whole\", \"speeds\"]\n[[plot]]\nview = \"speeds\"\nx = {x:?}\ny = {y:?}\n"
+    );
+    let scene = parse("speeds", "speeds.toml", &text).unwrap();
+    let mut session = Session::new(Arc::new(scene), Size { width: 160, height: 50 });
     for request in session.wants() {
         if request.topic() != Topic::Branch && session.is_open(&request) {
             let result = Ok(answer(&request, &Limits::PATIENT).unwrap());
@@ -101,19 +109,23 @@ fn shown(scene: &str) -> Session {
 
 #[test]
 fn the_view_draws_each_kind_its_own_way_and_marks_the_jumps() {
-    for (scene, jumps, kinds) in [
+    for (machine, x, y, jumps, kinds) in [
         (
-            "slow-belt",
+            "textbook",
+            [0.05, 0.5],
+            [0.0, 0.008],
             ["jump on a faster belt"].as_slice(),
             ["stick-slip cycle", "unstable slip cycle"],
         ),
         (
-            "benchmark",
+            "bstab",
+            [0.5, 2.5],
+            [0.0, 2.5],
             &["jump on a slower belt", "jump on a faster belt"],
             ["stick-slip cycle", "unstable slip cycle"],
         ),
     ] {
-        let session = shown(scene);
+        let session = shown(machine, x, y);
         let index = session.plots.iter().position(|plot| plot.view == View::Speeds).unwrap();
         let picture = hopfscope::picture::of(&session, index);
         let mut looks = Vec::new();
@@ -132,10 +144,10 @@ fn the_view_draws_each_kind_its_own_way_and_marks_the_jumps() {
                 _ => {}
             }
         }
-        assert_eq!(jumping, jumps, "{scene}");
-        assert_eq!(letters, 2, "{scene}: both changes have their letter");
+        assert_eq!(jumping, jumps, "{machine}");
+        assert_eq!(letters, 2, "{machine}: both changes have their letter");
         for kind in kinds {
-            assert!(looks.iter().any(|(name, _)| name == kind), "{scene}: {looks:?}");
+            assert!(looks.iter().any(|(name, _)| name == kind), "{machine}: {looks:?}");
         }
         // Told apart without colour: no two kinds of cycle share a line.
         looks.retain(|(name, _)| name.ends_with("cycle"));
