@@ -429,7 +429,11 @@ fn scenes_say_what_they_cost_and_what_a_step_asks_anew() {
         for asked in start["recomputed"].as_array().unwrap() {
             assert!(asked == "motion" || asked == "motions", "{}: {asked}", scene["scene"]);
         }
-        assert!(!start["reused"].as_array().unwrap().contains(&Value::from("motion")));
+        let motions = |list: &str| {
+            start[list].as_array().unwrap().iter().filter(|name| *name == "motion").count()
+        };
+        // Variants with a start of their own keep their motion.
+        assert!(motions("reused") == 0 || motions("reused") + motions("recomputed") > 1);
     }
 }
 

@@ -164,7 +164,11 @@ impl Plot<'_> {
         ];
         for (column, row, symbol) in arms {
             if let (Some(column), Some(row)) = (column, row) {
-                self.dots.symbol(column, row, symbol, Role::Cursor);
+                // Arms hide no letter of a text: a number without its sign is another number.
+                let hides = self.dots.covering(column, row) == Covering::Symbol;
+                if symbol == centre || !hides {
+                    self.dots.symbol(column, row, symbol, Role::Cursor);
+                }
             }
         }
     }

@@ -74,8 +74,17 @@ fn known(session: &Session) -> BTreeSet<String> {
     for index in 0..session.plots.len() {
         let picture = crate::picture::of(session, index);
         let [x, y] = picture.scales;
-        known.extend(numbers(&labels(x, picture.window.x)));
-        known.extend(numbers(&labels(y, picture.window.y)));
+        let mut windows = vec![picture.window];
+        if session.has_equal_units(index) {
+            // The shape of the screen decides to which side equal units widen it.
+            let wide = (1..=16).map(|width| picture.window.with_equal_units(f64::from(width), 1.0));
+            windows.extend(wide);
+            windows.push(picture.window.with_equal_units(1.0, 4.0));
+        }
+        for window in windows {
+            known.extend(numbers(&labels(x, window.x)));
+            known.extend(numbers(&labels(y, window.y)));
+        }
         for item in &picture.items {
             if let Item::Caption { long, .. } = item {
                 known.extend(numbers(long));
