@@ -164,9 +164,9 @@ impl Plot<'_> {
         ];
         for (column, row, symbol) in arms {
             if let (Some(column), Some(row)) = (column, row) {
-                // Arms hide no letter of a text: a number without its sign is another number.
+                // Above and below it hides no letter: a number without its sign is another number.
                 let hides = self.dots.covering(column, row) == Covering::Symbol;
-                if symbol == centre || !hides {
+                if symbol != upright || !hides {
                     self.dots.symbol(column, row, symbol, Role::Cursor);
                 }
             }
