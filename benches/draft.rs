@@ -12,11 +12,11 @@ use std::time::{Duration, Instant};
 
 use crossbeam_channel::{Receiver, Sender, unbounded};
 use hopfscope::flow::quality::DRAFT;
-use hopfscope::runtime::crew::Crew;
 use hopfscope::runtime::effects::Files;
 use hopfscope::runtime::explorer::answer;
 use hopfscope::runtime::panics::Notes;
-use hopfscope::runtime::{Event, Explorer, Machine, Pump};
+use hopfscope::runtime::workers::Workers;
+use hopfscope::runtime::{Application, Event, Explorer, Pump};
 use hopfscope::scene::{Request, Scene, Topic, library};
 use hopfscope::session::{Effect, Msg, Session, Size};
 use hopfscope::terminal::{Environment, Screen};
@@ -63,7 +63,7 @@ struct Watched {
     idle: Arc<AtomicBool>,
 }
 
-impl Machine for Watched {
+impl Application for Watched {
     fn update(&mut self, msg: Msg) -> Vec<Effect> {
         self.explorer.update(msg)
     }
@@ -149,11 +149,12 @@ fn dearest(scene: &Arc<Scene>, (width, height): (u16, u16)) -> (Duration, String
     let size = ratatui::layout::Size { width, height };
     let report = events.clone();
     let report = move |msg| drop(report.send(Event::Session(msg)));
-    let crew = Crew::start(answer, Notes::default(), report).expect("threads");
+    let workers = Workers::start(answer, Notes::default(), report).expect("threads");
     let screen = Screen::new(line, size).expect("a screen");
     let explorer = Explorer::new(session, Environment::default());
-    let machine = Watched { explorer, complete, idle: Arc::clone(&idle) };
-    let mut pump = Pump::new(machine, screen, crew, received, Files::default(), Default::default);
+    let application = Watched { explorer, complete, idle: Arc::clone(&idle) };
+    let mut pump =
+        Pump::new(application, screen, workers, received, Files::default(), Default::default);
     let running = std::thread::spawn(move || pump.run().map(drop));
     let user = User { events, arrived, idle };
     user.settle();

@@ -4,7 +4,7 @@
 //! thousand samples and of a short record; and what a step of a held number takes until all others have followed.
 
 use divan::{Bencher, black_box};
-use hopfscope::fit::levenberg_marquardt::Effort;
+use hopfscope::fit::levenberg_marquardt::Runs;
 use hopfscope::fit::observation::{Data, Observation, R, Start, Unknowns};
 use hopfscope::fit::refit::refitted;
 use hopfscope::fit::{Question, Record, estimate};
@@ -76,7 +76,7 @@ fn step_of_a_held_number(
         .expect("a decay is understood");
     let step = found.p[R] + 2.0 * found.covariance.error(R);
     bencher.bench(|| {
-        let mut effort = Effort { with_derivatives: 0, plain: 0, interrupted: &|| false };
-        refitted(&found, R, black_box(step), &mut effort)
+        let mut runs = Runs { with_derivatives: 0, plain: 0, interrupted: &|| false };
+        refitted(&found, R, black_box(step), &mut runs)
     });
 }

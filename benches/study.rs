@@ -8,7 +8,7 @@ use divan::{Bencher, black_box};
 use hopfscope::flow::{Limits, Problem};
 use hopfscope::numerics::elementary::ln;
 use hopfscope::oscillator::{Parameters, Symbol};
-use hopfscope::runtime::scanning::{Effort, rows};
+use hopfscope::runtime::scanning::{Processors, rows};
 use hopfscope::study::basin::Window;
 use hopfscope::study::branch::{Points, branch};
 use hopfscope::study::chart::{Plane, Resolution, chart};
@@ -117,6 +117,6 @@ fn a_scan_of_margins_and_cycles() -> usize {
         counted += 1;
         std::ops::ControlFlow::Continue(())
     };
-    rows(&scan, 0..scan.points(), Effort::whole(), &|| false, &mut count).unwrap();
+    rows(&scan, 0..scan.points(), Processors::all(), &|| false, &mut count).unwrap();
     counted
 }

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use hopfscope::flow::Outcome;
 use hopfscope::numerics::elementary::tanh;
 use hopfscope::runtime::explorer::replay;
-use hopfscope::scene::{Rig, Scene};
+use hopfscope::scene::{ScaledMachine, Scene};
 use hopfscope::session::replay::parse;
 use hopfscope::session::{Session, Size};
 use hopfscope::terminal::Environment;
@@ -498,7 +498,7 @@ fn few_cells_change_from_frame_to_frame() {
 #[test]
 fn a_machine_is_a_scene_with_physical_values_beside_the_numbers() {
     let machine = hopfscope::scene::machine::library::find("textbook").unwrap();
-    let scene = Rig::new(machine.clone()).unwrap().scene();
+    let scene = ScaledMachine::new(machine.clone()).unwrap().scene();
     let (session, text) = screen(scene.clone(), "");
     assert_eq!(session.contact(), None);
     for words in ["1 N", "1 mm", "2 s", "1.45 mm, 0.147 N s", "belt"] {

@@ -1,7 +1,7 @@
-//! The loop, the worker and the guard in a real terminal, around a small machine that can be told to
+//! The loop, the worker and the guard in a real terminal, around a small application that can be told to
 //! misbehave: panics, slow answers of the terminal, signals, job control.
 //!
-//! The machine runs in a process of its own, which is this test program started again in a pty.
+//! The application runs in a process of its own, which is this test program started again in a pty.
 
 mod support;
 
@@ -12,7 +12,7 @@ use hopfscope::flow::{Cost, Limits, Reason};
 use hopfscope::oscillator::Parameters;
 use hopfscope::question;
 use hopfscope::runtime::worker::Tell;
-use hopfscope::runtime::{Machine, Options, launch};
+use hopfscope::runtime::{Application, Options, launch};
 use hopfscope::scene::{Answer, Answered, Request};
 use hopfscope::session::{Code, Effect, Key, Msg};
 use hopfscope::study::{Cycles, Edge};
@@ -52,7 +52,7 @@ fn confirm(request: &Request, _: &Limits, _: &Tell) -> Result<Answer, Reason> {
     }))
 }
 
-impl Machine for Machinery {
+impl Application for Machinery {
     fn update(&mut self, msg: Msg) -> Vec<Effect> {
         match msg {
             Msg::Key(Key { code: Code::Right, .. }) => {
@@ -112,7 +112,7 @@ fn machinery() {
     std::process::exit(if failed { 77 } else { 0 });
 }
 
-/// The command that starts the machine.
+/// The command that starts the application.
 fn program() -> Vec<String> {
     let this = std::env::current_exe().unwrap().to_str().unwrap().to_owned();
     let arguments = ["--exact", "machinery", "--ignored", "--nocapture"];
@@ -318,7 +318,7 @@ fn without_job_control_nothing_stops_it() {
     assert_eq!(terminal.end(), 0);
 }
 
-/// A shell with job control that has started the machine.
+/// A shell with job control that has started the application.
 fn start_in_shell() -> Terminal {
     let shell = ["bash", "--norc", "--noprofile", "-i"];
     let mut terminal = Terminal::start(&shell, &[("PS1", "ready> ")], (80, 24), Answers::AtOnce);
@@ -328,7 +328,7 @@ fn start_in_shell() -> Terminal {
     terminal
 }
 
-/// Quits the machine and then the shell, once that has its terminal back.
+/// Quits the application and then the shell, once that has its terminal back.
 fn leave_shell(mut terminal: Terminal) {
     terminal.types("q");
     terminal.wait("a prompt after the end", |terminal| {

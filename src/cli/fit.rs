@@ -12,7 +12,7 @@ use super::output::{Format, Output, write};
 use super::timing::timed;
 use crate::figure::{self, Figure, Form};
 use crate::fit::contour::{RISES, contour};
-use crate::fit::levenberg_marquardt::Effort;
+use crate::fit::levenberg_marquardt::Runs;
 use crate::fit::names::{Choice, NAMES, NameSpec, named};
 use crate::fit::observation::{D, OMEGA0, R};
 use crate::fit::{
@@ -256,8 +256,8 @@ fn contours(found: &Estimate) -> Vec<Vec<[f64; 2]>> {
     if !(found.free[D] && found.free[R]) {
         return Vec::new();
     }
-    let mut effort = Effort { with_derivatives: 0, plain: 0, interrupted: &|| false };
-    RISES.iter().filter_map(|rise| contour(found, [D, R], *rise, &mut effort).ok()).collect()
+    let mut runs = Runs { with_derivatives: 0, plain: 0, interrupted: &|| false };
+    RISES.iter().filter_map(|rise| contour(found, [D, R], *rise, &mut runs).ok()).collect()
 }
 
 fn short_name(path: &Path) -> String {

@@ -23,7 +23,7 @@ use crate::oscillator::Symbol;
 use crate::report::scan::Form;
 use crate::runtime::provenance_file;
 use crate::runtime::scan_file::{Refusal, ScanFile};
-use crate::runtime::scanning::{Effort, Taker, rows};
+use crate::runtime::scanning::{Processors, Taker, rows};
 use crate::runtime::signals::exit_code;
 use crate::study::basin::Window;
 use crate::study::kicks::Kicks;
@@ -227,8 +227,8 @@ impl ScanCommand {
         points.start += done;
         let ahead = sink.ahead();
 
-        let mut effort = Effort::whole();
-        effort.jobs = self.jobs.map_or(effort.jobs, usize::from);
+        let mut processors = Processors::all();
+        processors.jobs = self.jobs.map_or(processors.jobs, usize::from);
         let wanted = points.len() - ahead;
         let place = match (io::stderr().is_terminal(), &self.output) {
             (true, None) if io::stdout().is_terminal() => Place::Nowhere,
@@ -242,7 +242,7 @@ impl ScanCommand {
             progress: Progress::new(wanted, done + ahead, place),
             broken: None,
         };
-        let took = rows(&scan, points, effort, &interrupted, &mut writer);
+        let took = rows(&scan, points, processors, &interrupted, &mut writer);
         let Writer { tally, progress, broken, .. } = writer;
         progress.end();
         took.map_err(|error| Failure::Unanswered(format!("no threads to scan with: {error}")))?;

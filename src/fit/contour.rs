@@ -4,7 +4,7 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::estimate::Estimate;
-use super::levenberg_marquardt::{Effort, NoFit};
+use super::levenberg_marquardt::{NoFit, Runs};
 use super::observation::{R, UNKNOWNS, Unknowns};
 use super::refit::Refit;
 use crate::numerics::elementary::{cos, sin};
@@ -24,7 +24,7 @@ pub fn contour(
     estimate: &Estimate,
     places: [usize; 2],
     rise: f64,
-    effort: &mut Effort,
+    runs: &mut Runs,
 ) -> Result<Vec<[f64; 2]>, NoFit> {
     let of = |one: usize, other: usize| estimate.covariance.of(one, other);
     let [one, other] = places;
@@ -33,7 +33,7 @@ pub fn contour(
         return Ok(Vec::new());
     };
     let refit = Refit::without(estimate, &places);
-    let (cost, unit) = (refit.cost(&estimate.p, effort)?, refit.unit(effort)?);
+    let (cost, unit) = (refit.cost(&estimate.p, runs)?, refit.unit(runs)?);
     let mut points = Vec::new();
     for index in 0..DIRECTIONS {
         let angle = std::f64::consts::TAU * f64::from(index) / f64::from(DIRECTIONS);
@@ -49,7 +49,7 @@ pub fn contour(
                 of(place, one) * weights[0] + of(place, other) * weights[1]
             }
         });
-        if let Some(at) = refit.risen(along, (cost, rise * unit), effort)? {
+        if let Some(at) = refit.risen(along, (cost, rise * unit), runs)? {
             points.push([estimate.p[one] + at * step[0], estimate.p[other] + at * step[1]]);
         }
     }
@@ -63,7 +63,7 @@ impl Refit<'_> {
         &self,
         along: [f64; UNKNOWNS],
         (cost, rise): (f64, f64),
-        effort: &mut Effort,
+        runs: &mut Runs,
     ) -> Result<Option<f64>, NoFit> {
         /// Refits, each at the end of a line through the rise of the one before; where the loss is quadratic the
         /// first is right.
@@ -73,7 +73,7 @@ impl Refit<'_> {
         let mut at = f64::min(1.0, farthest);
         for _ in 0..ROUNDS {
             let guess = std::array::from_fn(|place| p[place] + at * along[place]);
-            let found = match self.at(guess, effort) {
+            let found = match self.at(guess, runs) {
                 Ok(found) => found,
                 Err(NoFit::Lost) => return Ok(None),
                 Err(NoFit::Interrupted) => return Err(NoFit::Interrupted),

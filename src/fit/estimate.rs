@@ -1,6 +1,6 @@
 //! What a record says: the best motion with its uncertainty.
 
-use super::levenberg_marquardt::Effort;
+use super::levenberg_marquardt::Runs;
 use super::names::{Choice, NAMES, NameSpec};
 use super::noise::Noise;
 use super::observation::{Data, OMEGA0, R, Start, UNKNOWNS, Unknowns};
@@ -97,7 +97,7 @@ pub fn judged(
     problem: &Problem,
     used: &[bool],
     found: &Found,
-    effort: &mut Effort,
+    runs: &mut Runs,
 ) -> Result<Estimate, Unfit> {
     let problem = &Problem { used, ..*problem };
     let observation = problem.observation(found.start);
@@ -145,7 +145,7 @@ pub fn judged(
             if !problem.free[place] {
                 continue;
             }
-            let one = profile.interval(place, effort)?;
+            let one = profile.interval(place, runs)?;
             *interval = if rival.delta_chi2 == 0.0 { one } else { interval.joined(one) };
         }
     }
@@ -166,7 +166,7 @@ pub fn judged(
         extremes: Vec::new(),
         noise: Noise::default(),
         saturated: 0,
-        motions: (effort.with_derivatives, effort.plain),
+        motions: (runs.with_derivatives, runs.plain),
         reach: problem.reach,
     })
 }

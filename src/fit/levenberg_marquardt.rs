@@ -13,7 +13,7 @@ use super::triangle::triangle;
 use crate::numerics::elementary::powi;
 
 /// What the iteration counts and whom it asks.
-pub struct Effort<'a> {
+pub struct Runs<'a> {
     /// Motions with derivatives.
     pub with_derivatives: u64,
     /// Motions without.
@@ -110,16 +110,11 @@ impl Task<'_> {
     ///
     /// # Errors
     /// [`NoFit`] where the model escapes, or somebody interrupts.
-    pub fn look(
-        &self,
-        p: &Unknowns,
-        derivatives: bool,
-        effort: &mut Effort,
-    ) -> Result<Seen, NoFit> {
-        if (effort.interrupted)() {
+    pub fn look(&self, p: &Unknowns, derivatives: bool, runs: &mut Runs) -> Result<Seen, NoFit> {
+        if (runs.interrupted)() {
             return Err(NoFit::Interrupted);
         }
-        *(if derivatives { &mut effort.with_derivatives } else { &mut effort.plain }) += 1;
+        *(if derivatives { &mut runs.with_derivatives } else { &mut runs.plain }) += 1;
         self.observation.compare(p, derivatives).map_err(|_| NoFit::Lost)
     }
 
@@ -148,18 +143,18 @@ impl Task<'_> {
     ///
     /// # Errors
     /// [`NoFit`] where even the guess cannot be compared with the record.
-    pub fn solve(&self, guess: Unknowns, effort: &mut Effort) -> Result<Optimum, NoFit> {
-        self.solve_within(SETTLED, MOST, guess, effort)
+    pub fn solve(&self, guess: Unknowns, runs: &mut Runs) -> Result<Optimum, NoFit> {
+        self.solve_within(SETTLED, MOST, guess, runs)
     }
 
     /// The same to a part of a standard error: enough for a start, or for the profile of the loss.
     ///
     /// # Errors
     /// As [`Task::solve`].
-    pub fn solve_roughly(&self, guess: Unknowns, effort: &mut Effort) -> Result<Optimum, NoFit> {
+    pub fn solve_roughly(&self, guess: Unknowns, runs: &mut Runs) -> Result<Optimum, NoFit> {
         #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
         let count = self.observation.data.residuals().max(1) as f64;
-        self.solve_within(0.01 / count, FEW, guess, effort)
+        self.solve_within(0.01 / count, FEW, guess, runs)
     }
 
     fn solve_within(
@@ -167,10 +162,10 @@ impl Task<'_> {
         enough: f64,
         most: usize,
         guess: Unknowns,
-        effort: &mut Effort,
+        runs: &mut Runs,
     ) -> Result<Optimum, NoFit> {
         let mut p = guess;
-        let mut seen = self.look(&p, true, effort)?;
+        let mut seen = self.look(&p, true, runs)?;
         let mut cost = self.cost(&seen);
         let columns = self.columns();
         let mut norms = vec![0.0_f64; columns.len()];
@@ -195,7 +190,7 @@ impl Task<'_> {
                     break None;
                 }
                 let trial: Unknowns = std::array::from_fn(|place| p[place] + step[place]);
-                let found = match self.look(&trial, false, effort) {
+                let found = match self.look(&trial, false, runs) {
                     Err(NoFit::Interrupted) => return Err(NoFit::Interrupted),
                     other => other.ok().map(|seen| self.cost(&seen)),
                 };
@@ -216,7 +211,7 @@ impl Task<'_> {
             let Some((trial, found)) = taken else { break };
             settled = (cost - found) <= enough * cost;
             (p, cost) = (trial, found);
-            seen = self.look(&p, true, effort)?;
+            seen = self.look(&p, true, runs)?;
         }
         Ok(Optimum { p, cost, seen, settled })
     }

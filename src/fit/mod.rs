@@ -76,7 +76,7 @@ pub use observation::parameters;
 pub use question::{LossName, Question, Unfit};
 pub use record::{BadRecord, Column, Reading, Record, parse};
 
-use levenberg_marquardt::Effort;
+use levenberg_marquardt::Runs;
 
 /// Fits a record.
 ///
@@ -87,10 +87,10 @@ pub fn estimate(
     question: &Question,
     interrupted: &dyn Fn() -> bool,
 ) -> Result<Estimate, Unfit> {
-    let mut effort = Effort { with_derivatives: 0, plain: 0, interrupted };
+    let mut runs = Runs { with_derivatives: 0, plain: 0, interrupted };
     if question.peaks {
-        peaks::peaks(record, question, &mut effort)
+        peaks::peaks(record, question, &mut runs)
     } else {
-        samples::samples(record, question, &mut effort)
+        samples::samples(record, question, &mut runs)
     }
 }

@@ -3,7 +3,7 @@
 use super::decrements::regressions;
 use super::estimate::{Estimate, judged};
 use super::guess::period_of;
-use super::levenberg_marquardt::{Effort, Optimum, Task};
+use super::levenberg_marquardt::{Optimum, Runs, Task};
 use super::loss::Loss;
 use super::observation::{D, D2, D3, Data, LAST, OFFSET, OMEGA0, Q0, R, Start, UNKNOWNS, Unknowns};
 use super::problem::Problem;
@@ -16,7 +16,7 @@ use super::turning_points::Extreme;
 ///
 /// # Errors
 /// [`Unfit`].
-pub fn peaks(record: &Record, question: &Question, effort: &mut Effort) -> Result<Estimate, Unfit> {
+pub fn peaks(record: &Record, question: &Question, runs: &mut Runs) -> Result<Estimate, Unfit> {
     const ROUNDS: usize = 8;
     let x = &record.x;
     let mut held = question.choice.unknowns();
@@ -61,7 +61,7 @@ pub fn peaks(record: &Record, question: &Question, effort: &mut Effort) -> Resul
     }
     let of = |ratio: f64| Data::Peaks { t: t.clone(), x: x.clone(), ratio };
     let mut data = of(ratio);
-    let mut found = asked(&data, free).search(&starts, effort)?;
+    let mut found = asked(&data, free).search(&starts, runs)?;
     for _ in 0..ROUNDS {
         let problem = asked(&data, free);
         let observation = problem.observation(found.start);
@@ -72,11 +72,11 @@ pub fn peaks(record: &Record, question: &Question, effort: &mut Effort) -> Resul
         }
         ratio = next;
         data = of(ratio);
-        asked(&data, free).polish(&mut found, effort)?;
+        asked(&data, free).polish(&mut found, runs)?;
     }
     let problem = asked(&data, free);
     let used = vec![true; data.residuals()];
-    let mut estimate = judged(&problem, &used, &found, effort)?;
+    let mut estimate = judged(&problem, &used, &found, runs)?;
     (estimate.choice, estimate.extremes) = (question.choice.clone(), extremes);
     Ok(estimate)
 }

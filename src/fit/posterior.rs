@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::estimate::Estimate;
-use super::levenberg_marquardt::Effort;
+use super::levenberg_marquardt::Runs;
 use super::observation::{D, D2, D3, R, UNKNOWNS, Unknowns, parameters};
 use super::refit::Refit;
 use crate::flow::{Limits, Reason};
@@ -69,14 +69,14 @@ fn weights(
     limits: &Limits,
 ) -> Result<Vec<f64>, Reason> {
     let refit = Refit::without(estimate, &[]);
-    let effort = || Effort { with_derivatives: 0, plain: 0, interrupted: limits.interrupted };
-    let least = refit.cost(&estimate.p, &mut effort());
-    let (Ok(least), Ok(unit)) = (least, refit.unit(&mut effort())) else {
+    let runs = || Runs { with_derivatives: 0, plain: 0, interrupted: limits.interrupted };
+    let least = refit.cost(&estimate.p, &mut runs());
+    let (Ok(least), Ok(unit)) = (least, refit.unit(&mut runs())) else {
         return Err(Reason::Interrupted);
     };
     let weight = |p: &Unknowns| {
         // A motion that escapes is not the one recorded.
-        let cost = refit.cost(p, &mut effort()).unwrap_or(f64::INFINITY);
+        let cost = refit.cost(p, &mut runs()).unwrap_or(f64::INFINITY);
         let likelihood = exp(-0.5 * (cost - least) / unit);
         let weight = if p[R] >= 0.0 { likelihood / normal.density(p) } else { 0.0 };
         if weight.is_finite() { weight } else { 0.0 }

@@ -4,7 +4,7 @@
 //! explains. Where the loss is quadratic this is the minimum and a multiple of the standard error, which one motion
 //! checks on each side. Elsewhere the end is sought with all others refitted.
 
-use super::levenberg_marquardt::{Effort, NoFit, Optimum, Task};
+use super::levenberg_marquardt::{NoFit, Optimum, Runs, Task};
 use super::observation::{R, Unknowns};
 use super::uncertainty::{Covariance, deviation_of_95_percent};
 
@@ -58,7 +58,7 @@ impl Profile<'_> {
     ///
     /// # Errors
     /// [`NoFit::Interrupted`].
-    pub fn interval(&self, unknown: usize, effort: &mut Effort) -> Result<Interval, NoFit> {
+    pub fn interval(&self, unknown: usize, runs: &mut Runs) -> Result<Interval, NoFit> {
         let z = deviation_of_95_percent(self.covariance.independent(unknown));
         let reach = z * self.covariance.error(unknown);
         let white = self.covariance.inflation(unknown);
@@ -70,12 +70,12 @@ impl Profile<'_> {
             let straight = self.shifted(&self.optimum.p, unknown, sign * reach);
             // No friction is less than none: r ends at 0, and what leans on r bends there.
             let crosses = straight[R] < 0.0 && self.task.free[R];
-            if !crosses && self.rises_by(&straight, rise, effort)? {
+            if !crosses && self.rises_by(&straight, rise, runs)? {
                 *end = Some(straight[unknown]);
                 continue;
             }
             quadratic = false;
-            *end = self.sought(unknown, sign, reach, rise, effort)?;
+            *end = self.sought(unknown, sign, reach, rise, runs)?;
         }
         Ok(Interval { lower: ends[0], upper: ends[1], quadratic })
     }
@@ -86,8 +86,8 @@ impl Profile<'_> {
     }
 
     /// Whether the loss there has risen as a quadratic one would have.
-    fn rises_by(&self, p: &Unknowns, rise: f64, effort: &mut Effort) -> Result<bool, NoFit> {
-        match self.task.look(p, false, effort) {
+    fn rises_by(&self, p: &Unknowns, rise: f64, runs: &mut Runs) -> Result<bool, NoFit> {
+        match self.task.look(p, false, runs) {
             Ok(seen) => {
                 let risen = self.task.cost(&seen) - self.optimum.cost;
                 Ok((risen / rise - 1.0).abs() <= QUADRATIC)
@@ -104,7 +104,7 @@ impl Profile<'_> {
         sign: f64,
         reach: f64,
         rise: f64,
-        effort: &mut Effort,
+        runs: &mut Runs,
     ) -> Result<Option<f64>, NoFit> {
         let center = self.optimum.p[unknown];
         let farthest = if unknown == R && sign < 0.0 { center } else { FARTHEST * reach };
@@ -120,7 +120,7 @@ impl Profile<'_> {
             let mut guess = self.shifted(&warm, unknown, center + sign * step - warm[unknown]);
             guess[unknown] = center + sign * step;
             guess[R] = guess[R].max(0.0);
-            let risen = match task.solve_roughly(guess, effort) {
+            let risen = match task.solve_roughly(guess, runs) {
                 Ok(found) => {
                     warm = found.p;
                     ((found.cost - self.optimum.cost).max(0.0) / rise).sqrt()

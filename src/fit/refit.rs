@@ -1,7 +1,7 @@
 //! A fit after some of its numbers have been moved: all others follow, from where they were.
 
 use super::estimate::Estimate;
-use super::levenberg_marquardt::{Effort, NoFit, Optimum, Task};
+use super::levenberg_marquardt::{NoFit, Optimum, Runs, Task};
 use super::loss::Loss;
 use super::observation::{D2, D3, Observation, R, UNKNOWNS, Unknowns};
 
@@ -44,27 +44,27 @@ impl<'a> Refit<'a> {
     ///
     /// # Errors
     /// [`NoFit`] where that motion escapes, or somebody interrupts.
-    pub fn at(&self, mut guess: Unknowns, effort: &mut Effort) -> Result<Optimum, NoFit> {
+    pub fn at(&self, mut guess: Unknowns, runs: &mut Runs) -> Result<Optimum, NoFit> {
         guess[R] = guess[R].max(0.0);
-        self.task().solve_roughly(guess, effort)
+        self.task().solve_roughly(guess, runs)
     }
 
     /// The loss at a point.
     ///
     /// # Errors
     /// [`NoFit`] where the motion escapes, or somebody interrupts.
-    pub fn cost(&self, p: &Unknowns, effort: &mut Effort) -> Result<f64, NoFit> {
+    pub fn cost(&self, p: &Unknowns, runs: &mut Runs) -> Result<f64, NoFit> {
         let task = self.task();
-        Ok(task.cost(&task.look(p, false, effort)?))
+        Ok(task.cost(&task.look(p, false, runs)?))
     }
 
     /// The loss that one unit of chi-squared is worth; correlated noise makes larger differences by chance.
     ///
     /// # Errors
     /// [`NoFit`] if somebody interrupts.
-    pub fn unit(&self, effort: &mut Effort) -> Result<f64, NoFit> {
+    pub fn unit(&self, runs: &mut Runs) -> Result<f64, NoFit> {
         let covariance = &self.estimate.covariance;
-        Ok(self.cost(&self.estimate.p, effort)? / covariance.freedom * covariance.inflation(R))
+        Ok(self.cost(&self.estimate.p, runs)? / covariance.freedom * covariance.inflation(R))
     }
 }
 
@@ -76,12 +76,12 @@ pub fn refitted(
     estimate: &Estimate,
     place: usize,
     value: f64,
-    effort: &mut Effort,
+    runs: &mut Runs,
 ) -> Result<Optimum, NoFit> {
     // The others follow by the linear model first; the descent has the rest to do.
     let along = estimate.covariance.along(place);
     let step = value - estimate.p[place];
     let mut guess: Unknowns = std::array::from_fn(|other| estimate.p[other] + step * along[other]);
     guess[place] = value;
-    Refit::without(estimate, &[place]).at(guess, effort)
+    Refit::without(estimate, &[place]).at(guess, runs)
 }

@@ -2,7 +2,7 @@
 
 use super::estimate::{Estimate, judged};
 use super::guess::{Guess, guess};
-use super::levenberg_marquardt::{Effort, NoFit};
+use super::levenberg_marquardt::{NoFit, Runs};
 use super::loss::Loss;
 use super::noise::{Noise, robust_deviation, within_scale};
 use super::observation::Data;
@@ -15,11 +15,7 @@ use super::search::Found;
 ///
 /// # Errors
 /// [`Unfit`].
-pub fn samples(
-    record: &Record,
-    question: &Question,
-    effort: &mut Effort,
-) -> Result<Estimate, Unfit> {
+pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<Estimate, Unfit> {
     let within = within_scale(&record.x, Noise::of(&record.x).deviation);
     let keep = |values: &[f64]| -> Vec<f64> {
         values.iter().zip(&within).filter(|(_, within)| **within).map(|(value, _)| *value).collect()
@@ -46,14 +42,14 @@ pub fn samples(
     let reach = reach(&x);
     let data = Data::Samples { t, x };
     let mut problem = Problem { data: &data, free, loss, used: &[], noise: noise.deviation, reach };
-    let mut found = problem.search(&beginnings, effort)?;
+    let mut found = problem.search(&beginnings, runs)?;
     let mut used = vec![true; data.residuals()];
     if question.loss == LossName::Auto {
         problem.loss = Loss::Linear;
-        used = refined(&problem, loss.is_robust(), &mut found, effort)?;
+        used = refined(&problem, loss.is_robust(), &mut found, runs)?;
     }
     let saturated = within.iter().filter(|within| !**within).count();
-    let mut estimate = judged(&problem, &used, &found, effort)?;
+    let mut estimate = judged(&problem, &used, &found, runs)?;
     estimate.choice = question.choice.clone();
     (estimate.extremes, estimate.noise, estimate.saturated) = (extremes, noise, saturated);
     Ok(estimate)
@@ -64,7 +60,7 @@ fn refined(
     problem: &Problem,
     robust: bool,
     found: &mut Found,
-    effort: &mut Effort,
+    runs: &mut Runs,
 ) -> Result<Vec<bool>, NoFit> {
     /// A model that leaves out more than this part of the record does not describe it.
     const MOST: f64 = 0.15;
@@ -84,7 +80,7 @@ fn refined(
             break;
         }
         (used, settled) = (now, true);
-        Problem { used: &used, ..*problem }.polish(found, effort)?;
+        Problem { used: &used, ..*problem }.polish(found, runs)?;
     }
     Ok(used)
 }

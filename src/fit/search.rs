@@ -1,6 +1,6 @@
 //! From first guesses to the best minimum: several starts, and horizons that grow.
 
-use super::levenberg_marquardt::{Effort, NoFit, Optimum, Task, interrupted};
+use super::levenberg_marquardt::{NoFit, Optimum, Runs, Task, interrupted};
 use super::loss::Loss;
 use super::observation::{D2, D3, Data, LAST, OMEGA0, R, Start, Unknowns};
 use super::problem::Problem;
@@ -42,17 +42,17 @@ impl Problem<'_> {
     ///
     /// # Errors
     /// [`NoFit`] where no guess leads anywhere.
-    pub fn search(&self, guesses: &[Beginning], effort: &mut Effort) -> Result<Found, NoFit> {
+    pub fn search(&self, guesses: &[Beginning], runs: &mut Runs) -> Result<Found, NoFit> {
         let mut best: Option<(Start, Optimum)> = None;
         let mut failure = NoFit::Lost;
-        let mut starts = self.ranked(guesses, effort)?;
+        let mut starts = self.ranked(guesses, runs)?;
         for (round, way) in WAYS.into_iter().enumerate() {
             let mut costs = Vec::new();
             for &(start, guess, certain) in &starts {
                 let observation = self.observation(start);
                 let mut cost = f64::INFINITY;
                 let mut explained = false;
-                match interrupted(way(self, &self.task(&observation), guess, effort))? {
+                match interrupted(way(self, &self.task(&observation), guess, runs))? {
                     Ok(found) => {
                         cost = found.cost;
                         explained = self.explains(&found);
@@ -68,7 +68,7 @@ impl Problem<'_> {
                     break;
                 }
             }
-            let tired = effort.with_derivatives > ENOUGH;
+            let tired = runs.with_derivatives > ENOUGH;
             if best.as_ref().is_some_and(|(_, best)| tired || self.explains(best)) {
                 break;
             }
@@ -80,7 +80,7 @@ impl Problem<'_> {
         }
         let (start, optimum) = best.ok_or(failure)?;
         let observation = self.observation(start);
-        let valleys = self.valleys(&self.task(&observation), optimum, effort)?;
+        let valleys = self.valleys(&self.task(&observation), optimum, runs)?;
         Ok(Found { start, valleys })
     }
 
@@ -88,11 +88,11 @@ impl Problem<'_> {
     ///
     /// # Errors
     /// [`NoFit`] if somebody interrupts, or the motion is lost.
-    pub fn polish(&self, found: &mut Found, effort: &mut Effort) -> Result<(), NoFit> {
+    pub fn polish(&self, found: &mut Found, runs: &mut Runs) -> Result<(), NoFit> {
         let observation = self.observation(found.start);
         let task = self.task(&observation);
         for valley in &mut found.valleys {
-            valley.optimum = task.solve(valley.optimum.p, effort)?;
+            valley.optimum = task.solve(valley.optimum.p, runs)?;
             valley.half_swings = valley.optimum.seen.turns.len();
         }
         found.valleys.sort_by(|one, other| one.optimum.cost.total_cmp(&other.optimum.cost));
@@ -114,7 +114,7 @@ impl Problem<'_> {
     fn ranked(
         &self,
         guesses: &[Beginning],
-        effort: &mut Effort,
+        runs: &mut Runs,
     ) -> Result<Vec<(Start, Unknowns, bool)>, NoFit> {
         let mut starts = Vec::new();
         for beginning in guesses {
@@ -122,7 +122,7 @@ impl Problem<'_> {
             let task = self.task(&observation);
             let mut best = (f64::INFINITY, None);
             for &guess in &beginning.guesses {
-                if let Ok(seen) = interrupted(task.look(&guess, false, effort))? {
+                if let Ok(seen) = interrupted(task.look(&guess, false, runs))? {
                     let cost = task.cost(&seen);
                     if cost < best.0 {
                         best = (cost, Some(guess));
@@ -136,16 +136,14 @@ impl Problem<'_> {
 }
 
 /// A way from a guess to a minimum.
-type Descent = fn(&Problem, &Task, Unknowns, &mut Effort) -> Result<Optimum, NoFit>;
+type Descent = fn(&Problem, &Task, Unknowns, &mut Runs) -> Result<Optimum, NoFit>;
 
 /// The ways in the order in which they are tried.
 const WAYS: [Descent; 4] = [
-    |_, task, guess, effort| task.solve(guess, effort),
+    |_, task, guess, runs| task.solve(guess, runs),
     growing,
-    |problem, task, guess, effort| {
-        growing(problem, task, without(guess, &[D2, D3], problem), effort)
-    },
-    |problem, task, guess, effort| growing(problem, task, without(guess, &[R], problem), effort),
+    |problem, task, guess, runs| growing(problem, task, without(guess, &[D2, D3], problem), runs),
+    |problem, task, guess, runs| growing(problem, task, without(guess, &[R], problem), runs),
 ];
 
 fn without(mut guess: Unknowns, places: &[usize], problem: &Problem) -> Unknowns {
@@ -162,10 +160,10 @@ fn growing(
     problem: &Problem,
     task: &Task,
     guess: Unknowns,
-    effort: &mut Effort,
+    runs: &mut Runs,
 ) -> Result<Optimum, NoFit> {
     let mut p = guess;
-    let Data::Samples { t, .. } = problem.data else { return task.solve(p, effort) };
+    let Data::Samples { t, .. } = problem.data else { return task.solve(p, runs) };
     let (first, last) = (t[0], t[t.len() - 1]);
     let half_swing = std::f64::consts::PI / p[OMEGA0];
     #[expect(clippy::cast_precision_loss, reason = "a few half swings")]
@@ -181,8 +179,8 @@ fn growing(
         if horizon >= t.len() {
             break;
         }
-        p = Task { loss, horizon, ..*task }.solve_roughly(p, effort)?.p;
+        p = Task { loss, horizon, ..*task }.solve_roughly(p, runs)?.p;
     }
-    let rough = Task { loss, ..*task }.solve_roughly(p, effort)?;
-    task.solve(rough.p, effort)
+    let rough = Task { loss, ..*task }.solve_roughly(p, runs)?;
+    task.solve(rough.p, runs)
 }

@@ -4,7 +4,7 @@
 //! before the rest: where a turning point crosses the rim of the sticking set the residuals are continuous and
 //! their derivatives are not. So one descent never decides.
 
-use super::levenberg_marquardt::{Effort, NoFit, Optimum, Task, interrupted};
+use super::levenberg_marquardt::{NoFit, Optimum, Runs, Task, interrupted};
 use super::observation::{Data, R, UNKNOWNS, Unknowns};
 use super::problem::{Problem, Verdict};
 
@@ -29,7 +29,7 @@ impl Problem<'_> {
         &self,
         task: &Task,
         optimum: Optimum,
-        effort: &mut Effort,
+        runs: &mut Runs,
     ) -> Result<Vec<Valley>, NoFit> {
         /// Most minima around which others are sought.
         const MOST: usize = 8;
@@ -48,12 +48,12 @@ impl Problem<'_> {
             let verdict = self.verdict(&from);
             let mut guesses = beyond_the_rim(&from, &way, verdict);
             guesses.extend(if verdict == Verdict::Noise {
-                along_the_valley(task, &from, &way, &valleys, effort)?
+                along_the_valley(task, &from, &way, &valleys, runs)?
             } else {
-                through_the_valley(task, &from, &valleys, effort)?
+                through_the_valley(task, &from, &valleys, runs)?
             });
             for guess in guesses {
-                let Ok(found) = interrupted(task.solve(guess, effort))? else { continue };
+                let Ok(found) = interrupted(task.solve(guess, runs))? else { continue };
                 let half_swings = found.seen.turns.len();
                 match valleys.iter_mut().find(|valley| valley.half_swings == half_swings) {
                     Some(known) if known.optimum.cost <= found.cost => {}
@@ -104,7 +104,7 @@ fn along_the_valley(
     optimum: &Optimum,
     way: &WayOfFriction,
     known: &[Valley],
-    effort: &mut Effort,
+    runs: &mut Runs,
 ) -> Result<Vec<Unknowns>, NoFit> {
     /// Steps on each side: parts of r, and standard errors.
     const PART: f64 = 0.012;
@@ -118,7 +118,7 @@ fn along_the_valley(
     for step in parts.chain(errors).flat_map(|step| [step, -step]) {
         let p = way.moved(optimum, step);
         if p[R] > 0.0
-            && let Ok(seen) = interrupted(task.look(&p, false, effort))?
+            && let Ok(seen) = interrupted(task.look(&p, false, runs))?
         {
             closest.see(seen.turns.len(), task.cost(&seen), p);
         }
@@ -135,7 +135,7 @@ fn through_the_valley(
     task: &Task,
     optimum: &Optimum,
     known: &[Valley],
-    effort: &mut Effort,
+    runs: &mut Runs,
 ) -> Result<Vec<Unknowns>, NoFit> {
     /// Steps on each side: a valley may be no wider than a percent of r.
     const FACTORS: [f64; 9] = [1.01, 1.01, 1.01, 1.02, 1.02, 1.04, 1.04, 1.04, 1.04];
@@ -146,7 +146,7 @@ fn through_the_valley(
         let mut p = optimum.p;
         for factor in FACTORS {
             p[R] *= if up { factor } else { 1.0 / factor };
-            let Ok(found) = interrupted(held.solve_roughly(p, effort))? else { break };
+            let Ok(found) = interrupted(held.solve_roughly(p, runs))? else { break };
             p = found.p;
             closest.see(found.seen.turns.len(), found.cost, p);
         }

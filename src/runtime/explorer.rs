@@ -8,10 +8,10 @@ use ratatui::Frame;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 
-use super::clerk::Work;
+use super::application::Application;
+use super::figure_writer::Work;
 use super::headless::{self, Played};
 use super::launch::{Options, launch};
-use super::machine::Machine;
 use super::worker::Tell;
 use super::{print, provenance_file, scanning};
 use crate::figure::{self, Form};
@@ -47,7 +47,7 @@ impl Explorer {
     }
 }
 
-impl Machine for Explorer {
+impl Application for Explorer {
     fn update(&mut self, msg: Msg) -> Vec<Effect> {
         let effects = update(&mut self.session, msg);
         if self.session.look != self.wishes {

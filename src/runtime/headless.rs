@@ -1,4 +1,4 @@
-//! A keystroke file played without a terminal: the same machine, the same worker, no screen.
+//! A keystroke file played without a terminal: the same application, the same worker, no screen.
 //!
 //! Nothing here waits for time to pass. While something is wanted the worker's next message is waited
 //! for; when nothing is wanted the file goes on.
@@ -9,12 +9,12 @@ use crossbeam_channel::unbounded;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
 
-use super::crew::Crew;
+use super::application::Application;
 use super::effects::Files;
-use super::machine::Machine;
 use super::panics::Notes;
 use super::picture;
 use super::worker::Tell;
+use super::workers::Workers;
 use crate::flow::{Limits, Reason};
 use crate::scene::{Answer, Request};
 use crate::session::replay::{Action, Player, Script, Unmet};
@@ -24,8 +24,8 @@ use crate::view;
 /// What a keystroke file showed.
 #[derive(Clone, Debug)]
 pub struct Played<M> {
-    /// The machine at the end.
-    pub machine: M,
+    /// The application at the end.
+    pub application: M,
     /// The last picture; [`crate::view::screen::text`] has its characters.
     pub screen: Buffer,
     /// The pictures that the file names, in its order.
@@ -34,22 +34,22 @@ pub struct Played<M> {
     pub unmet: Option<Unmet>,
 }
 
-/// Plays a file on a machine at this size, until its end, the first expectation that is not met, or
-/// until the machine wants to quit.
+/// Plays a file in an application at this size, until its end, the first expectation that is not met, or
+/// until the application wants to quit.
 ///
 /// Effects on the world outside are not carried out: a replay writes no files and copies nothing. Files
 /// that the session asks for are read.
 ///
 /// # Errors
 /// If the system gives no thread for the worker.
-pub fn play<M: Machine>(
-    mut machine: M,
+pub fn play<M: Application>(
+    mut application: M,
     answer: impl Fn(&Request, &Limits, &Tell) -> Result<Answer, Reason> + Send + Sync + 'static,
     script: Script,
     size: Size,
 ) -> io::Result<Played<M>> {
     let (send, messages) = unbounded();
-    let crew = Crew::start(answer, Notes::default(), move |msg| drop(send.send(msg)))?;
+    let workers = Workers::start(answer, Notes::default(), move |msg| drop(send.send(msg)))?;
     let mut player = Player::new(script);
     let mut size = size;
     let mut kept = Vec::new();
@@ -63,47 +63,47 @@ pub fn play<M: Machine>(
             if let Msg::Answered(answered) = &msg
                 && answered.complete
             {
-                crew.taken(&answered.request);
+                workers.taken(&answered.request);
                 asked.retain(|request| *request != answered.request);
             }
-            if does(&mut machine, &mut player, msg) {
+            if does(&mut application, &mut player, msg) {
                 break None;
             }
         }
-        let wanted = machine.wants();
+        let wanted = application.wants();
         if wanted != asked {
-            crew.submit(wanted.clone());
+            workers.submit(wanted.clone());
             asked.clone_from(&wanted);
         }
-        let screen = || view::screen::text(&picture::of(&machine, size));
-        let next = if machine.is_waiting() {
+        let screen = || view::screen::text(&picture::of(&application, size));
+        let next = if application.is_waiting() {
             Ok(Action::Wait)
         } else {
             player.next(wanted.is_empty(), screen)
         };
         match next {
             Ok(Action::Give(msg)) => given = Some(msg),
-            Ok(Action::Keep(name)) => kept.push((name, picture::of(&machine, size))),
-            // The crew lives as long as its handle does, so there is a message.
+            Ok(Action::Keep(name)) => kept.push((name, picture::of(&application, size))),
+            // The workers live as long as their handle does, so there is a message.
             Ok(Action::Wait) => given = messages.recv().ok(),
             Ok(Action::Done) => break None,
             Err(unmet) => break Some(unmet),
         }
     };
-    let screen = picture::of(&machine, size);
-    Ok(Played { machine, screen, kept, unmet })
+    let screen = picture::of(&application, size);
+    Ok(Played { application, screen, kept, unmet })
 }
 
-/// Gives a message to the machine; `true` if it wants to quit.
-fn does(machine: &mut impl Machine, player: &mut Player, msg: Msg) -> bool {
-    for effect in machine.update(msg) {
+/// Gives a message to the application; `true` if it wants to quit.
+fn does(application: &mut impl Application, player: &mut Player, msg: Msg) -> bool {
+    for effect in application.update(msg) {
         match effect {
             Effect::Quit => return true,
             // What it reads, a session depends on.
             Effect::Read { path, purpose } => {
                 let embedded = player.file(&path).map(|text| Ok(text.to_owned()));
                 let result = embedded.unwrap_or_else(|| Files::read(&path));
-                if does(machine, player, Msg::Read { path, purpose, result }) {
+                if does(application, player, Msg::Read { path, purpose, result }) {
                     return true;
                 }
             }
@@ -113,7 +113,7 @@ fn does(machine: &mut impl Machine, player: &mut Player, msg: Msg) -> bool {
             Effect::Figure { path, .. } => {
                 let text = format!("{} not written: a replay writes no files", path.display());
                 let notice = Notice { error: false, text };
-                if does(machine, player, Msg::Written(notice)) {
+                if does(application, player, Msg::Written(notice)) {
                     return true;
                 }
             }
@@ -160,7 +160,7 @@ mod tests {
     fn a_file_ends_on_a_picture_that_is_computed() {
         let end = played("");
         assert_eq!(end.unmet, None);
-        assert!(end.machine.wants().is_empty());
+        assert!(end.application.wants().is_empty());
         assert!(text(&end.screen).contains("phase plane"), "{}", text(&end.screen));
     }
 
@@ -188,8 +188,8 @@ mod tests {
 
     #[test]
     fn waiting_for_every_answer_and_for_none_end_on_the_same_numbers() {
-        let slow = played("<right*30>").machine.session().problem;
-        let fast = played("<async> <right*30>").machine.session().problem;
+        let slow = played("<right*30>").application.session().problem;
+        let fast = played("<async> <right*30>").application.session().problem;
         assert_eq!(slow, fast);
     }
 }

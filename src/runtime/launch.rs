@@ -1,4 +1,4 @@
-//! From a machine to a running program: takes the terminal, starts the threads, runs the loop, and
+//! From an application to a running program: takes the terminal, starts the threads, runs the loop, and
 //! gives the terminal back.
 
 use std::io;
@@ -10,14 +10,14 @@ use crossbeam_channel::unbounded;
 use ratatui::layout::Size;
 use rustix::io::Errno;
 
-use super::crew::Crew;
+use super::application::Application;
 use super::effects::Files;
 use super::event::{Event, Stop};
-use super::machine::Machine;
 use super::pump::Pump;
 use super::record::Record;
 use super::signals::{self, exit_code};
 use super::worker::Tell;
+use super::workers::Workers;
 use super::{input, panics};
 use crate::flow::{Limits, Reason};
 use crate::scene::{Answer, Request};
@@ -49,7 +49,7 @@ pub struct Options {
     pub files: Files,
 }
 
-/// Runs a machine in the terminal at standard input and output; see
+/// Runs an application in the terminal at standard input and output; see
 /// [`crate::terminal::Environment::admit`] for whether there is one. Gives the exit code: 0 when the user
 /// left, 128 + n after signal n.
 ///
@@ -58,7 +58,7 @@ pub struct Options {
 /// # Errors
 /// If the terminal cannot be used, or goes away while it is written to.
 pub fn launch(
-    machine: impl Machine,
+    application: impl Application,
     answer: impl Fn(&Request, &Limits, &Tell) -> Result<Answer, Reason> + Send + Sync + 'static,
     options: Options,
 ) -> io::Result<ExitCode> {
@@ -70,9 +70,9 @@ pub fn launch(
     guard.enter()?;
     input::start(send.clone())?;
     let report = move |msg| drop(send.send(Event::Session(msg)));
-    let crew = Crew::start(answer, notes.clone(), report)?;
+    let workers = Workers::start(answer, notes.clone(), report)?;
     let screen = Screen::new(guard.out(), terminal_size())?;
-    let mut pump = Pump::new(machine, screen, crew, events, options.files, terminal_size)
+    let mut pump = Pump::new(application, screen, workers, events, options.files, terminal_size)
         .playing(options.replay)
         .started(options.started, options.recorder, options.record);
     pump.repaint()?;
@@ -103,16 +103,16 @@ pub fn launch(
 
 /// Keeps what would be missed of a session that was interrupted or left. It is the last thing that is done, and if it
 /// fails there is nobody to tell.
-fn keep<M: Machine, W: io::Write>(pump: &Pump<M, W>, path: Option<&Path>) {
+fn keep<M: Application, W: io::Write>(pump: &Pump<M, W>, path: Option<&Path>) {
     // After a panic the state may be one that nobody has thought of.
-    let text = catch_unwind(AssertUnwindSafe(|| pump.machine().what_to_keep())).ok().flatten();
+    let text = catch_unwind(AssertUnwindSafe(|| pump.application().what_to_keep())).ok().flatten();
     if let Some((path, text)) = path.zip(text) {
         drop(Files::write(path, &text, true));
     }
 }
 
 /// Runs the loop through all stops and continuations to its end.
-fn conduct<M: Machine>(
+fn conduct<M: Application>(
     pump: &mut Pump<M, std::sync::Arc<std::fs::File>>,
     guard: &Guard,
 ) -> io::Result<Stop> {

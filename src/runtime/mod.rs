@@ -5,34 +5,34 @@
 //! signals, [`worker`] computes. The [`pump`] takes events out, hands them to the session, asks the
 //! worker what the session then wants, and draws.
 
-pub mod clerk;
-pub mod crew;
-mod desk;
+pub mod application;
 pub mod effects;
 pub mod event;
 pub mod explorer;
+pub mod figure_writer;
 pub mod headless;
 pub mod input;
 mod journal;
 pub mod launch;
 mod lines;
-pub mod machine;
 pub mod merging;
 pub mod panics;
 pub mod picture;
 pub mod print;
 pub mod provenance_file;
 pub mod pump;
+mod queue;
 pub mod record;
 pub mod scan_file;
 pub mod scanning;
 pub mod signals;
 pub mod worker;
+pub mod workers;
 
+pub use application::Application;
 pub use event::{Event, Stop};
 pub use explorer::{Explorer, explore, replay};
 pub use launch::{Options, launch};
-pub use machine::Machine;
 pub use pump::Pump;
 pub use record::Record;
 pub use worker::Worker;

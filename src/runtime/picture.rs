@@ -1,15 +1,15 @@
-//! What a machine would show, without a terminal.
+//! What an application would show, without a terminal.
 
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
 
-use super::machine::Machine;
+use super::application::Application;
 
 /// The picture at this size, as ratatui's cells.
-pub fn of(machine: &impl Machine, size: Size) -> Buffer {
+pub fn of(application: &impl Application, size: Size) -> Buffer {
     let Ok(mut terminal) = Terminal::new(TestBackend::new(size.width, size.height));
-    let Ok(drawn) = terminal.draw(|frame| machine.draw(frame));
+    let Ok(drawn) = terminal.draw(|frame| application.draw(frame));
     drawn.buffer.clone()
 }

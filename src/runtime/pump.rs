@@ -13,11 +13,11 @@ use std::time::{Duration, Instant};
 use crossbeam_channel::{Receiver, RecvTimeoutError};
 use ratatui::layout::Size;
 
-use super::crew::Crew;
+use super::application::Application;
 use super::effects::Files;
 use super::event::{Event, Stop};
-use super::machine::Machine;
 use super::record::Record;
+use super::workers::Workers;
 use super::{picture, scan_file};
 use crate::scene::Request;
 use crate::session::replay::{LONGEST, Recorder, Script};
@@ -35,9 +35,9 @@ const ANSWER_TIME: Duration = Duration::from_millis(8);
 
 #[derive(Debug)]
 pub struct Pump<M, W: Write> {
-    machine: M,
+    application: M,
     screen: Screen<W>,
-    crew: Crew,
+    workers: Workers,
     events: Receiver<Event>,
     /// What arrived while something else was waited for.
     missed: VecDeque<Event>,
@@ -62,20 +62,20 @@ pub struct Pump<M, W: Write> {
     terminal_size: fn() -> Size,
 }
 
-impl<M: Machine, W: Write> Pump<M, W> {
+impl<M: Application, W: Write> Pump<M, W> {
     /// A loop whose screen has everything to draw.
     pub fn new(
-        machine: M,
+        application: M,
         screen: Screen<W>,
-        crew: Crew,
+        workers: Workers,
         events: Receiver<Event>,
         files: Files,
         terminal_size: fn() -> Size,
     ) -> Pump<M, W> {
         Pump {
-            machine,
+            application,
             screen,
-            crew,
+            workers,
             events,
             missed: VecDeque::new(),
             files,
@@ -110,8 +110,8 @@ impl<M: Machine, W: Write> Pump<M, W> {
     }
 
     /// What runs in the loop.
-    pub fn machine(&self) -> &M {
-        &self.machine
+    pub fn application(&self) -> &M {
+        &self.application
     }
 
     /// Runs until something happens that concerns the whole process.
@@ -194,20 +194,20 @@ impl<M: Machine, W: Write> Pump<M, W> {
 
     fn handle(&mut self, event: Event) -> io::Result<Option<Stop>> {
         match event {
-            Event::Session(Msg::Idle) if !self.crew.is_idle() => Ok(None),
+            Event::Session(Msg::Idle) if !self.workers.is_idle() => Ok(None),
             Event::Session(msg) if is_users(&msg) => self.users(msg),
             Event::Session(msg) => {
                 self.writing &= !matches!(msg, Msg::Written(_));
                 if let Msg::Answered(answered) = &msg
                     && answered.complete
                 {
-                    self.crew.taken(&answered.request);
+                    self.workers.taken(&answered.request);
                     self.asked.retain(|request| *request != answered.request);
                 }
                 self.update(msg)
             }
             Event::Mouse { gesture, column, row } => {
-                let place = self.machine.place(self.screen.size(), column, row);
+                let place = self.application.place(self.screen.size(), column, row);
                 let pointed = place.map(|place| Msg::Pointed(Pointed { gesture, place }));
                 pointed.map_or(Ok(None), |msg| self.handle(Event::Session(msg)))
             }
@@ -233,13 +233,13 @@ impl<M: Machine, W: Write> Pump<M, W> {
         let msg = Msg::Resize { width, height };
         self.recorder.note(&msg);
         // A size asks for nothing.
-        drop(self.machine.update(msg));
+        drop(self.application.update(msg));
         self.changed.get_or_insert_with(Instant::now);
     }
 
     /// Changes the session and does what it asks for.
     fn update(&mut self, msg: Msg) -> io::Result<Option<Stop>> {
-        let effects = self.machine.update(msg);
+        let effects = self.application.update(msg);
         self.changed.get_or_insert_with(Instant::now);
         for effect in effects {
             let stop = match effect {
@@ -252,7 +252,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
                 }
                 Effect::Copy(text) => self.copy(&text)?,
                 Effect::CopyScreen => {
-                    let picture = picture::of(&self.machine, self.screen.size());
+                    let picture = picture::of(&self.application, self.screen.size());
                     self.copy(&view::screen::text(&picture))?
                 }
                 Effect::SaveScan { path, scan, rows } => {
@@ -265,8 +265,8 @@ impl<M: Machine, W: Write> Pump<M, W> {
                 }
                 Effect::Figure { path, plot, replace } => {
                     let begun = Files::admit(&path, replace)
-                        .and_then(|()| self.machine.figure(&path, plot))
-                        .and_then(|work| self.crew.write(path, replace, work));
+                        .and_then(|()| self.application.figure(&path, plot))
+                        .and_then(|work| self.workers.write(path, replace, work));
                     match begun {
                         Ok(()) => {
                             self.writing = true;
@@ -276,7 +276,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
                     }
                 }
                 Effect::StopWriting => {
-                    self.crew.stop_writing();
+                    self.workers.stop_writing();
                     None
                 }
                 Effect::Record { path, forget, replace } => {
@@ -317,9 +317,9 @@ impl<M: Machine, W: Write> Pump<M, W> {
 
     /// Tells the worker what is wanted, if that has changed.
     fn ask(&mut self) {
-        let wanted = self.machine.wants();
+        let wanted = self.application.wants();
         if wanted != self.asked {
-            self.crew.submit(wanted.clone());
+            self.workers.submit(wanted.clone());
             self.asked = wanted;
         }
     }
@@ -331,7 +331,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
         }
         let Some(changed) = self.changed else {
             // What moves does so as often as frames may be sent, and over a slow line no oftener.
-            let beat = self.beat.filter(|_| self.machine.is_moving())?;
+            let beat = self.beat.filter(|_| self.application.is_moving())?;
             return Some((beat + FRAME_TIME).max(self.screen.next(beat)));
         };
         let answer =
@@ -343,19 +343,19 @@ impl<M: Machine, W: Write> Pump<M, W> {
     fn pass_time(&mut self) {
         let now = Instant::now();
         let last = self.beat.replace(now);
-        if let Some(last) = last.filter(|_| self.machine.is_moving()) {
+        if let Some(last) = last.filter(|_| self.application.is_moving()) {
             let msg = Msg::Elapsed { seconds: (now - last).as_secs_f64().min(LONGEST) };
             self.note(&msg);
             // The passing of time asks for nothing outside.
-            drop(self.machine.update(msg));
+            drop(self.application.update(msg));
         }
-        self.beat = self.beat.filter(|_| self.machine.is_moving());
+        self.beat = self.beat.filter(|_| self.application.is_moving());
     }
 
     fn draw(&mut self) -> io::Result<()> {
         self.pass_time();
-        let machine = &self.machine;
-        self.screen.draw(Instant::now(), |frame| machine.draw(frame))?;
+        let application = &self.application;
+        self.screen.draw(Instant::now(), |frame| application.draw(frame))?;
         self.changed = None;
         Ok(())
     }

@@ -24,15 +24,15 @@ const AHEAD: usize = 32;
 
 /// What a scan may use of the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Effort {
+pub struct Processors {
     pub jobs: usize,
     /// Whether others, such as the keys of the explorer, go first.
     pub polite: bool,
 }
 
-impl Effort {
-    pub fn whole() -> Self {
-        Effort { jobs: available_parallelism().map_or(1, usize::from), polite: false }
+impl Processors {
+    pub fn all() -> Self {
+        Processors { jobs: available_parallelism().map_or(1, usize::from), polite: false }
     }
 }
 
@@ -67,15 +67,15 @@ impl<F: FnMut(usize, Row) -> ControlFlow<()>> Taker for F {
 pub fn rows(
     scan: &Scan,
     points: Range<usize>,
-    effort: Effort,
+    processors: Processors,
     interrupted: &(dyn Fn() -> bool + Sync),
     taker: &mut impl Taker,
 ) -> io::Result<()> {
-    let jobs = effort.jobs.clamp(1, points.len().max(1));
+    let jobs = processors.jobs.clamp(1, points.len().max(1));
     let pool = ThreadPoolBuilder::new()
         .num_threads(jobs)
         .thread_name(|index| format!("scan {index}"))
-        .start_handler(move |_| step_back(effort.polite))
+        .start_handler(move |_| step_back(processors.polite))
         .build()
         .map_err(io::Error::other)?;
     let stopped = AtomicBool::new(false);
@@ -140,8 +140,8 @@ pub fn answer(scan: &Scan, from: usize, limits: &Limits, tell: &Tell) -> Result<
     const EVERY: Duration = Duration::from_millis(60);
     let mut piece = Rows { first: from, rows: Vec::new() };
     let mut told: Option<Instant> = None;
-    let effort = Effort { polite: true, ..Effort::whole() };
-    rows(scan, from..scan.points(), effort, limits.interrupted, &mut |index, row| {
+    let processors = Processors { polite: true, ..Processors::all() };
+    rows(scan, from..scan.points(), processors, limits.interrupted, &mut |index, row| {
         piece.rows.push(row);
         if told.is_none_or(|told| told.elapsed() >= EVERY) {
             told = Some(Instant::now());

@@ -4,7 +4,7 @@
 //! else one atomic counter moves on, the job sees that at its next step, and what it found is thrown
 //! away. A long job tells what it has so far: each piece is reported at once, with `complete: false`, and
 //! the request is answered only when its last piece is there. A job whose turn is over while others wait is
-//! put aside and starts over after them (module `desk`). An answer that is on its way is not computed
+//! put aside and starts over after them (module `queue`). An answer that is on its way is not computed
 //! again: the worker remembers what it has reported until [`Worker::taken`] says that the session knows. A
 //! request that panics becomes a [`Failure::Panic`]; the thread lives on.
 
@@ -14,8 +14,8 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::desk::{self, Desk};
 use super::panics::{self, Notes};
+use super::queue::{self, Queue};
 use crate::flow::{Limits, Reason};
 use crate::question::Failure;
 use crate::scene::{Answer, Answered, Request};
@@ -32,7 +32,7 @@ pub struct Worker {
 
 #[derive(Debug, Default)]
 struct Shared {
-    desk: Mutex<Desk>,
+    queue: Mutex<Queue>,
     changed: Condvar,
     /// Moves on when the running job is to stop.
     generation: AtomicU64,
@@ -49,24 +49,24 @@ struct Job {
 }
 
 impl Shared {
-    fn desk(&self) -> MutexGuard<'_, Desk> {
-        self.desk.lock().unwrap_or_else(PoisonError::into_inner)
+    fn queue(&self) -> MutexGuard<'_, Queue> {
+        self.queue.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Waits for the next request; `None` when the worker was dropped.
     fn next(&self, turn: Duration) -> Option<Job> {
-        let mut desk = self.desk();
+        let mut queue = self.queue();
         loop {
-            if desk.is_closed() {
+            if queue.is_closed() {
                 return None;
             }
-            if let Some((request, length)) = desk.begin() {
-                self.contested.store(desk.is_contested(), Ordering::Relaxed);
+            if let Some((request, length)) = queue.begin() {
+                self.contested.store(queue.is_contested(), Ordering::Relaxed);
                 let until = Instant::now() + turn.saturating_mul(length);
                 let generation = self.generation.load(Ordering::Relaxed);
                 return Some(Job { request, generation, until });
             }
-            desk = self.changed.wait(desk).unwrap_or_else(PoisonError::into_inner);
+            queue = self.changed.wait(queue).unwrap_or_else(PoisonError::into_inner);
         }
     }
 }
@@ -82,7 +82,7 @@ impl Worker {
         notes: Notes,
         report: impl Fn(Msg) + Send + 'static,
     ) -> std::io::Result<Worker> {
-        Worker::start_with(desk::TURN, answer, notes, report)
+        Worker::start_with(queue::TURN, answer, notes, report)
     }
 
     /// The same with another length of the first turn of a request.
@@ -107,8 +107,8 @@ impl Worker {
                 let limits = Limits { interrupted: &stops, ..Limits::PATIENT };
                 let started = Instant::now();
                 let tell = |piece: Answer| {
-                    let desk = theirs.desk();
-                    if desk.is_wanted() && !superseded() {
+                    let queue = theirs.queue();
+                    if queue.is_wanted() && !superseded() {
                         let seconds = started.elapsed().as_secs_f64();
                         let (request, result) = (request.clone(), Ok(piece));
                         let piece = Answered { request, result, seconds, complete: false };
@@ -124,15 +124,15 @@ impl Worker {
                     }
                 };
                 let seconds = started.elapsed().as_secs_f64();
-                let mut desk = theirs.desk();
+                let mut queue = theirs.queue();
                 let panicked = matches!(result, Err(Failure::Panic(_)));
                 if aside.into_inner() && !panicked {
-                    desk.put_aside();
-                } else if let Some(request) = desk.finish() {
+                    queue.put_aside();
+                } else if let Some(request) = queue.finish() {
                     let answered = Answered { request, result, seconds, complete: true };
                     report(Msg::Answered(Box::new(answered)));
                 }
-                if desk.is_idle() && !desk.is_closed() {
+                if queue.is_idle() && !queue.is_closed() {
                     report(Msg::Idle);
                 }
             }
@@ -142,30 +142,30 @@ impl Worker {
 
     /// Says which requests are wanted now and not answered yet, the most urgent first.
     pub fn submit(&self, wanted: Vec<Request>) {
-        let mut desk = self.shared.desk();
-        if desk.want(wanted) {
+        let mut queue = self.shared.queue();
+        if queue.want(wanted) {
             self.shared.generation.fetch_add(1, Ordering::Relaxed);
         }
-        self.shared.contested.store(desk.is_contested(), Ordering::Relaxed);
-        drop(desk);
+        self.shared.contested.store(queue.is_contested(), Ordering::Relaxed);
+        drop(queue);
         self.shared.changed.notify_one();
     }
 
     /// Says that the answer to a request has arrived where it was wanted. From now on to want it is to
     /// want it computed again.
     pub fn taken(&self, request: &Request) {
-        self.shared.desk().taken(request);
+        self.shared.queue().taken(request);
     }
 
     /// Whether nothing is in progress and nothing waits.
     pub fn is_idle(&self) -> bool {
-        self.shared.desk().is_idle()
+        self.shared.queue().is_idle()
     }
 }
 
 impl Drop for Worker {
     fn drop(&mut self) {
-        self.shared.desk().close();
+        self.shared.queue().close();
         self.shared.generation.fetch_add(1, Ordering::Relaxed);
         self.shared.changed.notify_one();
     }

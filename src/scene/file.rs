@@ -6,12 +6,12 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::layer::Layer;
-use super::machine::{self, Rig};
+use super::machine::{self, ScaledMachine};
 use super::misread::{self, Complaint, Misread};
 use super::ordinate::{ABSCISSAE, Ordinate, Unit};
 use super::scene::{Scene, Variant};
 use super::usual::{TOLERANCE, UNTIL};
-use super::views::{Arrangement, Axes, Exhibit, MOST_PLOTS, View};
+use super::views::{Arrangement, Axes, MOST_PLOTS, PlotSetup, View};
 use super::window::{Span, Window};
 use crate::flow::method::{EPSILON, EPSILON_RANGE, STEP, STEP_RANGE};
 pub use crate::flow::quality::TOLERANCE_RANGE;
@@ -79,20 +79,20 @@ pub fn parse(name: &str, file: &str, text: &str) -> Result<Scene, Misread> {
 }
 
 fn scene(name: &str, read: File) -> Result<Scene, Complaint> {
-    let rig = read.machine.as_ref().map(|name| rig(name, read.belt.as_ref())).transpose()?;
-    let terms = match (&read.terms, &rig) {
+    let scaled = read.machine.as_ref().map(|name| scaled(name, read.belt.as_ref())).transpose()?;
+    let terms = match (&read.terms, &scaled) {
         (Some(terms), None) => terms.clone(),
-        (None, Some(rig)) => rig.terms(),
+        (None, Some(scaled)) => scaled.terms(),
         (Some(_), Some(_)) => return Err(either("terms and a machine")),
         (None, None) => return Err(either("neither terms nor a machine")),
     };
-    let problem = match &rig {
-        Some(rig) => of_machine(rig, &read)?,
+    let problem = match &scaled {
+        Some(scaled) => of_machine(scaled, &read)?,
         None => problem(&read, &terms)?,
     };
     let mut families = Vec::new();
-    let exhibits = read.plot.iter().map(|plot| exhibit(plot, &mut families));
-    let plots = exhibits.collect::<Result<Vec<_>, _>>()?;
+    let plot_setups = read.plot.iter().map(|plot| plot_setup(plot, &mut families));
+    let plots = plot_setups.collect::<Result<Vec<_>, _>>()?;
     if plots.is_empty() || plots.len() > MOST_PLOTS {
         let at = read.plot.get(MOST_PLOTS).map_or(0..0, Spanned::span);
         let message = format!(
@@ -113,7 +113,7 @@ fn scene(name: &str, read: File) -> Result<Scene, Complaint> {
         plots,
         families,
         arrangement: read.arrange,
-        machine: rig,
+        machine: scaled,
         recording: None,
     })
 }
@@ -126,7 +126,10 @@ fn either(given: &str) -> Complaint {
 }
 
 /// The machine of the program with this name, its belt at a speed.
-fn rig(name: &Spanned<String>, speed: Option<&Spanned<f64>>) -> Result<Box<Rig>, Complaint> {
+fn scaled(
+    name: &Spanned<String>,
+    speed: Option<&Spanned<f64>>,
+) -> Result<Box<ScaledMachine>, Complaint> {
     let complain = |message| Complaint { at: name.span(), message };
     let machine = machine::library::find(name.get_ref()).ok_or_else(|| {
         let known = machine::library::machines().iter().map(|machine| machine.name.as_str());
@@ -140,16 +143,16 @@ fn rig(name: &Spanned<String>, speed: Option<&Spanned<f64>>) -> Result<Box<Rig>,
         machine.belt.belt_speed =
             checked.map_err(|refused| Complaint { at, message: refused.to_string() })?;
     }
-    Rig::new(machine).map(Box::new).map_err(|error| complain(error.to_string()))
+    ScaledMachine::new(machine).map(Box::new).map_err(|error| complain(error.to_string()))
 }
 
 /// The motion of a machine, to the accuracy that the file says.
-fn of_machine(rig: &Rig, read: &File) -> Result<Problem, Complaint> {
+fn of_machine(scaled: &ScaledMachine, read: &File) -> Result<Problem, Complaint> {
     if let Some((symbol, given)) = read.values.iter().next() {
         let message = format!("{symbol} comes from the machine; leave its value out");
         return Err(Complaint { at: given.span(), message });
     }
-    let problem = rig.problem();
+    let problem = scaled.problem();
     Ok(Problem {
         until: within("until", read.until.as_ref(), UNTIL_RANGE, problem.until)?,
         method: read.method,
@@ -159,7 +162,10 @@ fn of_machine(rig: &Rig, read: &File) -> Result<Problem, Complaint> {
 }
 
 /// A plot of a scene: axes only where there is a choice, a window in both directions or in none.
-fn exhibit(read: &Spanned<Plot>, families: &mut Vec<Vec<Variant>>) -> Result<Exhibit, Complaint> {
+fn plot_setup(
+    read: &Spanned<Plot>,
+    families: &mut Vec<Vec<Variant>>,
+) -> Result<PlotSetup, Complaint> {
     let Plot { view, over, ordinate, unit, against, with, x, y } = read.get_ref();
     let title = view.spec().title;
     let span = |given: &Option<Spanned<Symbol>>| given.as_ref().map(Spanned::span);
@@ -214,7 +220,7 @@ fn exhibit(read: &Spanned<Plot>, families: &mut Vec<Vec<Variant>>) -> Result<Exh
         families.push(variants);
         families.len() - 1
     });
-    Ok(Exhibit { view: *view, axes, window, family })
+    Ok(PlotSetup { view: *view, axes, window, family })
 }
 
 /// Values that a plot holds, each within the range of its parameter.

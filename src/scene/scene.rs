@@ -9,9 +9,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::{Deserialize, Serialize};
 
 use super::layer::Layer;
-use super::machine::Rig;
+use super::machine::ScaledMachine;
 use super::usual::{TOLERANCE, UNTIL};
-use super::views::{Arrangement, Axes, Exhibit, View};
+use super::views::{Arrangement, Axes, PlotSetup, View};
 use crate::flow::Problem;
 use crate::oscillator::Symbol;
 use crate::question::Recording;
@@ -36,14 +36,14 @@ pub struct Scene {
     /// The layers that are on.
     pub layers: BTreeSet<Layer>,
     /// The plots, one to four, in the order of the focus.
-    pub plots: Vec<Exhibit>,
+    pub plots: Vec<PlotSetup>,
     /// What plots show in place of the present values: one picture over another for each variant.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub families: Vec<Vec<Variant>>,
     /// How they share the screen.
     pub arrangement: Arrangement,
     /// The machine that the numbers stand for, if they stand for one.
-    pub machine: Option<Box<Rig>>,
+    pub machine: Option<Box<ScaledMachine>>,
     /// The record that it is fitted to, if it is one of a measurement.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recording: Option<Recording>,
@@ -73,7 +73,7 @@ impl Scene {
     }
 }
 
-impl Rig {
+impl ScaledMachine {
     /// A scene of the machine: the mass on its belt beside the phase plane, and the cycles over D below.
     pub fn scene(self) -> Scene {
         let layers = [
@@ -87,7 +87,8 @@ impl Rig {
             Layer::Branch,
             Layer::Special,
         ];
-        let exhibit = |view| Exhibit { view, axes: Axes::default(), window: None, family: None };
+        let plot_setup =
+            |view| PlotSetup { view, axes: Axes::default(), window: None, family: None };
         Scene {
             name: self.machine.name.clone(),
             title: self.machine.title.clone(),
@@ -98,7 +99,7 @@ impl Rig {
             problem: self.problem(),
             steps: BTreeMap::new(),
             layers: layers.into_iter().collect(),
-            plots: [View::Phase, View::Belt].map(exhibit).to_vec(),
+            plots: [View::Phase, View::Belt].map(plot_setup).to_vec(),
             families: Vec::new(),
             arrangement: Arrangement::Rows,
             machine: Some(Box::new(self)),
@@ -119,7 +120,8 @@ impl Recording {
             Layer::Cycles,
             Layer::Basin,
         ];
-        let exhibit = |view| Exhibit { view, axes: Axes::default(), window: None, family: None };
+        let plot_setup =
+            |view| PlotSetup { view, axes: Axes::default(), window: None, family: None };
         let unit = self.record().unit.clone().unwrap_or_else(|| "the file's unit".to_owned());
         Scene {
             name: self.name().to_owned(),
@@ -135,7 +137,7 @@ impl Recording {
             problem: Problem { until: UNTIL, tolerance: TOLERANCE, ..Problem::default() },
             steps: BTreeMap::new(),
             layers: layers.into_iter().collect(),
-            plots: [View::TimeSeries, View::Phase].map(exhibit).to_vec(),
+            plots: [View::TimeSeries, View::Phase].map(plot_setup).to_vec(),
             families: Vec::new(),
             arrangement: Arrangement::Rows,
             machine: None,

@@ -188,7 +188,7 @@ impl Axes {
 
 /// A plot as a scene sets it up: what it shows, over which axes, and which part of that.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Exhibit {
+pub struct PlotSetup {
     pub view: View,
     /// Over which axes, where there is a choice.
     pub axes: Axes,
@@ -199,7 +199,7 @@ pub struct Exhibit {
     pub family: Option<usize>,
 }
 
-impl Exhibit {
+impl PlotSetup {
     /// The window with which the plot opens; where none is given, the one from which fitting begins.
     pub fn opening(&self) -> Window {
         let usual = self.view.spec().window;

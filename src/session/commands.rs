@@ -6,8 +6,8 @@ use std::sync::{Arc, LazyLock};
 
 use crate::scene::{LAYERS, Layer, LayerSpec, Scene};
 use crate::session::act::{
-    axes, copy, desk, entry, files, focus, general, history, lists, macros, mouse, palette,
-    parameters, pending, playback, plots, prompt, scan, starts, typing, walk,
+    axes, copy, entry, files, focus, general, history, lists, macros, mouse, palette, parameters,
+    pending, playback, plots, prompt, scan, screen_setup, starts, typing, walk,
 };
 use crate::session::effect::Effect;
 use crate::session::lines::lines;
@@ -231,17 +231,17 @@ const COMMANDS: &[Row] = &[
     row("views", &[(Everywhere, &["V"])], "view",
         "Pick what the plot in use shows", |s, _| lists::open_views(s)),
     row("next-view", &[(Everywhere, &[";"])], "",
-        "Show the next view in the plot in use", |s, _| desk::next_view(s, 1)),
+        "Show the next view in the plot in use", |s, _| screen_setup::next_view(s, 1)),
     row("previous-view", &[(Everywhere, &[","])], "",
-        "Show the previous view in the plot in use", |s, _| desk::next_view(s, -1)),
+        "Show the previous view in the plot in use", |s, _| screen_setup::next_view(s, -1)),
     row("add-plot", &[(Everywhere, &["W"])], "",
-        "Add a plot beside the one in use, up to four", |s, _| desk::add(s)),
+        "Add a plot beside the one in use, up to four", |s, _| screen_setup::add(s)),
     row("remove-plot", &[(Everywhere, &["Q"])], "",
-        "Remove the plot in use", |s, _| desk::remove(s)),
+        "Remove the plot in use", |s, _| screen_setup::remove(s)),
     row("move-plot", &[(Everywhere, &["M"])], "",
-        "Swap the plot in use with the next one", |s, _| desk::move_on(s)),
+        "Swap the plot in use with the next one", |s, _| screen_setup::move_on(s)),
     row("arrange", &[(Everywhere, &["Z"])], "",
-        "Arrange the plots: as suits them best, in columns, in rows", |s, _| desk::arrange(s)),
+        "Arrange the plots: as suits them best, in columns, in rows", |s, _| screen_setup::arrange(s)),
     row("help", &[(Everywhere, &["?", "<f1>"]), (Walk, &["?", "<f1>"])], "help",
         "List everything: keys, scenes, views, layers, claims", |s, _| palette::open(s, false)),
     row("palette", &[(Everywhere, &["<space>", "<C-p>"]), (Walk, &["<space>", "<C-p>"])], "all",

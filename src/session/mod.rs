@@ -50,7 +50,7 @@ pub use state::rows::{ROWS, Row, Steps};
 pub use state::scan::{self, Scanned};
 pub use state::session::{Price, Session, Size};
 pub use state::settings;
-pub use state::setup::Stand;
+pub use state::setup::Setup;
 pub use state::starts;
 pub use state::stop::Stop;
 pub use state::waiting::Waiting;

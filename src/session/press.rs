@@ -90,7 +90,7 @@ fn repeat(session: &mut Session, key: Key, count: u32) -> Vec<Effect> {
             break;
         }
     }
-    session.history.merge(depth, |before| matches!(before, Before::Stand(_)));
+    session.history.merge(depth, |before| matches!(before, Before::Setup(_)));
     effects
 }
 

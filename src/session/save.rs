@@ -16,19 +16,19 @@ use crate::oscillator::belt::Quantity;
 use crate::oscillator::{PARAMETERS, State, Symbol};
 use crate::scene::file::{TOLERANCE_RANGE, UNTIL_RANGE};
 use crate::scene::{
-    Arrangement, Axes, Exhibit, Layer, MOST_PLOTS, Point, Scene, View, Window, find,
+    Arrangement, Axes, Layer, MOST_PLOTS, PlotSetup, Point, Scene, View, Window, find,
 };
 use crate::session::replay;
 use crate::session::replay::script::Step;
 use crate::session::state::doubt::Doubt;
-use crate::session::state::history::{Before, Desk, History, Snapshot};
+use crate::session::state::history::{Before, History, ScreenSetup, Snapshot};
 use crate::session::state::marks::{Mark, Marks};
 use crate::session::state::overlay::Overlay;
 use crate::session::state::plot::{Framing, Pane, Plot};
 use crate::session::state::rows::{ROWS, Row, Steps};
 use crate::session::state::session::MOST_HARMONICS;
 use crate::session::state::session::Session;
-use crate::session::state::setup::Stand;
+use crate::session::state::setup::Setup;
 use crate::session::state::starts::{MOST_MOTIONS, Starts};
 
 /// The format that this program writes; it reads this one and all before.
@@ -137,10 +137,10 @@ enum Change {
     },
     Plots {
         arrangement: Arrangement,
-        plots: Vec<Exhibit>,
+        plots: Vec<PlotSetup>,
     },
     Scene {
-        plots: Vec<Exhibit>,
+        plots: Vec<PlotSetup>,
         show: Box<Show>,
     },
 }
@@ -178,36 +178,36 @@ pub fn text(session: &Session) -> Result<String, String> {
             .marks
             .places
             .iter()
-            .map(|(name, mark)| (*name, mark.stand.problem))
+            .map(|(name, mark)| (*name, mark.setup.problem))
             .collect(),
         belts: session
             .marks
             .places
             .iter()
-            .filter_map(|(name, mark)| Some((*name, mark.stand.belt_speed?)))
+            .filter_map(|(name, mark)| Some((*name, mark.setup.belt_speed?)))
             .collect(),
         beside: session
             .marks
             .places
             .iter()
-            .map(|(name, mark)| (*name, mark.stand.others.all().to_vec()))
+            .map(|(name, mark)| (*name, mark.setup.others.all().to_vec()))
             .filter(|(_, beside)| !beside.is_empty())
             .collect(),
         doubts: session
             .marks
             .places
             .iter()
-            .map(|(name, mark)| (*name, mark.stand.doubt))
+            .map(|(name, mark)| (*name, mark.setup.doubt))
             .filter(|(_, doubt)| !doubt.is_none())
             .collect(),
-        left: session.marks.left.as_ref().map(|mark| mark.stand.problem),
+        left: session.marks.left.as_ref().map(|mark| mark.setup.problem),
         left_beside: session
             .marks
             .left
             .as_ref()
-            .map_or_else(Vec::new, |mark| mark.stand.others.all().to_vec()),
-        left_belt: session.marks.left.as_ref().and_then(|mark| mark.stand.belt_speed),
-        left_doubt: session.marks.left.as_ref().map_or_else(Doubt::default, |it| it.stand.doubt),
+            .map_or_else(Vec::new, |mark| mark.setup.others.all().to_vec()),
+        left_belt: session.marks.left.as_ref().and_then(|mark| mark.setup.belt_speed),
+        left_doubt: session.marks.left.as_ref().map_or_else(Doubt::default, |it| it.setup.doubt),
         registers: session
             .macros
             .registers
@@ -235,7 +235,7 @@ fn look(plot: &Plot) -> Look {
 
 fn change(before: &Before) -> Change {
     match before {
-        Before::Stand(Stand { problem, others, belt_speed, doubt }) => {
+        Before::Setup(Setup { problem, others, belt_speed, doubt }) => {
             let motion = *problem;
             match (others.all(), belt_speed) {
                 ([], None) if doubt.is_none() => Change::Motion(motion),
@@ -246,19 +246,19 @@ fn change(before: &Before) -> Change {
                 }
             }
         }
-        Before::Desk(Desk { plots, arrangement }) => {
+        Before::ScreenSetup(ScreenSetup { plots, arrangement }) => {
             Change::Plots { arrangement: *arrangement, plots: plots.clone() }
         }
         Before::Scene(snapshot) => Change::Scene {
-            plots: snapshot.desk.plots.clone(),
+            plots: snapshot.screen_setup.plots.clone(),
             show: Box::new(Show {
-                arrangement: snapshot.desk.arrangement,
+                arrangement: snapshot.screen_setup.arrangement,
                 layers: snapshot.layers.clone(),
                 steps: snapshot.steps,
-                motion: snapshot.stand.problem,
-                beside: snapshot.stand.others.all().to_vec(),
-                belt: snapshot.stand.belt_speed,
-                doubt: snapshot.stand.doubt,
+                motion: snapshot.setup.problem,
+                beside: snapshot.setup.others.all().to_vec(),
+                belt: snapshot.setup.belt_speed,
+                doubt: snapshot.setup.doubt,
                 scene: named(&snapshot.scene),
             }),
         },
@@ -272,8 +272,8 @@ fn change(before: &Before) -> Change {
 pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     let file = read(text)?;
     let scene = scene(file.present.scene)?;
-    let stand = checked(file.present.motion, &file.present.beside, file.present.belt)?;
-    let stand = Stand { doubt: file.present.doubt.checked()?, ..stand };
+    let setup = checked(file.present.motion, &file.present.beside, file.present.belt)?;
+    let setup = Setup { doubt: file.present.doubt.checked()?, ..setup };
     let plots = checked_plots(file.plots, |look| opened(&look))?;
     let in_range = |index: usize| index < plots.len();
     let focus = match file.focus.checked_sub(1) {
@@ -295,7 +295,7 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     }
     let mark = |problem, beside: &[State], belt, doubt| {
         let doubt = Doubt::checked(doubt)?;
-        checked(problem, beside, belt).map(|it| Mark::new(Stand { doubt, ..it }))
+        checked(problem, beside, belt).map(|it| Mark::new(Setup { doubt, ..it }))
     };
     let doubt = |name: &char| file.doubts.get(name).copied().unwrap_or_default();
     let beside = |name: &char| file.beside.get(name).map_or(&[][..], Vec::as_slice);
@@ -316,7 +316,7 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     let history = History::of(changes(file.past)?, changes(file.future)?);
 
     let mut opened = Session::new(scene, session.size);
-    opened.set_stand(stand);
+    opened.set_setup(setup);
     opened.steps = file.present.steps;
     opened.layers = file.present.layers;
     opened.arrangement = file.present.arrangement;
@@ -372,7 +372,7 @@ fn scene(named: Named) -> Result<Arc<Scene>, String> {
 }
 
 /// A motion, and a speed of the belt, whose numbers are all within their ranges.
-fn checked(problem: Problem, beside: &[State], belt_speed: Option<f64>) -> Result<Stand, String> {
+fn checked(problem: Problem, beside: &[State], belt_speed: Option<f64>) -> Result<Setup, String> {
     for row in &PARAMETERS {
         let value = row.symbol.get(&problem.parameters, &problem.initial);
         row.check(value).map_err(|refused| refused.to_string())?;
@@ -398,7 +398,7 @@ fn checked(problem: Problem, beside: &[State], belt_speed: Option<f64>) -> Resul
     {
         symbol.spec().check(value).map_err(|refused| refused.to_string())?;
     }
-    Ok(Stand { problem, others, belt_speed, doubt: Doubt::default() })
+    Ok(Setup { problem, others, belt_speed, doubt: Doubt::default() })
 }
 
 /// As many plots as a screen can have.
@@ -411,7 +411,7 @@ fn checked_plots<T, U>(plots: Vec<T>, make: impl Fn(T) -> U) -> Result<Vec<U>, S
 
 fn opened(look: &Look) -> Plot {
     let Look { view, framing, axes, window, cursor, family } = *look;
-    let plot = Plot::opened(&Exhibit { view, axes, window: Some(window), family });
+    let plot = Plot::opened(&PlotSetup { view, axes, window: Some(window), family });
     Plot {
         framing,
         cursor: cursor.filter(|cursor| cursor.x.is_finite() && cursor.y.is_finite()),
@@ -426,22 +426,26 @@ fn steps(name: char, keys: &str) -> Result<Vec<Step>, String> {
 
 fn before(change: Change) -> Result<Before, String> {
     Ok(match change {
-        Change::Motion(problem) => Before::Stand(checked(problem, &[], None)?),
-        Change::MotionOnBelt { motion, belt } => Before::Stand(checked(motion, &[], Some(belt))?),
+        Change::Motion(problem) => Before::Setup(checked(problem, &[], None)?),
+        Change::MotionOnBelt { motion, belt } => Before::Setup(checked(motion, &[], Some(belt))?),
         Change::Motions { motion, beside, belt, doubt } => {
-            Before::Stand(Stand { doubt: doubt.checked()?, ..checked(motion, &beside, belt)? })
+            Before::Setup(Setup { doubt: doubt.checked()?, ..checked(motion, &beside, belt)? })
         }
-        Change::Plots { arrangement, plots } => {
-            Before::Desk(Desk { plots: checked_plots(plots, |plot| plot)?, arrangement })
-        }
+        Change::Plots { arrangement, plots } => Before::ScreenSetup(ScreenSetup {
+            plots: checked_plots(plots, |plot| plot)?,
+            arrangement,
+        }),
         Change::Scene { plots, show } => {
             let Show { arrangement, layers, steps, motion, beside, belt, doubt, scene } = *show;
             Before::Scene(Box::new(Snapshot {
                 scene: self::scene(scene)?,
-                stand: Stand { doubt: doubt.checked()?, ..checked(motion, &beside, belt)? },
+                setup: Setup { doubt: doubt.checked()?, ..checked(motion, &beside, belt)? },
                 steps,
                 layers,
-                desk: Desk { plots: checked_plots(plots, |plot| plot)?, arrangement },
+                screen_setup: ScreenSetup {
+                    plots: checked_plots(plots, |plot| plot)?,
+                    arrangement,
+                },
             }))
         }
     })

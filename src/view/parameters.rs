@@ -17,7 +17,7 @@ use crate::oscillator::belt::Quantity;
 use crate::picture::items::Picture;
 use crate::picture::role::Role;
 use crate::scene::Layer;
-use crate::session::{Pane, Row, Session, Stand};
+use crate::session::{Pane, Row, Session, Setup};
 use crate::study::belt::PhysicalMargin;
 use crate::study::harmonic_error::Balanced;
 use crate::study::{Cycle, Cycles, Edge};
@@ -73,7 +73,7 @@ fn guide(area: Rect, session: &Session, pictures: &[Picture], look: &Look, buffe
     for (heading, text) in [("look", &session.scene.look), ("press", &session.scene.press)] {
         let mut title = vec![Span::styled(heading, look.style(Role::Title))];
         // What to press leads on from where the scene opens.
-        if heading == "press" && session.stand() != Stand::of_scene(&session.scene) {
+        if heading == "press" && session.setup() != Setup::of_scene(&session.scene) {
             let text =
                 keys::sentence("  as opened; {reset-scene} goes back", &session.keymap, look);
             title.push(Span::styled(text, look.style(Role::Quiet)));
@@ -111,8 +111,8 @@ fn row_line(
     let name = row.name_in(&session.problem);
     let room = VALUES - name.len() - 2;
     let sign = look.symbols().plus_minus;
-    let text = |stand: &Stand| value(stand, row, room, sign);
-    let (value, of_scene) = (text(&session.stand()), text(&Stand::of_scene(&session.scene)));
+    let text = |setup: &Setup| value(setup, row, room, sign);
+    let (value, of_scene) = (text(&session.setup()), text(&Setup::of_scene(&session.scene)));
     let changed = value != of_scene;
     // Numbers changed by hand are those of no belt speed: its row is out of use until it is set again.
     let off = row == Row::Belt && session.is_on_the_belt() == Some(false);
@@ -172,8 +172,8 @@ fn physical(session: &Session, row: Row) -> Option<(&'static str, String)> {
     Some((name, with_unit(value, 4, unit)))
 }
 
-fn value(stand: &Stand, row: Row, width: usize, sign: &str) -> String {
-    let Stand { problem, belt_speed, doubt, .. } = stand;
+fn value(setup: &Setup, row: Row, width: usize, sign: &str) -> String {
+    let Setup { problem, belt_speed, doubt, .. } = setup;
     match row {
         Row::Belt => belt_speed.map_or_else(String::new, |speed| exact(speed, width)),
         Row::Parameter(symbol) => {

@@ -13,7 +13,7 @@ use crate::question::Failure;
 use crate::question::zones::Extent;
 use crate::scene::library::{find, lesson_of, library};
 use crate::scene::{
-    Answer, Answered, Axes, Exhibit, LAYERS, Layer, Point, Scene, Span, View, Window,
+    Answer, Answered, Axes, LAYERS, Layer, PlotSetup, Point, Scene, Span, View, Window,
 };
 use crate::session::settings::{self, Colors, GLYPHS, Glyphs, THEMES};
 use crate::session::{Msg, Notice, Session, Size, Stop, update};
@@ -63,8 +63,12 @@ fn approved() -> Scene {
         ..Problem::default()
     };
     let span = |from, to| Span::new(from, to).unwrap();
-    let exhibit =
-        |view, window| Exhibit { view, axes: Axes::default(), window: Some(window), family: None };
+    let plot_setup = |view, window| PlotSetup {
+        view,
+        axes: Axes::default(),
+        window: Some(window),
+        family: None,
+    };
     Scene {
         name: "approved".into(),
         title: "A scene with a fold".into(),
@@ -74,8 +78,8 @@ fn approved() -> Scene {
         problem,
         layers: LAYERS.iter().map(|row| row.layer).filter(|layer| !drawn_over(*layer)).collect(),
         plots: vec![
-            exhibit(View::Phase, Window { x: span(-1.6, 1.6), y: span(-1.6, 1.6) }),
-            exhibit(View::Diagram, Window { x: span(-0.8, 0.1), y: span(0.0, 2.0) }),
+            plot_setup(View::Phase, Window { x: span(-1.6, 1.6), y: span(-1.6, 1.6) }),
+            plot_setup(View::Diagram, Window { x: span(-0.8, 0.1), y: span(0.0, 2.0) }),
         ],
         ..Scene::clone(&library)
     }

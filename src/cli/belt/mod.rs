@@ -31,7 +31,7 @@ use crate::scene::machine::library::{TEXTBOOK, find, machines};
 use crate::scene::machine::mode::{self, Mode, is_mode};
 use crate::scene::machine::unit::Toleranced;
 use crate::scene::usual::TOLERANCE;
-use crate::scene::{Machine, Rig, Scene};
+use crate::scene::{Machine, ScaledMachine, Scene};
 use crate::study::design::Kick;
 
 /// Says what a mass on a belt does, in physical units
@@ -135,9 +135,9 @@ pub fn scene(name: &str) -> Result<Arc<Scene>, Failure> {
     if mode(name)?.is_some() {
         return Err(Failure::Usage(format!("{name}: {}", mode::NO_BELT)));
     }
-    let rig =
-        Rig::new(machine(name)?).map_err(|error| Failure::Usage(format!("{name}: {error}")))?;
-    Ok(Arc::new(rig.scene()))
+    let scaled = ScaledMachine::new(machine(name)?)
+        .map_err(|error| Failure::Usage(format!("{name}: {error}")))?;
+    Ok(Arc::new(scaled.scene()))
 }
 
 impl Belt {

@@ -6,7 +6,7 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use super::{Files, Machine, Pump, picture};
+use super::{Application, Files, Pump, picture};
 use crate::runtime::event::{Event, Stop};
 use crate::session::read::waiting::forgets;
 use crate::session::replay::{Action, Player, Recorder, Script};
@@ -75,11 +75,11 @@ fn is_key(msg: &Msg, code: Code) -> bool {
     matches!(msg, Msg::Key(key) if *key == Key::plain(code))
 }
 
-impl<M: Machine, W: Write> Pump<M, W> {
+impl<M: Application, W: Write> Pump<M, W> {
     /// Something that the user did: given to the session; while something is played, to that.
     pub(super) fn users(&mut self, msg: Msg) -> io::Result<Option<Stop>> {
         let Some(playing) = &mut self.playing else {
-            if self.machine.is_waiting() {
+            if self.application.is_waiting() {
                 if !forgets(&msg) && !leaves(&msg) {
                     self.held_back.push_back(Event::Session(msg));
                     return Ok(None);
@@ -141,11 +141,11 @@ impl<M: Machine, W: Write> Pump<M, W> {
             let (recorder, asked) = match &mut self.playing {
                 // What is not played to its end asks for its files by itself.
                 Some(playing) => {
-                    let asked = self.machine.asked();
+                    let asked = self.application.asked();
                     playing.given.embed(&path.display().to_string(), text, asked);
                     (&mut self.recorder, playing.asked)
                 }
-                None => (&mut self.recorder, self.machine.asked()),
+                None => (&mut self.recorder, self.application.asked()),
             };
             recorder.embed(&path.display().to_string(), text, asked);
         }
@@ -154,7 +154,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
 
     /// Begins to play; something that is played already goes on afterwards.
     pub(super) fn begin(&mut self, script: Script, register: bool) -> io::Result<Option<Stop>> {
-        let asked = self.machine.asked();
+        let asked = self.application.asked();
         let Some(playing) = &mut self.playing else {
             self.playing = Some(Playing::new(script, register, asked));
             return Ok(None);
@@ -173,13 +173,13 @@ impl<M: Machine, W: Write> Pump<M, W> {
         if self.changed.is_some()
             || !self.events.is_empty()
             || !self.missed.is_empty()
-            || self.machine.is_waiting()
+            || self.application.is_waiting()
         {
             return Ok(None);
         }
-        let (machine, size) = (&self.machine, self.screen.size());
-        let idle = machine.wants().is_empty() && !self.writing;
-        let screen = || view::screen::text(&picture::of(machine, size));
+        let (application, size) = (&self.application, self.screen.size());
+        let idle = application.wants().is_empty() && !self.writing;
+        let screen = || view::screen::text(&picture::of(application, size));
         let Some(playing) = self.playing.as_mut().filter(|it| it.pause == Pause::Not) else {
             return Ok(None);
         };
@@ -214,7 +214,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
 
     /// What the user did meanwhile happens before everything else, once it can.
     pub(super) fn release(&mut self) {
-        if self.playing.is_some() || self.machine.is_waiting() {
+        if self.playing.is_some() || self.application.is_waiting() {
             return;
         }
         while let Some(event) = self.held_back.pop_back() {
@@ -244,7 +244,7 @@ impl<M: Machine, W: Write> Pump<M, W> {
     /// The program ends: what was recorded is complete.
     pub fn close_record(&mut self) {
         self.settle(false);
-        if self.machine.is_waiting() {
+        if self.application.is_waiting() {
             self.recorder.forget(1);
         }
         // Whatever the user has to be told about it comes too late.

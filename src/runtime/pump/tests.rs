@@ -1,17 +1,17 @@
-//! The loop with a machine that counts.
+//! The loop with an application that counts.
 
 use crossbeam_channel::{Sender, unbounded};
 use ratatui::Frame;
 
 use super::*;
 use crate::flow::Reason;
-use crate::runtime::clerk::Work;
+use crate::runtime::figure_writer::Work;
 use crate::runtime::panics::Notes;
 use crate::runtime::worker::Tell;
 use crate::session::{Code, Key, replay};
 use crate::terminal::pacing::{FRAME_TIME, Pacing};
 
-/// A machine that counts right-arrows, shows the last notice, moves for a while after `p`, and leaves at
+/// An application that counts right-arrows, shows the last notice, moves for a while after `p`, and leaves at
 /// `q`.
 #[derive(Debug, Default)]
 struct Counter {
@@ -30,7 +30,7 @@ impl Counter {
     const MOVES: u32 = 3;
 }
 
-impl Machine for Counter {
+impl Application for Counter {
     fn update(&mut self, msg: Msg) -> Vec<Effect> {
         match msg {
             Msg::Key(Key { code: Code::Right, .. }) => self.count += 1,
@@ -102,9 +102,9 @@ fn bench() -> Bench {
     let job = |_: &Request, _: &crate::flow::Limits, _: &Tell| Err(Reason::OutOfRange);
     let report = events.clone();
     let report = move |msg| drop(report.send(Event::Session(msg)));
-    let crew = Crew::start(job, Notes::default(), report).unwrap();
-    let machine = Counter::default();
-    let pump = Pump::new(machine, screen, crew, received, Files::default(), size);
+    let workers = Workers::start(job, Notes::default(), report).unwrap();
+    let application = Counter::default();
+    let pump = Pump::new(application, screen, workers, received, Files::default(), size);
     Bench { pump, events, written }
 }
 
@@ -144,12 +144,12 @@ fn what_moves_is_told_the_time_and_what_stands_still_costs_nothing() {
     assert_eq!(pump.due(), None);
     pump.handle(key("p")).unwrap();
     pump.draw().unwrap();
-    assert_eq!(pump.machine.elapsed, 0, "no time has passed when it begins");
+    assert_eq!(pump.application.elapsed, 0, "no time has passed when it begins");
     for told in 1..=Counter::MOVES {
         let (beat, due) = (pump.beat.unwrap(), pump.due().unwrap());
         assert!(due >= beat + FRAME_TIME);
         pump.draw().unwrap();
-        assert_eq!(pump.machine.elapsed, told);
+        assert_eq!(pump.application.elapsed, told);
     }
     assert_eq!((pump.due(), pump.beat), (None, None));
 }
@@ -177,7 +177,7 @@ fn play(file: &str) -> String {
     events.send(key("q")).unwrap();
     let (stop, pump) = running.join().unwrap();
     assert_eq!(stop, Stop::Quit);
-    view::screen::text(&picture::of(&pump.machine, size()))
+    view::screen::text(&picture::of(&pump.application, size()))
 }
 
 #[test]
@@ -195,7 +195,7 @@ fn keys_are_answered_while_a_figure_is_written() {
     let Bench { mut pump, events, written } = bench();
     let (open, gate) = unbounded();
     let asks = Effect::Figure { path: path.clone(), plot: None, replace: false };
-    (pump.machine.asks, pump.machine.gate) = (Some(asks), Some(gate));
+    (pump.application.asks, pump.application.gate) = (Some(asks), Some(gate));
     events.send(key("<enter>")).unwrap();
     let running = std::thread::spawn(move || pump.run().unwrap());
     for count in ["1", "2"] {
@@ -219,9 +219,9 @@ fn a_figure_that_may_not_be_written_is_not_begun() {
     // A gate that stays closed: what began would never end.
     let (_open, gate) = unbounded();
     let asks = Effect::Figure { path: path.clone(), plot: None, replace: false };
-    (pump.machine.asks, pump.machine.gate) = (Some(asks), Some(gate));
+    (pump.application.asks, pump.application.gate) = (Some(asks), Some(gate));
     pump.handle(key("<enter>")).unwrap();
-    assert!(pump.machine.notice.contains("is there already"), "{}", pump.machine.notice);
+    assert!(pump.application.notice.contains("is there already"), "{}", pump.application.notice);
     assert_eq!(std::fs::read(path).unwrap(), b"mine");
 }
 
@@ -251,7 +251,7 @@ fn a_caption_waits_for_a_key_that_does_nothing_else() {
     events.send(key("q")).unwrap();
     let (stop, pump) = running.join().unwrap();
     assert_eq!(stop, Stop::Quit);
-    assert_eq!(pump.machine().count, 2, "the first q went on with the tour");
+    assert_eq!(pump.application().count, 2, "the first q went on with the tour");
 }
 
 #[test]
@@ -270,7 +270,7 @@ fn a_tour_goes_back_to_the_caption_before() {
     events.send(key("q")).unwrap();
     let (_, pump) = running.join().unwrap();
     // Once to the first caption and on to the second, back to the first, on again and to the end.
-    assert_eq!(pump.machine().count, 2 + 3);
+    assert_eq!(pump.application().count, 2 + 3);
 }
 
 #[test]
@@ -284,7 +284,7 @@ fn a_tour_is_left_at_any_caption_by_escape() {
     while !written.recv().unwrap().contains("stopped") {}
     events.send(key("q")).unwrap();
     let (_, pump) = running.join().unwrap();
-    assert_eq!(pump.machine().count, 1);
+    assert_eq!(pump.application().count, 1);
 }
 
 #[test]
@@ -296,7 +296,7 @@ fn what_was_pressed_is_written_without_what_asks_for_it() {
     for name in ["<right>", "<right>", ":"] {
         pump.handle(key(name)).unwrap();
     }
-    pump.machine.asks = Some(Effect::Record { path: path.clone(), forget: 2, replace: false });
+    pump.application.asks = Some(Effect::Record { path: path.clone(), forget: 2, replace: false });
     pump.handle(key("<enter>")).unwrap();
     let written = std::fs::read_to_string(path).unwrap();
     assert!(written.ends_with("\n# hopfscope basin\n<right*2>\n"), "{written}");
@@ -320,51 +320,51 @@ fn the_users_keys_stop_hold_or_leave_a_replay_and_are_no_part_of_it() {
     for ignored in ["<right>", "x", "<enter>"] {
         assert_eq!(pump.handle(key(ignored)).unwrap(), None);
     }
-    assert_eq!(pump.machine.count, 1, "keys of the user are not mixed into it");
+    assert_eq!(pump.application.count, 1, "keys of the user are not mixed into it");
     pump.handle(key("<space>")).unwrap();
-    assert!(pump.machine.notice.contains("held"), "{}", pump.machine.notice);
+    assert!(pump.application.notice.contains("held"), "{}", pump.application.notice);
     step(&mut pump);
-    assert_eq!(pump.machine.count, 1, "held");
+    assert_eq!(pump.application.count, 1, "held");
     pump.handle(key("<space>")).unwrap();
     step(&mut pump);
-    assert_eq!(pump.machine.count, 2, "and on");
+    assert_eq!(pump.application.count, 2, "and on");
     for leaves in ["q", "<C-c>"] {
         assert_eq!(pump.handle(key(leaves)).unwrap(), Some(Stop::Quit));
     }
     pump.handle(key("<esc>")).unwrap();
-    assert_eq!(pump.machine.notice, "replay stopped");
+    assert_eq!(pump.application.notice, "replay stopped");
     step(&mut pump);
-    assert_eq!(pump.machine.count, 2);
+    assert_eq!(pump.application.count, 2);
     pump.handle(key("<right>")).unwrap();
-    assert_eq!(pump.machine.count, 3, "the keys are the user's again");
+    assert_eq!(pump.application.count, 3, "the keys are the user's again");
     assert_eq!(recorded(&pump), "<right*3>\n", "what was played, and then pressed");
 }
 
 #[test]
 fn what_is_typed_while_a_register_is_played_comes_after_it() {
     let Bench { mut pump, .. } = bench();
-    pump.machine.asks = Some(Effect::PlayRegister(replay::parse("<right*3>").unwrap()));
+    pump.application.asks = Some(Effect::PlayRegister(replay::parse("<right*3>").unwrap()));
     for name in ["<enter>", "p", "q"] {
         assert_eq!(pump.handle(key(name)).unwrap(), None);
     }
     while pump.playing.is_some() {
-        assert!(!pump.machine.moving);
+        assert!(!pump.application.moving);
         pump.draw().unwrap();
         pump.play().unwrap();
     }
-    assert_eq!(pump.machine.count, 3);
+    assert_eq!(pump.application.count, 3);
     pump.release();
     let missed: Vec<Event> = pump.missed.drain(..).collect();
     let stops: Vec<_> = missed.into_iter().map(|event| pump.handle(event).unwrap()).collect();
     assert_eq!(stops, [None, Some(Stop::Quit)]);
-    assert!(pump.machine.moving);
+    assert!(pump.application.moving);
     assert_eq!(recorded(&pump), "<enter> p\n", "what asks for it plays it again; q is no part");
 }
 
 #[test]
 fn what_was_not_played_to_its_end_is_recorded_as_far_as_it_went() {
     let Bench { mut pump, .. } = bench();
-    pump.machine.asks = Some(Effect::Play(replay::parse("<right*3>").unwrap()));
+    pump.application.asks = Some(Effect::Play(replay::parse("<right*3>").unwrap()));
     pump.handle(key("<enter>")).unwrap();
     for _ in 0..2 {
         pump.draw().unwrap();

@@ -8,9 +8,9 @@ pub mod table;
 pub mod unit;
 
 mod description;
-mod rig;
 mod running;
+mod scaled;
 
 pub use description::Machine;
-pub use rig::Rig;
 pub use running::Running;
+pub use scaled::ScaledMachine;

@@ -62,14 +62,14 @@ impl Running<'_> {
 #[cfg(test)]
 mod tests {
     use crate::numerics::elementary::ln;
-    use crate::scene::Rig;
+    use crate::scene::ScaledMachine;
     use crate::scene::machine::library::machines;
 
     #[test]
     fn a_path_leads_through_the_machine_as_it_is_and_within_its_law() {
         for machine in machines() {
-            let rig = Rig::new(machine.clone()).unwrap();
-            let (path, own) = (rig.running().path(), machine.belt.belt_speed);
+            let scaled = ScaledMachine::new(machine.clone()).unwrap();
+            let (path, own) = (scaled.running().path(), machine.belt.belt_speed);
             assert!(path.windows(2).all(|pair| pair[0].0 < pair[1].0), "{}", machine.name);
             let (low, high) = machine.belt.law.range();
             assert!(path.iter().all(|(speed, _)| (low..=high).contains(speed)), "{}", machine.name);
@@ -77,7 +77,7 @@ mod tests {
                 .iter()
                 .min_by(|one, other| ln(one.0 / own).abs().total_cmp(&ln(other.0 / own).abs()));
             let (speed, parameters) = near.unwrap();
-            let (d, exact) = (parameters.unwrap().d, rig.reduced.parameters.d);
+            let (d, exact) = (parameters.unwrap().d, scaled.reduced.parameters.d);
             assert!((speed / own - 1.0).abs() < 0.01 && (d - exact).abs() < 0.01);
         }
     }
@@ -85,7 +85,7 @@ mod tests {
     #[test]
     fn a_path_ends_where_friction_does() {
         let machine = machines().iter().find(|machine| machine.name == "straight").unwrap();
-        let path = Rig::new(machine.clone()).unwrap();
+        let path = ScaledMachine::new(machine.clone()).unwrap();
         let path = path.running().path();
         // mu = 0.5 - 0.4 v
         assert!(path.iter().all(|(speed, parameters)| parameters.is_some() == (*speed < 1.25)));
@@ -95,9 +95,9 @@ mod tests {
     #[test]
     fn milestones_are_the_numbers_that_one_would_type() {
         let machine = machines().iter().find(|machine| machine.name == "textbook").unwrap();
-        let rig = Rig::new(machine.clone()).unwrap();
+        let scaled = ScaledMachine::new(machine.clone()).unwrap();
         let speeds: Vec<f64> =
-            rig.running().milestones().into_iter().map(|(speed, _)| speed).collect();
+            scaled.running().milestones().into_iter().map(|(speed, _)| speed).collect();
         assert_eq!(speeds[..5], [0.01, 0.1, 1.0, 0.02, 0.05]);
         assert!(
             speeds.contains(&0.3) && speeds.iter().all(|speed| (0.3 / 32.0..=9.6).contains(speed))

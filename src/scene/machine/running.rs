@@ -115,14 +115,14 @@ fn rest_of(whole: f64, part: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Rig;
+    use crate::scene::ScaledMachine;
     use crate::scene::machine::library::machines;
 
     #[test]
     fn numbers_mean_the_quantities_of_the_machine() {
         for machine in machines() {
-            let rig = Rig::new(machine.clone()).unwrap();
-            let (problem, running) = (rig.problem(), rig.running());
+            let scaled = ScaledMachine::new(machine.clone()).unwrap();
+            let (problem, running) = (scaled.problem(), scaled.running());
             for (symbol, expected) in [
                 (Symbol::D, machine.belt.get(Quantity::Damping)),
                 (Symbol::D3, machine.belt.get(Quantity::CubicDamping)),
@@ -133,8 +133,8 @@ mod tests {
                 let value = symbol.get(&problem.parameters, &problem.initial);
                 let (name, found, _) = running.meaning(symbol, value).unwrap();
                 let size = match symbol {
-                    Symbol::D => machine.belt.normal_force * rig.reduced.mu.first,
-                    Symbol::D3 => machine.belt.normal_force * rig.reduced.mu.third,
+                    Symbol::D => machine.belt.normal_force * scaled.reduced.mu.first,
+                    Symbol::D3 => machine.belt.normal_force * scaled.reduced.mu.third,
                     _ => 0.0,
                 };
                 let scale = expected.abs() + size.abs();
@@ -166,11 +166,11 @@ mod tests {
     #[test]
     fn another_speed_is_another_machine_with_the_same_start_in_metres() {
         for machine in machines() {
-            let own = Rig::new(machine.clone()).unwrap();
+            let own = ScaledMachine::new(machine.clone()).unwrap();
             let speed = 1.25 * machine.belt.belt_speed;
             let mut faster = machine.clone();
             faster.belt.belt_speed = speed;
-            let faster = Rig::new(faster).unwrap();
+            let faster = ScaledMachine::new(faster).unwrap();
             let running = Running::at(machine, speed).unwrap();
             let moved = own.running().brought_to(&running, own.problem());
             assert_eq!(moved, faster.problem(), "{}", machine.name);

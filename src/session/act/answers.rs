@@ -87,7 +87,7 @@ pub(in crate::session) fn resolve(session: &mut Session) {
         }
         let view = session.plots[index].view;
         let window = fitted(session, index);
-        let of_scene = session.exhibit_of_scene(index, view);
+        let of_scene = session.plot_of_scene(index, view);
         let plot = &mut session.plots[index];
         plot.window = window.unwrap_or(plot.window);
         // Where the scene leaves the window to the answers, fitting is what the scene wants.

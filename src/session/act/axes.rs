@@ -1,7 +1,7 @@
 //! Commands that change what stands on the diagram's axes.
 
 use crate::scene::ordinate::usual_values;
-use crate::scene::{ABSCISSAE, Axes, Exhibit, ORDINATES, Span, Unit, View, Window};
+use crate::scene::{ABSCISSAE, Axes, ORDINATES, PlotSetup, Span, Unit, View, Window};
 use crate::session::act::notice::{inform, refuse};
 use crate::session::effect::Effect;
 use crate::session::state::plot::Plot;
@@ -33,7 +33,7 @@ pub fn next_of_chart(session: &mut Session, upwards: bool) -> Vec<Effect> {
     *axis = symbol;
     // The chart of these parameters is nobody's yet: its window is the usual one, the present point in it.
     plot.fit_from(
-        Exhibit { view: plot.view, axes: plot.axes, window: None, family: plot.family }.opening(),
+        PlotSetup { view: plot.view, axes: plot.axes, window: None, family: plot.family }.opening(),
     );
     inform(session, format!("over {}: {}", symbol.spec().name, symbol.spec().meaning));
     Vec::new()
@@ -51,8 +51,8 @@ pub fn set(session: &mut Session, axes: Axes) {
     let usual = usual_values(symbol);
     let today = ROOM * session.value(symbol);
     let around = Span::covering([usual.from(), usual.to(), today]).unwrap_or(usual);
-    let of_scene = of_scene(session).filter(|exhibit| exhibit.axes.abscissa == symbol);
-    let x = of_scene.map_or(around, |exhibit| exhibit.opening().x);
+    let of_scene = of_scene(session).filter(|plot_setup| plot_setup.axes.abscissa == symbol);
+    let x = of_scene.map_or(around, |plot_setup| plot_setup.opening().x);
     reframe(session, axes, x);
 }
 
@@ -83,16 +83,16 @@ pub fn next_unit(session: &mut Session) -> Vec<Effect> {
 }
 
 /// The diagram that the scene has in the place of the one in focus.
-fn of_scene(session: &Session) -> Option<Exhibit> {
-    session.exhibit_of_scene(session.plot, View::Diagram)
+fn of_scene(session: &Session) -> Option<PlotSetup> {
+    session.plot_of_scene(session.plot, View::Diagram)
 }
 
 /// The scene's window where the axes are the scene's, else one fitted to the branch.
 fn reframe(session: &mut Session, axes: Axes, x: Span) {
-    let of_scene = of_scene(session).filter(|exhibit| exhibit.axes == axes);
+    let of_scene = of_scene(session).filter(|plot_setup| plot_setup.axes == axes);
     let Some(plot) = session.focused_mut() else { return };
-    if let Some(exhibit) = of_scene.filter(|exhibit| exhibit.opening().x == x) {
-        *plot = Plot::opened(&exhibit);
+    if let Some(plot_setup) = of_scene.filter(|plot_setup| plot_setup.opening().x == x) {
+        *plot = Plot::opened(&plot_setup);
     } else {
         plot.axes = axes;
         plot.fit_from(Window { x, y: plot.window.y });

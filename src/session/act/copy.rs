@@ -71,7 +71,7 @@ fn point(session: &Session) -> Vec<Named> {
         let row = session.selected;
         return vec![match row {
             Row::Method => (row.name().to_owned(), session.problem.method.to_string()),
-            row => named(row.name(), numbers::number(&session.stand(), row)),
+            row => named(row.name(), numbers::number(&session.setup(), row)),
         }];
     };
     let Axes { abscissa, against, ordinate, .. } = plot.axes;

@@ -13,7 +13,7 @@ use crate::session::state::doubt::Doubt;
 use crate::session::state::overlay::{Entry, Overlay};
 use crate::session::state::rows::Row;
 use crate::session::state::session::Session;
-use crate::session::state::setup::Stand;
+use crate::session::state::setup::Setup;
 use crate::session::state::step_size::shortest;
 
 /// Opens the line with the value of the selected row.
@@ -21,9 +21,9 @@ pub fn edit(session: &mut Session) -> Vec<Effect> {
     let row = session.selected;
     let text = match row {
         Row::Method => session.problem.method.to_string(),
-        Row::Belt => format!("{} m/s", shortest(number(&session.stand(), row))),
+        Row::Belt => format!("{} m/s", shortest(number(&session.setup(), row))),
         Row::Parameter(_) | Row::Disturbance | Row::Until | Row::Tolerance => {
-            today(&session.stand(), row)
+            today(&session.setup(), row)
         }
     };
     session.overlay = Some(Overlay::Entry(Entry::new(row, text)));
@@ -40,10 +40,10 @@ pub fn begin(session: &mut Session, key: Key) -> Vec<Effect> {
 /// Takes the typed value, or says in the line why not.
 pub fn accept(session: &mut Session) -> Vec<Effect> {
     let Some(Overlay::Entry(entry)) = &session.overlay else { return Vec::new() };
-    match read(session, session.stand(), entry.row, entry.input.text()) {
-        Ok(stand) => {
+    match read(session, session.setup(), entry.row, entry.input.text()) {
+        Ok(setup) => {
             session.overlay = None;
-            put(session, stand);
+            put(session, setup);
         }
         Err(why) => {
             if let Some(Overlay::Entry(entry)) = &mut session.overlay {
@@ -57,53 +57,53 @@ pub fn accept(session: &mut Session) -> Vec<Effect> {
 /// What stands there with the typed value in a row, or one line that says what is allowed.
 pub(in crate::session) fn read(
     session: &Session,
-    stand: Stand,
+    setup: Setup,
     row: Row,
     text: &str,
-) -> Result<Stand, String> {
+) -> Result<Setup, String> {
     if row == Row::Belt {
         let text = plain_minus(text);
         let speed = value_of(Quantity::BeltSpeed, &measured(&text)?)?;
-        return session.at_belt_speed(stand, speed);
+        return session.at_belt_speed(setup, speed);
     }
     if row == Row::Disturbance {
-        return disturbed(stand, text);
+        return disturbed(setup, text);
     }
     if let Row::Parameter(symbol) = row {
-        return within(stand, symbol, text);
+        return within(setup, symbol, text);
     }
-    let problem = read_number(stand.problem, row, text)?;
-    Ok(Stand { problem, ..stand })
+    let problem = read_number(setup.problem, row, text)?;
+    Ok(Setup { problem, ..setup })
 }
 
 /// What stands there with the typed bound on the disturbance.
-fn disturbed(stand: Stand, text: &str) -> Result<Stand, String> {
+fn disturbed(setup: Setup, text: &str) -> Result<Setup, String> {
     let value = plain_minus(text).parse().ok().filter(|it: &f64| it.is_finite() && *it >= 0.0);
     let disturbance =
         value.ok_or_else(|| format!("{text:?} is no disturbance; w takes 0 or more"))?;
-    Ok(Stand { doubt: Doubt { disturbance: disturbance + 0.0, ..stand.doubt }, ..stand })
+    Ok(Setup { doubt: Doubt { disturbance: disturbance + 0.0, ..setup.doubt }, ..setup })
 }
 
 /// What stands there with the typed value of a parameter, which may have a half width; without one it is
 /// known exactly.
-fn within(stand: Stand, symbol: Symbol, text: &str) -> Result<Stand, String> {
+fn within(setup: Setup, symbol: Symbol, text: &str) -> Result<Setup, String> {
     let row = Row::Parameter(symbol);
     let typed = plain_minus(text).replace('\u{b1}', "+-");
     if !(typed.contains("+-") || typed.contains("..")) {
-        let problem = read_number(stand.problem, row, text)?;
-        let doubt = stand.doubt.with_half_width(symbol, 0.0).unwrap_or(stand.doubt);
-        return Ok(Stand { problem, doubt, ..stand });
+        let problem = read_number(setup.problem, row, text)?;
+        let doubt = setup.doubt.with_half_width(symbol, 0.0).unwrap_or(setup.doubt);
+        return Ok(Setup { problem, doubt, ..setup });
     }
     let known: Interval = typed.parse()?;
-    let mut within = ParameterBox::from(stand.problem.parameters);
+    let mut within = ParameterBox::from(setup.problem.parameters);
     within.set(symbol, known)?;
     // The numbers that were typed, and not those rounded outwards that enclose them.
     let (value, half) = match typed.split_once("+-") {
         Some((value, half)) => (number_in(value)?, number_in(half)?),
         None => (known.middle(), known.half_width()),
     };
-    let problem = with_number(stand.problem, row, value + 0.0);
-    Ok(Stand { problem, doubt: stand.doubt.with_half_width(symbol, half)?, ..stand })
+    let problem = with_number(setup.problem, row, value + 0.0);
+    Ok(Setup { problem, doubt: setup.doubt.with_half_width(symbol, half)?, ..setup })
 }
 
 fn number_in(text: &str) -> Result<f64, String> {

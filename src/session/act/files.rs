@@ -7,7 +7,7 @@ use std::sync::Arc;
 use crate::fit::Reading;
 use crate::scene::machine::file::parse;
 use crate::scene::machine::mode::{NO_BELT, is_mode};
-use crate::scene::{Recording, Rig};
+use crate::scene::{Recording, ScaledMachine};
 use crate::session::act::notice::{inform, refuse, told};
 use crate::session::act::values::letter;
 use crate::session::act::{history, macros, prompt};
@@ -181,8 +181,8 @@ fn open_machine(
         return Ok(vec![Effect::Read { path: table, purpose }]);
     }
     let machine = found.map_err(|error| error.to_string())?;
-    let rig = Rig::new(machine).map_err(|error| format!("{file}: {error}"))?;
-    history::open_scene(session, Arc::new(rig.scene()));
+    let scaled = ScaledMachine::new(machine).map_err(|error| format!("{file}: {error}"))?;
+    history::open_scene(session, Arc::new(scaled.scene()));
     Ok(Vec::new())
 }
 

@@ -4,16 +4,16 @@ use std::sync::Arc;
 
 use crate::oscillator::Symbol;
 use crate::scene::Scene;
-use crate::session::act::desk::set_up;
 use crate::session::act::notice::{inform, refuse};
+use crate::session::act::screen_setup::set_up;
 use crate::session::effect::Effect;
 use crate::session::read::numbers::difference;
-use crate::session::state::history::{Before, Desk, Snapshot};
+use crate::session::state::history::{Before, ScreenSetup, Snapshot};
 use crate::session::state::playback::Playback;
 use crate::session::state::plot::Pane;
 use crate::session::state::rows::{Row, Steps};
 use crate::session::state::session::Session;
-use crate::session::state::setup::Stand;
+use crate::session::state::setup::Setup;
 
 /// Undoes the last change.
 pub fn undo(session: &mut Session) -> Vec<Effect> {
@@ -34,8 +34,8 @@ pub fn redo(session: &mut Session) -> Vec<Effect> {
 /// The present state, as far as `other` reaches.
 fn present(session: &Session, other: &Before) -> Before {
     match other {
-        Before::Stand(_) => Before::Stand(session.stand()),
-        Before::Desk(_) => Before::Desk(session.desk()),
+        Before::Setup(_) => Before::Setup(session.setup()),
+        Before::ScreenSetup(_) => Before::ScreenSetup(session.screen_setup()),
         Before::Scene(_) => Before::Scene(Box::new(snapshot(session))),
     }
 }
@@ -44,20 +44,20 @@ fn present(session: &Session, other: &Before) -> Before {
 fn snapshot(session: &Session) -> Snapshot {
     Snapshot {
         scene: Arc::clone(&session.scene),
-        stand: session.stand(),
+        setup: session.setup(),
         steps: session.steps,
         layers: session.layers.clone(),
-        desk: session.desk(),
+        screen_setup: session.screen_setup(),
     }
 }
 
 /// Everything that a scene sets, as it opens.
 fn opening(scene: Arc<Scene>) -> Snapshot {
     Snapshot {
-        stand: Stand::of_scene(&scene),
+        setup: Setup::of_scene(&scene),
         steps: Steps::of_scene(&scene),
         layers: scene.layers.clone(),
-        desk: Desk { plots: scene.plots.clone(), arrangement: scene.arrangement },
+        screen_setup: ScreenSetup { plots: scene.plots.clone(), arrangement: scene.arrangement },
         scene,
     }
 }
@@ -65,14 +65,15 @@ fn opening(scene: Arc<Scene>) -> Snapshot {
 fn bring_back(session: &mut Session, found: Option<Before>, name: &str) -> Vec<Effect> {
     match found {
         None => refuse(session, format!("nothing to {name}")),
-        Some(Before::Stand(stand)) => {
-            inform(session, format!("{name}: {}", difference(&session.stand(), &stand)));
-            session.set_stand(stand);
+        Some(Before::Setup(setup)) => {
+            inform(session, format!("{name}: {}", difference(&session.setup(), &setup)));
+            session.set_setup(setup);
         }
-        Some(Before::Desk(desk)) => {
-            let titles: Vec<_> = desk.plots.iter().map(|plot| plot.view.spec().title).collect();
+        Some(Before::ScreenSetup(screen_setup)) => {
+            let titles: Vec<_> =
+                screen_setup.plots.iter().map(|plot| plot.view.spec().title).collect();
             inform(session, format!("{name}: {}", titles.join(", ")));
-            set_up(session, &desk);
+            set_up(session, &screen_setup);
         }
         Some(Before::Scene(snapshot)) => {
             inform(session, format!("{name}: scene {}", snapshot.scene.name));
@@ -84,10 +85,10 @@ fn bring_back(session: &mut Session, found: Option<Before>, name: &str) -> Vec<E
 
 fn restore(session: &mut Session, snapshot: Snapshot) {
     session.scene = snapshot.scene;
-    session.set_stand(snapshot.stand);
+    session.set_setup(snapshot.setup);
     session.steps = snapshot.steps;
     session.layers = snapshot.layers;
-    set_up(session, &snapshot.desk);
+    set_up(session, &snapshot.screen_setup);
     session.playback = Playback { pace: session.playback.pace, ..Playback::default() };
     session.held = None;
 }

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use crate::scene::library::lesson_of;
 use crate::scene::{find, letters};
-use crate::session::act::desk::show;
 use crate::session::act::general::toggle;
 use crate::session::act::history::open_scene;
 use crate::session::act::notice::{inform, refuse};
+use crate::session::act::screen_setup::show;
 use crate::session::effect::Effect;
 use crate::session::message::key::Key;
 use crate::session::state::overlay::{List, Listed, Overlay};

@@ -42,17 +42,17 @@ pub(in crate::session) fn go_back(session: &mut Session) -> Vec<Effect> {
 /// Goes to a point, as a change that can be undone, and keeps what is known about the one that is left.
 fn go(session: &mut Session, mark: &Mark) {
     let here = present(session);
-    if mark.stand == here.stand {
+    if mark.setup == here.setup {
         inform(session, "here already");
         return;
     }
-    inform(session, difference(&here.stand, &mark.stand));
-    put(session, mark.stand);
+    inform(session, difference(&here.setup, &mark.setup));
+    put(session, mark.setup);
     session.marks.left = Some(here);
     session.layers.insert(Layer::Ghost);
 }
 
 fn present(session: &Session) -> Mark {
     let asked = COMPARED.into_iter().filter_map(|topic| session.request(topic, session.plot));
-    Mark { stand: session.stand(), asked: asked.collect() }
+    Mark { setup: session.setup(), asked: asked.collect() }
 }

@@ -3,7 +3,6 @@
 pub mod answers;
 pub mod axes;
 pub mod copy;
-pub mod desk;
 pub mod entry;
 pub mod files;
 pub mod focus;
@@ -21,6 +20,7 @@ pub mod playback;
 pub mod plots;
 pub mod prompt;
 pub mod scan;
+pub mod screen_setup;
 pub mod starts;
 pub mod typing;
 pub mod values;

@@ -11,24 +11,24 @@ use crate::session::state::history::Before;
 use crate::session::state::plot::{Framing, Plot};
 use crate::session::state::rows::{Row, Steps};
 use crate::session::state::session::Session;
-use crate::session::state::setup::Stand;
+use crate::session::state::setup::Setup;
 use crate::session::state::step_size::shortest;
 
 /// Makes another motion the one on show, as one change that can be undone; the belt keeps its speed.
 /// Returns whether it differs.
 pub(in crate::session) fn change(session: &mut Session, problem: Problem) -> bool {
-    put(session, Stand { problem, ..session.stand() })
+    put(session, Setup { problem, ..session.setup() })
 }
 
 /// Makes another motion, with a speed of the belt, the one on show, as one change that can be undone.
 /// Returns whether it differs.
-pub(in crate::session) fn put(session: &mut Session, stand: Stand) -> bool {
-    let before = session.stand();
-    let differs = stand != before;
+pub(in crate::session) fn put(session: &mut Session, setup: Setup) -> bool {
+    let before = session.setup();
+    let differs = setup != before;
     if differs {
         let was_on = session.is_on_the_belt() == Some(true);
-        session.history.record(Before::Stand(before));
-        session.set_stand(stand);
+        session.history.record(Before::Setup(before));
+        session.set_setup(setup);
         if was_on && session.is_on_the_belt() == Some(false) {
             inform(session, "off the belt: no speed has these numbers; the row belt leads back");
         }
@@ -56,7 +56,7 @@ pub fn step(session: &mut Session, count: i32) -> Vec<Effect> {
     let row = session.selected;
     let Some(size) = session.steps.of(row) else { return Vec::new() };
     let (min, max) = range(&session.problem, row);
-    let value = number(&session.stand(), row);
+    let value = number(&session.setup(), row);
     let stepped = size.from(value, count).clamp(min, max);
     let changed = with_number(session.problem, row, stepped);
     if !change(session, changed) {
@@ -74,10 +74,10 @@ pub fn step(session: &mut Session, count: i32) -> Vec<Effect> {
 /// Steps the speed of the belt; from off the belt, back onto it. What is no speed is refused: an end of
 /// the range, far below any belt, would be no place to stop at.
 fn step_belt(session: &mut Session, count: i32) -> Vec<Effect> {
-    let speed = session.steps.belt.from(number(&session.stand(), Row::Belt), count);
-    match session.at_belt_speed(session.stand(), speed) {
-        Ok(stand) => {
-            if !put(session, stand) {
+    let speed = session.steps.belt.from(number(&session.setup(), Row::Belt), count);
+    match session.at_belt_speed(session.setup(), speed) {
+        Ok(setup) => {
+            if !put(session, setup) {
                 refuse(session, format!("the step is too small to change {} m/s", shortest(speed)));
             }
         }
@@ -88,10 +88,10 @@ fn step_belt(session: &mut Session, count: i32) -> Vec<Effect> {
 
 /// Steps the bound on the disturbance, which is not negative.
 fn step_disturbance(session: &mut Session, count: i32) -> Vec<Effect> {
-    let present = session.stand();
+    let present = session.setup();
     let stepped = session.steps.disturbance.from(present.doubt.disturbance, count).max(0.0);
     let doubt = Doubt { disturbance: stepped, ..present.doubt };
-    if !put(session, Stand { doubt, ..present }) {
+    if !put(session, Setup { doubt, ..present }) {
         refuse(session, "w ends at 0");
     }
     Vec::new()
@@ -99,7 +99,7 @@ fn step_disturbance(session: &mut Session, count: i32) -> Vec<Effect> {
 
 /// Makes the half width of the selected parameter wider or narrower by a step.
 pub fn half_width(session: &mut Session, count: i32) -> Vec<Effect> {
-    let present = session.stand();
+    let present = session.setup();
     let Row::Parameter(symbol) = session.selected else {
         refuse(session, "only D, D2, D3 and r have a half width");
         return Vec::new();
@@ -108,7 +108,7 @@ pub fn half_width(session: &mut Session, count: i32) -> Vec<Effect> {
     let half = step.from(present.doubt.half_width(symbol), count).max(0.0);
     match present.doubt.with_half_width(symbol, half) {
         Ok(doubt) => {
-            if !put(session, Stand { doubt, ..present }) {
+            if !put(session, Setup { doubt, ..present }) {
                 refuse(session, format!("{symbol} has no half width"));
             }
         }
@@ -129,7 +129,7 @@ pub fn step_size(session: &mut Session, larger: bool) -> Vec<Effect> {
 /// Gives the selected row the scene's value and step size.
 pub fn reset_row(session: &mut Session) -> Vec<Effect> {
     let row = session.selected;
-    let (scene, present) = (session.scene.problem, session.stand());
+    let (scene, present) = (session.scene.problem, session.setup());
     let steps = Steps::of_scene(&session.scene);
     if let (Some(size), Some(wanted)) = (session.steps.of_mut(row), steps.of(row)) {
         *size = wanted;
@@ -137,25 +137,25 @@ pub fn reset_row(session: &mut Session) -> Vec<Effect> {
     let reset = match row {
         Row::Belt => session.scene.machine.as_ref().map_or_else(
             || Ok(present),
-            |rig| session.at_belt_speed(present, rig.machine.belt.belt_speed),
+            |scaled| session.at_belt_speed(present, scaled.machine.belt.belt_speed),
         ),
         Row::Method => {
-            Ok(Stand { problem: Problem { method: scene.method, ..session.problem }, ..present })
+            Ok(Setup { problem: Problem { method: scene.method, ..session.problem }, ..present })
         }
         Row::Disturbance => {
-            let disturbance = Stand::of_scene(&session.scene).doubt.disturbance;
-            Ok(Stand { doubt: Doubt { disturbance, ..present.doubt }, ..present })
+            let disturbance = Setup::of_scene(&session.scene).doubt.disturbance;
+            Ok(Setup { doubt: Doubt { disturbance, ..present.doubt }, ..present })
         }
         Row::Parameter(symbol) => {
-            let value = number(&Stand::alone(scene), row);
-            let half = Stand::of_scene(&session.scene).doubt.half_width(symbol);
+            let value = number(&Setup::alone(scene), row);
+            let half = Setup::of_scene(&session.scene).doubt.half_width(symbol);
             let doubt = present.doubt.with_half_width(symbol, half).unwrap_or(present.doubt);
             let problem = with_number(session.problem, row, value);
-            Ok(Stand { problem, doubt, ..present })
+            Ok(Setup { problem, doubt, ..present })
         }
         Row::Until | Row::Tolerance => {
-            let value = number(&Stand::alone(scene), row);
-            Ok(Stand { problem: with_number(session.problem, row, value), ..present })
+            let value = number(&Setup::alone(scene), row);
+            Ok(Setup { problem: with_number(session.problem, row, value), ..present })
         }
     };
     let reset = reset.unwrap_or(present);
@@ -222,13 +222,13 @@ pub fn next_method(session: &mut Session, by: isize) -> Vec<Effect> {
 
 impl Session {
     /// Makes this what is on show, with a speed of the belt if and only if there is one.
-    pub(in crate::session) fn set_stand(&mut self, stand: Stand) {
-        let Stand { problem, others, belt_speed, doubt } = stand;
+    pub(in crate::session) fn set_setup(&mut self, setup: Setup) {
+        let Setup { problem, others, belt_speed, doubt } = setup;
         self.doubt = doubt;
-        let rig = self.scene.machine.as_ref();
+        let scaled = self.scene.machine.as_ref();
         let can_run =
-            |speed: &f64| rig.is_some_and(|rig| Running::at(&rig.machine, *speed).is_ok());
-        let own = rig.map(|rig| rig.machine.belt.belt_speed);
+            |speed: &f64| scaled.is_some_and(|scaled| Running::at(&scaled.machine, *speed).is_ok());
+        let own = scaled.map(|scaled| scaled.machine.belt.belt_speed);
         let present = self.belt_speed.filter(can_run);
         self.belt_speed = belt_speed.filter(can_run).or(present).or(own);
         // The ledger has lines for each motion.

@@ -2,7 +2,7 @@
 
 use crate::flow::Problem;
 use crate::oscillator::State;
-use crate::scene::{Exhibit, Point, Span, View, Window};
+use crate::scene::{PlotSetup, Point, Span, View, Window};
 use crate::session::act::notice::{inform, refuse, told};
 use crate::session::act::parameters::{change, put};
 use crate::session::act::starts::start;
@@ -147,11 +147,11 @@ pub fn fit(session: &mut Session) -> Vec<Effect> {
 pub fn home(session: &mut Session) -> Vec<Effect> {
     let index = session.plot;
     let Some(plot) = session.focused() else { return Vec::new() };
-    let usual = Exhibit { view: plot.view, axes: plot.axes, window: None, family: None };
-    let exhibit = session.exhibit_of_scene(index, plot.view).unwrap_or(usual);
+    let usual = PlotSetup { view: plot.view, axes: plot.axes, window: None, family: None };
+    let plot_setup = session.plot_of_scene(index, plot.view).unwrap_or(usual);
     if let Some(plot) = session.focused_mut() {
         let cursor = plot.cursor;
-        *plot = Plot::opened(&exhibit);
+        *plot = Plot::opened(&plot_setup);
         plot.cursor = cursor;
     }
     Vec::new()
@@ -187,9 +187,9 @@ pub fn use_method(session: &mut Session) -> Vec<Effect> {
 /// Gives the belt the speed under the cursor.
 pub fn take_speed(session: &mut Session) -> Vec<Effect> {
     let Some(Point { x, .. }) = cursor(session) else { return Vec::new() };
-    match session.at_belt_speed(session.stand(), x) {
-        Ok(stand) => {
-            put(session, stand);
+    match session.at_belt_speed(session.setup(), x) {
+        Ok(setup) => {
+            put(session, setup);
         }
         Err(why) => refuse(session, why),
     }

@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use crate::flow::Problem;
 use crate::scene::View;
-use crate::session::act::desk::{add, show};
 use crate::session::act::focus::focus_on;
 use crate::session::act::notice::{inform, refuse};
 use crate::session::act::parameters::change;
+use crate::session::act::screen_setup::{add, show};
 use crate::session::effect::Effect;
 use crate::session::read::scan::scan_of;
 use crate::session::read::scan::typed;

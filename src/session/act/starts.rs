@@ -8,7 +8,7 @@ use crate::session::act::notice::{inform, refuse, told};
 use crate::session::act::parameters::put;
 use crate::session::effect::Effect;
 use crate::session::state::session::Session;
-use crate::session::state::setup::Stand;
+use crate::session::state::setup::Setup;
 use crate::session::state::starts::{MOST_MOTIONS, Starts};
 use crate::session::state::step_size::{decimal_sum, shortest};
 use crate::study::{Cycles, Edge};
@@ -32,7 +32,7 @@ pub(in crate::session) fn start(session: &mut Session, initial: State) {
         inform(session, text);
     }
     let problem = Problem { initial, ..session.problem };
-    put(session, Stand { problem, others, ..session.stand() });
+    put(session, Setup { problem, others, ..session.setup() });
 }
 
 /// Takes the newest motion away; the one before is then the present one.
@@ -42,7 +42,7 @@ pub fn drop_newest(session: &mut Session) -> Vec<Effect> {
         return Vec::new();
     };
     let problem = Problem { initial, ..session.problem };
-    put(session, Stand { problem, others: session.others.without(initial), ..session.stand() });
+    put(session, Setup { problem, others: session.others.without(initial), ..session.setup() });
     let State { q, v } = initial;
     let count = session.problems().len();
     inform(session, format!("{count} on show; q0 = {}, v0 = {}", shortest(q), shortest(v)));
@@ -51,7 +51,7 @@ pub fn drop_newest(session: &mut Session) -> Vec<Effect> {
 
 /// Takes all motions away but the newest.
 pub fn drop_others(session: &mut Session) -> Vec<Effect> {
-    if !put(session, Stand { others: Starts::default(), ..session.stand() }) {
+    if !put(session, Setup { others: Starts::default(), ..session.setup() }) {
         refuse(session, "one motion is on show, and stays");
     }
     Vec::new()

@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use crate::scene::machine::library::machines;
 use crate::scene::{
-    ABSCISSAE, Axes, LAYERS, ORDINATES, Ordinate, Rig, Span, Unit, VIEWS, View, Window, find,
+    ABSCISSAE, Axes, LAYERS, ORDINATES, Ordinate, ScaledMachine, Span, Unit, VIEWS, View, Window,
+    find,
 };
 use crate::session::act::notice::inform;
-use crate::session::act::{axes as axis, desk, entry, general, macros, marks, parameters};
+use crate::session::act::{axes as axis, entry, general, macros, marks, parameters, screen_setup};
 use crate::session::act::{focus, history};
 use crate::session::effect::Effect;
 use crate::session::read::completion::{properties, rows};
@@ -46,18 +47,18 @@ pub fn set(session: &mut Session, rest: &str) -> Done {
             (None, _) => return Err(format!("{word:?} is no NAME=VALUE, such as D=-0.3")),
         }
     }
-    let mut stand = session.stand();
+    let mut setup = session.setup();
     for (name, value) in given {
-        stand = entry::read(session, stand, row_named(session, name)?, &value)?;
+        setup = entry::read(session, setup, row_named(session, name)?, &value)?;
     }
-    parameters::put(session, stand);
+    parameters::put(session, setup);
     Ok(Vec::new())
 }
 
 pub fn set_row(session: &mut Session, row: &str, value: &str) -> Done {
     let row = row_named(session, row)?;
-    let stand = entry::read(session, session.stand(), row, value)?;
-    parameters::put(session, stand);
+    let setup = entry::read(session, session.setup(), row, value)?;
+    parameters::put(session, setup);
     Ok(Vec::new())
 }
 
@@ -72,8 +73,8 @@ pub fn belt(session: &mut Session, name: &str) -> Done {
     let names = || listed(machines().iter().map(|machine| machine.name.as_str()));
     let machine = machines().iter().find(|machine| machine.name == name);
     let machine = machine.ok_or_else(|| format!("no machine {name:?}; there are {}", names()))?;
-    let rig = Rig::new(machine.clone()).map_err(|error| format!("{name}: {error}"))?;
-    history::open_scene(session, Arc::new(rig.scene()));
+    let scaled = ScaledMachine::new(machine.clone()).map_err(|error| format!("{name}: {error}"))?;
+    history::open_scene(session, Arc::new(scaled.scene()));
     Ok(Vec::new())
 }
 
@@ -83,7 +84,7 @@ pub fn view(session: &mut Session, name: &str) -> Done {
     let row = row.ok_or_else(|| {
         format!("no view {name:?}; there are {}", listed(VIEWS.iter().map(|row| row.name)))
     })?;
-    Ok(desk::show(session, row.view))
+    Ok(screen_setup::show(session, row.view))
 }
 
 /// Switches a layer on, off, or to what it is not.

@@ -11,20 +11,20 @@ use crate::question::speeds::Speeds;
 use crate::question::whole::{Course, Kinds};
 use crate::scene::{Answer, Layer, Running, Topic};
 use crate::session::state::session::Session;
-use crate::session::state::setup::Stand;
+use crate::session::state::setup::Setup;
 
 impl Session {
     /// The motion on show and the speed of the belt.
-    pub fn stand(&self) -> Stand {
+    pub fn setup(&self) -> Setup {
         let Session { problem, others, belt_speed, doubt, .. } = *self;
-        Stand { problem, others, belt_speed, doubt }
+        Setup { problem, others, belt_speed, doubt }
     }
 
     /// The machine of the scene at the present speed of its belt.
     pub fn running(&self) -> Option<Running<'_>> {
-        let rig = self.scene.machine.as_ref()?;
-        let present = self.belt_speed.and_then(|speed| Running::at(&rig.machine, speed).ok());
-        Some(present.unwrap_or_else(|| rig.running()))
+        let scaled = self.scene.machine.as_ref()?;
+        let present = self.belt_speed.and_then(|speed| Running::at(&scaled.machine, speed).ok());
+        Some(present.unwrap_or_else(|| scaled.running()))
     }
 
     /// Whether the numbers on show are those of the machine at the speed of its belt; `None` without one.
@@ -101,16 +101,16 @@ impl Session {
     /// One line, where there is no belt or no machine at that speed.
     pub(in crate::session) fn at_belt_speed(
         &self,
-        stand: Stand,
+        setup: Setup,
         speed: f64,
-    ) -> Result<Stand, String> {
+    ) -> Result<Setup, String> {
         let running = self.running().ok_or("the scene is of no machine: it has no belt")?;
         let other = Running::at(running.machine, speed)?;
-        let Stand { problem, others, doubt, .. } = stand;
+        let Setup { problem, others, doubt, .. } = setup;
         let brought = |initial| running.brought_to(&other, Problem { initial, ..problem }).initial;
         let others = others.map(brought);
         let problem = running.brought_to(&other, problem);
         let doubt = doubt.brought_to(&running, &other);
-        Ok(Stand { problem, others, belt_speed: Some(speed), doubt })
+        Ok(Setup { problem, others, belt_speed: Some(speed), doubt })
     }
 }

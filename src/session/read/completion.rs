@@ -71,7 +71,7 @@ fn assignments(session: &Session, words: &[&str]) -> Vec<String> {
 fn today(session: &Session, row: Row) -> String {
     match row {
         Row::Method => session.problem.method.to_string(),
-        row => shortest(number(&session.stand(), row)),
+        row => shortest(number(&session.setup(), row)),
     }
 }
 

@@ -190,7 +190,7 @@ impl Session {
             }
             Condition::Opened => {
                 let own = self.plots.iter().map(|plot| (plot.view, plot.axes));
-                own.eq(self.scene.plots.iter().map(|exhibit| (exhibit.view, exhibit.axes)))
+                own.eq(self.scene.plots.iter().map(|plot_setup| (plot_setup.view, plot_setup.axes)))
             }
             Condition::Unstable => cycles(false),
             Condition::Stable => cycles(true),

@@ -4,7 +4,7 @@ use crate::flow::Problem;
 use crate::oscillator::belt::Quantity;
 use crate::scene::file::UNTIL_RANGE;
 use crate::session::state::rows::{ROWS, Row};
-use crate::session::state::setup::Stand;
+use crate::session::state::setup::Setup;
 use crate::session::state::step_size::shortest;
 
 /// The range of a row that is a number.
@@ -19,8 +19,8 @@ pub(in crate::session) fn range(problem: &Problem, row: Row) -> (f64, f64) {
 }
 
 /// The value of a row that is a number; 0 for a belt where there is none.
-pub(in crate::session) fn number(stand: &Stand, row: Row) -> f64 {
-    let Stand { problem, belt_speed, doubt, .. } = stand;
+pub(in crate::session) fn number(setup: &Setup, row: Row) -> f64 {
+    let Setup { problem, belt_speed, doubt, .. } = setup;
     match row {
         Row::Belt => belt_speed.unwrap_or(0.0),
         Row::Parameter(symbol) => symbol.get(&problem.parameters, &problem.initial),
@@ -42,11 +42,11 @@ pub(in crate::session) fn with_number(mut problem: Problem, row: Row, value: f64
 }
 
 /// The value of a row that is a number of the oscillator, with its half width, as it can be typed.
-pub(in crate::session) fn today(stand: &Stand, row: Row) -> String {
-    let value = shortest(number(stand, row));
+pub(in crate::session) fn today(setup: &Setup, row: Row) -> String {
+    let value = shortest(number(setup, row));
     match row {
-        Row::Parameter(symbol) if stand.doubt.half_width(symbol) > 0.0 => {
-            format!("{value}+-{}", shortest(stand.doubt.half_width(symbol)))
+        Row::Parameter(symbol) if setup.doubt.half_width(symbol) > 0.0 => {
+            format!("{value}+-{}", shortest(setup.doubt.half_width(symbol)))
         }
         _ => value,
     }
@@ -54,11 +54,11 @@ pub(in crate::session) fn today(stand: &Stand, row: Row) -> String {
 
 /// What is different in `new`, as `name = value`; of a belt at another speed that alone, because the
 /// parameters follow from it.
-pub(in crate::session) fn difference(old: &Stand, new: &Stand) -> String {
-    let value = |stand: &Stand, row: Row| match row {
-        Row::Method => stand.problem.method.to_string(),
-        Row::Belt => stand.belt_speed.map(shortest).unwrap_or_default(),
-        row => today(stand, row),
+pub(in crate::session) fn difference(old: &Setup, new: &Setup) -> String {
+    let value = |setup: &Setup, row: Row| match row {
+        Row::Method => setup.problem.method.to_string(),
+        Row::Belt => setup.belt_speed.map(shortest).unwrap_or_default(),
+        row => today(setup, row),
     };
     let belt = new.belt_speed.is_some() && old.belt_speed != new.belt_speed;
     let follows = |row: &Row| belt && matches!(row, Row::Parameter(_));
@@ -68,7 +68,7 @@ pub(in crate::session) fn difference(old: &Stand, new: &Stand) -> String {
         let unit = if row == Row::Belt { " m/s" } else { "" };
         format!("{} = {}{unit}", row.name_in(&new.problem), value(new, row))
     });
-    let count = |stand: &Stand| stand.others.all().len() + 1;
+    let count = |setup: &Setup| setup.others.all().len() + 1;
     let motions = (count(old) != count(new)).then(|| match count(new) {
         1 => "1 motion".to_owned(),
         count => format!("{count} motions"),

@@ -1,7 +1,7 @@
 //! What the plots show, and which of them are on show.
 
-use crate::scene::{Exhibit, Layer, View};
-use crate::session::state::history::Desk;
+use crate::scene::{Layer, PlotSetup, View};
+use crate::session::state::history::ScreenSetup;
 use crate::session::state::plot::{Framing, Pane, Plot};
 use crate::session::state::session::Session;
 
@@ -69,27 +69,27 @@ impl Session {
 
     /// What the scene shows in a plot: what it has at that place, else what it shows of that view
     /// anywhere.
-    pub fn exhibit_of_scene(&self, plot: usize, view: View) -> Option<Exhibit> {
+    pub fn plot_of_scene(&self, plot: usize, view: View) -> Option<PlotSetup> {
         let plots = &self.scene.plots;
-        let here = plots.get(plot).filter(|exhibit| exhibit.view == view);
-        here.or(plots.iter().find(|exhibit| exhibit.view == view)).copied()
+        let here = plots.get(plot).filter(|plot_setup| plot_setup.view == view);
+        here.or(plots.iter().find(|plot_setup| plot_setup.view == view)).copied()
     }
 
     /// What a plot shows, so that it can be set up again.
-    pub fn exhibit(&self, index: usize) -> Option<Exhibit> {
+    pub fn plot_setup(&self, index: usize) -> Option<PlotSetup> {
         let plot = self.plots.get(index)?;
-        let of_scene = self.exhibit_of_scene(index, plot.view);
+        let of_scene = self.plot_of_scene(index, plot.view);
         let window = match plot.framing {
-            Framing::Scene => of_scene.and_then(|exhibit| exhibit.window),
+            Framing::Scene => of_scene.and_then(|plot_setup| plot_setup.window),
             Framing::Fitting => None,
             Framing::Fitted | Framing::User => Some(plot.window),
         };
-        Some(Exhibit { view: plot.view, axes: plot.axes, window, family: plot.family })
+        Some(PlotSetup { view: plot.view, axes: plot.axes, window, family: plot.family })
     }
 
     /// What is on show now.
-    pub(in crate::session) fn desk(&self) -> Desk {
-        let exhibits = (0..self.plots.len()).filter_map(|index| self.exhibit(index));
-        Desk { plots: exhibits.collect(), arrangement: self.arrangement }
+    pub(in crate::session) fn screen_setup(&self) -> ScreenSetup {
+        let plot_setups = (0..self.plots.len()).filter_map(|index| self.plot_setup(index));
+        ScreenSetup { plots: plot_setups.collect(), arrangement: self.arrangement }
     }
 }

@@ -80,7 +80,7 @@ impl Session {
         stepped.selected = row;
         // At the end of a range the step goes the other way.
         for count in [1, -1] {
-            if stepped.stand() == self.stand() {
+            if stepped.setup() == self.setup() {
                 parameters::step(&mut stepped, count);
             }
         }

@@ -56,12 +56,12 @@ impl Session {
     /// comes last of all.
     pub fn wants(&self) -> Vec<Request> {
         let asked = self.asks();
-        let effort = |topic: Topic| -> u64 {
+        let cost = |topic: Topic| -> u64 {
             let alike = asked.iter().filter(|request| request.topic() == topic);
-            alike.map(|request| self.answers.effort(request)).sum()
+            alike.map(|request| self.answers.cost(request)).sum()
         };
         let long: BTreeSet<Topic> =
-            TOPICS.into_iter().filter(|topic| effort(*topic) > LONG).collect();
+            TOPICS.into_iter().filter(|topic| cost(*topic) > LONG).collect();
         let open = |request: &&Request| long.contains(&request.topic()) && self.is_open(request);
         let drafts = asked.iter().filter(open).filter_map(Request::draft);
         let mut wanted: Vec<Request> = drafts.filter(|draft| self.is_open(draft)).collect();

@@ -73,7 +73,7 @@ impl Answers {
     }
 
     /// Evaluations that the answer to a question took, or that to the one most like it; drafts aside.
-    pub fn effort(&self, request: &Request) -> u64 {
+    pub fn cost(&self, request: &Request) -> u64 {
         let found = self.nearest(request, |held| held.request.draft().is_some());
         let cost = found.and_then(|found| found.result.as_ref().ok()).map(Answer::cost);
         cost.unwrap_or_default().evaluations

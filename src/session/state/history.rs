@@ -4,17 +4,17 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use crate::scene::{Arrangement, Exhibit, Layer, Scene};
+use crate::scene::{Arrangement, Layer, PlotSetup, Scene};
 use crate::session::state::rows::Steps;
-use crate::session::state::setup::Stand;
+use crate::session::state::setup::Setup;
 
 /// The state before a change, as far as the change reached.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Before {
     /// A number was changed. Undoing it leaves zoom and layers alone.
-    Stand(Stand),
+    Setup(Setup),
     /// A plot was added, removed or moved, or shows another view.
-    Desk(Desk),
+    ScreenSetup(ScreenSetup),
     /// A scene was opened or reset, and everything that a scene sets with it.
     Scene(Box<Snapshot>),
 }
@@ -24,18 +24,18 @@ pub enum Before {
 pub struct Snapshot {
     pub scene: Arc<Scene>,
     /// The motion, and the speed of its belt.
-    pub stand: Stand,
+    pub setup: Setup,
     pub steps: Steps,
     /// Layers that are on.
     pub layers: BTreeSet<Layer>,
     /// Plots and their arrangement.
-    pub desk: Desk,
+    pub screen_setup: ScreenSetup,
 }
 
 /// What is on show, and how it shares the screen.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Desk {
-    pub plots: Vec<Exhibit>,
+pub struct ScreenSetup {
+    pub plots: Vec<PlotSetup>,
     /// How they share the screen.
     pub arrangement: Arrangement,
 }
@@ -52,12 +52,12 @@ impl History {
     #[cfg(test)]
     pub fn forget_windows(&mut self) {
         for before in self.past.iter_mut().chain(&mut self.future) {
-            let desk = match before {
-                Before::Stand(_) => continue,
-                Before::Desk(desk) => desk,
-                Before::Scene(snapshot) => &mut snapshot.desk,
+            let screen_setup = match before {
+                Before::Setup(_) => continue,
+                Before::ScreenSetup(screen_setup) => screen_setup,
+                Before::Scene(snapshot) => &mut snapshot.screen_setup,
             };
-            desk.plots.iter_mut().for_each(|plot| plot.window = None);
+            screen_setup.plots.iter_mut().for_each(|plot| plot.window = None);
         }
     }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::scene::Request;
-use crate::session::state::setup::Stand;
+use crate::session::state::setup::Setup;
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Marks {
@@ -16,14 +16,14 @@ pub struct Marks {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mark {
     /// The motion, and the speed of its belt.
-    pub stand: Stand,
+    pub setup: Setup,
     /// The questions for its motion and its cycles, once the point was on show.
     pub asked: Vec<Request>,
 }
 
 impl Mark {
     /// A point that has not been on show.
-    pub fn new(stand: Stand) -> Self {
-        Mark { stand, asked: Vec::new() }
+    pub fn new(setup: Setup) -> Self {
+        Mark { setup, asked: Vec::new() }
     }
 }

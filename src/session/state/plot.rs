@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::scene::{Axes, Exhibit, Point, View, Window};
+use crate::scene::{Axes, PlotSetup, Point, View, Window};
 
 /// A part of the screen that can have the focus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -44,13 +44,13 @@ pub struct Plot {
 
 impl Plot {
     /// A plot as a scene sets it up.
-    pub fn opened(exhibit: &Exhibit) -> Self {
+    pub fn opened(plot_setup: &PlotSetup) -> Self {
         Plot {
-            view: exhibit.view,
-            axes: exhibit.axes,
-            family: exhibit.family,
-            window: exhibit.opening(),
-            framing: if exhibit.window.is_some() { Framing::Scene } else { Framing::Fitting },
+            view: plot_setup.view,
+            axes: plot_setup.axes,
+            family: plot_setup.family,
+            window: plot_setup.opening(),
+            framing: if plot_setup.window.is_some() { Framing::Scene } else { Framing::Fitting },
             cursor: None,
         }
     }

@@ -134,8 +134,8 @@ impl Steps {
             ],
             disturbance: step_of_disturbance(scene),
             until: StepSize::near(UNTIL_STEP),
-            belt: scene.machine.as_ref().map_or_else(usual_belt_step, |rig| {
-                StepSize::near(BELT_STEP * rig.machine.belt.belt_speed)
+            belt: scene.machine.as_ref().map_or_else(usual_belt_step, |scaled| {
+                StepSize::near(BELT_STEP * scaled.machine.belt.belt_speed)
             }),
         }
     }

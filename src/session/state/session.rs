@@ -27,7 +27,7 @@ use crate::session::state::rows::{ROWS, Row, Steps};
 use crate::session::state::scan::Scanned;
 use crate::session::state::scan_form::Form;
 use crate::session::state::settings::Look;
-use crate::session::state::setup::Stand;
+use crate::session::state::setup::Setup;
 use crate::session::state::starts::Starts;
 use crate::session::state::stop::Stop;
 use crate::session::state::waiting::Waiting;
@@ -162,8 +162,8 @@ impl Session {
         Session {
             problem: scene.problem,
             others: Starts::default(),
-            belt_speed: Stand::of_scene(&scene).belt_speed,
-            doubt: Stand::of_scene(&scene).doubt,
+            belt_speed: Setup::of_scene(&scene).belt_speed,
+            doubt: Setup::of_scene(&scene).doubt,
             steps: Steps::of_scene(&scene),
             selected: Row::FIRST,
             unfolded: false,

@@ -1,8 +1,8 @@
 //! The speed of the belt as a number among the others: it moves D, D2, D3 and r along the machine's path.
 
-use super::Desk;
+use super::Trial;
 use crate::oscillator::belt::Reduced;
-use crate::scene::{Layer, Rig};
+use crate::scene::{Layer, ScaledMachine};
 use crate::session::{Effect, Msg, Overlay, Purpose, Row, save};
 
 /// The textbook machine at a speed of its belt, reduced without the session.
@@ -13,8 +13,8 @@ fn at(speed: f64) -> Reduced {
 }
 
 /// The session shows the machine at this speed, all of it.
-fn runs_at(desk: &Desk, speed: f64) {
-    let session = &desk.session;
+fn runs_at(trial: &Trial, speed: f64) {
+    let session = &trial.session;
     assert_eq!(session.belt_speed, Some(speed));
     assert_eq!(session.problem.parameters, at(speed).parameters);
     assert_eq!(session.is_on_the_belt(), Some(true));
@@ -26,45 +26,45 @@ fn runs_at(desk: &Desk, speed: f64) {
 
 #[test]
 fn a_step_of_the_belt_moves_all_four_parameters_and_keeps_the_start_in_metres() {
-    let mut desk = Desk::open("fig01");
-    runs_at(&desk, 0.3);
-    desk.press("<up>");
-    assert_eq!(desk.session.selected, Row::Belt);
-    desk.press("<right>");
-    runs_at(&desk, 0.31);
-    desk.press("*5<left>");
-    runs_at(&desk, 0.26);
-    desk.press("u");
-    runs_at(&desk, 0.31);
-    assert_eq!(desk.notice(), "undo: belt = 0.31 m/s");
-    desk.press("u");
-    runs_at(&desk, 0.3);
-    let own = desk.session.scene.problem;
-    assert_eq!(desk.session.problem, own, "to the last bit");
-    desk.press("U U");
-    runs_at(&desk, 0.26);
-    desk.press("<backspace>");
-    runs_at(&desk, 0.3);
-    assert_eq!(desk.session.problem, own);
+    let mut trial = Trial::open("fig01");
+    runs_at(&trial, 0.3);
+    trial.press("<up>");
+    assert_eq!(trial.session.selected, Row::Belt);
+    trial.press("<right>");
+    runs_at(&trial, 0.31);
+    trial.press("*5<left>");
+    runs_at(&trial, 0.26);
+    trial.press("u");
+    runs_at(&trial, 0.31);
+    assert_eq!(trial.notice(), "undo: belt = 0.31 m/s");
+    trial.press("u");
+    runs_at(&trial, 0.3);
+    let own = trial.session.scene.problem;
+    assert_eq!(trial.session.problem, own, "to the last bit");
+    trial.press("U U");
+    runs_at(&trial, 0.26);
+    trial.press("<backspace>");
+    runs_at(&trial, 0.3);
+    assert_eq!(trial.session.problem, own);
 }
 
 #[test]
 fn a_number_changed_by_hand_leaves_the_belt_and_a_step_of_the_belt_comes_back() {
-    let mut desk = Desk::open("fig01");
-    desk.press("<right>");
-    assert_eq!(desk.session.is_on_the_belt(), Some(false));
-    assert_eq!(desk.session.belt_speed, Some(0.3), "the units stay those of this speed");
-    assert!(desk.notice().starts_with("off the belt: "), "{}", desk.notice());
-    desk.press("<up> <right>");
-    runs_at(&desk, 0.31);
-    desk.press("u");
-    assert_eq!(desk.session.is_on_the_belt(), Some(false));
+    let mut trial = Trial::open("fig01");
+    trial.press("<right>");
+    assert_eq!(trial.session.is_on_the_belt(), Some(false));
+    assert_eq!(trial.session.belt_speed, Some(0.3), "the units stay those of this speed");
+    assert!(trial.notice().starts_with("off the belt: "), "{}", trial.notice());
+    trial.press("<up> <right>");
+    runs_at(&trial, 0.31);
+    trial.press("u");
+    assert_eq!(trial.session.is_on_the_belt(), Some(false));
     // To come back to the same speed is a change too.
-    desk.press(":set<space>belt=0.3<enter>");
-    runs_at(&desk, 0.3);
+    trial.press(":set<space>belt=0.3<enter>");
+    runs_at(&trial, 0.3);
     // The start and the end time are not of the belt.
-    desk.press(":set<space>q0=0.5<space>until=9<enter>");
-    assert_eq!(desk.session.is_on_the_belt(), Some(true));
+    trial.press(":set<space>q0=0.5<space>until=9<enter>");
+    assert_eq!(trial.session.is_on_the_belt(), Some(true));
 }
 
 #[test]
@@ -76,15 +76,15 @@ fn speeds_are_typed_with_units_or_in_metres_per_second() {
         ":set<space>belt=0.2<enter>",
         ":set<space>D=-0.5<space>belt=200<space>mm/s<enter>",
     ] {
-        let mut desk = Desk::open("fig01");
-        desk.press(keys);
-        runs_at(&desk, 0.2);
-        assert_eq!(desk.session.history.depth(), (1, 0), "{keys}: one change");
+        let mut trial = Trial::open("fig01");
+        trial.press(keys);
+        runs_at(&trial, 0.2);
+        assert_eq!(trial.session.history.depth(), (1, 0), "{keys}: one change");
     }
-    let mut desk = Desk::open("fig01");
-    desk.press(":set<space>belt=0.2<space>D=-0.5<enter>");
-    assert_eq!(desk.session.problem.parameters.d, -0.5);
-    assert_eq!(desk.session.is_on_the_belt(), Some(false));
+    let mut trial = Trial::open("fig01");
+    trial.press(":set<space>belt=0.2<space>D=-0.5<enter>");
+    assert_eq!(trial.session.problem.parameters.d, -0.5);
+    assert_eq!(trial.session.is_on_the_belt(), Some(false));
 }
 
 #[test]
@@ -97,49 +97,49 @@ fn speeds_that_are_none_are_refused_in_one_line() {
         ("3 N", "has another dimension; it takes a unit such as m/s"),
         ("fast", "\"fast\" does not begin with a number"),
     ] {
-        let mut desk = Desk::open("fig01");
-        desk.press(&format!("<up><enter><C-u><paste {typed:?}><enter>"));
-        let Some(Overlay::Entry(entry)) = &desk.session.overlay else { panic!("{typed}: taken") };
+        let mut trial = Trial::open("fig01");
+        trial.press(&format!("<up><enter><C-u><paste {typed:?}><enter>"));
+        let Some(Overlay::Entry(entry)) = &trial.session.overlay else { panic!("{typed}: taken") };
         let refused = entry.refused.clone().unwrap_or_default();
         assert!(refused.contains(words) && !refused.contains('\n'), "{typed}: {refused}");
-        desk.press("<esc>");
-        runs_at(&desk, 0.3);
+        trial.press("<esc>");
+        runs_at(&trial, 0.3);
     }
     // Steps down end above zero, with the reason.
-    let mut desk = Desk::open("fig01");
-    desk.press("<up> *40<left>");
-    runs_at(&desk, 0.01);
-    assert!(desk.notice().starts_with("v0 = 0 m/s is outside its range"), "{}", desk.notice());
-    let mut desk = Desk::open("plain");
-    desk.press(":set<space>belt=0.3<enter>");
-    let Some(Overlay::Prompt(prompt)) = &desk.session.overlay else { panic!("it is taken") };
+    let mut trial = Trial::open("fig01");
+    trial.press("<up> *40<left>");
+    runs_at(&trial, 0.01);
+    assert!(trial.notice().starts_with("v0 = 0 m/s is outside its range"), "{}", trial.notice());
+    let mut trial = Trial::open("plain");
+    trial.press(":set<space>belt=0.3<enter>");
+    let Some(Overlay::Prompt(prompt)) = &trial.session.overlay else { panic!("it is taken") };
     let refused = prompt.refused.clone().unwrap_or_default();
     assert!(refused.starts_with("set: no value \"belt\"; there are D, D2"), "{refused}");
-    assert!(!desk.session.rows().contains(&Row::Belt));
+    assert!(!trial.session.rows().contains(&Row::Belt));
 }
 
 #[test]
 fn marks_scenes_and_saved_sessions_know_the_speed() {
-    let mut desk = Desk::open("fig01");
-    desk.press("<up> <right*2> \"a <right*3>");
-    runs_at(&desk, 0.35);
-    let text = save::text(&desk.session).unwrap();
-    let mut other = Desk::open("plain").session;
+    let mut trial = Trial::open("fig01");
+    trial.press("<up> <right*2> \"a <right*3>");
+    runs_at(&trial, 0.35);
+    let text = save::text(&trial.session).unwrap();
+    let mut other = Trial::open("plain").session;
     save::open(&mut other, &text).unwrap();
-    assert_eq!(other.stand(), desk.session.stand());
-    assert_eq!(other.history, desk.session.history);
-    desk.press("'a");
-    runs_at(&desk, 0.32);
-    desk.press("''");
-    runs_at(&desk, 0.35);
+    assert_eq!(other.setup(), trial.session.setup());
+    assert_eq!(other.history, trial.session.history);
+    trial.press("'a");
+    runs_at(&trial, 0.32);
+    trial.press("''");
+    runs_at(&trial, 0.35);
     // A scene without a machine has no belt, and coming back there is one again.
-    desk.press(":scene<space>plain<enter>");
-    assert_eq!((desk.session.belt_speed, desk.session.running()), (None, None));
-    desk.press("'a");
-    assert_eq!(desk.session.belt_speed, None, "the numbers come along, not the belt");
-    assert_eq!(desk.session.problem.parameters, at(0.32).parameters);
-    desk.press("u u");
-    runs_at(&desk, 0.35);
+    trial.press(":scene<space>plain<enter>");
+    assert_eq!((trial.session.belt_speed, trial.session.running()), (None, None));
+    trial.press("'a");
+    assert_eq!(trial.session.belt_speed, None, "the numbers come along, not the belt");
+    assert_eq!(trial.session.problem.parameters, at(0.32).parameters);
+    trial.press("u u");
+    runs_at(&trial, 0.35);
     // Sessions saved before there was such a number show the machine at its own speed.
     let older = text.replacen("belt = 0.35\n", "", 1);
     save::open(&mut other, &older).unwrap();
@@ -150,71 +150,74 @@ fn marks_scenes_and_saved_sessions_know_the_speed() {
         assert!(why.contains("is outside its range") && !why.contains('\n'), "{why}");
     }
     // What was on show is still there.
-    desk.give(Msg::Idle);
-    runs_at(&desk, 0.35);
-    assert_eq!(Rig::new(desk.session.running().unwrap().machine.clone()).unwrap().reduced, at(0.3));
+    trial.give(Msg::Idle);
+    runs_at(&trial, 0.35);
+    assert_eq!(
+        ScaledMachine::new(trial.session.running().unwrap().machine.clone()).unwrap().reduced,
+        at(0.3)
+    );
 }
 
 #[test]
 fn the_path_over_the_speed_asks_nothing() {
-    let mut desk = Desk::open("belt-speed");
-    let with = desk.session.wants();
-    assert_eq!(desk.press(":layer<space>belt-path<space>off<enter>"), []);
-    assert_eq!(desk.session.wants(), with);
-    assert_eq!(desk.press("<tab> <run \"layer belt-path\">"), [], "its name shows it again");
-    assert!(desk.session.layers.contains(&Layer::BeltPath));
+    let mut trial = Trial::open("belt-speed");
+    let with = trial.session.wants();
+    assert_eq!(trial.press(":layer<space>belt-path<space>off<enter>"), []);
+    assert_eq!(trial.session.wants(), with);
+    assert_eq!(trial.press("<tab> <run \"layer belt-path\">"), [], "its name shows it again");
+    assert!(trial.session.layers.contains(&Layer::BeltPath));
     // A chart of the same machine over other parameters has it too, and one of no machine says why not.
-    assert_eq!(desk.session.not_drawn(Layer::BeltPath), None);
-    let plain = Desk::open("regimes").session;
+    assert_eq!(trial.session.not_drawn(Layer::BeltPath), None);
+    let plain = Trial::open("regimes").session;
     assert!(plain.not_drawn(Layer::BeltPath).is_some_and(|why| why.contains("no machine")));
 }
 
 /// Why the line that is typed is refused.
-fn refused(desk: &Desk) -> String {
-    let Some(Overlay::Prompt(prompt)) = &desk.session.overlay else { panic!("it is taken") };
+fn refused(trial: &Trial) -> String {
+    let Some(Overlay::Prompt(prompt)) = &trial.session.overlay else { panic!("it is taken") };
     prompt.refused.clone().unwrap_or_default()
 }
 
 #[test]
 fn a_machine_of_the_program_opens_by_its_name_which_can_be_completed() {
-    let mut desk = Desk::open("plain");
-    desk.press(":belt<space>cl<tab><enter>");
-    let running = desk.session.running().unwrap();
+    let mut trial = Trial::open("plain");
+    trial.press(":belt<space>cl<tab><enter>");
+    let running = trial.session.running().unwrap();
     assert_eq!(running.machine.name, "clutch");
-    assert!(desk.session.draws_whole());
-    desk.press(":belt<space>tractor<enter>");
+    assert!(trial.session.draws_whole());
+    trial.press(":belt<space>tractor<enter>");
     assert_eq!(
-        refused(&desk),
+        refused(&trial),
         "belt: no machine \"tractor\"; there are textbook, clutch, slideway, straight, bstab, groan"
     );
-    desk.press("<esc> u");
-    assert_eq!(desk.session.scene.name, "plain");
+    trial.press("<esc> u");
+    assert_eq!(trial.session.scene.name, "plain");
 }
 
 #[test]
 fn a_machine_opens_from_its_file_and_the_table_beside_it() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/belts/");
     let text = |name: &str| std::fs::read_to_string(format!("{folder}{name}")).unwrap();
-    let mut desk = Desk::open("plain");
-    let read = |desk: &mut Desk, path: &str, text: Result<String, String>| {
-        desk.press(&format!(":machine<space>{path}<enter>"));
+    let mut trial = Trial::open("plain");
+    let read = |trial: &mut Trial, path: &str, text: Result<String, String>| {
+        trial.press(&format!(":machine<space>{path}<enter>"));
         let asked = Effect::Read { path: path.into(), purpose: Purpose::Machine };
-        assert_eq!(desk.effects.last(), Some(&asked));
-        desk.give(Msg::Read { path: path.into(), purpose: Purpose::Machine, result: text });
+        assert_eq!(trial.effects.last(), Some(&asked));
+        trial.give(Msg::Read { path: path.into(), purpose: Purpose::Machine, result: text });
     };
-    read(&mut desk, "a/clutch.toml", Ok(text("clutch.toml")));
-    assert_eq!(desk.session.running().unwrap().machine.name, "clutch");
+    read(&mut trial, "a/clutch.toml", Ok(text("clutch.toml")));
+    assert_eq!(trial.session.running().unwrap().machine.name, "clutch");
     // The table is asked for, beside the file.
     for (table, opens) in
         [(Err("no such file".to_owned()), false), (Ok(text("slideway.csv")), true)]
     {
-        read(&mut desk, "a/slideway.toml", Ok(text("slideway.toml")));
-        let Some(Effect::Read { path, purpose }) = desk.effects.last().cloned() else { panic!() };
+        read(&mut trial, "a/slideway.toml", Ok(text("slideway.toml")));
+        let Some(Effect::Read { path, purpose }) = trial.effects.last().cloned() else { panic!() };
         assert_eq!(path.to_str(), Some("a/slideway.csv"));
-        desk.give(Msg::Read { path, purpose, result: table });
-        let name = &desk.session.running().unwrap().machine.name;
+        trial.give(Msg::Read { path, purpose, result: table });
+        let name = &trial.session.running().unwrap().machine.name;
         assert_eq!(name == "slideway", opens, "{name}");
-        assert_eq!(desk.notice().starts_with("a/slideway.toml:"), !opens, "{}", desk.notice());
+        assert_eq!(trial.notice().starts_with("a/slideway.toml:"), !opens, "{}", trial.notice());
     }
     // What is wrong stands in one line, and everything stays.
     for (text, words) in [
@@ -223,9 +226,9 @@ fn a_machine_opens_from_its_file_and_the_table_beside_it() {
         (Ok(text("clutch.toml").replace("v0", "v9")), "b.toml:"),
         (Ok("modal_mass = 1".to_owned()), "b.toml: a vibration mode has no belt"),
     ] {
-        read(&mut desk, "b.toml", text);
-        assert!(desk.notice().starts_with(words), "{}", desk.notice());
-        assert!(!desk.notice().contains('\n'));
-        assert_eq!(desk.session.running().unwrap().machine.name, "slideway");
+        read(&mut trial, "b.toml", text);
+        assert!(trial.notice().starts_with(words), "{}", trial.notice());
+        assert!(!trial.notice().contains('\n'));
+        assert_eq!(trial.session.running().unwrap().machine.name, "slideway");
     }
 }

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeSet;
 
-use super::Desk;
+use super::Trial;
 use crate::oscillator::Symbol;
 use crate::scene::{Axes, Request, Topic, library};
 use crate::session::ROWS;
@@ -82,20 +82,20 @@ fn expected(session: &Session, row: Row) -> Vec<Request> {
 fn in_every_scene_a_key_recomputes_exactly_what_depends_on_it() {
     let (mut seen, mut several) = (BTreeSet::new(), false);
     for scene in library() {
-        let mut desk = Desk::open(&scene.name);
-        desk.session.unfolded = true;
-        for row in desk.session.rows() {
+        let mut trial = Trial::open(&scene.name);
+        trial.session.unfolded = true;
+        for row in trial.session.rows() {
             let mut stepped =
-                Desk { session: desk.session.clone(), asked: Vec::new(), effects: Vec::new() };
+                Trial { session: trial.session.clone(), asked: Vec::new(), effects: Vec::new() };
             stepped.session.selected = row;
             // At the end of a range the step goes the other way.
             for count in [1, -1] {
-                if stepped.session.stand() == desk.session.stand() {
+                if stepped.session.setup() == trial.session.setup() {
                     parameters::step(&mut stepped.session, count);
                 }
             }
             // With constant friction the speed of the belt moves no number of the expansion.
-            assert!(stepped.session.stand() != desk.session.stand(), "{} {row:?}", scene.name);
+            assert!(stepped.session.setup() != trial.session.setup(), "{} {row:?}", scene.name);
             // What an error is measured against is asked while the user rests on the dial.
             stepped.session.selected = Row::Until;
             stepped.session.measuring = false;
@@ -115,7 +115,7 @@ fn in_every_scene_a_key_recomputes_exactly_what_depends_on_it() {
     }
     assert!(several);
     assert!(
-        !expected(&Desk::open("supercritical").session, Row::Parameter(Symbol::Q0))
+        !expected(&Trial::open("supercritical").session, Row::Parameter(Symbol::Q0))
             .iter()
             .any(|request| request.topic() == Topic::Branch)
     );
@@ -133,10 +133,10 @@ fn a_step_asks_again_only_the_variants_that_depend_on_it() {
         ("fig16b", 5, Symbol::D3, &[Trajectory, Cycles, Branch, Branch, Branch]),
         ("fig15", 9, Symbol::R, &[Trajectory, Cycles]),
     ] {
-        let mut desk = Desk::open(scene);
-        assert_eq!(desk.session.asks().len(), opening, "{scene}");
-        desk.session.selected = Row::Parameter(row);
-        assert_eq!(desk.press("<right>"), asked, "{scene}: a step of {row}");
-        assert_eq!(desk.press("<left>"), [], "{scene}: the way back is known");
+        let mut trial = Trial::open(scene);
+        assert_eq!(trial.session.asks().len(), opening, "{scene}");
+        trial.session.selected = Row::Parameter(row);
+        assert_eq!(trial.press("<right>"), asked, "{scene}: a step of {row}");
+        assert_eq!(trial.press("<left>"), [], "{scene}: the way back is known");
     }
 }

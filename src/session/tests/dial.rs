@@ -1,6 +1,6 @@
 //! The dial: its stops, what is computed roughly first, and when an error is measured.
 
-use super::{COST, Desk, answered};
+use super::{COST, Trial, answered};
 use crate::flow::{Limits, Method, Reason};
 use crate::oscillator::Symbol;
 use crate::question::{Failure, answer};
@@ -11,49 +11,49 @@ use crate::session::{Msg, Row, Session, Standing, update};
 use crate::study::accuracy::Reference;
 
 /// The number behind the dial and the name of its stop.
-fn dial(desk: &Desk) -> (f64, &'static str) {
-    let problem = &desk.session.problem;
+fn dial(trial: &Trial) -> (f64, &'static str) {
+    let problem = &trial.session.problem;
     (problem.setting(), problem.quality().map_or("-", |quality| quality.name))
 }
 
 #[test]
 fn the_dial_goes_through_its_stops_and_ends() {
-    let mut desk = Desk::open("supercritical");
-    assert_eq!(dial(&desk), (1e-10, "normal"));
-    desk.press("}");
-    assert_eq!(dial(&desk), (1e-13, "fine"));
-    assert_eq!(desk.notice(), "fine: tolerance 1e-13; thirteen digits");
-    desk.press("} }");
-    assert_eq!(dial(&desk), (1e-15, "reference"));
-    assert_eq!(desk.notice(), "the dial ends at reference");
-    desk.press("{ { {");
-    assert_eq!(dial(&desk), (1e-4, "draft"));
-    desk.press("u u");
-    assert_eq!(dial(&desk), (1e-13, "fine"), "each turn is undone");
+    let mut trial = Trial::open("supercritical");
+    assert_eq!(dial(&trial), (1e-10, "normal"));
+    trial.press("}");
+    assert_eq!(dial(&trial), (1e-13, "fine"));
+    assert_eq!(trial.notice(), "fine: tolerance 1e-13; thirteen digits");
+    trial.press("} }");
+    assert_eq!(dial(&trial), (1e-15, "reference"));
+    assert_eq!(trial.notice(), "the dial ends at reference");
+    trial.press("{ { {");
+    assert_eq!(dial(&trial), (1e-4, "draft"));
+    trial.press("u u");
+    assert_eq!(dial(&trial), (1e-13, "fine"), "each turn is undone");
     // From a typed number to the stops beside it; a stop can be typed by its name.
-    desk.press("<down*7>3e-7<enter>");
-    assert_eq!(dial(&desk), (3e-7, "-"));
-    desk.press("{");
-    assert_eq!(dial(&desk), (1e-4, "draft"));
-    desk.press("<enter><C-u>fine<enter>");
-    assert_eq!(dial(&desk), (1e-13, "fine"));
+    trial.press("<down*7>3e-7<enter>");
+    assert_eq!(dial(&trial), (3e-7, "-"));
+    trial.press("{");
+    assert_eq!(dial(&trial), (1e-4, "draft"));
+    trial.press("<enter><C-u>fine<enter>");
+    assert_eq!(dial(&trial), (1e-13, "fine"));
 }
 
 #[test]
 fn the_dial_is_the_same_whatever_its_number_is_called() {
-    let mut desk = Desk::open("supercritical");
-    desk.press("} <down*6><enter><C-u>rk4<enter>");
-    assert_eq!(dial(&desk), (1e-3, "fine"), "a step as fine as the tolerance was");
-    desk.press("{");
+    let mut trial = Trial::open("supercritical");
+    trial.press("} <down*6><enter><C-u>rk4<enter>");
+    assert_eq!(dial(&trial), (1e-3, "fine"), "a step as fine as the tolerance was");
+    trial.press("{");
     assert_eq!(
-        desk.notice(),
+        trial.notice(),
         "normal: step 0.01; ten digits, at a few percent of the cost of drawing them"
     );
-    assert_eq!(desk.session.problem.tolerance, 1e-10);
-    desk.press("<down>0.05<enter>");
-    assert_eq!((dial(&desk), desk.session.problem.tolerance), ((0.05, "-"), 1e-10));
-    desk.press("<enter><C-u>7<enter>");
-    let said = desk.session.overlay.as_ref().map(|overlay| format!("{overlay:?}"));
+    assert_eq!(trial.session.problem.tolerance, 1e-10);
+    trial.press("<down>0.05<enter>");
+    assert_eq!((dial(&trial), trial.session.problem.tolerance), ((0.05, "-"), 1e-10));
+    trial.press("<enter><C-u>7<enter>");
+    let said = trial.session.overlay.as_ref().map(|overlay| format!("{overlay:?}"));
     assert!(said.unwrap().contains("step = 7 is out of range; step takes 1e-7 to 1"));
 }
 
@@ -69,8 +69,8 @@ fn costly(request: Request, evaluations: u64) -> Answered {
 }
 
 /// The kinds wanted and open, those of drafts marked.
-fn open(desk: &Desk) -> Vec<(Topic, bool)> {
-    let session = &desk.session;
+fn open(trial: &Trial) -> Vec<(Topic, bool)> {
+    let session = &trial.session;
     let wanted = session.wants().into_iter().filter(|request| session.is_open(request));
     wanted
         .map(|request| {
@@ -82,57 +82,57 @@ fn open(desk: &Desk) -> Vec<(Topic, bool)> {
 
 #[test]
 fn what_took_long_is_answered_by_a_draft_first_and_refined_then() {
-    let mut desk = Desk::open("supercritical");
-    update(&mut desk.session, Msg::Key("<right>".parse().unwrap()));
-    assert_eq!(open(&desk), [(Topic::Trajectory, false), (Topic::Cycles, false)], "cheap so far");
-    let request = desk.session.request(Topic::Trajectory, 0).unwrap();
-    update(&mut desk.session, Msg::Answered(Box::new(costly(request, 10_000_000))));
-    desk.settle();
+    let mut trial = Trial::open("supercritical");
+    update(&mut trial.session, Msg::Key("<right>".parse().unwrap()));
+    assert_eq!(open(&trial), [(Topic::Trajectory, false), (Topic::Cycles, false)], "cheap so far");
+    let request = trial.session.request(Topic::Trajectory, 0).unwrap();
+    update(&mut trial.session, Msg::Answered(Box::new(costly(request, 10_000_000))));
+    trial.settle();
 
     // The next step of a key: the draft, then what it is a draft of.
-    update(&mut desk.session, Msg::Key("<right>".parse().unwrap()));
+    update(&mut trial.session, Msg::Key("<right>".parse().unwrap()));
     assert_eq!(
-        open(&desk),
+        open(&trial),
         [(Topic::Trajectory, true), (Topic::Trajectory, false), (Topic::Cycles, false)]
     );
-    let draft = desk.session.wants()[0].clone();
+    let draft = trial.session.wants()[0].clone();
     let Request::Trajectory(problem) = &draft else { panic!("{draft:?}") };
     assert_eq!(problem.quality().unwrap().name, "draft");
-    update(&mut desk.session, Msg::Answered(Box::new(costly(draft.clone(), 1_000))));
+    update(&mut trial.session, Msg::Answered(Box::new(costly(draft.clone(), 1_000))));
     let is_draft =
-        |desk: &Desk| matches!(desk.session.standing(Topic::Trajectory, 0), Standing::Draft(_));
-    assert!(is_draft(&desk) && desk.session.is_busy());
-    assert_eq!(open(&desk), [(Topic::Trajectory, false), (Topic::Cycles, false)]);
+        |trial: &Trial| matches!(trial.session.standing(Topic::Trajectory, 0), Standing::Draft(_));
+    assert!(is_draft(&trial) && trial.session.is_busy());
+    assert_eq!(open(&trial), [(Topic::Trajectory, false), (Topic::Cycles, false)]);
     // A draft is no measure of what the full answer takes.
-    let full = desk.session.request(Topic::Trajectory, 0).unwrap();
-    update(&mut desk.session, Msg::Answered(Box::new(costly(full, 10_000_000))));
-    desk.settle();
-    assert!(!is_draft(&desk));
-    let topics: Vec<Topic> = desk.session.price.recomputed.iter().map(|part| part.topic).collect();
+    let full = trial.session.request(Topic::Trajectory, 0).unwrap();
+    update(&mut trial.session, Msg::Answered(Box::new(costly(full, 10_000_000))));
+    trial.settle();
+    assert!(!is_draft(&trial));
+    let topics: Vec<Topic> = trial.session.price.recomputed.iter().map(|part| part.topic).collect();
     assert_eq!(topics, [Topic::Trajectory, Topic::Trajectory, Topic::Cycles]);
 
     // The latest wins: a draft that comes late does not replace a newer one.
-    update(&mut desk.session, Msg::Key("<right>".parse().unwrap()));
-    let superseded = desk.session.wants()[0].clone();
-    update(&mut desk.session, Msg::Key("<right>".parse().unwrap()));
-    let newer = desk.session.wants()[0].clone();
+    update(&mut trial.session, Msg::Key("<right>".parse().unwrap()));
+    let superseded = trial.session.wants()[0].clone();
+    update(&mut trial.session, Msg::Key("<right>".parse().unwrap()));
+    let newer = trial.session.wants()[0].clone();
     assert!(superseded != newer);
-    desk.settle();
-    let held = desk.session.trajectory().cloned();
-    update(&mut desk.session, Msg::Answered(Box::new(costly(superseded, 1))));
-    assert_eq!(held, desk.session.trajectory().cloned());
+    trial.settle();
+    let held = trial.session.trajectory().cloned();
+    update(&mut trial.session, Msg::Answered(Box::new(costly(superseded, 1))));
+    assert_eq!(held, trial.session.trajectory().cloned());
 
     // At draft quality there is nothing to refine.
-    desk.press("{ {");
-    update(&mut desk.session, Msg::Key("<right>".parse().unwrap()));
-    assert_eq!(open(&desk), [(Topic::Trajectory, false), (Topic::Cycles, false)]);
+    trial.press("{ {");
+    update(&mut trial.session, Msg::Key("<right>".parse().unwrap()));
+    assert_eq!(open(&trial), [(Topic::Trajectory, false), (Topic::Cycles, false)]);
 }
 
 /// Four diagrams over the same range, each of its own variants: none takes the draft of another for its
 /// own, and all come to rest.
 #[test]
 fn plots_with_like_questions_keep_their_drafts_apart() {
-    let mut session = Desk::open("fig17").session;
+    let mut session = Trial::open("fig17").session;
     for request in session.wants() {
         update(&mut session, Msg::Answered(Box::new(costly(request, 10_000_000))));
     }
@@ -153,55 +153,56 @@ fn plots_with_like_questions_keep_their_drafts_apart() {
 
 #[test]
 fn a_draft_that_fails_is_not_tried_again() {
-    let mut desk = Desk::open("supercritical");
-    update(&mut desk.session, Msg::Key("<right>".parse().unwrap()));
-    let request = desk.session.request(Topic::Trajectory, 0).unwrap();
-    update(&mut desk.session, Msg::Answered(Box::new(costly(request, 10_000_000))));
-    update(&mut desk.session, Msg::Key("<right>".parse().unwrap()));
-    let draft = desk.session.wants()[0].clone();
+    let mut trial = Trial::open("supercritical");
+    update(&mut trial.session, Msg::Key("<right>".parse().unwrap()));
+    let request = trial.session.request(Topic::Trajectory, 0).unwrap();
+    update(&mut trial.session, Msg::Answered(Box::new(costly(request, 10_000_000))));
+    update(&mut trial.session, Msg::Key("<right>".parse().unwrap()));
+    let draft = trial.session.wants()[0].clone();
     let failed = Answered {
         request: draft.clone(),
         result: Err(Failure::Reason(Reason::OutOfRange)),
         seconds: 0.0,
         complete: true,
     };
-    update(&mut desk.session, Msg::Answered(Box::new(failed)));
-    assert!(!desk.session.wants().contains(&draft));
-    assert_eq!(desk.notice(), "", "what it is a draft of may still be answered");
+    update(&mut trial.session, Msg::Answered(Box::new(failed)));
+    assert!(!trial.session.wants().contains(&draft));
+    assert_eq!(trial.notice(), "", "what it is a draft of may still be answered");
 }
 
 #[test]
 fn an_error_is_measured_only_while_the_user_rests_on_the_dial() {
-    let mut desk = Desk::open("supercritical");
+    let mut trial = Trial::open("supercritical");
     assert_eq!(
-        desk.press("<right><left> <down*4><right>")
+        trial
+            .press("<right><left> <down*4><right>")
             .iter()
             .filter(|topic| **topic == Topic::Reference)
             .count(),
         0
     );
-    assert!(!desk.session.measures());
+    assert!(!trial.session.measures());
     // The last thing to be computed, once.
-    assert_eq!(desk.press("}"), [Topic::Trajectory, Topic::Branch, Topic::Reference]);
+    assert_eq!(trial.press("}"), [Topic::Trajectory, Topic::Branch, Topic::Reference]);
     assert_eq!(TOPICS.last(), Some(&Topic::Reference));
     // What it is measured against does not depend on the dial, nor on the method.
-    assert_eq!(desk.press("} {"), [Topic::Trajectory, Topic::Branch], "the way back is known");
-    assert_eq!(desk.press("m"), [Topic::Trajectory]);
+    assert_eq!(trial.press("} {"), [Topic::Trajectory, Topic::Branch], "the way back is known");
+    assert_eq!(trial.press("m"), [Topic::Trajectory]);
     // Another key, and the motion is measured no more; selecting the row, and it is again.
-    desk.press("g");
-    assert!(!desk.session.measures());
-    assert_eq!(desk.press("<down*7>"), [], "known still");
-    assert!(desk.session.measures());
-    assert_eq!(desk.press("<up*3><right><down*3>"), [Topic::Trajectory, Topic::Reference]);
-    desk.press("<run \"layer trajectory\">");
-    assert!(!desk.session.measures(), "a hidden motion has no error on the screen");
+    trial.press("g");
+    assert!(!trial.session.measures());
+    assert_eq!(trial.press("<down*7>"), [], "known still");
+    assert!(trial.session.measures());
+    assert_eq!(trial.press("<up*3><right><down*3>"), [Topic::Trajectory, Topic::Reference]);
+    trial.press("<run \"layer trajectory\">");
+    assert!(!trial.session.measures(), "a hidden motion has no error on the screen");
 }
 
 #[test]
 fn the_measured_error_is_that_of_the_motion_on_show() {
-    let mut desk = Desk::open("capture");
-    desk.press("<down*5><enter><C-u>dop853<enter>{");
-    let session = &mut desk.session;
+    let mut trial = Trial::open("capture");
+    trial.press("<down*5><enter><C-u>dop853<enter>{");
+    let session = &mut trial.session;
     for topic in [Topic::Trajectory, Topic::Reference] {
         let request = session.request(topic, 0).unwrap();
         let result = Ok(answer(&request, &Limits::PATIENT).unwrap());
@@ -212,15 +213,15 @@ fn the_measured_error_is_that_of_the_motion_on_show() {
     let (deviation, reference) = session.measured().unwrap();
     assert!(reference.error < 1e-28, "{:e}", reference.error);
     assert!((1e-10..1e-3).contains(&deviation.error) && deviation.agrees, "{deviation:?}");
-    assert!(desk.session.price.evaluations() > COST);
+    assert!(trial.session.price.evaluations() > COST);
 }
 
 /// A reference that escapes, next to a motion that does not: there is no distance, and that is said.
 #[test]
 fn why_there_is_no_measured_error_is_known() {
-    let mut desk = Desk::open("capture");
-    desk.press("<down*5>");
-    let mut session = desk.session.clone();
+    let mut trial = Trial::open("capture");
+    trial.press("<down*5>");
+    let mut session = trial.session.clone();
     for (problem, why) in
         [(find("escape").unwrap().problem, Some(Unmeasured::OtherFate)), (session.problem, None)]
     {
@@ -247,17 +248,17 @@ fn why_there_is_no_measured_error_is_known() {
 fn a_step_of_each_number_asks_exactly_these_questions_anew() {
     use Symbol::{D, D2, D3, Q0, R, V0};
     use Topic::{Balance, Branch, Capture, Cycles, Reference, Trajectory};
-    let mut desk = Desk::open("supercritical");
-    desk.press("<run \"layer bands\"> <run \"layer balance\"> <down*9>");
+    let mut trial = Trial::open("supercritical");
+    trial.press("<run \"layer bands\"> <run \"layer balance\"> <down*9>");
     let now = [Trajectory, Cycles, Capture, Branch, Balance, Reference];
     let columns = |row: Row| {
-        let mut stepped = desk.session.clone();
+        let mut stepped = trial.session.clone();
         stepped.selected = row;
         parameters::step(&mut stepped, 1);
         let plot = |topic| usize::from(topic == Branch);
         now.map(|topic| {
             let asked = |session: &Session| session.request(topic, plot(topic));
-            if asked(&stepped) == asked(&desk.session) { '.' } else { 'x' }
+            if asked(&stepped) == asked(&trial.session) { '.' } else { 'x' }
         })
         .iter()
         .collect::<String>()
@@ -283,9 +284,11 @@ fn a_step_of_each_number_asks_exactly_these_questions_anew() {
 #[test]
 fn what_a_scene_does_not_need_costs_nothing() {
     let cost = |keys: &str, scene: &str| {
-        let mut desk = Desk::open(scene);
-        desk.press(keys);
-        let Some(request) = desk.session.request(Topic::Trajectory, 0) else { panic!("no motion") };
+        let mut trial = Trial::open(scene);
+        trial.press(keys);
+        let Some(request) = trial.session.request(Topic::Trajectory, 0) else {
+            panic!("no motion")
+        };
         let Ok(Answer::Trajectory(found)) = answer(&request, &Limits::PATIENT) else {
             panic!("no motion")
         };
@@ -300,9 +303,9 @@ fn what_a_scene_does_not_need_costs_nothing() {
     assert_eq!(linear.method, Method::Exact);
     assert_eq!(linear.cost.evaluations, linear.crossings.len() as u64, "one for each half swing");
 
-    let mut desk = Desk::open("supercritical");
-    desk.press("<run \"layer trajectory\"><run \"layer cycles\"><run \"layer basin\"><run \"layer branch\"><run \"layer special\">");
-    assert_eq!(desk.session.wants(), [], "all layers that ask are hidden");
-    assert_eq!(desk.session.requirements(), []);
-    assert_eq!(desk.press("<right> <down><right> } <down*7>"), []);
+    let mut trial = Trial::open("supercritical");
+    trial.press("<run \"layer trajectory\"><run \"layer cycles\"><run \"layer basin\"><run \"layer branch\"><run \"layer special\">");
+    assert_eq!(trial.session.wants(), [], "all layers that ask are hidden");
+    assert_eq!(trial.session.requirements(), []);
+    assert_eq!(trial.press("<right> <down><right> } <down*7>"), []);
 }

@@ -1,6 +1,6 @@
 //! Half widths of the parameters and the disturbance: typed, stepped, undone, saved, asked for.
 
-use super::Desk;
+use super::Trial;
 use crate::machine::Tolerances;
 use crate::oscillator::{Interval, Symbol};
 use crate::question;
@@ -8,75 +8,75 @@ use crate::question::answer;
 use crate::scene::{Answer, Request, Topic};
 use crate::session::{Doubt, Row, run_line, save};
 
-fn certainty(desk: &Desk) -> Option<Request> {
-    desk.session.wants().into_iter().find(|request| request.topic() == Topic::Zones)
+fn certainty(trial: &Trial) -> Option<Request> {
+    trial.session.wants().into_iter().find(|request| request.topic() == Topic::Zones)
 }
 
 #[test]
 fn a_half_width_is_typed_stepped_undone_and_saved() {
-    let mut desk = Desk::open("plain");
-    assert_eq!(certainty(&desk), None, "nothing is in doubt");
-    desk.press(":set<space>r=0.10+-0.01<space>w=0.02<enter>");
-    assert_eq!(desk.session.value(Symbol::R), 0.1);
+    let mut trial = Trial::open("plain");
+    assert_eq!(certainty(&trial), None, "nothing is in doubt");
+    trial.press(":set<space>r=0.10+-0.01<space>w=0.02<enter>");
+    assert_eq!(trial.session.value(Symbol::R), 0.1);
     let doubt = Doubt { half_widths: [0.0, 0.0, 0.0, 0.01], disturbance: 0.02 };
-    assert_eq!(desk.session.doubt, doubt);
-    let text = save::text(&desk.session).unwrap();
-    let mut other = Desk::open("plain").session;
+    assert_eq!(trial.session.doubt, doubt);
+    let text = save::text(&trial.session).unwrap();
+    let mut other = Trial::open("plain").session;
     save::open(&mut other, &text).unwrap();
-    assert_eq!((other.doubt, &other.history), (doubt, &desk.session.history));
-    desk.press("u");
-    assert_eq!(desk.session.doubt, Doubt::default());
-    desk.press("U");
-    assert_eq!(desk.session.doubt, doubt);
+    assert_eq!((other.doubt, &other.history), (doubt, &trial.session.history));
+    trial.press("u");
+    assert_eq!(trial.session.doubt, Doubt::default());
+    trial.press("U");
+    assert_eq!(trial.session.doubt, doubt);
     // Keys: the selected row by a step, and back to what the scene says.
-    desk.session.selected = Row::Parameter(Symbol::R);
-    desk.press(">");
-    assert_eq!(desk.session.doubt.half_width(Symbol::R), 0.02);
-    desk.press("<lt><lt><lt>");
-    assert_eq!(desk.session.doubt.half_width(Symbol::R), 0.0);
-    desk.press("<down>");
-    assert_eq!(desk.session.selected, Row::Disturbance);
-    desk.press("<right>");
-    assert_eq!(desk.session.doubt.disturbance, 0.03);
-    desk.press("<backspace>");
-    assert_eq!(desk.session.doubt, Doubt::default());
+    trial.session.selected = Row::Parameter(Symbol::R);
+    trial.press(">");
+    assert_eq!(trial.session.doubt.half_width(Symbol::R), 0.02);
+    trial.press("<lt><lt><lt>");
+    assert_eq!(trial.session.doubt.half_width(Symbol::R), 0.0);
+    trial.press("<down>");
+    assert_eq!(trial.session.selected, Row::Disturbance);
+    trial.press("<right>");
+    assert_eq!(trial.session.doubt.disturbance, 0.03);
+    trial.press("<backspace>");
+    assert_eq!(trial.session.doubt, Doubt::default());
 }
 
 #[test]
 fn an_interval_is_taken_by_its_middle_and_a_bare_value_is_exact() {
-    let mut desk = Desk::open("plain");
-    desk.press(":set<space>D=-0.3..-0.25<enter>");
-    assert_eq!(desk.session.value(Symbol::D), -0.275);
-    assert!((desk.session.doubt.half_width(Symbol::D) - 0.025).abs() < 1e-16);
-    desk.press(":set<space>D=-0.3<enter>");
-    assert_eq!(desk.session.doubt, Doubt::default());
+    let mut trial = Trial::open("plain");
+    trial.press(":set<space>D=-0.3..-0.25<enter>");
+    assert_eq!(trial.session.value(Symbol::D), -0.275);
+    assert!((trial.session.doubt.half_width(Symbol::D) - 0.025).abs() < 1e-16);
+    trial.press(":set<space>D=-0.3<enter>");
+    assert_eq!(trial.session.doubt, Doubt::default());
     for (line, words) in [
         ("r=0.1+--1", "half width -1.0 is negative"),
         ("r=0.1+-0.2", "r = -0.1"),
         ("q0=1+-0.1", "only D, D2, D3, r have intervals"),
         ("w=-1", "w takes 0 or more"),
     ] {
-        let before = desk.session.stand();
-        let refused = run_line(&mut desk.session, &format!("set {line}")).unwrap_err();
+        let before = trial.session.setup();
+        let refused = run_line(&mut trial.session, &format!("set {line}")).unwrap_err();
         assert!(refused.contains(words), "{line}: {refused}");
-        assert_eq!(desk.session.stand(), before, "{line}");
+        assert_eq!(trial.session.setup(), before, "{line}");
     }
 }
 
 /// The reference of the issue: D = -0.3, D2 = 0.2, D3 = 0.5, r = 0.1.
 #[test]
 fn what_is_certain_is_asked_with_the_box_and_answers_the_reference() {
-    let mut desk = Desk::open("plain");
-    desk.press(":set<space>D=-0.3<space>D2=0.2<space>D3=0.5<space>r=0.1<space>w=0.02<enter>");
-    let request = certainty(&desk).unwrap();
+    let mut trial = Trial::open("plain");
+    trial.press(":set<space>D=-0.3<space>D2=0.2<space>D3=0.5<space>r=0.1<space>w=0.02<enter>");
+    let request = certainty(&trial).unwrap();
     let Answer::Zones(found) = answer(&request, &crate::flow::Limits::PATIENT).unwrap() else {
         panic!("{request:?}")
     };
     let margin = found.guaranteed.unwrap().displacement.unwrap();
     assert!((margin - 0.1743).abs() < 5e-5, "{margin}");
     assert!((found.nominal.displacement.unwrap() - 0.2190).abs() < 5e-5);
-    desk.press(":set<space>D3=0.5+-0.1<enter>");
-    let Some(Request::Zones(question::zones::Asked { known, disturbance })) = certainty(&desk)
+    trial.press(":set<space>D3=0.5+-0.1<enter>");
+    let Some(Request::Zones(question::zones::Asked { known, disturbance })) = certainty(&trial)
     else {
         panic!()
     };
@@ -85,20 +85,20 @@ fn what_is_certain_is_asked_with_the_box_and_answers_the_reference() {
 
 #[test]
 fn a_machine_brings_its_tolerances_and_keeps_them_in_newtons_at_another_speed() {
-    let mut desk = Desk::open("fig01");
-    desk.press(":set<space>w=0.005<space>r=0.05+-0.01<enter>");
-    let newtons = |desk: &Desk| {
-        let running = desk.session.running().unwrap();
-        let belt = desk.session.machine().unwrap();
+    let mut trial = Trial::open("fig01");
+    trial.press(":set<space>w=0.005<space>r=0.05+-0.01<enter>");
+    let newtons = |trial: &Trial| {
+        let running = trial.session.running().unwrap();
+        let belt = trial.session.machine().unwrap();
         let Tolerances { half_widths, disturbance } =
-            desk.session.doubt.on_machine(&running, &belt).unwrap();
+            trial.session.doubt.on_machine(&running, &belt).unwrap();
         (half_widths["R"], disturbance)
     };
-    let before = newtons(&desk);
-    desk.press(":set<space>belt=0.4<space>m/s<enter>");
-    let after = newtons(&desk);
+    let before = newtons(&trial);
+    trial.press(":set<space>belt=0.4<space>m/s<enter>");
+    let after = newtons(&trial);
     assert!((after.0 / before.0 - 1.0).abs() < 1e-12, "{before:?} {after:?}");
     assert!((after.1 / before.1 - 1.0).abs() < 1e-12, "{before:?} {after:?}");
-    desk.press(":layer<space>whole<space>on<enter>");
-    assert!(matches!(certainty(&desk), Some(Request::MachineZones(_))), "by the whole model");
+    trial.press(":layer<space>whole<space>on<enter>");
+    assert!(matches!(certainty(&trial), Some(Request::MachineZones(_))), "by the whole model");
 }

@@ -1,11 +1,11 @@
 //! Typed and pasted values.
 
-use super::Desk;
+use super::Trial;
 use crate::flow::Method;
 use crate::session::{Effect, Entry, Listed, Msg, Overlay};
 
-fn entry(desk: &Desk) -> &Entry {
-    match &desk.session.overlay {
+fn entry(trial: &Trial) -> &Entry {
+    match &trial.session.overlay {
         Some(Overlay::Entry(entry)) => entry,
         other => panic!("no line is open but {other:?}"),
     }
@@ -13,18 +13,18 @@ fn entry(desk: &Desk) -> &Entry {
 
 #[test]
 fn a_value_is_typed_from_its_first_digit_or_edited_after_enter() {
-    let mut desk = Desk::open("plain");
-    desk.press("-0.25<enter>");
-    assert_eq!(desk.session.problem.parameters.d, -0.25);
-    assert_eq!(desk.session.overlay, None);
-    desk.press("<enter>");
-    assert_eq!(entry(&desk).input.text(), "-0.25");
-    desk.press("<left><backspace>3<enter>");
-    assert_eq!(desk.session.problem.parameters.d, -0.35);
-    desk.press("<enter><C-u>1e-3<home>-<enter>");
-    assert_eq!(desk.session.problem.parameters.d, -1e-3);
-    desk.press("<enter><home><del><end>5<esc>");
-    assert_eq!(desk.session.problem.parameters.d, -1e-3, "esc leaves the value alone");
+    let mut trial = Trial::open("plain");
+    trial.press("-0.25<enter>");
+    assert_eq!(trial.session.problem.parameters.d, -0.25);
+    assert_eq!(trial.session.overlay, None);
+    trial.press("<enter>");
+    assert_eq!(entry(&trial).input.text(), "-0.25");
+    trial.press("<left><backspace>3<enter>");
+    assert_eq!(trial.session.problem.parameters.d, -0.35);
+    trial.press("<enter><C-u>1e-3<home>-<enter>");
+    assert_eq!(trial.session.problem.parameters.d, -1e-3);
+    trial.press("<enter><home><del><end>5<esc>");
+    assert_eq!(trial.session.problem.parameters.d, -1e-3, "esc leaves the value alone");
 }
 
 #[test]
@@ -39,72 +39,72 @@ fn what_cannot_be_a_value_is_refused_with_the_range() {
         (7, "euler", "no method \"euler\"; there are auto, exact, taylor, dop853"),
         (8, "1", "tolerance = 1 is out of range; tolerance takes 1e-15 to 0.01"),
     ] {
-        let mut desk = Desk::open("plain");
-        let before = desk.session.problem;
-        desk.press(&format!("<down*{row}><enter><C-u>{typed}<enter>"));
-        let refused = entry(&desk).refused.clone().unwrap_or_default();
+        let mut trial = Trial::open("plain");
+        let before = trial.session.problem;
+        trial.press(&format!("<down*{row}><enter><C-u>{typed}<enter>"));
+        let refused = entry(&trial).refused.clone().unwrap_or_default();
         assert!(refused.starts_with(line), "{refused}");
         assert!(!refused.contains('\n'));
-        assert_eq!(desk.session.problem, before);
-        desk.press("<backspace>");
-        assert_eq!(entry(&desk).refused, None, "the complaint goes when the text changes");
+        assert_eq!(trial.session.problem, before);
+        trial.press("<backspace>");
+        assert_eq!(entry(&trial).refused, None, "the complaint goes when the text changes");
     }
 }
 
 #[test]
 fn every_row_takes_its_values() {
-    let mut desk = Desk::open("plain");
-    desk.press("<down*6>99<enter> <down><enter><C-u>dop853<enter> <down>1e-12<enter>");
-    let problem = desk.session.problem;
+    let mut trial = Trial::open("plain");
+    trial.press("<down*6>99<enter> <down><enter><C-u>dop853<enter> <down>1e-12<enter>");
+    let problem = trial.session.problem;
     assert_eq!((problem.until, problem.method, problem.tolerance), (99.0, Method::Dop853, 1e-12));
-    desk.press("<home>");
-    desk.press("<up*9>-0<enter>");
-    assert!(desk.session.problem.parameters.d.is_sign_positive(), "zero has one sign");
+    trial.press("<home>");
+    trial.press("<up*9>-0<enter>");
+    assert!(trial.session.problem.parameters.d.is_sign_positive(), "zero has one sign");
 }
 
 #[test]
 fn pasted_text_goes_into_the_open_line_or_opens_one() {
-    let mut desk = Desk::open("plain");
-    desk.press("<enter><C-u> <paste \"\u{2212}0.2\\n\"> <enter>");
-    assert_eq!(desk.session.problem.parameters.d, -0.2);
-    desk.press("<paste \" -0.3 \">");
-    assert_eq!(entry(&desk).input.text(), "-0.3");
-    desk.press("<enter>");
-    assert_eq!(desk.session.problem.parameters.d, -0.3);
-    desk.press("?/<paste \"undo\">");
-    let Some(Overlay::List(Listed::Palette, list)) = &desk.session.overlay else {
+    let mut trial = Trial::open("plain");
+    trial.press("<enter><C-u> <paste \"\u{2212}0.2\\n\"> <enter>");
+    assert_eq!(trial.session.problem.parameters.d, -0.2);
+    trial.press("<paste \" -0.3 \">");
+    assert_eq!(entry(&trial).input.text(), "-0.3");
+    trial.press("<enter>");
+    assert_eq!(trial.session.problem.parameters.d, -0.3);
+    trial.press("?/<paste \"undo\">");
+    let Some(Overlay::List(Listed::Palette, list)) = &trial.session.overlay else {
         panic!("the help is open")
     };
-    let names: Vec<_> = desk.session.palette_rows(list).iter().map(|row| row.name()).collect();
+    let names: Vec<_> = trial.session.palette_rows(list).iter().map(|row| row.name()).collect();
     assert_eq!(names[..2], ["undo", "redo"]);
 }
 
 #[test]
 fn pasted_keystrokes_are_offered_and_played_only_after_a_yes() {
-    let mut desk = Desk::open("plain");
-    let before = desk.session.problem;
-    desk.give(Msg::Paste("# a walk\n<right*5> <wait> q".to_owned()));
-    assert!(matches!(&desk.session.overlay, Some(Overlay::Offer(script)) if script.keys() == 6));
-    assert_eq!(desk.session.problem, before);
-    desk.press("<esc>");
-    assert_eq!((desk.effects.len(), &desk.session.overlay), (0, &None));
-    desk.give(Msg::Paste("<right*5>".to_owned()));
-    desk.press("<enter>");
-    assert!(matches!(&desk.effects[..], [Effect::Play(script)] if script.keys() == 5));
-    assert_eq!(desk.session.problem.parameters.d, -0.05);
+    let mut trial = Trial::open("plain");
+    let before = trial.session.problem;
+    trial.give(Msg::Paste("# a walk\n<right*5> <wait> q".to_owned()));
+    assert!(matches!(&trial.session.overlay, Some(Overlay::Offer(script)) if script.keys() == 6));
+    assert_eq!(trial.session.problem, before);
+    trial.press("<esc>");
+    assert_eq!((trial.effects.len(), &trial.session.overlay), (0, &None));
+    trial.give(Msg::Paste("<right*5>".to_owned()));
+    trial.press("<enter>");
+    assert!(matches!(&trial.effects[..], [Effect::Play(script)] if script.keys() == 5));
+    assert_eq!(trial.session.problem.parameters.d, -0.05);
 }
 
 #[test]
 fn pasted_text_that_is_nothing_gets_one_line() {
-    let mut desk = Desk::open("plain");
-    desk.give(Msg::Paste("hello\n  <wrold>".to_owned()));
+    let mut trial = Trial::open("plain");
+    trial.give(Msg::Paste("hello\n  <wrold>".to_owned()));
     assert_eq!(
-        desk.notice().split("; ").next(),
+        trial.notice().split("; ").next(),
         Some("the pasted text is no keystroke file: line 2, column 3: unknown key <wrold>")
     );
-    desk.give(Msg::Paste("hello".to_owned()));
-    assert!(desk.notice().starts_with("the pasted text names no key"), "{}", desk.notice());
-    desk.give(Msg::Paste("# only a comment".to_owned()));
-    assert_eq!(desk.notice(), "the pasted text presses no key");
-    assert_eq!(desk.session.overlay, None);
+    trial.give(Msg::Paste("hello".to_owned()));
+    assert!(trial.notice().starts_with("the pasted text names no key"), "{}", trial.notice());
+    trial.give(Msg::Paste("# only a comment".to_owned()));
+    assert_eq!(trial.notice(), "the pasted text presses no key");
+    assert_eq!(trial.session.overlay, None);
 }

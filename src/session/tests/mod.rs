@@ -4,9 +4,9 @@
 mod axes;
 mod belt;
 mod dependence;
-mod desk;
 mod dial;
 mod doubt;
+mod screen_setup;
 
 mod drafts;
 mod entries;
@@ -47,7 +47,7 @@ use crate::study::{
 };
 
 /// A session whose questions are answered as soon as they are asked.
-struct Desk {
+struct Trial {
     session: Session,
     /// What was asked since the last keys.
     asked: Vec<Request>,
@@ -58,14 +58,14 @@ struct Desk {
 /// Evaluations that each answer by hand claims to have cost.
 const COST: u64 = 100;
 
-impl Desk {
+impl Trial {
     /// A session that has just opened a scene and shows it.
     fn open(scene: &str) -> Self {
         let scene = find(scene).unwrap();
         let session = Session::new(Arc::clone(&scene), Size { width: 80, height: 24 });
-        let mut desk = Desk { session, asked: Vec::new(), effects: Vec::new() };
-        desk.settle();
-        desk
+        let mut trial = Trial { session, asked: Vec::new(), effects: Vec::new() };
+        trial.settle();
+        trial
     }
 
     /// Gives a message and answers what it makes the session ask.

@@ -1,6 +1,6 @@
 //! Commands by their names: the palette and the command line.
 
-use super::Desk;
+use super::Trial;
 use crate::flow::Method;
 use crate::scene::{Layer, Ordinate, Topic, View};
 use crate::session::read::completion::completion;
@@ -8,14 +8,14 @@ use crate::session::{
     Effect, Listed, Msg, Overlay, Pane, Prompt, commands, lines, run_line, update,
 };
 
-fn run(desk: &mut Desk, line: &str) -> Vec<Topic> {
-    desk.press(":");
-    desk.give(Msg::Paste(line.to_owned()));
-    desk.press("<enter>")
+fn run(trial: &mut Trial, line: &str) -> Vec<Topic> {
+    trial.press(":");
+    trial.give(Msg::Paste(line.to_owned()));
+    trial.press("<enter>")
 }
 
-fn prompt(desk: &Desk) -> &Prompt {
-    match &desk.session.overlay {
+fn prompt(trial: &Trial) -> &Prompt {
+    match &trial.session.overlay {
         Some(Overlay::Prompt(prompt)) => prompt,
         other => panic!("no line is open but {other:?}"),
     }
@@ -23,9 +23,9 @@ fn prompt(desk: &Desk) -> &Prompt {
 
 #[test]
 fn every_command_is_reached_from_the_palette_without_a_key_of_its_own() {
-    let desk = Desk::open("plain");
+    let trial = Trial::open("plain");
     let list = crate::session::List::default();
-    let listed: Vec<_> = desk.session.palette_rows(&list).iter().map(|row| row.name()).collect();
+    let listed: Vec<_> = trial.session.palette_rows(&list).iter().map(|row| row.name()).collect();
     for command in commands() {
         let inside = command.keys.iter().all(|(context, _)| context.is_overlay());
         let name = command.name.strip_prefix("toggle-").unwrap_or(command.name);
@@ -38,78 +38,78 @@ fn every_command_is_reached_from_the_palette_without_a_key_of_its_own() {
 
 #[test]
 fn the_palette_runs_a_command_in_the_pane_that_it_belongs_to() {
-    let mut desk = Desk::open("plain");
-    desk.press("<space>next-abs<enter>");
-    let focused = desk.session.focused().expect("the diagram has the focus");
+    let mut trial = Trial::open("plain");
+    trial.press("<space>next-abs<enter>");
+    let focused = trial.session.focused().expect("the diagram has the focus");
     assert_eq!((focused.view, focused.axes.abscissa.spec().name), (View::Diagram, "D2"));
-    desk.press("<space>step-size-larger<enter>");
-    assert_eq!(desk.session.focus, Pane::Parameters);
-    desk.press("<space>walk-on<enter>");
-    assert_eq!(desk.notice(), "walk-on needs a branch: w on a diagram takes hold of one");
-    desk.press("<space>no<space>such<space>thing<enter>");
-    assert!(matches!(desk.session.overlay, Some(Overlay::List(Listed::Palette, _))));
-    desk.press("<esc>");
-    assert_eq!(desk.session.overlay, None);
+    trial.press("<space>step-size-larger<enter>");
+    assert_eq!(trial.session.focus, Pane::Parameters);
+    trial.press("<space>walk-on<enter>");
+    assert_eq!(trial.notice(), "walk-on needs a branch: w on a diagram takes hold of one");
+    trial.press("<space>no<space>such<space>thing<enter>");
+    assert!(matches!(trial.session.overlay, Some(Overlay::List(Listed::Palette, _))));
+    trial.press("<esc>");
+    assert_eq!(trial.session.overlay, None);
 }
 
 #[test]
 fn what_takes_words_gets_a_line_from_the_palette() {
-    let mut desk = Desk::open("plain");
-    desk.press("<space>open<space>a<space>sc<enter>supercritical<enter>");
-    assert_eq!(desk.session.scene.name, "supercritical");
+    let mut trial = Trial::open("plain");
+    trial.press("<space>open<space>a<space>sc<enter>supercritical<enter>");
+    assert_eq!(trial.session.scene.name, "supercritical");
 }
 
 #[test]
 fn values_are_set_by_name_as_one_change() {
-    let mut desk = Desk::open("plain");
-    let asked = run(&mut desk, "set D=-0.3 D3=0.5 until=100 method=taylor");
+    let mut trial = Trial::open("plain");
+    let asked = run(&mut trial, "set D=-0.3 D3=0.5 until=100 method=taylor");
     assert!(asked.contains(&Topic::Trajectory));
-    let problem = desk.session.problem;
+    let problem = trial.session.problem;
     assert_eq!((problem.parameters.d, problem.parameters.d3), (-0.3, 0.5));
     assert_eq!((problem.until, problem.method), (100.0, Method::Taylor));
-    run(&mut desk, "tol 1e-9");
-    assert_eq!(desk.session.problem.tolerance, 1e-9);
-    desk.press("u u");
-    assert_eq!(desk.session.problem, desk.session.scene.problem);
+    run(&mut trial, "tol 1e-9");
+    assert_eq!(trial.session.problem.tolerance, 1e-9);
+    trial.press("u u");
+    assert_eq!(trial.session.problem, trial.session.scene.problem);
 }
 
 #[test]
 fn scenes_views_layers_windows_and_axes_have_names() {
-    let mut desk = Desk::open("plain");
-    run(&mut desk, "scene linear");
-    assert_eq!(desk.session.scene.name, "linear");
-    let on = desk.session.layers.contains(&Layer::Basin);
-    run(&mut desk, "layer basin");
-    assert_ne!(desk.session.layers.contains(&Layer::Basin), on);
-    run(&mut desk, "layer basin on");
-    run(&mut desk, "layer basin on");
-    assert!(desk.session.layers.contains(&Layer::Basin));
-    run(&mut desk, "window -3:3,-1:1.5");
-    let window = desk.session.plots[0].window;
+    let mut trial = Trial::open("plain");
+    run(&mut trial, "scene linear");
+    assert_eq!(trial.session.scene.name, "linear");
+    let on = trial.session.layers.contains(&Layer::Basin);
+    run(&mut trial, "layer basin");
+    assert_ne!(trial.session.layers.contains(&Layer::Basin), on);
+    run(&mut trial, "layer basin on");
+    run(&mut trial, "layer basin on");
+    assert!(trial.session.layers.contains(&Layer::Basin));
+    run(&mut trial, "window -3:3,-1:1.5");
+    let window = trial.session.plots[0].window;
     assert_eq!((window.x.from(), window.y.to()), (-3.0, 1.5));
-    run(&mut desk, "axes r period");
-    let plot = desk.session.focused().expect("the diagram");
+    run(&mut trial, "axes r period");
+    let plot = trial.session.focused().expect("the diagram");
     assert_eq!(plot.axes.ordinate, Ordinate::Period);
-    run(&mut desk, "view phase");
-    assert!(desk.session.plots.iter().all(|plot| plot.view == View::Phase));
-    run(&mut desk, "axes D");
+    run(&mut trial, "view phase");
+    assert!(trial.session.plots.iter().all(|plot| plot.view == View::Phase));
+    run(&mut trial, "axes D");
     assert_eq!(
-        prompt(&desk).refused.as_deref(),
+        prompt(&trial).refused.as_deref(),
         Some("axes: no plot shows a diagram; view diagram makes one")
     );
 }
 
 #[test]
 fn every_command_of_the_keys_is_a_line_too() {
-    let mut desk = Desk::open("plain");
-    let on = desk.session.layers.contains(&Layer::Field);
-    run(&mut desk, "toggle-field");
-    assert_ne!(desk.session.layers.contains(&Layer::Field), on);
-    run(&mut desk, "theme light");
-    run(&mut desk, "theme");
-    assert_eq!(desk.notice(), "theme: contrast");
-    run(&mut desk, "quit");
-    assert!(desk.session.quit && desk.effects.contains(&Effect::Quit));
+    let mut trial = Trial::open("plain");
+    let on = trial.session.layers.contains(&Layer::Field);
+    run(&mut trial, "toggle-field");
+    assert_ne!(trial.session.layers.contains(&Layer::Field), on);
+    run(&mut trial, "theme light");
+    run(&mut trial, "theme");
+    assert_eq!(trial.notice(), "theme: contrast");
+    run(&mut trial, "quit");
+    assert!(trial.session.quit && trial.effects.contains(&Effect::Quit));
 }
 
 #[test]
@@ -133,49 +133,49 @@ fn what_is_wrong_stays_in_the_line_with_what_is_allowed() {
         ("undo twice", "undo takes no words, but there are \"twice\""),
         ("axes q0", "axes: no diagram over \"q0\"; there are D, D2, D3, r"),
     ] {
-        let mut desk = Desk::open("plain");
-        let before = desk.session.problem;
-        run(&mut desk, line);
-        let refused = prompt(&desk).refused.clone().unwrap_or_default();
+        let mut trial = Trial::open("plain");
+        let before = trial.session.problem;
+        run(&mut trial, line);
+        let refused = prompt(&trial).refused.clone().unwrap_or_default();
         assert!(refused.starts_with(said) && !refused.contains('\n'), "{line}: {refused}");
-        assert_eq!(desk.session.problem, before, "{line}: all of it or nothing");
-        desk.press("<backspace>");
-        assert_eq!(prompt(&desk).refused, None);
-        desk.press("<esc>");
-        assert_eq!(desk.session.overlay, None);
+        assert_eq!(trial.session.problem, before, "{line}: all of it or nothing");
+        trial.press("<backspace>");
+        assert_eq!(prompt(&trial).refused, None);
+        trial.press("<esc>");
+        assert_eq!(trial.session.overlay, None);
     }
 }
 
 #[test]
 fn tab_completes_and_goes_through_what_is_possible() {
-    let mut desk = Desk::open("plain");
-    desk.press(":sce<tab>");
-    assert_eq!(prompt(&desk).input.text(), "scene");
-    desk.press("<tab>");
-    assert_eq!(prompt(&desk).input.text(), "scenes");
-    desk.press("<S-tab><space>sup<tab>");
-    assert_eq!(prompt(&desk).input.text(), "scene supercritical ");
-    desk.press("<C-u>set<space>D3<tab>");
-    assert_eq!(prompt(&desk).input.text(), "set D3=");
-    desk.press("<tab>");
-    assert_eq!(prompt(&desk).input.text(), "set D3=0 ");
-    desk.press("<tab>");
-    assert_eq!(prompt(&desk).input.text(), "set D3=0 D=");
-    desk.press("<C-u>layer<space>zz<tab>");
-    assert_eq!(prompt(&desk).refused.as_deref(), Some("nothing to complete here"));
-    desk.press("<C-u>layer<space>fi<space>on<left*3><tab>");
-    assert_eq!(prompt(&desk).input.text(), "layer field on");
+    let mut trial = Trial::open("plain");
+    trial.press(":sce<tab>");
+    assert_eq!(prompt(&trial).input.text(), "scene");
+    trial.press("<tab>");
+    assert_eq!(prompt(&trial).input.text(), "scenes");
+    trial.press("<S-tab><space>sup<tab>");
+    assert_eq!(prompt(&trial).input.text(), "scene supercritical ");
+    trial.press("<C-u>set<space>D3<tab>");
+    assert_eq!(prompt(&trial).input.text(), "set D3=");
+    trial.press("<tab>");
+    assert_eq!(prompt(&trial).input.text(), "set D3=0 ");
+    trial.press("<tab>");
+    assert_eq!(prompt(&trial).input.text(), "set D3=0 D=");
+    trial.press("<C-u>layer<space>zz<tab>");
+    assert_eq!(prompt(&trial).refused.as_deref(), Some("nothing to complete here"));
+    trial.press("<C-u>layer<space>fi<space>on<left*3><tab>");
+    assert_eq!(prompt(&trial).input.text(), "layer field on");
 }
 
 #[test]
 fn every_line_completes_its_words_to_ones_that_it_accepts() {
     for line in lines() {
-        let mut desk = Desk::open("linear");
-        desk.press("<tab>");
-        let words = completion(&desk.session, &format!("{} ", line.name));
+        let mut trial = Trial::open("linear");
+        trial.press("<tab>");
+        let words = completion(&trial.session, &format!("{} ", line.name));
         let words = words.map_or(Vec::new(), |found| found.words);
         for word in words.iter().filter(|word| !word.ends_with('=')) {
-            let mut session = desk.session.clone();
+            let mut session = trial.session.clone();
             let done = run_line(&mut session, &format!("{} {word}", line.name));
             assert!(done.is_ok(), "{} {word}: {done:?}", line.name);
         }
@@ -184,38 +184,38 @@ fn every_line_completes_its_words_to_ones_that_it_accepts() {
 
 #[test]
 fn old_lines_come_back_and_the_new_one_is_not_lost() {
-    let mut desk = Desk::open("plain");
-    run(&mut desk, "set D=-0.2");
-    run(&mut desk, "toggle-field");
-    run(&mut desk, "set D=-0.2");
-    assert_eq!(desk.session.lines, ["toggle-field", "set D=-0.2"]);
-    desk.press(":un<up>");
-    assert_eq!(prompt(&desk).input.text(), "set D=-0.2");
-    desk.press("<up*5>");
-    assert_eq!(prompt(&desk).input.text(), "toggle-field");
-    desk.press("<down*5>");
-    assert_eq!(prompt(&desk).input.text(), "un");
-    desk.press("<up><enter>");
-    assert_eq!(desk.session.overlay, None);
+    let mut trial = Trial::open("plain");
+    run(&mut trial, "set D=-0.2");
+    run(&mut trial, "toggle-field");
+    run(&mut trial, "set D=-0.2");
+    assert_eq!(trial.session.lines, ["toggle-field", "set D=-0.2"]);
+    trial.press(":un<up>");
+    assert_eq!(prompt(&trial).input.text(), "set D=-0.2");
+    trial.press("<up*5>");
+    assert_eq!(prompt(&trial).input.text(), "toggle-field");
+    trial.press("<down*5>");
+    assert_eq!(prompt(&trial).input.text(), "un");
+    trial.press("<up><enter>");
+    assert_eq!(trial.session.overlay, None);
 }
 
 #[test]
 fn an_empty_line_does_nothing() {
-    let mut desk = Desk::open("plain");
-    let before = desk.session.clone();
-    desk.press(":<enter>:<space><enter>");
-    assert_eq!((desk.session.problem, &desk.session.lines), (before.problem, &before.lines));
-    let _ = update(&mut desk.session, Msg::Idle);
+    let mut trial = Trial::open("plain");
+    let before = trial.session.clone();
+    trial.press(":<enter>:<space><enter>");
+    assert_eq!((trial.session.problem, &trial.session.lines), (before.problem, &before.lines));
+    let _ = update(&mut trial.session, Msg::Idle);
 }
 
 #[test]
 fn the_palette_finds_what_has_all_the_words() {
-    let mut desk = Desk::open("plain");
-    desk.press("<space>mark<space>go");
-    let Some(Overlay::List(Listed::Palette, list)) = &desk.session.overlay else {
+    let mut trial = Trial::open("plain");
+    trial.press("<space>mark<space>go");
+    let Some(Overlay::List(Listed::Palette, list)) = &trial.session.overlay else {
         panic!("the palette")
     };
-    let rows = desk.session.palette_rows(list);
+    let rows = trial.session.palette_rows(list);
     let names: Vec<_> = rows.iter().map(|row| row.name()).collect();
     assert_eq!(names[0], "go-to-mark");
     assert!(names.contains(&"goto") && !names.contains(&"set-mark"), "{names:?}");
@@ -223,10 +223,10 @@ fn the_palette_finds_what_has_all_the_words() {
 
 /// What the palette finds for some words.
 fn found(words: &str) -> Vec<(&'static str, &'static str)> {
-    let desk = Desk::open("plain");
+    let trial = Trial::open("plain");
     let list = crate::session::List { search: words.to_owned(), ..Default::default() };
-    let rows = desk.session.palette_rows(&list);
-    rows.iter().map(|row| (desk.session.heading(*row), row.name())).collect()
+    let rows = trial.session.palette_rows(&list);
+    rows.iter().map(|row| (trial.session.heading(*row), row.name())).collect()
 }
 
 #[test]
@@ -258,84 +258,88 @@ fn every_other_word_is_of_something_that_is_listed() {
 
 #[test]
 fn the_list_begins_with_what_belongs_to_the_pane_in_focus() {
-    let mut desk = Desk::open("plain");
+    let mut trial = Trial::open("plain");
     for (keys, heading) in [("<esc>", "Parameters"), ("<tab>", "Phase plane")] {
-        desk.press(keys);
-        let rows = desk.session.palette_rows(&crate::session::List::default());
-        assert_eq!(desk.session.heading(rows[0]), heading);
+        trial.press(keys);
+        let rows = trial.session.palette_rows(&crate::session::List::default());
+        assert_eq!(trial.session.heading(rows[0]), heading);
     }
     assert!(found("").iter().all(|(_, name)| *name != "caret-left"), "of lines only");
 }
 
 #[test]
 fn scenes_views_layers_and_claims_are_run_from_the_palette() {
-    let mut desk = Desk::open("plain");
-    desk.press("<space>eigenvalues<enter>");
-    let shown = desk.session.plots.iter().any(|plot| plot.view == View::Eigenvalues);
-    assert!(shown, "{}", desk.notice());
-    desk.press("<space>lyapunov<enter>");
-    assert!(desk.session.layers.contains(&crate::scene::Layer::Lyapunov), "{}", desk.notice());
-    desk.press("<space>fig16b<enter>");
-    assert_eq!(desk.session.scene.name, "fig16b");
+    let mut trial = Trial::open("plain");
+    trial.press("<space>eigenvalues<enter>");
+    let shown = trial.session.plots.iter().any(|plot| plot.view == View::Eigenvalues);
+    assert!(shown, "{}", trial.notice());
+    trial.press("<space>lyapunov<enter>");
+    assert!(trial.session.layers.contains(&crate::scene::Layer::Lyapunov), "{}", trial.notice());
+    trial.press("<space>fig16b<enter>");
+    assert_eq!(trial.session.scene.name, "fig16b");
 }
 
 #[test]
 fn words_that_are_no_command_are_looked_for_in_the_list_of_everything() {
-    let mut desk = Desk::open("supercritical");
-    run(&mut desk, "animate");
+    let mut trial = Trial::open("supercritical");
+    run(&mut trial, "animate");
     assert!(
-        matches!(&desk.session.overlay, Some(Overlay::List(Listed::Palette, list)) if list.search == "animate")
+        matches!(&trial.session.overlay, Some(Overlay::List(Listed::Palette, list)) if list.search == "animate")
     );
-    desk.press("<enter>");
-    assert!(desk.session.overlay.is_none() && desk.session.playback.playing, "{}", desk.notice());
-    run(&mut desk, "fig 16");
-    assert!(matches!(desk.session.overlay, Some(Overlay::List(Listed::Palette, _))));
+    trial.press("<enter>");
+    assert!(
+        trial.session.overlay.is_none() && trial.session.playback.playing,
+        "{}",
+        trial.notice()
+    );
+    run(&mut trial, "fig 16");
+    assert!(matches!(trial.session.overlay, Some(Overlay::List(Listed::Palette, _))));
 }
 
 #[test]
 fn scenes_are_picked_from_groups_in_which_a_lesson_stands_for_its_figure() {
-    let mut desk = Desk::open("fig16b");
-    desk.press("s<enter>");
-    assert_eq!(desk.session.scene.name, "supercritical");
-    desk.press("s/fig16b<enter>");
-    assert_eq!(desk.session.scene.name, "fig16b");
-    desk.press("s<end><enter>");
-    assert!(desk.session.scene.machine.is_some());
+    let mut trial = Trial::open("fig16b");
+    trial.press("s<enter>");
+    assert_eq!(trial.session.scene.name, "supercritical");
+    trial.press("s/fig16b<enter>");
+    assert_eq!(trial.session.scene.name, "fig16b");
+    trial.press("s<end><enter>");
+    assert!(trial.session.scene.machine.is_some());
 }
 
 #[test]
 fn a_key_of_another_plot_on_show_goes_there() {
-    let mut desk = Desk::open("plain");
-    desk.press("<tab> N");
-    assert_eq!(desk.session.focused().map(|plot| plot.view), Some(View::Diagram));
-    assert_ne!(desk.session.focused().map(|plot| plot.axes.unit), Some(crate::scene::Unit::One));
-    let mut desk = Desk::open("energy");
-    desk.press("t");
-    assert!(desk.notice().contains("needs the scan"), "{}", desk.notice());
+    let mut trial = Trial::open("plain");
+    trial.press("<tab> N");
+    assert_eq!(trial.session.focused().map(|plot| plot.view), Some(View::Diagram));
+    assert_ne!(trial.session.focused().map(|plot| plot.axes.unit), Some(crate::scene::Unit::One));
+    let mut trial = Trial::open("energy");
+    trial.press("t");
+    assert!(trial.notice().contains("needs the scan"), "{}", trial.notice());
 }
 
 #[test]
 fn short_names_of_other_programs_are_known() {
-    let mut desk = Desk::open("plain");
-    run(&mut desk, "w");
+    let mut trial = Trial::open("plain");
+    run(&mut trial, "w");
     assert!(
-        prompt(&desk).refused.as_deref().is_some_and(|why| why.starts_with("write needs FILE"))
+        prompt(&trial).refused.as_deref().is_some_and(|why| why.starts_with("write needs FILE"))
     );
-    desk.press("<esc>");
-    run(&mut desk, "set tol=1e-8");
-    assert_eq!(desk.session.problem.tolerance, 1e-8);
-    run(&mut desk, "q");
-    assert!(desk.session.quit);
+    trial.press("<esc>");
+    run(&mut trial, "set tol=1e-8");
+    assert_eq!(trial.session.problem.tolerance, 1e-8);
+    run(&mut trial, "q");
+    assert!(trial.session.quit);
 }
 
 #[test]
 fn numbers_points_and_rows_are_copied() {
     let copied = |scene: &str, keys: &str| {
-        let mut desk = Desk::open(scene);
-        desk.press(keys);
-        match desk.effects.last() {
+        let mut trial = Trial::open(scene);
+        trial.press(keys);
+        match trial.effects.last() {
             Some(Effect::Copy(text)) => text.clone(),
-            _ => desk.notice().to_owned(),
+            _ => trial.notice().to_owned(),
         }
     };
     assert_eq!(copied("supercritical", "y"), "-0.3");

@@ -1,6 +1,6 @@
 //! Cursor, zoom, pan, fit; starts beside the cycle.
 
-use super::Desk;
+use super::Trial;
 use crate::oscillator::State;
 use crate::scene::{Answer, Point, Span, Topic, Window};
 use crate::session::{Framing, Pane};
@@ -8,98 +8,98 @@ use crate::study::{Cycles, Edge, Margin, Picture};
 
 #[test]
 fn the_cursor_moves_on_round_numbers_and_sets_the_start() {
-    let mut desk = Desk::open("plain");
-    desk.press("<tab><right>");
+    let mut trial = Trial::open("plain");
+    trial.press("<tab><right>");
     // A 64th of the width 4 is near 0.05.
-    assert_eq!(desk.session.plots[0].cursor, Some(Point { x: 1.05, y: 0.0 }));
-    desk.press("k k h <C-left>");
-    assert_eq!(desk.session.plots[0].cursor, Some(Point { x: 0.6, y: 0.1 }));
-    desk.press("<enter>");
-    assert_eq!(desk.session.problem.initial, State { q: 0.6, v: 0.1 });
-    desk.press("<esc>");
-    assert_eq!((desk.session.plots[0].cursor, desk.session.quit), (None, false));
-    desk.press("<enter>");
-    assert_eq!(desk.notice(), "no cursor yet: <left>, <up> and so on show it");
+    assert_eq!(trial.session.plots[0].cursor, Some(Point { x: 1.05, y: 0.0 }));
+    trial.press("k k h <C-left>");
+    assert_eq!(trial.session.plots[0].cursor, Some(Point { x: 0.6, y: 0.1 }));
+    trial.press("<enter>");
+    assert_eq!(trial.session.problem.initial, State { q: 0.6, v: 0.1 });
+    trial.press("<esc>");
+    assert_eq!((trial.session.plots[0].cursor, trial.session.quit), (None, false));
+    trial.press("<enter>");
+    assert_eq!(trial.notice(), "no cursor yet: <left>, <up> and so on show it");
 }
 
 #[test]
 fn the_cursor_stays_inside_its_window() {
     for keys in ["<right*500>", "<C-right*99>", "<left*500>", "<up*99>", "<C-down*99>"] {
-        let mut desk = Desk::open("plain");
-        desk.press("<tab>+L");
-        desk.press(keys);
-        let plot = &desk.session.plots[0];
+        let mut trial = Trial::open("plain");
+        trial.press("<tab>+L");
+        trial.press(keys);
+        let plot = &trial.session.plots[0];
         assert!(plot.window.contains(plot.cursor.unwrap()), "{keys}");
     }
 }
 
 #[test]
 fn the_diagram_is_jumped_to_and_knows_its_limits() {
-    let mut desk = Desk::open("plain");
-    desk.press("<tab><tab><left*3><enter>");
-    assert_eq!(desk.session.focus, Pane::Plot(1));
-    assert_eq!(desk.session.problem.parameters.d, -0.13);
-    desk.session.plots[1].axes.abscissa = crate::oscillator::Symbol::R;
-    desk.session.plots[1].cursor = Some(Point { x: -0.2, y: 1.0 });
-    desk.press("<enter>");
-    assert!(desk.notice().starts_with("r = -0.2 is outside its range"), "{}", desk.notice());
+    let mut trial = Trial::open("plain");
+    trial.press("<tab><tab><left*3><enter>");
+    assert_eq!(trial.session.focus, Pane::Plot(1));
+    assert_eq!(trial.session.problem.parameters.d, -0.13);
+    trial.session.plots[1].axes.abscissa = crate::oscillator::Symbol::R;
+    trial.session.plots[1].cursor = Some(Point { x: -0.2, y: 1.0 });
+    trial.press("<enter>");
+    assert!(trial.notice().starts_with("r = -0.2 is outside its range"), "{}", trial.notice());
 }
 
 #[test]
 fn a_diagram_outside_the_range_of_its_parameter_asks_nothing() {
-    let mut desk = Desk::open("plain");
-    desk.session.plots[1].axes.abscissa = crate::oscillator::Symbol::R;
-    desk.session.plots[1].window.x = Span::new(-2.0, -1.0).unwrap();
-    assert_eq!(desk.session.request(crate::scene::Topic::Branch, 1), None);
-    assert_eq!(desk.session.wants().len(), 2);
+    let mut trial = Trial::open("plain");
+    trial.session.plots[1].axes.abscissa = crate::oscillator::Symbol::R;
+    trial.session.plots[1].window.x = Span::new(-2.0, -1.0).unwrap();
+    assert_eq!(trial.session.request(crate::scene::Topic::Branch, 1), None);
+    assert_eq!(trial.session.wants().len(), 2);
 }
 
 #[test]
 fn zoom_keeps_the_cursor_in_place_and_home_undoes_it() {
-    let mut desk = Desk::open("plain");
-    desk.press("<tab><right*4><up*4>");
-    let before = desk.session.plots[0].clone();
+    let mut trial = Trial::open("plain");
+    trial.press("<tab><right*4><up*4>");
+    let before = trial.session.plots[0].clone();
     let cursor = before.cursor.unwrap();
-    desk.press("++");
-    let after = &desk.session.plots[0];
+    trial.press("++");
+    let after = &trial.session.plots[0];
     assert_eq!((after.cursor, after.framing), (Some(cursor), Framing::User));
     assert!(after.window.x.width() < before.window.x.width());
     let place = |window: Window| (window.x.fraction(cursor.x), window.y.fraction(cursor.y));
     assert!((place(after.window).0 - place(before.window).0).abs() < 1e-12);
     assert!((place(after.window).1 - place(before.window).1).abs() < 1e-12);
-    desk.press("L K <home>");
+    trial.press("L K <home>");
     assert_eq!(
-        (desk.session.plots[0].window, desk.session.plots[0].framing),
+        (trial.session.plots[0].window, trial.session.plots[0].framing),
         (before.window, Framing::Scene)
     );
 }
 
 #[test]
 fn fit_shows_all_that_is_computed() {
-    let mut desk = Desk::open("supercritical");
-    desk.press("<tab>0");
-    let window = desk.session.plots[0].window;
-    assert_eq!(desk.session.plots[0].framing, Framing::Fitted);
+    let mut trial = Trial::open("supercritical");
+    trial.press("<tab>0");
+    let window = trial.session.plots[0].window;
+    assert_eq!(trial.session.plots[0].framing, Framing::Fitted);
     // The stable cycle by hand reaches r + 3 in every direction.
     assert!(window.contains(Point { x: 3.1, y: -3.1 }) && window.x.to() < 3.5);
-    desk.press("<tab>0");
-    assert_eq!(desk.session.plots[1].framing, Framing::Fitted);
-    assert!(desk.session.plots[1].window.y.contains(3.1));
-    assert_eq!(desk.session.plots[1].window.x, desk.session.scene.plots[1].opening().x);
+    trial.press("<tab>0");
+    assert_eq!(trial.session.plots[1].framing, Framing::Fitted);
+    assert!(trial.session.plots[1].window.y.contains(3.1));
+    assert_eq!(trial.session.plots[1].window.x, trial.session.scene.plots[1].opening().x);
 }
 
 #[test]
 fn fit_shows_every_variant_and_not_the_motion_that_none_of_them_is() {
     for (scene, index) in [("fig15", 1), ("fig13", 0), ("fig05", 1), ("fig16", 1), ("fig17", 3)] {
-        let mut desk = Desk::open(scene);
-        let variants = desk.session.variants(index).expect("variants").len();
+        let mut trial = Trial::open(scene);
+        let variants = trial.session.variants(index).expect("variants").len();
         // A start far away that the variants do not hold, where they hold one, is not on show.
-        let held = desk.session.shown(index).iter().all(|shown| shown.problem.initial.q != 1.2);
-        desk.press(&format!("{} 0", "<tab>".repeat(index + 1)));
-        assert_eq!(desk.session.plots[index].framing, Framing::Fitted, "{scene}");
-        let window = desk.session.plots[index].window;
+        let held = trial.session.shown(index).iter().all(|shown| shown.problem.initial.q != 1.2);
+        trial.press(&format!("{} 0", "<tab>".repeat(index + 1)));
+        assert_eq!(trial.session.plots[index].framing, Framing::Fitted, "{scene}");
+        let window = trial.session.plots[index].window;
         let mut seen = Vec::new();
-        for (_, label, answer) in desk.session.found(Topic::Cycles, index) {
+        for (_, label, answer) in trial.session.found(Topic::Cycles, index) {
             let Answer::Cycles(found) = answer else { continue };
             for cycle in &found.cycles {
                 let corners = [(cycle.q_min, cycle.v_min), (cycle.q_max, cycle.v_max)];
@@ -109,9 +109,9 @@ fn fit_shows_every_variant_and_not_the_motion_that_none_of_them_is() {
                 }
             }
         }
-        let branches = desk.session.branches(index);
+        let branches = trial.session.branches(index);
         for point in branches.iter().flat_map(|(_, branch)| branch.pieces.iter().flatten()) {
-            let height = desk.session.height(index, 0).of(point.value, &point.cycle);
+            let height = trial.session.height(index, 0).of(point.value, &point.cycle);
             assert!(window.y.contains(height), "{scene}: {height}");
             seen.push(height.abs());
         }
@@ -124,39 +124,39 @@ fn fit_shows_every_variant_and_not_the_motion_that_none_of_them_is() {
 
 #[test]
 fn fit_waits_for_what_is_being_computed() {
-    let mut desk = Desk::open("supercritical");
+    let mut trial = Trial::open("supercritical");
     for key in ["<down*2>", "<right>", "<tab>", "0"] {
         let script = crate::session::replay::parse(key).unwrap();
         let mut player = crate::session::replay::Player::new(script);
         while let Ok(crate::session::replay::Action::Give(message)) = player.next(true, String::new)
         {
-            crate::session::update(&mut desk.session, message);
+            crate::session::update(&mut trial.session, message);
         }
     }
-    assert_eq!(desk.session.plots[0].framing, Framing::Fitting);
-    assert_eq!(desk.session.plots[0].window, desk.session.scene.plots[0].opening());
-    desk.settle();
-    assert_eq!(desk.session.plots[0].framing, Framing::Fitted);
+    assert_eq!(trial.session.plots[0].framing, Framing::Fitting);
+    assert_eq!(trial.session.plots[0].window, trial.session.scene.plots[0].opening());
+    trial.settle();
+    assert_eq!(trial.session.plots[0].framing, Framing::Fitted);
 }
 
 #[test]
 fn the_motion_starts_on_either_side_of_the_unstable_cycle() {
     // By hand the unstable cycle has clearance 1.
-    let mut desk = Desk::open("supercritical");
-    assert_eq!(desk.session.problem.parameters.r, 0.1);
-    desk.press("<tab><up><enter> i");
-    assert_eq!(desk.session.problem.initial, State { q: 1.05, v: 0.0 });
-    desk.press("o");
-    assert_eq!(desk.session.problem.initial, State { q: 1.15, v: 0.0 });
-    desk.press("u");
-    assert_eq!(desk.session.problem.initial, State { q: 1.05, v: 0.0 });
-    desk.press("<run \"layer cycles\"><run \"layer basin\"> <S-tab><right> i");
-    assert_eq!(desk.notice(), "the cycles are not computed: v lists the layers");
+    let mut trial = Trial::open("supercritical");
+    assert_eq!(trial.session.problem.parameters.r, 0.1);
+    trial.press("<tab><up><enter> i");
+    assert_eq!(trial.session.problem.initial, State { q: 1.05, v: 0.0 });
+    trial.press("o");
+    assert_eq!(trial.session.problem.initial, State { q: 1.15, v: 0.0 });
+    trial.press("u");
+    assert_eq!(trial.session.problem.initial, State { q: 1.05, v: 0.0 });
+    trial.press("<run \"layer cycles\"><run \"layer basin\"> <S-tab><right> i");
+    assert_eq!(trial.notice(), "the cycles are not computed: v lists the layers");
 }
 
 /// The cycles that were answered.
-fn cycles(desk: &mut Desk) -> &mut Cycles {
-    let mut cycles = desk.session.answers.each().filter_map(|held| match &mut held.result {
+fn cycles(trial: &mut Trial) -> &mut Cycles {
+    let mut cycles = trial.session.answers.each().filter_map(|held| match &mut held.result {
         Ok(Answer::Cycles(found)) => Some(found),
         _ => None,
     });
@@ -166,8 +166,8 @@ fn cycles(desk: &mut Desk) -> &mut Cycles {
 #[test]
 fn a_separatrix_has_two_sides_too() {
     for (d2, sign) in [(0.5, 1.0), (-0.5, -1.0)] {
-        let mut desk = Desk::open("escape");
-        let found = cycles(&mut desk);
+        let mut trial = Trial::open("escape");
+        let found = cycles(&mut trial);
         found.parameters.d2 = d2;
         found.edge = Edge::Separatrix;
         found.cycles.clear();
@@ -182,23 +182,23 @@ fn a_separatrix_has_two_sides_too() {
             lyapunov_share: None,
         });
         // r is 0.1: the clearance is 1.
-        desk.press("i");
-        assert_eq!(desk.session.problem.initial, State { q: sign * 1.05, v: 0.0 });
-        desk.press("o");
-        assert_eq!(desk.session.problem.initial, State { q: sign * 1.15, v: 0.0 });
+        trial.press("i");
+        assert_eq!(trial.session.problem.initial, State { q: sign * 1.05, v: 0.0 });
+        trial.press("o");
+        assert_eq!(trial.session.problem.initial, State { q: sign * 1.15, v: 0.0 });
     }
 }
 
 #[test]
 fn a_cycle_close_to_the_sticking_set_still_has_two_sides() {
-    let mut desk = Desk::open("linear");
+    let mut trial = Trial::open("linear");
     for clearance in [0.5, 1e-9, 1e-14, 3e-16, 1e-16, 6.5e-31, 5e-324] {
-        let found = cycles(&mut desk);
+        let found = cycles(&mut trial);
         found.cycles[0].clearance = clearance;
-        desk.press("i");
-        let inside = desk.session.problem.initial.q;
-        desk.press("o");
-        let outside = desk.session.problem.initial.q;
+        trial.press("i");
+        let inside = trial.session.problem.initial.q;
+        trial.press("o");
+        let outside = trial.session.problem.initial.q;
         // r is 1 here, and differences next to it are exact.
         assert!((0.0..clearance).contains(&(inside - 1.0)), "{inside:?} inside of {clearance:e}");
         assert!(outside - 1.0 > clearance, "{outside:?} outside of {clearance:e}");

@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use proptest::prelude::*;
 
-use super::Desk;
+use super::Trial;
 use super::strange::any_key;
 use crate::flow::{METHODS, Problem};
 use crate::numerics::elementary::powi;
 use crate::oscillator::{PARAMETERS, Symbol};
 use crate::scene::machine::library::machines;
-use crate::scene::{Rig, Scene, library};
+use crate::scene::{ScaledMachine, Scene, library};
 use crate::session::opening::opening;
 use crate::session::replay::{Recorder, text};
 use crate::session::settings::{COLORS, GLYPHS, Look, THEMES};
@@ -18,26 +18,26 @@ use crate::session::state::answers::Answers;
 use crate::session::{Effect, Msg, Notice, Session, Size, save};
 
 /// A session as options of the command line start it, and the recording of it.
-fn started(scene: Arc<Scene>, look: Look) -> (Desk, Recorder) {
+fn started(scene: Arc<Scene>, look: Look) -> (Trial, Recorder) {
     let mut session = Session::new(scene, Size { width: 80, height: 24 });
     session.look = look;
     recording(session)
 }
 
 /// A session that begins, and the recording of it.
-fn recording(session: Session) -> (Desk, Recorder) {
+fn recording(session: Session) -> (Trial, Recorder) {
     let recorder = Recorder::new(opening(&session).unwrap());
-    let mut desk = Desk { session, asked: Vec::new(), effects: Vec::new() };
-    desk.settle();
-    (desk, recorder)
+    let mut trial = Trial { session, asked: Vec::new(), effects: Vec::new() };
+    trial.settle();
+    (trial, recorder)
 }
 
 /// What a recording leads to, from whatever was there before.
-fn replayed(text: &str, before: &str) -> Desk {
-    let mut desk = Desk::open(before);
-    desk.press("<right> \"a <right> W");
-    desk.press(text);
-    desk
+fn replayed(text: &str, before: &str) -> Trial {
+    let mut trial = Trial::open(before);
+    trial.press("<right> \"a <right> W");
+    trial.press(text);
+    trial
 }
 
 /// A session without what it cost, and what is compared with answers that nobody asks for any more.
@@ -99,13 +99,13 @@ fn a_recording_begins_with_the_lines_that_lead_to_its_start() {
 #[test]
 fn a_machine_and_a_saved_session_begin_as_they_were() {
     for machine in machines() {
-        let scene = Arc::new(Rig::new(machine.clone()).unwrap().scene());
+        let scene = Arc::new(ScaledMachine::new(machine.clone()).unwrap().scene());
         let scene = with_numbers(&scene, |scene| set(scene, Symbol::Q0, 0.5));
         let (live, recorder) = started(scene, Look::default());
         let begun = text("", recorder.steps());
         assert_alike(&live.session, &replayed(&begun, "fig17").session, &begun);
     }
-    let mut used = Desk::open("linear");
+    let mut used = Trial::open("linear");
     used.press("<right*3> \"a <left> [ -0.3<enter> 'a W ; <tab*2> +++ &x <right> & u");
     let saved = save::text(&used.session).unwrap();
     let mut session = Session::new(crate::scene::plain(), Size { width: 80, height: 24 });
@@ -176,7 +176,7 @@ proptest! {
             }
         }
         let recorded = recorder.text("hopfscope");
-        let mut other = Desk::open(&library()[before].name);
+        let mut other = Trial::open(&library()[before].name);
         other.session.look = Look::default();
         other.press(&recorded);
         assert_alike(&live.session, &other.session, &recorded);

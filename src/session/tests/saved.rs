@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use proptest::prelude::*;
 
 use super::strange::any_key;
-use super::{Desk, answered};
+use super::{Trial, answered};
 use crate::flow::Problem;
 use crate::scene::{Request, Topic, library};
 use crate::session::{Effect, Msg, Notice, Purpose, Session, save, update};
@@ -13,7 +13,7 @@ use crate::session::{Effect, Msg, Notice, Purpose, Session, save, update};
 /// Everything of a session that a file holds.
 fn essence(session: &Session) -> impl PartialEq + std::fmt::Debug {
     let marks: Vec<(char, Problem)> =
-        session.marks.places.iter().map(|(name, mark)| (*name, mark.stand.problem)).collect();
+        session.marks.places.iter().map(|(name, mark)| (*name, mark.setup.problem)).collect();
     let plots: Vec<_> = session
         .plots
         .iter()
@@ -35,55 +35,55 @@ fn essence(session: &Session) -> impl PartialEq + std::fmt::Debug {
 /// What comes back of a session that is saved.
 fn reopened(session: &Session) -> Session {
     let text = save::text(session).unwrap();
-    let mut other = Desk::open("plain").session;
+    let mut other = Trial::open("plain").session;
     save::open(&mut other, &text).unwrap_or_else(|why| panic!("{why}\n{text}"));
     other
 }
 
 /// A session in which everything is different from the beginning.
-fn used() -> Desk {
-    let mut desk = Desk::open("linear");
-    desk.press(
+fn used() -> Trial {
+    let mut trial = Trial::open("linear");
+    trial.press(
         "<right*3> \"a <left> [ -0.3<enter> 'a v<down><space><esc> W ; <tab*2> +++ L <left*3>",
     );
-    desk.press("&x <right> & :set<space>r=2<enter> s/super<enter> <right*2> u u u U x Z ) ) z");
-    desk
+    trial.press("&x <right> & :set<space>r=2<enter> s/super<enter> <right*2> u u u U x Z ) ) z");
+    trial
 }
 
 #[test]
 fn a_saved_session_comes_back_as_it_was() {
-    let desk = used();
-    let other = reopened(&desk.session);
-    assert_eq!(format!("{:?}", essence(&other)), format!("{:?}", essence(&desk.session)));
-    assert!(essence(&other) == essence(&desk.session));
-    assert_eq!(save::text(&other), save::text(&desk.session), "and is saved as the same file");
+    let trial = used();
+    let other = reopened(&trial.session);
+    assert_eq!(format!("{:?}", essence(&other)), format!("{:?}", essence(&trial.session)));
+    assert!(essence(&other) == essence(&trial.session));
+    assert_eq!(save::text(&other), save::text(&trial.session), "and is saved as the same file");
 }
 
 #[test]
 fn a_scene_changed_on_the_command_line_is_saved_in_full() {
-    let mut desk = Desk::open("linear");
-    std::sync::Arc::make_mut(&mut desk.session.scene).problem.parameters.d = -0.25;
-    desk.press("R");
-    let other = reopened(&desk.session);
-    assert_eq!(other.scene, desk.session.scene);
+    let mut trial = Trial::open("linear");
+    std::sync::Arc::make_mut(&mut trial.session.scene).problem.parameters.d = -0.25;
+    trial.press("R");
+    let other = reopened(&trial.session);
+    assert_eq!(other.scene, trial.session.scene);
     assert_eq!(other.problem.parameters.d, -0.25);
 }
 
 #[test]
 fn lines_write_open_and_play_files_without_touching_any() {
-    let mut desk = used();
-    desk.press("z :write<space>a.toml<enter>");
-    let Some(Effect::Write { path, text, replace: false }) = desk.effects.last().cloned() else {
-        panic!("{:?}", desk.effects.last());
+    let mut trial = used();
+    trial.press("z :write<space>a.toml<enter>");
+    let Some(Effect::Write { path, text, replace: false }) = trial.effects.last().cloned() else {
+        panic!("{:?}", trial.effects.last());
     };
     assert_eq!(path, PathBuf::from("a.toml"));
-    let mut other = Desk::open("plain");
+    let mut other = Trial::open("plain");
     other.press(":open<space>a.toml<enter>");
     let asked = Effect::Read { path: path.clone(), purpose: Purpose::Open };
     assert_eq!(other.effects.last(), Some(&asked));
     other.give(Msg::Read { path, purpose: Purpose::Open, result: Ok(text) });
     assert_eq!(other.notice(), "opened a.toml");
-    assert!(essence(&other.session) == essence(&desk.session));
+    assert!(essence(&other.session) == essence(&trial.session));
     other.press(":write!<space>a.toml<enter>");
     assert!(matches!(other.effects.last(), Some(Effect::Write { replace: true, .. })));
     other.press(":figure<space>a.SVG<enter>");
@@ -131,22 +131,22 @@ fn lines_write_open_and_play_files_without_touching_any() {
 fn an_interrupted_session_is_offered_until_it_is_taken_or_forgotten() {
     let kept = save::text(&used().session).unwrap();
     let path = PathBuf::from("interrupted-1.toml");
-    let mut desk = Desk::open("plain");
-    desk.press("<f3>");
-    assert_eq!(desk.notice(), "no session was interrupted");
-    desk.session.interrupted = vec![path.clone()];
-    desk.press("<f3>");
+    let mut trial = Trial::open("plain");
+    trial.press("<f3>");
+    assert_eq!(trial.notice(), "no session was interrupted");
+    trial.session.interrupted = vec![path.clone()];
+    trial.press("<f3>");
     let asked = Effect::Read { path: path.clone(), purpose: Purpose::Restore };
-    assert_eq!(desk.effects.last(), Some(&asked));
+    assert_eq!(trial.effects.last(), Some(&asked));
     let effects = update(
-        &mut desk.session,
+        &mut trial.session,
         Msg::Read { path: path.clone(), purpose: Purpose::Restore, result: Ok(kept) },
     );
     assert_eq!(effects, [Effect::PutAside(path.clone())]);
-    assert_eq!(desk.session.scene.name, "supercritical");
-    desk.session.interrupted = vec![path.clone()];
-    desk.press("<f4>");
-    assert_eq!(desk.effects.last(), Some(&Effect::PutAside(path)));
+    assert_eq!(trial.session.scene.name, "supercritical");
+    trial.session.interrupted = vec![path.clone()];
+    trial.press("<f4>");
+    assert_eq!(trial.effects.last(), Some(&Effect::PutAside(path)));
 }
 
 #[test]
@@ -166,11 +166,11 @@ fn what_is_no_session_is_refused_in_one_line_and_changes_nothing() {
         ("scene = \"linear\"", "scene = \"liner\"", "no scene \"liner\"; did you mean linear"),
     ] {
         assert!(good.contains(from), "{from}\n{good}");
-        let mut desk = Desk::open("plain");
-        let before = desk.session.clone();
-        let said_instead = save::open(&mut desk.session, &good.replacen(from, to, 1)).unwrap_err();
+        let mut trial = Trial::open("plain");
+        let before = trial.session.clone();
+        let said_instead = save::open(&mut trial.session, &good.replacen(from, to, 1)).unwrap_err();
         assert!(said_instead.contains(said) && !said_instead.contains('\n'), "{said_instead}");
-        assert!(desk.session == before);
+        assert!(trial.session == before);
     }
 }
 
@@ -182,32 +182,32 @@ proptest! {
         scene in 0..library().len(),
         keys in prop::collection::vec(any_key(), 0..60),
     ) {
-        let mut desk = Desk::open(&library()[scene].name);
+        let mut trial = Trial::open(&library()[scene].name);
         for key in keys {
-            desk.give(Msg::Key(key));
+            trial.give(Msg::Key(key));
         }
-        let other = reopened(&desk.session);
-        prop_assert!(essence(&other) == essence(&desk.session), "{:?}\n{:?}", essence(&other), essence(&desk.session));
+        let other = reopened(&trial.session);
+        prop_assert!(essence(&other) == essence(&trial.session), "{:?}\n{:?}", essence(&other), essence(&trial.session));
     }
 
     #[test]
     fn no_file_is_too_strange(text in any::<String>(), cut in 0..2000_usize, other in any::<char>()) {
-        let mut desk = Desk::open("plain");
-        let _ = save::open(&mut desk.session, &text);
-        let mut broken: Vec<char> = save::text(&desk.session).unwrap().chars().collect();
+        let mut trial = Trial::open("plain");
+        let _ = save::open(&mut trial.session, &text);
+        let mut broken: Vec<char> = save::text(&trial.session).unwrap().chars().collect();
         let at = cut.min(broken.len() - 1);
         broken[at] = other;
-        let _ = save::open(&mut desk.session, &broken.into_iter().collect::<String>());
-        for request in desk.session.wants() {
-            update(&mut desk.session, Msg::Answered(Box::new(answered(request))));
+        let _ = save::open(&mut trial.session, &broken.into_iter().collect::<String>());
+        for request in trial.session.wants() {
+            update(&mut trial.session, Msg::Answered(Box::new(answered(request))));
         }
     }
 
     #[test]
     fn any_line_is_run_or_refused(line in "[a-z!-]{0,12}( [A-Za-z0-9=:,.!~ -]{0,20})?", name in 0..crate::session::lines().count()) {
-        let mut desk = Desk::open("linear");
-        desk.give(Msg::Run(line.clone()));
-        desk.give(Msg::Run(format!("{} {line}", crate::session::lines().nth(name).unwrap().name)));
-        super::strange::check(&desk.session);
+        let mut trial = Trial::open("linear");
+        trial.give(Msg::Run(line.clone()));
+        trial.give(Msg::Run(format!("{} {line}", crate::session::lines().nth(name).unwrap().name)));
+        super::strange::check(&trial.session);
     }
 }

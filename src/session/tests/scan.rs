@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::Desk;
+use super::Trial;
 use crate::flow::Cost;
 use crate::oscillator::Symbol;
 use crate::question;
@@ -39,16 +39,16 @@ fn piece(session: &mut Session, request: &Request, points: Range<usize>) {
 }
 
 /// Types a text into the field that is open, in place of what stands there.
-fn field(desk: &mut Desk, text: &str) {
-    desk.press("<C-u>");
+fn field(trial: &mut Trial, text: &str) {
+    trial.press("<C-u>");
     for char in text.chars() {
-        desk.press(&char.to_string());
+        trial.press(&char.to_string());
     }
 }
 
 /// A session that scans D over 6 values, with no row yet.
 fn begun() -> (Session, Request) {
-    let mut session = Desk::open("plain").session;
+    let mut session = Trial::open("plain").session;
     crate::session::run_line(&mut session, "scan D=-0.6:-0.1:6 margin").unwrap();
     let request = session.scan_request().expect("a question");
     (session, request)
@@ -56,22 +56,22 @@ fn begun() -> (Session, Request) {
 
 #[test]
 fn the_form_starts_a_scan_with_keys_alone_and_shows_it() {
-    let mut desk = Desk::open("plain");
-    desk.press("%");
-    field(&mut desk, "D");
+    let mut trial = Trial::open("plain");
+    trial.press("%");
+    field(&mut trial, "D");
     for text in ["-0.6", "-0.1", "6"] {
-        desk.press("<tab>");
-        field(&mut desk, text);
+        trial.press("<tab>");
+        field(&mut trial, text);
     }
     // The second parameter is chosen with the arrows.
-    desk.press("<down> <right*2>");
+    trial.press("<down> <right*2>");
     for text in ["0.1", "0.3", "2"] {
-        desk.press("<down>");
-        field(&mut desk, text);
+        trial.press("<down>");
+        field(&mut trial, text);
     }
-    desk.press("<up*3> <left*2> <S-tab*5> <right>");
-    assert_eq!(desk.press("<enter>"), [Topic::Scan]);
-    let session = &desk.session;
+    trial.press("<up*3> <left*2> <S-tab*5> <right>");
+    assert_eq!(trial.press("<enter>"), [Topic::Scan]);
+    let session = &trial.session;
     assert!(session.overlay.is_none() && session.focuses_scan());
     let found = scanned(session);
     assert_eq!(found.scan.measures()[0].spec().name, "stability");
@@ -82,12 +82,12 @@ fn the_form_starts_a_scan_with_keys_alone_and_shows_it() {
 
 #[test]
 fn a_form_that_makes_no_sense_stays_open_and_says_why_until_it_changes() {
-    let mut desk = Desk::open("plain");
-    let refusal = |desk: &Desk| match &desk.session.overlay {
+    let mut trial = Trial::open("plain");
+    let refusal = |trial: &Trial| match &trial.session.overlay {
         Some(Overlay::Scan(form)) => form.refused.clone(),
         other => panic!("{other:?}"),
     };
-    desk.press("%");
+    trial.press("%");
     for (keys, text, expected) in [
         ("", "x", "there is no parameter \"x\""),
         ("", "q0", "margin does not depend on q0"),
@@ -100,17 +100,17 @@ fn a_form_that_makes_no_sense_stays_open_and_says_why_until_it_changes() {
         ("", "5", ""),
         ("<S-tab*4>", "margin,much", "there is no measure \"much\""),
     ] {
-        desk.press(keys);
-        field(&mut desk, text);
-        assert_eq!(refusal(&desk), None);
+        trial.press(keys);
+        field(&mut trial, text);
+        assert_eq!(refusal(&trial), None);
         if !expected.is_empty() {
-            desk.press("<enter>");
-            let why = refusal(&desk).expect("a refusal");
+            trial.press("<enter>");
+            let why = refusal(&trial).expect("a refusal");
             assert!(why.contains(expected) && !why.contains('\n'), "{text}: {why}");
         }
     }
-    desk.press("<esc>");
-    assert!(desk.session.overlay.is_none() && desk.session.scanned.is_none());
+    trial.press("<esc>");
+    assert!(trial.session.overlay.is_none() && trial.session.scanned.is_none());
 }
 
 #[test]
@@ -156,34 +156,34 @@ fn a_scan_goes_on_while_something_else_is_on_show_and_asks_nothing_when_it_is_do
     update(&mut session, Msg::Key(",".parse().unwrap()));
     assert!(session.plots.iter().all(|plot| plot.view != View::Scan));
     assert!(session.wants().contains(&request));
-    let mut desk = Desk { session, asked: Vec::new(), effects: Vec::new() };
-    assert_eq!(desk.press("<right>").iter().filter(|topic| **topic == Topic::Scan).count(), 1);
-    assert!(!desk.press("<right>").contains(&Topic::Scan));
+    let mut trial = Trial { session, asked: Vec::new(), effects: Vec::new() };
+    assert_eq!(trial.press("<right>").iter().filter(|topic| **topic == Topic::Scan).count(), 1);
+    assert!(!trial.press("<right>").contains(&Topic::Scan));
 }
 
 #[test]
 fn enter_takes_the_point_into_the_phase_plane_and_undo_gives_it_back() {
-    let mut desk = Desk::open("plain");
-    desk.press(": s c a n <space>");
+    let mut trial = Trial::open("plain");
+    trial.press(": s c a n <space>");
     for char in "D=-0.6:-0.1:6 r=0.1:0.3:3 area".chars() {
-        desk.press(&if char == ' ' { "<space>".to_owned() } else { char.to_string() });
+        trial.press(&if char == ' ' { "<space>".to_owned() } else { char.to_string() });
     }
-    desk.press("<enter>");
-    let before = desk.session.problem;
-    desk.press("<right*2> <up> <enter>");
-    let session = &desk.session;
+    trial.press("<enter>");
+    let before = trial.session.problem;
+    trial.press("<right*2> <up> <enter>");
+    let session = &trial.session;
     assert_eq!(scanned(session).at, 7);
     assert_eq!((session.value(Symbol::D), session.value(Symbol::R)), (-0.4, 0.2));
-    desk.press("u");
-    assert_eq!(desk.session.problem, before);
+    trial.press("u");
+    assert_eq!(trial.session.problem, before);
 }
 
 #[test]
 fn points_are_walked_over_as_they_stand() {
-    let mut session = Desk::open("plain").session;
+    let mut session = Trial::open("plain").session;
     crate::session::run_line(&mut session, "scan D=-0.6:-0.1:6 r=0.1:0.3:3 area").unwrap();
-    let mut desk = Desk { session, asked: Vec::new(), effects: Vec::new() };
-    desk.settle();
+    let mut trial = Trial { session, asked: Vec::new(), effects: Vec::new() };
+    trial.settle();
     for (keys, at) in [
         ("<up>", 1),
         ("<right>", 4),
@@ -197,8 +197,8 @@ fn points_are_walked_over_as_they_stand() {
         ("<end>", 17),
         ("<home>", 0),
     ] {
-        desk.press(keys);
-        assert_eq!(scanned(&desk.session).at, at, "{keys}");
+        trial.press(keys);
+        assert_eq!(scanned(&trial.session).at, at, "{keys}");
     }
 }
 
@@ -214,11 +214,14 @@ fn a_key_saves_what_is_there() {
 
 #[test]
 fn keys_for_a_scan_that_is_not_there_say_so_and_do_nothing() {
-    let mut desk = Desk::open("plain");
-    desk.press("V <end> <enter>");
-    assert!(desk.session.focuses_scan(), "{:?}", desk.session.focus);
+    let mut trial = Trial::open("plain");
+    trial.press("V <end> <enter>");
+    assert!(trial.session.focuses_scan(), "{:?}", trial.session.focus);
     for key in ["<right>", "<up>", "<enter>", "Y", "t", "P", "S", "<esc>"] {
-        desk.press(key);
-        assert!(desk.session.scanned.is_none() && desk.session.focus != Pane::Parameters, "{key}");
+        trial.press(key);
+        assert!(
+            trial.session.scanned.is_none() && trial.session.focus != Pane::Parameters,
+            "{key}"
+        );
     }
 }

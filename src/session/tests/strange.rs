@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 
-use super::Desk;
+use super::Trial;
 use crate::question;
 use crate::scene::{Request, library};
 use crate::session::commands;
@@ -57,47 +57,47 @@ proptest! {
         scene in 0..library().len(),
         keys in prop::collection::vec(any_key(), 0..120),
     ) {
-        let mut desk = Desk::open(&library()[scene].name);
+        let mut trial = Trial::open(&library()[scene].name);
         for key in keys {
-            desk.give(Msg::Key(key));
-            check(&desk.session);
+            trial.give(Msg::Key(key));
+            check(&trial.session);
         }
     }
 
     #[test]
     fn escape_never_quits_and_never_discards(keys in prop::collection::vec(any_key(), 0..40)) {
-        let mut desk = Desk::open("supercritical");
+        let mut trial = Trial::open("supercritical");
         for key in keys {
-            desk.give(Msg::Key(key));
-            let mut session = desk.session.clone();
+            trial.give(Msg::Key(key));
+            let mut session = trial.session.clone();
             let effects = update(&mut session, Msg::Key("<esc>".parse().unwrap()));
             prop_assert!(!effects.contains(&Effect::Quit));
-            prop_assert_eq!(session.problem, desk.session.problem);
-            prop_assert_eq!(session.history, desk.session.history.clone());
+            prop_assert_eq!(session.problem, trial.session.problem);
+            prop_assert_eq!(session.history, trial.session.history.clone());
         }
     }
 
     #[test]
     fn undoing_everything_leads_back_to_the_start(keys in prop::collection::vec(any_key(), 0..60)) {
-        let mut desk = Desk::open("supercritical");
-        let start = desk.session.clone();
+        let mut trial = Trial::open("supercritical");
+        let start = trial.session.clone();
         for key in keys {
-            desk.give(Msg::Key(key));
+            trial.give(Msg::Key(key));
         }
-        desk.press("<esc*3>");
-        while desk.session.history.depth().1 > 0 {
-            desk.press("U");
+        trial.press("<esc*3>");
+        while trial.session.history.depth().1 > 0 {
+            trial.press("U");
         }
-        let last = desk.session.problem;
-        while desk.session.history.depth().0 > 0 {
-            desk.press("u");
+        let last = trial.session.problem;
+        while trial.session.history.depth().0 > 0 {
+            trial.press("u");
         }
-        prop_assert_eq!(desk.session.problem, start.problem);
-        prop_assert_eq!(&desk.session.scene.name, &start.scene.name);
-        while desk.session.history.depth().1 > 0 {
-            desk.press("U");
+        prop_assert_eq!(trial.session.problem, start.problem);
+        prop_assert_eq!(&trial.session.scene.name, &start.scene.name);
+        while trial.session.history.depth().1 > 0 {
+            trial.press("U");
         }
-        prop_assert_eq!(desk.session.problem, last);
+        prop_assert_eq!(trial.session.problem, last);
     }
 
     #[test]
@@ -106,8 +106,8 @@ proptest! {
         width in 1..500_u16,
         height in 1..200_u16,
     ) {
-        let mut here = Desk::open("plain");
-        let mut there = Desk::open("plain");
+        let mut here = Trial::open("plain");
+        let mut there = Trial::open("plain");
         there.give(Msg::Resize { width, height });
         for key in keys {
             here.give(Msg::Key(key));
@@ -119,13 +119,13 @@ proptest! {
 
     #[test]
     fn any_text_can_be_pasted(text in any::<String>(), keys in prop::collection::vec(any_key(), 0..5)) {
-        let mut desk = Desk::open("plain");
+        let mut trial = Trial::open("plain");
         for key in keys {
-            desk.give(Msg::Key(key));
+            trial.give(Msg::Key(key));
         }
-        let before = desk.session.problem;
-        desk.give(Msg::Paste(text));
-        check(&desk.session);
-        prop_assert_eq!(desk.session.problem, before);
+        let before = trial.session.problem;
+        trial.give(Msg::Paste(text));
+        check(&trial.session);
+        prop_assert_eq!(trial.session.problem, before);
     }
 }

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 
 use super::recorded::assert_alike;
 use super::strange::any_key;
-use super::{Desk, answered};
+use super::{Trial, answered};
 use crate::flow::Reason;
 use crate::question::Failure;
 use crate::scene::{Answered, library};
@@ -13,32 +13,32 @@ use crate::session::replay::{Action, Player, parse};
 use crate::session::{Effect, Msg, update};
 
 /// Gives a message while nothing is answered but what it waits for; returns whether it waits.
-fn hurry(desk: &mut Desk, message: Msg) -> bool {
-    let effects = update(&mut desk.session, message);
-    desk.effects.extend(effects);
-    let waits = desk.session.is_waiting();
+fn hurry(trial: &mut Trial, message: Msg) -> bool {
+    let effects = update(&mut trial.session, message);
+    trial.effects.extend(effects);
+    let waits = trial.session.is_waiting();
     for round in 0.. {
-        let Some(waiting) = &desk.session.waiting else { break };
+        let Some(waiting) = &trial.session.waiting else { break };
         assert!(round < 10, "waits again and again: {waiting:?}");
         let request = waiting.request.clone();
-        assert!(desk.open_questions().contains(&request), "waits for what nobody answers");
+        assert!(trial.open_questions().contains(&request), "waits for what nobody answers");
         let answer = Msg::Answered(Box::new(answered(request)));
-        let effects = update(&mut desk.session, answer);
-        desk.effects.extend(effects);
+        let effects = update(&mut trial.session, answer);
+        trial.effects.extend(effects);
     }
     waits
 }
 
 /// Presses keys as fast as they come; returns which of them waited.
-fn type_ahead(desk: &mut Desk, keys: &str) -> Vec<String> {
+fn type_ahead(trial: &mut Trial, keys: &str) -> Vec<String> {
     let mut player = Player::new(parse(keys).unwrap());
     let mut waited = Vec::new();
     while let Action::Give(message) = player.next(true, String::new).unwrap() {
-        let before = desk.effects.len();
-        if hurry(desk, message.clone()) {
+        let before = trial.effects.len();
+        if hurry(trial, message.clone()) {
             waited.push(format!("{message:?}"));
         }
-        for effect in &desk.effects[before..] {
+        for effect in &trial.effects[before..] {
             if let Effect::Play(script) | Effect::PlayRegister(script) = effect {
                 player.interject(script.clone());
             }
@@ -90,7 +90,7 @@ const HASTY: [(&str, &str, &str); 26] = [
 #[test]
 fn whatever_needs_an_answer_leads_to_the_same_end_however_fast_it_is_typed() {
     for (command, scene, keys) in HASTY {
-        let [mut slow, mut fast] = [(); 2].map(|()| Desk::open(scene));
+        let [mut slow, mut fast] = [(); 2].map(|()| Trial::open(scene));
         slow.press(keys);
         let waited = type_ahead(&mut fast, keys);
         assert!(!waited.is_empty(), "{command}: nothing in {keys} waited");
@@ -104,16 +104,16 @@ fn whatever_needs_an_answer_leads_to_the_same_end_however_fast_it_is_typed() {
 
 #[test]
 fn what_waits_is_forgotten_by_escape_as_if_it_had_not_been_pressed() {
-    let mut desk = Desk::open("supercritical");
-    update(&mut desk.session, Msg::Key("<right>".parse().unwrap()));
-    let before = desk.session.clone();
-    update(&mut desk.session, Msg::Key("i".parse().unwrap()));
-    assert!(desk.session.is_waiting());
-    update(&mut desk.session, Msg::Key("<esc>".parse().unwrap()));
-    assert!(!desk.session.is_waiting());
-    assert_eq!(desk.session.problem, before.problem);
-    desk.settle();
-    assert_eq!(desk.session.problem, before.problem, "and it stays forgotten");
+    let mut trial = Trial::open("supercritical");
+    update(&mut trial.session, Msg::Key("<right>".parse().unwrap()));
+    let before = trial.session.clone();
+    update(&mut trial.session, Msg::Key("i".parse().unwrap()));
+    assert!(trial.session.is_waiting());
+    update(&mut trial.session, Msg::Key("<esc>".parse().unwrap()));
+    assert!(!trial.session.is_waiting());
+    assert_eq!(trial.session.problem, before.problem);
+    trial.settle();
+    assert_eq!(trial.session.problem, before.problem, "and it stays forgotten");
 }
 
 #[test]
@@ -123,19 +123,19 @@ fn what_waits_is_run_when_its_computation_gives_up_and_says_so() {
         ("<tab*2>w", "the branch is not known"),
         ("<f8>", "no motion"),
     ] {
-        let mut desk = Desk::open("supercritical");
-        update(&mut desk.session, Msg::Run("set D=-0.3 r=0.2".to_owned()));
+        let mut trial = Trial::open("supercritical");
+        update(&mut trial.session, Msg::Run("set D=-0.3 r=0.2".to_owned()));
         let mut player = Player::new(parse(keys).unwrap());
         while let Action::Give(message) = player.next(true, String::new).unwrap() {
-            update(&mut desk.session, message);
+            update(&mut trial.session, message);
         }
-        while let Some(waiting) = desk.session.waiting.clone() {
+        while let Some(waiting) = trial.session.waiting.clone() {
             let result = Err(Failure::Reason(Reason::OutOfRange));
             let given_up =
                 Answered { request: waiting.request, result, seconds: 0.0, complete: true };
-            update(&mut desk.session, Msg::Answered(Box::new(given_up)));
+            update(&mut trial.session, Msg::Answered(Box::new(given_up)));
         }
-        assert!(desk.notice().contains(said), "{keys}: {}", desk.notice());
+        assert!(trial.notice().contains(said), "{keys}: {}", trial.notice());
     }
 }
 
@@ -148,7 +148,7 @@ proptest! {
         keys in prop::collection::vec((any_key(), 0..4_usize), 0..50),
     ) {
         let scene = &library()[scene].name;
-        let [mut slow, mut fast] = [(); 2].map(|()| Desk::open(scene));
+        let [mut slow, mut fast] = [(); 2].map(|()| Trial::open(scene));
         let mut pressed = String::new();
         // The tour expects what a screen shows; the form of a scan offers the windows as they are by then.
         let left_out = |key: &str| ["<f6>", "%"].contains(&key);

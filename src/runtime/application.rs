@@ -5,12 +5,12 @@ use std::path::Path;
 use ratatui::Frame;
 use ratatui::layout::Size;
 
-use super::clerk::Work;
+use super::figure_writer::Work;
 use crate::scene::Request;
 use crate::session::{Effect, Msg, Place};
 
 /// A session and the way it is drawn; tests have simpler ones.
-pub trait Machine {
+pub trait Application {
     fn update(&mut self, msg: Msg) -> Vec<Effect>;
 
     /// The requests to be computed now: wanted, and neither answered nor failed.

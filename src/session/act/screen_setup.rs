@@ -1,22 +1,22 @@
 //! Commands that change what is on show: which view a plot shows, how many plots there are, and how
 //! they share the screen. Each is a change that can be undone.
 
-use crate::scene::{ARRANGEMENTS, Exhibit, LAYERS, MOST_PLOTS, VIEWS, View};
+use crate::scene::{ARRANGEMENTS, LAYERS, MOST_PLOTS, PlotSetup, VIEWS, View};
 use crate::session::act::focus::focus_on;
 use crate::session::act::notice::{inform, refuse};
 use crate::session::effect::Effect;
-use crate::session::state::history::{Before, Desk};
+use crate::session::state::history::{Before, ScreenSetup};
 use crate::session::state::plot::{Pane, Plot};
 use crate::session::state::session::Session;
 
 /// Puts plots on show; those that stay what they are keep their answers.
-pub(in crate::session) fn set_up(session: &mut Session, desk: &Desk) {
-    session.arrangement = desk.arrangement;
-    session.plots.truncate(desk.plots.len());
-    for (index, exhibit) in desk.plots.iter().enumerate() {
+pub(in crate::session) fn set_up(session: &mut Session, screen_setup: &ScreenSetup) {
+    session.arrangement = screen_setup.arrangement;
+    session.plots.truncate(screen_setup.plots.len());
+    for (index, plot_setup) in screen_setup.plots.iter().enumerate() {
         match session.plots.get_mut(index) {
-            Some(plot) => *plot = Plot::opened(exhibit),
-            None => session.plots.push(Plot::opened(exhibit)),
+            Some(plot) => *plot = Plot::opened(plot_setup),
+            None => session.plots.push(Plot::opened(plot_setup)),
         }
     }
     let last = session.plots.len().saturating_sub(1);
@@ -29,25 +29,25 @@ pub(in crate::session) fn set_up(session: &mut Session, desk: &Desk) {
 
 /// Notes what is on show before it is changed.
 fn record(session: &mut Session) {
-    let before = Before::Desk(session.desk());
+    let before = Before::ScreenSetup(session.screen_setup());
     session.history.record(before);
     session.held = None;
 }
 
 /// What a plot shows of a view when it is turned to it: what the scene has of that and no other plot
 /// shows; else the same as another plot, for another look at it; else all there is.
-fn exhibit(session: &Session, plot: usize, view: View) -> Exhibit {
-    let others: Vec<Exhibit> = (0..session.plots.len())
+fn plot_setup(session: &Session, plot: usize, view: View) -> PlotSetup {
+    let others: Vec<PlotSetup> = (0..session.plots.len())
         .filter(|other| *other != plot && session.plots[*other].view == view)
-        .filter_map(|other| session.exhibit(other))
+        .filter_map(|other| session.plot_setup(other))
         .collect();
-    let absent = |exhibit: &Exhibit| others.iter().all(|other| other.axes != exhibit.axes);
+    let absent = |plot_setup: &PlotSetup| others.iter().all(|other| other.axes != plot_setup.axes);
     let here = session.scene.plots.get(plot);
     let of_scene = here.into_iter().chain(&session.scene.plots);
-    let mut of_scene = of_scene.filter(|exhibit| exhibit.view == view);
+    let mut of_scene = of_scene.filter(|plot_setup| plot_setup.view == view);
     let axes = session.plots.get(plot).map(|plot| plot.axes).unwrap_or_default();
-    let all = Exhibit { view, axes, window: None, family: None };
-    of_scene.find(|exhibit| absent(exhibit)).or(others.first()).copied().unwrap_or(all)
+    let all = PlotSetup { view, axes, window: None, family: None };
+    of_scene.find(|plot_setup| absent(plot_setup)).or(others.first()).copied().unwrap_or(all)
 }
 
 /// Switches the usual layers of a view on where none of its layers is.
@@ -63,9 +63,9 @@ fn switch_on(session: &mut Session, view: View) {
 pub fn show(session: &mut Session, view: View) -> Vec<Effect> {
     let index = session.plot;
     if session.plots[index].view != view {
-        let exhibit = exhibit(session, index, view);
+        let plot_setup = plot_setup(session, index, view);
         record(session);
-        session.plots[index] = Plot::opened(&exhibit);
+        session.plots[index] = Plot::opened(&plot_setup);
         switch_on(session, view);
     }
     focus_on(session, Pane::Plot(index));
@@ -90,16 +90,19 @@ pub fn add(session: &mut Session) -> Vec<Effect> {
     let index = session.plot;
     let absent = |view: &View| session.plots.iter().all(|plot| plot.view != *view);
     let view = VIEWS.iter().map(|row| row.view).find(absent);
-    let exhibit = match view {
-        Some(view) => exhibit(session, session.plots.len(), view),
-        None => session.exhibit(index).unwrap_or_else(|| session.scene.plots[0]),
+    let plot_setup = match view {
+        Some(view) => plot_setup(session, session.plots.len(), view),
+        None => session.plot_setup(index).unwrap_or_else(|| session.scene.plots[0]),
     };
     record(session);
-    session.plots.insert(index + 1, Plot::opened(&exhibit));
-    switch_on(session, exhibit.view);
+    session.plots.insert(index + 1, Plot::opened(&plot_setup));
+    switch_on(session, plot_setup.view);
     session.enlarged = false;
     focus_on(session, Pane::Plot(index + 1));
-    inform(session, format!("{} more: {}", exhibit.view.spec().title, exhibit.view.spec().meaning));
+    inform(
+        session,
+        format!("{} more: {}", plot_setup.view.spec().title, plot_setup.view.spec().meaning),
+    );
     Vec::new()
 }
 

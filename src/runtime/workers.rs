@@ -1,5 +1,4 @@
-//! Two workers and a clerk: one worker for what the next picture needs, one for what takes long; the clerk
-//! writes figures.
+//! Two workers and a writer of figures: one worker for what the next picture needs, one for what takes long.
 //!
 //! A scan of minutes must not stand between a key and its picture. So long requests have a worker of
 //! their own, which goes on while the other one answers.
@@ -7,23 +6,23 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::clerk::{Clerk, Work};
+use super::figure_writer::{FigureWriter, Work};
 use super::panics::Notes;
 use super::worker::{Tell, Worker};
 use crate::flow::{Limits, Reason};
 use crate::scene::{Answer, Request};
 use crate::session::Msg;
 
-/// Both workers, used as one, and the clerk.
+/// Both workers, used as one, and what writes figures.
 #[derive(Debug)]
-pub struct Crew {
+pub struct Workers {
     quick: Worker,
     long: Worker,
-    clerk: Clerk,
+    figures: FigureWriter,
 }
 
-impl Crew {
-    /// Starts them; see [`Worker::start`]. Each says [`Msg::Idle`] for itself; ask [`Crew::is_idle`].
+impl Workers {
+    /// Starts them; see [`Worker::start`]. Each says [`Msg::Idle`] for itself; ask [`Workers::is_idle`].
     ///
     /// # Errors
     /// If the system gives no threads.
@@ -31,15 +30,15 @@ impl Crew {
         answer: impl Fn(&Request, &Limits, &Tell) -> Result<Answer, Reason> + Send + Sync + 'static,
         notes: Notes,
         report: impl Fn(Msg) + Clone + Send + Sync + 'static,
-    ) -> std::io::Result<Crew> {
+    ) -> std::io::Result<Workers> {
         let answer = Arc::new(answer);
         let other = Arc::clone(&answer);
         let quick =
             move |request: &Request, limits: &Limits, tell: &Tell| answer(request, limits, tell);
         let long =
             move |request: &Request, limits: &Limits, tell: &Tell| other(request, limits, tell);
-        Ok(Crew {
-            clerk: Clerk::new(Arc::new(report.clone()), notes.clone()),
+        Ok(Workers {
+            figures: FigureWriter::new(Arc::new(report.clone()), notes.clone()),
             quick: Worker::start(quick, notes.clone(), report.clone())?,
             long: Worker::start(long, notes, report)?,
         })
@@ -61,17 +60,17 @@ impl Crew {
         self.of(request).taken(request);
     }
 
-    /// Begins to write a figure; see [`Clerk::begin`].
+    /// Begins to write a figure; see [`FigureWriter::begin`].
     ///
     /// # Errors
     /// One line that says why not.
     pub fn write(&mut self, path: PathBuf, replace: bool, work: Work) -> Result<(), String> {
-        self.clerk.begin(path, replace, work)
+        self.figures.begin(path, replace, work)
     }
 
     /// Stops what is being written.
     pub fn stop_writing(&self) {
-        self.clerk.stop();
+        self.figures.stop();
     }
 
     /// Whether nothing is in progress and nothing waits.

@@ -21,7 +21,7 @@ const REFINEMENT: u32 = 2;
 
 /// What there is to do.
 #[derive(Debug, Default)]
-pub struct Desk {
+pub struct Queue {
     /// What is wanted, the most urgent first; the request in progress is among it.
     wanted: Vec<Wanted>,
     /// The request in progress, unless nobody wants it any more.
@@ -41,7 +41,7 @@ struct Wanted {
     turns: u32,
 }
 
-impl Desk {
+impl Queue {
     /// Replaces what is wanted; `true` if the request in progress is not among it.
     pub fn want(&mut self, wanted: Vec<Request>) -> bool {
         let before = std::mem::take(&mut self.wanted);
@@ -145,60 +145,60 @@ mod tests {
 
     #[test]
     fn what_is_put_aside_comes_after_all_others_and_then_has_a_longer_turn() {
-        let mut desk = Desk::default();
+        let mut queue = Queue::default();
         let [slow, quick, last] = [1.0, 2.0, 3.0].map(cycles);
-        assert!(!desk.want(vec![slow.clone(), quick.clone(), last.clone()]));
-        assert_eq!(desk.begin(), Some((slow.clone(), 1)));
-        assert!(desk.is_contested());
-        desk.put_aside();
+        assert!(!queue.want(vec![slow.clone(), quick.clone(), last.clone()]));
+        assert_eq!(queue.begin(), Some((slow.clone(), 1)));
+        assert!(queue.is_contested());
+        queue.put_aside();
         for other in [&quick, &last] {
-            assert_eq!(desk.begin(), Some((other.clone(), 1)));
-            assert_eq!(desk.finish().as_ref(), Some(other));
-            desk.taken(other);
+            assert_eq!(queue.begin(), Some((other.clone(), 1)));
+            assert_eq!(queue.finish().as_ref(), Some(other));
+            queue.taken(other);
             // What is wanted still has had its turns.
-            assert!(!desk.want(vec![slow.clone(), last.clone()]));
+            assert!(!queue.want(vec![slow.clone(), last.clone()]));
             if other == &last {
-                desk.want(vec![slow.clone()]);
+                queue.want(vec![slow.clone()]);
             }
         }
-        assert_eq!(desk.begin(), Some((slow.clone(), 4)));
-        assert!(!desk.is_contested(), "alone it may take as long as it likes");
+        assert_eq!(queue.begin(), Some((slow.clone(), 4)));
+        assert!(!queue.is_contested(), "alone it may take as long as it likes");
         // A new key asks something new, which has had no turn yet.
-        desk.want(vec![slow, cycles(4.0)]);
-        assert!(desk.is_contested());
+        queue.want(vec![slow, cycles(4.0)]);
+        assert!(queue.is_contested());
     }
 
     #[test]
     fn a_refinement_waits_for_whatever_has_no_picture_yet() {
-        let mut desk = Desk::default();
+        let mut queue = Queue::default();
         let parameters = Parameters { d: -0.1, d2: 0.0, d3: 0.5, r: 0.1 };
         let full = Request::Trajectory(Problem { parameters, ..Problem::default() });
         let draft = full.draft().unwrap();
-        desk.want(vec![draft.clone(), full.clone(), cycles(1.0)]);
-        assert_eq!(desk.begin(), Some((draft.clone(), 1)));
-        assert!(desk.is_contested());
-        desk.finish();
-        desk.taken(&draft);
-        desk.want(vec![full.clone(), cycles(1.0)]);
+        queue.want(vec![draft.clone(), full.clone(), cycles(1.0)]);
+        assert_eq!(queue.begin(), Some((draft.clone(), 1)));
+        assert!(queue.is_contested());
+        queue.finish();
+        queue.taken(&draft);
+        queue.want(vec![full.clone(), cycles(1.0)]);
         for length in [1, 4] {
-            assert_eq!(desk.begin(), Some((cycles(1.0), length)));
-            assert!(!desk.is_contested(), "a refinement has its turn later");
-            desk.put_aside();
+            assert_eq!(queue.begin(), Some((cycles(1.0), length)));
+            assert!(!queue.is_contested(), "a refinement has its turn later");
+            queue.put_aside();
         }
-        assert_eq!(desk.begin(), Some((full.clone(), 16)), "the more urgent of the two");
-        assert!(desk.is_contested());
+        assert_eq!(queue.begin(), Some((full.clone(), 16)), "the more urgent of the two");
+        assert!(queue.is_contested());
     }
 
     #[test]
     fn what_nobody_wants_any_more_is_superseded_and_forgotten() {
-        let mut desk = Desk::default();
-        desk.want(vec![cycles(1.0)]);
-        desk.begin();
-        assert!(desk.want(vec![cycles(2.0)]));
-        assert!(!desk.is_contested() && !desk.is_idle());
-        assert_eq!(desk.finish(), None, "nobody wants that answer");
-        assert_eq!(desk.begin(), Some((cycles(2.0), 1)));
-        assert_eq!(desk.finish(), Some(cycles(2.0)));
-        assert!(desk.is_idle());
+        let mut queue = Queue::default();
+        queue.want(vec![cycles(1.0)]);
+        queue.begin();
+        assert!(queue.want(vec![cycles(2.0)]));
+        assert!(!queue.is_contested() && !queue.is_idle());
+        assert_eq!(queue.finish(), None, "nobody wants that answer");
+        assert_eq!(queue.begin(), Some((cycles(2.0), 1)));
+        assert_eq!(queue.finish(), Some(cycles(2.0)));
+        assert!(queue.is_idle());
     }
 }

@@ -1,4 +1,4 @@
-//! The clerk: computes and writes one figure at a time, on a thread of its own, so that a heavy one does
+//! Computes and writes one figure at a time, on a thread of its own, so that a heavy one does
 //! not keep the keys waiting.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -15,12 +15,12 @@ use crate::session::{Msg, Notice};
 /// Makes the content of a file, or says in one line why it cannot.
 pub type Work = Box<dyn FnOnce(&Limits) -> Result<Vec<u8>, String> + Send>;
 
-/// What the clerk calls when a file is written, or is not.
+/// What is called when a file is written, or is not.
 pub type Report = Arc<dyn Fn(Msg) + Send + Sync>;
 
 /// The handle; dropping it stops what is being written and waits for its end, so that no file is left
 /// half done.
-pub struct Clerk {
+pub struct FigureWriter {
     report: Report,
     notes: Notes,
     task: Option<Task>,
@@ -32,16 +32,18 @@ struct Task {
     thread: JoinHandle<()>,
 }
 
-impl std::fmt::Debug for Clerk {
+impl std::fmt::Debug for FigureWriter {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        out.debug_struct("Clerk").field("writing", &self.is_writing()).finish_non_exhaustive()
+        out.debug_struct("FigureWriter")
+            .field("writing", &self.is_writing())
+            .finish_non_exhaustive()
     }
 }
 
-impl Clerk {
-    /// A clerk with nothing to do.
-    pub fn new(report: Report, notes: Notes) -> Clerk {
-        Clerk { report, notes, task: None }
+impl FigureWriter {
+    /// A writer with nothing to do.
+    pub fn new(report: Report, notes: Notes) -> FigureWriter {
+        FigureWriter { report, notes, task: None }
     }
 
     /// Begins to write a file; [`Msg::Written`] says how that ends.
@@ -76,7 +78,7 @@ impl Clerk {
                 }
             }));
         };
-        let thread = thread::Builder::new().name("clerk".to_owned()).spawn(writes);
+        let thread = thread::Builder::new().name("figures".to_owned()).spawn(writes);
         let thread = thread.map_err(|why| format!("{failed}: {why}"))?;
         self.task = Some(Task { stop, thread });
         Ok(())
@@ -95,7 +97,7 @@ impl Clerk {
     }
 }
 
-impl Drop for Clerk {
+impl Drop for FigureWriter {
     fn drop(&mut self) {
         self.stop();
         if let Some(task) = self.task.take() {
@@ -111,9 +113,9 @@ mod tests {
 
     use super::*;
 
-    fn clerk() -> (Clerk, Receiver<Msg>) {
+    fn writer() -> (FigureWriter, Receiver<Msg>) {
         let (send, messages) = unbounded();
-        (Clerk::new(Arc::new(move |msg| drop(send.send(msg))), Notes::default()), messages)
+        (FigureWriter::new(Arc::new(move |msg| drop(send.send(msg))), Notes::default()), messages)
     }
 
     fn notice(messages: &Receiver<Msg>) -> Notice {
@@ -127,12 +129,12 @@ mod tests {
     fn what_is_made_is_written_and_told() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("figure.svg");
-        let (mut clerk, messages) = clerk();
-        clerk.begin(path.clone(), false, Box::new(|_| Ok(b"curves".to_vec()))).unwrap();
+        let (mut writer, messages) = writer();
+        writer.begin(path.clone(), false, Box::new(|_| Ok(b"curves".to_vec()))).unwrap();
         let told = notice(&messages);
         assert!(!told.error && told.text.contains("written to"), "{told:?}");
         assert_eq!(std::fs::read(&path).unwrap(), b"curves");
-        drop(clerk);
+        drop(writer);
 
         for (work, why) in [
             (Box::new(|_: &Limits| Err("no curves".to_owned())) as Work, "no curves"),
@@ -141,8 +143,8 @@ mod tests {
                 "internal error: a defect",
             ),
         ] {
-            let (mut clerk, messages) = self::clerk();
-            clerk.begin(path.clone(), true, work).unwrap();
+            let (mut writer, messages) = self::writer();
+            writer.begin(path.clone(), true, work).unwrap();
             let told = notice(&messages);
             assert!(told.error && told.text.contains(why), "{told:?}");
         }
@@ -153,7 +155,7 @@ mod tests {
     fn what_is_stopped_writes_nothing_and_one_file_is_written_at_a_time() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("figure.svg");
-        let (mut clerk, messages) = clerk();
+        let (mut writer, messages) = writer();
         let (start, started) = bounded(0);
         let endless = move |limits: &Limits| {
             start.send(()).unwrap();
@@ -162,15 +164,15 @@ mod tests {
             }
             Ok(b"half of the curves".to_vec())
         };
-        clerk.begin(path.clone(), false, Box::new(endless)).unwrap();
+        writer.begin(path.clone(), false, Box::new(endless)).unwrap();
         started.recv().unwrap();
-        assert!(clerk.is_writing());
-        let other = clerk.begin(folder.path().join("other.svg"), false, Box::new(|_| Ok(vec![])));
+        assert!(writer.is_writing());
+        let other = writer.begin(folder.path().join("other.svg"), false, Box::new(|_| Ok(vec![])));
         assert!(other.unwrap_err().contains("other.svg not written: another"));
-        clerk.stop();
+        writer.stop();
         let told = notice(&messages);
         assert!(!told.error && told.text.contains("stopped"), "{told:?}");
-        drop(clerk);
+        drop(writer);
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
     }
 }

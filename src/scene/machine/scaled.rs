@@ -14,33 +14,33 @@ use crate::scene::usual::TOLERANCE;
 /// A machine with its dimensionless form.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Machine", into = "Machine")]
-pub struct Rig {
+pub struct ScaledMachine {
     pub machine: Machine,
     pub reduced: Reduced,
 }
 
-impl TryFrom<Machine> for Rig {
+impl TryFrom<Machine> for ScaledMachine {
     type Error = BeltError;
 
     fn try_from(machine: Machine) -> Result<Self, BeltError> {
-        Rig::new(machine)
+        ScaledMachine::new(machine)
     }
 }
 
-impl From<Rig> for Machine {
-    fn from(rig: Rig) -> Self {
-        rig.machine
+impl From<ScaledMachine> for Machine {
+    fn from(scaled: ScaledMachine) -> Self {
+        scaled.machine
     }
 }
 
-impl Rig {
+impl ScaledMachine {
     /// Reduces a machine.
     ///
     /// # Errors
     /// [`BeltError`] where it has no dimensionless form.
     pub fn new(machine: Machine) -> Result<Self, BeltError> {
         let reduced = machine.reduce()?;
-        Ok(Rig { machine, reduced })
+        Ok(ScaledMachine { machine, reduced })
     }
 
     /// The motion of the machine.
@@ -64,7 +64,7 @@ impl Rig {
 
     /// The machine at its own speed of the belt.
     pub fn running(&self) -> Running<'_> {
-        let Rig { machine, reduced } = self;
+        let ScaledMachine { machine, reduced } = self;
         Running { machine, speed: machine.belt.belt_speed, reduced: *reduced }
     }
 }
@@ -77,11 +77,16 @@ mod tests {
     #[test]
     fn a_machine_written_down_comes_back_as_it_was() {
         for machine in machines() {
-            let rig = Rig::new(machine.clone()).unwrap();
-            let text = serde_json::to_string(&rig).unwrap();
-            assert_eq!(serde_json::from_str::<Rig>(&text).unwrap(), rig, "{}", machine.name);
+            let scaled = ScaledMachine::new(machine.clone()).unwrap();
+            let text = serde_json::to_string(&scaled).unwrap();
+            assert_eq!(
+                serde_json::from_str::<ScaledMachine>(&text).unwrap(),
+                scaled,
+                "{}",
+                machine.name
+            );
             let broken = text.replacen("\"mass\":", "\"mass\":-", 1);
-            assert!(serde_json::from_str::<Rig>(&broken).is_err());
+            assert!(serde_json::from_str::<ScaledMachine>(&broken).is_err());
         }
     }
 }

@@ -1,0 +1,102 @@
+//! One to four plots, each with a view of its own, and what they ask together.
+
+use super::Trial;
+use crate::oscillator::Symbol;
+use crate::scene::{Arrangement, Axes, Ordinate, Topic, View};
+use crate::session::{Framing, Pane};
+
+/// The views on show, a letter each, in capitals in focus.
+fn views(trial: &Trial) -> String {
+    let letter = |(index, view): (usize, View)| {
+        let letter = view.spec().name.chars().next().unwrap_or(' ');
+        let focused = trial.session.focus == Pane::Plot(index);
+        if focused { letter.to_ascii_uppercase() } else { letter }
+    };
+    trial.session.plots.iter().map(|plot| plot.view).enumerate().map(letter).collect()
+}
+
+#[test]
+fn plots_are_added_removed_moved_and_each_change_is_undone() {
+    let mut trial = Trial::open("supercritical");
+    let opened = trial.session.plots.clone();
+    assert_eq!(views(&trial), "pd");
+    let mut seen = vec![views(&trial)];
+    for keys in ["<tab>", "M", "Q", "W", "V/diagram<enter>", "Z"] {
+        trial.press(keys);
+        seen.push(views(&trial));
+    }
+    assert_eq!(trial.session.history.depth(), (5, 0), "the focus is no change");
+    assert_eq!(trial.session.arrangement, Arrangement::Columns);
+    let mut changes = seen.iter().rev().skip(1).map(|views| views.to_lowercase());
+    for _ in 0..5 {
+        trial.press("u");
+        assert_eq!(Some(views(&trial).to_lowercase()), changes.next());
+    }
+    assert_eq!(trial.session.arrangement, Arrangement::Auto);
+    for (plot, before) in trial.session.plots.iter().zip(&opened) {
+        assert_eq!((plot.view, plot.window, plot.axes), (before.view, before.window, before.axes));
+    }
+}
+
+#[test]
+fn there_are_one_to_four_plots() {
+    let mut trial = Trial::open("supercritical");
+    trial.press("W W W");
+    assert_eq!(trial.session.plots.len(), 4);
+    assert_eq!(trial.notice(), "there are 4 plots, and no more fit");
+    trial.press("Q Q Q Q");
+    assert_eq!((trial.session.plots.len(), trial.notice()), (1, "the last plot stays"));
+}
+
+#[test]
+fn equal_questions_of_two_plots_are_one() {
+    let mut trial = Trial::open("supercritical");
+    // Another diagram like the first: its branch is known.
+    trial.press("<tab>");
+    assert_eq!(trial.press("; , ;"), []);
+    let [first, second] = &trial.session.plots[..] else { panic!("two plots") };
+    assert_eq!((first.view, first.axes), (second.view, second.axes));
+    // A step of D3 computes both branches again: by one computation.
+    assert_eq!(trial.press("<S-tab><down><right>"), [Topic::Branch]);
+    assert!((0..2).all(|plot| trial.session.is_fresh(Topic::Branch, plot)));
+    // Another ordinate is another look at the same cycles.
+    assert_eq!(trial.press("<tab>Y Y Y Y Y"), []);
+    assert_eq!(trial.session.plots[0].axes.ordinate, Ordinate::Period);
+    assert_eq!(trial.press("<S-tab><left>"), [], "the way back is known");
+}
+
+#[test]
+fn two_diagrams_over_different_axes_stand_side_by_side() {
+    let mut trial = Trial::open("supercritical");
+    trial.press("<tab>;");
+    assert_eq!(trial.press("X"), [Topic::Branch]);
+    let over = |trial: &Trial, plot: usize| {
+        (trial.session.plots[plot].axes.abscissa, trial.branch(plot).parameter)
+    };
+    assert_eq!(over(&trial, 0), (Symbol::D2, Symbol::D2));
+    assert_eq!(over(&trial, 1), (Symbol::D, Symbol::D));
+    // D lies on the axis of one and goes into the branch of the other.
+    assert_eq!(trial.press("<S-tab><right>"), [Topic::Branch]);
+    assert_eq!(trial.press("<down><right>"), [Topic::Branch; 2]);
+}
+
+#[test]
+fn a_plot_turned_to_a_view_shows_what_the_scene_does() {
+    let mut trial = Trial::open("supercritical");
+    trial.press("<tab><tab>Y<tab><tab>V/diagram<enter>");
+    assert_eq!(trial.session.plots[0].axes, Axes::default(), "the scene's is on show no more");
+    trial.press("<tab> Q V/diagram<enter>");
+    let plot = &trial.session.plots[0];
+    assert_eq!(plot.window, trial.session.scene.plots[1].opening());
+    assert_eq!((plot.framing, plot.axes), (Framing::Scene, Axes::default()));
+}
+
+#[test]
+fn the_hidden_plots_of_an_enlarged_one_ask_nothing() {
+    let mut trial = Trial::open("supercritical");
+    trial.press("<tab>W z");
+    assert_eq!(trial.press("<S-tab><S-tab><down><right>").len(), trial.session.wants().len());
+    assert_eq!(trial.session.on_show().len(), 1);
+    trial.press("W");
+    assert!(!trial.session.enlarged, "what is added is seen");
+}
