@@ -1,10 +1,12 @@
-//! What the loop runs.
+//! What the loop and the replay without a terminal run, and how it gets what it asks for.
 
+use std::io;
 use std::path::Path;
 
 use ratatui::Frame;
 use ratatui::layout::Size;
 
+use super::event::Stop;
 use super::figure_writer::Work;
 use crate::scene::Request;
 use crate::session::{Effect, Msg, Place};
@@ -51,4 +53,45 @@ pub trait Application {
     }
 
     fn draw(&self, frame: &mut Frame);
+}
+
+/// What comes of an effect.
+#[derive(Debug)]
+pub enum Outcome {
+    Done,
+    /// The application is to be told something, which may have effects of its own.
+    Told(Msg),
+    /// The loop ends, or pauses.
+    Stop(Stop),
+}
+
+/// What runs an application: it carries out what the application asks for.
+pub trait Host {
+    type Application: Application;
+
+    fn application(&mut self) -> &mut Self::Application;
+
+    /// Carries out an effect.
+    ///
+    /// # Errors
+    /// The error of writing to the terminal.
+    fn carry_out(&mut self, effect: Effect) -> io::Result<Outcome>;
+
+    /// Gives the application a message, and what comes of its effects in their order.
+    ///
+    /// # Errors
+    /// The error of writing to the terminal.
+    fn give(&mut self, msg: Msg) -> io::Result<Option<Stop>> {
+        for effect in self.application().update(msg) {
+            let stop = match self.carry_out(effect)? {
+                Outcome::Done => None,
+                Outcome::Told(msg) => self.give(msg)?,
+                Outcome::Stop(stop) => Some(stop),
+            };
+            if stop.is_some() {
+                return Ok(stop);
+            }
+        }
+        Ok(None)
+    }
 }

@@ -9,8 +9,9 @@ use crossbeam_channel::unbounded;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
 
-use super::application::Application;
+use super::application::{Application, Host, Outcome};
 use super::effects::Files;
+use super::event::Stop;
 use super::panics::Notes;
 use super::picture;
 use super::worker::Tell;
@@ -43,79 +44,76 @@ pub struct Played<M> {
 /// # Errors
 /// If the system gives no thread for the worker.
 pub fn play<M: Application>(
-    mut application: M,
+    application: M,
     answer: impl Fn(&Request, &Limits, &Tell) -> Result<Answer, Reason> + Send + Sync + 'static,
     script: Script,
-    size: Size,
+    mut size: Size,
 ) -> io::Result<Played<M>> {
     let (send, messages) = unbounded();
-    let workers = Workers::start(answer, Notes::default(), move |msg| drop(send.send(msg)))?;
-    let mut player = Player::new(script);
-    let mut size = size;
+    let mut workers = Workers::start(answer, Notes::default(), move |msg| drop(send.send(msg)))?;
+    let mut replay = Replay { application, player: Player::new(script) };
     let mut kept = Vec::new();
-    let mut asked: Vec<Request> = Vec::new();
     let mut given = Some(Msg::Resize { width: size.width, height: size.height });
     let unmet = loop {
         if let Some(msg) = given.take() {
             if let Msg::Resize { width, height } = msg {
                 size = Size { width, height };
             }
-            if let Msg::Answered(answered) = &msg
-                && answered.complete
-            {
-                workers.taken(&answered.request);
-                asked.retain(|request| *request != answered.request);
-            }
-            if does(&mut application, &mut player, msg) {
+            workers.arrived(&msg);
+            if replay.give(msg)?.is_some() {
                 break None;
             }
         }
-        let wanted = application.wants();
-        if wanted != asked {
-            workers.submit(wanted.clone());
-            asked.clone_from(&wanted);
-        }
-        let screen = || view::screen::text(&picture::of(&application, size));
+        let Replay { application, player } = &mut replay;
+        workers.ask(application.wants());
+        let screen = || view::screen::text(&picture::of(application, size));
         let next = if application.is_waiting() {
             Ok(Action::Wait)
         } else {
-            player.next(wanted.is_empty(), screen)
+            player.next(workers.asked().is_empty(), screen)
         };
         match next {
             Ok(Action::Give(msg)) => given = Some(msg),
-            Ok(Action::Keep(name)) => kept.push((name, picture::of(&application, size))),
+            Ok(Action::Keep(name)) => kept.push((name, picture::of(application, size))),
             // The workers live as long as their handle does, so there is a message.
             Ok(Action::Wait) => given = messages.recv().ok(),
             Ok(Action::Done) => break None,
             Err(unmet) => break Some(unmet),
         }
     };
-    let screen = picture::of(&application, size);
-    Ok(Played { application, screen, kept, unmet })
+    let screen = picture::of(&replay.application, size);
+    Ok(Played { application: replay.application, screen, kept, unmet })
 }
 
-/// Gives a message to the application; `true` if it wants to quit.
-fn does(application: &mut impl Application, player: &mut Player, msg: Msg) -> bool {
-    for effect in application.update(msg) {
-        match effect {
-            Effect::Quit => return true,
+/// An application and the file that is played on it.
+struct Replay<M> {
+    application: M,
+    player: Player,
+}
+
+impl<M: Application> Host for Replay<M> {
+    type Application = M;
+
+    fn application(&mut self) -> &mut M {
+        &mut self.application
+    }
+
+    fn carry_out(&mut self, effect: Effect) -> io::Result<Outcome> {
+        Ok(match effect {
+            Effect::Quit => Outcome::Stop(Stop::Quit),
             // What it reads, a session depends on.
             Effect::Read { path, purpose } => {
-                let embedded = player.file(&path).map(|text| Ok(text.to_owned()));
+                let embedded = self.player.file(&path).map(|text| Ok(text.to_owned()));
                 let result = embedded.unwrap_or_else(|| Files::read(&path));
-                if does(application, player, Msg::Read { path, purpose, result }) {
-                    return true;
-                }
+                Outcome::Told(Msg::Read { path, purpose, result })
             }
             Effect::Play(script) | Effect::PlayRegister(script) => {
-                player.interject(script);
+                self.player.interject(script);
+                Outcome::Done
             }
             Effect::Figure { path, .. } => {
                 let text = format!("{} not written: a replay writes no files", path.display());
-                let notice = Notice { error: false, text };
-                if does(application, player, Msg::Written(notice)) {
-                    return true;
-                }
+                Outcome::Told(Msg::Written(Notice { error: false, text }))
             }
             Effect::Suspend
             | Effect::Repaint
@@ -126,10 +124,9 @@ fn does(application: &mut impl Application, player: &mut Player, msg: Msg) -> bo
             | Effect::Record { .. }
             | Effect::StopWriting
             | Effect::PutAside(_)
-            | Effect::Write { .. } => {}
-        }
+            | Effect::Write { .. } => Outcome::Done,
+        })
     }
-    false
 }
 
 #[cfg(test)]

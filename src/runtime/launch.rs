@@ -105,7 +105,7 @@ pub fn launch(
 /// fails there is nobody to tell.
 fn keep<M: Application, W: io::Write>(pump: &Pump<M, W>, path: Option<&Path>) {
     // After a panic the state may be one that nobody has thought of.
-    let text = catch_unwind(AssertUnwindSafe(|| pump.application().what_to_keep())).ok().flatten();
+    let text = catch_unwind(AssertUnwindSafe(|| pump.running().what_to_keep())).ok().flatten();
     if let Some((path, text)) = path.zip(text) {
         drop(Files::write(path, &text, true));
     }

@@ -8,12 +8,13 @@
 
 use std::collections::VecDeque;
 use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use crossbeam_channel::{Receiver, RecvTimeoutError};
 use ratatui::layout::Size;
 
-use super::application::Application;
+use super::application::{Application, Host, Outcome};
 use super::effects::Files;
 use super::event::{Event, Stop};
 use super::record::Record;
@@ -42,8 +43,6 @@ pub struct Pump<M, W: Write> {
     /// What arrived while something else was waited for.
     missed: VecDeque<Event>,
     files: Files,
-    /// What the worker was asked last and has not answered.
-    asked: Vec<Request>,
     /// Since when the state differs from the screen.
     changed: Option<Instant>,
     /// When the session was last told how much time has passed, while something in it moves.
@@ -79,7 +78,6 @@ impl<M: Application, W: Write> Pump<M, W> {
             events,
             missed: VecDeque::new(),
             files,
-            asked: Vec::new(),
             changed: Some(Instant::now()),
             beat: None,
             held: false,
@@ -110,7 +108,7 @@ impl<M: Application, W: Write> Pump<M, W> {
     }
 
     /// What runs in the loop.
-    pub fn application(&self) -> &M {
+    pub fn running(&self) -> &M {
         &self.application
     }
 
@@ -123,7 +121,7 @@ impl<M: Application, W: Write> Pump<M, W> {
             if let Some(stop) = self.play()? {
                 return Ok(stop);
             }
-            self.ask();
+            self.workers.ask(self.application.wants());
             self.keep_record()?;
             let mut next = self.wait()?;
             while let Some(event) = next {
@@ -198,12 +196,7 @@ impl<M: Application, W: Write> Pump<M, W> {
             Event::Session(msg) if is_users(&msg) => self.users(msg),
             Event::Session(msg) => {
                 self.writing &= !matches!(msg, Msg::Written(_));
-                if let Msg::Answered(answered) = &msg
-                    && answered.complete
-                {
-                    self.workers.taken(&answered.request);
-                    self.asked.retain(|request| *request != answered.request);
-                }
+                self.workers.arrived(&msg);
                 self.update(msg)
             }
             Event::Mouse { gesture, column, row } => {
@@ -239,89 +232,36 @@ impl<M: Application, W: Write> Pump<M, W> {
 
     /// Changes the session and does what it asks for.
     fn update(&mut self, msg: Msg) -> io::Result<Option<Stop>> {
-        let effects = self.application.update(msg);
         self.changed.get_or_insert_with(Instant::now);
-        for effect in effects {
-            let stop = match effect {
-                Effect::Quit => Some(Stop::Quit),
-                Effect::Suspend => Some(Stop::Suspend),
-                Effect::Mouse(on) => Some(Stop::Mouse(on)),
-                Effect::Repaint => {
-                    self.repaint()?;
-                    None
-                }
-                Effect::Copy(text) => self.copy(&text)?,
-                Effect::CopyScreen => {
-                    let picture = picture::of(&self.application, self.screen.size());
-                    self.copy(&view::screen::text(&picture))?
-                }
-                Effect::SaveScan { path, scan, rows } => {
-                    let notice = scan_file::save(&path, &scan, &rows);
-                    self.update(Msg::Told(notice))?
-                }
-                Effect::Write { path, text, replace } => {
-                    let notice = Files::write(&path, &text, replace);
-                    self.update(Msg::Told(notice))?
-                }
-                Effect::Figure { path, plot, replace } => {
-                    let begun = Files::admit(&path, replace)
-                        .and_then(|()| self.application.figure(&path, plot))
-                        .and_then(|work| self.workers.write(path, replace, work));
-                    match begun {
-                        Ok(()) => {
-                            self.writing = true;
-                            None
-                        }
-                        Err(text) => self.update(Msg::Written(Notice { error: true, text }))?,
-                    }
-                }
-                Effect::StopWriting => {
-                    self.workers.stop_writing();
-                    None
-                }
-                Effect::Record { path, forget, replace } => {
-                    let how = "with ! behind the command it is replaced";
-                    let notice = match Record::admit(&path, replace, how) {
-                        Ok(()) => {
-                            let mut recorder = self.recorder.clone();
-                            recorder.forget(if self.playing.is_none() { forget } else { 0 });
-                            Files::write(&path, recorder.text(&self.started), true)
-                        }
-                        Err(text) => Notice { error: true, text },
-                    };
-                    self.update(Msg::Told(notice))?
-                }
-                Effect::Read { path, purpose } => {
-                    let result = self.read(&path);
-                    self.update(Msg::Read { path, purpose, result })?
-                }
-                Effect::PutAside(path) => {
-                    Files::put_aside(&path);
-                    None
-                }
-                Effect::Play(script) => self.begin(script, false)?,
-                Effect::PlayRegister(script) => self.begin(script, true)?,
-            };
-            if stop.is_some() {
-                return Ok(stop);
-            }
-        }
-        Ok(None)
+        self.give(msg)
     }
 
-    fn copy(&mut self, text: &str) -> io::Result<Option<Stop>> {
+    fn copy(&mut self, text: &str) -> io::Result<Notice> {
         self.screen.control(&Files::clipboard(text))?;
-        let notice = self.files.copy(text);
-        self.update(Msg::Told(notice))
+        Ok(self.files.copy(text))
     }
 
-    /// Tells the worker what is wanted, if that has changed.
-    fn ask(&mut self) {
-        let wanted = self.application.wants();
-        if wanted != self.asked {
-            self.workers.submit(wanted.clone());
-            self.asked = wanted;
+    /// Begins to write a figure; what follows when it cannot.
+    fn write_figure(&mut self, path: PathBuf, plot: Option<usize>, replace: bool) -> Outcome {
+        let begun = Files::admit(&path, replace)
+            .and_then(|()| self.application.figure(&path, plot))
+            .and_then(|work| self.workers.write(path, replace, work));
+        self.writing |= begun.is_ok();
+        match begun {
+            Ok(()) => Outcome::Done,
+            Err(text) => Outcome::Told(Msg::Written(Notice { error: true, text })),
         }
+    }
+
+    /// Writes what was recorded to a file, without the presses that asked for that.
+    fn write_record(&self, path: &Path, forget: u32, replace: bool) -> Notice {
+        if let Err(text) = Record::admit(path, replace, "with ! behind the command it is replaced")
+        {
+            return Notice { error: true, text };
+        }
+        let mut recorder = self.recorder.clone();
+        recorder.forget(if self.playing.is_none() { forget } else { 0 });
+        Files::write(path, recorder.text(&self.started), true)
     }
 
     /// When to draw; `None` if the screen shows everything and nothing moves.
@@ -334,8 +274,11 @@ impl<M: Application, W: Write> Pump<M, W> {
             let beat = self.beat.filter(|_| self.application.is_moving())?;
             return Some((beat + FRAME_TIME).max(self.screen.next(beat)));
         };
-        let answer =
-            if self.asked.iter().all(Request::is_long) { changed } else { changed + ANSWER_TIME };
+        let answer = if self.workers.asked().iter().all(Request::is_long) {
+            changed
+        } else {
+            changed + ANSWER_TIME
+        };
         Some(answer.max(self.screen.next(changed)))
     }
 
@@ -358,6 +301,49 @@ impl<M: Application, W: Write> Pump<M, W> {
         self.screen.draw(Instant::now(), |frame| application.draw(frame))?;
         self.changed = None;
         Ok(())
+    }
+}
+
+impl<M: Application, W: Write> Host for Pump<M, W> {
+    type Application = M;
+
+    fn application(&mut self) -> &mut M {
+        &mut self.application
+    }
+
+    fn carry_out(&mut self, effect: Effect) -> io::Result<Outcome> {
+        let notice = match effect {
+            Effect::Quit => return Ok(Outcome::Stop(Stop::Quit)),
+            Effect::Suspend => return Ok(Outcome::Stop(Stop::Suspend)),
+            Effect::Mouse(on) => return Ok(Outcome::Stop(Stop::Mouse(on))),
+            Effect::Repaint => return self.repaint().map(|()| Outcome::Done),
+            Effect::StopWriting => {
+                self.workers.stop_writing();
+                return Ok(Outcome::Done);
+            }
+            Effect::PutAside(path) => {
+                Files::put_aside(&path);
+                return Ok(Outcome::Done);
+            }
+            Effect::Figure { path, plot, replace } => {
+                return Ok(self.write_figure(path, plot, replace));
+            }
+            Effect::Read { path, purpose } => {
+                let result = self.read(&path);
+                return Ok(Outcome::Told(Msg::Read { path, purpose, result }));
+            }
+            Effect::Play(script) => return self.begin(script, false),
+            Effect::PlayRegister(script) => return self.begin(script, true),
+            Effect::Copy(text) => self.copy(&text)?,
+            Effect::CopyScreen => {
+                let picture = picture::of(&self.application, self.screen.size());
+                self.copy(&view::screen::text(&picture))?
+            }
+            Effect::SaveScan { path, scan, rows } => scan_file::save(&path, &scan, &rows),
+            Effect::Write { path, text, replace } => Files::write(&path, &text, replace),
+            Effect::Record { path, forget, replace } => self.write_record(&path, forget, replace),
+        };
+        Ok(Outcome::Told(Msg::Told(notice)))
     }
 }
 

@@ -18,6 +18,7 @@ use crate::session::Msg;
 pub struct Workers {
     quick: Worker,
     long: Worker,
+    asked: Vec<Request>,
     figures: FigureWriter,
 }
 
@@ -38,26 +39,39 @@ impl Workers {
         let long =
             move |request: &Request, limits: &Limits, tell: &Tell| other(request, limits, tell);
         Ok(Workers {
+            asked: Vec::new(),
             figures: FigureWriter::new(Arc::new(report.clone()), notes.clone()),
             quick: Worker::start(quick, notes.clone(), report.clone())?,
             long: Worker::start(long, notes, report)?,
         })
     }
 
-    fn of(&self, request: &Request) -> &Worker {
-        if request.is_long() { &self.long } else { &self.quick }
-    }
-
     /// Says which requests are wanted now and not answered yet, the most urgent first.
-    pub fn submit(&self, wanted: Vec<Request>) {
+    pub fn ask(&mut self, wanted: Vec<Request>) {
+        if wanted == self.asked {
+            return;
+        }
+        self.asked.clone_from(&wanted);
         let (long, quick) = wanted.into_iter().partition(Request::is_long);
         self.quick.submit(quick);
         self.long.submit(long);
     }
 
-    /// Says that the answer to a request has arrived where it was wanted.
-    pub fn taken(&self, request: &Request) {
-        self.of(request).taken(request);
+    /// What was asked last and has not been answered.
+    pub fn asked(&self) -> &[Request] {
+        &self.asked
+    }
+
+    /// Takes note of a message that arrived where it was wanted: what it answers is no longer asked.
+    pub fn arrived(&mut self, msg: &Msg) {
+        if let Msg::Answered(answered) = msg
+            && answered.complete
+        {
+            let request = &answered.request;
+            let worker = if request.is_long() { &self.long } else { &self.quick };
+            worker.taken(request);
+            self.asked.retain(|asked| asked != request);
+        }
     }
 
     /// Begins to write a figure; see [`FigureWriter::begin`].

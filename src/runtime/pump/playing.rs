@@ -6,7 +6,7 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use super::{Application, Files, Pump, picture};
+use super::{Application, Files, Outcome, Pump, picture};
 use crate::runtime::event::{Event, Stop};
 use crate::session::read::waiting::forgets;
 use crate::session::replay::{Action, Player, Recorder, Script};
@@ -153,17 +153,18 @@ impl<M: Application, W: Write> Pump<M, W> {
     }
 
     /// Begins to play; something that is played already goes on afterwards.
-    pub(super) fn begin(&mut self, script: Script, register: bool) -> io::Result<Option<Stop>> {
+    pub(super) fn begin(&mut self, script: Script, register: bool) -> io::Result<Outcome> {
         let asked = self.application.asked();
         let Some(playing) = &mut self.playing else {
             self.playing = Some(Playing::new(script, register, asked));
-            return Ok(None);
+            return Ok(Outcome::Done);
         };
         playing.given.forget(asked);
         if playing.player.interject(script) {
-            return Ok(None);
+            return Ok(Outcome::Done);
         }
-        self.played(true, "replay stopped: it plays itself".to_owned(), false)
+        let stop = self.played(true, "replay stopped: it plays itself".to_owned(), false)?;
+        Ok(stop.map_or(Outcome::Done, Outcome::Stop))
     }
 
     /// The next step of a replay, if the screen shows all that happened before it.

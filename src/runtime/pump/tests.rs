@@ -251,7 +251,7 @@ fn a_caption_waits_for_a_key_that_does_nothing_else() {
     events.send(key("q")).unwrap();
     let (stop, pump) = running.join().unwrap();
     assert_eq!(stop, Stop::Quit);
-    assert_eq!(pump.application().count, 2, "the first q went on with the tour");
+    assert_eq!(pump.running().count, 2, "the first q went on with the tour");
 }
 
 #[test]
@@ -270,7 +270,7 @@ fn a_tour_goes_back_to_the_caption_before() {
     events.send(key("q")).unwrap();
     let (_, pump) = running.join().unwrap();
     // Once to the first caption and on to the second, back to the first, on again and to the end.
-    assert_eq!(pump.application().count, 2 + 3);
+    assert_eq!(pump.running().count, 2 + 3);
 }
 
 #[test]
@@ -284,7 +284,7 @@ fn a_tour_is_left_at_any_caption_by_escape() {
     while !written.recv().unwrap().contains("stopped") {}
     events.send(key("q")).unwrap();
     let (_, pump) = running.join().unwrap();
-    assert_eq!(pump.application().count, 1);
+    assert_eq!(pump.running().count, 1);
 }
 
 #[test]
