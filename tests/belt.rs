@@ -432,7 +432,7 @@ fn screen(scene: Scene, keys: &str) -> (Session, String) {
     let size = layout::Size { width: size.width, height: size.height };
     let played = replay(session, Environment::default(), script, size).unwrap();
     assert_eq!(played.unmet, None, "{keys}");
-    (played.machine.session().clone(), hopfscope::view::screen::text(&played.screen))
+    (played.application.session().clone(), hopfscope::view::screen::text(&played.screen))
 }
 
 fn figure() -> Scene {
