@@ -9,7 +9,7 @@ use super::output::{Format, print};
 use crate::report::table::Table;
 use crate::report::{csv, json};
 use crate::session::commands;
-use crate::session::state::context::{CONTEXTS, ContextSpec};
+use crate::session::state::context::{ContextSpec, contexts};
 
 /// Lists the keys of the explorer, with the changes of the settings file
 #[derive(Debug, Args)]
@@ -35,7 +35,7 @@ impl Keys {
     pub fn run(&self) -> Result<(), Failure> {
         let keymap = self.settings.read()?.keymap;
         let mut rows = Vec::new();
-        for ContextSpec { context, name, .. } in CONTEXTS {
+        for ContextSpec { context, name, .. } in contexts() {
             let here = commands().filter(|row| row.keys.iter().any(|(at, _)| *at == context));
             rows.extend(here.map(|command| Row {
                 context: name,

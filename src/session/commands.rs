@@ -4,6 +4,10 @@
 
 use std::sync::{Arc, LazyLock};
 
+use crate::scene::View::{
+    Belt, Diagram, EnergyLedger, EnergyRate, Phase, Regimes, ReturnMap, Scan, Speeds, TimeSeries,
+    Trade,
+};
 use crate::scene::{LAYERS, Layer, LayerSpec, Scene};
 use crate::session::act::{
     axes, copy, entry, files, focus, general, history, lists, macros, mouse, palette, parameters,
@@ -14,9 +18,8 @@ use crate::session::lines::lines;
 use crate::session::message::key::Key;
 use crate::session::state::command::{Chosen, Command};
 use crate::session::state::context::Context::{
-    self, Always, Belt, Count, Diagram, EnergyLedger, EnergyRate, Entry, Everywhere, Form, Help,
-    Layers, Letter, Lists, Offer, Palette, Paper, Parameters, Phase, Plots, Prompt, Regimes,
-    ReturnMap, Scan, Scenes, Search, TimeSeries, Trade, Views, Walk,
+    self, Always, Count, Entry, Everywhere, Form, Help, Layers, Letter, Lists, Offer, Palette,
+    Paper, Parameters, Plots, Prompt, Scenes, Search, View as In, Views, Walk,
 };
 use crate::session::state::input::Input;
 use crate::session::state::keymap::Keymap;
@@ -111,29 +114,29 @@ const COMMANDS: &[Row] = &[
     row("reset-value", &[(Parameters, &["r", "<backspace>", "<del>"])], "reset",
         "Give the selected row the scene's value and step", |s, _| parameters::reset_row(s)),
 
-    row("start-here", &[(Phase, &["<enter>"]), (TimeSeries, &["<enter>"]), (ReturnMap, &["<enter>"]), (Belt, &["<enter>"]), (EnergyRate, &["<enter>"])], "start here",
+    row("start-here", &[(In(Phase), &["<enter>"]), (In(TimeSeries), &["<enter>"]), (In(ReturnMap), &["<enter>"]), (In(Belt), &["<enter>"]), (In(EnergyRate), &["<enter>"])], "start here",
         "Start a motion at the cursor, in the phase plane beside the others", |s, _| plots::start_here(s)),
-    row("start-on-cycle", &[(EnergyLedger, &["<enter>"])], "start there",
+    row("start-on-cycle", &[(In(EnergyLedger), &["<enter>"])], "start there",
         "Start the motion on the cycle that the cursor is at", |s, _| plots::start_here(s)),
-    row("use-method", &[(Trade, &["<enter>"])], "use this method",
+    row("use-method", &[(In(Trade), &["<enter>"])], "use this method",
         "Integrate by the method and at the accuracy under the cursor", |s, _| plots::use_method(s)),
-    row("jump-here", &[(Diagram, &["<enter>"])], "jump here",
+    row("jump-here", &[(In(Diagram), &["<enter>"])], "jump here",
         "Give the diagram's parameter the value under the cursor", |s, _| plots::jump_here(s)),
 
-    row("take-parameters", &[(Regimes, &["<enter>"])], "take these",
+    row("take-parameters", &[(In(Regimes), &["<enter>"])], "take these",
         "Give both parameters of the chart the values under the cursor", |s, _| plots::jump_here(s)),
 
-    row("next-abscissa", &[(Diagram, &["X"])], "axes",
+    row("next-abscissa", &[(In(Diagram), &["X"])], "axes",
         "Draw the diagram over the next parameter: D, D2, D3, r", |s, _| axes::next_abscissa(s)),
-    row("next-ordinate", &[(Diagram, &["Y"]), (Walk, &["Y"])], "axes",
+    row("next-ordinate", &[(In(Diagram), &["Y"]), (Walk, &["Y"])], "axes",
         "Show the next property of the cycles: q_max, q_min, v_max and so on", |s, _| axes::next_ordinate(s)),
-    row("next-chart-right", &[(Regimes, &["X"])], "axes",
+    row("next-chart-right", &[(In(Regimes), &["X"])], "axes",
         "Draw the chart over the next parameter to the right: D, D2, D3, r", |s, _| axes::next_of_chart(s, false)),
-    row("next-chart-up", &[(Regimes, &["Y"])], "axes",
+    row("next-chart-up", &[(In(Regimes), &["Y"])], "axes",
         "Draw the chart over the next parameter upwards", |s, _| axes::next_of_chart(s, true)),
-    row("next-unit", &[(Diagram, &["N"]), (Walk, &["N"])], "",
+    row("next-unit", &[(In(Diagram), &["N"]), (Walk, &["N"])], "",
         "Measure lengths of the cycles in units of r, or not", |s, _| axes::next_unit(s)),
-    row("walk", &[(Diagram, &["w"])], "walk",
+    row("walk", &[(In(Diagram), &["w"])], "walk",
         "Take hold of the branch, at the present value or the cursor", |s, _| walk::take_hold(s)),
     row("walk-back", &[(Walk, &["<left>", "h", "<down>", "j"])], "walk",
         "Go back to the last computed point of the branch", |s, _| walk::go(s, -1)),
@@ -158,33 +161,33 @@ const COMMANDS: &[Row] = &[
 
     row("scan-form", &[(Everywhere, &["%"])], "",
         "Scan over one or two parameters: a form asks for them", |s, _| scan::open(s)),
-    row("scan-back", &[(Scan, &["<left>", "h"])], "points",
+    row("scan-back", &[(In(Scan), &["<left>", "h"])], "points",
         "Go to the point before, on a grid to the left", |s, _| scan::go(s, -1, 0)),
-    row("scan-on", &[(Scan, &["<right>", "l"])], "points",
+    row("scan-on", &[(In(Scan), &["<right>", "l"])], "points",
         "Go to the next point, on a grid to the right", |s, _| scan::go(s, 1, 0)),
-    row("scan-up", &[(Scan, &["<up>", "k"])], "",
+    row("scan-up", &[(In(Scan), &["<up>", "k"])], "",
         "Go to the row or the point above", |s, _| scan::go(s, 0, 1)),
-    row("scan-down", &[(Scan, &["<down>", "j"])], "",
+    row("scan-down", &[(In(Scan), &["<down>", "j"])], "",
         "Go to the row or the point below", |s, _| scan::go(s, 0, -1)),
-    row("scan-far-back", &[(Scan, &["<pgup>", "<S-left>", "H"])], "",
+    row("scan-far-back", &[(In(Scan), &["<pgup>", "<S-left>", "H"])], "",
         "Go back ten points of the scan", |s, _| scan::go(s, -scan::PAGE, 0)),
-    row("scan-far-on", &[(Scan, &["<pgdn>", "<S-right>", "L"])], "",
+    row("scan-far-on", &[(In(Scan), &["<pgdn>", "<S-right>", "L"])], "",
         "Go on ten points of the scan", |s, _| scan::go(s, scan::PAGE, 0)),
-    row("scan-first", &[(Scan, &["<home>"])], "",
+    row("scan-first", &[(In(Scan), &["<home>"])], "",
         "Go to the first point of the scan", |s, _| scan::go(s, isize::MIN, 0)),
-    row("scan-last", &[(Scan, &["<end>"])], "",
+    row("scan-last", &[(In(Scan), &["<end>"])], "",
         "Go to the last point of the scan", |s, _| scan::go(s, isize::MAX, 0)),
-    row("scan-take", &[(Scan, &["<enter>"])], "take",
+    row("scan-take", &[(In(Scan), &["<enter>"])], "take",
         "Take the parameters of the point into the phase plane", |s, _| scan::take(s)),
-    row("scan-column", &[(Scan, &["Y", "<C-down>"])], "measure",
+    row("scan-column", &[(In(Scan), &["Y", "<C-down>"])], "measure",
         "Plot the next measured number", |s, _| scan::next_column(s, 1)),
-    row("scan-column-back", &[(Scan, &["<C-up>"])], "",
+    row("scan-column-back", &[(In(Scan), &["<C-up>"])], "",
         "Plot the measured number before", |s, _| scan::next_column(s, -1)),
-    row("scan-table", &[(Scan, &["t"])], "table",
+    row("scan-table", &[(In(Scan), &["t"])], "table",
         "List the rows of the scan, or plot them", |s, _| scan::table(s)),
-    row("scan-pause", &[(Scan, &["P"])], "pause",
+    row("scan-pause", &[(In(Scan), &["P"])], "pause",
         "Stop the scan and keep what is done, or go on with it", |s, _| scan::pause(s)),
-    row("scan-save", &[(Scan, &["S"])], "save",
+    row("scan-save", &[(In(Scan), &["S"])], "save",
         "Write the rows to scan.csv, as the command scan does", |s, _| scan::save(s, scan::FILE.into())),
 
     row("cursor-left", &[(Plots, &["<left>", "h"])], "cursor",
@@ -287,7 +290,7 @@ const COMMANDS: &[Row] = &[
         "Fewer harmonics", |s, _| general::harmonics(s, false)),
     row("more-harmonics", &[(Everywhere, &[")"])], "",
         "More harmonics", |s, _| general::harmonics(s, true)),
-    row("take-speed", &[(Context::Speeds, &["<enter>"])], "take it",
+    row("take-speed", &[(In(Speeds), &["<enter>"])], "take it",
         "Give the belt the speed under the cursor", |s, _| plots::take_speed(s)),
 
     row("count", &[(Plots, DIGITS), (Walk, DIGITS), (Lists, DIGITS), (Count, MORE_DIGITS)], "",

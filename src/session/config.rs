@@ -18,7 +18,7 @@ use crate::scene::library;
 use crate::scene::misread::{self, Complaint, Misread};
 use crate::session::message::key::Key;
 use crate::session::state::command::Command;
-use crate::session::state::context::{CONTEXTS, Context};
+use crate::session::state::context::{Context, contexts};
 use crate::session::state::keymap::Keymap;
 use crate::session::state::settings::{COLORS, Colors, GLYPHS, Glyphs, THEMES, Theme, named};
 
@@ -120,9 +120,8 @@ fn keymap(read: &BTreeMap<Spanned<String>, Keys>) -> Result<Keymap, Complaint> {
     let mut keymap = Keymap::default();
     let mut given: Vec<Given> = Vec::new();
     for (context, commands) in read {
-        let names = || CONTEXTS.iter().map(|row| row.name);
-        let known = CONTEXTS
-            .iter()
+        let names = || contexts().map(|row| row.name);
+        let known = contexts()
             .find(|row| row.name == context.get_ref())
             .map(|row| row.context)
             .ok_or_else(|| unknown(context, "context", names()))?;
@@ -229,7 +228,7 @@ mod tests {
     fn every_default_key_can_be_said_in_a_file() {
         use std::fmt::Write;
         let mut text = String::new();
-        for ContextSpec { context, name, .. } in CONTEXTS {
+        for ContextSpec { context, name, .. } in contexts() {
             writeln!(text, "[keys.{name}]").unwrap();
             for command in commands() {
                 if let Some((_, keys)) = command.keys.iter().find(|(at, _)| *at == context) {

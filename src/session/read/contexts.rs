@@ -43,7 +43,7 @@ impl Session {
     pub(in crate::session) fn contexts_below(&self) -> &'static [Context] {
         chain(match self.focused() {
             _ if self.held.is_some() => Context::Walk,
-            Some(plot) => Context::of(plot.view),
+            Some(plot) => Context::View(plot.view),
             None => Context::Parameters,
         })
     }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::scene::{LAYERS, LayerSpec, Scene, VIEWS, ViewSpec, library};
 use crate::session::message::key::Key;
 use crate::session::state::command::{Command, LineCommand};
-use crate::session::state::context::Context;
+use crate::session::state::context::{Context, contexts};
 use crate::session::state::overlay::List;
 use crate::session::state::plot::Pane;
 use crate::session::state::session::Session;
@@ -139,7 +139,8 @@ impl Session {
         let PaletteRow::Command(command) = row else { return usize::MAX };
         let Some(place) = self.place_of(command) else { return usize::MAX };
         let near = self.contexts_below().iter().position(|context| *context == place);
-        near.unwrap_or(self.contexts_below().len() + place as usize)
+        let far = || contexts().position(|row| row.context == place).unwrap_or(0);
+        near.unwrap_or_else(|| self.contexts_below().len() + far())
     }
 
     /// Where a command is run: in the pane in focus if it has keys there.
@@ -205,7 +206,7 @@ pub(in crate::session) fn elsewhere(session: &Session, key: Key) -> Option<&'sta
     if session.overlay.is_some() {
         return None;
     }
-    let views = VIEWS.iter().map(|row| Context::of(row.view));
+    let views = VIEWS.iter().map(|row| Context::View(row.view));
     let found = views.filter_map(|context| {
         let command = session.keymap.command(&[context], key)?;
         Some((pane(session, context).is_none(), command))

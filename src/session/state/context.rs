@@ -2,37 +2,15 @@
 
 use std::sync::LazyLock;
 
-use crate::scene::View;
+use crate::scene::{VIEWS, View};
 
 /// Where a key has its meaning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Context {
     /// The focus is on the parameter pane.
     Parameters,
-    /// The focus is on the phase plane.
-    Phase,
-    /// The focus is on the diagram.
-    Diagram,
-    /// The focus is on the time series.
-    TimeSeries,
-    /// The focus is on the energy ledger.
-    EnergyLedger,
-    /// The focus is on the return map.
-    ReturnMap,
-    /// The focus is on a chart of regimes.
-    Regimes,
-    /// The focus is on the trade of error for cost.
-    Trade,
-    /// The focus is on the mass on its belt.
-    Belt,
-    /// The focus is on the rate of the energy.
-    EnergyRate,
-    /// The focus is on the eigenvalues.
-    Eigenvalues,
-    /// The focus is on a scan.
-    Scan,
-    /// The focus is on the cycles over the speed of the belt.
-    Speeds,
+    /// The focus is on a plot that shows this view.
+    View(View),
     /// A point of the branch is held.
     Walk,
     /// The focus is on a plot.
@@ -73,10 +51,9 @@ pub enum Context {
 /// What a context is about; this decides which others hold with it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
-    /// A pane that is no plot like the others; perhaps it shows a view.
-    Pane(Option<View>),
-    /// A plot that shows this view.
-    Plot(View),
+    /// A pane that is no plot like the others.
+    Pane,
+    Plot,
     /// A point of the branch that is held.
     Held,
     List,
@@ -89,7 +66,7 @@ enum Kind {
     SharedByLists,
 }
 
-/// A row of [`CONTEXTS`].
+/// What there is to know of a context.
 #[derive(Clone, Copy, Debug)]
 pub struct ContextSpec {
     pub context: Context,
@@ -104,21 +81,10 @@ const fn row(context: Context, name: &'static str, title: &'static str, kind: Ki
     ContextSpec { context, name, title, kind }
 }
 
+/// The contexts besides those of the views.
 #[rustfmt::skip]
-pub const CONTEXTS: [ContextSpec; 31] = [
-    row(Context::Parameters, "parameters", "Parameters", Kind::Pane(None)),
-    row(Context::Phase, "phase", "Phase plane", Kind::Plot(View::Phase)),
-    row(Context::Diagram, "diagram", "Bifurcation diagram", Kind::Plot(View::Diagram)),
-    row(Context::TimeSeries, "time-series", "Time series", Kind::Plot(View::TimeSeries)),
-    row(Context::EnergyLedger, "energy-ledger", "Energy ledger", Kind::Plot(View::EnergyLedger)),
-    row(Context::ReturnMap, "return-map", "Return map", Kind::Plot(View::ReturnMap)),
-    row(Context::Regimes, "regimes", "Chart of regimes", Kind::Plot(View::Regimes)),
-    row(Context::Trade, "trade", "Trade of error for cost", Kind::Plot(View::Trade)),
-    row(Context::Belt, "belt", "Mass on its belt", Kind::Plot(View::Belt)),
-    row(Context::EnergyRate, "energy-rate", "Rate of the energy", Kind::Plot(View::EnergyRate)),
-    row(Context::Eigenvalues, "eigenvalues", "Eigenvalues", Kind::Plot(View::Eigenvalues)),
-    row(Context::Scan, "scan", "Scan", Kind::Pane(Some(View::Scan))),
-    row(Context::Speeds, "speeds", "Cycles over the belt's speed", Kind::Plot(View::Speeds)),
+const OTHERS: [ContextSpec; 19] = [
+    row(Context::Parameters, "parameters", "Parameters", Kind::Pane),
     row(Context::Walk, "walk", "Walking along the branch", Kind::Held),
     row(Context::Plots, "plots", "Every plot", Kind::Shared),
     row(Context::Everywhere, "everywhere", "Everywhere", Kind::Shared),
@@ -139,15 +105,20 @@ pub const CONTEXTS: [ContextSpec; 31] = [
     row(Context::Always, "always", "At any time", Kind::Shared),
 ];
 
-impl Context {
-    fn spec(self) -> &'static ContextSpec {
-        &CONTEXTS[self as usize]
-    }
+/// Every context, those of the views after the first.
+pub fn contexts() -> impl Iterator<Item = ContextSpec> {
+    let views = VIEWS.iter().map(|row| Context::View(row.view).spec());
+    OTHERS[..1].iter().copied().chain(views).chain(OTHERS[1..].iter().copied())
+}
 
-    /// The context of a plot that shows a view.
-    pub fn of(view: View) -> Context {
-        let about = |row: &&ContextSpec| row.context.view() == Some(view);
-        CONTEXTS.iter().find(about).map_or(Context::Plots, |row| row.context)
+impl Context {
+    fn spec(self) -> ContextSpec {
+        if let Context::View(view) = self {
+            let kind = if view == View::Scan { Kind::Pane } else { Kind::Plot };
+            return row(self, view.spec().name, view.spec().heading, kind);
+        }
+        let own = |row: &&ContextSpec| row.context == self;
+        *OTHERS.iter().find(own).expect("every other context has its row")
     }
 
     /// The name in settings files.
@@ -172,11 +143,7 @@ impl Context {
 
     /// The view that must have the focus for this to hold, if it is about one.
     pub fn view(self) -> Option<View> {
-        match self.spec().kind {
-            Kind::Plot(view) => Some(view),
-            Kind::Pane(view) => view,
-            _ => None,
-        }
+        if let Context::View(view) = self { Some(view) } else { None }
     }
 }
 
@@ -184,14 +151,14 @@ impl Context {
 pub fn chains() -> &'static [Vec<Context>] {
     static CHAINS: LazyLock<Vec<Vec<Context>>> = LazyLock::new(|| {
         let others: fn(Kind) -> Option<&'static [Context]> = |kind| match kind {
-            Kind::Plot(_) => Some(&[Context::Plots, Context::Everywhere, Context::Always]),
-            Kind::Pane(_) => Some(&[Context::Everywhere, Context::Always]),
+            Kind::Plot => Some(&[Context::Plots, Context::Everywhere, Context::Always]),
+            Kind::Pane => Some(&[Context::Everywhere, Context::Always]),
             Kind::List => Some(&[Context::Lists, Context::Always]),
             Kind::Held | Kind::Text | Kind::Question => Some(&[Context::Always]),
             Kind::Shared | Kind::SharedByLists => None,
         };
-        let chain = |row: &ContextSpec| Some([&[row.context], others(row.kind)?].concat());
-        CONTEXTS.iter().filter_map(chain).collect()
+        let chain = |row: ContextSpec| Some([&[row.context], others(row.kind)?].concat());
+        contexts().filter_map(chain).collect()
     });
     &CHAINS
 }
@@ -204,16 +171,14 @@ pub fn chain(first: Context) -> &'static [Context] {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+
     use super::*;
-    use crate::scene::VIEWS;
 
     #[test]
-    fn every_context_stands_at_its_own_row_and_every_view_has_one() {
-        for row in CONTEXTS {
-            assert_eq!(row.context.spec().name, row.name);
-        }
-        for row in VIEWS {
-            assert_eq!(Context::of(row.view).view(), Some(row.view));
-        }
+    fn every_context_has_a_name_of_its_own() {
+        let names: BTreeSet<_> = contexts().map(|row| row.context.spec().name).collect();
+        assert_eq!(names.len(), contexts().count());
+        assert_eq!(names.len(), OTHERS.len() + VIEWS.len());
     }
 }

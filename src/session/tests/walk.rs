@@ -2,6 +2,7 @@
 
 use super::Trial;
 use crate::oscillator::State;
+use crate::scene::View;
 use crate::session::{Context, Stop};
 use crate::study::SpecialKind;
 
@@ -29,7 +30,7 @@ fn the_arrows_walk_along_the_branch_and_esc_lets_go() {
     assert!(trial.notice().starts_with("the branch ends here"));
     trial.press("<esc>");
     assert_eq!((trial.session.held, trial.session.quit), (None, false));
-    assert_eq!(trial.session.contexts()[0], Context::Diagram);
+    assert_eq!(trial.session.contexts()[0], Context::View(View::Diagram));
 }
 
 #[test]
