@@ -9,7 +9,7 @@ use hopfscope::flow::{Detail, Limits, Method, Outcome, Problem};
 use hopfscope::oscillator::{Parameters, State, Symbol};
 use hopfscope::study::basin::{Survey, Window};
 use hopfscope::study::branch::{Points, branch};
-use hopfscope::study::cycle::{cycle_near, cycles};
+use hopfscope::study::cycle::cycles;
 
 fn main() {
     divan::main();
@@ -121,13 +121,6 @@ fn two_cycles(bencher: Bencher) {
 fn one_cycle(bencher: Bencher) {
     let parameters = Parameters { d: -0.2, d2: 0.3, d3: 0.0, r: 0.5 };
     bencher.bench(|| cycles(black_box(&parameters), false, &Limits::PATIENT));
-}
-
-/// One cycle with its multiplier, to rounding, from a guess of its amplitude that is 1 % off.
-#[divan::bench]
-fn one_cycle_from_a_guess(bencher: Bencher) {
-    let parameters = Parameters { d: -0.2, d2: 0.2, d3: 0.5, r: 0.1 };
-    bencher.bench(|| cycle_near(black_box(&parameters), black_box(0.3535), &Limits::PATIENT));
 }
 
 /// The basin of 320 by 384 starts, by ordering.

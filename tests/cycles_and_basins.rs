@@ -12,7 +12,7 @@ use hopfscope::study::basin::{Basin, Counts, Fate, Window, basin};
 use hopfscope::study::branch::{Points, branch};
 use hopfscope::study::closing::{Equation, Route};
 use hopfscope::study::closings::closings;
-use hopfscope::study::cycle::{cycle_near, cycles};
+use hopfscope::study::cycle::cycles;
 use hopfscope::study::extremes::sets::{Found, SetAnswer, SetVerdict, judge_set, sets};
 use hopfscope::study::half_map::{HalfMap, Length, NoEnd};
 use hopfscope::study::polish::polish;
@@ -382,22 +382,6 @@ fn over_cubic_damping_the_branch_ends_before_its_cycles_are_known_no_more() {
             };
             assert_eq!(smallest(false), -1.0);
             assert!(smallest(true) > 0.0 && smallest(true) < 1e-3);
-        }
-    }
-}
-
-#[test]
-fn a_cycle_is_found_from_a_guess_of_its_amplitude() {
-    for parameters in parameter_sets(100) {
-        for cycle in cycles(&parameters, false, &LIMITS).unwrap().cycles {
-            let guess = cycle.q_max + 0.01 * cycle.clearance;
-            if let Some(near) = cycle_near(&parameters, guess, &LIMITS).unwrap() {
-                let error = (near.clearance / cycle.clearance - 1.0).abs();
-                assert!(error < 1e-12 + 10.0 * cycle.error, "{parameters:?}: {error:e}");
-            } else {
-                // Strongly expanding half swings put the guess further away than it looks.
-                assert!(cycle.log_multiplier.abs() > 2.0 || cycle.log_multiplier.abs() < 0.1);
-            }
         }
     }
 }

@@ -51,8 +51,6 @@ pub struct Optimum {
     pub cost: f64,
     /// The model against the record, with derivatives.
     pub seen: Seen,
-    /// Whether the iteration settled.
-    pub settled: bool,
 }
 
 /// What is estimated, and how residuals count.
@@ -170,11 +168,7 @@ impl Task<'_> {
         let columns = self.columns();
         let mut norms = vec![0.0_f64; columns.len()];
         let (mut damping, mut grow) = (1e-4, 2.0);
-        let mut settled = columns.is_empty();
-        for _ in 0..most {
-            if settled {
-                break;
-            }
+        for _ in 0..if columns.is_empty() { 0 } else { most } {
             let factor = self.factor(&seen, &columns);
             for (column, norm) in norms.iter_mut().enumerate() {
                 *norm = norm.max(factor.column(column).norm());
@@ -182,11 +176,9 @@ impl Task<'_> {
             let taken = loop {
                 let Some((step, predicted)) = damped_step(&factor, &norms, damping, &p, &columns)
                 else {
-                    settled = true;
                     break None;
                 };
                 if predicted <= enough * cost {
-                    settled = true;
                     break None;
                 }
                 let trial: Unknowns = std::array::from_fn(|place| p[place] + step[place]);
@@ -204,16 +196,18 @@ impl Task<'_> {
                 damping *= if found.is_none() { 8.0 } else { grow };
                 grow *= 2.0;
                 if damping > 1e16 {
-                    settled = true;
                     break None;
                 }
             };
             let Some((trial, found)) = taken else { break };
-            settled = (cost - found) <= enough * cost;
+            let settled = (cost - found) <= enough * cost;
             (p, cost) = (trial, found);
             seen = self.look(&p, true, runs)?;
+            if settled {
+                break;
+            }
         }
-        Ok(Optimum { p, cost, seen, settled })
+        Ok(Optimum { p, cost, seen })
     }
 }
 

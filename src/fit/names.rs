@@ -13,36 +13,16 @@ pub struct NameSpec {
     pub length: i32,
     /// Power of a second in its unit.
     pub time: i32,
-    /// What it means.
-    pub meaning: &'static str,
 }
 
 /// The numbers that are estimated from a record, but for those of its start.
 pub const NAMES: [NameSpec; 6] = [
-    NameSpec {
-        name: "omega0",
-        place: observation::OMEGA0,
-        length: 0,
-        time: -1,
-        meaning: "natural angular frequency",
-    },
-    NameSpec {
-        name: "offset",
-        place: observation::OFFSET,
-        length: 1,
-        time: 0,
-        meaning: "middle position",
-    },
-    NameSpec { name: "D", place: observation::D, length: 0, time: 0, meaning: "linear damping" },
-    NameSpec {
-        name: "D2",
-        place: observation::D2,
-        length: -1,
-        time: 0,
-        meaning: "asymmetric damping",
-    },
-    NameSpec { name: "D3", place: observation::D3, length: -2, time: 0, meaning: "cubic damping" },
-    NameSpec { name: "r", place: observation::R, length: 1, time: 0, meaning: "dry friction" },
+    NameSpec { name: "omega0", place: observation::OMEGA0, length: 0, time: -1 },
+    NameSpec { name: "offset", place: observation::OFFSET, length: 1, time: 0 },
+    NameSpec { name: "D", place: observation::D, length: 0, time: 0 },
+    NameSpec { name: "D2", place: observation::D2, length: -1, time: 0 },
+    NameSpec { name: "D3", place: observation::D3, length: -2, time: 0 },
+    NameSpec { name: "r", place: observation::R, length: 1, time: 0 },
 ];
 
 /// The row with this name.

@@ -116,7 +116,7 @@ fn names_of_regimes(picture: &mut Picture, chart: &Chart) {
         .flat_map(|row| (0..LATTICE).map(move |column| (middle(column), middle(row))))
         .map(|(x, y)| (x, y, chart.regime_at(window.x.at(x), window.y.at(y))))
         .collect();
-    for (regime, name, _) in REGIMES {
+    for (regime, name) in REGIMES {
         let room = |x: f64, y: f64| {
             let others = cells.iter().filter(|cell| cell.2 != Some(regime));
             let far = |cell: &(f64, f64, Option<Regime>)| {

@@ -23,6 +23,7 @@ use super::closed_pair::Closing;
 use super::closing::{Equation, first_side};
 use super::closings::{STEP, all_closings};
 use super::limit_cycle::{Edge, Margin};
+use crate::closed_form::harmonic::is_centre;
 use crate::flow::{Cost, Limits, Reason};
 use crate::oscillator::sticking::rests;
 use crate::oscillator::{Parameters, State};
@@ -130,12 +131,6 @@ fn centre_fate(parameters: &Parameters) -> Fate {
     } else {
         Fate::Escaped
     }
-}
-
-/// Whether the steady state is surrounded by periodic motions: D2 alone conserves its first integral.
-fn is_centre(parameters: &Parameters) -> bool {
-    let Parameters { d, d2: _, d3, r } = *parameters;
-    d == 0.0 && d3 == 0.0 && r == 0.0
 }
 
 impl Basin {

@@ -196,28 +196,6 @@ impl Equation {
         }
     }
 
-    /// Clearance at which the first swing of a cycle starts whose right turning point is `q_max`.
-    ///
-    /// On the upper side the first swing ends there and is followed back; on the lower it starts there.
-    ///
-    /// # Errors
-    /// The [`Reason`] why a swing failed.
-    pub fn first_clearance(
-        &mut self,
-        q_max: f64,
-        limits: &Limits,
-    ) -> Result<Option<Length>, Reason> {
-        let r = self.parameters.r;
-        if self.side == Side::Lower {
-            return Ok((q_max > r).then(|| Length::new(q_max - r)));
-        }
-        match self.backward[0].swing(Length::new(q_max + r), limits) {
-            Ok(swing) => Ok(Some(swing.end)),
-            Err(NoEnd::Escapes | NoEnd::Never) => Ok(None),
-            Err(NoEnd::Failed(reason)) => Err(reason),
-        }
-    }
-
     /// The two swings for `u = ln c0`.
     ///
     /// # Errors

@@ -16,11 +16,10 @@
 
 use super::basin::Basin;
 use super::closed_pair::{Closing, share};
-use super::closing::{Equation, Route};
+use super::closing::Equation;
 use super::closings::{STEP, all_closings};
 use super::lift::lifted;
 pub use super::limit_cycle::{Cycle, CycleErrors, Cycles, Edge, Picture};
-use super::polish::polish;
 use super::works::works as works_over;
 use crate::closed_form::harmonic::amplitudes;
 use crate::flow::{Limits, Reason};
@@ -123,30 +122,6 @@ impl Picture {
             lyapunov_share: basin.lyapunov_share(),
         }
     }
-}
-
-/// The cycle with its right turning point near `q_max`, without a search for others; `None` where no
-/// cycle is that near.
-///
-/// # Errors
-/// The [`Reason`] why a swing failed, or [`Reason::NoConvergence`].
-pub fn cycle_near(
-    parameters: &Parameters,
-    q_max: f64,
-    limits: &Limits,
-) -> Result<Option<Cycle>, Reason> {
-    /// How near, in the logarithm of the clearance.
-    const NEAR: f64 = 0.05;
-    let mut equation = Equation::new(parameters, STEP);
-    let Some(first) = equation.first_clearance(q_max, limits)? else { return Ok(None) };
-    let mut node = |u: f64| equation.at(Route::Mixed, u, limits).map(|closing| closing.node);
-    let bracket = (node(first.log - NEAR)?, node(first.log + NEAR)?);
-    if (bracket.0.value() > 0.0) == (bracket.1.value() > 0.0) {
-        return Ok(None);
-    }
-    equation.want_fastest(true);
-    let closing = polish(&mut equation, bracket, limits)?;
-    Ok(Some(closing.describe(parameters, equation.side)))
 }
 
 impl Closing {

@@ -34,15 +34,15 @@ pub enum Regime {
     Neutral,
 }
 
-/// Every regime with its name and what it means.
-pub const REGIMES: [(Regime, &str, &str); 7] = [
-    (Regime::Global, "global", "every motion comes to rest"),
-    (Regime::Finite, "finite", "an unstable cycle borders the basin, motions outside run away"),
-    (Regime::Coexisting, "coexisting", "a border, and a stable cycle outside of it"),
-    (Regime::Escape, "escape", "no cycle, a separatrix borders the basin"),
-    (Regime::Cycle, "cycle", "the rest repels, a cycle attracts"),
-    (Regime::Repelling, "repelling", "the rest repels, nothing attracts"),
-    (Regime::Neutral, "neutral", "nothing is gained or lost"),
+/// Every regime with its name.
+pub const REGIMES: [(Regime, &str); 7] = [
+    (Regime::Global, "global"),
+    (Regime::Finite, "finite"),
+    (Regime::Coexisting, "coexisting"),
+    (Regime::Escape, "escape"),
+    (Regime::Cycle, "cycle"),
+    (Regime::Repelling, "repelling"),
+    (Regime::Neutral, "neutral"),
 ];
 
 impl Regime {
@@ -50,12 +50,6 @@ impl Regime {
     #[must_use]
     pub fn name(self) -> &'static str {
         REGIMES[self as usize].1
-    }
-
-    /// A few words.
-    #[must_use]
-    pub fn meaning(self) -> &'static str {
-        REGIMES[self as usize].2
     }
 
     /// The regime at parameters of which the borders in D are known.
@@ -152,7 +146,7 @@ mod tests {
 
     #[test]
     fn every_regime_stands_at_its_own_row() {
-        for (regime, name, _) in REGIMES {
+        for (regime, name) in REGIMES {
             assert_eq!(regime.name(), name);
             assert_eq!(serde_json::to_value(regime).unwrap(), name);
         }

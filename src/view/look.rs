@@ -44,8 +44,6 @@ pub struct Symbols {
     pub head: char,
     /// A stable and an unstable point.
     pub points: [char; 2],
-    /// The current value, pointing at the axis from below.
-    pub current: char,
     /// Corners and sides of a box: top left, top right, bottom left, bottom right.
     pub corners: [&'static str; 4],
     /// Direction of motion, from east counter-clockwise in eighths of a turn.
@@ -67,7 +65,6 @@ const RICH: Symbols = Symbols {
     rest: '■',
     head: '●',
     points: ['●', '○'],
-    current: '▲',
     corners: ["┌", "┐", "└", "┘"],
     arrows: ['→', '↗', '↑', '↖', '←', '↙', '↓', '↘'],
     shade: '·',
@@ -86,7 +83,6 @@ const LETTERS: Symbols = Symbols {
     rest: 'X',
     head: '@',
     points: ['#', 'o'],
-    current: '^',
     corners: ["+", "+", "+", "+"],
     arrows: ['>', '/', '^', '\\', '<', '/', 'v', '\\'],
     shade: '.',

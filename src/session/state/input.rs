@@ -19,11 +19,6 @@ impl Input {
         &self.text
     }
 
-    /// Characters of the text to the left of the caret.
-    pub fn caret(&self) -> usize {
-        self.caret
-    }
-
     /// Byte at which a character begins.
     fn byte(&self, index: usize) -> usize {
         self.text.char_indices().nth(index).map_or(self.text.len(), |(byte, _)| byte)
