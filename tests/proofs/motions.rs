@@ -33,7 +33,7 @@ fn near(bounds: Interval, value: f64, within: f64) -> bool {
 #[test]
 fn reference_motions_are_enclosed() {
     let references: Vec<Reference> =
-        serde_json::from_str(include_str!("data/trajectories.json")).unwrap();
+        serde_json::from_str(include_str!("../data/trajectories.json")).unwrap();
     let mut captured = 0;
     for one in &references {
         let Reference { parameters, q0, v0, turning_points, .. } = one;

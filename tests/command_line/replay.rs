@@ -1,11 +1,9 @@
 //! `hopfscope replay`: keystroke files without a terminal.
 
-mod program;
-
 use std::fs;
 use std::path::Path;
 
-use program::{Ran, run};
+use crate::program::{Ran, run};
 
 /// Replays a text with these further arguments.
 fn replay(folder: &Path, keys: &str, arguments: &[&str]) -> Ran {

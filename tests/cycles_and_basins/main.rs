@@ -2,6 +2,10 @@
 
 #![expect(clippy::cast_precision_loss, reason = "indices of grids are small")]
 
+mod extremes;
+mod precision;
+mod properties;
+
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, Method, Outcome, Problem};
 use hopfscope::numerics::elementary::{exp, ln};
@@ -182,7 +186,7 @@ fn the_general_path_gives_the_piecewise_linear_cycle_to_twelve_digits() {
 #[test]
 fn folds_lie_where_they_were_computed_elsewhere() {
     let table: serde_json::Value =
-        serde_json::from_str(include_str!("data/folds.json")).expect("a table of folds");
+        serde_json::from_str(include_str!("../data/folds.json")).expect("a table of folds");
     let number = |value: &serde_json::Value| value.as_f64().expect("a number");
     let fold = |d2: f64, d3: f64, r: f64| {
         let parameters = Parameters { d: 0.0, d2, d3, r };

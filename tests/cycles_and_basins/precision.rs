@@ -25,7 +25,7 @@ fn found(parameters: [f64; 4]) -> Vec<Cycle> {
 /// Each number of each cycle is within its own error of the reference, and the error of all covers each.
 #[test]
 fn errors_are_never_below_the_true_ones() {
-    let rows: Vec<Vec<f64>> = include_str!("data/cycles_to_digits.csv")
+    let rows: Vec<Vec<f64>> = include_str!("../data/cycles_to_digits.csv")
         .lines()
         .skip(1)
         .map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())

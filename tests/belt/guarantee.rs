@@ -1,14 +1,12 @@
 //! Guaranteed margins of machines: no machine within the tolerances has a smaller margin, whatever disturbs it.
 
-mod program;
-
+use crate::program::{json, run};
 use hopfscope::machine::guarantee::{Uncertain, guaranteed};
 use hopfscope::machine::survey::portrait;
 use hopfscope::machine::varied::Varied;
 use hopfscope::machine::{Portrait, Tolerances};
 use hopfscope::oscillator::Belt;
 use hopfscope::scene::machine::library::find;
-use program::{json, run};
 
 fn machine(name: &str) -> Belt {
     find(name).unwrap().belt.clone()

@@ -1,6 +1,9 @@
 //! The engineer's door: machines in physical units, from files to answers.
 
+mod guarantee;
+#[path = "../program/mod.rs"]
 mod program;
+mod speeds;
 
 use std::fs;
 use std::sync::Arc;

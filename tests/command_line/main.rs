@@ -1,6 +1,9 @@
 //! What scripts rely on: the documents, their numbers, and exit codes.
 
+#[path = "../program/mod.rs"]
 mod program;
+mod replay;
+mod usage;
 
 use program::{json, run};
 use serde_json::{Map, Value};

@@ -1,12 +1,10 @@
 //! How the command line is used: wrong input, help, readers that go away, settings; what commands answer is
-//! in `command_line.rs`.
-
-mod program;
+//! in `main.rs`.
 
 use std::io::Read;
 use std::process::Stdio;
 
-use program::{command, run};
+use crate::program::{command, run};
 
 /// A wrong command line, and what the complaint about it must name.
 const WRONG: [(&str, &[&str]); 34] = [

@@ -1,6 +1,10 @@
 //! Proofs of limit cycles against references of thirty digits, against motions in twice the precision, and
 //! against the search.
 
+mod certificates;
+mod motions;
+
+#[path = "../data/mod.rs"]
 mod data;
 
 use data::references;
@@ -300,7 +304,7 @@ fn intervals_of_parameters_hold_what_is_proved_inside() {
 /// Folds at `D2 = 0` over `r^2 D3`, and one with `D2`, computed elsewhere to 8 to 14 digits.
 #[test]
 fn every_reference_fold_is_enclosed_to_twelve_digits() {
-    let data: serde_json::Value = serde_json::from_str(include_str!("data/folds.json")).unwrap();
+    let data: serde_json::Value = serde_json::from_str(include_str!("../data/folds.json")).unwrap();
     let number = |row: &serde_json::Value, name: &str| row[name].as_f64().unwrap();
     let mut rows: Vec<(Parameters, f64)> = Vec::new();
     for row in data["folds"].as_array().unwrap() {

@@ -1,6 +1,9 @@
 //! The whole model of the mass on a belt against machines computed independently (80-bit Taylor series with
 //! polynomial events, and DOP853), against closed forms, and against itself.
 
+mod edges;
+mod precise;
+
 use std::f64::consts::PI;
 
 use hopfscope::machine::branch::branch;
@@ -16,7 +19,7 @@ use hopfscope::oscillator::belt::FrictionLaw;
 use serde_json::Value;
 
 fn data() -> Value {
-    serde_json::from_str(include_str!("data/belts.json")).unwrap()
+    serde_json::from_str(include_str!("../data/belts.json")).unwrap()
 }
 
 fn machine(name: &str) -> Belt {
