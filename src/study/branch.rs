@@ -25,7 +25,7 @@ use serde::Serialize;
 
 use super::closing::{Equation, Route, first_side};
 use super::closings::{STEP, other_closings};
-use super::continuation::{Curve, CurvePoint, covers, passes};
+use super::continuation::{Curve, CurvePoint, Place, covers, passes};
 use super::cycle::Cycle;
 use super::escape::{escape_point, escape_product};
 use super::polish::polish_near;
@@ -137,6 +137,9 @@ const POLISHED: f64 = 1e5;
 
 /// Relative error of a clearance at which a cycle on its way to infinity is followed no further.
 const VAGUE: f64 = 1e-3;
+
+/// Relative error of the clearances between which a curve is interpolated.
+const LOOSE: f64 = 1e-8;
 
 /// Folds closer than this part of the range are one.
 const SAME: f64 = 1e-9;
@@ -267,7 +270,10 @@ impl Tracer<'_> {
                 || !(from..=to).contains(&point.p)
                 || !(bounds.0..=bounds.1).contains(&point.u)
         };
-        let mut points = self.curve.follow(seed, direction, &leaves)?;
+        // What is spread over it is polished afterwards.
+        let loose = self.curve.tolerance().max(LOOSE);
+        let mut points =
+            self.curve.within(loose, |curve| curve.follow(seed, direction, &leaves))?;
         if let [.., inside, outside] = points[..]
             && !(from..=to).contains(&outside.p)
         {
@@ -362,20 +368,18 @@ impl Tracer<'_> {
                 }
             }
         }
-        let spread = match self.points {
-            Points::Even(count) => self.curve.spread(points, count.max(2))?,
-            Points::Followed => points.to_vec(),
-        };
         let mut piece = Vec::new();
-        for point in spread {
-            let cycle = match self.points {
-                Points::Even(_) => self.polished(&point)?,
-                Points::Followed => Some(self.describe(&point)),
-            };
-            match cycle {
-                Some(cycle) => piece.push(BranchPoint { value: point.p, cycle }),
-                None => self.found.vague.push(point.p),
+        if let Points::Even(count) = self.points {
+            for place in self.curve.spread(points, count.max(2))? {
+                match self.polished(&place)? {
+                    Some(cycle) => piece.push(BranchPoint { value: place.p, cycle }),
+                    None => self.found.vague.push(place.p),
+                }
             }
+        } else {
+            let described =
+                points.iter().map(|at| BranchPoint { value: at.p, cycle: self.describe(at) });
+            piece.extend(described);
         }
         if !piece.is_empty() {
             self.found.pieces.push(piece);
@@ -383,16 +387,16 @@ impl Tracer<'_> {
         Ok(())
     }
 
-    /// The cycle of a point as the search for cycles finds it, to rounding; `None` where it cannot be told.
-    fn polished(&mut self, point: &CurvePoint) -> Result<Option<Cycle>, Reason> {
-        let parameters = self.curve.parameters_at(point.p);
+    /// The cycle at a place as the search for cycles finds it, to rounding; `None` where it cannot be told.
+    fn polished(&mut self, place: &Place) -> Result<Option<Cycle>, Reason> {
+        let parameters = self.curve.parameters_at(place.p);
         if let Some(closing) = weak_closing(&parameters) {
             return Ok(Some(closing.describe(&parameters, self.curve.side)));
         }
         let mut equation = Equation::on_side(&parameters, self.curve.side, STEP);
         let sharp = POLISHED * self.curve.tolerance();
         let closing =
-            polish_near(&mut equation, point.u, point.log_multiplier, sharp, self.curve.limits());
+            polish_near(&mut equation, place.u, place.log_multiplier, sharp, self.curve.limits());
         self.curve.cost += equation.cost();
         match closing {
             Err(Reason::Interrupted) => Err(Reason::Interrupted),

@@ -1,14 +1,32 @@
 //! Points spread evenly over a followed curve, as a diagram shows it.
 //!
 //! Continuation takes strides as long as the curve lets it. A table or a picture wants points at even
-//! distances: they are interpolated between those that were followed, and each is corrected to a cycle.
+//! distances: they are interpolated between those that were followed. Next to a fold there may be no cycle at
+//! an interpolated parameter, so that those are corrected to the curve.
 
 use super::{Curve, CurvePoint, Tangent};
 use crate::flow::Reason;
 use crate::study::closing::Route;
 
+/// Where a cycle of the curve is to be found.
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    /// The parameter.
+    pub p: f64,
+    /// Logarithm of the clearance: of a cycle, or interpolated.
+    pub u: f64,
+    /// Logarithm of its multiplier, to tell folds.
+    pub log_multiplier: f64,
+}
+
+impl From<&CurvePoint> for Place {
+    fn from(point: &CurvePoint) -> Self {
+        Place { p: point.p, u: point.u, log_multiplier: point.log_multiplier }
+    }
+}
+
 impl Curve<'_> {
-    /// Spreads `count` points evenly over a followed curve, both ends included, and corrects each.
+    /// `count` places spread evenly over a followed curve, both ends included.
     ///
     /// Distance is measured in p, u and amplitude together, each in parts of what the curve spans: this
     /// is how far apart points look on a diagram. Between followed points the curve is interpolated by
@@ -16,46 +34,72 @@ impl Curve<'_> {
     ///
     /// # Errors
     /// The [`Reason`] why a swing failed.
-    pub fn spread(
-        &mut self,
-        points: &[CurvePoint],
-        count: usize,
-    ) -> Result<Vec<CurvePoint>, Reason> {
+    pub fn spread(&mut self, points: &[CurvePoint], count: usize) -> Result<Vec<Place>, Reason> {
         let (Some(first), Some(last)) = (points.first(), points.last()) else {
             return Ok(Vec::new());
         };
         let arc = arc_lengths(points);
         let total = arc[arc.len() - 1];
         if points.len() < 2 || total == 0.0 {
-            return Ok(points.to_vec());
+            return Ok(points.iter().map(Place::from).collect());
         }
         let window = points.len().min(6);
-        let mut spread = vec![*first];
+        let mut spread = vec![Place::from(first)];
         self.slope_in_p = None;
         for index in 1..count.saturating_sub(1) {
             #[expect(clippy::cast_precision_loss, reason = "counts of points are small")]
             let s = total * index as f64 / (count - 1) as f64;
             let after = arc.partition_point(|&length| length <= s).clamp(1, points.len() - 1);
             let base = after.saturating_sub(window / 2).min(points.len() - window);
-            let (one, other) = (&points[after - 1], &points[after]);
+            let pair = [&points[after - 1], &points[after]];
             let smooth = interpolate(&points[base..base + window], &arc[base..base + window], s);
-            let tangent = Tangent::between(one, other, self.scale);
-            let growth = [0, 1].map(|i| 0.5 * (one.closing.growth[i] + other.closing.growth[i]));
-            let route = Route::steadiest(growth);
-            self.probe_within((other.p - one.p).abs() / self.scale);
-            let mut found = self.correct(smooth, tangent, route)?;
-            if found.is_none() {
-                // A polynomial may pass beyond where there are cycles; the chord of a bend does not.
-                let fraction = (s - arc[after - 1]) / (arc[after] - arc[after - 1]);
-                let between = |from: f64, to: f64| from + fraction * (to - from);
-                let straight = (between(one.u, other.u), between(one.p, other.p));
-                found = self.correct(straight, tangent, route)?;
+            if let Some(place) = between_steep(pair, smooth) {
+                spread.push(place);
+                continue;
             }
-            spread.extend(found);
+            let fraction = (s - arc[after - 1]) / (arc[after] - arc[after - 1]);
+            spread.extend(self.corrected(pair, smooth, fraction)?);
         }
-        spread.push(*last);
+        spread.push(Place::from(last));
         Ok(spread)
     }
+
+    /// The cycle next to an interpolated place, else next to the same part of the chord.
+    fn corrected(
+        &mut self,
+        [one, other]: [&CurvePoint; 2],
+        smooth: (f64, f64),
+        fraction: f64,
+    ) -> Result<Option<Place>, Reason> {
+        let tangent = Tangent::between(one, other, self.scale);
+        let growth = [0, 1].map(|i| 0.5 * (one.closing.growth[i] + other.closing.growth[i]));
+        let route = Route::steadiest(growth);
+        self.probe_within((other.p - one.p).abs() / self.scale);
+        let mut found = self.correct(smooth, tangent, route)?;
+        if found.is_none() {
+            // A polynomial may pass beyond where there are cycles; the chord of a bend does not.
+            let between = |from: f64, to: f64| from + fraction * (to - from);
+            let straight = (between(one.u, other.u), between(one.p, other.p));
+            found = self.correct(straight, tangent, route)?;
+        }
+        Ok(found.as_ref().map(Place::from))
+    }
+}
+
+/// An interpolated place where the curve is a graph over the parameter: between two points that are no fold's
+/// neighbours, the one cycle at this parameter is what Newton's method finds from there.
+fn between_steep([one, other]: [&CurvePoint; 2], (u, p): (f64, f64)) -> Option<Place> {
+    /// Logarithm of a multiplier far enough from that of a fold.
+    const STEEP: f64 = 0.3;
+    let log_multiplier = 0.5 * (one.log_multiplier + other.log_multiplier);
+    let steep = one.log_multiplier.abs().min(other.log_multiplier.abs()) >= STEEP
+        && one.log_multiplier.signum() == other.log_multiplier.signum();
+    let within = |from: f64, to: f64, at: f64| at > from.min(to) && at < from.max(to);
+    (steep && within(one.p, other.p, p) && within(one.u, other.u, u)).then_some(Place {
+        p,
+        u,
+        log_multiplier,
+    })
 }
 
 /// Length along a curve as it looks on a diagram, from its first point to each.
