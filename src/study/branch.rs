@@ -138,9 +138,6 @@ const POLISHED: f64 = 1e5;
 /// Relative error of a clearance at which a cycle on its way to infinity is followed no further.
 const VAGUE: f64 = 1e-3;
 
-/// Relative error of the clearances between which a curve is interpolated.
-const LOOSE: f64 = 1e-8;
-
 /// Folds closer than this part of the range are one.
 const SAME: f64 = 1e-9;
 
@@ -270,10 +267,7 @@ impl Tracer<'_> {
                 || !(from..=to).contains(&point.p)
                 || !(bounds.0..=bounds.1).contains(&point.u)
         };
-        // What is spread over it is polished afterwards.
-        let loose = self.curve.tolerance().max(LOOSE);
-        let mut points =
-            self.curve.within(loose, |curve| curve.follow(seed, direction, &leaves))?;
+        let mut points = self.curve.follow(seed, direction, &leaves)?;
         if let [.., inside, outside] = points[..]
             && !(from..=to).contains(&outside.p)
         {

@@ -371,18 +371,13 @@ impl<'a> Curve<'a> {
         let tangent = Tangent::between(one, other, self.scale);
         let chord = hypot((other.u - one.u) / UNIT_OF_U, (other.p - one.p) / self.scale);
         self.slope_in_p = None;
-        let zero = self.tolerance.max(LEAST_LOG);
+        let tolerance = self.tolerance;
+        self.tolerance = self.fineness().max(FOLD_TOLERANCE);
+        let zero = tolerance.max(LEAST_LOG);
         let ends = [one, other].map(|end| end.log_multiplier);
-        let sharp = self.fineness().max(FOLD_TOLERANCE);
-        self.within(sharp, |curve| curve.multiplier_one(one, tangent, chord, ends, zero))
-    }
-
-    /// What `find` answers at another tolerance.
-    pub fn within<T>(&mut self, tolerance: f64, find: impl FnOnce(&mut Self) -> T) -> T {
-        let usual = std::mem::replace(&mut self.tolerance, tolerance);
-        let found = find(self);
-        self.tolerance = usual;
-        found
+        let fold = self.multiplier_one(one, tangent, chord, ends, zero);
+        self.tolerance = tolerance;
+        fold
     }
 
     fn multiplier_one(
