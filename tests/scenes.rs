@@ -11,7 +11,7 @@ use hopfscope::session::replay::{Action, Player, parse};
 use hopfscope::session::{Msg, Session, Size, update};
 use hopfscope::study::{Cycle, Edge, Return};
 
-/// A scene with its motion and its cycles computed; the diagram is not looked at here.
+/// A scene with its motion and its cycles computed; diagrams are not looked at here.
 struct Stage(Session);
 
 impl Stage {
@@ -32,7 +32,8 @@ impl Stage {
 
     fn settle(&mut self) {
         for request in self.0.wants() {
-            if request.topic() != Topic::Branch && self.0.is_open(&request) {
+            let diagram = matches!(request.topic(), Topic::Branch | Topic::Speeds);
+            if !diagram && self.0.is_open(&request) {
                 let result = Ok(answer(&request, &Limits::PATIENT).unwrap());
                 update(
                     &mut self.0,

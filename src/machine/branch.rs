@@ -59,13 +59,10 @@ pub fn branch_while(
     count: usize,
     wanted: &dyn Fn() -> bool,
 ) -> Result<Branch, String> {
-    let family = |value: f64| subject.with(varied, value).ok()?.model().ok();
-    let point = |index| {
-        let value = spaced(range, index, count);
-        Ok(BranchPoint { value, found: subject.with(varied, value)?.portrait() })
-    };
-    let points = (0..count).take_while(|_| wanted()).map(point);
-    let points = points.collect::<Result<Vec<_>, String>>()?;
+    // Where it is not wanted any more there is no machine, and the search for a change ends at once.
+    let family = |value: f64| subject.with(varied, value).ok().filter(|_| wanted())?.model().ok();
+    let values = (0..count).map(|index| spaced(range, index, count));
+    let points = points_while(subject, varied, values, wanted)?;
     let mut special = Vec::new();
     for pair in points.windows(2).take_while(|_| wanted()) {
         if let (Ok(one), Ok(other)) = (&pair[0].found, &pair[1].found) {
@@ -73,6 +70,20 @@ pub fn branch_while(
         }
     }
     Ok(Branch { points, special })
+}
+
+/// What a machine does at values of one of its numbers, as long as that is wanted.
+///
+/// # Errors
+/// One line, where the machine's law has no such number.
+pub fn points_while(
+    subject: &Subject,
+    varied: Varied,
+    values: impl Iterator<Item = f64>,
+    wanted: &dyn Fn() -> bool,
+) -> Result<Vec<BranchPoint>, String> {
+    let point = |value| Ok(BranchPoint { value, found: subject.with(varied, value)?.portrait() });
+    values.take_while(|_| wanted()).map(point).collect()
 }
 
 /// The special values along one number, at each value of another.

@@ -260,7 +260,9 @@ impl Flow<'_> {
         let mut x = smallest;
         for _ in 0..TURNS {
             // A turning point that the guide holds is on no cycle, nor is the balance of a phase.
-            let moves = |image: &Image| image.x >= held && image.log_slope.is_finite();
+            let moves = |image: &Image| {
+                image.x >= held && image.left < -held && image.log_slope.is_finite()
+            };
             let Some(image) = self.preimage(x)?.filter(moves) else { return Ok(None) };
             if (image.x - x).abs() <= 2.0 * f64::EPSILON * x {
                 return Ok(Some((x, image)));

@@ -136,10 +136,8 @@ fn arc<'a>(
     let Slope { model, phase } = field;
     let (least, most) = model.range(phase);
     let pieces = &model.side(phase).pieces;
-    let known = |v: f64| {
-        pieces.first().is_some_and(|piece| piece.low <= v)
-            && pieces.last().is_some_and(|piece| v <= piece.high)
-    };
+    let low = pieces.first().map_or(f64::INFINITY, |piece| piece.low);
+    let high = pieces.last().map_or(f64::NEG_INFINITY, |piece| piece.high);
     // What has just been released is not faster than the belt, whatever rounding says.
     let mut leaves = phase == Phase::Between && from.v == most;
     stepper.begin(&field);
@@ -164,8 +162,9 @@ fn arc<'a>(
         }
         *left -= step.duration;
         from = Point { x: step.end.x, v: step.end.v.clamp(least, most) };
-        if !known(from.v) {
-            return Err(Stop::OutsideLaw { slip: (model.speed - from.v).abs() * model.omega_0 });
+        if !(low..=high).contains(&from.v) {
+            let end = if from.v < low { low } else { high };
+            return Err(Stop::OutsideLaw { slip: (model.speed - end).abs() * model.omega_0 });
         }
     }
     Ok(from)

@@ -6,7 +6,7 @@ use super::kind::Question;
 use super::means::Means;
 use crate::flow::quality::DRAFT;
 use crate::flow::{Cost, Reason};
-use crate::machine::branch::{BranchPoint, branch_while};
+use crate::machine::branch::{Branch, BranchPoint, branch_while, points_while, spaced};
 use crate::machine::special::Special;
 use crate::machine::varied::Varied;
 use crate::machine::{Cycle, ORDER, Subject};
@@ -20,7 +20,7 @@ pub struct Speeds {
     pub points: Vec<Speed>,
     /// The changes.
     pub special: Vec<Special>,
-    /// What it took.
+    /// What the speeds took; the changes between them are not counted.
     pub cost: Cost,
 }
 
@@ -38,31 +38,58 @@ pub struct Speed {
     pub rests: bool,
 }
 
-/// Speeds of the belt that are looked at, and in a draft.
-pub const SPEEDS: usize = 81;
-const ROUGH: usize = 5;
+/// Steps between the speeds of the belt that are looked at, beside those near changes; and speeds of a draft.
+const STEPS: u8 = 32;
+const FEW: usize = 7;
 
 /// What is asked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
     /// The machine; its own speed is put to 1 so that stepping it changes nothing here.
     pub belt: Arc<Belt>,
-    /// From and to, in m/s.
+    /// From and to, in m/s; a speed without an answer is left out.
     pub range: (f64, f64),
-    /// Speeds that are looked at, evenly spaced; one without an answer is left out.
-    pub count: usize,
+    /// Whether few speeds are enough for now, and no changes between them.
+    pub rough: bool,
+}
+
+const VARIED: Varied = Varied::Quantity(Quantity::BeltSpeed);
+
+impl Asked {
+    /// What the machine does at the speeds that are looked at, and the changes.
+    fn followed(&self, go: &dyn Fn() -> bool) -> Result<Branch, String> {
+        let subject = Subject::from(self.belt.as_ref());
+        if self.rough {
+            let subject = Subject { tolerance: Some(DRAFT.tolerance), ..subject };
+            let values = (0..FEW).map(|index| spaced(self.range, index, FEW));
+            let points = points_while(&subject, VARIED, values, go)?;
+            return Ok(Branch { points, special: Vec::new() });
+        }
+        let mut found = branch_while(&subject, VARIED, self.range, usize::from(STEPS) + 1, go)?;
+        let (from, to) = self.range;
+        let beside = |special: &Special| near(special.value, (to - from) / f64::from(STEPS));
+        let values = found.special.iter().flat_map(beside);
+        let values = values.filter(|value| (from..=to).contains(value));
+        found.points.extend(points_while(&subject, VARIED, values, go)?);
+        found.points.sort_by(|one, other| one.value.total_cmp(&other.value));
+        Ok(found)
+    }
+}
+
+/// Speeds on both sides of a change, where cycles end and turn as steeply as a root.
+fn near(value: f64, step: f64) -> impl Iterator<Item = f64> {
+    [0.5, 0.1, 0.02, 1e-4]
+        .into_iter()
+        .flat_map(move |part| [value - part * step, value + part * step])
 }
 
 impl Question for Asked {
     type Found = Speeds;
 
     fn answer(&self, means: &Means) -> Result<Speeds, Reason> {
-        let varied = Varied::Quantity(Quantity::BeltSpeed);
         let go = || !(means.limits.interrupted)();
         let lost = |_| Reason::NotApplicable { needs: "a belt that runs" };
-        let rough = (self.count <= ROUGH).then_some(DRAFT.tolerance);
-        let subject = Subject { tolerance: rough, ..self.belt.as_ref().into() };
-        let found = branch_while(&subject, varied, self.range, self.count, &go).map_err(lost)?;
+        let found = self.followed(&go).map_err(lost)?;
         if !go() {
             return Err(Reason::Interrupted);
         }
@@ -81,7 +108,7 @@ impl Question for Asked {
     }
 
     fn draft(&self) -> Option<Self> {
-        (self.count > ROUGH).then(|| Asked { count: ROUGH, ..self.clone() })
+        (!self.rough).then(|| Asked { rough: true, ..self.clone() })
     }
 
     fn numbers(&self) -> [f64; 8] {

@@ -43,6 +43,9 @@ fn the_document_holds_both_units_and_they_agree() {
     assert!((number(&found["parameters"]["D"]) - d).abs() < 1e-15);
     assert!((number(&found["parameters"]["r"]) - 1.0 / (100.0 * mu)).abs() < 1e-16);
     assert_eq!(found["rest_band"]["physical"], 0.0002);
+    // At rest the guide holds more.
+    let held = belt(&["textbook", "--set", "R_static=2 N"]);
+    assert_eq!(held["rest_band"]["physical"], 0.0004);
     assert_eq!(found["sticking_velocity"]["physical"], 0.3);
     let expansion = &found["expansion"];
     for cycle in expansion["cycles"].as_array().unwrap() {

@@ -1,9 +1,8 @@
 //! The view of the cycles over the speed of the belt: every kind of cycle in its own way, and the jumps where a
 //! stable state ends, up and down, as its motions make them.
 
-use std::sync::Arc;
-
 use hopfscope::flow::Limits;
+use hopfscope::machine::Cycle;
 use hopfscope::machine::branch::branch;
 use hopfscope::machine::jumps::{Jump, Landing};
 use hopfscope::machine::special::{Kind, Special};
@@ -12,9 +11,8 @@ use hopfscope::oscillator::Belt;
 use hopfscope::oscillator::belt::FrictionLaw;
 use hopfscope::picture::items::Item;
 use hopfscope::question::answer;
-use hopfscope::scene::file::parse;
 use hopfscope::scene::machine::library::machines;
-use hopfscope::scene::{Answered, Topic, View};
+use hopfscope::scene::{Answer, Answered, Topic, View, find};
 use hopfscope::session::{Msg, Session, Size, update};
 
 fn machine(name: &str) -> Belt {
@@ -89,14 +87,9 @@ fn a_cycle_that_is_born_at_rest_is_no_jump() {
     assert_eq!((hopf.jumps.up, hopf.jumps.down), (None, None));
 }
 
-/// A machine with the view in a window, and all questions answered.
-fn shown(machine: &str, x: [f64; 2], y: [f64; 2]) -> Session {
-    let text = format!(
-        "title = \"Speeds\"\nlook = \"-\"\npress = \"-\"\nmachine = \"{machine}\"\n\
-         layers = [\"whole\", \"speeds\"]\n[[plot]]\nview = \"speeds\"\nx = {x:?}\ny = {y:?}\n"
-    );
-    let scene = parse("speeds", "speeds.toml", &text).unwrap();
-    let mut session = Session::new(Arc::new(scene), Size { width: 160, height: 50 });
+/// A scene with all its questions answered.
+fn shown(scene: &str) -> Session {
+    let mut session = Session::new(find(scene).unwrap(), Size { width: 160, height: 50 });
     for request in session.wants() {
         if request.topic() != Topic::Branch && session.is_open(&request) {
             let result = Ok(answer(&request, &Limits::PATIENT).unwrap());
@@ -109,23 +102,19 @@ fn shown(machine: &str, x: [f64; 2], y: [f64; 2]) -> Session {
 
 #[test]
 fn the_view_draws_each_kind_its_own_way_and_marks_the_jumps() {
-    for (machine, x, y, jumps, kinds) in [
+    for (scene, jumps, kinds) in [
         (
-            "textbook",
-            [0.05, 0.5],
-            [0.0, 0.008],
+            "slow-belt",
             ["jump on a faster belt"].as_slice(),
             ["stick-slip cycle", "unstable slip cycle"],
         ),
         (
-            "bstab",
-            [0.5, 2.5],
-            [0.0, 2.5],
+            "benchmark",
             &["jump on a slower belt", "jump on a faster belt"],
             ["stick-slip cycle", "unstable slip cycle"],
         ),
     ] {
-        let session = shown(machine, x, y);
+        let session = shown(scene);
         let index = session.plots.iter().position(|plot| plot.view == View::Speeds).unwrap();
         let picture = hopfscope::picture::of(&session, index);
         let mut looks = Vec::new();
@@ -144,10 +133,10 @@ fn the_view_draws_each_kind_its_own_way_and_marks_the_jumps() {
                 _ => {}
             }
         }
-        assert_eq!(jumping, jumps, "{machine}");
-        assert_eq!(letters, 2, "{machine}: both changes have their letter");
+        assert_eq!(jumping, jumps, "{scene}");
+        assert_eq!(letters, 2, "{scene}: both changes have their letter");
         for kind in kinds {
-            assert!(looks.iter().any(|(name, _)| name == kind), "{machine}: {looks:?}");
+            assert!(looks.iter().any(|(name, _)| name == kind), "{scene}: {looks:?}");
         }
         // Told apart without colour: no two kinds of cycle share a line.
         looks.retain(|(name, _)| name.ends_with("cycle"));
@@ -157,5 +146,41 @@ fn the_view_draws_each_kind_its_own_way_and_marks_the_jumps() {
         dashes.sort();
         dashes.dedup();
         assert_eq!(dashes.len(), looks.len(), "{looks:?}");
+    }
+}
+
+#[test]
+fn a_draft_is_quick_and_shows_every_kind_where_the_whole_answer_does() {
+    /// Evaluations that take half of a frame of 16 ms at most.
+    const HALF_FRAME: u64 = 200_000;
+    for scene in ["slow-belt", "benchmark"] {
+        let session = Session::new(find(scene).unwrap(), Size { width: 160, height: 50 });
+        let mut asked = session.wants().into_iter();
+        let asked = asked.find(|request| request.topic() == Topic::Speeds).unwrap();
+        let found = [asked.draft().unwrap(), asked].map(|request| {
+            match answer(&request, &Limits::PATIENT).unwrap() {
+                Answer::Speeds(found) => found,
+                other => panic!("{other:?}"),
+            }
+        });
+        let [draft, whole] = &found;
+        println!("{scene}: {} and {}", draft.cost.evaluations, whole.cost.evaluations);
+        assert!(draft.cost.evaluations < HALF_FRAME, "{scene}: {}", draft.cost.evaluations);
+        for at in &draft.points {
+            let same = whole.points.iter().find(|other| (other.v0 / at.v0 - 1.0).abs() < 1e-12);
+            let Some(same) = same else { continue };
+            let kinds = |cycles: &[Cycle]| -> Vec<_> {
+                cycles.iter().map(|cycle| (cycle.sticks, cycle.stable)).collect()
+            };
+            assert_eq!(kinds(&at.cycles), kinds(&same.cycles), "{scene} at {}", at.v0);
+            for (rough, exact) in at.cycles.iter().zip(&same.cycles) {
+                assert!((rough.x.1 / exact.x.1 - 1.0).abs() < 1e-2, "{scene} at {}", at.v0);
+            }
+        }
+        // Near each change the curves are followed to it.
+        for special in &whole.special {
+            let near = whole.points.iter().filter(|at| (at.v0 - special.value).abs() < 1e-3);
+            assert!(near.count() >= 2, "{scene}: {special:?}");
+        }
     }
 }

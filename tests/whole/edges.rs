@@ -1,6 +1,7 @@
 //! Machines of which the reference has none: the guide catches what no cycle holds, rest without swings, laws
 //! that end beyond the cycles.
 
+use hopfscope::machine::return_map::Return;
 use hopfscope::machine::{Body, Border, Fate, Flow, Modal, Model, Portrait, Subject};
 use hopfscope::numerics::elementary::exp;
 use hopfscope::oscillator::Belt;
@@ -9,6 +10,52 @@ use hopfscope::scene::machine::file::parse;
 
 fn portrait(belt: &Belt) -> Portrait {
     Portrait::new(&Model::new(belt).unwrap()).unwrap()
+}
+
+/// A clutch whose friction feeds a small swing: without friction at rest an unstable cycle borders rest, from
+/// -5.4195 mm to 5.4989 mm.
+fn clutch(held: f64) -> Belt {
+    let stiffness = 2e5;
+    Belt {
+        mass: 20.0,
+        stiffness,
+        damping: 100.0,
+        cubic_damping: 0.0,
+        normal_force: 4000.0,
+        friction: 60.0,
+        belt_speed: 1.0,
+        law: FrictionLaw::Polynomial { coefficients: vec![0.38, -0.08, 0.01] },
+        static_coefficient: None,
+        static_guide: Some(held * stiffness),
+    }
+}
+
+#[test]
+fn a_guide_that_holds_one_turning_point_of_a_cycle_leaves_no_cycle() {
+    let held = 5.45e-3;
+    let found = portrait(&clutch(held));
+    assert!(found.cycles.iter().all(|cycle| cycle.sticks), "{:?}", found.cycles);
+    assert!(matches!(found.border, Border::Grazing(_)) && !found.border.touches());
+    let margin = found.margin.unwrap();
+    assert!((margin.displacement.1 / held - 1.0).abs() < 1e-12, "{margin:?}");
+    for (x, v) in [
+        (margin.displacement.0, 0.0),
+        (-margin.displacement.1, 0.0),
+        (0.0, margin.velocity.0),
+        (0.0, -margin.velocity.1),
+    ] {
+        assert_eq!(found.fate(x * (1.0 - 1e-9), v * (1.0 - 1e-9)), Ok(Fate::Rest), "{x} {v}");
+        assert_eq!(found.fate(x * (1.0 + 1e-9), v * (1.0 + 1e-9)), Ok(Fate::Cycle(0)), "{x} {v}");
+        // Followed one return, the motion just within comes to rest, the one just beyond goes on.
+        if v == 0.0 && x > 0.0 {
+            let mut flow = Flow::new(&found.model);
+            assert!(matches!(flow.returned(x * (1.0 - 1e-9)), Ok(Return::Rests(_))));
+            assert!(matches!(flow.returned(x * (1.0 + 1e-9)), Ok(Return::Turns(_))));
+        }
+    }
+    // A guide that holds neither of them leaves the cycle; one that holds both takes it away.
+    let cycles = |held| portrait(&clutch(held)).cycles.iter().filter(|it| !it.sticks).count();
+    assert_eq!([5.4e-3, 5.45e-3, 5.51e-3].map(cycles), [1, 0, 0]);
 }
 
 /// A slow belt whose friction falls so steeply that rest is a node that repels.

@@ -370,6 +370,12 @@ pub(super) struct Cost {
     pub seconds: f64,
 }
 
+/// How far from the steady position the guide holds the mass.
+fn rest_band(belt: &Belt, units: &Units) -> Both {
+    let physical = belt.static_guide.unwrap_or(belt.friction) / belt.stiffness;
+    Both { dimensionless: physical / units.displacement, physical }
+}
+
 /// Everything that is said about a machine, as a document.
 pub fn json(answer: &Answer) -> String {
     let survey = answer.survey;
@@ -385,10 +391,7 @@ pub fn json(answer: &Answer) -> String {
             dimensionless: reduced.sticking_velocity,
             physical: belt.belt_speed,
         },
-        rest_band: Both {
-            dimensionless: reduced.parameters.r,
-            physical: belt.friction / belt.stiffness,
-        },
+        rest_band: rest_band(belt, &reduced.units),
         whole: Whole::new(&survey.course.portrait),
         motion: MotionOf::new(
             (answer.machine.displacement, answer.machine.velocity),

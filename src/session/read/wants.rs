@@ -12,7 +12,6 @@ use crate::numerics::elementary::{exp2, hypot, log2};
 use crate::oscillator::belt::Quantity;
 use crate::oscillator::{Belt, Symbol};
 use crate::question;
-use crate::question::speeds::SPEEDS;
 use crate::question::{Borders, Failure};
 use crate::scene::{Answer, Axes, Fitted, Layer, Request, Span, TOPICS, Topic, View, Window};
 use crate::session::state::answers::Standing;
@@ -220,7 +219,7 @@ impl Session {
                 Request::Speeds(question::speeds::Asked {
                     belt,
                     range: (range.from(), range.to()),
-                    count: SPEEDS,
+                    rough: false,
                 })
             }
             Topic::ReturnMap => {
