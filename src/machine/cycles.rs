@@ -253,6 +253,8 @@ impl Flow<'_> {
     fn innermost(&mut self, smallest: f64) -> Result<Option<(f64, Image)>, Stop> {
         /// Turns at most.
         const TURNS: usize = 8;
+        /// A cycle that repels beyond all digits turns where the guide lets go, to rounding.
+        const ROUNDING: f64 = 1e-12;
         let held = self.model.guide_static;
         if held == 0.0 || smallest.is_infinite() {
             return Ok(None);
@@ -261,7 +263,8 @@ impl Flow<'_> {
         for _ in 0..TURNS {
             // A turning point that the guide holds is on no cycle, nor is the balance of a phase.
             let moves = |image: &Image| {
-                image.x >= held && image.left < -held && image.log_slope.is_finite()
+                let left = -image.left >= held * (1.0 - ROUNDING);
+                image.x >= held && left && image.log_slope.is_finite()
             };
             let Some(image) = self.preimage(x)?.filter(moves) else { return Ok(None) };
             if (image.x - x).abs() <= 2.0 * f64::EPSILON * x {

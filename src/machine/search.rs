@@ -1,5 +1,7 @@
-//! All zeros of a smooth function that costs an integration each time, with its derivative.
+//! All zeros of the growth of a map that never decreases: `f(u) = F(u) - u`, which costs an integration each
+//! time, with its derivative.
 //!
+//! Where the map carries one end of an interval beyond the other, it has no fixed point between them.
 //! An interval is halved until a cubic through both ends foretells the middle; then a zero shows as a change
 //! of sign, or two of them as an extremum beyond zero. What a cubic foretells to a few percent of its
 //! distance from zero cannot hide a pair of zeros.
@@ -68,8 +70,11 @@ fn within(
     evaluate: &mut impl FnMut(f64) -> Result<Sample, Stop>,
     found: &mut Zeros,
 ) -> Result<(), Stop> {
-    let middle = evaluate(0.5 * (left.u + right.u))?;
     let h = right.u - left.u;
+    if left.f > h || right.f < -h {
+        return Ok(());
+    }
+    let middle = evaluate(0.5 * (left.u + right.u))?;
     let slopes = (h * left.slope, h * right.slope);
     let foretold = Hermite { values: (left.f, right.f), slopes }.at(0.5);
     let least = left.f.abs().min(right.f.abs()).min(middle.f.abs());

@@ -211,3 +211,14 @@ fn in_one_turn_of_a_cycle_the_belt_gives_what_damper_and_guide_take() {
     }
     assert!(looked >= 6, "{looked}");
 }
+
+#[test]
+fn where_motions_run_away_the_search_for_cycles_settles() {
+    let text = "m = 1\nc = 1\nd1 = 0.1\nd3 = -0.05\nF = 1\nv0 = 1.5\n\
+                friction.stribeck = { rest = 1, kinetic = 0.5, velocity = 0.5 }\n";
+    let found = portrait(&parse("x", "x.toml", text, |_| Err(String::new())).unwrap().belt);
+    assert_eq!(found.unresolved, []);
+    let outermost = found.cycles.last().unwrap().x.1;
+    assert_eq!(found.fate(outermost * (1.0 + 1e-9), 0.0), Ok(Fate::Escaped));
+    assert!(found.steps < 4000, "{} steps", found.steps);
+}
