@@ -22,8 +22,8 @@ fn main() {
     divan::main();
 }
 
-/// What a version in C took on a machine of this kind, written by hand for the processor at hand (gcc 12, -O3 -march=native), in
-/// microseconds: figures recorded once, for comparison.
+/// What a version in C took on a machine of this kind, written by hand for the processor at hand (gcc 12, -O3
+/// -march=native), in microseconds: figures recorded once, for comparison.
 const RECORDED: &str = "\
 recorded of a version in C: half swings 0, 1, 3 certified 8.0, 12.5, 3.0 us, plain 5.4, 9.9, 1.7 us;
 one cycle with its multiplier 12 to 130 us; the count of cases 0, 1 at all amplitudes 700, 600 us";

@@ -17,12 +17,12 @@
 //! - [`study`] asks questions of the flow. Everything rests on the half-swing map
 //!   ([`study::half_map`]), which contains no friction, is increasing, and is inverted by itself with
 //!   the damping reversed. Cycles close two of them ([`study::closing`]); a search that excludes what
-//!   cannot hold a cycle finds all ([`study::search`], [`study::closings`], [`study::cycle`]), energy decides where differences
-//!   lose their digits ([`study::balance`]), continuation follows them ([`study::continuation`],
-//!   [`study::branch`]), folds are roots of their own ([`study::extended`], [`study::fold`]). Within a half plane every motion is a graph
-//!   over q ([`study::arc`]), so basins, margins and bands of capture are comparisons
-//!   ([`study::basin`], [`study::margin`], [`study::capture`]). [`study::claims`] puts the paper's own
-//!   equations and sentences to the test.
+//!   cannot hold a cycle finds all ([`study::search`], [`study::closings`], [`study::cycle`]), energy decides where
+//!   differences lose their digits ([`study::balance`]), continuation follows them ([`study::continuation`],
+//!   [`study::branch`]), folds are roots of their own ([`study::extended`], [`study::fold`]). Within a half plane
+//!   every motion is a graph over q ([`study::arc`]), so basins, margins and bands of capture are comparisons
+//!   ([`study::basin`], [`study::margin`], [`study::capture`]). [`study::claims`] puts the paper's own equations and
+//!   sentences to the test.
 //! - [`machine`] is the mass on its belt by the whole model: friction by its own law, two switching lines,
 //!   riding on the belt and overtaking it. One return map, which never decreases, orders all cycles; what
 //!   a start ends as is read off the next turning point ([`machine::Portrait`]).

@@ -6,7 +6,6 @@ use super::failure::Failure;
 use super::input;
 use super::output::{Certify, Format, Output};
 use super::start::Start;
-use super::timing::timed;
 use crate::flow::Limits;
 use crate::proof::kicks::kicks;
 use crate::proof::{ParameterBox, prove};
@@ -37,10 +36,7 @@ impl Basin {
         self.start.note_own_method();
         let parameters = self.start.problem()?.parameters;
         let survey = || Survey::of(&parameters, &self.window, self.grid, &Limits::PATIENT);
-        let (found, seconds) = timed(self.output.repeat, survey);
-        let found = found.map_err(|reason| {
-            Failure::Unanswered(format!("the basin could not be completed: {reason}"))
-        })?;
+        let (found, seconds) = self.output.timed("the basin could not be completed", survey)?;
         let enclose = || {
             let proof = prove(&ParameterBox::from(&parameters), &[]);
             kicks(&proof, [found.margin.displacement, found.margin.impulse])

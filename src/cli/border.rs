@@ -7,7 +7,6 @@ use super::failure::Failure;
 use super::input::{self, Over};
 use super::output::{Certify, Format, Output};
 use super::start::Start;
-use super::timing::timed;
 use crate::flow::Limits;
 use crate::oscillator::{State, Symbol};
 use crate::proof::ParameterBox;
@@ -39,10 +38,7 @@ impl Border {
         let parameters = self.start.problem()?.parameters;
         let Over { symbol, range, count } = self.over;
         let follow = || border(&parameters, symbol, range, count, &Limits::PATIENT);
-        let (found, seconds) = timed(self.output.repeat, follow);
-        let found: Found = found.map_err(|reason| {
-            Failure::Unanswered(format!("the border could not be completed: {reason}"))
-        })?;
+        let (found, seconds) = self.output.timed("the border could not be completed", follow)?;
         let certified = self.certify.ask(self.output.format, || enclosed(&found))?;
         let lines = certified.as_ref().map(|it| certified::border_lines(it, symbol));
         self.output.print(&match self.output.format {

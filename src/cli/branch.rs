@@ -6,7 +6,6 @@ use super::failure::Failure;
 use super::input::{self, Over};
 use super::output::{Certify, Format, Output};
 use super::start::Start;
-use super::timing::timed;
 use crate::flow::Limits;
 use crate::oscillator::Symbol;
 use crate::proof::{self, ParameterBox};
@@ -45,10 +44,7 @@ impl Branch {
         let Over { symbol, range, count } = self.over;
         let follow =
             || branch(base, symbol, range, Points::Even(count), tolerance, &Limits::PATIENT);
-        let (found, seconds) = timed(self.output.repeat, follow);
-        let found = found.map_err(|reason| {
-            Failure::Unanswered(format!("the branch could not be completed: {reason}"))
-        })?;
+        let (found, seconds) = self.output.timed("the branch could not be completed", follow)?;
         let decide = || proof::range::range(&ParameterBox::from(base), symbol, range);
         let certified = self.certify.ask(self.output.format, decide)?;
         let decided = certified.as_ref().map(|it| certified::range_table(it, symbol));

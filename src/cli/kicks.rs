@@ -5,7 +5,6 @@ use clap::Args;
 use super::failure::Failure;
 use super::output::{Format, Output};
 use super::start::Start;
-use super::timing::timed;
 use crate::flow::Limits;
 use crate::report::kicks;
 use crate::study::kicks::Kicks as Law;
@@ -34,10 +33,7 @@ impl Kicks {
         self.start.note_own_method();
         let parameters = self.start.problem()?.parameters;
         let follow = || repeated(&parameters, &self.law, &Limits::PATIENT);
-        let (found, seconds) = timed(self.output.repeat, follow);
-        let found = found.map_err(|reason| {
-            Failure::Unanswered(format!("the kicks could not be followed: {reason}"))
-        })?;
+        let (found, seconds) = self.output.timed("the kicks could not be followed", follow)?;
         self.output.print(&match self.output.format {
             Format::Table => kicks::table(&parameters, &self.law, &found, seconds),
             Format::Json => kicks::json(&parameters, &self.law, &found, seconds),

@@ -5,7 +5,6 @@ use clap::Args;
 use super::failure::Failure;
 use super::input;
 use super::output::{Format, Output};
-use super::timing::timed;
 use crate::flow::Limits;
 use crate::oscillator::{Interval, ParameterBox, Symbol};
 use crate::report::guarantee;
@@ -38,10 +37,7 @@ impl Margin {
             known.set(symbol, interval).map_err(Failure::Usage)?;
         }
         let ask = || study::guarantee::guarantee(&known, self.disturbance, &Limits::PATIENT);
-        let (found, seconds) = timed(self.output.repeat, ask);
-        let found = found.map_err(|reason| {
-            Failure::Unanswered(format!("the margin could not be computed: {reason}"))
-        })?;
+        let (found, seconds) = self.output.timed("the margin could not be computed", ask)?;
         self.output.print(&match self.output.format {
             Format::Table => guarantee::table(&found, seconds),
             Format::Json => guarantee::json(&found, seconds),

@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use super::failure::Failure;
+use super::timing::timed;
+use crate::flow::Reason;
 use crate::runtime::provenance_file;
 
 /// How an answer is printed.
@@ -26,6 +28,17 @@ pub struct Output {
 }
 
 impl Output {
+    /// Computes as often as is asked for: the answer, and its seconds. `failed` says what there is not without it.
+    pub fn timed<T>(
+        &self,
+        failed: &str,
+        compute: impl FnMut() -> Result<T, Reason>,
+    ) -> Result<(T, f64), Failure> {
+        let (found, seconds) = timed(self.repeat, compute);
+        let found = found.map_err(|reason| Failure::Unanswered(format!("{failed}: {reason}")))?;
+        Ok((found, seconds))
+    }
+
     /// Prints or writes an answer; a JSON document says itself where it comes from.
     pub fn print(&self, answer: &str) -> Result<(), Failure> {
         let Some(path) = &self.write else { return print(&sourced(self.format, answer)) };

@@ -3,10 +3,10 @@
 //! [`record`] reads what instruments write. [`guess`] reads a first guess off the turning points, by the decrements
 //! of averaging ([`decrements`]). [`motion`] follows a motion with its exact derivatives, half swing by half swing
 //! ([`half_swing`]); [`observation`] compares it with the record; [`levenberg_marquardt`] descends, and [`search`]
-//! makes sure that it descends into the right [`valley`]. [`samples`] and [`peaks`] put it together; [`mod@estimate`] judges:
-//! covariance, also
-//! for correlated noise ([`uncertainty`], [`residuals`]), intervals where the loss is not quadratic ([`profile`]),
-//! what only combinations are known of ([`separable`]), and what all this leaves of the margin ([`margin`]).
+//! makes sure that it descends into the right [`valley`]. [`samples`] and [`peaks`] put it together; [`mod@estimate`]
+//! judges: covariance, also for correlated noise ([`uncertainty`], [`residuals`]), intervals where the loss is not
+//! quadratic ([`profile`]), what only combinations are known of ([`separable`]), and what all this leaves of the
+//! margin ([`margin`]).
 //!
 //! Nothing here touches a file: text goes in, estimates come out.
 //!

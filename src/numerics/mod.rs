@@ -3,8 +3,9 @@
 //! - Numbers: [`interval`] rounds outwards, [`twofold`] carries twice the digits, [`wide`] a far wider range,
 //!   [`scaling`] multiplies by powers of two without error, [`sum`] remembers what rounding takes, [`random`]
 //!   simulates noise.
-//! - Functions: [`elementary`] has those of every pocket calculator, [`root`] finds zeros inside brackets, [`quadrature`] integrates, [`polynomial`] evaluates,
-//!   [`hermite`] interpolates by cubics, [`spline`] smooths measured points.
+//! - Functions: [`elementary`] has those of every pocket calculator, [`root`] finds zeros inside brackets,
+//!   [`quadrature`] integrates, [`polynomial`] evaluates, [`hermite`] interpolates by cubics, [`spline`] smooths
+//!   measured points.
 
 #[doc(hidden)]
 pub mod elementary;

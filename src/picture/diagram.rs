@@ -1,8 +1,9 @@
 //! The bifurcation diagram: a property of the cycles, over a parameter.
 //!
 //! Computed branches are solid where the cycle is stable and dashed where it is not; the first-order
-//! harmonic answer is dotted beside them. Rest belongs to every diagram (`equilibria`). A dotted upright stands at the present value of the
-//! parameter, and the cycles there are marked. A point of the branch that is held has a cross.
+//! harmonic answer is dotted beside them. Rest belongs to every diagram (`equilibria`). A dotted upright stands at
+//! the present value of the parameter, and the cycles there are marked. A point of the branch that is held has a
+//! cross.
 
 use super::equilibria::{self, at};
 use super::items::{Item, Line, Picture, Text, Variant};

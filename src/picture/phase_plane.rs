@@ -1,8 +1,9 @@
 //! The phase plane: where motions go, where they rest, and what separates those that do.
 //!
 //! Layers from back to front: directions of the flow, shading of the basin, borders of the capture bands,
-//! the point left for a mark, the line `v = 0`, the Lyapunov circle, the motion, cycles, the sticking set, markers, cursor. Formulas show the present
-//! parameters; what had to be computed shows the last answer, and the title says if it is old.
+//! the point left for a mark, the line `v = 0`, the Lyapunov circle, the motion, cycles, the sticking set, markers,
+//! cursor. Formulas show the present parameters; what had to be computed shows the last answer, and the title says if
+//! it is old.
 
 use super::construction;
 use super::items::{Item, Line, Picture, Variant};

@@ -6,8 +6,8 @@
 //! from both sides, its inverse and its derivative. The [`ends`] are clearances between which all cycles lie; the
 //! [`count`] excludes every clearance between them, or finds it in an interval with exactly one cycle, which is
 //! then enclosed ([`enclose`], [`affine`]). Where a [`theorems`] decides, nothing is computed. [`cycles`] puts it
-//! together. [`derivatives`] are those of the map by its parameters ([`sensitivity`], [`model`]). [`fold`] and [`escape`] enclose the value of a parameter at which the number of cycles changes, by a
-//! [`bracket`] of verdicts.
+//! together. [`derivatives`] are those of the map by its parameters ([`sensitivity`], [`model`]). [`fold`] and
+//! [`escape`] enclose the value of a parameter at which the number of cycles changes, by a [`bracket`] of verdicts.
 //!
 //! "Unknown" and "open" are answers everywhere; nothing here shares code with the search in `study`.
 //!

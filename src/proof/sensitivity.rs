@@ -2,7 +2,8 @@
 //!
 //! By a coefficient p, the cross product `J` of the field with the variation of the motion obeys `J' = -f' J + g v`, with
 //! `g = v, v^2, v^3` for a, b, c, and is `-X dX/dp` on arrival (lemma 21). So what is needed are the integrals of
-//! `v^2, v^3, v^4`, each weighted by how much of an area survives until the end. They are added up step by step, in Taylor models.
+//! `v^2, v^3, v^4`, each weighted by how much of an area survives until the end. They are added up step by step, in
+//! Taylor models.
 
 use super::field::Field;
 use super::model::Model;

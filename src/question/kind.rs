@@ -2,7 +2,7 @@
 
 use super::means::Means;
 use crate::flow::{Problem, Reason};
-use crate::oscillator::Parameters;
+use crate::oscillator::{Parameters, State};
 
 /// A kind of question; what is asked are its fields, exactly the inputs that the answer depends on.
 pub trait Question: Sized + PartialEq {
@@ -42,4 +42,19 @@ pub(super) fn numbers(parameters: &Parameters, others: [f64; 4]) -> [f64; 8] {
 pub(super) fn of_motion(problem: &Problem) -> [f64; 8] {
     let Problem { parameters, initial, until, .. } = problem;
     numbers(parameters, [initial.q, initial.v, *until, 0.0])
+}
+
+/// A motion, whatever method follows it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Motion {
+    pub parameters: Parameters,
+    pub initial: State,
+    pub until: f64,
+}
+
+impl Motion {
+    pub(super) fn problem(&self) -> Problem {
+        let Motion { parameters, initial, until } = *self;
+        Problem { parameters, initial, until, ..Problem::default() }
+    }
 }

@@ -33,6 +33,7 @@ pub use answer::{Answer, Whole};
 pub use answered::{Answered, Failure};
 pub use capture::Borders;
 pub use fit::{Fit, Fitted, Recording};
+pub use kind::Motion;
 pub use means::{Fineness, Means, Rows};
 pub use request::{Request, answer, answer_by, answer_for};
 pub use topic::{TOPICS, Topic};

@@ -1,9 +1,9 @@
 //! The file of a scan: it grows by one line a row, and can be gone on with after any end.
 //!
 //! Each line is handed to the system in one piece as soon as it is known, to the file or, before its turn, to the
-//! [`Journal`], so that a process that is killed loses what it was computing and at most leaves a line without its end. [`ScanFile::resume`]
-//! trusts nothing: it compares the heading and the beginning of every line with what this scan would
-//! write, computes the first and the last row again, and cuts a line that has no end.
+//! [`Journal`], so that a process that is killed loses what it was computing and at most leaves a line without its
+//! end. [`ScanFile::resume`] trusts nothing: it compares the heading and the beginning of every line with what this
+//! scan would write, computes the first and the last row again, and cuts a line that has no end.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{File, OpenOptions, TryLockError};

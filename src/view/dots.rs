@@ -2,8 +2,9 @@
 //!
 //! Each cell shows one thing in one colour, which keeps the stream of bytes short: a symbol hides
 //! curves, curves (solid or dashed, also in the gaps of their dashes) hide guides (dotted), and guides
-//! hide texture. Where curves share a cell the dots of both are shown in the colour of the later one. Coordinates count dots from the top left corner; lines are clipped in
-//! floating point before they become dots, and what is not finite is not drawn.
+//! hide texture. Where curves share a cell the dots of both are shown in the colour of the later one. Coordinates
+//! count dots from the top left corner; lines are clipped in floating point before they become dots, and what is not
+//! finite is not drawn.
 
 #![expect(
     clippy::cast_possible_truncation,

@@ -196,8 +196,8 @@ pub fn take_speed(session: &mut Session) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Starts a motion where the cursor is, in the phase plane beside those that are there: at its state, at the state that the motion has at its time, at
-/// rest at its displacement, or on its cycle.
+/// Starts a motion where the cursor is, in the phase plane beside those that are there: at its state, at the state
+/// that the motion has at its time, at rest at its displacement, or on its cycle.
 pub fn start_here(session: &mut Session) -> Vec<Effect> {
     let Some(Point { x, y }) = cursor(session) else { return Vec::new() };
     let initial = match session.focused().map(|plot| plot.view) {

@@ -1,7 +1,7 @@
 //! Computed branches as a way to walk: their points and special points in the order along the curves.
 //!
-//! Everything here is a function of the branches, of which a diagram with variants has several. What is held is the point itself and not its place in
-//! the list, so that it stays the same point when the branch is computed again.
+//! Everything here is a function of the branches, of which a diagram with variants has several. What is held is the
+//! point itself and not its place in the list, so that it stays the same point when the branch is computed again.
 
 use crate::numerics::elementary::{hypot, ln};
 use crate::session::state::stop::Stop;

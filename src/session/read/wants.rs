@@ -12,7 +12,7 @@ use crate::numerics::elementary::{exp2, hypot, log2};
 use crate::oscillator::belt::Quantity;
 use crate::oscillator::{Belt, Symbol};
 use crate::question;
-use crate::question::{Borders, Failure};
+use crate::question::{Borders, Failure, Motion};
 use crate::scene::{Answer, Axes, Fitted, Layer, Request, Span, TOPICS, Topic, View, Window};
 use crate::session::state::answers::Standing;
 use crate::session::state::overlay::{Listed, Overlay};
@@ -156,6 +156,10 @@ impl Session {
     ) -> Option<Request> {
         let Problem { parameters, tolerance, initial, .. } = problem;
         let own = |view: View| self.plots.get(plot).filter(|plot| plot.view == view);
+        let motion = || {
+            let Problem { initial, until, .. } = self.problem;
+            Motion { parameters, initial, until }
+        };
         Some(match topic {
             Topic::Claims => Request::Claims(question::claims::Asked),
             Topic::Fit => {
@@ -183,14 +187,8 @@ impl Session {
             Topic::Balance => {
                 Request::Balance(question::balance::Asked { parameters, harmonics: self.harmonics })
             }
-            Topic::Trade => {
-                let Problem { initial, until, .. } = self.problem;
-                Request::Trade(question::trade::Asked { parameters, initial, until })
-            }
-            Topic::Reference => {
-                let Problem { initial, until, .. } = self.problem;
-                Request::Reference(question::reference::Asked { parameters, initial, until })
-            }
+            Topic::Trade => Request::Trade(question::trade::Asked(motion())),
+            Topic::Reference => Request::Reference(question::reference::Asked(motion())),
             Topic::Zones => self.zones_request(&parameters)?,
             Topic::Capture if parameters.r == 0.0 => return None,
             Topic::Capture => {

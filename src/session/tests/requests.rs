@@ -4,7 +4,7 @@ use super::{COST, Trial, answered};
 use crate::flow::Reason;
 use crate::oscillator::{Parameters, Symbol};
 use crate::question;
-use crate::question::Failure;
+use crate::question::{Failure, Motion};
 use crate::scene::{Answered, Request, Topic};
 use crate::session::{Msg, update};
 
@@ -104,8 +104,10 @@ fn terms_that_a_scene_does_not_declare_are_zero_until_the_user_unfolds_them() {
             | Request::ReturnMap(question::return_map::Asked { parameters, .. })
             | Request::Regimes(question::regimes::Asked { parameters, .. })
             | Request::Branch(question::branch::Asked { parameters, .. })
-            | Request::Trade(question::trade::Asked { parameters, .. })
-            | Request::Reference(question::reference::Asked { parameters, .. }) => parameters,
+            | Request::Trade(question::trade::Asked(Motion { parameters, .. }))
+            | Request::Reference(question::reference::Asked(Motion { parameters, .. })) => {
+                parameters
+            }
             Request::Scan(_) => unreachable!("nobody asked for a scan"),
         };
         assert!(parameters.is_piecewise_linear());

@@ -43,8 +43,8 @@ pub struct Point {
     pub uncertain: Option<Uncertain>,
 }
 
-/// Fills the columns of these measures at a point, in their order. What could not be computed is [`Value::Nothing`], and [`Point::failures`]
-/// says why.
+/// Fills the columns of these measures at a point, in their order. What could not be computed is [`Value::Nothing`],
+/// and [`Point::failures`] says why.
 ///
 /// # Errors
 /// [`Reason::Interrupted`], and no other.

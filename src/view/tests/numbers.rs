@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use ratatui::layout::Rect;
+
 use super::by_hand::{press, settle};
 use super::{braille, draw, letters};
 use crate::picture::items::Item;
@@ -9,6 +11,8 @@ use crate::picture::ticks::{Scale, Ticks};
 use crate::scene::library::{find, library};
 use crate::scene::{Span, VIEWS};
 use crate::session::{Session, Size};
+use crate::view::layout::layout;
+use crate::view::plot::shown;
 use crate::view::screen::text;
 use crate::words::number::significant;
 
@@ -66,30 +70,32 @@ fn labels(scale: Scale, axis: Span) -> String {
     labels.collect::<Vec<_>>().join(" ")
 }
 
-/// Every number that belongs on the screens of a session.
+/// Every number that belongs on the screens of a session, whatever their size.
 fn known(session: &Session) -> BTreeSet<String> {
     let mut widest = session.clone();
     widest.size = WIDEST;
     let mut known = numbers(&text(&draw(&widest, braille())));
     for index in 0..session.plots.len() {
-        let picture = crate::picture::of(session, index);
-        let [x, y] = picture.scales;
-        let mut windows = vec![picture.window];
-        if session.has_equal_units(index) {
-            // The shape of the screen decides to which side equal units widen it.
-            let wide = (1..=16).map(|width| picture.window.with_equal_units(f64::from(width), 1.0));
-            windows.extend(wide);
-            windows.push(picture.window.with_equal_units(1.0, 4.0));
-        }
-        for window in windows {
-            known.extend(numbers(&labels(x, window.x)));
-            known.extend(numbers(&labels(y, window.y)));
-        }
-        for item in &picture.items {
+        for item in &crate::picture::of(session, index).items {
             if let Item::Caption { long, .. } = item {
                 known.extend(numbers(long));
             }
         }
+    }
+    known
+}
+
+/// Every number that the axes can have at the size of a session: the shape of a screen decides to which side
+/// equal units widen a window.
+fn on_axes(session: &Session) -> BTreeSet<String> {
+    let screen = Rect::new(0, 0, session.size.width, session.size.height);
+    let areas = layout(screen, session).map_or_else(Vec::new, |parts| parts.plots);
+    let mut known = BTreeSet::new();
+    for (index, area) in areas.into_iter().enumerate().filter(|(_, area)| !area.is_empty()) {
+        let [x, y] = crate::picture::scales(session, index);
+        let window = shown(area, session, index, [x, y]);
+        known.extend(numbers(&labels(x, window.x)));
+        known.extend(numbers(&labels(y, window.y)));
     }
     known
 }
@@ -110,10 +116,11 @@ fn cut(name: &str, keys: &str) -> Vec<String> {
     let mut session = Session::new(find(name).unwrap(), WIDEST);
     settle(&mut session);
     press(&mut session, keys);
-    let known = known(&session);
+    let anywhere = known(&session);
     let mut cut = Vec::new();
     for (width, height) in SIZES {
         session.size = Size { width, height };
+        let known = &on_axes(&session) | &anywhere;
         // Letters stand where dots do.
         for look in if width == 80 { vec![braille(), letters()] } else { vec![braille()] } {
             let screen = text(&draw(&session, look));
