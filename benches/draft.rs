@@ -39,7 +39,7 @@ fn main() {
     println!("{:>14}  {:>8}  {:>8}  worst key", "", "80x24", "200x60");
     let mut worst = (Duration::ZERO, String::new());
     for scene in library() {
-        let [small, large] = SIZES.map(|size| dearest(scene, size));
+        let [small, large] = SIZES.map(|size| costliest(scene, size));
         println!(
             "{:>14}  {:>5.2} ms  {:>5.2} ms  {}",
             scene.name,
@@ -138,7 +138,7 @@ impl User {
 }
 
 /// The most expensive key of a scene, and what it takes.
-fn dearest(scene: &Arc<Scene>, (width, height): (u16, u16)) -> (Duration, String) {
+fn costliest(scene: &Arc<Scene>, (width, height): (u16, u16)) -> (Duration, String) {
     let mut session = Session::new(Arc::clone(scene), Size { width, height });
     session.problem = session.problem.at(&DRAFT);
     let rows = session.rows();
@@ -158,7 +158,7 @@ fn dearest(scene: &Arc<Scene>, (width, height): (u16, u16)) -> (Duration, String
     let running = std::thread::spawn(move || pump.run().map(drop));
     let user = User { events, arrived, idle };
     user.settle();
-    let mut dearest = (Duration::ZERO, String::new());
+    let mut costliest = (Duration::ZERO, String::new());
     for row in rows {
         let mut times = [Vec::new(), Vec::new()];
         for _ in 0..TIMES {
@@ -168,14 +168,14 @@ fn dearest(scene: &Arc<Scene>, (width, height): (u16, u16)) -> (Duration, String
         }
         for (key, times) in ["<right>", "<left>"].into_iter().zip(&mut times) {
             times.sort_unstable();
-            dearest = dearest.max((times[TIMES / 2], format!("{key} on {}", row.name())));
+            costliest = costliest.max((times[TIMES / 2], format!("{key} on {}", row.name())));
         }
         user.key("<down>");
         user.settle();
     }
     user.key("q");
     running.join().expect("no panic").expect("no error");
-    dearest
+    costliest
 }
 
 fn milliseconds(time: Duration) -> f64 {

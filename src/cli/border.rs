@@ -15,7 +15,7 @@ use crate::proof::fold::enclose_fold;
 use crate::proof::range::change_near;
 use crate::report::border as report;
 use crate::report::certified::{self, Bordered};
-use crate::study::fold::{Border as Found, BorderPoint, border};
+use crate::study::fold::{Boundary as Found, BoundaryPoint, border};
 
 /// Continues the fold `D_F` and the escape point `D_c` in a second parameter
 #[derive(Debug, Args)]
@@ -52,7 +52,7 @@ impl Border {
 /// The fold and the escape point in D at each point of a border, enclosed.
 fn enclosed(found: &Found) -> Vec<Bordered> {
     let nowhere = State { q: 0.0, v: 0.0 };
-    let at = |point: &BorderPoint| {
+    let at = |point: &BoundaryPoint| {
         let mut parameters = found.parameters;
         found.second.set(&mut parameters, &mut nowhere.clone(), point.value);
         let known = ParameterBox::from(&parameters);

@@ -275,7 +275,7 @@ impl Watched {
         Watched { shown: io::stderr().is_terminal(), state: Mutex::new((0, Instant::now(), false)) }
     }
 
-    /// One motion more; nobody interrupts.
+    /// One motion more, without interruption.
     fn step(&self) -> bool {
         /// How often the line is written again.
         const EVERY: Duration = Duration::from_millis(250);

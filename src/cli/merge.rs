@@ -63,11 +63,11 @@ impl Merge {
         }
         let parts: Vec<Part> = sources.iter().map(Source::part).collect();
         let Asked { scan, form, .. } = &first.asked;
-        let anew = self.check.then_some(&Limits::PATIENT);
+        let recheck = self.check.then_some(&Limits::PATIENT);
         let mut output = self.output.as_deref().map(Output::begin).transpose()?;
         let mut write = |line: &[u8]| output.as_mut().map_or(Ok(()), |output| output.write(line));
         let missing =
-            merge(scan, *form, &parts, anew, &mut write).map_err(|conflict| match conflict {
+            merge(scan, *form, &parts, recheck, &mut write).map_err(|conflict| match conflict {
                 Conflict::Output(_) => Failure::Unanswered(conflict.to_string()),
                 _ => Failure::Usage(conflict.to_string()),
             })?;

@@ -1,4 +1,4 @@
-//! Where texts stand beside their points: where they cover nothing, and nobody takes them for the name of
+//! Where texts stand beside their points: where they cover nothing, and are not taken for the name of
 //! another curve.
 
 use std::fmt::Write;

@@ -1,4 +1,4 @@
-//! How far the chords of a figure are from the curves that they stand for, and which points nobody sees.
+//! How far the chords of a figure are from the curves that they stand for, and which points cannot be seen.
 //!
 //! Between neighbours of a smooth curve the chord misses it by an eighth of the second difference. What
 //! turns by more than [`CORNER`] at a point is a corner that is meant.
@@ -8,7 +8,7 @@ use super::layout::PLOT;
 use crate::numerics::elementary::{atan2, hypot};
 use crate::scene::Window;
 
-/// What nobody sees, in pixels.
+/// What is too small to be seen, in pixels.
 pub const FAINT: f64 = 0.05;
 
 /// An angle between two chords, in radians, that is no bend of a curve sampled for print.

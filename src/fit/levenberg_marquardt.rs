@@ -107,7 +107,7 @@ impl Task<'_> {
     /// Compares record and model, and counts it.
     ///
     /// # Errors
-    /// [`NoFit`] where the model escapes, or somebody interrupts.
+    /// [`NoFit`] where the model escapes, or when interrupted.
     pub fn look(&self, p: &Unknowns, derivatives: bool, runs: &mut Runs) -> Result<Seen, NoFit> {
         if (runs.interrupted)() {
             return Err(NoFit::Interrupted);

@@ -43,7 +43,7 @@ impl<'a> Refit<'a> {
     /// The best motion near a guess, with the held unknowns as they are there.
     ///
     /// # Errors
-    /// [`NoFit`] where that motion escapes, or somebody interrupts.
+    /// [`NoFit`] where that motion escapes, or when interrupted.
     pub fn at(&self, mut guess: Unknowns, runs: &mut Runs) -> Result<Optimum, NoFit> {
         guess[R] = guess[R].max(0.0);
         self.task().solve_roughly(guess, runs)
@@ -52,7 +52,7 @@ impl<'a> Refit<'a> {
     /// The loss at a point.
     ///
     /// # Errors
-    /// [`NoFit`] where the motion escapes, or somebody interrupts.
+    /// [`NoFit`] where the motion escapes, or when interrupted.
     pub fn cost(&self, p: &Unknowns, runs: &mut Runs) -> Result<f64, NoFit> {
         let task = self.task();
         Ok(task.cost(&task.look(p, false, runs)?))
@@ -61,7 +61,7 @@ impl<'a> Refit<'a> {
     /// The loss that one unit of chi-squared is worth; correlated noise makes larger differences by chance.
     ///
     /// # Errors
-    /// [`NoFit`] if somebody interrupts.
+    /// [`NoFit`] when interrupted.
     pub fn unit(&self, runs: &mut Runs) -> Result<f64, NoFit> {
         let covariance = &self.estimate.covariance;
         Ok(self.cost(&self.estimate.p, runs)? / covariance.freedom * covariance.inflation(R))
@@ -71,7 +71,7 @@ impl<'a> Refit<'a> {
 /// The best motion with one of the unknowns held at a value.
 ///
 /// # Errors
-/// [`NoFit`] where the motion with that value escapes, or somebody interrupts.
+/// [`NoFit`] where the motion with that value escapes, or when interrupted.
 pub fn refitted(
     estimate: &Estimate,
     place: usize,

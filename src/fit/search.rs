@@ -87,7 +87,7 @@ impl Problem<'_> {
     /// Fits every minimum again, with the residuals that count now.
     ///
     /// # Errors
-    /// [`NoFit`] if somebody interrupts, or the motion is lost.
+    /// [`NoFit`] when interrupted, or the motion is lost.
     pub fn polish(&self, found: &mut Found, runs: &mut Runs) -> Result<(), NoFit> {
         let observation = self.observation(found.start);
         let task = self.task(&observation);

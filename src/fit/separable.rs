@@ -1,7 +1,7 @@
 //! What the data cannot separate: damping numbers that are known only together.
 //!
 //! The damping that a motion feels at amplitude A is `D + 2 r/(pi A) + (3/8) D3 A^2`, and over a small range of
-//! amplitudes nobody can tell the terms apart. Where the error of a term is as large as the damping itself, the
+//! amplitudes the terms cannot be told apart. Where the error of a term is as large as the damping itself, the
 //! combination of such terms that the data do know is reported instead.
 
 use std::f64::consts::PI;

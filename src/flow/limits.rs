@@ -14,7 +14,7 @@ pub struct Limits<'a> {
 }
 
 impl Limits<'static> {
-    /// The budget of one question when nobody interrupts: some seconds of work.
+    /// The budget of one question that is not interrupted: some seconds of work.
     pub const PATIENT: Limits<'static> =
         Limits { evaluations: 400_000_000, interrupted: &|| false };
 }

@@ -32,11 +32,11 @@ pub fn draw(picture: &mut Picture, session: &Session, right: Symbol, up: Symbol)
     let line = Line::new("over the speed of the belt", PEN, Dash::Solid);
     let line = line.briefly("over the belt's speed");
     picture.items.push(Item::Path(line, running.path().into_iter().map(place).collect()));
-    let today = at(&session.problem.parameters);
-    milestones(picture, &running, today, place);
+    let here = at(&session.problem.parameters);
+    milestones(picture, &running, here, place);
     let present = at(&running.reduced.parameters);
     let text = with_unit(running.speed, 4, "m/s");
-    if present != today {
+    if present != here {
         // Off the belt: where its speed would have the parameters.
         picture.items.push(milestone(present, running.speed, Role::Current));
     }
@@ -47,7 +47,7 @@ pub fn draw(picture: &mut Picture, session: &Session, right: Symbol, up: Symbol)
 fn milestones(
     picture: &mut Picture,
     running: &Running,
-    today: Point,
+    here: Point,
     place: impl Fn(Station) -> Point,
 ) {
     let window = picture.window;
@@ -62,7 +62,7 @@ fn milestones(
             let (x, y) = distance(at, *other);
             x >= APART.0 || y >= APART.1
         };
-        let (x, y) = distance(at, today);
+        let (x, y) = distance(at, here);
         if window.contains(at) && kept.iter().all(far) && x.max(y) >= CLEAR {
             kept.push(at);
             picture.items.push(milestone(at, speed, PEN));

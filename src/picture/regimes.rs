@@ -11,7 +11,7 @@ use super::role::{Dash, Mark, Role};
 use crate::oscillator::Symbol;
 use crate::scene::{Axes, Layer, Point, View};
 use crate::session::{self, Session};
-use crate::study::chart::{Border, Chart};
+use crate::study::chart::{BoundaryKind, Chart};
 use crate::study::regime::{REGIMES, Regime};
 
 /// What the plot with this index shows.
@@ -19,13 +19,13 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     let session::Plot { window, cursor, axes, .. } = session.plots[index];
     let Axes { abscissa, against, .. } = axes;
     let (right, up) = (abscissa.spec().name, against.spec().name);
-    let today = Point { x: session.value(abscissa), y: session.value(against) };
+    let here = Point { x: session.value(abscissa), y: session.value(against) };
     let found = session.chart(index);
     let mut picture = Picture::new(View::Regimes.spec().title, right, up, window);
     picture.varied = vec![abscissa, against];
     let read = |point: Point| found.and_then(|chart| chart.regime_at(point.x, point.y));
     picture.reading = Some(cursor.map_or_else(
-        || read(today).map_or_else(String::new, |regime| regime.name().into()),
+        || read(here).map_or_else(String::new, |regime| regime.name().into()),
         |cursor| {
             let (x, y) = reading(cursor, window);
             let regime = read(cursor).map_or("", Regime::name);
@@ -46,25 +46,25 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
             }
         };
         if shows(Layer::Borders) {
-            border(Border::Fold, Line::new("fold", Role::Special, Dash::Solid));
-            border(Border::Escape, Line::new("escape", Role::Unstable, Dash::Solid));
+            border(BoundaryKind::Fold, Line::new("fold", Role::Special, Dash::Solid));
+            border(BoundaryKind::Escape, Line::new("escape", Role::Unstable, Dash::Solid));
         }
         if shows(Layer::HarmonicBorder) {
             let line = Line::new("fold of the first harmonic", Role::Harmonic, Dash::Dotted);
-            border(Border::Harmonic, line.briefly("fold of one harmonic"));
+            border(BoundaryKind::Harmonic, line.briefly("fold of one harmonic"));
         }
         if shows(Layer::Regimes) {
             names_of_regimes(&mut picture, chart);
         }
     }
     let present = || Line::new("present value", Role::Current, Dash::Sparse);
-    picture.upright(present(), today.x);
-    let level = [window.x.from(), window.x.to()].map(|x| Point { x, y: today.y });
+    picture.upright(present(), here.x);
+    let level = [window.x.from(), window.x.to()].map(|x| Point { x, y: here.y });
     picture.curve(present(), level);
     if shows(Layer::BeltPath) {
         belt_path::draw(&mut picture, session, abscissa, against);
     }
-    picture.mark(Mark::Head, today, Role::Current);
+    picture.mark(Mark::Head, here, Role::Current);
     picture.cross(cursor);
     picture
 }

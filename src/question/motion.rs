@@ -10,7 +10,7 @@ impl Question for Problem {
     type Found = Trajectory;
 
     fn answer(&self, means: &Means) -> Result<Trajectory, Reason> {
-        // Without friction nothing happens at v = 0, and nobody looks for it.
+        // Without friction nothing happens at v = 0, so that it is not looked for.
         let crossings = self.parameters.r > 0.0;
         let samples_per_step = means.fineness.samples_per_step;
         let detail = Detail { crossings, samples_per_step, energy: true };

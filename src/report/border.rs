@@ -7,14 +7,14 @@ use super::csv::Sheet;
 use super::json::{self, Price};
 use super::table::{Table, parameters, rounded};
 use crate::oscillator::{Parameters, Symbol};
-use crate::study::fold::{Border, BorderPoint};
+use crate::study::fold::{Boundary, BoundaryPoint};
 use crate::words::number::{duration, significant};
 
 #[derive(Serialize)]
 struct Document<'a> {
     parameters: &'a Parameters,
     parameter: Symbol,
-    points: &'a [BorderPoint],
+    points: &'a [BoundaryPoint],
     #[serde(skip_serializing_if = "Option::is_none")]
     certified: Option<&'a [Bordered]>,
     cost: Price,
@@ -35,7 +35,7 @@ struct Row<'a> {
     reason: Option<&'a str>,
 }
 
-pub fn json(found: &Border, certified: Option<&[Bordered]>, seconds: f64) -> String {
+pub fn json(found: &Boundary, certified: Option<&[Bordered]>, seconds: f64) -> String {
     json::text(&Document {
         parameters: &found.parameters,
         parameter: found.second,
@@ -46,7 +46,7 @@ pub fn json(found: &Border, certified: Option<&[Bordered]>, seconds: f64) -> Str
 }
 
 /// One row for each value of the second parameter.
-pub fn csv(found: &Border) -> String {
+pub fn csv(found: &Boundary) -> String {
     let mut sheet = Sheet::like(&Row::default(), &[("value", found.second.spec().name)]);
     for point in &found.points {
         sheet.row(&Row {
@@ -63,7 +63,7 @@ pub fn csv(found: &Border) -> String {
 }
 
 /// One row for each value of the second parameter, to read.
-pub fn table(found: &Border, seconds: f64) -> String {
+pub fn table(found: &Boundary, seconds: f64) -> String {
     const PLACES: usize = 12;
     let kind = |grazes: bool| if grazes { "grazing" } else { "fold" };
     let table = Table::of(

@@ -12,7 +12,7 @@ use crate::proof::cycles::Proof;
 use crate::proof::kicks::{Edge, Kicks};
 use crate::proof::motion::{Fate, Motion};
 use crate::proof::range::{Change, Range};
-use crate::study::fold::BorderPoint;
+use crate::study::fold::BoundaryPoint;
 use crate::words::number::significant;
 
 const PLACES: usize = 12;
@@ -219,7 +219,7 @@ pub struct Bordered {
 
 impl Bordered {
     /// What is enclosed of a point.
-    pub fn new(point: &BorderPoint, fold: Option<Interval>, escape: Option<Interval>) -> Self {
+    pub fn new(point: &BoundaryPoint, fold: Option<Interval>, escape: Option<Interval>) -> Self {
         let missing = [
             ("the fold", point.fold.is_some() && fold.is_none()),
             ("the escape point", point.escape.is_some() && escape.is_none()),

@@ -88,7 +88,7 @@ pub fn launch(
         ended => ended,
     };
     if !matches!(ended, Ok(Stop::Closed) | Err(_)) {
-        pump.take_leave();
+        pump.await_terminal();
     }
     guard.leave();
     let code = match ended? {
@@ -104,7 +104,7 @@ pub fn launch(
 /// Keeps what would be missed of a session that was interrupted or left. It is the last thing that is done, and if it
 /// fails there is nobody to tell.
 fn keep<M: Application, W: io::Write>(pump: &Pump<M, W>, path: Option<&Path>) {
-    // After a panic the state may be one that nobody has thought of.
+    // After a panic the state may be one that was never meant to be.
     let text = catch_unwind(AssertUnwindSafe(|| pump.running().what_to_keep())).ok().flatten();
     if let Some((path, text)) = path.zip(text) {
         drop(Files::write(path, &text, true));
@@ -126,13 +126,13 @@ fn conduct<M: Application>(
             }
             Stop::Suspend => {
                 pump.hold();
-                pump.take_leave();
+                pump.await_terminal();
                 guard.leave();
                 signals::suspend_job()?;
             }
             Stop::Suspended => {
                 pump.hold();
-                pump.take_leave();
+                pump.await_terminal();
                 guard.leave();
                 signals::stop()?;
                 expected = true;

@@ -56,7 +56,7 @@ impl fmt::Display for Conflict {
 /// Hands the lines of the whole to `write`, in their order, and returns the points that no part holds; what was
 /// written is the whole where none is missing.
 ///
-/// With `anew`, the first and the last row of each part are computed again within these limits and compared.
+/// With `recheck`, the first and the last row of each part are computed again within these limits and compared.
 ///
 /// # Errors
 /// The [`Conflict`].
@@ -64,7 +64,7 @@ pub fn merge(
     scan: &Scan,
     form: Form,
     parts: &[Part],
-    anew: Option<&Limits>,
+    recheck: Option<&Limits>,
     write: &mut dyn FnMut(&[u8]) -> io::Result<()>,
 ) -> Result<Vec<Range<usize>>, Conflict> {
     let mut parts: Vec<&Part> = parts.iter().collect();
@@ -74,7 +74,7 @@ pub fn merge(
     let mut missing = Vec::new();
     let mut expected = 0;
     write(form.heading(scan).as_bytes()).map_err(Conflict::Output)?;
-    let task = Task { scan, form, anew };
+    let task = Task { scan, form, recheck };
     loop {
         let first = reading.iter().enumerate().min_by_key(|(_, reader)| reader.index);
         let next = first.map(|(place, reader)| (place, reader.index));
@@ -110,7 +110,7 @@ pub fn merge(
 struct Task<'a> {
     scan: &'a Scan,
     form: Form,
-    anew: Option<&'a Limits<'a>>,
+    recheck: Option<&'a Limits<'a>>,
 }
 
 /// A part that is being read, with a row of it that has not been written yet.
@@ -160,7 +160,7 @@ impl<'a> Reader<'a> {
     }
 
     fn compare(&self, task: &Task, number: usize) -> Result<(), Refusal> {
-        let Some(limits) = task.anew else { return Ok(()) };
+        let Some(limits) = task.recheck else { return Ok(()) };
         compare(task.scan, task.form, (self.index, &self.line), number, limits)
     }
 }

@@ -180,7 +180,7 @@ impl<M: Application, W: Write> Pump<M, W> {
     }
 
     /// Waits for an answer that the terminal owes, so that it does not arrive after the program.
-    pub fn take_leave(&mut self) {
+    pub fn await_terminal(&mut self) {
         while let Some(until) = self.screen.last_wait() {
             match self.events.recv_deadline(until) {
                 Ok(Event::Shown) => drop(self.screen.answered(Instant::now())),

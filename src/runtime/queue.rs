@@ -1,7 +1,7 @@
 //! What there is to do for a worker, and in which order.
 //!
 //! The most urgent request comes first. One that takes long must not hold up the others, though, and how
-//! long it takes nobody knows beforehand. So each request has turns: when its turn is over and others wait
+//! long it takes is not known beforehand. So each request has turns: when its turn is over and others wait
 //! that have had no more turns, it is put aside, and starts over when they have had theirs. Each turn is
 //! four times as long as the last one, so that at most a third of the work is done in vain. What merely
 //! refines a draft begins with a later turn, because there is a picture already.
@@ -24,7 +24,7 @@ const REFINEMENT: u32 = 2;
 pub struct Queue {
     /// What is wanted, the most urgent first; the request in progress is among it.
     wanted: Vec<Wanted>,
-    /// The request in progress, unless nobody wants it any more.
+    /// The request in progress, unless it is no longer wanted.
     running: Option<Request>,
     /// Requests whose answers have been reported and not been taken yet.
     reported: Vec<Request>,
@@ -196,7 +196,7 @@ mod tests {
         queue.begin();
         assert!(queue.want(vec![cycles(2.0)]));
         assert!(!queue.is_contested() && !queue.is_idle());
-        assert_eq!(queue.finish(), None, "nobody wants that answer");
+        assert_eq!(queue.finish(), None, "that answer is no longer wanted");
         assert_eq!(queue.begin(), Some((cycles(2.0), 1)));
         assert_eq!(queue.finish(), Some(cycles(2.0)));
         assert!(queue.is_idle());

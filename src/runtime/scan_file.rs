@@ -211,7 +211,7 @@ fn opened(path: &Path) -> Result<File, Refusal> {
     let file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path)?;
     match file.try_lock() {
         Err(TryLockError::WouldBlock) => Err(Refusal::Busy),
-        // Where files cannot be locked, that nobody else writes is up to the user.
+        // Where files cannot be locked, it is up to the user that no other process writes.
         Ok(()) | Err(TryLockError::Error(_)) => Ok(file),
     }
 }

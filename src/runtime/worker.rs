@@ -381,7 +381,7 @@ mod tests {
         let job = move |request: &Request, _: &Limits, tell: &Tell| {
             start.send(number(request)).unwrap();
             gone.recv().unwrap();
-            // It has not noticed yet that nobody wants it.
+            // It has not noticed yet that it is no longer wanted.
             tell(nothing(request));
             Ok(nothing(request))
         };

@@ -54,7 +54,7 @@ pub struct ViewSpec {
     pub heading: &'static str,
     /// What it shows, in a few words.
     pub meaning: &'static str,
-    /// What is looked at where nobody says otherwise.
+    /// What is looked at where nothing else is asked for.
     pub window: Window,
 }
 

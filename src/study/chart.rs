@@ -44,7 +44,7 @@ pub struct Chart {
 
 /// A border that a chart shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Border {
+pub enum BoundaryKind {
     /// The fold of the cycles.
     Fold,
     /// The fold by one harmonic (48).
@@ -125,13 +125,13 @@ pub fn chart(
 impl Chart {
     /// The places of a border as points (right, up), in runs without a gap.
     #[must_use]
-    pub fn border(&self, border: Border) -> Vec<Vec<(f64, f64)>> {
+    pub fn border(&self, border: BoundaryKind) -> Vec<Vec<(f64, f64)>> {
         let mut runs: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
         for line in &self.lines {
             let place = match border {
-                Border::Fold => line.fold,
-                Border::Harmonic => line.harmonic,
-                Border::Escape => line.escape,
+                BoundaryKind::Fold => line.fold,
+                BoundaryKind::Harmonic => line.harmonic,
+                BoundaryKind::Escape => line.escape,
             };
             match (place, runs.last_mut()) {
                 (Some(place), Some(run)) => run.push(self.point(line.at, place)),

@@ -102,7 +102,7 @@ pub fn fold_within(
 
 /// One value of the second parameter, and where the basin changes its kind along D.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct BorderPoint {
+pub struct BoundaryPoint {
     /// Value of the second parameter.
     pub value: f64,
     /// The fold, where cycles fold.
@@ -117,13 +117,13 @@ pub struct BorderPoint {
 
 /// The fold and the escape point along a second parameter.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Border {
+pub struct Boundary {
     /// The parameters that stay.
     pub parameters: Parameters,
     /// The second parameter.
     pub second: Symbol,
     /// Its values and what was found there.
-    pub points: Vec<BorderPoint>,
+    pub points: Vec<BoundaryPoint>,
     /// What it cost.
     pub cost: Cost,
 }
@@ -139,12 +139,12 @@ pub fn border(
     range: (f64, f64),
     count: usize,
     limits: &Limits,
-) -> Result<Border, Reason> {
+) -> Result<Boundary, Reason> {
     if !matches!(second, Symbol::D2 | Symbol::D3 | Symbol::R) {
         return Err(Reason::NotApplicable { needs: "one of D2, D3, r to vary" });
     }
     let mut border =
-        Border { parameters: *parameters, second, points: Vec::new(), cost: Cost::default() };
+        Boundary { parameters: *parameters, second, points: Vec::new(), cost: Cost::default() };
     for index in 0..count {
         let value = between(range, index, count);
         let mut here = *parameters;
@@ -159,7 +159,7 @@ pub fn border(
         let (escape, further) = escape.unwrap_or_default();
         border.cost += cost;
         border.cost += further;
-        border.points.push(BorderPoint {
+        border.points.push(BoundaryPoint {
             value,
             fold,
             harmonic_fold: harmonic::fold(here.d3, here.r).map(|fold| fold.d),

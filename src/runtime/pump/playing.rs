@@ -26,7 +26,7 @@ enum Pause {
 #[derive(Debug)]
 pub(super) struct Playing {
     player: Player,
-    /// What is played, to begin anew.
+    /// What is played, to start over.
     script: Script,
     /// Captions that are passed by, on the way back to the one before.
     passed: usize,

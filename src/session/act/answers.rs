@@ -12,7 +12,7 @@ use crate::session::state::scan::{Progress, SCANNING};
 use crate::session::state::session::{Recomputed, Session};
 
 impl Session {
-    /// Takes an answer in; returns whether it is the answer to a question of today.
+    /// Takes an answer in; returns whether it is the answer to a question that is asked now.
     pub(in crate::session) fn take(&mut self, answered: Answered) -> bool {
         let topic = answered.request.topic();
         if topic == Topic::Scan {

@@ -31,7 +31,7 @@ pub fn next_of_chart(session: &mut Session, upwards: bool) -> Vec<Effect> {
     let Some(symbol) = later.into_iter().find(|symbol| *symbol != other) else { return Vec::new() };
     let axis = if upwards { &mut plot.axes.against } else { &mut plot.axes.abscissa };
     *axis = symbol;
-    // The chart of these parameters is nobody's yet: its window is the usual one, the present point in it.
+    // The chart of these parameters belongs to no scene: its window is the usual one, the present point in it.
     plot.fit_from(
         PlotSetup { view: plot.view, axes: plot.axes, window: None, family: plot.family }.opening(),
     );
@@ -49,8 +49,8 @@ pub fn set(session: &mut Session, axes: Axes) {
         return;
     }
     let usual = usual_values(symbol);
-    let today = ROOM * session.value(symbol);
-    let around = Span::covering([usual.from(), usual.to(), today]).unwrap_or(usual);
+    let reach = ROOM * session.value(symbol);
+    let around = Span::covering([usual.from(), usual.to(), reach]).unwrap_or(usual);
     let of_scene = of_scene(session).filter(|plot_setup| plot_setup.axes.abscissa == symbol);
     let x = of_scene.map_or(around, |plot_setup| plot_setup.opening().x);
     reframe(session, axes, x);

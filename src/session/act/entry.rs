@@ -8,7 +8,7 @@ use crate::scene::machine::unit::measured;
 use crate::session::act::parameters::put;
 use crate::session::effect::Effect;
 use crate::session::message::key::Key;
-use crate::session::read::numbers::{number, range, today, with_number};
+use crate::session::read::numbers::{number, range, typed, with_number};
 use crate::session::state::doubt::Doubt;
 use crate::session::state::overlay::{Entry, Overlay};
 use crate::session::state::rows::Row;
@@ -23,7 +23,7 @@ pub fn edit(session: &mut Session) -> Vec<Effect> {
         Row::Method => session.problem.method.to_string(),
         Row::Belt => format!("{} m/s", shortest(number(&session.setup(), row))),
         Row::Parameter(_) | Row::Disturbance | Row::Until | Row::Tolerance => {
-            today(&session.setup(), row)
+            typed(&session.setup(), row)
         }
     };
     session.overlay = Some(Overlay::Entry(Entry::new(row, text)));
@@ -107,7 +107,7 @@ fn within(setup: Setup, symbol: Symbol, text: &str) -> Result<Setup, String> {
 }
 
 fn number_in(text: &str) -> Result<f64, String> {
-    text.trim().parse().map_err(|_| format!("{text:?} is no number"))
+    text.trim().parse().map_err(|_| format!("{text:?} is not a number"))
 }
 
 /// Documents print the minus sign as a character of its own.

@@ -60,7 +60,7 @@ pub fn move_cursor(session: &mut Session, right: i32, up: i32) -> Vec<Effect> {
 /// A coordinate some steps on, on round numbers, not beyond the window.
 fn moved(span: Span, value: f64, count: i32) -> f64 {
     let step = StepSize::near(span.width() / STEPS_ACROSS);
-    // A start or a value of today need not lie on a round number: then it is met again by a zero move.
+    // The present start or value need not lie on a round number: then it is met again by a zero move.
     if count == 0 {
         return value;
     }

@@ -60,7 +60,7 @@ fn assignments(session: &Session, words: &[&str]) -> Vec<String> {
         Some(("method", _)) => methods().iter().map(|name| format!("method={name}")).collect(),
         Some((name, "")) => {
             let row = rows(session).find(|row| row.name() == name);
-            row.map(|row| format!("{name}={}", today(session, row))).into_iter().collect()
+            row.map(|row| format!("{name}={}", typed(session, row))).into_iter().collect()
         }
         Some(_) => Vec::new(),
         None => rows(session).map(|row| format!("{}=", row.name())).collect(),
@@ -68,7 +68,7 @@ fn assignments(session: &Session, words: &[&str]) -> Vec<String> {
 }
 
 /// A value as one would type it.
-fn today(session: &Session, row: Row) -> String {
+fn typed(session: &Session, row: Row) -> String {
     match row {
         Row::Method => session.problem.method.to_string(),
         row => shortest(number(&session.setup(), row)),

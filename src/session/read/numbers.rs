@@ -42,7 +42,7 @@ pub(in crate::session) fn with_number(mut problem: Problem, row: Row, value: f64
 }
 
 /// The value of a row that is a number of the oscillator, with its half width, as it can be typed.
-pub(in crate::session) fn today(setup: &Setup, row: Row) -> String {
+pub(in crate::session) fn typed(setup: &Setup, row: Row) -> String {
     let value = shortest(number(setup, row));
     match row {
         Row::Parameter(symbol) if setup.doubt.half_width(symbol) > 0.0 => {
@@ -58,7 +58,7 @@ pub(in crate::session) fn difference(old: &Setup, new: &Setup) -> String {
     let value = |setup: &Setup, row: Row| match row {
         Row::Method => setup.problem.method.to_string(),
         Row::Belt => setup.belt_speed.map(shortest).unwrap_or_default(),
-        row => today(setup, row),
+        row => typed(setup, row),
     };
     let belt = new.belt_speed.is_some() && old.belt_speed != new.belt_speed;
     let follows = |row: &Row| belt && matches!(row, Row::Parameter(_));

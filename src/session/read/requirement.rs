@@ -34,8 +34,8 @@ impl Session {
         let asked = self.requirements().into_iter().map(CostRow::Asked);
         let formulas = Some(self.drawn_by_formulas()).filter(|layers| !layers.is_empty());
         let steps = self.rows().into_iter().map(|row| {
-            let (reused, anew) = self.after_a_step(row);
-            CostRow::Step(row, topics(reused), topics(anew))
+            let (reused, recomputed) = self.after_a_step(row);
+            CostRow::Step(row, topics(reused), topics(recomputed))
         });
         let name = |row: &CostRow| match row {
             CostRow::Asked(requirement) => requirement.request.topic().name(),
@@ -73,7 +73,7 @@ impl Session {
         shown.filter(|layer| layer.spec().needs.is_none()).copied().collect()
     }
 
-    /// The questions of today that a step of this row would leave as they are, and those that it would
+    /// The present questions that a step of this row would leave as they are, and those that it would
     /// ask again.
     pub fn after_a_step(&self, row: Row) -> (Vec<Request>, Vec<Request>) {
         let mut stepped = self.clone();
@@ -84,13 +84,13 @@ impl Session {
                 parameters::step(&mut stepped, count);
             }
         }
-        let today: Vec<Request> =
+        let present: Vec<Request> =
             self.requirements().into_iter().map(|requirement| requirement.request).collect();
         stepped
             .requirements()
             .into_iter()
             .map(|requirement| requirement.request)
-            .partition(|request| today.contains(request))
+            .partition(|request| present.contains(request))
     }
 }
 

@@ -29,7 +29,7 @@ pub enum Step {
     Expect(String),
     /// Run a line of the command line, whatever the keys are: `<run "set D=-0.3">`.
     Run(String),
-    /// Show a caption and, where somebody watches, wait for a key: `<say "text">`.
+    /// Show a caption and, in the explorer, wait for a key: `<say "text">`.
     Say(String),
     /// Keep the screen under this name: `<screen name>`.
     Screen(String),

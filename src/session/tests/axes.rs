@@ -14,8 +14,8 @@ fn every_parameter_comes_below_the_diagram_and_the_scene_s_own_comes_back() {
     for asked in [&[Topic::Branch][..], &[Topic::Branch], &[Topic::Branch], &[]] {
         assert_eq!(trial.press("X"), asked, "the first one is known");
         assert_eq!(trial.branch(1).parameter, trial.session.plots[1].axes.abscissa);
-        let today = trial.session.value(trial.session.plots[1].axes.abscissa);
-        assert!(trial.session.plots[1].window.x.contains(today));
+        let present = trial.session.value(trial.session.plots[1].axes.abscissa);
+        assert!(trial.session.plots[1].window.x.contains(present));
         seen.push((trial.session.plots[1].axes.abscissa, trial.session.plots[1].framing));
     }
     let fitted = Framing::Fitted;

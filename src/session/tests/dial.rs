@@ -74,8 +74,9 @@ fn open(trial: &Trial) -> Vec<(Topic, bool)> {
     let wanted = session.wants().into_iter().filter(|request| session.is_open(request));
     wanted
         .map(|request| {
-            let today = session.request(request.topic(), 0).or(session.request(request.topic(), 1));
-            (request.topic(), today.as_ref() != Some(&request))
+            let present =
+                session.request(request.topic(), 0).or(session.request(request.topic(), 1));
+            (request.topic(), present.as_ref() != Some(&request))
         })
         .collect()
 }

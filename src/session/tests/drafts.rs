@@ -33,10 +33,10 @@ fn open(session: &Session) -> Vec<Request> {
 }
 
 /// Counted for every scene and every number of its pane both ways, the dial included: what is computed
-/// until each layer on show has an answer of today, draft or not.
+/// until each layer on show has a present answer, draft or not.
 #[test]
 fn at_draft_quality_every_key_takes_half_a_frame_at_most() {
-    let (mut dearest, mut missed) = ((0, String::new()), Vec::new());
+    let (mut costliest, mut missed) = ((0, String::new()), Vec::new());
     for scene in library() {
         let mut session = Session::new(Arc::clone(scene), SIZE);
         session.problem = session.problem.at(&DRAFT);
@@ -64,10 +64,13 @@ fn at_draft_quality_every_key_takes_half_a_frame_at_most() {
             if evaluations >= HALF_FRAME {
                 missed.push(format!("{step}: {evaluations}"));
             }
-            dearest = dearest.max((evaluations, step));
+            costliest = costliest.max((evaluations, step));
         }
     }
-    println!("the most expensive key at draft quality: {} evaluations, {}", dearest.0, dearest.1);
+    println!(
+        "the most expensive key at draft quality: {} evaluations, {}",
+        costliest.0, costliest.1
+    );
     assert!(missed.is_empty(), "{missed:#?}");
 }
 
@@ -117,7 +120,7 @@ const UGLY: [&[(Symbol, f64)]; 11] = [
 #[test]
 fn wherever_the_numbers_are_no_first_answer_takes_more_than_a_few_frames() {
     let kinds = || TOPICS.into_iter().filter(|topic| *topic < Topic::Trade);
-    let mut dearest = (0, String::new());
+    let mut costliest = (0, String::new());
     let mut answered: Vec<Request> = Vec::new();
     for (scene, numbers) in library().iter().flat_map(|scene| UGLY.map(|ugly| (scene, ugly))) {
         let mut session = Session::new(Arc::clone(scene), SIZE);
@@ -134,15 +137,15 @@ fn wherever_the_numbers_are_no_first_answer_takes_more_than_a_few_frames() {
             if !answered.contains(&request) {
                 answered.push(request.clone());
                 let kind = request.topic().name();
-                dearest = dearest.max((
+                costliest = costliest.max((
                     give(&mut session, request),
                     format!("{} {kind} {numbers:?}", scene.name),
                 ));
             }
         }
     }
-    println!("the most expensive first answer: {} evaluations, {}", dearest.0, dearest.1);
-    assert!(dearest.0 < 8 * HALF_FRAME, "{dearest:?}");
+    println!("the most expensive first answer: {} evaluations, {}", costliest.0, costliest.1);
+    assert!(costliest.0 < 8 * HALF_FRAME, "{costliest:?}");
 }
 
 /// The branch that a request asks for, with the parameter in units of its range and displacements in
