@@ -5,7 +5,7 @@ use crate::picture::role::Role;
 /// Width and colour of the lines of a role, on white paper.
 pub(super) fn ink(role: Role) -> (f64, &'static str) {
     match role {
-        Role::Stable | Role::Map => (1.6, "#0b6e3a"),
+        Role::Stable => (1.6, "#0b6e3a"),
         Role::Unstable => (1.6, "#b3261e"),
         Role::Trajectory => (1.1, "#1f4e9c"),
         Role::Beside => (1.1, "#6f8fb8"),
@@ -14,8 +14,12 @@ pub(super) fn ink(role: Role) -> (f64, &'static str) {
         Role::Asymptote => (0.9, "#8a6d1f"),
         Role::Lyapunov => (1.2, "#a05a00"),
         Role::Bands => (0.8, "#5f7f9f"),
-        Role::Velocity => (1.2, "#00838f"),
+        Role::Map => (1.6, "#14628c"),
+        Role::Velocity | Role::Safe | Role::Loss => (1.2, "#00838f"),
+        Role::Danger | Role::Gain => (1.2, "#b26a00"),
         Role::Current => (0.9, "#444444"),
+        Role::GhostStable => (0.8, "#9cc4ab"),
+        Role::GhostUnstable => (0.8, "#dda8a4"),
         Role::Axis | Role::Field | Role::Ghost => (0.8, "#8a8a8a"),
         _ => (1.0, "#222222"),
     }
@@ -34,7 +38,7 @@ pub(super) fn dashes(style: &str) -> &'static str {
 /// Colour and opacity of shaded areas.
 pub(super) fn shading(role: Role) -> (&'static str, f64) {
     match role {
-        Role::Stable | Role::Unstable | Role::Field => (ink(role).1, 0.12),
+        Role::Danger | Role::Safe | Role::Field => (ink(role).1, 0.12),
         Role::Sticking => (ink(role).1, 0.18),
         _ => ("#dbe7f3", 0.75),
     }

@@ -22,7 +22,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     for (line, entry) in lines.iter().enumerate() {
         let from = Point { x: 0.0, y: middle(line) };
         if let Entry::Work { source, work, part, so_far } = entry {
-            let role = if *work < 0.0 { Role::Stable } else { Role::Unstable };
+            let role = if *work < 0.0 { Role::Loss } else { Role::Gain };
             let line = Line::new(*source, role, Dash::Solid).captioned();
             picture.bar(line, from, Point { x: *part, ..from });
             if let Some(x) = *so_far {

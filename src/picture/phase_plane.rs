@@ -195,17 +195,34 @@ fn motions(picture: &mut Picture, session: &Session, index: usize) {
     }
     for (variant, answer) in found {
         if let Answer::Trajectory(found) = answer {
+            let place = variant.index;
             let (line, variant) = if family {
                 (Line::new("motion", Role::Trajectory, Dash::Solid), variant)
             } else {
-                (motion(session, variant.index), Variant::default())
+                (motion(session, place), Variant::default())
             };
             // Where the mass sticks to its belt the model ends, and the curve with it.
             let last = session.contact_of(found).map_or(f64::INFINITY, |(tau, _)| tau);
             let samples = found.samples.iter().take_while(|sample| sample.tau <= last);
             let points = samples.map(|sample| Point { x: sample.q, y: sample.v });
+            let points: Vec<Point> = points.collect();
+            if !family {
+                number_curve(picture, session.number(place), &points, line.role);
+            }
             picture.curve(line.of(&variant), points);
         }
+    }
+}
+
+/// Numbers a curve of one of several motions on its way to the end, where others are far away: dashes repeat.
+pub(super) fn number_curve(
+    picture: &mut Picture,
+    number: Option<usize>,
+    points: &[Point],
+    role: Role,
+) {
+    if let Some(number) = number {
+        picture.name_curve(&points[points.len() / 2..], &number.to_string(), role);
     }
 }
 
@@ -261,9 +278,10 @@ fn basin(picture: &mut Picture, found: &Cycles, variant: &Variant, with_cycles: 
 fn safe(picture: &mut Picture, extent: &Extent) {
     let Extent::Within(border) = extent else { return };
     let border: Vec<Point> = border.iter().map(point).collect();
-    let area = Line::new("surely safe", Role::Stable, Dash::Solid);
+    let area = Line::new("surely safe", Role::Safe, Dash::Solid);
     picture.items.push(Item::Shade(area, border.clone()));
-    picture.curve(Line::new("border of the surely safe", Role::Stable, Dash::Dotted), border);
+    let line = Line::new("border of the surely safe", Role::Safe, Dash::Dotted);
+    picture.curve(line.briefly("surely safe"), border);
 }
 
 /// Beyond which nothing comes to rest, whatever the parameters and the disturbance are.
@@ -312,8 +330,10 @@ fn ghost(picture: &mut Picture, session: &Session) {
                 picture.curve(line.briefly("the point left"), samples);
             }
             Answer::Cycles(found) => {
-                for curve in found.picture.iter().flat_map(|drawn| &drawn.curves) {
-                    let line = Line::new("cycle left", Role::Ghost, Dash::Dashed);
+                let curves = found.picture.iter().flat_map(|drawn| &drawn.curves);
+                for (cycle, curve) in found.cycles.iter().zip(curves) {
+                    let role = if cycle.stable { Role::GhostStable } else { Role::GhostUnstable };
+                    let line = Line::new("cycle left", role, Dash::Dashed);
                     picture.curve(line.briefly("the point left"), curve.iter().map(point));
                 }
             }

@@ -47,7 +47,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         };
         if shows(Layer::Borders) {
             border(BoundaryKind::Fold, Line::new("fold", Role::Special, Dash::Solid));
-            border(BoundaryKind::Escape, Line::new("escape", Role::Unstable, Dash::Solid));
+            border(BoundaryKind::Escape, Line::new("escape", Role::Danger, Dash::Solid));
         }
         if shows(Layer::HarmonicBorder) {
             let line = Line::new("fold of the first harmonic", Role::Harmonic, Dash::Dotted);
@@ -73,8 +73,8 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
 fn texture(regime: Regime) -> Option<Fill> {
     let (pattern, role) = match regime {
         Regime::Global | Regime::Neutral => return None,
-        Regime::Finite => (Pattern::Shade, Role::Unstable),
-        Regime::Coexisting => (Pattern::Shade, Role::Stable),
+        Regime::Finite => (Pattern::Shade, Role::Danger),
+        Regime::Coexisting => (Pattern::Shade, Role::Basin),
         Regime::Escape => (Pattern::Arrows, Role::Field),
         Regime::Cycle => (Pattern::Stable, Role::Stable),
         Regime::Repelling => (Pattern::Unstable, Role::Unstable),

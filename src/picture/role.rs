@@ -24,8 +24,11 @@ pub enum Role {
     Basin,
     /// Borders of the bands of capture.
     Bands,
-    /// Motion and cycles of the point that is compared with.
+    /// Motion of the point that is compared with.
     Ghost,
+    /// Its stable and its unstable cycles.
+    GhostStable,
+    GhostUnstable,
     /// Circle of the Lyapunov estimate.
     Lyapunov,
     /// The segment of equilibria.
@@ -42,6 +45,13 @@ pub enum Role {
     Unstable,
     /// What a map shades, the stronger the more dangerous.
     Danger,
+    /// Its other end: what is least dangerous.
+    Calm,
+    /// What is survived for certain.
+    Safe,
+    /// Work that feeds the motion, and work that brakes it.
+    Gain,
+    Loss,
     Harmonic,
     Asymptote,
     /// Special points and their names.
@@ -53,7 +63,7 @@ pub enum Role {
 }
 
 /// Name in theme files, and glyph in a plot without dots, of every role in order.
-pub const ROLES: [(Role, &str, char); 29] = [
+pub const ROLES: [(Role, &str, char); 35] = [
     (Role::Text, "text", '*'),
     (Role::Quiet, "quiet", '.'),
     (Role::Title, "title", '*'),
@@ -68,6 +78,8 @@ pub const ROLES: [(Role, &str, char); 29] = [
     (Role::Basin, "basin", '.'),
     (Role::Bands, "bands", '-'),
     (Role::Ghost, "ghost", ','),
+    (Role::GhostStable, "ghost-stable", ','),
+    (Role::GhostUnstable, "ghost-unstable", ','),
     (Role::Lyapunov, "lyapunov", ':'),
     (Role::Sticking, "sticking", '='),
     (Role::Trajectory, "trajectory", '*'),
@@ -78,6 +90,10 @@ pub const ROLES: [(Role, &str, char); 29] = [
     (Role::Stable, "stable", '#'),
     (Role::Unstable, "unstable", 'o'),
     (Role::Danger, "danger", '#'),
+    (Role::Calm, "calm", '.'),
+    (Role::Safe, "safe", '.'),
+    (Role::Gain, "gain", '#'),
+    (Role::Loss, "loss", '='),
     (Role::Harmonic, "harmonic", '~'),
     (Role::Asymptote, "asymptote", '\''),
     (Role::Special, "special", '*'),

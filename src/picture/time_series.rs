@@ -4,7 +4,7 @@
 //! jumps from one end of `[-r, r]` to the other; at rest it is what the spring asks for.
 
 use super::items::{Item, Line, Marks, Picture};
-use super::phase_plane::motion;
+use super::phase_plane::{motion, number_curve};
 use super::reading::CELLS;
 use super::role::{Dash, Mark, Role};
 use crate::flow::{Outcome, Trajectory};
@@ -52,10 +52,12 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         for (layer, _, name, _, dash, read) in QUANTITIES {
             if shows(layer) {
                 let points = curve(beside, beside.problem.until, read);
-                let number = session.number(place).unwrap_or_default().to_string();
+                let number = session.number(place);
+                let text = number.unwrap_or_default().to_string();
                 if let Some(first) = points.first() {
-                    picture.caption(*first, number, line.role);
+                    picture.caption(*first, text, line.role);
                 }
+                number_curve(&mut picture, number, &points, line.role);
                 let name = format!("{name}, {}", line.name);
                 picture.curve(Line::new(name, line.role, dash).briefly("motions beside"), points);
             }
@@ -75,7 +77,9 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         }
         for (layer, letter, name, role, dash, read) in QUANTITIES {
             if shows(layer) {
-                picture.curve(Line::new(name, role, dash), curve(motion, end, read));
+                let points = curve(motion, end, read);
+                number_curve(&mut picture, session.number(0), &points, role);
+                picture.curve(Line::new(name, role, dash), points);
                 let first = motion.samples.first();
                 let first = first.map(|s| Point { x: s.tau, y: read(State { q: s.q, v: s.v }) });
                 label(&mut picture, first, letter, role);
@@ -148,7 +152,7 @@ fn events(picture: &mut Picture, motion: &Trajectory) {
             picture.mark(Mark::Head, Point { x: tau, y: q }, Role::Trajectory);
         }
         Outcome::Escaped { tau } => {
-            picture.upright(Line::new("escapes", Role::Unstable, Dash::Sparse), tau);
+            picture.upright(Line::new("escapes", Role::Danger, Dash::Sparse), tau);
         }
         Outcome::GaveUp { .. } => {}
     }

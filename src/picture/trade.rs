@@ -26,7 +26,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
             let best = found.rows.iter().zip(front).filter(|(_, front)| *front);
             let at: Vec<Point> = best.filter_map(|(row, _)| place(row)).collect();
             if !at.is_empty() {
-                let marks = Marks::new(Mark::Stable, Role::Stable, at);
+                let marks = Marks::new(Mark::Stable, Role::Special, at);
                 picture.items.push(Item::Marks(Marks { brief: "best choices", ..marks }));
             }
         }
@@ -47,7 +47,7 @@ fn curves(picture: &mut Picture, found: &Trade) {
         let (role, dash) = if spec.events {
             (Role::Trajectory, Dash::Solid)
         } else {
-            (Role::Unstable, Dash::Dotted)
+            (Role::Beside, Dash::Dotted)
         };
         let own = found.rows.iter().filter(|row| row.problem.method == spec.method);
         let points: Vec<Point> = own.filter_map(place).collect();
@@ -60,7 +60,7 @@ fn curves(picture: &mut Picture, found: &Trade) {
 fn names(picture: &mut Picture, found: &Trade) {
     // Where auto does as another method, that one's curve lies over its own.
     for spec in METHODS.iter().filter(|spec| spec.method != Method::Auto) {
-        let role = if spec.events { Role::Trajectory } else { Role::Unstable };
+        let role = if spec.events { Role::Trajectory } else { Role::Beside };
         let own = found.rows.iter().filter(|row| row.problem.method == spec.method);
         if let Some(finest) = own.filter_map(place).next_back() {
             picture.caption(finest, spec.name, role);

@@ -52,6 +52,14 @@ pub trait Application {
         Err("nothing to write".to_owned())
     }
 
+    /// Whether the background of the terminal matters and is not known.
+    fn asks_for_background(&self) -> bool {
+        false
+    }
+
+    /// The terminal has a light background, or a dark one.
+    fn background(&mut self, _is_light: bool) {}
+
     fn draw(&self, frame: &mut Frame);
 }
 

@@ -11,6 +11,8 @@ pub enum Event {
     Mouse { gesture: Gesture, column: u16, row: u16 },
     /// A cursor position report: the terminal has shown everything sent before the request.
     Shown,
+    /// The terminal says whether its background is light.
+    Background { is_light: bool },
     /// The terminal's size may have changed.
     Resized,
     /// The process is asked to stop until it is told to go on.

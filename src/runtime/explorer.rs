@@ -100,6 +100,15 @@ impl Application for Explorer {
         self.session.is_worth_keeping().then(|| save::text(&self.session).ok())?
     }
 
+    fn asks_for_background(&self) -> bool {
+        self.environment.asks_for_background(self.wishes)
+    }
+
+    fn background(&mut self, is_light: bool) {
+        self.environment.is_light = Some(is_light);
+        self.look = Look::new(self.environment.fit(self.wishes));
+    }
+
     fn draw(&self, frame: &mut Frame) {
         view::draw(frame, &self.session, &self.look);
     }

@@ -15,9 +15,11 @@ use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::io::Errno;
 use termina::Parser;
 use termina::escape::csi::{Csi, Cursor};
+use termina::escape::osc::{ColorOrQuery, DynamicColorNumber, Osc};
 use termina::event::{
     KeyCode, KeyEvent, KeyEventKind, Modifiers, MouseButton, MouseEvent, MouseEventKind,
 };
+use termina::style::RgbColor;
 
 use super::event::Event;
 use crate::session::{Code, Gesture, Key, Msg};
@@ -106,8 +108,20 @@ fn event(parsed: termina::Event) -> Option<Event> {
             Some(Event::Mouse { gesture, column, row })
         }
         termina::Event::Csi(Csi::Cursor(Cursor::ActivePositionReport { .. })) => Some(Event::Shown),
+        termina::Event::Osc(Osc::ChangeDynamicColors(
+            DynamicColorNumber::TextBackgroundColor,
+            colors,
+        )) => colors.iter().find_map(|color| match color {
+            ColorOrQuery::Color(color) => Some(Event::Background { is_light: is_light(*color) }),
+            ColorOrQuery::Query => None,
+        }),
         _ => None,
     }
+}
+
+/// Whether a colour is nearer to white than to black, by the weights of ITU-R BT.601.
+fn is_light(RgbColor { red, green, blue }: RgbColor) -> bool {
+    299 * u32::from(red) + 587 * u32::from(green) + 114 * u32::from(blue) > 127_500
 }
 
 fn key(event: KeyEvent) -> Option<Key> {
@@ -254,6 +268,24 @@ mod tests {
         let mut keyboard = keyboard();
         keyboard.types(b"a\x1b[24;80Rb");
         assert_eq!(keyboard.all(), ["Char('a')", "Shown", "Char('b')", "Closed"]);
+    }
+
+    #[test]
+    fn the_background_is_told_and_other_colours_and_noise_are_passed_over() {
+        let mut keyboard = keyboard();
+        keyboard.types(b"a\x1b]11;rgb:ffff/ffff/dddd\x1b\\b\x1b]11;rgb:1e/1e/2e\x07c");
+        keyboard.types(b"\x1b]10;rgb:ffff/ffff/ffff\x1b\\\x1b]11;nonsense\x1b\\d");
+        let background = |is_light: bool| format!("Background {{ is_light: {is_light} }}");
+        let expected = [
+            "Char('a')".to_owned(),
+            background(true),
+            "Char('b')".to_owned(),
+            background(false),
+            "Char('c')".to_owned(),
+            "Char('d')".to_owned(),
+            "Closed".to_owned(),
+        ];
+        assert_eq!(keyboard.all(), expected);
     }
 
     #[test]

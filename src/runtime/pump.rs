@@ -174,7 +174,7 @@ impl<M: Application, W: Write> Pump<M, W> {
         self.held = false;
         let size = (self.terminal_size)();
         self.screen.repaint(size)?;
-        self.screen.probe(Instant::now())?;
+        self.screen.probe(Instant::now(), self.application.asks_for_background())?;
         self.resized(size);
         Ok(())
     }
@@ -206,6 +206,11 @@ impl<M: Application, W: Write> Pump<M, W> {
             }
             Event::Shown => {
                 self.screen.answered(Instant::now());
+                Ok(None)
+            }
+            Event::Background { is_light } => {
+                self.application.background(is_light);
+                self.changed.get_or_insert_with(Instant::now);
                 Ok(None)
             }
             Event::Resized => {

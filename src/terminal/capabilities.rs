@@ -5,13 +5,15 @@
 
 use std::fmt;
 
-use crate::session::settings::{Colors, Glyphs, Look};
+use crate::session::settings::{Colors, Glyphs, Look, Theme};
 
 /// The environment variables that say something about the terminal; an empty one counts as unset.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Environment {
     /// Name of the terminal's kind.
     pub term: Option<String>,
+    /// Set by terminals with colours of eight bits each.
+    pub colorterm: Option<String>,
     /// Set by users who want no colours.
     pub no_color: Option<String>,
     /// Set inside of tmux.
@@ -26,6 +28,8 @@ pub struct Environment {
     pub input_is_terminal: bool,
     /// Whether standard output is a terminal.
     pub output_is_terminal: bool,
+    /// Whether the terminal has said that its background is light.
+    pub is_light: Option<bool>,
 }
 
 /// Why the explorer cannot run here.
@@ -60,6 +64,7 @@ impl Environment {
         let value = |name| std::env::var(name).ok().filter(|value| !value.is_empty());
         Environment {
             term: value("TERM"),
+            colorterm: value("COLORTERM"),
             no_color: value("NO_COLOR"),
             tmux: value("TMUX"),
             lc_all: value("LC_ALL"),
@@ -67,6 +72,7 @@ impl Environment {
             lang: value("LANG"),
             input_is_terminal: std::io::stdin().is_terminal(),
             output_is_terminal: std::io::stdout().is_terminal(),
+            is_light: None,
         }
     }
 
@@ -92,11 +98,24 @@ impl Environment {
             Glyphs::Auto => self.glyphs(),
             wanted => wanted,
         };
-        let colors = match wish.colors {
-            Colors::Auto => self.colors(),
-            wanted => wanted,
+        let (colors, fine) = match wish.colors {
+            Colors::Auto => (self.colors(), self.fine()),
+            wanted => (wanted, wanted),
         };
-        Look { glyphs, colors, ..wish }
+        let theme = match (wish.theme, self.is_light) {
+            (Theme::Auto, Some(true)) => Theme::Light,
+            (Theme::Auto, _) => Theme::Dark,
+            (wanted, _) => wanted,
+        };
+        Look { glyphs, colors, fine, theme, ..wish }
+    }
+
+    /// Whether to ask the terminal for the colour of its background: for these wishes it matters, it is not
+    /// known, and the terminal is of a kind that passes over what it does not understand.
+    pub fn asks_for_background(&self, wish: Look) -> bool {
+        let passes = self.term.as_deref().is_some_and(|term| term != "linux");
+        let coloured = self.fit(wish).colors != Colors::Never;
+        wish.theme == Theme::Auto && self.is_light.is_none() && passes && coloured
     }
 
     /// The glyphs to start with: braille where the locale or tmux says UTF-8, else ASCII.
@@ -120,13 +139,25 @@ impl Environment {
     /// The colours to start with: none where the user or the terminal wants none, 16 elsewhere.
     ///
     /// Sixteen even where the terminal has more, since those follow the user's own palette and cost
-    /// the fewest bytes; `--color 256` and `--color true` ask for more.
+    /// the fewest bytes; `--color 256` and `--color true` ask for more. [`Environment::fine`] is for what sixteen cannot show.
     pub fn colors(&self) -> Colors {
         let term = self.term.as_deref().unwrap_or_default();
         if self.no_color.is_some() || MONOCHROME.iter().any(|name| term.starts_with(name)) {
             Colors::Never
         } else {
             Colors::Sixteen
+        }
+    }
+}
+
+impl Environment {
+    /// The finest colours that the terminal says it has.
+    fn fine(&self) -> Colors {
+        let term = self.term.as_deref().unwrap_or_default();
+        match self.colorterm.as_deref() {
+            Some("truecolor" | "24bit") => Colors::True,
+            _ if term.contains("256color") => Colors::Indexed,
+            _ => Colors::Auto,
         }
     }
 }
@@ -146,6 +177,7 @@ mod tests {
         };
         Environment {
             term: value("TERM"),
+            colorterm: value("COLORTERM"),
             no_color: value("NO_COLOR"),
             tmux: value("TMUX"),
             lc_all: value("LC_ALL"),
@@ -153,6 +185,7 @@ mod tests {
             lang: value("LANG"),
             input_is_terminal: true,
             output_is_terminal: true,
+            is_light: None,
         }
     }
 
@@ -190,10 +223,51 @@ mod tests {
     #[test]
     fn a_wish_beats_what_the_terminal_says() {
         let environment = environment(&[("LANG", "C"), ("NO_COLOR", "1")]);
-        let wish = Look { glyphs: Glyphs::Braille, colors: Colors::True, ..Look::default() };
+        let wish = Look {
+            glyphs: Glyphs::Braille,
+            colors: Colors::True,
+            fine: Colors::True,
+            theme: Theme::Contrast,
+            ..Look::default()
+        };
         assert_eq!(environment.fit(wish), wish);
         let fitted = environment.fit(Look::default());
         assert_eq!((fitted.glyphs, fitted.colors), (Glyphs::Ascii, Colors::Never));
+    }
+
+    #[test]
+    fn finer_colours_are_those_that_the_terminal_says_it_has_or_the_user_asks_for() {
+        let cases: [(&[(&str, &str)], Colors, Colors); 6] = [
+            (&[("TERM", "xterm")], Colors::Auto, Colors::Auto),
+            (&[("TERM", "xterm-256color")], Colors::Auto, Colors::Indexed),
+            (&[("TERM", "xterm-256color"), ("COLORTERM", "truecolor")], Colors::Auto, Colors::True),
+            (&[("TERM", "foot"), ("COLORTERM", "24bit")], Colors::Auto, Colors::True),
+            (&[("TERM", "foot"), ("COLORTERM", "24bit")], Colors::Sixteen, Colors::Sixteen),
+            (&[("TERM", "xterm")], Colors::Indexed, Colors::Indexed),
+        ];
+        for (variables, colors, fine) in cases {
+            let fitted = environment(variables).fit(Look { colors, ..Look::default() });
+            assert_eq!(fitted.fine, fine, "{variables:?} {colors:?}");
+        }
+    }
+
+    #[test]
+    fn the_theme_follows_the_background_where_it_is_known_and_not_chosen() {
+        let terminal = environment(&[("TERM", "xterm")]);
+        let [auto, chosen] =
+            [Theme::Auto, Theme::Contrast].map(|theme| Look { theme, ..Look::default() });
+        assert!(terminal.asks_for_background(auto) && !terminal.asks_for_background(chosen));
+        for unasked in [&[("TERM", "linux")][..], &[("TERM", "xterm"), ("NO_COLOR", "1")], &[]] {
+            assert!(!environment(unasked).asks_for_background(auto), "{unasked:?}");
+        }
+        for (is_light, theme) in
+            [(None, Theme::Dark), (Some(false), Theme::Dark), (Some(true), Theme::Light)]
+        {
+            let known = Environment { is_light, ..terminal.clone() };
+            assert_eq!(known.fit(auto).theme, theme);
+            assert_eq!(known.fit(chosen).theme, Theme::Contrast);
+            assert_eq!(known.asks_for_background(auto), is_light.is_none());
+        }
     }
 
     #[test]

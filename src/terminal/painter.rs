@@ -26,6 +26,9 @@ pub const END: &str = "\x1b[?2026l";
 /// Asks the terminal for a cursor position report, which it sends once it has read all before it.
 pub const REQUEST: &str = "\x1b[6n";
 
+/// Asks the terminal for the colour of its background, with a report in the same form.
+pub const BACKGROUND: &str = "\x1b]11;?\x1b\\";
+
 /// Back to the terminal's own colours and no attributes.
 pub const PLAIN: &str = "\x1b[m";
 

@@ -7,7 +7,7 @@ use ratatui::layout::{Rect, Size};
 use ratatui::{Frame, Terminal};
 
 use super::pacing::Pacing;
-use super::painter::{Painter, REQUEST};
+use super::painter::{BACKGROUND, Painter, REQUEST};
 
 /// Size to draw at where the terminal says that it has none, as some do that nobody looks at.
 const UNKNOWN: Size = Size { width: 80, height: 24 };
@@ -39,12 +39,14 @@ impl<W: Write> Screen<W> {
         Ok(Screen { terminal, pacing: Pacing::default(), frames: 0 })
     }
 
-    /// Asks the terminal whether it answers, before there is a picture to wait for.
+    /// Asks the terminal whether it answers, before there is a picture to wait for; and what its background
+    /// is, if that matters. No picture waits for that: the first is there before a slow line has answered.
     ///
     /// # Errors
     /// The error of writing to the terminal.
-    pub fn probe(&mut self, now: Instant) -> io::Result<()> {
-        self.terminal.backend_mut().control(REQUEST)?;
+    pub fn probe(&mut self, now: Instant, background: bool) -> io::Result<()> {
+        let question = if background { BACKGROUND } else { "" };
+        self.terminal.backend_mut().control(&format!("{question}{REQUEST}"))?;
         self.pacing.asked(now);
         Ok(())
     }

@@ -3,11 +3,13 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
+use ratatui::text::Line;
 
 use super::keys;
 use super::lists::frame;
 use super::look::Look;
 use super::pane;
+use super::prose;
 use crate::picture::role::Role;
 use crate::session::Session;
 use crate::session::overlay::Caption;
@@ -32,51 +34,18 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     };
     let width = area.width.min(WIDTH);
     let inner = width.saturating_sub(4);
-    let mut lines = Vec::new();
-    for paragraph in &paragraphs {
-        lines.extend(wrapped(paragraph, usize::from(inner)));
-    }
-    let height = u16::try_from(lines.len()).unwrap_or(u16::MAX).saturating_add(2).min(area.height);
+    // Who presents is read from afar.
+    let role = if session.caption == Caption::Scene { Role::Text } else { Role::Title };
+    let styled = |text| Line::styled(text, look.style(role));
+    let lines: Vec<Line> = paragraphs.into_iter().map(styled).collect();
+    let height = prose::rows(&lines, inner).saturating_add(2).min(area.height);
     if inner < 10 || height < 3 {
         return;
     }
     let place =
         Rect { x: area.x + (area.width - width) / 2, y: area.bottom() - height, width, height };
     pane::clear(place, buffer);
-    // Who presents is read from afar.
-    let role = if session.caption == Caption::Scene { Role::Text } else { Role::Title };
-    for (y, line) in (place.y + 1..place.bottom() - 1).zip(lines) {
-        buffer.set_stringn(place.x + 2, y, line, inner.into(), look.style(role));
-    }
+    let text = Rect { x: place.x + 2, y: place.y + 1, width: inner, height: height - 2 };
+    prose::write(text, lines, look, buffer);
     frame(place, &heading, "", look, buffer);
-}
-
-/// A text in lines of at most `width` columns, broken between words where possible.
-pub(super) fn wrapped(text: &str, width: usize) -> Vec<String> {
-    let mut lines = vec![String::new()];
-    for word in text.split_whitespace() {
-        let line = lines.last_mut();
-        match line {
-            Some(line) if line.is_empty() => line.push_str(word),
-            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
-                line.push(' ');
-                line.push_str(word);
-            }
-            _ => lines.push(word.to_owned()),
-        }
-    }
-    lines
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn words_stay_whole_and_lines_within_their_width() {
-        let text = "one two three four five";
-        assert_eq!(wrapped(text, 9), ["one two", "three", "four five"]);
-        assert_eq!(wrapped("", 9), [""]);
-        assert_eq!(wrapped("incomprehensible", 3), ["incomprehensible"]);
-    }
 }

@@ -45,7 +45,12 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
     plot.upright(0.0, Role::Axis, Dash::Solid);
     let symbols = look.symbols();
     let half = half_a_row(area, window);
-    for (line, entry) in lines.iter().enumerate() {
+    for y in left_out(lines.len(), window, half) {
+        plot.write(y, &format!("{} more", symbols.more), Role::Quiet);
+    }
+    for (line, entry) in
+        lines.iter().enumerate().filter(|(line, _)| is_seen(*line, window, half, lines.len()))
+    {
         let y = seat(line, half);
         match entry {
             Entry::Title(Owner::Motion(..)) => plot.write(y, &reading(entry), Role::Title),
@@ -63,7 +68,7 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
                 plot.write(y, if fits { &full } else { &short }, role);
             }
             Entry::Work { work, part, so_far, .. } => {
-                let role = if *work < 0.0 { Role::Stable } else { Role::Unstable };
+                let role = if *work < 0.0 { Role::Loss } else { Role::Gain };
                 plot.bar(Point { x: 0.0, y }, Point { x: *part, y }, role);
                 if let Some(so_far) = so_far {
                     plot.mark(Point { x: *so_far, y }, symbols.head, Role::Cursor);
@@ -85,12 +90,13 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
 pub fn marks(area: Rect, session: &Session, window: Window) -> (Window, Ticks) {
     let window = Window { y: whole_lines(window.y, rows(area)), ..window };
     let half = half_a_row(area, window);
+    let lines = session.ledger();
     let mark = |(line, entry): (usize, &Entry)| {
         let fraction = window.y.fraction(seat(line, half));
         let label = label(entry)?.to_owned();
-        (0.0..1.0).contains(&fraction).then_some(Tick { fraction, label })
+        is_seen(line, window, half, lines.len()).then_some(Tick { fraction, label })
     };
-    let ticks = session.ledger().iter().enumerate().filter_map(mark).collect();
+    let ticks = lines.iter().enumerate().filter_map(mark).collect();
     (window, Ticks { base: None, ticks })
 }
 
@@ -111,6 +117,22 @@ fn half_a_row(area: Rect, window: Window) -> f64 {
 #[expect(clippy::cast_precision_loss, reason = "a few dozen lines")]
 fn seat(line: usize, half: f64) -> f64 {
     -(line as f64) - half
+}
+
+/// Whether a line of so many is seen: its first row is in the window, and does not say that others are not.
+fn is_seen(line: usize, window: Window, half: f64, lines: usize) -> bool {
+    let y = seat(line, half);
+    let marks = left_out(lines, window, half);
+    window.y.contains(y) && marks.iter().all(|row| (row - y).abs() > half)
+}
+
+/// The heights of the rows, at the top and at the bottom, that say that lines are left out there.
+fn left_out(lines: usize, window: Window, half: f64) -> Vec<f64> {
+    let Some(last) = lines.checked_sub(1) else { return Vec::new() };
+    let above = seat(0, half) > window.y.to();
+    let below = seat(last, half) < window.y.from();
+    let rows = [(above, window.y.to() - half), (below, window.y.from() + half)];
+    rows.into_iter().filter(|(is_there, _)| *is_there).map(|(_, row)| row).collect()
 }
 
 /// What stands at the axis.

@@ -7,14 +7,16 @@ use ratatui::layout::Rect;
 use super::layout::{Layout, SMALLEST, layout};
 use super::look::Look;
 use super::paint::paint;
-use super::pane::Heading;
+use super::pane::{self, Heading};
 use super::plot::shown;
-use super::{caption, energy_ledger, footer, lists, parameters, scan, scan_form, status};
+use super::{
+    caption, energy_ledger, footer, legend, lists, parameters, scan, scan_form, signs, status,
+};
 use crate::picture::role::Role;
 use crate::picture::{self, items::Picture};
 use crate::scene::View;
 use crate::session::settings::Glyphs;
-use crate::session::{Pane, Session};
+use crate::session::{Overlay, Pane, Session};
 
 /// Draws a session. Nothing is decided or computed here except what a visible cell shows.
 pub fn draw(frame: &mut Frame, session: &Session, look: &Look) {
@@ -34,8 +36,15 @@ pub fn render(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer)
             scan_form::draw(screen, session, look, buffer);
         }
     }
-    if look.glyphs == Glyphs::Ascii {
-        only_letters(buffer);
+    match look.glyphs {
+        Glyphs::Ascii => signs::only_letters(buffer),
+        // The fonts of terminals that have no more than blocks need not have one.
+        Glyphs::Block => {}
+        _ => {
+            // What is being typed stands there as it will be read.
+            let typing = matches!(session.overlay, Some(Overlay::Entry(_) | Overlay::Prompt(_)));
+            signs::minus(screen, buffer, |y| typing && y + 1 == screen.bottom());
+        }
     }
 }
 
@@ -44,7 +53,8 @@ fn panes(parts: &Layout, session: &Session, look: &Look, buffer: &mut Buffer) {
     let shown = parts.plots.iter().enumerate().filter(|(_, area)| !area.is_empty());
     let pictures = shown.clone().map(|(index, area)| framed(*area, session, index));
     let pictures: Vec<_> = pictures.collect();
-    parameters::draw(parts.parameters, session, &pictures, look, buffer);
+    parameters::draw(parts.parameters, session, look, buffer);
+    legend::draw(parts.legend, &pictures, look, buffer);
     for ((index, area), picture) in shown.zip(pictures) {
         plot(*area, session, index, picture, look, buffer);
     }
@@ -92,14 +102,8 @@ fn card(screen: Rect, look: &Look, buffer: &mut Buffer) {
     for (row, line) in (top..height).zip(lines) {
         let left = usize::from(width).saturating_sub(line.len()) / 2;
         let left = u16::try_from(left).unwrap_or(0);
-        buffer.set_stringn(x + left, y + row, line, width.into(), look.style(Role::Text));
-    }
-}
-
-/// Replaces what a terminal without Unicode cannot show, wherever the text came from.
-fn only_letters(buffer: &mut Buffer) {
-    for cell in buffer.content.iter_mut().filter(|cell| !cell.symbol().is_ascii()) {
-        cell.set_char('?');
+        let line = pane::cut(&line, width.into(), look);
+        buffer.set_string(x + left, y + row, line, look.style(Role::Text));
     }
 }
 

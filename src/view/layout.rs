@@ -20,7 +20,10 @@ pub(super) const DESIGNED: u16 = 20;
 
 /// Columns of the parameter pane, by the columns of the screen: with names and values, with all
 /// steps, with meanings.
-const COLUMNS: [(u16, u16); 3] = [(150, 52), (110, 32), (0, 23)];
+const COLUMNS: [(u16, u16); 3] = [(150, 52), (110, 34), (0, 25)];
+
+/// Rows of a screen whose legend has two rows, unless it is wide enough for one.
+const TALL: u16 = 36;
 
 /// The parts of the screen; an empty area is not shown.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -29,6 +32,8 @@ pub struct Layout {
     pub parameters: Rect,
     /// Plots, by their index in the session.
     pub plots: Vec<Rect>,
+    /// What the lines mean; without rows on a low screen.
+    pub legend: Rect,
     pub status: Rect,
     /// Keys, notices and the entry line.
     pub footer: Rect,
@@ -42,7 +47,12 @@ pub fn layout(screen: Rect, session: &Session) -> Option<Layout> {
     }
     let band = |y: u16, rows: u16| Rect { y: screen.y + y, height: rows, ..screen };
     let status = if height < DESIGNED { 1 } else { 2 };
-    let body = band(1, height - 2 - status);
+    let legend = match (height, width) {
+        (..DESIGNED, _) => 0,
+        (TALL.., ..150) => 2,
+        _ => 1,
+    };
+    let body = band(1, height - 2 - status - legend);
     let column =
         COLUMNS.iter().find(|(least, _)| width >= *least).map_or(23, |(_, columns)| *columns);
     let rest = Rect { x: body.x + column + 1, width: width - column - 1, ..body };
@@ -50,6 +60,7 @@ pub fn layout(screen: Rect, session: &Session) -> Option<Layout> {
         title: band(0, 1),
         parameters: Rect { width: column, ..body },
         plots: plots(rest, session),
+        legend: band(height - 1 - status - legend, legend),
         status: band(height - 1 - status, status),
         footer: band(height - 1, 1),
     })

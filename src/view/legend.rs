@@ -5,25 +5,52 @@ use ratatui::layout::Rect;
 
 use super::dots::{Dots, Pen};
 use super::look::Look;
-use super::pane;
 use crate::picture::items::Picture;
 use crate::picture::legend::{Entry, Sample, entries};
 use crate::picture::role::{Dash, Role};
 
 /// Columns of a sample.
-const SAMPLE: u16 = 4;
+const SAMPLE: u16 = 3;
 
-/// Draws the legend of some pictures from the top of `area` down, as far as there is room.
+/// Columns between entries.
+const GAP: u16 = 2;
+
+/// Draws the legend of some pictures side by side, in as many rows as `area` has, the main things first; a
+/// mark says that there is more.
 pub fn draw(area: Rect, pictures: &[Picture], look: &Look, buffer: &mut Buffer) {
-    if area.width < SAMPLE + 8 {
-        return;
-    }
-    for (y, Entry { sample, role, text }) in (area.y..area.bottom()).zip(entries(pictures)) {
-        let place = Rect { x: area.x + 1, y, width: SAMPLE, height: 1 };
-        draw_sample(place, role, sample, look, buffer);
-        let room = usize::from(area.width - SAMPLE - 3);
-        let text = pane::cut(&text, room, look);
+    let mut entries = entries(pictures);
+    entries.sort_by_key(|entry| rank(entry.sample));
+    let (mut x, mut y) = (area.x + 1, area.y);
+    for (index, Entry { sample, role, text }) in entries.iter().enumerate() {
+        let columns = u16::try_from(text.chars().count()).unwrap_or(u16::MAX);
+        let wanted = columns.saturating_add(SAMPLE + 1);
+        let room = |x: u16, y: u16| {
+            let more = y + 1 < area.bottom() || index + 1 == entries.len();
+            area.right().saturating_sub(if more { x } else { x + GAP })
+        };
+        if wanted > room(x, y) && y + 1 < area.bottom() {
+            (x, y) = (area.x + 1, y + 1);
+        }
+        if y >= area.bottom() {
+            return;
+        }
+        if wanted > room(x, y) {
+            buffer.set_string(x, y, look.symbols().more, look.style(Role::Quiet));
+            return;
+        }
+        let place = Rect { x, y, width: SAMPLE, height: 1 };
+        draw_sample(place, *role, *sample, look, buffer);
         buffer.set_string(place.right() + 1, y, text, look.style(Role::Quiet));
+        x += wanted + GAP;
+    }
+}
+
+/// What is drawn through is asked for first.
+fn rank(sample: Sample) -> u8 {
+    match sample {
+        Sample::Line(Dash::Solid | Dash::Dashed) | Sample::Bar => 0,
+        Sample::Line(Dash::Dotted | Dash::Sparse) => 1,
+        Sample::Point | Sample::Shade | Sample::Arrow => 2,
     }
 }
 

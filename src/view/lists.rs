@@ -5,7 +5,6 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Paragraph, Widget, Wrap};
 
 use super::content::{Content, Entry, TEXT};
 use super::costs;
@@ -13,6 +12,7 @@ use super::keys;
 use super::look::Look;
 use super::pane;
 use super::paper;
+use super::prose;
 use crate::picture::role::Role;
 use crate::scene::library::{Group, figure_of};
 use crate::scene::said::said;
@@ -53,7 +53,7 @@ pub fn draw(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let place = self::rows(rows, &content.rows, list.selected, look, buffer);
     if about > 0 {
         let text = Rect { y: rows.bottom() + 1, height: about - 1, ..inner };
-        Paragraph::new(content.about).wrap(Wrap { trim: true }).render(text, buffer);
+        prose::write(text, content.about, look, buffer);
     }
     frame(area, &heading(content.title, list), &place, look, buffer);
 }
@@ -119,9 +119,10 @@ pub(super) fn frame(area: Rect, heading: &str, remark: &str, look: &Look, buffer
     }
     let room = usize::from(area.width.saturating_sub(4));
     let style = Style::reset().patch(look.style(Role::Focus));
-    buffer.set_stringn(area.x + 2, area.y, heading, room, style);
-    let length = u16::try_from(remark.len()).unwrap_or(0).min(area.width - 3);
-    buffer.set_stringn(right - 1 - length, bottom, remark, room, look.style(Role::Quiet));
+    buffer.set_string(area.x + 2, area.y, pane::cut(heading, room, look), style);
+    let remark = pane::cut(remark, room, look);
+    let length = u16::try_from(remark.chars().count()).unwrap_or(0);
+    buffer.set_string(right - 1 - length, bottom, remark, look.style(Role::Quiet));
 }
 
 /// Everything that has a name: with headings where nothing is searched, the best first where something is.

@@ -5,17 +5,17 @@
 //! remain, and every distinction that matters is also made by marker, dash or text.
 
 use std::fmt;
-use std::str::FromStr;
 
-use ratatui::style::{Color, Modifier, Style};
+use ratatui::style::Style;
 
+use super::colour::{STEPS, color_of, in_depth, mixed, parsed};
 use crate::picture::role::{ROLES, Role};
 use crate::session::settings::{self, Colors, Glyphs, Theme};
 
 /// The text of a theme that comes with the program.
 fn text_of(theme: Theme) -> &'static str {
     match theme {
-        Theme::Dark => include_str!("../../assets/themes/dark.toml"),
+        Theme::Auto | Theme::Dark => include_str!("../../assets/themes/dark.toml"),
         Theme::Light => include_str!("../../assets/themes/light.toml"),
         Theme::Contrast => include_str!("../../assets/themes/contrast.toml"),
         Theme::Mono => include_str!("../../assets/themes/mono.toml"),
@@ -125,39 +125,85 @@ pub struct Look {
     /// How curves and symbols are drawn.
     pub glyphs: Glyphs,
     styles: [Style; ROLES.len()],
+    /// Grounds of maps from the least to the most dangerous; none where the terminal has too few colours.
+    ramp: Vec<Style>,
 }
+
+/// What has its finer colour wherever the terminal has one, since the sixteen have nothing like it.
+const FINE: [Role; 3] = [Role::Ghost, Role::GhostStable, Role::GhostUnstable];
 
 impl Look {
     /// The look that these settings ask for; what they leave open becomes braille in 16 colours.
     pub fn new(settings: settings::Look) -> Self {
-        let settings::Look { glyphs, colors, theme, .. } = settings;
+        let settings::Look { glyphs, colors, fine, theme, .. } = settings;
         // A test reads every theme, so the plain look never serves.
-        Look::from_text(text_of(theme), glyphs, colors)
-            .unwrap_or(Look { glyphs, styles: [Style::new(); ROLES.len()] })
+        Look::from_text(text_of(theme), glyphs, [colors, fine]).unwrap_or(Look {
+            glyphs,
+            styles: [Style::new(); ROLES.len()],
+            ramp: Vec::new(),
+        })
     }
 
-    /// The look that a theme file describes.
+    /// The look that a theme file describes, in colours of one depth for all and, where that is sixteen, of
+    /// another for what they have no colour for.
     ///
     /// # Errors
     /// [`ThemeError`] names the line, the role or the word that is wrong.
-    pub fn from_text(text: &str, glyphs: Glyphs, colors: Colors) -> Result<Self, ThemeError> {
+    pub fn from_text(
+        text: &str,
+        glyphs: Glyphs,
+        [colors, fine]: [Colors; 2],
+    ) -> Result<Self, ThemeError> {
+        let fine = match (colors, fine) {
+            (Colors::Sixteen, Colors::Indexed | Colors::True) => fine,
+            _ => colors,
+        };
         let lines: std::collections::BTreeMap<String, String> =
             toml::from_str(text).map_err(|error| ThemeError::Syntax(error.to_string()))?;
         if let Some(role) = lines.keys().find(|key| ROLES.iter().all(|(_, name, _)| name != key)) {
             return Err(ThemeError::Role(role.clone()));
         }
         let mut styles = [Style::new(); ROLES.len()];
-        for (style, (_, role, _)) in styles.iter_mut().zip(ROLES) {
-            let words = lines.get(role).ok_or(ThemeError::Missing(role))?;
-            *style = style_from(words, colors)
-                .map_err(|word| ThemeError::Word { role, word: word.into() })?;
+        let mut rgb = [None; ROLES.len()];
+        for (index, (role, name, _)) in ROLES.into_iter().enumerate() {
+            let words = lines.get(name).ok_or(ThemeError::Missing(name))?;
+            let (style, fine_colour) =
+                parsed(words).map_err(|word| ThemeError::Word { role: name, word: word.into() })?;
+            let depth = if FINE.contains(&role) { fine } else { colors };
+            (styles[index], rgb[index]) = (in_depth(style, fine_colour, depth), fine_colour);
         }
-        Ok(Look { glyphs, styles })
+        let ends = [Role::Calm, Role::Danger].map(|role| rgb[role as usize]);
+        let ramp = match (ends, color_of(fine)) {
+            ([Some(calm), Some(danger)], Some(color)) => {
+                let ground = |step| color(mixed(calm, danger, step));
+                (0..STEPS).map(ground).map(|ground| Style::new().fg(ground).bg(ground)).collect()
+            }
+            _ => Vec::new(),
+        };
+        Ok(Look { glyphs, styles, ramp })
+    }
+
+    /// The style of a place on a map: `part` grows from 0 to 1 with what is dangerous. Where there are colours
+    /// enough its ground says it, and hides the letter that says it elsewhere.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a part of a few steps"
+    )]
+    pub fn danger(&self, part: f64) -> Style {
+        let step = (part.clamp(0.0, 1.0) * f64::from(STEPS)) as usize;
+        let ground = self.ramp.get(step.min(usize::from(STEPS) - 1));
+        ground.copied().unwrap_or(self.style(Role::Danger))
     }
 
     /// The style of a role.
     pub fn style(&self, role: Role) -> Style {
         self.styles[role as usize]
+    }
+
+    /// Whether the grounds of maps say how dangerous a place is.
+    pub fn has_grounds(&self) -> bool {
+        !self.ramp.is_empty()
     }
 
     /// The letter that draws the curves of a role where there are no dots.
@@ -171,61 +217,13 @@ impl Look {
     }
 }
 
-/// Reads a style such as `red bold #ff7b72`: the finer colour serves where the terminal has more
-/// than 16. Returns the word that it does not know.
-fn style_from(words: &str, colors: Colors) -> Result<Style, &str> {
-    let mut style = Style::new();
-    let mut fine = None;
-    for word in words.split_whitespace() {
-        match word {
-            "default" => {}
-            "bold" => style = style.add_modifier(Modifier::BOLD),
-            "dim" => style = style.add_modifier(Modifier::DIM),
-            "italic" => style = style.add_modifier(Modifier::ITALIC),
-            "underlined" => style = style.add_modifier(Modifier::UNDERLINED),
-            "reversed" => style = style.add_modifier(Modifier::REVERSED),
-            colour => match Color::from_str(colour).map_err(|_| colour)? {
-                Color::Rgb(red, green, blue) => fine = Some((red, green, blue)),
-                basic => style = style.fg(basic),
-            },
-        }
-    }
-    match (colors, fine) {
-        (Colors::Never, _) => style.fg = None,
-        // A finer colour is quiet by itself where the 16 colours need the attribute.
-        (Colors::Indexed, Some(rgb)) => style = style.fg(Color::Indexed(nearest(rgb))),
-        (Colors::True, Some((red, green, blue))) => style = style.fg(Color::Rgb(red, green, blue)),
-        _ => return Ok(style),
-    }
-    if fine.is_some() && colors != Colors::Never {
-        style.add_modifier.remove(Modifier::DIM);
-    }
-    Ok(style)
-}
-
-/// The nearest of xterm's 240 fixed colours: a cube of 6 levels a side and a ramp of 24 greys.
-fn nearest((red, green, blue): (u8, u8, u8)) -> u8 {
-    const LEVELS: [u8; 6] = [0, 95, 135, 175, 215, 255];
-    let distance = |other: (u8, u8, u8)| {
-        let part = |a: u8, b: u8| u32::from(a.abs_diff(b)).pow(2);
-        part(red, other.0) + part(green, other.1) + part(blue, other.2)
-    };
-    let of_index = |index: u8| {
-        if index < 216 {
-            let level = |place: u8| LEVELS[usize::from(index / place % 6)];
-            (level(36), level(6), level(1))
-        } else {
-            let grey = 8 + 10 * (index - 216);
-            (grey, grey, grey)
-        }
-    };
-    16 + (0..240).min_by_key(|index| distance(of_index(*index))).unwrap_or(0)
-}
-
 #[cfg(test)]
 mod tests {
+    use ratatui::style::Color;
+
     use super::*;
     use crate::session::settings::THEMES;
+    use crate::view::colour::{Rgb, hue};
 
     fn look(theme: Theme, glyphs: Glyphs, colors: Colors) -> Look {
         Look::new(settings::Look { glyphs, colors, theme, ..settings::Look::default() })
@@ -234,7 +232,7 @@ mod tests {
     #[test]
     fn every_theme_gives_every_role_a_style() {
         for (theme, name) in THEMES {
-            let read = Look::from_text(text_of(theme), Glyphs::Braille, Colors::Sixteen);
+            let read = Look::from_text(text_of(theme), Glyphs::Braille, [Colors::Sixteen; 2]);
             assert!(read.is_ok(), "{name}: {read:?}");
         }
     }
@@ -288,23 +286,70 @@ mod tests {
     }
 
     #[test]
+    fn red_and_green_mean_unstable_and_stable_and_nothing_else() {
+        let red = [Role::Unstable, Role::GhostUnstable];
+        let green = [Role::Stable, Role::GhostStable];
+        for (theme, name) in THEMES {
+            for (role, text, _) in ROLES {
+                let lines: std::collections::BTreeMap<String, String> =
+                    toml::from_str(text_of(theme)).unwrap();
+                let (style, fine) = parsed(&lines[text]).unwrap();
+                let is_red = matches!(style.fg, Some(Color::Red | Color::LightRed));
+                let is_green = matches!(style.fg, Some(Color::Green | Color::LightGreen));
+                assert!(!is_red || red.contains(&role), "{name}: {text}");
+                assert!(!is_green || green.contains(&role), "{name}: {text}");
+                if let Some(hue) = fine.and_then(hue) {
+                    let is_red = !(16.0..344.0).contains(&hue);
+                    let is_green = (75.0..165.0).contains(&hue);
+                    assert_eq!(is_red, red.contains(&role), "{name}: {text} {hue}");
+                    assert_eq!(is_green, green.contains(&role), "{name}: {text} {hue}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn grounds_of_maps_are_of_one_hue_and_the_stronger_the_more_dangerous() {
+        for (theme, name) in THEMES.into_iter().filter(|(theme, _)| *theme != Theme::Mono) {
+            let settings = settings::Look { theme, ..settings::Look::default() };
+            let look = |colors, fine| Look::new(settings::Look { colors, fine, ..settings });
+            let ground = |look: &Look, step: u8| look.danger(f64::from(step) / 16.0).bg;
+            let strengths =
+                (0..STEPS).map(|step| match ground(&look(Colors::Sixteen, Colors::True), step) {
+                    Some(Color::Rgb(red, green, blue)) => (red, green, blue),
+                    other => panic!("{name}: {other:?}"),
+                });
+            let strengths: Vec<Rgb> = strengths.collect();
+            let far = |(red, green, blue): Rgb| {
+                let [red, green, blue] = [red, green, blue].map(u32::from);
+                red.max(green).max(blue) - red.min(green).min(blue)
+            };
+            assert!(strengths.windows(2).all(|pair| far(pair[0]) < far(pair[1])), "{name}");
+            let hues: Vec<f64> = strengths.into_iter().filter_map(hue).collect();
+            let (least, most) =
+                hues.iter().fold((f64::MAX, f64::MIN), |(a, b), hue| (a.min(*hue), b.max(*hue)));
+            assert!(most - least < 25.0, "{name}: {least} .. {most}");
+            // Where there are no more than sixteen colours, or none, letters say it.
+            for few in [Colors::Sixteen, Colors::Never] {
+                assert_eq!(ground(&look(few, Colors::Auto), 3), None, "{name}");
+            }
+            assert_eq!(ground(&look(Colors::Never, Colors::True), 3), None, "{name}");
+            assert!(matches!(
+                ground(&look(Colors::Indexed, Colors::Auto), 3),
+                Some(Color::Indexed(_))
+            ));
+        }
+    }
+
+    #[test]
     fn a_wrong_theme_says_what_is_wrong() {
         let refused = |text: &str| {
-            Look::from_text(text, Glyphs::Braille, Colors::Sixteen).unwrap_err().to_string()
+            Look::from_text(text, Glyphs::Braille, [Colors::Sixteen; 2]).unwrap_err().to_string()
         };
         assert!(refused("text = 3").contains("line 1"), "{}", refused("text = 3"));
         assert!(refused("tex = 'red'").contains("\"tex\""));
         assert!(refused("text = 'default'").contains("quiet"));
         let full = text_of(Theme::Dark).replace("stable = \"", "stable = \"mauve ");
         assert!(refused(&full).contains("\"mauve\""), "{}", refused(&full));
-    }
-
-    #[test]
-    fn fixed_colours_are_their_own_nearest() {
-        for (rgb, index) in
-            [((0, 0, 0), 16), ((255, 255, 255), 231), ((95, 135, 175), 67), ((238, 238, 238), 255)]
-        {
-            assert_eq!(nearest(rgb), index);
-        }
     }
 }

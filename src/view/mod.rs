@@ -6,6 +6,7 @@
 
 pub mod caption;
 mod certain;
+mod colour;
 mod content;
 mod costs;
 pub mod dots;
@@ -24,11 +25,13 @@ pub mod paper;
 pub mod parameters;
 pub mod place;
 pub mod plot;
+mod prose;
 pub mod scan;
 pub mod scan_form;
 mod scan_map;
 pub mod scan_table;
 pub mod screen;
+mod signs;
 pub mod status;
 pub mod trade_plot;
 mod walk;

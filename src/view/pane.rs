@@ -18,7 +18,7 @@ pub fn centred(screen: Rect, width: u16, height: u16) -> Rect {
     Rect { x, y, width, height }
 }
 
-/// Clears an area for what stands over the panes, and what it would leave of numbers beside it.
+/// Clears an area for what stands over the panes, and what it would leave of words and numbers beside it.
 pub fn clear(area: Rect, buffer: &mut Buffer) {
     let whole = buffer.area;
     let letter = |buffer: &Buffer, x: u16, y: u16| {
@@ -32,12 +32,9 @@ pub fn clear(area: Rect, buffer: &mut Buffer) {
             if letter(buffer, edge, y).is_none() {
                 continue;
             }
-            let run = beside.into_iter().map_while(|x| Some((x, letter(buffer, x, y)?)));
-            let run: Vec<(u16, char)> = run.collect();
-            if run.iter().any(|(_, letter)| letter.is_ascii_digit()) {
-                for (x, _) in run {
-                    buffer[(x, y)].set_symbol(" ");
-                }
+            let run = beside.into_iter().take_while(|x| letter(buffer, *x, y).is_some());
+            for x in run.collect::<Vec<_>>() {
+                buffer[(x, y)].set_symbol(" ");
             }
         }
     }
@@ -118,15 +115,18 @@ pub fn title(
     let order = if names_first { [names, title, held] } else { [title, held, names] };
     let shown = order.into_iter().find(|text| whole(text) && !text.is_empty());
     let shown = shown.filter(|_| !both).unwrap_or(title);
-    // The pane that has the keys is told at a glance, in any colours.
-    let style = look.style(role);
-    let style = if heading.focused { style.add_modifier(Modifier::REVERSED) } else { style };
-    let mut left = vec![Span::styled(format!("{pointer}{shown}"), style)];
+    let mut left = vec![Span::styled(format!("{pointer}{shown}"), look.style(role))];
     if both {
         left.push(Span::styled(format!("  {names}"), look.style(Role::Quiet)));
     }
     let left = fitted(left.into(), room, look);
     line(area, 0, left, right, look, buffer);
+    if heading.focused {
+        // The pane that has the keys is told at a glance, in any colours: its heading is a bar.
+        let bar = look.style(Role::Focus).remove_modifier(Modifier::DIM);
+        let row = Rect { height: area.height.min(1), ..area };
+        buffer.set_style(row, bar.add_modifier(Modifier::REVERSED));
+    }
 }
 
 /// How many of the letters of a text stand before a mark that it goes on, where it has `width` columns:

@@ -63,7 +63,7 @@ fn heading(section: &'static str) -> &'static str {
 /// What holds is quiet, what does not is loud.
 fn role(examined: &Examined) -> Role {
     match examined.verdict() {
-        Some(Verdict::Agrees | Verdict::Approximates { .. }) => Role::Stable,
+        Some(Verdict::Agrees | Verdict::Approximates { .. }) => Role::Text,
         Some(Verdict::Corrected { .. } | Verdict::InPart) => Role::Warning,
         Some(Verdict::False) => Role::Failure,
         None => Role::Quiet,

@@ -4,17 +4,15 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
-use super::caption::wrapped;
 use super::certain;
 use super::keys;
 use super::layout::DESIGNED;
-use super::legend;
 use super::look::Look;
 use super::pane::{self, Heading};
+use super::prose;
 use crate::flow::Problem;
 use crate::oscillator::Symbol;
 use crate::oscillator::belt::Quantity;
-use crate::picture::items::Picture;
 use crate::picture::role::Role;
 use crate::scene::Layer;
 use crate::session::{Pane, Row, Session, Setup};
@@ -25,12 +23,15 @@ use crate::words::number::{exact, significant};
 use crate::words::quantity::with_unit;
 
 /// Columns up to the end of the values.
-const VALUES: usize = 16;
+const VALUES: usize = 17;
 
-/// Columns of a step.
-const STEP: usize = 7;
+/// Columns of a step, with the blanks before it.
+const STEP: usize = 8;
 
-pub fn draw(area: Rect, session: &Session, pictures: &[Picture], look: &Look, buffer: &mut Buffer) {
+/// Columns from which on what numbers mean stands beside their steps.
+const WITH_MEANINGS: u16 = 50;
+
+pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let heading = Heading::of(session, Pane::Parameters);
     let of = session.number(0).map_or_else(String::new, |number| format!("of motion {number}"));
     pane::title(area, "parameters", &of, &heading, look, buffer);
@@ -62,40 +63,32 @@ pub fn draw(area: Rect, session: &Session, pictures: &[Picture], look: &Look, bu
     let rows = cycles(below, session, look, buffer);
     if wide {
         let text = Rect { y: below.y + rows, height: below.height.saturating_sub(rows), ..below };
-        guide(text, session, pictures, look, buffer);
+        guide(text, session, look, buffer);
     }
 }
 
-/// What to look at in this scene and what to press, and below it what the lines mean.
-fn guide(area: Rect, session: &Session, pictures: &[Picture], look: &Look, buffer: &mut Buffer) {
-    let width = usize::from(area.width.saturating_sub(2));
-    let mut lines = Vec::new();
-    for (heading, text) in [("look", &session.scene.look), ("press", &session.scene.press)] {
-        let mut title = vec![Span::styled(heading, look.style(Role::Title))];
-        // What to press leads on from where the scene opens.
-        if heading == "press" && session.setup() != Setup::of_scene(&session.scene) {
-            let text =
-                keys::sentence("  as opened; {reset-scene} goes back", &session.keymap, look);
-            title.push(Span::styled(text, look.style(Role::Quiet)));
-        }
-        lines.push(title.into());
-        let text = keys::sentence(&session.said(text), &session.keymap, look);
-        let rows = wrapped(&text, width).into_iter();
-        lines.extend(rows.map(|row| Line::styled(row, look.style(Role::Quiet))));
-        lines.push(Line::default());
-    }
+/// What to look at in this scene and what to press. Where there is no room for both texts whole, the second
+/// makes way for the key that shows it.
+fn guide(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
+    let quiet = |text: &str| Span::styled(text.to_owned(), look.style(Role::Quiet));
+    let sentence = |text: &str| keys::sentence(text, &session.keymap, look);
+    let section = |heading: &'static str, remark: &str, text: &str| {
+        let title = vec![Span::styled(heading, look.style(Role::Title)), quiet(&sentence(remark))];
+        [Line::from(title), Line::from(quiet(&sentence(&session.said(text))))]
+    };
+    // What to press leads on from where the scene opens.
+    let moved = session.setup() != Setup::of_scene(&session.scene);
+    let remark = if moved { "  as opened; {reset-scene} goes back" } else { "" };
+    let watch = section("look", "", &session.scene.look);
+    let press = section("press", remark, &session.scene.press);
+    let [short, _] = section("press", "  {explain} says what", "");
+    let apart = [&watch[..], &[Line::default()], &press].concat();
+    let together = [&watch[..], &press].concat();
     let inner = Rect { x: area.x + 1, width: area.width.saturating_sub(2), ..area };
-    let taken = u16::try_from(lines.len()).unwrap_or(u16::MAX).min(area.height);
-    // A text that goes on below the pane says so.
-    let goes_on = lines.len() > usize::from(area.height) + 1;
-    if let Some(last) = usize::from(taken).checked_sub(1).filter(|_| goes_on) {
-        lines[last].push_span(format!(" {}", look.symbols().more));
-    }
-    for (row, line) in (0..taken).zip(lines) {
-        pane::line(inner, row, line, "", look, buffer);
-    }
-    let rest = Rect { y: area.y + taken, height: area.height - taken, ..area };
-    legend::draw(rest, pictures, look, buffer);
+    let whole = [apart, together].into_iter();
+    let mut whole = whole.filter(|lines| prose::rows(lines, inner.width) <= area.height);
+    let lines = whole.next().unwrap_or_else(|| [&watch[..], &[short]].concat());
+    prose::write(inner, lines, look, buffer);
 }
 
 fn row_line(
@@ -109,7 +102,8 @@ fn row_line(
     let pointer = if selected { look.symbols().pointer } else { " " };
     let role = if selected { Role::Selected } else { Role::Text };
     let name = row.name_in(&session.problem);
-    let room = VALUES - name.len() - 2;
+    // Two blanks before the value and two behind it.
+    let room = VALUES - name.len() - 3;
     let sign = look.symbols().plus_minus;
     let text = |setup: &Setup| value(setup, row, room, sign);
     let (value, of_scene) = (text(&session.setup()), text(&Setup::of_scene(&session.scene)));
@@ -138,13 +132,16 @@ fn row_line(
     // Of a fitted number its error says more than what the step is.
     let physical = physical.or_else(|| error(session, row, look));
     let meaning = physical.clone().unwrap_or_else(|| meaning(&session.problem, row).to_owned());
-    let whole = format!("{step:<STEP$}  {meaning}");
     // On a narrow pane what the number means on the machine stands in place of the step, of which the
     // selected row alone needs to speak.
-    let physical = physical.filter(|_| !selected).map(|physical| format!("  {physical}"));
     let room = usize::from(width).saturating_sub(VALUES);
-    let texts = std::iter::once(whole).chain(physical);
-    let text = texts.into_iter().find(|text| text.chars().count() <= room).unwrap_or(step);
+    let fits = |text: &String| text.chars().count() <= room;
+    let text = if width >= WITH_MEANINGS {
+        format!("{step:<STEP$}  {meaning}")
+    } else {
+        let physical = physical.filter(|_| !selected).map(|physical| format!("  {physical}"));
+        physical.filter(fits).unwrap_or(step)
+    };
     line.push(Span::styled(text, look.style(Role::Quiet)));
     line
 }
@@ -195,11 +192,11 @@ fn value(setup: &Setup, row: Row, width: usize, sign: &str) -> String {
 /// The step of a row; of the dial the name of its stop.
 fn step(session: &Session, row: Row, look: &Look) -> Option<String> {
     if row == Row::Tolerance {
-        return session.problem.quality().map(|quality| format!(" {}", quality.name));
+        return session.problem.quality().map(|quality| format!("  {}", quality.name));
     }
     let step = session.steps.of(row)?;
     let sign = look.symbols().plus_minus;
-    Some(format!(" {sign}{}", exact(step.value(), STEP - 1 - sign.chars().count())))
+    Some(format!("  {sign}{}", exact(step.value(), STEP - 2 - sign.chars().count())))
 }
 
 fn meaning(problem: &Problem, row: Row) -> &'static str {
@@ -354,6 +351,8 @@ fn on_the_machine(session: &Session, found: &Cycles, width: usize) -> Vec<String
     let Some(running) = session.running() else { return Vec::new() };
     let margin = found.picture.as_ref().map(|picture| picture.margin);
     let margin = margin.map(|margin| PhysicalMargin::new(&margin, &running.reduced.units));
+    // The second status line says that too, where there is one.
+    let margin = margin.filter(|_| session.size.height < DESIGNED);
     let kick = margin.and_then(|margin| {
         let (x, impulse) = (margin.displacement?, margin.impulse?);
         let kick = format!("{}, {}", with_unit(x, 3, "m"), with_unit(impulse, 3, "N s"));

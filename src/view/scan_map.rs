@@ -3,6 +3,7 @@
 //! Where values spread over several decades, each shade takes an equal part of their logarithms.
 
 use ratatui::buffer::Buffer;
+use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
 use super::look::Look;
@@ -24,9 +25,9 @@ const SMALL_IS_DANGEROUS: [&str; 4] = ["displacement", "impulse", "captured_part
 const SHADES: &str = "\u{b7}\u{2591}\u{2592}\u{2593}\u{2588}";
 const LETTERS: &str = ".-+*#";
 
-/// The shades of words, in the order of [`WORDS`].
-const OF_WORDS: [(char, Role); 4] =
-    [('.', Role::Stable), ('o', Role::Trajectory), ('^', Role::Unstable), ('?', Role::Warning)];
+/// The letters of words, in the order of [`WORDS`], and how dangerous each is; nobody knows of the last.
+const OF_WORDS: [(char, Option<f64>); 4] =
+    [('.', Some(0.0)), ('o', Some(0.5)), ('^', Some(1.0)), ('?', None)];
 
 /// Where there is a row but no number.
 const NOTHING: char = '-';
@@ -40,6 +41,8 @@ struct Ramp {
     low: f64,
     high: f64,
     logarithmic: bool,
+    /// Whether the small values are the dangerous ones.
+    reversed: bool,
 }
 
 impl Ramp {
@@ -47,13 +50,16 @@ impl Ramp {
         let (low, high) = scanned.range()?;
         let plain = look.glyphs == Glyphs::Ascii;
         let mut shades: Vec<char> = if plain { LETTERS } else { SHADES }.chars().collect();
-        if SMALL_IS_DANGEROUS.contains(&measured(scanned)) {
+        let reversed = SMALL_IS_DANGEROUS.contains(&measured(scanned));
+        if reversed {
             shades.reverse();
         }
-        Some(Ramp { shades, low, high, logarithmic: low > 0.0 && high / low >= SPREAD })
+        let logarithmic = low > 0.0 && high / low >= SPREAD;
+        Some(Ramp { shades, low, high, logarithmic, reversed })
     }
 
-    fn shade(&self, value: f64) -> char {
+    /// The shade of a value, and how dangerous it is.
+    fn shade(&self, value: f64) -> (char, f64) {
         let part = if self.logarithmic {
             ln(value / self.low) / ln(self.high / self.low)
         } else {
@@ -67,7 +73,7 @@ impl Ramp {
             reason = "a part of a few shades"
         )]
         let step = if part.is_finite() { (part * self.shades.len() as f64) as usize } else { 0 };
-        self.shades[step.min(last)]
+        (self.shades[step.min(last)], if self.reversed { 1.0 - part } else { part })
     }
 
     /// The value at which a shade begins.
@@ -88,10 +94,17 @@ pub fn draw(plot: &Plot, scanned: &Scanned, look: &Look, buffer: &mut Buffer) {
     let ramp = Ramp::of(scanned, look);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "number of a word")]
     let shade = |value: f64| match &ramp {
-        _ if words => OF_WORDS[(value as usize).min(OF_WORDS.len() - 1)],
-        Some(ramp) => (ramp.shade(value), Role::Danger),
-        None => (NOTHING, Role::Quiet),
+        _ if words => {
+            let (letter, danger) = OF_WORDS[(value as usize).min(OF_WORDS.len() - 1)];
+            (letter, of_word(danger, look))
+        }
+        Some(ramp) => {
+            let (shade, danger) = ramp.shade(value);
+            (shade, look.danger(danger))
+        }
+        None => (NOTHING, look.style(Role::Quiet)),
     };
+    let nothing = (NOTHING, look.style(Role::Quiet));
     let over = scanned.scan.over();
     // Of more than two parameters the others stay at their first values.
     let stride: usize = over[2..].iter().map(|sweep| sweep.count).product();
@@ -105,10 +118,18 @@ pub fn draw(plot: &Plot, scanned: &Scanned, look: &Look, buffer: &mut Buffer) {
             if index >= scanned.rows.len() {
                 continue;
             }
-            let (symbol, role) = scanned.height(index).map_or((NOTHING, Role::Quiet), shade);
-            let cell = &mut buffer[(inner.x + column, inner.y + row)];
-            cell.set_char(symbol).set_style(look.style(role));
+            let (symbol, style) = scanned.height(index).map_or(nothing, shade);
+            buffer[(inner.x + column, inner.y + row)].set_char(symbol).set_style(style);
         }
+    }
+}
+
+/// The style of a word that is so dangerous.
+fn of_word(danger: Option<f64>, look: &Look) -> Style {
+    match danger {
+        None => look.style(Role::Quiet),
+        Some(danger) if danger > 0.0 || look.has_grounds() => look.danger(danger),
+        Some(_) => look.style(Role::Calm),
     }
 }
 
@@ -143,15 +164,15 @@ pub fn legend(scanned: &Scanned, width: usize, look: &Look) -> Line<'static> {
         vec![format!(" {name}{none}")]
     };
     let text = pane::fitting(texts, width);
-    let role = |letter: char| {
-        let word = OF_WORDS.iter().find(|(symbol, _)| *symbol == letter);
-        if scanned.plots_words() {
-            word.map_or(Role::Quiet, |(_, role)| *role)
-        } else if SHADES.contains(letter) {
-            Role::Danger
-        } else {
-            Role::Quiet
-        }
+    let ramp = Ramp::of(scanned, look).filter(|_| !scanned.plots_words());
+    let style = |letter: char| {
+        let quiet = look.style(Role::Quiet);
+        let Some(ramp) = &ramp else {
+            let word = OF_WORDS.iter().find(|(symbol, _)| *symbol == letter);
+            return word.map_or(quiet, |(_, danger)| of_word(*danger, look));
+        };
+        let step = ramp.shades.iter().position(|shade| *shade == letter);
+        step.map_or(quiet, |step| look.danger(ramp.shade(ramp.begin(step)).1))
     };
     let alone = |at: usize| {
         let around = [at.checked_sub(1), at.checked_add(1)];
@@ -161,8 +182,8 @@ pub fn legend(scanned: &Scanned, width: usize, look: &Look) -> Line<'static> {
             .all(|at| text.chars().nth(at).is_none_or(|it| !it.is_alphanumeric()))
     };
     let span = |(at, letter): (usize, char)| {
-        let role = if alone(at) { role(letter) } else { Role::Quiet };
-        Span::styled(letter.to_string(), look.style(role))
+        let style = if alone(at) { style(letter) } else { look.style(Role::Quiet) };
+        Span::styled(letter.to_string(), style)
     };
     text.chars().enumerate().map(span).collect::<Vec<_>>().into()
 }

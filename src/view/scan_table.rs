@@ -31,13 +31,15 @@ pub fn draw(area: Rect, scanned: &Scanned, look: &Look, buffer: &mut Buffer) {
     let mut used = 0;
     let fits = |width: &usize| {
         used += width + 1;
-        used <= usize::from(area.width)
+        used < usize::from(area.width)
     };
     let widths: Vec<usize> = columns
         .iter()
         .map(|column| column.iter().map(|text| text.chars().count()).max().unwrap_or(0))
         .take_while(fits)
         .collect();
+    // Columns that are left out have a mark in place of their names.
+    let more = if widths.len() < columns.len() { look.symbols().more } else { "" };
     let line = |row: usize| {
         let cells = columns.iter().zip(&widths).map(|(column, width)| {
             let text = &column[row];
@@ -45,7 +47,8 @@ pub fn draw(area: Rect, scanned: &Scanned, look: &Look, buffer: &mut Buffer) {
         });
         cells.collect::<Vec<_>>().concat()
     };
-    pane::line(area, 0, Line::styled(line(0), look.style(Role::Title)), "", look, buffer);
+    let names = Line::styled(line(0) + more, look.style(Role::Title));
+    pane::line(area, 0, names, "", look, buffer);
     for (row, index) in (1..).zip(seen) {
         let reason = &scanned.rows[index].reason;
         let role = match (index == scanned.at, reason) {

@@ -9,12 +9,14 @@ use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Modifier};
 use unicode_width::UnicodeWidthStr;
 
-/// The rows of a screen, without the blanks at their ends.
+use super::signs::MINUS;
+
+/// The rows of a screen, without the blanks at their ends and with minus signs as programs read them.
 pub fn text(screen: &Buffer) -> String {
     let mut out = String::new();
     for row in rows(screen) {
         let line: String = row.iter().map(|place| place.symbol).collect();
-        out.push_str(line.trim_end());
+        out.push_str(&line.trim_end().replace(MINUS, "-"));
         out.push('\n');
     }
     out

@@ -1,6 +1,7 @@
 //! Screens of hand-made answers: pictures kept as text, and facts that hold for every picture.
 
 mod by_hand;
+mod cut;
 mod numbers;
 mod pictures;
 

@@ -122,9 +122,9 @@ impl Terminal {
         self.master.resize(size(columns, rows)).unwrap();
     }
 
-    /// The characters on the screen.
+    /// The characters on the screen, with minus signs as on the keyboard.
     pub fn text(&self) -> String {
-        self.screen.screen().contents()
+        self.screen.screen().contents().replace('\u{2212}', "-")
     }
 
     /// The emulated screen.

@@ -153,7 +153,7 @@ fn together(fitted: &Fitted) -> Option<Picture<'static>> {
     });
     let names = ("D".to_owned(), with_unit("r", fitted.unit()));
     let mut picture = picture("D and r together", names, contours.collect(), None)?;
-    let marks = Marks::new(Mark::Stable, Role::Stable, vec![at(p[D], p[R])]);
+    let marks = Marks::new(Mark::Stable, Role::Special, vec![at(p[D], p[R])]);
     picture.items.push(Item::Marks(Marks { name: "estimate".into(), ..marks }));
     Some(picture)
 }
@@ -178,7 +178,7 @@ fn margin(fitted: &Fitted) -> Option<Picture<'static>> {
     let to = far.max(largest) + 0.1 * (far.max(largest) - far.min(largest)).max(0.02 * largest);
     steps.push(at(to.max(finite.last().copied().unwrap_or(0.0)), share(finite.len())));
     let curves = vec![
-        curve("margin is less than this", Role::Unstable, Dash::Solid, steps),
+        curve("margin is less than this", Role::Danger, Dash::Solid, steps),
         curve(
             "largest amplitude measured",
             Role::Current,

@@ -34,7 +34,9 @@ pub enum Colors {
 /// A set of colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Theme {
+    /// What suits the background of the terminal.
     #[default]
+    Auto,
     Dark,
     Light,
     Contrast,
@@ -60,10 +62,12 @@ pub const COLORS: [(Colors, &str); 5] = [
     (Colors::True, "true"),
 ];
 
-/// The themes, in the order in which the key visits them.
-pub const THEMES: [(Theme, &str); 4] = [
-    (Theme::Dark, "dark"),
+/// The themes, in the order in which the key visits them: most backgrounds are dark, so that the first step
+/// from `auto` changes what is seen.
+pub const THEMES: [(Theme, &str); 5] = [
+    (Theme::Auto, "auto"),
     (Theme::Light, "light"),
+    (Theme::Dark, "dark"),
     (Theme::Contrast, "contrast"),
     (Theme::Mono, "mono"),
 ];
@@ -75,6 +79,8 @@ pub struct Look {
     pub glyphs: Glyphs,
     /// How many colours to use.
     pub colors: Colors,
+    /// How many the terminal has, for what sixteen cannot show; `Auto` where that is not known.
+    pub fine: Colors,
     pub theme: Theme,
     /// Whether the terminal reports the mouse; without, it selects text.
     pub mouse: bool,

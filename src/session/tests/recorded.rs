@@ -153,6 +153,7 @@ proptest! {
         before in 0..library().len(),
     ) {
         let look = Look {
+            fine: crate::session::settings::Colors::Auto,
             glyphs: GLYPHS[glyphs].0,
             colors: COLORS[color].0,
             theme: THEMES[theme].0,

@@ -19,7 +19,7 @@ use ratatui::layout::Rect;
 use geometry::{Geometry, centred, column};
 pub use geometry::{point_at, rows, shown};
 
-use super::dots::{Dots, Pen};
+use super::dots::{Covering, Dots, Pen};
 use super::look::Look;
 use super::pane;
 use crate::picture::role::{Dash, Role};
@@ -128,14 +128,23 @@ impl<'a> Plot<'a> {
         let Rect { x, y, width, height } = self.inner;
         let Some(last) = height.checked_sub(1) else { return };
         let fits = |tick: &&Tick| tick.label.len() < usize::from(width);
+        // Nothing of a text is hidden, and no text goes on in a number.
+        let free = |start: u16, row: u16, label: &str| {
+            let end = start + label.len() as u16;
+            (start.saturating_sub(1)..=end)
+                .all(|column| self.dots.covering(column, row) != Covering::Symbol)
+        };
         for tick in upward.ticks.iter().filter(fits) {
             let row = self.row(tick.fraction);
-            if row < last {
+            if row < last && free(0, row, &tick.label) {
                 buffer.set_string(x, y + row, &tick.label, style);
             }
         }
         for tick in rightward.ticks.iter().filter(fits) {
-            buffer.set_string(x + centred(tick, width), y + last, &tick.label, style);
+            let start = centred(tick, width);
+            if free(start, last, &tick.label) {
+                buffer.set_string(x + start, y + last, &tick.label, style);
+            }
         }
     }
 

@@ -6,6 +6,7 @@ use super::{Name, Plot};
 use crate::picture::role::Role;
 use crate::scene::Point;
 use crate::view::dots::Covering;
+use crate::view::pane;
 use crate::words::number::significant;
 
 /// What a text may hide anywhere, the best first.
@@ -126,7 +127,8 @@ impl Plot<'_> {
     pub fn write(&mut self, y: f64, text: &str, role: Role) {
         let left = Point { x: self.window.x.from(), y };
         if let Some((_, row)) = self.dots.cell_at(self.place(left)) {
-            self.letters(0, row, text, role);
+            let text = pane::cut(text, self.inner.width.into(), self.look);
+            self.letters(0, row, &text, role);
         }
     }
 

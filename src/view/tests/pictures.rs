@@ -105,8 +105,9 @@ fn an_h_stands_only_where_a_hopf_point_is() {
 fn the_legend_names_what_is_seen_and_nothing_else() {
     let rows = |session: &Session, name: &str| {
         let screen = text(&draw(session, letters()));
-        let is_entry = |line: &str| line.get(6..).is_some_and(|entry| entry.starts_with(name));
-        screen.lines().filter(|line| is_entry(line)).count()
+        let legend = screen.lines().nth(56).unwrap_or_default();
+        let entry = |entry: &&str| *entry == name || entry.ends_with(&format!(" {name}"));
+        legend.split("  ").filter(entry).count()
     };
     let names = ["stable cycle", "unstable cycle", "rest (attracts)", "first harmonic"];
     let mut session = settled("supercritical", 200, 60, "");
@@ -208,7 +209,10 @@ fn both_sides_of_the_unstable_cycle_stand_in_one_picture() {
     assert!(inside.3.x < edge && edge < outside.3.x, "{edge} between {inside:?} and {outside:?}");
     assert_eq!((inside.1, outside.1, outside.2), (Role::Beside, Role::Trajectory, Dash::Solid));
     let at = |number: &str, at: Point| (number.to_owned(), at);
-    assert_eq!(numbers, [at("1", *first), at("2", inside.3), at("3", outside.3)]);
+    let starts = [at("1", *first), at("2", inside.3), at("3", outside.3)];
+    assert!(starts.iter().all(|start| numbers.contains(start)), "{numbers:?}");
+    // And on the way to the end, where the curves have parted.
+    assert_eq!(numbers.len(), 6, "{numbers:?}");
     assert_eq!(rests, [Role::Beside], "the one from inside, and no other");
     let screen = text(&draw(&session, braille()));
     assert!(screen.contains("of motion 3"), "{screen}");

@@ -1,0 +1,90 @@
+//! Sentences in a box: broken between words, and with a mark where they go on below it.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+
+use super::look::Look;
+use super::pane;
+
+/// Writes lines from the top of `area` down; those that are too long for a row go on in the next, in the
+/// style of their first words.
+pub fn write(area: Rect, lines: Vec<Line<'static>>, look: &Look, buffer: &mut Buffer) {
+    let width = usize::from(area.width);
+    let mut rows: Vec<Line> = lines.into_iter().flat_map(|line| broken(line, width)).collect();
+    let height = usize::from(area.height);
+    if rows.len() > height && height > 0 {
+        rows.truncate(height);
+        let mark = look.symbols().more;
+        if let Some(last) = rows.last_mut() {
+            let room = width.saturating_sub(mark.chars().count() + 1);
+            *last = pane::fitted(std::mem::take(last), room, look);
+            last.push_span(format!(" {mark}"));
+        }
+    }
+    for (row, line) in (0..area.height).zip(rows) {
+        pane::line(area, row, line, "", look, buffer);
+    }
+}
+
+fn broken(line: Line<'static>, width: usize) -> Vec<Line<'static>> {
+    if line.width() <= width {
+        return vec![line];
+    }
+    let style = line.style.patch(line.spans.first().map(|span| span.style).unwrap_or_default());
+    let text: String = line.spans.iter().map(|span| span.content.as_ref()).collect();
+    wrapped(&text, width).into_iter().map(|row| Line::from(Span::styled(row, style))).collect()
+}
+
+/// A text in lines of at most `width` columns, broken between words where possible.
+fn wrapped(text: &str, width: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in text.split_whitespace() {
+        let line = lines.last_mut();
+        match line {
+            Some(line) if line.is_empty() => line.push_str(word),
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
+/// The rows that lines take in `width` columns.
+pub fn rows(lines: &[Line<'static>], width: u16) -> u16 {
+    let rows = lines.iter().map(|line| broken(line.clone(), width.into()).len()).sum::<usize>();
+    u16::try_from(rows).unwrap_or(u16::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::session::settings;
+    use crate::view::screen::text;
+
+    #[test]
+    fn words_stay_whole_and_lines_within_their_width() {
+        let text = "one two three four five";
+        assert_eq!(wrapped(text, 9), ["one two", "three", "four five"]);
+        assert_eq!(wrapped("", 9), [""]);
+        assert_eq!(wrapped("incomprehensible", 3), ["incomprehensible"]);
+    }
+
+    #[test]
+    fn what_goes_on_below_has_a_mark() {
+        let look = Look::new(settings::Look::default());
+        let lines = || vec![Line::from("one two three four five"), Line::from("six")];
+        assert_eq!(rows(&lines(), 9), 4);
+        for (height, expected) in [
+            (4, "one two\nthree\nfour five\nsix\n"),
+            (3, "one two\nthree\nfour f\u{2026} \u{2026}\n"),
+        ] {
+            let mut buffer = Buffer::empty(Rect::new(0, 0, 9, height));
+            write(buffer.area, lines(), &look, &mut buffer);
+            assert_eq!(text(&buffer), expected);
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! Signs as people read them, and as programs do: all texts are made with the signs of the keyboard, and the
+//! whole screen gets its minus signs at once, wherever its numbers came from.
+
+use ratatui::buffer::{Buffer, Cell};
+use ratatui::layout::Rect;
+
+/// The minus sign, as wide as a plus sign.
+pub const MINUS: char = '\u{2212}';
+
+/// Puts minus signs before the numbers and letters of an area, except in rows for which `is_typed` holds.
+pub fn minus(area: Rect, buffer: &mut Buffer, is_typed: impl Fn(u16) -> bool) {
+    for y in (area.y..area.bottom()).filter(|y| !is_typed(*y)) {
+        for x in area.x..area.right() {
+            let letter = |x: Option<u16>| {
+                let cell =
+                    x.filter(|x| area.contains((*x, y).into())).and_then(|x| buffer.cell((x, y)));
+                cell.map_or(' ', letter)
+            };
+            let [early, before, here, after, late] = [
+                letter(x.checked_sub(2)),
+                letter(x.checked_sub(1)),
+                letter(Some(x)),
+                letter(x.checked_add(1)),
+                letter(x.checked_add(2)),
+            ];
+            if here == '-' && is_minus([early, before, after, late]) {
+                buffer[(x, y)].set_char(MINUS);
+            }
+        }
+    }
+}
+
+fn letter(cell: &Cell) -> char {
+    cell.symbol().chars().next().unwrap_or(' ')
+}
+
+/// Whether a hyphen between these letters, two before and two after it, is a sign: of a number or a name of
+/// one letter, not in a word, and of an exponent.
+fn is_minus([early, before, after, late]: [char; 4]) -> bool {
+    let number = after.is_ascii_digit() || (after == '.' && late.is_ascii_digit());
+    let name = after.is_ascii_alphabetic() && !late.is_alphanumeric() && late != '-';
+    let begins = !before.is_alphanumeric() && !"-_/.".contains(before);
+    let exponent = before == 'e' && early.is_ascii_digit() && after.is_ascii_digit();
+    exponent || (begins && (number || (name && " ([".contains(before))))
+}
+
+/// Replaces what a terminal without Unicode cannot show, wherever the text came from.
+pub fn only_letters(buffer: &mut Buffer) {
+    for cell in buffer.content.iter_mut().filter(|cell| !cell.symbol().is_ascii()) {
+        cell.set_char('?');
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_minus_signs_and_words_keep_their_hyphens() {
+        let cases = [
+            ("D -0.3", "D \u{2212}0.3"),
+            ("\u{b1}1e-10 (-5)", "\u{b1}1e\u{2212}10 (\u{2212}5)"),
+            ("-r .. r", "\u{2212}r .. r"),
+            ("q in [-0.1, .5]", "q in [\u{2212}0.1, .5]"),
+            ("e^-710 -.5", "e^\u{2212}710 \u{2212}.5"),
+            ("stick-slip C-r scan-2.csv 2026-11-22", "stick-slip C-r scan-2.csv 2026-11-22"),
+            ("--set -- - +- sign-rk4", "--set -- - +- sign-rk4"),
+        ];
+        for (written, read) in cases {
+            let mut buffer = Buffer::with_lines([written]);
+            let area = buffer.area;
+            minus(area, &mut buffer, |_| false);
+            let line: String = buffer.content.iter().map(|cell| cell.symbol()).collect();
+            assert_eq!(line, read);
+            assert_eq!(super::super::screen::text(&buffer).trim_end(), written);
+            minus(area, &mut buffer, |_| true);
+        }
+    }
+}
