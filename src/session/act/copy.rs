@@ -98,7 +98,7 @@ fn point(session: &Session) -> Vec<Named> {
         View::EnergyRate => ["v", "rate"],
         View::Eigenvalues => ["Re", "Im"],
         View::Speeds => ["v0", "x_max"],
-        View::Belt | View::EnergyLedger | View::Trade | View::Scan => ["x", "y"],
+        _ => ["x", "y"],
     };
     vec![named(x, at.x), named(y, at.y)]
 }

@@ -35,7 +35,6 @@ fn cursor_origin(session: &Session, plot: &Plot) -> Point {
         View::TimeSeries => Point { x: 0.0, y: session.problem.initial.q },
         View::EnergyLedger => Point { x: 0.0, y: 0.0 },
         View::EnergyRate => Point { x: session.problem.initial.v, y: 0.0 },
-        View::Eigenvalues | View::Trade | View::Scan => window.center(),
         View::Speeds => {
             Point { x: session.belt_speed.unwrap_or(window.center().x), y: window.center().y }
         }
@@ -43,6 +42,7 @@ fn cursor_origin(session: &Session, plot: &Plot) -> Point {
         View::Regimes => {
             Point { x: session.value(plot.axes.abscissa), y: session.value(plot.axes.against) }
         }
+        _ => window.center(),
     })
 }
 
@@ -205,10 +205,8 @@ pub fn start_here(session: &mut Session) -> Vec<Effect> {
         Some(View::EnergyLedger) => session.start_of_line(y),
         Some(View::ReturnMap | View::Belt) => Some(State { q: x, v: 0.0 }),
         Some(View::EnergyRate) => Some(State { v: x, ..session.problem.initial }),
-        Some(View::Scan | View::Eigenvalues | View::Speeds) => return Vec::new(),
-        Some(View::Phase | View::Diagram | View::Regimes | View::Trade) | None => {
-            Some(State { q: x, v: y })
-        }
+        Some(View::Phase) => Some(State { q: x, v: y }),
+        _ => return Vec::new(),
     };
     match initial {
         // The phase plane shows motions beside each other; from another view this may be out of sight.

@@ -55,6 +55,11 @@ pub(in crate::session) fn fitted(session: &Session, index: usize) -> Option<Wind
         View::Eigenvalues => eigenvalues(session),
         View::Speeds => speeds(session, index),
         View::Scan => session.scanned.as_ref().map(Scanned::window),
+        #[allow(
+            unreachable_patterns,
+            reason = "a view without a rule of its own shows its usual window"
+        )]
+        view => Some(view.spec().window),
     }
 }
 
