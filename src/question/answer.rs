@@ -14,39 +14,48 @@ use crate::study::harmonic_error::HarmonicBalance;
 use crate::study::trade::Trade;
 use crate::study::{Branch, Cycles, ReturnMap};
 
-/// What the worker found.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Answer {
-    /// To [`Request::Trajectory`](super::request::Request::Trajectory).
-    Trajectory(Trajectory),
-    /// To [`Request::Cycles`](super::request::Request::Cycles).
-    Cycles(Cycles),
+/// The table of answers, each with what it cost.
+macro_rules! answers {
+    ($($(#[$doc:meta])* $name:ident($found:ty) costs |$answer:pat_param| $cost:expr;)*) => {
+        /// What the worker found.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum Answer {
+            $($(#[$doc])* $name($found),)*
+        }
+
+        impl Answer {
+            /// What the computation cost, counted.
+            #[must_use]
+            pub fn cost(&self) -> Cost {
+                match self {
+                    $(Answer::$name($answer) => $cost,)*
+                }
+            }
+        }
+    };
+}
+
+answers! {
+    Trajectory(Trajectory) costs |answer| answer.cost;
+    Cycles(Cycles) costs |answer| answer.cost;
     /// To [`Request::Machine`](super::request::Request::Machine) and `Portrait`.
-    Whole(Box<Whole>),
-    /// To [`Request::Speeds`](super::request::Request::Speeds).
-    Speeds(Speeds),
+    Whole(Box<Whole>) costs |answer| answer.drawn.cost();
+    Speeds(Speeds) costs |answer| answer.cost;
     /// To [`Request::Zones`](super::request::Request::Zones) and `MachineZones`.
-    Zones(Zones),
-    /// To [`Request::Capture`](super::request::Request::Capture).
-    Capture(Borders),
-    /// To [`Request::Balance`](super::request::Request::Balance).
-    Balance(HarmonicBalance),
-    /// To [`Request::Branch`](super::request::Request::Branch).
-    Branch(Branch),
-    /// To [`Request::ReturnMap`](super::request::Request::ReturnMap).
-    ReturnMap(ReturnMap),
-    /// To [`Request::Regimes`](super::request::Request::Regimes).
-    Regimes(Chart),
-    /// To [`Request::Trade`](super::request::Request::Trade).
-    Trade(Box<Trade>),
+    Zones(Zones) costs |answer| answer.cost;
+    Capture(Borders) costs |answer| answer.cost;
+    Balance(HarmonicBalance) costs |answer| answer.cost;
+    Branch(Branch) costs |answer| answer.cost;
+    ReturnMap(ReturnMap) costs |answer| answer.cost;
+    Regimes(Chart) costs |answer| answer.cost;
+    Trade(Box<Trade>) costs |answer| answer.cost();
     /// To [`Request::Reference`](super::request::Request::Reference); why there is none, where it would take too long.
-    Reference(Result<Box<Reference>, Reason>),
-    /// To [`Request::Claims`](super::request::Request::Claims).
-    Claims(Vec<Examined>),
-    /// To [`Request::Fit`](super::request::Request::Fit).
-    Fit(Fit),
+    Reference(Result<Box<Reference>, Reason>) costs |answer|
+        answer.as_ref().map_or_else(|_| Cost::default(), |found| found.cost);
+    Claims(Vec<Examined>) costs |_| Cost::default();
+    Fit(Fit) costs |_| Cost::default();
     /// To [`Request::Scan`](super::request::Request::Scan): some more rows.
-    Rows(Rows),
+    Rows(Rows) costs |answer| answer.cost();
 }
 
 /// An answer by the whole model, with what the paper's oscillator has no place for.
@@ -71,33 +80,5 @@ impl Whole {
     pub(super) fn cycles((drawn, cycles): (Cycles, Option<Kinds>)) -> Answer {
         let drawn = Answer::Cycles(drawn);
         Answer::Whole(Box::new(Whole { drawn, motion: None, cycles }))
-    }
-}
-
-impl Answer {
-    /// What the computation cost, counted.
-    #[must_use]
-    pub fn cost(&self) -> Cost {
-        match self {
-            Answer::Trajectory(answer) => answer.cost,
-            Answer::Cycles(answer) => answer.cost,
-            Answer::Whole(answer) => answer.drawn.cost(),
-            Answer::Speeds(answer) => answer.cost,
-            Answer::Zones(answer) => answer.cost,
-            Answer::Capture(answer) => answer.cost,
-            Answer::Balance(answer) => answer.cost,
-            Answer::Branch(answer) => answer.cost,
-            Answer::ReturnMap(answer) => answer.cost,
-            Answer::Regimes(answer) => answer.cost,
-            Answer::Trade(answer) => answer.cost(),
-            Answer::Reference(answer) => {
-                answer.as_ref().map_or(Cost::default(), |found| found.cost)
-            }
-            Answer::Rows(answer) => answer.rows.iter().fold(Cost::default(), |mut sum, row| {
-                sum += row.cost;
-                sum
-            }),
-            Answer::Claims(_) | Answer::Fit(_) => Cost::default(),
-        }
     }
 }

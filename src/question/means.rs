@@ -1,6 +1,6 @@
 //! What a question is answered with.
 
-use crate::flow::{Limits, Reason};
+use crate::flow::{Cost, Limits, Reason};
 use crate::study::scan::{Row, Scan};
 
 /// Rows of a scan that follow each other.
@@ -8,8 +8,15 @@ use crate::study::scan::{Row, Scan};
 pub struct Rows {
     /// Number of the first one's point.
     pub first: usize,
-    /// The rows.
     pub rows: Vec<Row>,
+}
+
+impl Rows {
+    pub(super) fn cost(&self) -> Cost {
+        let mut cost = Cost::default();
+        self.rows.iter().for_each(|row| cost += row.cost);
+        cost
+    }
 }
 
 /// What a question is answered with.

@@ -60,7 +60,7 @@ impl Session {
             alike.map(|request| self.answers.cost(request)).sum()
         };
         let long: BTreeSet<Topic> =
-            TOPICS.into_iter().filter(|topic| cost(*topic) > LONG).collect();
+            TOPICS.iter().copied().filter(|topic| cost(*topic) > LONG).collect();
         let open = |request: &&Request| long.contains(&request.topic()) && self.is_open(request);
         let drafts = asked.iter().filter(open).filter_map(Request::draft);
         let mut wanted: Vec<Request> = drafts.filter(|draft| self.is_open(draft)).collect();

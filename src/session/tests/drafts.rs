@@ -119,7 +119,7 @@ const UGLY: [&[(Symbol, f64)]; 11] = [
 /// that take more than one do not hold up the others: the worker puts them aside.
 #[test]
 fn wherever_the_numbers_are_no_first_answer_takes_more_than_a_few_frames() {
-    let kinds = || TOPICS.into_iter().filter(|topic| *topic < Topic::Trade);
+    let kinds = || TOPICS.iter().copied().filter(|topic| *topic < Topic::Trade);
     let mut costliest = (0, String::new());
     let mut answered: Vec<Request> = Vec::new();
     for (scene, numbers) in library().iter().flat_map(|scene| UGLY.map(|ugly| (scene, ugly))) {
