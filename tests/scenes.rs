@@ -1,12 +1,12 @@
 //! Each scene keeps what its sentences promise, under the keys that they name.
 
 use hopfscope::flow::trajectory::trajectory;
-use hopfscope::flow::{Detail, Limits, Outcome};
+use hopfscope::flow::{Detail, Limits, Method, Outcome, Reason};
 use hopfscope::machine::Fate;
 use hopfscope::numerics::elementary::hypot;
 use hopfscope::oscillator::Symbol;
 use hopfscope::question::answer;
-use hopfscope::scene::{Answered, Topic, find};
+use hopfscope::scene::{Answer, Answered, Topic, find};
 use hopfscope::session::replay::{Action, Player, parse};
 use hopfscope::session::{Msg, Session, Size, update};
 use hopfscope::study::{Cycle, Edge, Return};
@@ -419,4 +419,40 @@ fn no_text_contradicts_the_verdict_wherever_a_scene_is_taken() {
         }
     }
     assert!(said.len() >= SENTENCES.len() - 1, "sentences that were never said: only {said:?}");
+}
+
+#[test]
+fn a_machine_is_followed_by_the_method_that_is_chosen_and_as_exactly_as_the_dial_says() {
+    let motion = |method, tolerance| {
+        let mut session = Session::new(find("benchmark").unwrap(), Size { width: 80, height: 24 });
+        (session.problem.method, session.problem.tolerance) = (method, tolerance);
+        let mut asked = session.wants().into_iter();
+        let asked = asked.find(|request| request.topic() == Topic::Trajectory).unwrap();
+        match answer(&asked, &Limits::PATIENT)? {
+            Answer::Whole(whole) => match whole.drawn {
+                Answer::Trajectory(found) => Ok::<_, Reason>((found, whole.motion.unwrap())),
+                other => panic!("{other:?}"),
+            },
+            other => panic!("{other:?}"),
+        }
+    };
+    let (exact, course) = motion(Method::Auto, 1e-15).unwrap();
+    assert_eq!(exact.method, Method::Taylor);
+    for (method, fine, coarse) in [
+        (Method::Taylor, 1e-12, 1e-3),
+        (Method::Dop853, 1e-12, 1e-3),
+        (Method::Dopri5, 1e-10, 1e-3),
+    ] {
+        let [near, far] = [fine, coarse].map(|tolerance| {
+            let (found, same) = motion(method, tolerance).unwrap();
+            assert_eq!(found.method, method);
+            assert_eq!(same.fate, course.fate);
+            assert_eq!(same.rides.len(), course.rides.len(), "{method} at {tolerance}");
+            assert_eq!(found.crossings.len(), exact.crossings.len());
+            let apart = found.crossings.iter().zip(&exact.crossings);
+            apart.map(|(one, other)| (one.tau - other.tau).abs()).fold(0.0, f64::max)
+        });
+        assert!(near < 1e-6 && near < far, "{method}: {near:e} {far:e}");
+    }
+    assert!(motion(Method::Rk4, 1e-10).is_err(), "it knows one line only");
 }

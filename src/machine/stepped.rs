@@ -3,8 +3,9 @@
 
 use super::arc::Stop;
 use super::model::{Model, Phase};
-use super::motion::{Outcome, State};
+use super::motion::{Leg, Outcome, State};
 use super::turn::Place;
+use crate::flow::Method;
 use crate::flow::explicit::{Dop853, Dopri5};
 use crate::flow::step::{Field, Point, Step, Stepper};
 use crate::numerics::root::bisect;
@@ -18,14 +19,41 @@ pub enum Way {
     Dopri5,
 }
 
+/// The methods that can follow a machine, for whoever asked for another one.
+pub const ALLOWED: &str =
+    "one that knows both switching lines of a machine: auto, taylor, dop853 or dopri5";
+
+/// A method that knows one switching line only.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OneLine;
+
 impl Way {
+    /// The way of a method; `None` for Taylor series.
+    ///
+    /// # Errors
+    /// [`OneLine`] for a method that cannot follow a machine; [`ALLOWED`] tells which can.
+    pub fn of(method: Method) -> Result<Option<Way>, OneLine> {
+        match method {
+            Method::Auto | Method::Taylor => Ok(None),
+            Method::Dop853 => Ok(Some(Way::Dop853)),
+            Method::Dopri5 => Ok(Some(Way::Dopri5)),
+            _ => Err(OneLine),
+        }
+    }
+
+    /// The method itself.
+    #[must_use]
+    pub fn method(self) -> Method {
+        match self {
+            Way::Dop853 => Method::Dop853,
+            Way::Dopri5 => Method::Dopri5,
+        }
+    }
+
     /// Its name.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Way::Dop853 => "dop853",
-            Way::Dopri5 => "dopri5",
-        }
+        self.method().spec().name
     }
 }
 
@@ -70,6 +98,21 @@ const HALVINGS: u32 = 60;
 /// Most steps of a motion.
 const STEPS: u64 = 2_000_000;
 
+/// A motion as its steps.
+#[derive(Clone, Debug)]
+pub struct Traced {
+    /// Its legs in their order.
+    pub legs: Vec<Leg>,
+    /// The states between its steps.
+    pub samples: Vec<State>,
+    /// How it ends.
+    pub outcome: Outcome,
+    /// Evaluations of the force.
+    pub evaluations: u64,
+    /// Steps taken.
+    pub steps: u64,
+}
+
 /// Follows a motion from displacement `x` (m) and velocity `v` (m/s) for `until` seconds; each step has an
 /// estimated relative error below `tolerance`.
 ///
@@ -79,9 +122,20 @@ pub fn stepped(
     model: &Model,
     way: Way,
     tolerance: f64,
-    (x, v): (f64, f64),
+    start: (f64, f64),
     until: f64,
 ) -> Result<Stepped, Stop> {
+    let Traced { samples, outcome, evaluations, .. } = traced(model, way, tolerance, start, until);
+    match (outcome, samples.last()) {
+        (Outcome::Stops(stop), _) => Err(stop),
+        (_, Some(end)) => Ok(Stepped { end: *end, outcome, evaluations }),
+        (_, None) => Err(Stop::Steps),
+    }
+}
+
+/// The same with all of its steps, as far as it can be followed.
+#[must_use]
+pub fn traced(model: &Model, way: Way, tolerance: f64, (x, v): (f64, f64), until: f64) -> Traced {
     let start = (x, model.scaled_velocity(v));
     let field = Slope { model, phase: Phase::Between };
     match way {
@@ -90,50 +144,76 @@ pub fn stepped(
     }
 }
 
+/// Collects a motion until its time is up.
+struct Trace<'a> {
+    model: &'a Model,
+    whole: f64,
+    left: f64,
+    steps: u64,
+    samples: Vec<State>,
+}
+
+impl Trace<'_> {
+    fn t(&self) -> f64 {
+        (self.whole - self.left.max(0.0)) / self.model.omega_0
+    }
+
+    fn comes(&mut self, x: f64, y: f64) {
+        let state = State { t: self.t(), x, v: y * self.model.omega_0 };
+        self.samples.push(state);
+    }
+}
+
 fn follow<'a>(
     mut stepper: impl Stepper<Slope<'a>>,
     model: &'a Model,
     (mut x, mut y): (f64, f64),
     until: f64,
-) -> Result<Stepped, Stop> {
+) -> Traced {
     let whole = until * model.omega_0;
-    let (mut left, mut steps) = (whole, 0);
+    let mut trace = Trace { model, whole, left: whole, steps: 0, samples: Vec::new() };
+    trace.comes(x, y);
+    let mut legs = Vec::new();
     let mut place = model.place(x, y);
     let outcome = loop {
+        if trace.left <= 0.0 {
+            break Outcome::Moves;
+        }
+        legs.push(Leg { place, t: trace.t(), x });
         let phase = match place {
             Place::Rests => break Outcome::Rests,
             Place::Slips(phase) => phase,
             Place::Sticks => {
                 let release = model.lines.map_or(x, |lines| lines.release);
                 let ride = (release - x) / model.speed;
-                x = if ride <= left { release } else { x + left * model.speed };
-                left -= ride;
-                Phase::Between
+                let rides = ride <= trace.left;
+                x = if rides { release } else { x + trace.left * model.speed };
+                trace.left -= ride;
+                trace.comes(x, y);
+                place = Place::Slips(Phase::Between);
+                continue;
             }
         };
-        if left <= 0.0 {
-            break Outcome::Moves;
+        match arc(&mut stepper, Slope { model, phase }, (x, y), &mut trace) {
+            Ok(end) => (x, y) = end,
+            Err(stop) => break Outcome::Stops(stop),
         }
-        let field = Slope { model, phase };
-        let offset = model.offset(phase);
-        let from = Point { x: x + offset, v: y };
-        let end = arc(&mut stepper, field, from, (&mut left, &mut steps))?;
-        (x, y) = (end.x - offset, end.v);
         place = model.place(x, y);
     };
-    let t = (whole - left.max(0.0)) / model.omega_0;
-    let end = State { t, x, v: y * model.omega_0 };
-    Ok(Stepped { end, outcome, evaluations: stepper.evaluations() })
+    let Trace { samples, steps, .. } = trace;
+    Traced { legs, samples, outcome, evaluations: stepper.evaluations(), steps }
 }
 
 /// Follows a motion to the end of its phase, or until no time is left.
 fn arc<'a>(
     stepper: &mut impl Stepper<Slope<'a>>,
     field: Slope<'a>,
-    mut from: Point,
-    (left, steps): (&mut f64, &mut u64),
-) -> Result<Point, Stop> {
+    (x, y): (f64, f64),
+    trace: &mut Trace,
+) -> Result<(f64, f64), Stop> {
     let Slope { model, phase } = field;
+    let offset = model.offset(phase);
+    let mut from = Point { x: x + offset, v: y };
     let (least, most) = model.range(phase);
     let pieces = &model.side(phase).pieces;
     let low = pieces.first().map_or(f64::INFINITY, |piece| piece.low);
@@ -141,33 +221,37 @@ fn arc<'a>(
     // What has just been released is not faster than the belt, whatever rounding says.
     let mut leaves = phase == Phase::Between && from.v == most;
     stepper.begin(&field);
-    while *left > 0.0 {
-        *steps += 1;
-        if *steps > STEPS {
+    while trace.left > 0.0 {
+        trace.steps += 1;
+        if trace.steps > STEPS {
             return Err(Stop::Steps);
         }
-        let step = stepper.pass(from, LONGEST.min(*left)).map_err(|_| Stop::Escaped)?;
+        let step = stepper.pass(from, LONGEST.min(trace.left)).map_err(|_| Stop::Escaped)?;
         let outer = if leaves { f64::INFINITY } else { most };
         let hit = hit(stepper, field, (from, &step), (least, outer));
         leaves = false;
         if let Some((time, level)) = hit {
             let last = stepper.pass(from, time).map_err(|_| Stop::Escaped)?;
-            *left -= last.duration;
+            trace.left -= last.duration;
             if last.duration >= time {
-                return Ok(Point { x: last.end.x, v: level });
+                let end = (last.end.x - offset, level);
+                trace.comes(end.0, end.1);
+                return Ok(end);
             }
             // The shorter step was refused: it ends before the line.
             from = Point { x: last.end.x, v: last.end.v.clamp(least, most) };
+            trace.comes(from.x - offset, from.v);
             continue;
         }
-        *left -= step.duration;
+        trace.left -= step.duration;
         from = Point { x: step.end.x, v: step.end.v.clamp(least, most) };
+        trace.comes(from.x - offset, from.v);
         if !(low..=high).contains(&from.v) {
             let end = if from.v < low { low } else { high };
             return Err(Stop::OutsideLaw { slip: (model.speed - end).abs() * model.omega_0 });
         }
     }
-    Ok(from)
+    Ok((from.x - offset, from.v))
 }
 
 /// When a step first reaches one of the two levels that bound its phase, and which.

@@ -5,6 +5,7 @@ use crate::flow::trajectory::{Crossing, Outcome, Sample, Trajectory};
 use crate::flow::{Cost, Limits, Method, Problem, Reason};
 use crate::machine::curve::{Curve, Piece};
 use crate::machine::motion::{self, Motion};
+use crate::machine::stepped::{ALLOWED, Traced, Way, traced};
 use crate::machine::turn::Place;
 use crate::machine::{Fate, Flow, Ledger, Model, Phase, Portrait, Stop};
 use crate::numerics::elementary::ln;
@@ -105,8 +106,14 @@ pub fn motion(
     let portrait = Portrait::new(&model).map_err(reason)?;
     model.tolerance = problem.tolerance;
     let units = Units::of(&model);
+    let way = Way::of(problem.method).map_err(|_| Reason::NotApplicable { needs: ALLOWED })?;
     let (x, v) = (problem.initial.q * units.x, problem.initial.v * units.v);
-    let found = Motion::new(&model, x, v, problem.until * units.t);
+    let until = problem.until * units.t;
+    let found = Motion::new(&model, x, v, until);
+    let drawn = match way {
+        Some(way) => Drawn::stepped(traced(&model, way, problem.tolerance, (x, v), until), way),
+        None => Drawn::series(&found, between),
+    };
     let fate = match portrait.fate(x, v) {
         Err(stop @ Stop::OutsideLaw { .. }) => Fate::Unknown(stop),
         fate => fate.map_err(reason)?,
@@ -116,16 +123,48 @@ pub fn motion(
         cycles: portrait.cycles.clone(),
         border: portrait.border.kind(),
         touches: portrait.border.touches(),
-        rides: rides(&found, model.speed * model.omega_0, units),
+        rides: rides(&drawn, model.speed * model.omega_0, units),
         ledger: units.ledger(&found.ledger, &model),
     };
-    Ok((trajectory(&found, problem, between, units), course))
+    Ok((trajectory(&drawn, problem, units), course))
 }
 
-fn trajectory(found: &Motion, problem: &Problem, between: u32, units: Units) -> Trajectory {
+/// A motion as it is drawn, by whichever method.
+struct Drawn {
+    method: Method,
+    legs: Vec<motion::Leg>,
+    samples: Vec<motion::State>,
+    end: motion::State,
+    outcome: motion::Outcome,
+    cost: Cost,
+}
+
+impl Drawn {
+    /// By Taylor series, with so many places between the ends of each step.
+    fn series(found: &Motion, between: u32) -> Self {
+        Drawn {
+            method: Method::Taylor,
+            legs: found.legs.clone(),
+            samples: found.samples(between),
+            end: found.end,
+            outcome: found.outcome,
+            cost: cost(found.curve.pieces.len() as u64),
+        }
+    }
+
+    /// By the steps of another method.
+    fn stepped(found: Traced, way: Way) -> Self {
+        let Traced { legs, samples, outcome, evaluations, steps } = found;
+        let end = samples.last().copied().unwrap_or(motion::State { t: 0.0, x: 0.0, v: 0.0 });
+        let cost = Cost { evaluations, steps, rejected: 0 };
+        Drawn { method: way.method(), legs, samples, end, outcome, cost }
+    }
+}
+
+fn trajectory(found: &Drawn, problem: &Problem, units: Units) -> Trajectory {
     let start = Sample { tau: 0.0, q: problem.initial.q, v: problem.initial.v };
-    let sampled = found.samples(between);
-    let samples = std::iter::once(start).chain(sampled.iter().skip(1).map(|at| units.sample(at)));
+    let sampled = found.samples.iter().skip(1).map(|at| units.sample(at));
+    let samples = std::iter::once(start).chain(sampled);
     let Sample { tau, q, v } = units.sample(&found.end);
     let outcome = match found.outcome {
         motion::Outcome::Rests => Outcome::Captured { tau, q },
@@ -141,16 +180,15 @@ fn trajectory(found: &Motion, problem: &Problem, between: u32, units: Units) -> 
     });
     let crossing =
         |pair: &[motion::Leg]| Crossing { tau: pair[1].t / units.t, q: pair[1].x / units.x };
-    let steps = found.curve.pieces.len() as u64;
     Trajectory {
         problem: *problem,
-        method: Method::Taylor,
+        method: found.method,
         implicit_steps: 0,
         outcome,
         crossings: turns.map(crossing).collect(),
         ledger: None,
         samples: samples.collect(),
-        cost: cost(steps),
+        cost: found.cost,
     }
 }
 
@@ -159,7 +197,7 @@ fn cost(steps: u64) -> Cost {
 }
 
 /// Where a motion rides on the belt, whose speed is `v0`.
-fn rides(found: &Motion, v0: f64, units: Units) -> Vec<[Sample; 2]> {
+fn rides(found: &Drawn, v0: f64, units: Units) -> Vec<[Sample; 2]> {
     let ends = found.legs.iter().skip(1).map(|leg| (leg.t, leg.x));
     let ends = ends.chain([(found.end.t, found.end.x)]);
     let legs = found.legs.iter().zip(ends).filter(|(leg, _)| leg.place == Place::Sticks);

@@ -20,7 +20,7 @@ use crate::flow::Method;
 use crate::machine::branch::{borders, branch, spaced};
 use crate::machine::design::friction_for;
 use crate::machine::guarantee::guaranteed;
-use crate::machine::stepped::Way;
+use crate::machine::stepped::{ALLOWED, Way};
 use crate::machine::survey::{Course, Trouble, survey};
 use crate::machine::{Body, Portrait, Subject, Tolerances};
 use crate::report::belt::branch::{Borders, Branched};
@@ -165,18 +165,12 @@ impl Belt {
 
     /// The method beside Taylor series.
     fn second(&self) -> Result<Option<Way>, Failure> {
-        let way = match self.method {
-            None | Some(Method::Auto | Method::Taylor) => return Ok(None),
-            Some(Method::Dop853) => Way::Dop853,
-            Some(Method::Dopri5) => Way::Dopri5,
-            Some(other) => {
-                let line = format!(
-                    "--method {other} knows one switching line only; a machine has two: allowed are auto, taylor, \
-                     dop853 and dopri5"
-                );
-                return Err(Failure::Usage(line));
-            }
+        let Some(method) = self.method else { return Ok(None) };
+        let refused = |_| {
+            let line = format!("--method {method} does not do here; the method must be {ALLOWED}");
+            Failure::Usage(line)
         };
+        let Some(way) = Way::of(method).map_err(refused)? else { return Ok(None) };
         if self.branch.is_some() || self.sweep.is_some() {
             let line =
                 "--method dop853 and dopri5 follow one motion; --sweep and --branch have none";

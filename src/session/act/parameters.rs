@@ -1,6 +1,7 @@
 //! Commands of the parameter pane: select, step, reset.
 
 use crate::flow::{METHODS, Method, Problem, QUALITIES};
+use crate::machine::stepped::Way;
 use crate::numerics::elementary::log10;
 use crate::scene::{Running, View};
 use crate::session::act::notice::{inform, refuse};
@@ -209,7 +210,11 @@ fn turn(session: &mut Session, decades: i32) -> Vec<Effect> {
 pub fn next_method(session: &mut Session, by: isize) -> Vec<Effect> {
     // Where there is no closed form its method could only give up.
     let nonlinear = session.problem.parameters.d2 != 0.0 || session.problem.parameters.d3 != 0.0;
-    let usable = METHODS.iter().filter(|row| !(nonlinear && row.method == Method::Exact));
+    let whole = session.draws_whole();
+    let usable = METHODS.iter().filter(|row| match whole {
+        true => Way::of(row.method).is_ok(),
+        false => !(nonlinear && row.method == Method::Exact),
+    });
     let rows: Vec<_> = usable.collect();
     let at = rows.iter().position(|row| row.method == session.problem.method).unwrap_or(0);
     let next = at.checked_add_signed(by).unwrap_or(rows.len() - 1) % rows.len();
