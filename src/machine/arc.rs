@@ -7,6 +7,7 @@
 
 use std::fmt;
 
+use super::force::Side;
 use super::model::{Model, Phase};
 use super::series::{FINEST, Series};
 use crate::numerics::elementary::ln;
@@ -39,7 +40,11 @@ impl fmt::Display for Stop {
             ),
             Stop::Escaped => write!(out, "the motion runs away"),
             Stop::Settled => write!(out, "the motion turns no more"),
-            Stop::Steps => write!(out, "the motion takes more than {STEPS} steps to turn"),
+            Stop::Steps => write!(
+                out,
+                "the motion takes more than {STEPS} steps to turn: at the velocities that it reaches its damping is \
+                 many times the critical one; less damping, or a smaller start, can be followed"
+            ),
         }
     }
 }
@@ -64,6 +69,14 @@ pub trait Watch {
     fn step(&mut self, model: &Model, step: &Step);
     /// A piece during which the mass rides on the belt.
     fn stick(&mut self, _model: &Model, _from: f64, _to: f64) {}
+    /// Whether a motion that turns no more is to be followed to its end nevertheless.
+    fn follows(&self) -> bool {
+        false
+    }
+    /// Whether it has seen enough.
+    fn is_done(&self) -> bool {
+        false
+    }
 }
 
 impl Watch for () {
@@ -78,6 +91,9 @@ impl<A: Watch, B: Watch> Watch for (&mut A, &mut B) {
     fn stick(&mut self, model: &Model, from: f64, to: f64) {
         self.0.stick(model, from, to);
         self.1.stick(model, from, to);
+    }
+    fn follows(&self) -> bool {
+        self.0.follows() || self.1.follows()
     }
 }
 
@@ -109,6 +125,9 @@ const LONGEST: f64 = 1.0;
 
 /// A motion that has shrunk by this factor within one arc turns no more.
 const SETTLED: f64 = 1e-200;
+
+/// One that creeps to its balance is followed this far.
+const NEAR: f64 = 1e-16;
 
 /// A motion this small is at rest: its series would underflow.
 const LEAST: f64 = 1e-250;
@@ -194,7 +213,9 @@ impl<'a> Flow<'a> {
             }
             rising = Some(slope > 0.0);
             let size = x.abs().max(y.abs());
-            if size < SETTLED * started {
+            let end = if watch.follows() { NEAR * started } else { f64::INFINITY };
+            let turns = size > end || !creeps(phase, side, (x, y), forward);
+            if size < SETTLED * started || !turns || watch.is_done() {
                 return Err(Stop::Settled);
             }
             if size.is_nan() || size > ESCAPED * started {
@@ -214,6 +235,18 @@ impl<'a> Flow<'a> {
     fn outside(&self, y: f64) -> Stop {
         Stop::OutsideLaw { slip: (self.model.speed - y).abs() * self.model.omega_0 }
     }
+}
+
+/// Whether a motion creeps to the balance of its phase without another turn.
+///
+/// Where every velocity up to `x` decays at least twice as fast as `x` pulls, no motion leaves the wedge
+/// `y = 0 .. -x`: on its edge `y = -x` the sum `x + y` moves inwards.
+fn creeps(phase: Phase, side: &Side, (x, y): (f64, f64), forward: f64) -> bool {
+    const OVERDAMPED: f64 = 2.0;
+    phase != Phase::Above
+        && x * y * forward <= 0.0
+        && y.abs() <= x.abs()
+        && side.decay(x.abs(), forward).is_some_and(|decay| decay >= OVERDAMPED)
 }
 
 /// Where a step turns, and where it first reaches a level.

@@ -139,6 +139,10 @@ pub struct Curve {
 }
 
 impl Watch for Curve {
+    fn follows(&self) -> bool {
+        true
+    }
+
     fn step(&mut self, model: &Model, step: &Step) {
         self.pieces.push(Piece::Slip(Slip {
             phase: step.phase,

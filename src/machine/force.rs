@@ -115,6 +115,26 @@ impl Side {
         })
     }
 
+    /// The least of `-force/y` at velocities up to `reach` in size, along the direction of integration: how
+    /// strongly each of them decays at least. `None` where no bound is at hand.
+    pub fn decay(&self, reach: f64, forward: f64) -> Option<f64> {
+        let covers =
+            |piece: &&Piece| piece.center == 0.0 && piece.low <= -reach && reach <= piece.high;
+        let piece = self.pieces.iter().find(covers)?;
+        let fall = match self.fall.filter(|_| piece.falls) {
+            None => 0.0,
+            // The slope of an exponential is between those at the ends.
+            Some(fall) if fall.exponent == 1.0 => {
+                let slopes = [-reach, reach].map(|y| -forward * fall.slope(y));
+                slopes[0].min(slopes[1])
+            }
+            Some(_) => return None,
+        };
+        let higher = piece.coefficients.iter().skip(2).rev();
+        let higher = higher.fold(0.0, |sum, coefficient| (sum + coefficient.abs()) * reach);
+        Some(fall - forward * piece.coefficients.get(1).unwrap_or(&0.0) - higher)
+    }
+
     /// The force and its derivative; beyond the law the nearest piece goes on.
     pub fn at(&self, y: f64) -> (f64, f64) {
         let found = self.pieces.iter().find(|piece| y <= piece.high).or(self.pieces.last());

@@ -77,6 +77,14 @@ impl Recorder {
 }
 
 impl Watch for Recorder {
+    fn follows(&self) -> bool {
+        true
+    }
+
+    fn is_done(&self) -> bool {
+        self.left <= 0.0
+    }
+
     fn step(&mut self, model: &Model, step: &Step) {
         if self.left <= 0.0 {
             return;
@@ -141,6 +149,7 @@ impl Motion {
             legs.push(Leg { place, t: (whole - recorder.left) / omega_0, x });
             match flow.leg(place, (x, y), &mut recorder) {
                 Ok(Some(next)) => (place, x, y) = next,
+                _ if recorder.left <= 0.0 => break Outcome::Moves,
                 Ok(None) | Err(Stop::Settled) => break Outcome::Rests,
                 Err(stop) => break Outcome::Stops(stop),
             }

@@ -222,3 +222,28 @@ fn where_motions_run_away_the_search_for_cycles_settles() {
     assert_eq!(found.fate(outermost * (1.0 + 1e-9), 0.0), Ok(Fate::Escaped));
     assert!(found.steps < 4000, "{} steps", found.steps);
 }
+
+/// A mode that is fed far beyond critical damping at small velocities, and damped at larger ones.
+fn relaxing(ratio: f64) -> Portrait {
+    let damping_ratio = vec![ratio, 0.0, 2000.0];
+    let (frequency, mass, friction, static_guide) = (120.0, 0.2, 0.03, None);
+    let mode = Modal { frequency, mass, damping_ratio, friction, static_guide };
+    Subject::from(Body::Mode(mode)).portrait().unwrap()
+}
+
+#[test]
+fn a_mode_far_beyond_critical_damping_has_an_answer() {
+    // Overdamped at rest: everything creeps there.
+    let found = relaxing(10.0);
+    assert!(found.cycles.is_empty() && matches!(found.border, Border::None), "{:?}", found.cycles);
+    assert_eq!(found.fate(1e-3, 0.0), Ok(Fate::Rest));
+    // Fed as strongly it relaxes to a cycle: it creeps until feeding and damping cancel at the knee, and leaps.
+    for ratio in [-5.0_f64, -10.0] {
+        let found = relaxing(ratio);
+        let cycle = found.cycles.iter().find(|cycle| cycle.stable).unwrap();
+        // Rayleigh: the knee of 2 ratio w - 2 c w^3 lies at a third of the square at which both cancel.
+        let knee = (-ratio / 2000.0 / 3.0).sqrt();
+        let size = cycle.x.1 / (4.0 / 3.0 * -ratio * knee / found.model.omega_0);
+        assert!((1.0..1.2).contains(&size), "{ratio}: {size}");
+    }
+}
