@@ -19,9 +19,8 @@ pub enum Way {
     Dopri5,
 }
 
-/// The methods that can follow a machine, for whoever asked for another one.
-pub const ALLOWED: &str =
-    "one that knows both switching lines of a machine: auto, taylor, dop853 or dopri5";
+/// The methods that can follow a machine.
+pub const ALLOWED: &str = "auto, taylor, dop853 and dopri5";
 
 /// A method that knows one switching line only.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

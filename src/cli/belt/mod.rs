@@ -167,7 +167,9 @@ impl Belt {
     fn second(&self) -> Result<Option<Way>, Failure> {
         let Some(method) = self.method else { return Ok(None) };
         let refused = |_| {
-            let line = format!("--method {method} does not do here; the method must be {ALLOWED}");
+            let line = format!(
+                "--method {method} knows one switching line only; a machine has two: allowed are {ALLOWED}"
+            );
             Failure::Usage(line)
         };
         let Some(way) = Way::of(method).map_err(refused)? else { return Ok(None) };
