@@ -468,3 +468,63 @@ fn a_fit_is_the_same_in_any_unit() {
         assert!((other.p[row.place] - scaled).abs() < 1e-3 * error, "{}", row.name);
     }
 }
+
+#[test]
+fn readings_at_rest_of_a_coarse_converter_do_not_count_as_if_their_errors_were_independent() {
+    // Steps of five times the noise: every reading at rest is off by the same part of a step.
+    let p = [31.4, 0.0, 0.01, 0.0, 0.0, 0.15, 8.0, 0.35];
+    let (r, mut covered) = (named("r").unwrap().place, 0);
+    for seed in 1..=8_u64 {
+        let offset = 0.05 * (f64::from(u8::try_from(seed).unwrap()) / 8.0);
+        let mut at = p;
+        at[1] = offset;
+        let coarse = Simulated {
+            p: at,
+            start: Start::Release,
+            seconds: 4.0,
+            samples: 2000,
+            noise: 0.01,
+            memory: 0.0,
+        };
+        let mut record = coarse.record(seed);
+        record.x.iter_mut().for_each(|x| *x = (*x / 0.05).round() * 0.05);
+        let found = estimate(&record, &Question::default(), &|| false).unwrap();
+        let interval = found.intervals[r];
+        covered += usize::from(interval.lower.unwrap() <= p[r] && p[r] <= interval.upper.unwrap());
+        assert!(found.alike > 500 && found.outliers() == 0, "{} {}", found.alike, found.outliers());
+        // The bound with one common error of the rest and one of the hold is 1.7 times that of independent errors.
+        let error = found.covariance.error(r);
+        assert!((3e-4..7e-4).contains(&error), "{error}");
+    }
+    assert!(covered >= 7, "{covered} of 8");
+}
+
+#[test]
+fn peaks_go_on_where_the_motion_rests_so_that_intervals_do_not_end_at_that_rim() {
+    // The last two readings are a swing that has nearly died away.
+    let decay = [1.0, 0.3, 0.012, 0.004, 0.0004, 0.1, 8.0, 0.0];
+    let data = Data::Peaks { t: None, x: vec![0.0; 24], ratio: 1.0 };
+    let observation = Observation { data, start: Start::Release, linear: false, reach: 1e9 };
+    let stronger = |r: f64| {
+        let mut p = decay;
+        p[5] = r;
+        observation.compare(&p, false).unwrap()
+    };
+    let last = |r: f64| stronger(r).residuals[23].value;
+    assert!(stronger(0.13).turns.len() < 23);
+    // Continuous across every rim.
+    for step in 0..400_u16 {
+        let r = 0.09 + 1e-4 * f64::from(step);
+        assert!((last(r + 1e-4) - last(r)).abs() < 0.02, "{r}");
+    }
+}
+
+#[test]
+fn what_is_no_decay_is_answered_the_same_every_time() {
+    let t: Vec<f64> = (0..210_u8).map(|i| 0.01 * f64::from(i)).collect();
+    let x = (0..210_u8).map(|i| 0.01 * f64::from(i % 7)).collect();
+    let record = Record { t: Some(t), x, ..Record::default() };
+    let fit = || estimate(&record, &Question::default(), &|| false);
+    let first = format!("{fit:?}", fit = fit());
+    assert!((0..3).all(|_| format!("{fit:?}", fit = fit()) == first));
+}

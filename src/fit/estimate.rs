@@ -58,6 +58,8 @@ pub struct Estimate {
     pub noise: Noise,
     /// Samples flattened at full scale, left out.
     pub saturated: usize,
+    /// Samples at rest that repeat the rounding error of others, left out.
+    pub alike: usize,
     /// Motions computed with and without derivatives.
     pub motions: (u64, u64),
     /// Motions larger than this have escaped.
@@ -68,7 +70,7 @@ impl Estimate {
     /// Samples that are no part of the motion, left out.
     #[must_use]
     pub fn outliers(&self) -> usize {
-        self.used.iter().filter(|used| !**used).count()
+        self.used.iter().filter(|used| !**used).count() - self.alike
     }
 
     /// The rows of the numbers that were asked for and could be estimated.
@@ -166,6 +168,7 @@ pub fn judged(
         extremes: Vec::new(),
         noise: Noise::default(),
         saturated: 0,
+        alike: 0,
         motions: (runs.with_derivatives, runs.plain),
         reach: problem.reach,
     })

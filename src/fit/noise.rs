@@ -1,6 +1,10 @@
 //! What a record shows of its own noise before any model: scatter, steps of the converter, impossible jumps,
 //! and samples flattened at full scale.
 
+use std::f64::consts::PI;
+
+use crate::numerics::elementary::{exp, powi};
+
 /// The median; 0 of nothing.
 #[must_use]
 pub fn median(mut values: Vec<f64>) -> f64 {
@@ -18,27 +22,40 @@ pub fn robust_deviation(values: impl Iterator<Item = f64>) -> f64 {
     median(values.map(f64::abs).collect()) / 0.6745
 }
 
-/// Noise of a record, seen in its second differences.
+/// Noise of a record, seen in its second differences; with few samples a period, in what is left of each sample when
+/// the two before it have told what they can.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Noise {
     /// Standard deviation. Filtered noise looks up to three times smaller here: for thresholds only.
     pub deviation: f64,
     /// Whether some samples jump impossibly.
     pub has_outliers: bool,
+    /// The smallest step from one sample to the next: of the converter, or of the last digit written; 0 of none.
+    pub step: f64,
 }
 
 impl Noise {
-    /// The noise of successive samples.
+    /// The noise of successive samples, of which a period has so many.
     #[must_use]
-    pub fn of(x: &[f64]) -> Self {
+    pub fn of(x: &[f64], samples_per_period: f64) -> Self {
+        /// With fewer samples a period the motion itself has large second differences.
+        const FEW: f64 = 12.0;
         /// This share of impossible second differences makes a record one with outliers.
         const SHARE: f64 = 0.003;
-        let second: Vec<f64> =
-            x.windows(3).map(|three| (three[0] - 2.0 * three[1] + three[2]).abs()).collect();
+        let differences = [0.0, 2.0, -1.0];
+        let [level, one, two] = Some(x)
+            .filter(|_| samples_per_period < FEW)
+            .and_then(told_by_two)
+            .unwrap_or(differences);
+        let second: Vec<f64> = x
+            .windows(3)
+            .map(|three| (three[2] - one * three[1] - two * three[0] - level).abs())
+            .collect();
         let steps = x.windows(2).map(|two| (two[1] - two[0]).abs()).filter(|step| *step > 0.0);
         let least = steps.fold(f64::INFINITY, f64::min);
-        let quantised = if least.is_finite() { least / 12.0_f64.sqrt() } else { 0.0 };
-        let deviation = median(second.clone()) / 0.6745 / 6.0_f64.sqrt();
+        let step = if least.is_finite() { least } else { 0.0 };
+        let quantised = step / 12.0_f64.sqrt();
+        let deviation = median(second.clone()) / 0.6745 / (1.0 + one * one + two * two).sqrt();
         let mut sorted = second.clone();
         sorted.sort_by(f64::total_cmp);
         // With one sample in twelve spoiled, a quarter of the second differences are.
@@ -47,8 +64,40 @@ impl Noise {
         let jumps = sorted.iter().filter(|value| **value > impossible).count();
         #[expect(clippy::cast_precision_loss, reason = "counts of samples")]
         let has_outliers = impossible > 0.0 && jumps as f64 > SHARE * sorted.len() as f64;
-        Noise { deviation: if deviation > 0.0 { deviation } else { quantised }, has_outliers }
+        let deviation = if deviation > 0.0 { deviation } else { quantised };
+        Noise { deviation, has_outliers, step }
     }
+
+    /// How many readings of a mass at rest tell as much as all of them, where residuals have this variance: the
+    /// converter rounds each to the same step, and only noise of a good part of a step averages that error out.
+    ///
+    /// With normal noise of `s` steps the mean reading is off by `sum_k (-1)^k sin(2 pi k x)/(pi k)
+    /// exp(-2 pi^2 k^2 s^2)` steps, the Fourier series of the rounding error, of which the mean square over all
+    /// places x is summed here.
+    #[must_use]
+    pub fn readings_at_rest(&self, variance: f64) -> f64 {
+        const TERMS: u32 = 12;
+        let square = powi(self.step, 2);
+        let dither = (variance / square - 1.0 / 12.0).max(0.0);
+        let term = |k: u32| {
+            let k = f64::from(k);
+            exp(-4.0 * powi(PI * k, 2) * dither) / (2.0 * powi(PI * k, 2))
+        };
+        let bias = square * (1..=TERMS).map(term).sum::<f64>();
+        if bias > 0.0 { variance / bias } else { f64::INFINITY }
+    }
+}
+
+/// The level and the weights of the sample before and of the one before that, which tell a sample best.
+fn told_by_two(x: &[f64]) -> Option<[f64; 3]> {
+    let mut normal = nalgebra::Matrix3::zeros();
+    let mut right = nalgebra::Vector3::zeros();
+    for three in x.windows(3) {
+        let row = nalgebra::Vector3::new(1.0, three[1], three[0]);
+        normal += row * row.transpose();
+        right += row * three[2];
+    }
+    Some(normal.cholesky()?.solve(&right).into())
 }
 
 /// Which samples lie within full scale: a converter that saturates repeats its largest or smallest value far
@@ -116,14 +165,34 @@ mod tests {
     fn noise_is_told_from_the_motion_and_outliers_from_noise() {
         let mut chance = Random::new(3);
         let mut x: Vec<f64> = swing(2000).iter().map(|x| x + 0.02 * chance.normal()).collect();
-        let clean = Noise::of(&x);
+        let clean = Noise::of(&x, 63.0);
         assert!((clean.deviation / 0.02 - 1.0).abs() < 0.1 && !clean.has_outliers, "{clean:?}");
         x.iter_mut().step_by(97).for_each(|x| *x += 1.0);
-        let spoiled = Noise::of(&x);
+        let spoiled = Noise::of(&x, 63.0);
         assert!(
             (spoiled.deviation / 0.02 - 1.0).abs() < 0.2 && spoiled.has_outliers,
             "{spoiled:?}"
         );
+    }
+
+    #[test]
+    fn a_few_samples_a_period_do_not_make_the_motion_look_like_noise() {
+        let mut chance = Random::new(4);
+        let few: Vec<f64> =
+            swing(4000).iter().step_by(16).map(|x| x + 0.02 * chance.normal()).collect();
+        let found = Noise::of(&few, 3.9);
+        assert!((found.deviation / 0.02 - 1.0).abs() < 0.2 && !found.has_outliers, "{found:?}");
+    }
+
+    #[test]
+    fn readings_at_rest_share_the_error_of_their_step_unless_noise_averages_it_out() {
+        let noise = Noise { step: 0.5, ..Noise::default() };
+        let alike = |dither: f64| noise.readings_at_rest(0.25 * (1.0 / 12.0 + dither * dither));
+        // No noise: one reading tells all, to the terms left out. Half a step of noise: all tell something.
+        assert!((alike(0.0) - 1.0).abs() < 0.06, "{}", alike(0.0));
+        assert!((8.0..16.0).contains(&alike(0.2)), "{}", alike(0.2));
+        assert!(alike(0.5) > 1e4);
+        assert_eq!(Noise::default().readings_at_rest(1.0), f64::INFINITY);
     }
 
     #[test]

@@ -129,7 +129,7 @@ impl Observation {
     /// Compares the record with the model.
     ///
     /// # Errors
-    /// [`Lost`] where the model escapes before the record ends, or rests before the last measured peak.
+    /// [`Lost`] where the model escapes before the record ends.
     pub fn compare(&self, p: &Unknowns, with_derivatives: bool) -> Result<Seen, Lost> {
         if !(p[OMEGA0] > 0.0 && p.iter().all(|value| value.is_finite())) {
             return Err(Lost);
@@ -187,12 +187,18 @@ fn peaks(p: &Unknowns, t: Option<&[f64]>, x: &[f64], ratio: f64, way: Way) -> Re
     let way = Way { turns: x.len() - 1, ..way };
     let start = State { q: p[Q0], v: 0.0 };
     let followed = follow(&parameters(p), start, &patience, way, |_, _| {})?;
-    if followed.turns.len() + 1 < x.len() {
-        return Err(Lost);
-    }
     let mut first = Turn { q: p[Q0], ..Default::default() };
     first.q_by[4] = 1.0;
-    let turns: Vec<_> = std::iter::once(first).chain(followed.turns.iter().copied()).collect();
+    let mut turns: Vec<_> = std::iter::once(first).chain(followed.turns.iter().copied()).collect();
+    // A swing that has died away goes on as one of no size: so nothing jumps where the last turning point crosses
+    // the rim of the sticking set.
+    while followed.rests && turns.len() < x.len() {
+        let last = turns[turns.len() - 1];
+        turns.push(Turn { tau: last.tau + std::f64::consts::PI, ..last });
+    }
+    if turns.len() < x.len() {
+        return Err(Lost);
+    }
     let mut residuals = Vec::with_capacity(2 * x.len());
     for (turn, x) in turns.iter().zip(x) {
         let mut by = unknowns(&turn.q_by);

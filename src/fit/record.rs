@@ -184,7 +184,8 @@ fn read(cell: &str, comma_is_decimal: bool) -> Cell {
     if MISSING.contains(&cell.to_ascii_lowercase().as_str()) {
         return Cell::Missing;
     }
-    let plain = if comma_is_decimal && cell.contains(',') {
+    // A comma at the end of a cell separates it from the next.
+    let plain = if comma_is_decimal && cell.contains(',') && !cell.ends_with(',') {
         // With both signs the later one is the decimal sign, the other one groups digits.
         if cell.rfind(',') > cell.rfind('.') {
             cell.replace('.', "").replace(',', ".")
@@ -374,6 +375,7 @@ mod tests {
             "0.000e0  1.5\n 1.0e-3 -2.25\n2e-3 3\n",
             "n,T [degC],t [us],x [um]\n1,20,0,1.5\n2,20,1000,-2.25\n3,20,2000,3\n",
             "0,0 1,5\n0,001 -2,25\n0,002 3,0\n",
+            "t (s), T (degC), position (mm)\n0, 20.5, 1.5\n0.001, 20.6, -2.25\n0.002, 20, 3.0\n",
             "\"t (s)\",\"x (mm)\"\n\"0\",\"1.5\"\n\"0.001\",\"-2.25\"\n\"0.002\",\"3\"\n",
             "rig 4; floor 2\n\nt/s;x/mm\n0;1.5\n0.001;-2.25\n0.001;-2.25\n0.0015;NaN\n0.0016;\n0.002;3",
             "0;1.5\n0.001;-2.25\n0.002;3\n0.00",

@@ -5,29 +5,36 @@ use super::guess::{Guess, guess};
 use super::levenberg_marquardt::{NoFit, Runs};
 use super::loss::Loss;
 use super::noise::{Noise, robust_deviation, within_scale};
-use super::observation::Data;
+use super::observation::{Data, LAST, OMEGA0, Start};
 use super::problem::Problem;
 use super::question::{LossName, Question, Unfit, placed, reach};
 use super::record::Record;
 use super::search::Found;
+use super::spectrum::dominant_frequency;
+use crate::numerics::elementary::powi;
 
 /// Fits a record of samples.
 ///
 /// # Errors
 /// [`Unfit`].
 pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<Estimate, Unfit> {
-    let within = within_scale(&record.x, Noise::of(&record.x).deviation);
+    let all = record.t.as_deref().unwrap_or_default();
+    #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
+    let per_period = dominant_frequency(all, &record.x).map_or(f64::INFINITY, |frequency| {
+        all.len() as f64 / ((all[all.len() - 1] - all[0]) * frequency)
+    });
+    let within = within_scale(&record.x, Noise::of(&record.x, per_period).deviation);
     let keep = |values: &[f64]| -> Vec<f64> {
         values.iter().zip(&within).filter(|(_, within)| **within).map(|(value, _)| *value).collect()
     };
-    let (t, x) = (keep(record.t.as_deref().unwrap_or_default()), keep(&record.x));
+    let (t, x) = (keep(all), keep(&record.x));
     let held = question.choice.unknowns();
     let free = held.map(|held| held.is_none());
     let unknowns = free.iter().filter(|free| **free).count();
     if x.len() < unknowns + 8 {
         return Err(Unfit::TooFew { measured: x.len(), unknowns });
     }
-    let noise = Noise::of(&x);
+    let noise = Noise::of(&x, per_period);
     let Guess { mut beginnings, extremes } = guess(&t, &x, &noise).ok_or(Unfit::NoSwings)?;
     for guess in beginnings.iter_mut().flat_map(|beginning| &mut beginning.guesses) {
         *guess = placed(&held, *guess);
@@ -44,15 +51,82 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
     let mut problem = Problem { data: &data, free, loss, used: &[], noise: noise.deviation, reach };
     let mut found = problem.search(&beginnings, runs)?;
     let mut used = vec![true; data.residuals()];
+    let mut alike = used.clone();
     if question.loss == LossName::Auto {
         problem.loss = Loss::Linear;
         used = refined(&problem, loss.is_robust(), &mut found, runs)?;
+        alike = telling(&problem, &noise, &mut used, &mut found, runs)?;
     }
-    let saturated = within.iter().filter(|within| !**within).count();
+    let count = |flags: &[bool]| flags.iter().filter(|flag| !**flag).count();
     let mut estimate = judged(&problem, &used, &found, runs)?;
-    estimate.choice = question.choice.clone();
-    (estimate.extremes, estimate.noise, estimate.saturated) = (extremes, noise, saturated);
+    (estimate.alike, estimate.saturated) = (count(&alike), count(&within));
+    (estimate.choice, estimate.extremes, estimate.noise) =
+        (question.choice.clone(), extremes, noise);
     Ok(estimate)
+}
+
+/// Leaves out readings of a mass at rest that repeat the rounding error of others, and fits again; those that tell
+/// something.
+fn telling(
+    problem: &Problem,
+    noise: &Noise,
+    used: &mut [bool],
+    found: &mut Found,
+    runs: &mut Runs,
+) -> Result<Vec<bool>, NoFit> {
+    /// The fit that a common error of the rest had misled shows too much noise.
+    const ROUNDS: usize = 2;
+    let possible = used.to_vec();
+    let mut telling = vec![true; used.len()];
+    for _ in 0..ROUNDS {
+        let best = &found.valleys[0].optimum;
+        let values = best.seen.residuals.iter().zip(&*used).filter(|(_, used)| **used);
+        let (sum, count) =
+            values.fold((0.0, 0.0), |(sum, count), (it, _)| (sum + powi(it.value, 2), count + 1.0));
+        let enough = noise.readings_at_rest(sum / count);
+        let now = some_at_rest(problem, found, enough);
+        if now == telling {
+            break;
+        }
+        telling = now;
+        for ((used, possible), telling) in used.iter_mut().zip(&possible).zip(&telling) {
+            *used = *possible && *telling;
+        }
+        let problem = Problem { used, ..*problem };
+        let observation = problem.observation(found.start);
+        let task = problem.task(&observation);
+        let optimum = task.solve(best.p, runs)?;
+        found.valleys = problem.valleys(&task, optimum, runs)?;
+    }
+    Ok(telling)
+}
+
+/// All samples in motion, and of those held and those at rest so many, evenly spread; at least two.
+fn some_at_rest(problem: &Problem, found: &Found, enough: f64) -> Vec<bool> {
+    const FEWEST: usize = 2;
+    let Data::Samples { t, .. } = problem.data else { return vec![true; problem.data.residuals()] };
+    let best = &found.valleys[0].optimum;
+    let release = match found.start {
+        Start::Release => best.p[LAST],
+        Start::Moving => t[0],
+    };
+    let held = t.partition_point(|&t| t < release);
+    let end = best.seen.turns.last().filter(|_| best.seen.rests);
+    let rest =
+        end.map_or(t.len(), |turn| t.partition_point(|&t| t < release + turn.tau / best.p[OMEGA0]));
+    let mut some = vec![true; t.len()];
+    for stretch in [0..held, rest..t.len()] {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "capped")]
+        let kept = (enough.ceil().min(1e9) as usize).max(FEWEST);
+        let length = stretch.len();
+        if length > kept {
+            some[stretch.clone()].fill(false);
+            for number in 0..kept {
+                some[stretch.start + (2 * number + 1) * length / (2 * kept)] = true;
+            }
+        }
+    }
+    some
 }
 
 /// Leaves out what cannot belong to the motion and fits again, until nothing changes.

@@ -1,6 +1,9 @@
 //! The turning points of a noisy record.
 
+use std::f64::consts::TAU;
+
 use super::noise::median;
+use crate::numerics::elementary::{atan2, hypot, sin_cos};
 
 /// A turning point read off a record.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,7 +50,8 @@ pub fn turning_points(t: &[f64], x: &[f64], period: f64, hysteresis: f64) -> Vec
     let corners = zigzag(&smooth, hysteresis);
     let mut found: Vec<Extreme> = Vec::new();
     for corner in corners {
-        let extreme = refined(t, x, corner, period / 9.0)
+        let extreme = parabola(t, x, corner, period / 9.0)
+            .or_else(|| swing(t, x, corner, period))
             .unwrap_or(Extreme { t: t[corner], x: smooth[corner] });
         found.push(extreme);
     }
@@ -93,9 +97,38 @@ fn zigzag(x: &[f64], hysteresis: f64) -> Vec<usize> {
     corners
 }
 
+/// The turning point of an undamped swing through the samples within half a period of a corner: for records of a
+/// few samples a period, which hardly ever meet the turning points themselves.
+fn swing(t: &[f64], x: &[f64], corner: usize, period: f64) -> Option<Extreme> {
+    /// Just more than half a period, so that four samples a period are five.
+    const REACH: f64 = 0.55;
+    let turn = |s: f64| {
+        let (sine, cosine) = sin_cos(TAU * REACH * s);
+        [1.0, cosine, sine]
+    };
+    let [middle, cosine, sine] = fitted(t, x, t[corner], REACH * period, turn)?;
+    let up = if x[corner] > middle { 1.0 } else { -1.0 };
+    let phase = atan2(up * sine, up * cosine) / TAU;
+    let found = Extreme { t: t[corner] + phase * period, x: middle + up * hypot(cosine, sine) };
+    (phase.abs() <= 0.25).then_some(found)
+}
+
 /// The vertex of the parabola through the samples within `reach` of a corner.
-fn refined(t: &[f64], x: &[f64], corner: usize, reach: f64) -> Option<Extreme> {
-    let middle = t[corner];
+fn parabola(t: &[f64], x: &[f64], corner: usize, reach: f64) -> Option<Extreme> {
+    let [level, slope, bend] = fitted(t, x, t[corner], reach, |s| [1.0, s, s * s])?;
+    let s = -slope / (2.0 * bend);
+    (s.abs() <= 1.0).then(|| Extreme { t: t[corner] + s * reach, x: level + 0.5 * s * slope })
+}
+
+/// The sum of three functions of `s = (t - middle)/reach` that comes nearest to the samples within reach; `None` of
+/// fewer than five.
+fn fitted(
+    t: &[f64],
+    x: &[f64],
+    middle: f64,
+    reach: f64,
+    functions: impl Fn(f64) -> [f64; 3],
+) -> Option<[f64; 3]> {
     let from = t.partition_point(|&t| t < middle - reach);
     let to = t.partition_point(|&t| t <= middle + reach);
     if to - from < 5 {
@@ -104,12 +137,9 @@ fn refined(t: &[f64], x: &[f64], corner: usize, reach: f64) -> Option<Extreme> {
     let mut normal = nalgebra::Matrix3::zeros();
     let mut right = nalgebra::Vector3::zeros();
     for (t, x) in t[from..to].iter().zip(&x[from..to]) {
-        let s = (t - middle) / reach;
-        let row = nalgebra::Vector3::new(1.0, s, s * s);
+        let row = nalgebra::Vector3::from(functions((t - middle) / reach));
         normal += row * row.transpose();
         right += row * *x;
     }
-    let fitted = normal.cholesky()?.solve(&right);
-    let s = -fitted[1] / (2.0 * fitted[2]);
-    (s.abs() <= 1.0).then(|| Extreme { t: middle + s * reach, x: fitted[0] + 0.5 * s * fitted[1] })
+    Some(normal.cholesky()?.solve(&right).into())
 }

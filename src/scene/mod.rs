@@ -16,7 +16,7 @@ pub mod window;
 pub use crate::question::{Answer, Answered, Fit, Fitted, Recording, Request, TOPICS, Topic};
 pub use layer::{LAYERS, Layer, LayerSpec, letters};
 pub use library::{NoScene, find, library, plain};
-pub use machine::{Machine, Running, ScaledMachine};
+pub use machine::{Machine, Running, ScaledMachine, Setting};
 pub use misread::Misread;
 pub use ordinate::{ABSCISSAE, Height, ORDINATES, Ordinate, Unit};
 pub use scene::{Scene, Variant};

@@ -12,11 +12,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::flow::Problem;
 use crate::flow::method::{EPSILON_RANGE, STEP_RANGE};
-use crate::oscillator::belt::Quantity;
 use crate::oscillator::{PARAMETERS, State, Symbol};
 use crate::scene::file::{TOLERANCE_RANGE, UNTIL_RANGE};
 use crate::scene::{
-    Arrangement, Axes, Layer, MOST_PLOTS, PlotSetup, Point, Scene, View, Window, find,
+    Arrangement, Axes, Layer, MOST_PLOTS, PlotSetup, Point, Scene, Setting, View, Window, find,
 };
 use crate::session::replay;
 use crate::session::replay::script::Step;
@@ -54,9 +53,9 @@ struct File {
     plots: Vec<Look>,
     #[serde(default)]
     marks: BTreeMap<char, Problem>,
-    /// The speeds of the belt at marks on machines.
+    /// What the machine is set to at marks.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    belts: BTreeMap<char, f64>,
+    belts: BTreeMap<char, Setting>,
     /// Where the motions start beside those of marks.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     beside: BTreeMap<char, Vec<State>>,
@@ -68,7 +67,7 @@ struct File {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     left_beside: Vec<State>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    left_belt: Option<f64>,
+    left_belt: Option<Setting>,
     #[serde(default, skip_serializing_if = "Doubt::is_none")]
     left_doubt: Doubt,
     /// Recorded keys, as keystroke files.
@@ -100,7 +99,7 @@ struct Show {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     beside: Vec<State>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    belt: Option<f64>,
+    belt: Option<Setting>,
     #[serde(default, skip_serializing_if = "Doubt::is_none")]
     doubt: Doubt,
     scene: Named,
@@ -126,12 +125,12 @@ enum Change {
     Motion(Problem),
     MotionOnBelt {
         motion: Problem,
-        belt: f64,
+        belt: Setting,
     },
     Motions {
         motion: Problem,
         beside: Vec<State>,
-        belt: Option<f64>,
+        belt: Option<Setting>,
         #[serde(default, skip_serializing_if = "Doubt::is_none")]
         doubt: Doubt,
     },
@@ -169,7 +168,7 @@ pub fn text(session: &Session) -> Result<String, String> {
             steps: session.steps,
             motion: session.problem,
             beside: session.others.all().to_vec(),
-            belt: session.belt_speed,
+            belt: session.setting,
             doubt: session.doubt,
             scene: named(&session.scene),
         },
@@ -184,7 +183,7 @@ pub fn text(session: &Session) -> Result<String, String> {
             .marks
             .places
             .iter()
-            .filter_map(|(name, mark)| Some((*name, mark.setup.belt_speed?)))
+            .filter_map(|(name, mark)| Some((*name, mark.setup.setting?)))
             .collect(),
         beside: session
             .marks
@@ -206,7 +205,7 @@ pub fn text(session: &Session) -> Result<String, String> {
             .left
             .as_ref()
             .map_or_else(Vec::new, |mark| mark.setup.others.all().to_vec()),
-        left_belt: session.marks.left.as_ref().and_then(|mark| mark.setup.belt_speed),
+        left_belt: session.marks.left.as_ref().and_then(|mark| mark.setup.setting),
         left_doubt: session.marks.left.as_ref().map_or_else(Doubt::default, |it| it.setup.doubt),
         registers: session
             .macros
@@ -235,9 +234,9 @@ fn look(plot: &Plot) -> Look {
 
 fn change(before: &Before) -> Change {
     match before {
-        Before::Setup(Setup { problem, others, belt_speed, doubt }) => {
+        Before::Setup(Setup { problem, others, setting, doubt }) => {
             let motion = *problem;
-            match (others.all(), belt_speed) {
+            match (others.all(), setting) {
                 ([], None) if doubt.is_none() => Change::Motion(motion),
                 ([], Some(belt)) if doubt.is_none() => Change::MotionOnBelt { motion, belt: *belt },
                 (others, belt) => {
@@ -257,7 +256,7 @@ fn change(before: &Before) -> Change {
                 steps: snapshot.steps,
                 motion: snapshot.setup.problem,
                 beside: snapshot.setup.others.all().to_vec(),
-                belt: snapshot.setup.belt_speed,
+                belt: snapshot.setup.setting,
                 doubt: snapshot.setup.doubt,
                 scene: named(&snapshot.scene),
             }),
@@ -371,8 +370,8 @@ fn scene(named: Named) -> Result<Arc<Scene>, String> {
     }
 }
 
-/// A motion, and a speed of the belt, whose numbers are all within their ranges.
-fn checked(problem: Problem, beside: &[State], belt_speed: Option<f64>) -> Result<Setup, String> {
+/// A motion, and a setting of a machine, whose numbers are all within their ranges.
+fn checked(problem: Problem, beside: &[State], setting: Option<Setting>) -> Result<Setup, String> {
     for row in &PARAMETERS {
         let value = row.symbol.get(&problem.parameters, &problem.initial);
         row.check(value).map_err(|refused| refused.to_string())?;
@@ -387,9 +386,8 @@ fn checked(problem: Problem, beside: &[State], belt_speed: Option<f64>) -> Resul
             return Err(format!("{name} = {value:?} is outside its range {min:?} .. {max:?}"));
         }
     }
-    if let Some(speed) = belt_speed {
-        Quantity::BeltSpeed.check(speed).map_err(|refused| refused.to_string())?;
-    }
+    let setting = setting.map(Setting::checked).transpose();
+    let setting = setting.map_err(|refused| refused.to_string())?;
     let others = Starts::of(beside).ok_or_else(|| {
         format!("{} motions beside another; there can be {}", beside.len(), MOST_MOTIONS - 1)
     })?;
@@ -398,7 +396,7 @@ fn checked(problem: Problem, beside: &[State], belt_speed: Option<f64>) -> Resul
     {
         symbol.spec().check(value).map_err(|refused| refused.to_string())?;
     }
-    Ok(Setup { problem, others, belt_speed, doubt: Doubt::default() })
+    Ok(Setup { problem, others, setting, doubt: Doubt::default() })
 }
 
 /// As many plots as a screen can have.

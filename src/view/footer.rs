@@ -109,12 +109,17 @@ fn entry(entry: &Entry, session: &Session, look: &Look) -> Vec<Span<'static>> {
             let names = QUALITIES.map(|quality| quality.name).join(", ");
             Span::styled(format!("  {min:e} .. {max}, or {names}"), look.style(Role::Quiet))
         }
-        (None, Row::Belt) => {
+        (None, Row::BELT) => {
             let text = "  speed of the belt, such as 0.3 m/s or 30 cm/s";
             Span::styled(text, look.style(Role::Quiet))
         }
+        (None, Row::Quantity(quantity)) => {
+            let spec = quantity.spec();
+            let text = format!("  {}, in {} or with its unit", spec.meaning, spec.unit);
+            Span::styled(text, look.style(Role::Quiet))
+        }
         (None, Row::Disturbance) => {
-            let text = "  bound on a force that varies in any way, in the unit of r";
+            let text = "  bound on a force that varies in any way, in the unit of r or in N";
             Span::styled(text, look.style(Role::Quiet))
         }
         (None, Row::Until | Row::Method) => Span::raw(""),

@@ -12,7 +12,6 @@ use super::pane::{self, Heading};
 use super::prose;
 use crate::flow::Problem;
 use crate::oscillator::Symbol;
-use crate::oscillator::belt::Quantity;
 use crate::picture::role::Role;
 use crate::scene::Layer;
 use crate::session::{Pane, Row, Session, Setup};
@@ -105,11 +104,11 @@ fn row_line(
     // Two blanks before the value and two behind it.
     let room = VALUES - name.len() - 3;
     let sign = look.symbols().plus_minus;
-    let text = |setup: &Setup| value(setup, row, room, sign);
+    let text = |setup: &Setup| value(session, setup, row, room, sign);
     let (value, of_scene) = (text(&session.setup()), text(&Setup::of_scene(&session.scene)));
     let changed = value != of_scene;
     // Numbers changed by hand are those of no belt speed: its row is out of use until it is set again.
-    let off = row == Row::Belt && session.is_on_the_belt() == Some(false);
+    let off = matches!(row, Row::Quantity(_)) && session.is_on_the_belt() == Some(false);
     let value = if off { format!("({value})") } else { value };
     let gap = VALUES.saturating_sub(name.len() + value.chars().count() + 1).max(1);
     let style = look.style(role);
@@ -157,10 +156,13 @@ fn error(session: &Session, row: Row, look: &Look) -> Option<String> {
 fn physical(session: &Session, row: Row) -> Option<(&'static str, String)> {
     let running = session.running()?;
     let (name, value, unit) = match row {
-        Row::Belt if session.is_on_the_belt() == Some(false) => {
+        Row::BELT if session.is_on_the_belt() == Some(false) => {
             return Some(("v0", "off the belt".to_owned()));
         }
-        Row::Belt => ("v0", running.speed, "m/s"),
+        Row::Quantity(quantity) => {
+            let spec = quantity.spec();
+            (spec.name, session.quantity(quantity), spec.unit)
+        }
         Row::Parameter(symbol) => running.meaning(symbol, session.value(symbol))?,
         Row::Disturbance => ("w", session.doubt.disturbance * running.reduced.units.force, "N"),
         Row::Until => ("t", session.problem.until * running.reduced.units.time, "s"),
@@ -169,10 +171,15 @@ fn physical(session: &Session, row: Row) -> Option<(&'static str, String)> {
     Some((name, with_unit(value, 4, unit)))
 }
 
-fn value(setup: &Setup, row: Row, width: usize, sign: &str) -> String {
-    let Setup { problem, belt_speed, doubt, .. } = setup;
+fn value(session: &Session, setup: &Setup, row: Row, width: usize, sign: &str) -> String {
+    let Setup { problem, setting, doubt, .. } = setup;
     match row {
-        Row::Belt => belt_speed.map_or_else(String::new, |speed| exact(speed, width)),
+        Row::Quantity(quantity) => {
+            let of_file =
+                session.scene.machine.as_ref().map(|scaled| scaled.machine.belt.get(quantity));
+            let value = setting.and_then(|it| it.get(quantity)).or(of_file);
+            value.map_or_else(String::new, |value| exact(value, width))
+        }
         Row::Parameter(symbol) => {
             let value = symbol.get(&problem.parameters, &problem.initial);
             let half = doubt.half_width(symbol);
@@ -201,7 +208,7 @@ fn step(session: &Session, row: Row, look: &Look) -> Option<String> {
 
 fn meaning(problem: &Problem, row: Row) -> &'static str {
     match row {
-        Row::Belt => Quantity::BeltSpeed.spec().meaning,
+        Row::Quantity(quantity) => quantity.spec().meaning,
         Row::Parameter(symbol) => symbol.spec().meaning,
         Row::Disturbance => "bound on a disturbance",
         Row::Until => "end time",

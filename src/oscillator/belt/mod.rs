@@ -17,7 +17,7 @@ pub mod taylor;
 
 pub use friction::{Derivatives, FrictionLaw};
 pub use mass::{Belt, BeltError, Reduced, Units};
-pub use quantity::{Dimension, QUANTITIES, Quantity};
+pub use quantity::{Dimension, Outside, QUANTITIES, Quantity};
 pub use taylor::TaylorError;
 
 #[cfg(test)]

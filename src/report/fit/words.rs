@@ -34,6 +34,7 @@ fn left_out(fitted: &Fitted) -> Vec<String> {
         (fitted.record.missing, "row", "without a number"),
         (fitted.record.repeated, "row", "repeating another one"),
         (fitted.estimate.saturated, "sample", "flattened at full scale"),
+        (fitted.estimate.alike, "sample", "at rest that the steps of the converter round alike"),
         (
             fitted.estimate.outliers(),
             "sample",

@@ -10,7 +10,9 @@ pub mod unit;
 mod description;
 mod running;
 mod scaled;
+mod setting;
 
 pub use description::Machine;
 pub use running::Running;
 pub use scaled::ScaledMachine;
+pub use setting::Setting;

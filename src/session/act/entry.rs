@@ -1,14 +1,14 @@
 //! Typing a value: the line opens, takes characters, and is accepted or refused.
 
 use crate::flow::{METHODS, Method, Problem, QUALITIES};
-use crate::oscillator::belt::Quantity;
+use crate::oscillator::belt::{Dimension, Quantity};
 use crate::oscillator::{Interval, ParameterBox, Symbol};
 use crate::scene::machine::file::value_of;
-use crate::scene::machine::unit::measured;
+use crate::scene::machine::unit::{measured, toleranced};
 use crate::session::act::parameters::put;
 use crate::session::effect::Effect;
 use crate::session::message::key::Key;
-use crate::session::read::numbers::{number, range, typed, with_number};
+use crate::session::read::numbers::{range, typed, with_number};
 use crate::session::state::doubt::Doubt;
 use crate::session::state::overlay::{Entry, Overlay};
 use crate::session::state::rows::Row;
@@ -21,7 +21,9 @@ pub fn edit(session: &mut Session) -> Vec<Effect> {
     let row = session.selected;
     let text = match row {
         Row::Method => session.problem.method.to_string(),
-        Row::Belt => format!("{} m/s", shortest(number(&session.setup(), row))),
+        Row::Quantity(quantity) => {
+            format!("{} {}", shortest(session.quantity(quantity)), quantity.spec().unit)
+        }
         Row::Parameter(_) | Row::Disturbance | Row::Until | Row::Tolerance => {
             typed(&session.setup(), row)
         }
@@ -61,13 +63,11 @@ pub(in crate::session) fn read(
     row: Row,
     text: &str,
 ) -> Result<Setup, String> {
-    if row == Row::Belt {
-        let text = plain_minus(text);
-        let speed = value_of(Quantity::BeltSpeed, &measured(&text)?)?;
-        return session.at_belt_speed(setup, speed);
+    if let Row::Quantity(quantity) = row {
+        return built(session, setup, quantity, &plain_minus(text));
     }
     if row == Row::Disturbance {
-        return disturbed(setup, text);
+        return disturbed(session, setup, text);
     }
     if let Row::Parameter(symbol) = row {
         return within(setup, symbol, text);
@@ -76,11 +76,28 @@ pub(in crate::session) fn read(
     Ok(Setup { problem, ..setup })
 }
 
-/// What stands there with the typed bound on the disturbance.
-fn disturbed(setup: Setup, text: &str) -> Result<Setup, String> {
-    let value = plain_minus(text).parse().ok().filter(|it: &f64| it.is_finite() && *it >= 0.0);
-    let disturbance =
-        value.ok_or_else(|| format!("{text:?} is no disturbance; w takes 0 or more"))?;
+/// What stands there with the typed number of the machine, which may have a tolerance where a parameter stands for
+/// it; without one it is known as it was.
+fn built(session: &Session, setup: Setup, quantity: Quantity, text: &str) -> Result<Setup, String> {
+    let read = toleranced(&text.replace('\u{b1}', "+-"))?;
+    let built = session.with_quantity(setup, quantity, value_of(quantity, &read.middle)?)?;
+    if read.half_width == 0.0 {
+        return Ok(built);
+    }
+    let doubt = session.with_tolerance(&built, quantity, read.half_width)?;
+    Ok(Setup { doubt, ..built })
+}
+
+/// What stands there with the typed bound on the disturbance: in the unit of r, or with a unit of force.
+fn disturbed(session: &Session, setup: Setup, text: &str) -> Result<Setup, String> {
+    let refused = || format!("{text:?} is no disturbance; w takes 0 or more");
+    let read = measured(&plain_minus(text)).map_err(|_| refused())?;
+    let unit = match read.dimension {
+        None => 1.0,
+        Some(_) => session.unit_of_force(&setup)?,
+    };
+    let value = read.as_a(Dimension::FORCE, "N")? / unit;
+    let disturbance = Some(value).filter(|it| *it >= 0.0).ok_or_else(refused)?;
     Ok(Setup { doubt: Doubt { disturbance: disturbance + 0.0, ..setup.doubt }, ..setup })
 }
 

@@ -1,9 +1,12 @@
 //! Commands of the parameter pane: select, step, reset.
 
+use std::sync::Arc;
+
 use crate::flow::{METHODS, Method, Problem, QUALITIES};
 use crate::machine::stepped::Way;
 use crate::numerics::elementary::log10;
-use crate::scene::{Running, View};
+use crate::oscillator::belt::Quantity;
+use crate::scene::{Running, Setting, View};
 use crate::session::act::notice::{inform, refuse};
 use crate::session::effect::Effect;
 use crate::session::read::numbers::{number, range, with_number};
@@ -50,7 +53,7 @@ pub fn step(session: &mut Session, count: i32) -> Vec<Effect> {
     match session.selected {
         Row::Method => return next_method(session, count.signum() as isize),
         Row::Tolerance => return turn(session, count.signum()),
-        Row::Belt => return step_belt(session, count),
+        Row::Quantity(quantity) => return step_machine(session, quantity, count),
         Row::Disturbance => return step_disturbance(session, count),
         Row::Parameter(_) | Row::Until => {}
     }
@@ -72,14 +75,19 @@ pub fn step(session: &mut Session, count: i32) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Steps the speed of the belt; from off the belt, back onto it. What is no speed is refused: an end of
-/// the range, far below any belt, would be no place to stop at.
-fn step_belt(session: &mut Session, count: i32) -> Vec<Effect> {
-    let speed = session.steps.belt.from(number(&session.setup(), Row::Belt), count);
-    match session.at_belt_speed(session.setup(), speed) {
+/// Steps a number of the machine; from off the belt, back onto it. What is out of its range is refused: an end of
+/// the range of speeds, far below any belt, would be no place to stop at.
+fn step_machine(session: &mut Session, quantity: Quantity, count: i32) -> Vec<Effect> {
+    let Some(size) = session.steps.of(Row::Quantity(quantity)) else { return Vec::new() };
+    let value = size.from(session.quantity(quantity), count);
+    match session.with_quantity(session.setup(), quantity, value) {
         Ok(setup) => {
             if !put(session, setup) {
-                refuse(session, format!("the step is too small to change {} m/s", shortest(speed)));
+                let unit = quantity.spec().unit;
+                refuse(
+                    session,
+                    format!("the step is too small to change {} {unit}", shortest(value)),
+                );
             }
         }
         Err(why) => refuse(session, why),
@@ -136,9 +144,9 @@ pub fn reset_row(session: &mut Session) -> Vec<Effect> {
         *size = wanted;
     }
     let reset = match row {
-        Row::Belt => session.scene.machine.as_ref().map_or_else(
+        Row::Quantity(quantity) => session.scene.machine.as_ref().map_or_else(
             || Ok(present),
-            |scaled| session.at_belt_speed(present, scaled.machine.belt.belt_speed),
+            |scaled| session.with_quantity(present, quantity, scaled.machine.belt.get(quantity)),
         ),
         Row::Method => {
             Ok(Setup { problem: Problem { method: scene.method, ..session.problem }, ..present })
@@ -226,16 +234,21 @@ pub fn next_method(session: &mut Session, by: isize) -> Vec<Effect> {
 }
 
 impl Session {
-    /// Makes this what is on show, with a speed of the belt if and only if there is one.
+    /// Makes this what is on show, with a setting of the machine if and only if there is one.
     pub(in crate::session) fn set_setup(&mut self, setup: Setup) {
-        let Setup { problem, others, belt_speed, doubt } = setup;
+        let Setup { problem, others, setting, doubt } = setup;
         self.doubt = doubt;
         let scaled = self.scene.machine.as_ref();
-        let can_run =
-            |speed: &f64| scaled.is_some_and(|scaled| Running::at(&scaled.machine, *speed).is_ok());
-        let own = scaled.map(|scaled| scaled.machine.belt.belt_speed);
-        let present = self.belt_speed.filter(can_run);
-        self.belt_speed = belt_speed.filter(can_run).or(present).or(own);
+        let can_run = |setting: &Setting| {
+            scaled.is_some_and(|scaled| {
+                Running::at(&setting.on(&scaled.machine), setting.speed).is_ok()
+            })
+        };
+        let own = scaled.map(|scaled| Setting::of_speed(scaled.machine.belt.belt_speed));
+        let present = self.setting.filter(can_run);
+        self.setting = setting.filter(can_run).or(present).or(own);
+        let rebuilt = scaled.zip(self.setting).filter(|(_, setting)| setting.differs());
+        self.rebuilt = rebuilt.map(|(scaled, setting)| Arc::new(setting.on(&scaled.machine)));
         // The ledger has lines for each motion.
         if self.others.all().len() != others.all().len() {
             let ledgers =

@@ -2,6 +2,7 @@
 
 use crate::flow::Problem;
 use crate::oscillator::State;
+use crate::oscillator::belt::Quantity;
 use crate::scene::{PlotSetup, Point, Span, View, Window};
 use crate::session::act::notice::{inform, refuse, told};
 use crate::session::act::parameters::{change, put};
@@ -35,9 +36,10 @@ fn cursor_origin(session: &Session, plot: &Plot) -> Point {
         View::TimeSeries => Point { x: 0.0, y: session.problem.initial.q },
         View::EnergyLedger => Point { x: 0.0, y: 0.0 },
         View::EnergyRate => Point { x: session.problem.initial.v, y: 0.0 },
-        View::Speeds => {
-            Point { x: session.belt_speed.unwrap_or(window.center().x), y: window.center().y }
-        }
+        View::Speeds => Point {
+            x: session.setting.map_or(window.center().x, |it| it.speed),
+            y: window.center().y,
+        },
         View::ReturnMap => Point { x: session.problem.initial.q, y: session.problem.initial.q },
         View::Regimes => {
             Point { x: session.value(plot.axes.abscissa), y: session.value(plot.axes.against) }
@@ -187,7 +189,7 @@ pub fn use_method(session: &mut Session) -> Vec<Effect> {
 /// Gives the belt the speed under the cursor.
 pub fn take_speed(session: &mut Session) -> Vec<Effect> {
     let Some(Point { x, .. }) = cursor(session) else { return Vec::new() };
-    match session.at_belt_speed(session.setup(), x) {
+    match session.with_quantity(session.setup(), Quantity::BeltSpeed, x) {
         Ok(setup) => {
             put(session, setup);
         }

@@ -36,6 +36,11 @@ fn row_named(session: &Session, name: &str) -> Result<Row, String> {
     found.ok_or_else(|| format!("no value {name:?}; there are {}", all()))
 }
 
+/// Whether a unit may stand behind the value of this name.
+fn takes_unit(session: &Session, name: &str) -> bool {
+    row_named(session, name).is_ok_and(|row| matches!(row, Row::Quantity(_) | Row::Disturbance))
+}
+
 /// `NAME=VALUE ..`, as one change. What stands behind a blank without a name is the unit of the value
 /// before it.
 pub fn set(session: &mut Session, rest: &str) -> Done {
@@ -43,7 +48,9 @@ pub fn set(session: &mut Session, rest: &str) -> Done {
     for word in rest.split_whitespace() {
         match (word.split_once('='), given.last_mut()) {
             (Some((name, value)), _) => given.push((name, value.to_owned())),
-            (None, Some(("belt", value))) => *value = format!("{value} {word}"),
+            (None, Some((name, value))) if takes_unit(session, name) => {
+                *value = format!("{value} {word}");
+            }
             (None, _) => return Err(format!("{word:?} is no NAME=VALUE, such as D=-0.3")),
         }
     }

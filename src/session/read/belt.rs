@@ -9,21 +9,23 @@ use crate::oscillator::{Belt, Parameters, State, Symbol};
 use crate::question::Whole;
 use crate::question::speeds::Speeds;
 use crate::question::whole::{Course, Kinds};
-use crate::scene::{Answer, Layer, Running, Topic};
+use crate::scene::{Answer, Layer, Machine, Running, Setting, Topic};
+use crate::session::state::doubt::{Doubt, symbol_of};
 use crate::session::state::session::Session;
 use crate::session::state::setup::Setup;
 
 impl Session {
     /// The motion on show and the speed of the belt.
     pub fn setup(&self) -> Setup {
-        let Session { problem, others, belt_speed, doubt, .. } = *self;
-        Setup { problem, others, belt_speed, doubt }
+        let Session { problem, others, setting, doubt, .. } = *self;
+        Setup { problem, others, setting, doubt }
     }
 
-    /// The machine of the scene at the present speed of its belt.
+    /// The machine of the scene as it is set, at the present speed of its belt.
     pub fn running(&self) -> Option<Running<'_>> {
         let scaled = self.scene.machine.as_ref()?;
-        let present = self.belt_speed.and_then(|speed| Running::at(&scaled.machine, speed).ok());
+        let machine = self.rebuilt.as_deref().unwrap_or(&scaled.machine);
+        let present = self.setting.and_then(|it| Running::at(machine, it.speed).ok());
         Some(present.unwrap_or_else(|| scaled.running()))
     }
 
@@ -95,22 +97,74 @@ impl Session {
         move |symbol| symbol.get(&parameters, &State { q: 0.0, v: 0.0 })
     }
 
-    /// A motion with the belt at another speed.
+    /// A number of the machine as it is set, in SI units; 0 where there is none.
+    pub fn quantity(&self, quantity: Quantity) -> f64 {
+        self.running().map_or(0.0, |running| match quantity {
+            Quantity::BeltSpeed => running.speed,
+            other => running.machine.belt.get(other),
+        })
+    }
+
+    /// What is not known exactly, with a tolerance of a number of the machine, in SI units.
     ///
     /// # Errors
-    /// One line, where there is no belt or no machine at that speed.
-    pub(in crate::session) fn at_belt_speed(
+    /// One line, where no parameter stands for that number.
+    pub(in crate::session) fn with_tolerance(
+        &self,
+        setup: &Setup,
+        quantity: Quantity,
+        half_width: f64,
+    ) -> Result<Doubt, String> {
+        let name = quantity.spec().name;
+        let symbol = symbol_of(quantity).ok_or_else(|| {
+            format!(
+                "{name} has no tolerance here; R, d1 and d3 have, all of them in a machine's file"
+            )
+        })?;
+        let machine = self.set_machine(setup)?;
+        let running = Running::at(&machine, machine.belt.belt_speed)?;
+        setup.doubt.with_half_width(symbol, half_width / running.scale(symbol))
+    }
+
+    /// What 1 of r and w stands for, in newtons.
+    ///
+    /// # Errors
+    /// One line, where the scene is of no machine.
+    pub(in crate::session) fn unit_of_force(&self, setup: &Setup) -> Result<f64, String> {
+        let machine = self.set_machine(setup)?;
+        Ok(Running::at(&machine, machine.belt.belt_speed)?.reduced.units.force)
+    }
+
+    /// The machine of the scene as it is set.
+    fn set_machine(&self, setup: &Setup) -> Result<Machine, String> {
+        let scaled = self.scene.machine.as_ref().ok_or("the scene is of no machine")?;
+        Ok(setup
+            .setting
+            .map_or_else(|| scaled.machine.clone(), |setting| setting.on(&scaled.machine)))
+    }
+
+    /// A motion of the machine with another number: from the same place in metres, with the same doubt in newtons.
+    ///
+    /// # Errors
+    /// One line, where there is no machine, or none with that number.
+    pub(in crate::session) fn with_quantity(
         &self,
         setup: Setup,
-        speed: f64,
+        quantity: Quantity,
+        value: f64,
     ) -> Result<Setup, String> {
-        let running = self.running().ok_or("the scene is of no machine: it has no belt")?;
-        let other = Running::at(running.machine, speed)?;
+        let value = quantity.check(value).map_err(|refused| refused.to_string())?;
+        let was = self.set_machine(&setup)?;
+        let setting = setup.setting.unwrap_or(Setting::of_speed(was.belt.belt_speed));
+        let setting = setting.with(quantity, value);
+        let is = setting.on(&was);
+        let running = Running::at(&was, was.belt.belt_speed)?;
+        let other = Running::at(&is, setting.speed)?;
         let Setup { problem, others, doubt, .. } = setup;
         let brought = |initial| running.brought_to(&other, Problem { initial, ..problem }).initial;
         let others = others.map(brought);
         let problem = running.brought_to(&other, problem);
         let doubt = doubt.brought_to(&running, &other);
-        Ok(Setup { problem, others, belt_speed: Some(speed), doubt })
+        Ok(Setup { problem, others, setting: Some(setting), doubt })
     }
 }

@@ -41,10 +41,10 @@ fn complete(session: &Session, kind: Words, given: &[&str]) -> Vec<String> {
     }
 }
 
-/// The rows that a line can give a value: no belt where there is none.
+/// The rows that a line can give a value: none of a machine where there is none.
 pub fn rows(session: &Session) -> impl Iterator<Item = Row> + use<> {
     let belt = session.running().is_some();
-    ROWS.into_iter().filter(move |row| belt || *row != Row::Belt)
+    ROWS.into_iter().filter(move |row| belt || !matches!(row, Row::Quantity(_)))
 }
 
 /// The names of the properties, and of those that are lengths also in units of r.
@@ -71,6 +71,7 @@ fn assignments(session: &Session, words: &[&str]) -> Vec<String> {
 fn typed(session: &Session, row: Row) -> String {
     match row {
         Row::Method => session.problem.method.to_string(),
+        Row::Quantity(quantity) => shortest(session.quantity(quantity)),
         row => shortest(number(&session.setup(), row)),
     }
 }

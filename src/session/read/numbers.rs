@@ -1,7 +1,6 @@
 //! The rows of the parameter pane as numbers of a motion.
 
 use crate::flow::Problem;
-use crate::oscillator::belt::Quantity;
 use crate::scene::file::UNTIL_RANGE;
 use crate::session::state::rows::{ROWS, Row};
 use crate::session::state::setup::Setup;
@@ -10,7 +9,7 @@ use crate::session::state::step_size::shortest;
 /// The range of a row that is a number.
 pub(in crate::session) fn range(problem: &Problem, row: Row) -> (f64, f64) {
     match row {
-        Row::Belt => (Quantity::BeltSpeed.spec().min, Quantity::BeltSpeed.spec().max),
+        Row::Quantity(quantity) => (quantity.spec().min, quantity.spec().max),
         Row::Parameter(symbol) => (symbol.spec().min, symbol.spec().max),
         Row::Disturbance => (0.0, f64::MAX),
         Row::Until => UNTIL_RANGE,
@@ -18,11 +17,11 @@ pub(in crate::session) fn range(problem: &Problem, row: Row) -> (f64, f64) {
     }
 }
 
-/// The value of a row that is a number; 0 for a belt where there is none.
+/// The value of a row that is a number; 0 for one of a machine that is not set.
 pub(in crate::session) fn number(setup: &Setup, row: Row) -> f64 {
-    let Setup { problem, belt_speed, doubt, .. } = setup;
+    let Setup { problem, setting, doubt, .. } = setup;
     match row {
-        Row::Belt => belt_speed.unwrap_or(0.0),
+        Row::Quantity(quantity) => setting.and_then(|it| it.get(quantity)).unwrap_or(0.0),
         Row::Parameter(symbol) => symbol.get(&problem.parameters, &problem.initial),
         Row::Disturbance => doubt.disturbance,
         Row::Until => problem.until,
@@ -36,7 +35,7 @@ pub(in crate::session) fn with_number(mut problem: Problem, row: Row, value: f64
         Row::Parameter(symbol) => symbol.set(&mut problem.parameters, &mut problem.initial, value),
         Row::Until => problem.until = value,
         Row::Tolerance => problem = problem.with_setting(value),
-        Row::Method | Row::Belt | Row::Disturbance => {}
+        Row::Method | Row::Quantity(_) | Row::Disturbance => {}
     }
     problem
 }
@@ -52,22 +51,26 @@ pub(in crate::session) fn typed(setup: &Setup, row: Row) -> String {
     }
 }
 
-/// What is different in `new`, as `name = value`; of a belt at another speed that alone, because the
+/// What is different in `new`, as `name = value`; of a machine with another number that alone, because the
 /// parameters follow from it.
 pub(in crate::session) fn difference(old: &Setup, new: &Setup) -> String {
     let value = |setup: &Setup, row: Row| match row {
         Row::Method => setup.problem.method.to_string(),
-        Row::Belt => setup.belt_speed.map(shortest).unwrap_or_default(),
+        Row::Quantity(quantity) => {
+            let unit = quantity.spec().unit;
+            let value = setup.setting.and_then(|it| it.get(quantity));
+            value.map_or_else(
+                || "as in its file".to_owned(),
+                |it| format!("{} {unit}", shortest(it)),
+            )
+        }
         row => typed(setup, row),
     };
-    let belt = new.belt_speed.is_some() && old.belt_speed != new.belt_speed;
+    let belt = new.setting.is_some() && old.setting != new.setting;
     let follows = |row: &Row| belt && matches!(row, Row::Parameter(_));
     let rows = ROWS.into_iter().filter(|row| !follows(row));
     let changed = rows.filter(|row| value(old, *row) != value(new, *row));
-    let said = changed.map(|row| {
-        let unit = if row == Row::Belt { " m/s" } else { "" };
-        format!("{} = {}{unit}", row.name_in(&new.problem), value(new, row))
-    });
+    let said = changed.map(|row| format!("{} = {}", row.name_in(&new.problem), value(new, row)));
     let count = |setup: &Setup| setup.others.all().len() + 1;
     let motions = (count(old) != count(new)).then(|| match count(new) {
         1 => "1 motion".to_owned(),

@@ -27,6 +27,11 @@ const ON_A_MACHINE: [(Symbol, Quantity); 3] = [
     (Symbol::R, Quantity::Friction),
 ];
 
+/// The parameter that stands for a number of a machine, if one does.
+pub fn symbol_of(quantity: Quantity) -> Option<Symbol> {
+    ON_A_MACHINE.iter().find(|row| row.1 == quantity).map(|row| row.0)
+}
+
 impl Doubt {
     /// Whether everything is known exactly and nothing disturbs.
     pub fn is_none(&self) -> bool {

@@ -4,14 +4,15 @@ use serde::{Deserialize, Serialize};
 
 use crate::flow::Problem;
 use crate::oscillator::Symbol;
-use crate::scene::Scene;
+use crate::oscillator::belt::{QUANTITIES, Quantity};
+use crate::scene::{ScaledMachine, Scene};
 use crate::session::state::step_size::StepSize;
 
 /// A row of the parameter pane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Row {
-    /// Speed of the belt of a machine, which moves D, D2, D3 and r together.
-    Belt,
+    /// A number of a machine, in SI units, which moves D, D2, D3 and r together.
+    Quantity(Quantity),
     /// One of the six numbers that define a motion.
     Parameter(Symbol),
     /// Bound w on a force that varies in any way.
@@ -24,8 +25,14 @@ pub enum Row {
 }
 
 /// Every row, in the order in which they stand.
-pub const ROWS: [Row; 11] = [
-    Row::Belt,
+pub const ROWS: [Row; 17] = [
+    Row::BELT,
+    Row::Quantity(Quantity::NormalForce),
+    Row::Quantity(Quantity::Friction),
+    Row::Quantity(Quantity::Mass),
+    Row::Quantity(Quantity::Stiffness),
+    Row::Quantity(Quantity::Damping),
+    Row::Quantity(Quantity::CubicDamping),
     Row::Parameter(Symbol::D),
     Row::Parameter(Symbol::D2),
     Row::Parameter(Symbol::D3),
@@ -42,10 +49,14 @@ impl Row {
     /// The row that is selected at first.
     pub const FIRST: Self = Row::Parameter(Symbol::D);
 
+    /// The speed of the belt. The name of its quantity, v0, is that of a velocity of the motion here.
+    pub const BELT: Self = Row::Quantity(Quantity::BeltSpeed);
+
     /// The name on the screen.
     pub fn name(self) -> &'static str {
         match self {
-            Row::Belt => "belt",
+            Row::BELT => "belt",
+            Row::Quantity(quantity) => quantity.spec().name,
             Row::Parameter(symbol) => symbol.spec().name,
             Row::Disturbance => "w",
             Row::Until => "until",
@@ -73,6 +84,9 @@ pub struct Steps {
     /// Step of the speed of the belt, in m/s.
     #[serde(default = "usual_belt_step")]
     pub belt: StepSize,
+    /// Steps of the other numbers of a machine, in the order of the table.
+    #[serde(default = "usual_machine_steps")]
+    pub machine: [StepSize; QUANTITIES.len() - 1],
     /// Step of the bound on the disturbance.
     #[serde(default = "usual_disturbance_step")]
     pub disturbance: StepSize,
@@ -83,6 +97,29 @@ const BELT_STEP: f64 = 1.0 / 30.0;
 
 fn usual_belt_step() -> StepSize {
     StepSize::near(BELT_STEP)
+}
+
+fn usual_machine_steps() -> [StepSize; QUANTITIES.len() - 1] {
+    [StepSize::near(1.0); QUANTITIES.len() - 1]
+}
+
+/// Part of a number of a machine by which it is stepped at first; of a damper or a friction that it does not have,
+/// part of what 1 of D, D3 or r stands for.
+const MACHINE_STEP: f64 = 0.05;
+
+fn machine_steps(scaled: &ScaledMachine) -> [StepSize; QUANTITIES.len() - 1] {
+    let running = scaled.running();
+    std::array::from_fn(|place| {
+        let quantity = QUANTITIES[place].quantity;
+        let value = scaled.machine.belt.get(quantity).abs();
+        let unit = match quantity {
+            Quantity::Damping => running.scale(Symbol::D),
+            Quantity::CubicDamping => running.scale(Symbol::D3),
+            Quantity::Friction => running.scale(Symbol::R),
+            _ => value,
+        };
+        StepSize::near(MACHINE_STEP * if value > 0.0 { value } else { unit })
+    })
 }
 
 /// First step of the disturbance.
@@ -99,7 +136,8 @@ impl Steps {
     /// The step of a row; `None` where a step is not a number (method) or a factor of ten (tolerance).
     pub fn of(&self, row: Row) -> Option<StepSize> {
         match row {
-            Row::Belt => Some(self.belt),
+            Row::BELT => Some(self.belt),
+            Row::Quantity(quantity) => Some(self.machine[quantity as usize]),
             Row::Parameter(symbol) => Some(self.parameters[symbol as usize]),
             Row::Disturbance => Some(self.disturbance),
             Row::Until => Some(self.until),
@@ -110,7 +148,8 @@ impl Steps {
     /// The step of a row, to be changed.
     pub fn of_mut(&mut self, row: Row) -> Option<&mut StepSize> {
         match row {
-            Row::Belt => Some(&mut self.belt),
+            Row::BELT => Some(&mut self.belt),
+            Row::Quantity(quantity) => Some(&mut self.machine[quantity as usize]),
             Row::Parameter(symbol) => Some(&mut self.parameters[symbol as usize]),
             Row::Disturbance => Some(&mut self.disturbance),
             Row::Until => Some(&mut self.until),
@@ -134,6 +173,7 @@ impl Steps {
             ],
             disturbance: step_of_disturbance(scene),
             until: StepSize::near(UNTIL_STEP),
+            machine: scene.machine.as_deref().map_or_else(usual_machine_steps, machine_steps),
             belt: scene.machine.as_ref().map_or_else(usual_belt_step, |scaled| {
                 StepSize::near(BELT_STEP * scaled.machine.belt.belt_speed)
             }),

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use crate::flow::{Cost, Problem};
 use crate::oscillator::Symbol;
-use crate::scene::{Arrangement, Layer, Scene, Topic};
+use crate::scene::{Arrangement, Layer, Machine, Scene, Setting, Topic};
 use crate::session::message::Notice;
 use crate::session::message::key::Key;
 use crate::session::state::answers::Answers;
@@ -88,8 +88,10 @@ pub struct Session {
     pub problem: Problem,
     /// Where the motions start that are shown beside it.
     pub others: Starts,
-    /// Speed of the belt, in m/s; `None` where the scene is of no machine.
-    pub belt_speed: Option<f64>,
+    /// What the machine is set to; `None` where the scene is of none.
+    pub setting: Option<Setting>,
+    /// The machine with these numbers, where more than the speed of its belt may differ from its file.
+    pub rebuilt: Option<Arc<Machine>>,
     /// Half widths of the parameters, and the disturbance.
     pub doubt: Doubt,
     /// Step sizes of the parameter pane.
@@ -162,7 +164,8 @@ impl Session {
         Session {
             problem: scene.problem,
             others: Starts::default(),
-            belt_speed: Setup::of_scene(&scene).belt_speed,
+            setting: Setup::of_scene(&scene).setting,
+            rebuilt: None,
             doubt: Setup::of_scene(&scene).doubt,
             steps: Steps::of_scene(&scene),
             selected: Row::FIRST,
@@ -208,7 +211,12 @@ impl Session {
     /// The rows of the parameter pane: what the scene declares, what is not zero, all when unfolded.
     pub fn rows(&self) -> Vec<Row> {
         let stands = |row: &Row| match *row {
-            Row::Belt => self.scene.machine.is_some(),
+            Row::Quantity(quantity) => {
+                self.scene.machine.is_some() && {
+                    let is_set = self.setting.is_some_and(|it| it.get(quantity).is_some());
+                    self.unfolded || is_set
+                }
+            }
             Row::Parameter(symbol) => {
                 self.unfolded || self.scene.declares(symbol) || self.value(symbol) != 0.0
             }

@@ -1,7 +1,7 @@
 //! The speed of the belt as a number among the others: it moves D, D2, D3 and r along the machine's path.
 
 use super::Trial;
-use crate::oscillator::belt::Reduced;
+use crate::oscillator::belt::{Quantity, Reduced};
 use crate::scene::{Layer, ScaledMachine};
 use crate::session::{Effect, Msg, Overlay, Purpose, Row, save};
 
@@ -15,7 +15,7 @@ fn at(speed: f64) -> Reduced {
 /// The session shows the machine at this speed, all of it.
 fn runs_at(trial: &Trial, speed: f64) {
     let session = &trial.session;
-    assert_eq!(session.belt_speed, Some(speed));
+    assert_eq!(session.setting.map(|it| it.speed), Some(speed));
     assert_eq!(session.problem.parameters, at(speed).parameters);
     assert_eq!(session.is_on_the_belt(), Some(true));
     let running = session.running().unwrap();
@@ -29,7 +29,7 @@ fn a_step_of_the_belt_moves_all_four_parameters_and_keeps_the_start_in_metres() 
     let mut trial = Trial::open("fig01");
     runs_at(&trial, 0.3);
     trial.press("<up>");
-    assert_eq!(trial.session.selected, Row::Belt);
+    assert_eq!(trial.session.selected, Row::BELT);
     trial.press("<right>");
     runs_at(&trial, 0.31);
     trial.press("*5<left>");
@@ -53,7 +53,11 @@ fn a_number_changed_by_hand_leaves_the_belt_and_a_step_of_the_belt_comes_back() 
     let mut trial = Trial::open("fig01");
     trial.press("<right>");
     assert_eq!(trial.session.is_on_the_belt(), Some(false));
-    assert_eq!(trial.session.belt_speed, Some(0.3), "the units stay those of this speed");
+    assert_eq!(
+        trial.session.setting.map(|it| it.speed),
+        Some(0.3),
+        "the units stay those of this speed"
+    );
     assert!(trial.notice().starts_with("off the belt: "), "{}", trial.notice());
     trial.press("<up> <right>");
     runs_at(&trial, 0.31);
@@ -115,7 +119,7 @@ fn speeds_that_are_none_are_refused_in_one_line() {
     let Some(Overlay::Prompt(prompt)) = &trial.session.overlay else { panic!("it is taken") };
     let refused = prompt.refused.clone().unwrap_or_default();
     assert!(refused.starts_with("set: no value \"belt\"; there are D, D2"), "{refused}");
-    assert!(!trial.session.rows().contains(&Row::Belt));
+    assert!(!trial.session.rows().contains(&Row::BELT));
 }
 
 #[test]
@@ -134,16 +138,16 @@ fn marks_scenes_and_saved_sessions_know_the_speed() {
     runs_at(&trial, 0.35);
     // A scene without a machine has no belt, and coming back there is one again.
     trial.press(":scene<space>plain<enter>");
-    assert_eq!((trial.session.belt_speed, trial.session.running()), (None, None));
+    assert_eq!((trial.session.setting, trial.session.running()), (None, None));
     trial.press("'a");
-    assert_eq!(trial.session.belt_speed, None, "the numbers come along, not the belt");
+    assert_eq!(trial.session.setting, None, "the numbers come along, not the belt");
     assert_eq!(trial.session.problem.parameters, at(0.32).parameters);
     trial.press("u u");
     runs_at(&trial, 0.35);
     // Sessions saved before there was such a number show the machine at its own speed.
     let older = text.replacen("belt = 0.35\n", "", 1);
     save::open(&mut other, &older).unwrap();
-    assert_eq!(other.belt_speed, Some(0.3));
+    assert_eq!(other.setting.map(|it| it.speed), Some(0.3));
     for wrong in ["-1.0", "0.0", "nan"] {
         let broken = text.replacen("belt = 0.35", &format!("belt = {wrong}"), 1);
         let why = save::open(&mut other, &broken).unwrap_err();
@@ -230,5 +234,68 @@ fn a_machine_opens_from_its_file_and_the_table_beside_it() {
         assert!(trial.notice().starts_with(words), "{}", trial.notice());
         assert!(!trial.notice().contains('\n'));
         assert_eq!(trial.session.running().unwrap().machine.name, "slideway");
+    }
+}
+
+#[test]
+fn numbers_of_a_machine_are_typed_with_units_stepped_undone_and_saved() {
+    let mut trial = Trial::open("fig01");
+    let before = trial.session.setup();
+    trial.press(":set<space>R=2<space>N<space>m=1.5kg<enter>");
+    let mut machine = crate::scene::machine::library::find("textbook").unwrap().clone();
+    (machine.belt.friction, machine.belt.mass) = (2.0, 1.5);
+    let expected = machine.reduce().unwrap();
+    let session = &trial.session;
+    assert_eq!(session.problem.parameters, expected.parameters);
+    assert_eq!(session.is_on_the_belt(), Some(true));
+    assert_eq!(session.running().unwrap().reduced, expected);
+    assert_eq!(session.machine().unwrap(), machine.belt, "what the whole model answers for");
+    let x = session.problem.initial.q * expected.units.displacement;
+    assert!((x / 1e-3 - 1.0).abs() < 1e-15, "the start is 1 mm, whatever the unit of length");
+    assert!(session.rows().contains(&Row::Quantity(Quantity::Mass)));
+    // A saved session is the same, and undoes the same.
+    let text = save::text(session).unwrap();
+    let mut other = Trial::open("plain").session;
+    save::open(&mut other, &text).unwrap();
+    assert_eq!(other.setup(), session.setup());
+    assert_eq!(other.machine(), session.machine());
+    // A step of the row, and back.
+    trial.session.selected = Row::Quantity(Quantity::Friction);
+    trial.press("<right>");
+    assert!(trial.session.machine().unwrap().friction > 2.0);
+    trial.press("u");
+    assert_eq!(trial.session.machine().unwrap().friction, 2.0);
+    trial.press("u");
+    assert_eq!(trial.notice(), "undo: R = as in its file, m = as in its file");
+    assert_eq!(trial.session.setup(), before);
+    trial.press("U");
+    trial.session.selected = Row::Quantity(Quantity::Friction);
+    trial.press("<backspace>");
+    assert_eq!(trial.session.machine().unwrap().friction, 1.0, "reset to its file's");
+}
+
+#[test]
+fn tolerance_and_disturbance_of_a_machine_are_typed_in_newtons() {
+    let mut trial = Trial::open("fig01");
+    trial.press(":set<space>R=1<space>N<space>+-<space>0.2<space>N<space>w=0.1<space>N<enter>");
+    let session = &trial.session;
+    let force = session.running().unwrap().reduced.units.force;
+    assert!((session.doubt.disturbance * force / 0.1 - 1.0).abs() < 1e-12);
+    let known = session.doubt.on_machine(&session.running().unwrap(), &session.machine().unwrap());
+    assert!((known.unwrap().half_widths["R"] / 0.2 - 1.0).abs() < 1e-12);
+    for (typed, words) in [
+        ("m=2<space>N", "a unit such as kg"),
+        ("m=0", "m = 0 kg is outside its range"),
+        ("F=10<space>N<space>+-<space>1<space>N", "F has no tolerance here"),
+        ("w=1<space>mm", "a unit such as N"),
+        ("R=-1", "R = -1 N is outside its range"),
+    ] {
+        let mut trial = Trial::open("fig01");
+        trial.press(&format!(":set<space>{typed}<enter>"));
+        let Some(Overlay::Prompt(prompt)) = &trial.session.overlay else {
+            panic!("{typed}: taken")
+        };
+        let refused = prompt.refused.clone().unwrap_or_default();
+        assert!(refused.contains(words) && !refused.contains('\n'), "{typed}: {refused}");
     }
 }

@@ -7,6 +7,7 @@ use std::collections::BTreeSet;
 
 use super::Trial;
 use crate::oscillator::Symbol;
+use crate::oscillator::belt::Quantity;
 use crate::scene::{Axes, Request, Topic, library};
 use crate::session::ROWS;
 use crate::session::act::parameters;
@@ -32,19 +33,19 @@ const DEPENDS: [(Topic, &str); 11] = [
 fn depends(topic: Topic, row: Row) -> bool {
     let (_, letters) = DEPENDS.iter().find(|(of, _)| *of == topic).unwrap();
     let mut letters = letters.chars().filter(|letter| *letter != ' ');
-    if row == Row::Belt {
-        // Its speed moves the equation, and the start with the unit of length.
+    if matches!(row, Row::Quantity(_)) {
+        // It moves the equation, and the start with the unit of length.
         return letters.take(7).any(|letter| letter == 'x');
     }
     // The rows are D, D2, D3, r, w, q0, v0, until, method, tolerance.
-    let mut rows = ROWS.iter().filter(|row| **row != Row::Belt);
+    let mut rows = ROWS.iter().filter(|row| !matches!(row, Row::Quantity(_)));
     let column = rows.position(|other| *other == row).unwrap();
     letters.nth(column).unwrap() == 'x'
 }
 
 /// Whether a plot looks along this number, or holds it for all of its variants: then it does not matter.
 fn is_free(session: &Session, topic: Topic, plot: usize, row: Row) -> bool {
-    let Row::Parameter(symbol) = row else { return row != Row::Belt || topic != Topic::Speeds };
+    let Row::Parameter(symbol) = row else { return row != Row::BELT || topic != Topic::Speeds };
     let Axes { abscissa, against, .. } = session.plots[plot].axes;
     let along = match topic {
         Topic::Branch => symbol == abscissa,
@@ -84,7 +85,9 @@ fn in_every_scene_a_key_recomputes_exactly_what_depends_on_it() {
     for scene in library() {
         let mut trial = Trial::open(&scene.name);
         trial.session.unfolded = true;
-        for row in trial.session.rows() {
+        // Which parameters a number of the machine moves beside the speed depends on the number.
+        let fixed = |row: &Row| !matches!(row, Row::Quantity(it) if *it != Quantity::BeltSpeed);
+        for row in trial.session.rows().into_iter().filter(fixed) {
             let mut stepped =
                 Trial { session: trial.session.clone(), asked: Vec::new(), effects: Vec::new() };
             stepped.session.selected = row;
