@@ -73,6 +73,7 @@ impl Panel {
                 }
             }
             Item::Shade(line, edge) => self.area(picture, line, edge),
+            Item::Beyond(line, edge) => self.area(picture, line, &beyond(edge, picture.window)),
             Item::Columns(line, from, to) => {
                 self.area(picture, line, &rectangle([*from, *to], [y.from(), y.to()]));
             }
@@ -142,6 +143,20 @@ impl Panel {
             }
         }
     }
+}
+
+/// Around the window and then along a closed curve within: what lies between.
+fn beyond(edge: &[Point], window: Window) -> Vec<Point> {
+    let Window { x, y } = window;
+    let reach = |ends: [f64; 2], inner: fn(&Point) -> f64| {
+        let all = edge.iter().map(inner).chain(ends);
+        all.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), it| (a.min(it), b.max(it)))
+    };
+    let (left, right) = reach([x.from(), x.to()], |at| at.x);
+    let (low, high) = reach([y.from(), y.to()], |at| at.y);
+    let corners = [(left, low), (right, low), (right, high), (left, high), (left, low)];
+    let corners = corners.map(|(x, y)| Point { x, y });
+    corners.into_iter().chain(edge.iter().copied()).chain([corners[0]]).collect()
 }
 
 /// A line as data. One point is no line: a motion at rest has its mark.

@@ -136,6 +136,8 @@ pub enum Item<'a> {
     Bar(Line, Point, Point),
     /// The area that a curve, closed or with ends outside the window, does not separate from the origin.
     Shade(Line, Vec<Point>),
+    /// The area that a closed curve separates from the origin.
+    Beyond(Line, Vec<Point>),
     /// All points whose abscissa lies between two values.
     Columns(Line, f64, f64),
     /// All points whose ordinate lies between two values.
@@ -204,7 +206,7 @@ impl Item<'_> {
             Item::Graph(line, value) => (line, is_met(value, window)),
             Item::Upright(line, x) => (line, window.x.contains(*x)),
             Item::Bar(line, from, to) => (line, passes(&[*from, *to], window)),
-            Item::Shade(line, edge) => (line, !edge.is_empty()),
+            Item::Shade(line, edge) | Item::Beyond(line, edge) => (line, !edge.is_empty()),
             Item::Columns(line, from, to) => (line, *from < window.x.to() && *to > window.x.from()),
             Item::Rows(line, from, to) => (line, *from < window.y.to() && *to > window.y.from()),
             Item::Texture(_)

@@ -48,7 +48,7 @@ fn entry(picture: &Picture, item: &Item) -> Option<Entry> {
             return Some(Entry { sample: Sample::Arrow, role: *role, text });
         }
         Item::Bar(..) => Sample::Bar,
-        Item::Shade(..) | Item::Columns(..) | Item::Rows(..) => Sample::Shade,
+        Item::Shade(..) | Item::Beyond(..) | Item::Columns(..) | Item::Rows(..) => Sample::Shade,
         Item::Curve(line, _)
         | Item::Path(line, _)
         | Item::Graph(line, _)

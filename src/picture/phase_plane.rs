@@ -287,8 +287,14 @@ fn safe(picture: &mut Picture, extent: &Extent) {
 /// Beyond which nothing comes to rest, whatever the parameters and the disturbance are.
 fn lost(picture: &mut Picture, extent: &Extent) {
     let Extent::Within(border) = extent else { return };
+    let border: Vec<Point> = border.iter().map(point).collect();
+    // An open border, a separatrix, has no outside that a window could be filled with.
+    if border.first() == border.last() {
+        let area = Line::new("surely lost", Role::Danger, Dash::Solid);
+        picture.items.push(Item::Beyond(area, border.clone()));
+    }
     let line = Line::new("border of the surely lost", Role::Danger, Dash::Dotted);
-    picture.curve(line.briefly("surely lost outside"), border.iter().map(point));
+    picture.curve(line.briefly("surely lost outside"), border);
 }
 
 fn circle(picture: &mut Picture, parameters: &Parameters, variant: &Variant) {

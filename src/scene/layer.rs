@@ -88,7 +88,7 @@ pub enum Layer {
     Speeds,
     /// Starts that are safe whatever the parameters and the disturbance are.
     Safe,
-    /// The border outside of which every start is lost.
+    /// Starts that are lost whatever the parameters and the disturbance are.
     Lost,
 }
 
@@ -152,7 +152,7 @@ pub const LAYERS: [LayerSpec; 42] = [
     row(Layer::Whole, "whole", View::Phase, None, false, "the whole model in place of its cubic expansion"),
     row(Layer::Speeds, "speeds", View::Speeds, Some(Topic::Speeds), true, "cycles over the belt's speed, and the jumps"),
     row(Layer::Safe, "safe", View::Phase, Some(Topic::Zones), false, "surely safe, for all half widths and disturbances"),
-    row(Layer::Lost, "lost", View::Phase, Some(Topic::Zones), false, "surely lost outside, for the same"),
+    row(Layer::Lost, "lost", View::Phase, Some(Topic::Zones), false, "surely lost, for the same"),
 ];
 
 const fn row(

@@ -60,7 +60,8 @@ fn put(plot: &mut Plot, item: &Item, look: &Look) {
         Item::Graph(line, value) => plot.function(line.role, line.dash, value),
         Item::Upright(line, x) => plot.upright(*x, line.role, line.dash),
         Item::Bar(line, from, to) => plot.bar(*from, *to, line.role),
-        Item::Shade(line, edge) => plot.shade(edge, line.role),
+        Item::Shade(line, edge) => plot.shade(edge, true, line.role),
+        Item::Beyond(line, edge) => plot.shade(edge, false, line.role),
         Item::Columns(line, from, to) => {
             plot.shade_where(line.role, |point| (*from..=*to).contains(&point.x));
         }

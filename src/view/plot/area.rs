@@ -14,10 +14,10 @@ use crate::picture::role::Role;
 use crate::scene::Point;
 
 impl Plot<'_> {
-    /// Shades the cells that `curve` does not separate from the origin.
+    /// Shades the cells that `curve` does not separate from the origin, or those that it does.
     ///
     /// The curve may be closed, or open with ends outside the window.
-    pub fn shade(&mut self, curve: &[Point], role: Role) {
+    pub fn shade(&mut self, curve: &[Point], with_origin: bool, role: Role) {
         let symbol = self.look.symbols().shade;
         let Rect { width, height, .. } = self.inner;
         let climbed = crossings(curve, |point| point.x, |point| point.y);
@@ -29,7 +29,7 @@ impl Plot<'_> {
             for column in 0..width {
                 let x = self.world(column, row).x;
                 let walks = walls.iter().filter(|wall| between(0.0, x, **wall)).count();
-                if (climbs + walks) % 2 == 0 {
+                if ((climbs + walks) % 2 == 0) == with_origin {
                     // The blanks belong to the texture: to write them is shorter than to skip them.
                     let symbol = if (column + row) % 2 == 0 { symbol } else { ' ' };
                     self.dots.texture(column, row, symbol, role);
