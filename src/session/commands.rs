@@ -13,10 +13,10 @@ use crate::session::act::{
     axes, copy, entry, files, focus, general, history, lists, macros, mouse, palette, parameters,
     pending, playback, plots, prompt, scan, screen_setup, starts, typing, walk,
 };
+use crate::session::command_row::{Row, Run, chooses, row};
 use crate::session::effect::Effect;
 use crate::session::lines::lines;
-use crate::session::message::key::Key;
-use crate::session::state::command::{Chosen, Command};
+use crate::session::state::command::Command;
 use crate::session::state::context::Context::{
     self, Always, Count, Entry, Everywhere, Form, Help, Layers, Letter, Lists, Offer, Palette,
     Paper, Parameters, Plots, Prompt, Scenes, Search, View as In, Views, Walk,
@@ -25,49 +25,6 @@ use crate::session::state::input::Input;
 use crate::session::state::keymap::Keymap;
 use crate::session::state::pending::Letter as Ask;
 use crate::session::state::session::{Session, Size};
-
-/// Does what the command says; the key is the one that was pressed for it.
-type Act = fn(&mut Session, Key) -> Vec<Effect>;
-
-/// How a command is run.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Run {
-    /// It changes the session.
-    Act(Act),
-    /// It switches a layer.
-    Toggle(Layer),
-    /// It chooses another one to be run.
-    Choose(fn(&mut Session) -> Option<Chosen>),
-}
-
-/// A command and what it does.
-#[derive(Debug)]
-pub(super) struct Row {
-    command: Command,
-    pub(super) run: Run,
-}
-
-/// A row of the table.
-const fn row(
-    name: &'static str,
-    keys: &'static [(Context, &'static [&'static str])],
-    hint: &'static str,
-    doc: &'static str,
-    act: Act,
-) -> Row {
-    Row { command: Command { name, keys, hint, doc }, run: Run::Act(act) }
-}
-
-/// A row of the table, of a command that chooses another one.
-const fn chooses(
-    name: &'static str,
-    keys: &'static [(Context, &'static [&'static str])],
-    hint: &'static str,
-    doc: &'static str,
-    choose: fn(&mut Session) -> Option<Chosen>,
-) -> Row {
-    Row { command: Command { name, keys, hint, doc }, run: Run::Choose(choose) }
-}
 
 /// Characters with which a number can begin.
 const NUMERIC: &[&str] = &["0", "1", "2", "3", "4", "5", "6", "7", "8", "9", "-", "."];

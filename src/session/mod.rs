@@ -12,6 +12,7 @@
 //! - `update` takes a message in.
 
 pub(crate) mod act;
+mod command_row;
 pub mod commands;
 pub mod config;
 pub mod effect;

@@ -1,0 +1,51 @@
+//! A row of the table of commands: a command, and how it is run.
+
+use crate::scene::Layer;
+use crate::session::effect::Effect;
+use crate::session::message::key::Key;
+use crate::session::state::command::{Chosen, Command};
+use crate::session::state::context::Context;
+use crate::session::state::session::Session;
+
+/// Does what the command says; the key is the one that was pressed for it.
+pub(super) type Act = fn(&mut Session, Key) -> Vec<Effect>;
+
+/// How a command is run.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Run {
+    /// It changes the session.
+    Act(Act),
+    /// It switches a layer.
+    Toggle(Layer),
+    /// It chooses another one to be run.
+    Choose(fn(&mut Session) -> Option<Chosen>),
+}
+
+/// A command and what it does.
+#[derive(Debug)]
+pub(super) struct Row {
+    pub(super) command: Command,
+    pub(super) run: Run,
+}
+
+/// A row of the table.
+pub(super) const fn row(
+    name: &'static str,
+    keys: &'static [(Context, &'static [&'static str])],
+    hint: &'static str,
+    doc: &'static str,
+    act: Act,
+) -> Row {
+    Row { command: Command { name, keys, hint, doc }, run: Run::Act(act) }
+}
+
+/// A row of the table, of a command that chooses another one.
+pub(super) const fn chooses(
+    name: &'static str,
+    keys: &'static [(Context, &'static [&'static str])],
+    hint: &'static str,
+    doc: &'static str,
+    choose: fn(&mut Session) -> Option<Chosen>,
+) -> Row {
+    Row { command: Command { name, keys, hint, doc }, run: Run::Choose(choose) }
+}
