@@ -237,7 +237,8 @@ mod tests {
 
     #[test]
     fn finer_colours_are_those_that_the_terminal_says_it_has_or_the_user_asks_for() {
-        let cases: [(&[(&str, &str)], Colors, Colors); 6] = [
+        type Case<'a> = (&'a [(&'a str, &'a str)], Colors, Colors);
+        let cases: [Case; 6] = [
             (&[("TERM", "xterm")], Colors::Auto, Colors::Auto),
             (&[("TERM", "xterm-256color")], Colors::Auto, Colors::Indexed),
             (&[("TERM", "xterm-256color"), ("COLORTERM", "truecolor")], Colors::Auto, Colors::True),

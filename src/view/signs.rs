@@ -70,7 +70,7 @@ mod tests {
             let mut buffer = Buffer::with_lines([written]);
             let area = buffer.area;
             minus(area, &mut buffer, |_| false);
-            let line: String = buffer.content.iter().map(|cell| cell.symbol()).collect();
+            let line: String = buffer.content.iter().map(ratatui::buffer::Cell::symbol).collect();
             assert_eq!(line, read);
             assert_eq!(super::super::screen::text(&buffer).trim_end(), written);
             minus(area, &mut buffer, |_| true);

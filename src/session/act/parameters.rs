@@ -219,9 +219,12 @@ pub fn next_method(session: &mut Session, by: isize) -> Vec<Effect> {
     // Where there is no closed form its method could only give up.
     let nonlinear = session.problem.parameters.d2 != 0.0 || session.problem.parameters.d3 != 0.0;
     let whole = session.draws_whole();
-    let usable = METHODS.iter().filter(|row| match whole {
-        true => Way::of(row.method).is_ok(),
-        false => !(nonlinear && row.method == Method::Exact),
+    let usable = METHODS.iter().filter(|row| {
+        if whole {
+            Way::of(row.method).is_ok()
+        } else {
+            !(nonlinear && row.method == Method::Exact)
+        }
     });
     let rows: Vec<_> = usable.collect();
     let at = rows.iter().position(|row| row.method == session.problem.method).unwrap_or(0);
