@@ -41,12 +41,12 @@ impl Basin {
             let proof = prove(&ParameterBox::from(&parameters), &[]);
             kicks(&proof, [found.margin.displacement, found.margin.impulse])
         };
-        let certified = self.certify.ask(self.output.format, enclose)?;
+        let certified = self.certify.ask(enclose);
         let lines = certified.as_ref().map(certified::kicks_lines);
         self.output.print(&match self.output.format {
             Format::Table => report::table(&found, seconds) + &lines.unwrap_or_default(),
             Format::Json => report::json(&found, certified.as_ref(), seconds),
-            Format::Csv => report::csv(&found),
+            Format::Csv => report::csv(&found, certified.as_ref()),
         })
     }
 }

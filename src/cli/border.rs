@@ -39,12 +39,12 @@ impl Border {
         let Over { symbol, range, count } = self.over;
         let follow = || border(&parameters, symbol, range, count, &Limits::PATIENT);
         let (found, seconds) = self.output.timed("the border could not be completed", follow)?;
-        let certified = self.certify.ask(self.output.format, || enclosed(&found))?;
+        let certified = self.certify.ask(|| enclosed(&found));
         let lines = certified.as_ref().map(|it| certified::border_lines(it, symbol));
         self.output.print(&match self.output.format {
             Format::Table => report::table(&found, seconds) + &lines.unwrap_or_default(),
             Format::Json => report::json(&found, certified.as_deref(), seconds),
-            Format::Csv => report::csv(&found),
+            Format::Csv => report::csv(&found, certified.as_deref()),
         })
     }
 }

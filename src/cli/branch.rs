@@ -46,14 +46,14 @@ impl Branch {
             || branch(base, symbol, range, Points::Even(count), tolerance, &Limits::PATIENT);
         let (found, seconds) = self.output.timed("the branch could not be completed", follow)?;
         let decide = || proof::range::range(&ParameterBox::from(base), symbol, range);
-        let certified = self.certify.ask(self.output.format, decide)?;
+        let certified = self.certify.ask(decide);
         let decided = certified.as_ref().map(|it| certified::range_table(it, symbol));
         self.output.print(&match self.output.format {
             Format::Table => {
                 report::table(&found, base, tolerance, seconds) + &decided.unwrap_or_default()
             }
             Format::Json => report::json(&found, certified.as_ref(), seconds),
-            Format::Csv => report::csv(&found),
+            Format::Csv => report::csv(&found, certified.as_ref()),
         })
     }
 }

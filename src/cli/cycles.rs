@@ -12,7 +12,7 @@ use crate::check::check;
 use crate::closed_form::harmonics::MOST;
 use crate::flow::{Limits, Reason};
 use crate::oscillator::Parameters;
-use crate::proof::certificate::certificate;
+use crate::proof::certificate::{certificate, text};
 use crate::proof::{ParameterBox, Proof, prove};
 use crate::report::{certified, cycles as report, harmonic_balance, json};
 use crate::study;
@@ -63,21 +63,22 @@ impl Cycles {
                     + &rungs.map(harmonic_balance::table).unwrap_or_default()
             }
             Format::Json => report::json(&found, &proof, rungs, seconds),
-            Format::Csv => rungs.map_or_else(|| report::csv(&found), harmonic_balance::csv),
+            Format::Csv => rungs.map_or_else(|| report::csv(&found, &proof), harmonic_balance::csv),
         })
     }
 
     /// What holds for every value in intervals of parameters.
     fn run_box(&self, known: &ParameterBox) -> Result<(), Failure> {
-        if self.harmonics.is_some() || self.output.format == Format::Csv {
-            let line = "intervals of parameters: --harmonics and csv have no place for them";
+        if self.harmonics.is_some() {
+            let line = "intervals of parameters: --harmonics has no place for them";
             return Err(Failure::Usage(line.to_owned()));
         }
         let proof = prove(known, &[]);
         self.certify(&proof)?;
         self.output.print(&match self.output.format {
             Format::Json => json::text(&certified::boxed(&proof)),
-            Format::Table | Format::Csv => certified::box_table(&proof),
+            Format::Table => certified::box_table(&proof),
+            Format::Csv => certified::box_csv(&proof),
         })
     }
 
@@ -86,8 +87,8 @@ impl Cycles {
         let Some(path) = &self.certificate else { return Ok(()) };
         let unwritten = |why: String| Failure::Unanswered(format!("no certificate: {why}"));
         let made = certificate(proof).map_err(unwritten)?;
-        let text = made.text().map_err(|error| unwritten(error.to_string()))?;
-        check(&text).map_err(|refused| unwritten(refused.to_string()))?;
+        let text = text(&made).map_err(|error| unwritten(error.to_string()))?;
+        check(&text).map_err(unwritten)?;
         write(path, text.as_bytes(), self.force)
     }
 

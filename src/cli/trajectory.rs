@@ -48,14 +48,14 @@ impl Trajectory {
             let start = [q, v].map(Interval::point);
             enclosed(&ParameterBox::from(&problem.parameters), start, problem.until)
         };
-        let certified = self.certify.ask(self.output.format, enclose)?;
+        let certified = self.certify.ask(enclose);
         let line = |it: &Motion| certified::motion_line(it, problem.until);
         self.output.print(&match self.output.format {
             Format::Table => {
                 report::table(&motion, seconds) + &certified.as_ref().map(line).unwrap_or_default()
             }
             Format::Json => report::json(&motion, certified.as_ref(), seconds),
-            Format::Csv => report::csv(&motion),
+            Format::Csv => report::csv(&motion, certified.as_ref()),
         })?;
         match motion.outcome {
             Outcome::GaveUp { tau, reason } => {

@@ -15,6 +15,7 @@
 use std::fmt;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use super::elementary;
 use serde::ser::{Serialize, SerializeTuple, Serializer};
 
 /// All numbers between two doubles, both included; a bound may be infinite.
@@ -148,6 +149,11 @@ impl Interval {
         Interval::new(exp(self.lower).lower, exp(self.upper).upper)
     }
 
+    /// `ln` of all members, which must be positive.
+    pub fn ln(self) -> Self {
+        Interval::new(ln(self.lower).lower, ln(self.upper).upper)
+    }
+
     /// `exp(x) - 1` of all members.
     pub fn exp_m1(self) -> Self {
         Interval::new(exp_m1(self.lower).lower, exp_m1(self.upper).upper)
@@ -196,6 +202,18 @@ fn exp(value: f64) -> Interval {
     #[expect(clippy::cast_possible_truncation, reason = "a whole number in -1022 ..= 1020")]
     let biased = (turns as i64 + 1023).unsigned_abs();
     sum * Interval::point(f64::from_bits(biased << 52))
+}
+
+/// `ln(value)`: with y near it, `r = value exp(-y)` is near 1, and `ln(value) - y = ln(r)` is between `1 - 1/r` and `r - 1`.
+fn ln(value: f64) -> Interval {
+    if !(value > f64::MIN_POSITIVE && value < f64::INFINITY) {
+        return Interval::ALL;
+    }
+    let y = elementary::ln(value);
+    let one = Interval::point(1.0);
+    let ratio = Interval::point(value) * exp(-y);
+    let off = Interval::new((one - one / ratio).lower, (ratio - one).upper);
+    Interval::point(y) + off
 }
 
 /// `exp(value) - 1`: below 1/2 by its own series, whose terms of degree 19 and more are together a part

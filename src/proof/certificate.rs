@@ -7,7 +7,7 @@ use super::cycles::{Proof, ProvedCycle};
 use super::map::{Direction, ReturnMap};
 use super::theorems::Theorem;
 use crate::check::map::{After, Map};
-use crate::check::{self, Certificate, Numbers, Parameters, Step};
+use crate::check::{Certificate, Kind, Numbers, Step};
 use crate::numerics::Interval;
 
 /// Makes the certificate of a proof.
@@ -19,24 +19,38 @@ pub fn certificate(proof: &Proof) -> Result<Certificate, String> {
         return Err("the number of cycles is not proved".to_owned());
     }
     let super::ParameterBox { d, d2, d3, r } = proof.parameters;
-    let parameters = Parameters { d: bounds(d), d2: bounds(d2), d3: bounds(d3), r: bounds(r) };
-    if let Some(theorem) = proof.theorem {
-        let name = match theorem {
-            Theorem::OneWay => check::Theorem::OneWay,
-            Theorem::Overdamped => check::Theorem::Overdamped,
-            Theorem::Affine => check::Theorem::Affine,
-            Theorem::Frictionless => check::Theorem::Frictionless,
+    let parameters = [d, d2, d3, r];
+    let steps = if let Some(theorem) = proof.theorem {
+        let kind = match theorem {
+            Theorem::OneWay => Kind::OneWay,
+            Theorem::Overdamped => Kind::Overdamped,
+            Theorem::Affine => Kind::Affine,
+            Theorem::Frictionless => Kind::Frictionless,
         };
-        let steps = vec![Step::Theorem { name }];
-        return Ok(Certificate::new(parameters, proof.cycles.len(), steps));
-    }
-    let mut walk = Walk { map: Map::new([d, d2, d3, r]), at: 0.0, above: false, steps: Vec::new() };
-    walk.rest(proof)?;
-    for cycle in &proof.cycles {
-        walk.pass(cycle)?;
-    }
-    walk.leave()?;
-    Ok(Certificate::new(parameters, proof.cycles.len(), walk.steps))
+        vec![Step { kind, from: 0.0, to: None, numbers: None }]
+    } else {
+        let map = Map::new(parameters);
+        let mut walk = Walk { map, at: 0.0, above: false, steps: Vec::new() };
+        walk.begin(proof)?;
+        for cycle in &proof.cycles {
+            walk.pass(cycle)?;
+        }
+        walk.leave()?;
+        walk.steps
+    };
+    Ok(Certificate::new(parameters.map(bounds), proof.cycles.len(), steps))
+}
+
+/// The file: a line for each step, every number in its shortest form that reads back exactly.
+///
+/// # Errors
+/// If a number is infinite or none.
+pub fn text(of: &Certificate) -> Result<String, serde_json::Error> {
+    let steps: Result<Vec<_>, _> = of.steps.iter().map(serde_json::to_string).collect();
+    let mut out = format!("{{\n\"parameters\": {},\n", serde_json::to_string(&of.parameters)?);
+    out += &format!("\"cycles\": {},\n\"steps\": [\n", of.cycles);
+    out += &format!("{}\n],\n\"digest\": \"{}\"\n}}\n", steps?.join(",\n"), of.digest);
+    Ok(out)
 }
 
 fn bounds(it: Interval) -> [f64; 2] {
@@ -56,21 +70,29 @@ struct Walk {
 const MOST: usize = 3_000;
 
 impl Walk {
-    /// From where motions come to rest within a turn.
-    fn rest(&mut self, proof: &Proof) -> Result<(), String> {
+    /// From where motions come to rest within a turn, or from next to a node that repels.
+    fn begin(&mut self, proof: &Proof) -> Result<(), String> {
         let mut map = ReturnMap::new(&proof.parameters);
         let second = map.half(1, Direction::Backward, Interval::point(0.0)).lower();
         let first = map.half(0, Direction::Backward, Interval::point(second)).lower();
         let mut to = if first < f64::INFINITY { 0.95 * first } else { map.gap.upper() };
         for _ in 0..20 {
             if to > 0.0 && self.map.after(false, to) == After::Rest {
-                self.steps.push(Step::Rest { to });
-                self.at = to;
+                self.take(Kind::Rest, Some(to));
                 return Ok(());
             }
             to *= 0.5;
         }
-        Err("no start is certain to come to rest within a turn".to_owned())
+        self.above = true;
+        let most = proof.cycles.first().and_then(|cycle| cycle.enclosure);
+        self.step(most.map_or(f64::MAX, |it| 0.5 * it.clearance.lower()))
+            .map_err(|_| "no start is certain to come to rest within a turn".to_owned())
+    }
+
+    /// Goes a step.
+    fn take(&mut self, kind: Kind, to: Option<f64>) {
+        self.steps.push(Step { kind, from: self.at, to, numbers: None });
+        self.at = to.unwrap_or(f64::INFINITY);
     }
 
     /// How far the image of the place allows to go.
@@ -92,9 +114,7 @@ impl Walk {
         if !(to > from && to < f64::INFINITY && self.steps.len() < MOST) {
             return Err(lost());
         }
-        let step = if self.above { Step::Above { from, to } } else { Step::Below { from, to } };
-        self.steps.push(step);
-        self.at = to;
+        self.take(if self.above { Kind::Above } else { Kind::Below }, Some(to));
         Ok(())
     }
 
@@ -117,7 +137,7 @@ impl Walk {
             self.step(from)?;
         }
         let numbers = self.numbers(cycle.stable, ends)?;
-        self.steps.push(Step::Cycle { from, to, numbers });
+        self.steps.push(Step { kind: Kind::Cycle, from, to: Some(to), numbers: Some(numbers) });
         (self.at, self.above) = (to, !self.above);
         Ok(())
     }
@@ -136,13 +156,12 @@ impl Walk {
             WIDER.map(ends).into_iter().find(certain).ok_or("a cycle cannot be bounded")?;
         let turn = self.map.turn(!stable, Interval::new(low, high));
         let turn = turn.ok_or("a turn of a cycle is not certain")?;
-        let multiplier = if stable { turn.slope } else { Interval::point(1.0) / turn.slope };
         Ok(Numbers {
             stable,
             clearance: [low, high],
             left: bounds(turn.left),
             period: bounds(turn.time),
-            multiplier: bounds(multiplier),
+            contraction: bounds(turn.slope),
         })
     }
 
@@ -152,14 +171,11 @@ impl Walk {
         loop {
             let from = self.at;
             if !self.above && greatest < from {
-                self.steps.push(Step::Damped { from });
+                self.take(Kind::Damped, None);
                 return Ok(());
             }
             if self.reach() == After::Never {
-                // What follows a cycle has to show on which side G lies, and does.
-                let last =
-                    if self.above { Step::Escapes { from } } else { Step::OutOfReach { from } };
-                self.steps.push(last);
+                self.take(if self.above { Kind::Above } else { Kind::Below }, None);
                 return Ok(());
             }
             self.step(f64::MAX)?;

@@ -3,7 +3,7 @@
 
 use super::field::{ParameterBox, scaled};
 use super::map::{Direction, ReturnMap};
-use super::swing::{Start, Swing, swing};
+use super::swing::Swing;
 use crate::numerics::Interval;
 use serde::Serialize;
 
@@ -136,26 +136,39 @@ fn describe(map: &mut ReturnMap, clearance: Interval, direction: Direction) -> O
         Direction::Forward => [clearance, left],
         Direction::Backward => [left + gap, clearance + gap],
     };
-    let mut run = |index: usize| -> Option<Swing> {
-        let field = map.halves[index].field(direction);
-        map.swings += 1;
-        swing(field, &Start::at_rest(starts[index]), true).arrived()
-    };
-    let (below, above) = (run(0)?, run(1)?);
+    let [below, above] = [0, 1].map(|index| map.whole_swing(index, direction, starts[index]));
     // What D2 contributes to the divergence vanishes around a closed curve.
     let cubic = |swing: &Swing| {
         let c = scaled(scaled(map.parameters.d3, swing.unit), swing.unit);
         c * swing.square * Interval::point(3.0)
     };
-    let period = below.duration + above.duration;
-    let damping = map.parameters.d.twice() * period + cubic(&below) + cubic(&above);
-    let share = |z: Interval| z / (z + gap);
-    let multiplier = share(clearance) * share(left) * (-damping).exp();
+    let positive = Interval::new(0.0, f64::INFINITY);
+    let (period, multiplier) = match (&below, &above) {
+        (Some(below), Some(above)) => {
+            let period = below.duration + above.duration;
+            let damping = map.parameters.d.twice() * period + cubic(below) + cubic(above);
+            let share = |z: Interval| z / (z + gap);
+            (period, share(clearance) * share(left) * (-damping).exp())
+        }
+        _ => (positive, positive),
+    };
+    let mut multiplier = multiplier.intersection(positive)?;
+    // Of a stiff cycle that is known better from the map, which contracts.
+    let stable = direction == Direction::Forward;
+    if !(multiplier.upper() < 1.0 || multiplier.lower() > 1.0)
+        && let Some(slope) = map.slope(direction, clearance)
+    {
+        let over = |bound: f64| Interval::point(1.0) / Interval::point(bound);
+        let repelling = Interval::new(over(slope.upper()).lower(), over(slope.lower()).upper());
+        let forward = if stable { slope } else { repelling };
+        multiplier = multiplier.intersection(forward)?;
+    }
+    let fastest = |swing: Option<Swing>| swing.and_then(|it| it.fastest).unwrap_or(positive);
     Some(Enclosure {
         q_max: clearance + r,
         q_min: -(left + r),
-        v_max: above.fastest?,
-        v_min: -below.fastest?,
+        v_max: fastest(above),
+        v_min: -fastest(below),
         period,
         multiplier,
         clearance,

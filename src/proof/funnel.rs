@@ -139,6 +139,12 @@ impl Funnel {
         })
     }
 
+    /// The velocity at which the fences end.
+    #[must_use]
+    pub fn speed(&self) -> f64 {
+        self.speed
+    }
+
     /// Lower bound of where all motions arrive that were faster than `speed`.
     #[must_use]
     pub fn least(&self) -> f64 {
@@ -246,10 +252,49 @@ impl Funnel {
         (slope < f64::INFINITY).then(|| (end, Interval::new(0.0, slope)))
     }
 
+    /// The whole swing, of motions that were found to fall from their largest velocity: the duration and the integral of
+    /// `v^2` of the part between the fences follow from by how little they miss the slow manifold (lemma 12).
+    #[must_use]
+    pub fn swing_after(&self, field: &Field, start: Interval, fallen: &Swing) -> Option<Swing> {
+        if !(start.upper() <= self.reach && self.rate > 0.0) {
+            return None;
+        }
+        let unit = exponent(self.speed);
+        let end = Interval::new(self.least(), self.greatest());
+        let (late, squares) = self.after(field, end, unit)?;
+        let Field { a, b, c } = field.in_units_of(unit);
+        let [x, v, entry, e] = [fallen.end, fallen.speed, self.entry, Interval::point(self.speed)]
+            .map(|it| scaled(it, -unit));
+        let [two, three, four] = [2.0, 3.0, 4.0].map(Interval::point);
+        // Between the fences `x + f` is at least 0 and at most `2 v/f'`, which is at most this.
+        let beside = two / scaled(Interval::point(self.rate), unit);
+        let beside = Interval::new(0.0, beside.upper());
+        let one = Interval::point(1.0);
+        let time = entry / e - x / v + a * (v / e).ln() + (v - e) * (b + c * (v + e) / two)
+            - beside * (one / e - one / v);
+        let work = |v: Interval| v.square() * (a / two + v * (b / three + v * c / four));
+        let square = e * entry - v * x - (work(v) - work(e)) + beside * (v - e);
+        let positive = |it: Interval| it.intersection(Interval::new(0.0, f64::INFINITY));
+        let duration = fallen.duration + positive(time)? + late;
+        let square = fallen.square_in(unit) + positive(square)? + squares;
+        let path = scaled(end + start, -unit);
+        let divergence = -(a * duration + (b * path).twice() + c * square * three);
+        let speed = Interval::point(0.0);
+        Some(Swing { end, speed, duration, square, unit, divergence, ..*fallen })
+    }
+
     /// The integral of the slope of the damping over time from the line `v = speed` on.
     fn damping_after(&self, field: &Field, end: Interval) -> Option<Interval> {
-        let (low, high) = (self.low?, self.high?);
         let unit = exponent(self.speed);
+        let (duration, squares) = self.after(field, end, unit)?;
+        let Field { a, b, c } = field.in_units_of(unit);
+        let way = scaled(end, -unit) - scaled(self.entry, -unit);
+        Some(a * duration + (b * way).twice() + c * squares * Interval::point(3.0))
+    }
+
+    /// The time from the line `v = speed` on, and the integral of `v^2` in units of `2^(2 unit)`.
+    fn after(&self, field: &Field, end: Interval, unit: i32) -> Option<(Interval, Interval)> {
+        let (low, high) = (self.low?, self.high?);
         let Field { a, b, c } = field.in_units_of(unit);
         let [end, entry, speed] =
             [end, self.entry, Interval::point(self.speed)].map(|it| scaled(it, -unit));
@@ -270,7 +315,7 @@ impl Funnel {
         let rim = (speed * Interval::point(entry.width())).upper();
         let squares = low.square_in(unit).hull(high.square_in(unit));
         let squares = squares + Interval::new(-rim, rim);
-        Some(a * duration + (b * (end - entry)).twice() + c * squares * Interval::point(3.0))
+        Some((duration, squares))
     }
 
     /// Lower bound of the same for motions that fall off a fold.

@@ -9,7 +9,7 @@ use std::cell::OnceCell;
 
 use super::field::{Field, ParameterBox};
 use super::funnel::Funnel;
-use super::swing::{MOST_STEPS, Passage, Start, Swing, swing_below};
+use super::swing::{MOST_STEPS, Passage, Start, Swing, swing, swing_below, swing_past_peak};
 use crate::numerics::Interval;
 use crate::oscillator::Side;
 
@@ -117,6 +117,24 @@ impl ReturnMap {
             Passage::Unknown => MOST_STEPS,
         };
         passage
+    }
+
+    /// A swing from rest with all its numbers; between the fences where it is stiff.
+    pub fn whole_swing(
+        &mut self,
+        index: usize,
+        direction: Direction,
+        start: Interval,
+    ) -> Option<Swing> {
+        let field = *self.halves[index].field(direction);
+        self.swings += 1;
+        if let Some(swing) = swing(&field, &Start::at_rest(start), true).arrived() {
+            return Some(swing);
+        }
+        let funnel = self.funnel(index, direction)?;
+        let fallen = swing_past_peak(&field, &Start::at_rest(start), funnel.speed());
+        let Passage::Exceeds(fallen) = fallen else { return None };
+        funnel.swing_after(&field, start, &fallen)
     }
 
     /// Where stiff swings of a half end.

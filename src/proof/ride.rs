@@ -53,12 +53,14 @@ impl Ride {
     fn step(&mut self, most: f64) -> Option<()> {
         self.series.expand(self.local.middles(), self.x, self.v);
         let mut h = self.series.step(TOLERANCE).min(most);
-        let ahead = self.series.velocity(h).0;
+        let ahead = self.series.at(h).1;
         let norm = self.local.norm(self.norm, [self.v, ahead], h);
         self.radius *= self.norm.into(norm) * INFLATE;
         self.norm = norm;
         for _ in 0..ATTEMPTS {
-            if let Some(reached) = self.local.carry(self.norm, &self.series, h, self.radius) {
+            if let Some(reached) =
+                self.local.carry(self.norm, &self.series, (h, self.series.at(h)), self.radius)
+            {
                 (self.x, self.v, self.radius) = (reached.x, reached.v, reached.radius);
                 self.elapsed = self.elapsed + Interval::point(h);
                 return (self.state().1.lower() > 0.0).then_some(());

@@ -5,7 +5,8 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-use crate::numerics::elementary::pow;
+use crate::numerics::polynomial::{reciprocals, value_and_slope_in_two};
+use crate::numerics::scaling::{rough_exp2, rough_log2};
 
 /// Degree of the polynomials.
 pub const ORDER: usize = 28;
@@ -17,18 +18,7 @@ pub(super) const LENGTH: usize = 32;
 const LANES: usize = 4;
 
 /// `1 / k`, rounded to the nearest double.
-pub(super) const INVERSE: [f64; LENGTH + 1] = {
-    let mut table = [0.0; LENGTH + 1];
-    let mut k = 1;
-    while k <= LENGTH {
-        #[expect(clippy::cast_precision_loss, reason = "k is at most 32")]
-        {
-            table[k] = 1.0 / k as f64;
-        }
-        k += 1;
-    }
-    table
-};
+pub(super) const INVERSE: [f64; LENGTH + 1] = reciprocals();
 
 /// The Taylor polynomials at a point.
 #[derive(Clone, Debug)]
@@ -66,28 +56,29 @@ impl Scalar for f64 {
     }
 }
 
-/// Sum of `one[i] other[k - i]` for `2 <= i <= k - 2`, in lanes; `other` holds its factor in reverse, from
-/// place `ORDER` down.
+/// Sums of `one[i] other[k - i]` for `2 <= i <= k - 2`, in lanes, for two arrays; `other` holds its factor in reverse,
+/// from place `ORDER` down.
 ///
 /// `other` holds nothing for degrees 0 and 1, so that the last lanes add zeros.
 ///
 /// Of these `k - 3` products each passes at most `k/4 + 2` roundings: one as a product, the others on the way down its
 /// lane, two where the lanes meet. Adding zeros is exact. Nothing is read that was written in the last two
 /// rounds, because waiting for memory would take longer than the sum.
-fn inner<T: Scalar>(one: &[T; LENGTH], other: &[T; 2 * LENGTH], k: usize) -> T {
-    let mut lanes = [T::ZERO; LANES];
+fn inner<T: Scalar>(both: [&[T; LENGTH]; 2], other: &[T; 2 * LENGTH], k: usize) -> [T; 2] {
+    let mut lanes = [[T::ZERO; LANES]; 2];
     if k < 4 {
-        return T::ZERO;
+        return [T::ZERO; 2];
     }
     let length = (k - 3).div_ceil(LANES) * LANES;
-    let first = &one[2..2 + length];
-    let second = &other[ORDER - k + 2..ORDER - k + 2 + length];
-    for (first, second) in first.chunks_exact(LANES).zip(second.chunks_exact(LANES)) {
-        for (lane, sum) in lanes.iter_mut().enumerate() {
-            *sum = *sum + first[lane] * second[lane];
+    let [one, two] = both.map(|of| of[2..2 + length].chunks_exact(LANES));
+    let other = other[ORDER - k + 2..ORDER - k + 2 + length].chunks_exact(LANES);
+    for ((one, two), other) in one.zip(two).zip(other) {
+        for lane in 0..LANES {
+            lanes[0][lane] = lanes[0][lane] + one[lane] * other[lane];
+            lanes[1][lane] = lanes[1][lane] + two[lane] * other[lane];
         }
     }
-    (lanes[0] + lanes[1]) + (lanes[2] + lanes[3])
+    lanes.map(|lanes| (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]))
 }
 
 impl<T: Scalar> Series<T> {
@@ -117,7 +108,7 @@ impl<T: Scalar> Series<T> {
         let mut force1 = T::ZERO;
         for k in 1..ORDER {
             // Both sums leave out the two outermost products on either side.
-            let (among, product) = (inner(&self.v, &backward, k), inner(&force, &backward, k));
+            let [among, product] = inner([&self.v, &force], &backward, k);
             let rest = match k {
                 1 => T::ZERO,
                 2 => v1 * v1,
@@ -145,15 +136,21 @@ impl<T: Scalar> Series<T> {
         }
     }
 
-    /// Position and velocity of the polynomial at a time, by Horner's rule: a coefficient of degree k passes
-    /// `2 k + 1` roundings.
+    /// Position and velocity of the polynomial at a time, by Horner's rule in even and odd powers, which do not wait for
+    /// each other. A coefficient of degree k passes at most `2 + 3 k/2` roundings: its own sum, three for each square of
+    /// the time, one for an odd power of it, and the last sum.
     #[must_use]
     pub fn at(&self, time: T) -> (T, T) {
-        let mut at = (self.x[ORDER], self.v[ORDER]);
-        for k in (0..ORDER).rev() {
-            at = (at.0 * time + self.x[k], at.1 * time + self.v[k]);
-        }
-        at
+        let square = time * time;
+        let value = |terms: &[T; LENGTH]| {
+            let (mut even, mut odd) = (terms[ORDER], terms[ORDER - 1]);
+            for k in (2..ORDER).step_by(2).rev() {
+                even = even * square + terms[k];
+                odd = odd * square + terms[k - 1];
+            }
+            even * square + terms[0] + time * odd
+        };
+        (value(&self.x), value(&self.v))
     }
 }
 
@@ -166,20 +163,15 @@ impl Series {
         let size = tolerance * self.x[0].abs().max(self.v[0].abs());
         let root = |k: usize| {
             let last = self.x[k].abs().max(self.v[k].abs());
-            pow(size / last, INVERSE[k])
+            rough_log2(size / last) * INVERSE[k]
         };
-        let step = root(ORDER).min(root(ORDER - 1));
+        let step = rough_exp2(root(ORDER).min(root(ORDER - 1)));
         if step < LONGEST { step } else { LONGEST }
     }
 
     /// Velocity and acceleration of the polynomial at a time, without bounds.
     #[must_use]
     pub fn velocity(&self, time: f64) -> (f64, f64) {
-        let (mut value, mut slope) = (self.v[ORDER], 0.0);
-        for k in (0..ORDER).rev() {
-            slope = slope * time + value;
-            value = value * time + self.v[k];
-        }
-        (value, slope)
+        value_and_slope_in_two(&self.v[..=ORDER], time)
     }
 }

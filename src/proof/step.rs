@@ -16,7 +16,7 @@
 use super::field::Field;
 use super::norm::Norm;
 use super::rounding::{INFLATE, UNDERFLOW, UNIT};
-use super::series::{INVERSE, ORDER, Series};
+use super::series::{INVERSE, LENGTH, ORDER, Series};
 use crate::numerics::Interval;
 use crate::numerics::elementary::ln;
 
@@ -120,8 +120,8 @@ pub struct Reached {
 ///   add up to i, and all to k: five twelfths of each, three times.
 const ROUNDINGS: [f64; 7] = [2.0, 4.0, 6.0, 11.0, 0.5, 13.0, 1.25];
 
-/// Roundings by Horner's rule: one for each term, and so many for each degree of it.
-const HORNER: [f64; 2] = [1.0, 2.0];
+/// Roundings by Horner's rule in even and odd powers: two for each term, and so many for each degree of it.
+const HORNER: [f64; 2] = [2.0, 1.5];
 
 /// The bound of all roundings of the defect over a step, in units of roundoff.
 fn roundings(numbers: &[f64; 7], [a, b, c]: [f64; 3], [x, v, _, degree]: [f64; 4]) -> f64 {
@@ -142,69 +142,122 @@ struct Sums {
     v_degree: f64,
     /// Of v, weighted by the degree times the degree before.
     bend: f64,
-    /// From each degree on, of v.
-    tails: [f64; ORDER + 2],
-    /// Of the terms of v, and of `v^2`.
-    terms: [f64; ORDER + 1],
-    squares: [f64; ORDER],
+    /// Of v, from the first degree on, and from [`THIRD`] on.
+    after_first: f64,
+    after_third: f64,
+    /// Of `v^2`, and its products with the tails of v that make degrees of [`ORDER`] and more; likewise of v.
+    squares: f64,
+    high_squares: f64,
+    high_cubes: f64,
     last_x: f64,
+    last_v: f64,
     integral: f64,
+}
+
+/// Of three degrees that add up to [`ORDER`] and more, one is larger than this.
+const THIRD: usize = ORDER / 3;
+
+/// Sums run in so many lanes, which do not wait for each other.
+const LANES: usize = 4;
+
+/// The degrees, and each times the one before.
+const DEGREES: [[f64; LENGTH]; 2] = {
+    let (mut table, mut degree) = ([[0.0; LENGTH]; 2], 0.0);
+    let mut k = 0;
+    while k < LENGTH {
+        table[0][k] = degree;
+        table[1][k] = degree * (degree - 1.0);
+        degree += 1.0;
+        k += 1;
+    }
+    table
+};
+
+/// The sum of products.
+fn dot(one: &[f64; LENGTH], other: &[f64; LENGTH]) -> f64 {
+    let mut lanes = [0.0; LANES];
+    for (one, other) in one.chunks_exact(LANES).zip(other.chunks_exact(LANES)) {
+        for (lane, sum) in lanes.iter_mut().enumerate() {
+            *sum += one[lane] * other[lane];
+        }
+    }
+    (lanes[0] + lanes[1]) + (lanes[2] + lanes[3])
+}
+
+/// The powers of a number: one of degree k is rounded k times at most.
+fn powers(h: f64) -> [f64; LENGTH] {
+    let (square, mut table) = (h * h, [1.0; LENGTH]);
+    (table[1], table[2], table[3]) = (h, square, square * h);
+    let fourth = square * square;
+    for k in LANES..LENGTH {
+        table[k] = table[k - LANES] * fourth;
+    }
+    table
 }
 
 impl Sums {
     fn of(series: &Series, h: f64) -> Self {
-        let mut sums = Sums {
-            x: 0.0,
-            v: 0.0,
-            x_degree: 0.0,
-            v_degree: 0.0,
-            bend: 0.0,
-            tails: [0.0; ORDER + 2],
-            terms: [0.0; ORDER + 1],
-            squares: [0.0; ORDER],
-            last_x: 0.0,
-            integral: 0.0,
-        };
-        let (mut power, mut degree) = (1.0, 0.0);
-        for k in 0..=ORDER {
-            let v = series.v[k].abs() * power;
-            sums.terms[k] = v;
-            sums.v_degree += degree * v;
-            sums.bend += degree * (degree - 1.0) * v;
-            if k < ORDER {
-                let square = series.square[k] * power;
-                sums.squares[k] = square.abs();
-                sums.integral += square * INVERSE[k + 1];
-            }
-            power *= h;
-            degree += 1.0;
+        let powers = powers(h);
+        let terms: [f64; LENGTH] = std::array::from_fn(|k| series.v[k].abs() * powers[k]);
+        let squares: [f64; LENGTH] = std::array::from_fn(|k| series.square[k] * powers[k]);
+        let sizes = squares.map(f64::abs);
+        // Place i holds the sum of the terms from degree `ORDER - i` on.
+        let mut tails = [0.0; LENGTH];
+        let mut tail = 0.0;
+        for (place, term) in tails.iter_mut().zip(terms[..=ORDER].iter().rev()) {
+            tail += term;
+            *place = tail;
         }
-        for k in (0..=ORDER).rev() {
-            sums.tails[k] = sums.tails[k + 1] + sums.terms[k];
-        }
-        sums.v = sums.tails[0];
+        let v = tail;
         // `x_(k+1)` is `v_k/(k + 1)` but for two roundings.
-        sums.x_degree = h * sums.v * INFLATE;
-        sums.x = series.x[0].abs() + sums.x_degree;
-        sums.last_x = h * sums.terms[ORDER - 1] * INVERSE[ORDER] * INFLATE;
-        sums
+        let x_degree = h * v * INFLATE;
+        Sums {
+            x: series.x[0].abs() + x_degree,
+            v,
+            x_degree,
+            v_degree: dot(&terms, &DEGREES[0]),
+            bend: dot(&terms, &DEGREES[1]),
+            after_first: tails[ORDER - 1],
+            after_third: tails[ORDER - THIRD],
+            squares: sizes.iter().sum(),
+            high_squares: dot(&terms, &tails),
+            high_cubes: dot(&sizes, &tails),
+            last_x: h * terms[ORDER - 1] * INVERSE[ORDER] * INFLATE,
+            last_v: terms[ORDER],
+            integral: dot(&squares, &NEXT),
+        }
     }
 }
 
+/// `1/(k + 1)`.
+const NEXT: [f64; LENGTH] = {
+    let mut table = [0.0; LENGTH];
+    let mut k = 0;
+    while k < LENGTH {
+        table[k] = INVERSE[k + 1];
+        k += 1;
+    }
+    table
+};
+
 impl Prepared {
-    /// Carries a ball around the start of a series over a step; `None` where nothing can be said, because
+    /// Carries a ball around the start of a series over a step of length h to its `end` by [`Series::at`]; `None` where nothing can be said, because
     /// the ball grows too much or the motion might turn around `v = 0` unseen.
     #[must_use]
-    pub fn carry(&self, norm: Norm, series: &Series, h: f64, radius: f64) -> Option<Reached> {
+    pub fn carry(
+        &self,
+        norm: Norm,
+        series: &Series,
+        (h, end): (f64, (f64, f64)),
+        radius: f64,
+    ) -> Option<Reached> {
         let sums = Sums::of(series, h);
         let [a, b, c] = self.most;
-        let Sums { x, v, x_degree, v_degree, ref tails, ref terms, .. } = sums;
-        let n = ORDER;
+        let Sums { x, v, x_degree, v_degree, last_x, last_v, .. } = sums;
         // Lemma 3: terms of degree ORDER and more of w^2 and w^3, times h to their degree.
-        let square_tail: f64 = (0..=n).map(|i| terms[i] * tails[n - i]).sum();
-        let low_squares: f64 = (0..n).map(|i| sums.squares[i] * tails[n - i]).sum();
-        let cube_tail = low_squares + 90.0 * UNIT * v * v * tails[n / 3] + square_tail * v;
-        let truncation = terms[n] + (sums.last_x + a * terms[n]) + b * square_tail + c * cube_tail;
+        let square_tail = sums.high_squares;
+        let cube_tail = sums.high_cubes + 90.0 * UNIT * v * v * sums.after_third + square_tail * v;
+        let truncation = last_v + (last_x + a * last_v) + b * square_tail + c * cube_tail;
         let magnitudes = [x, v, x_degree, v_degree];
         let rounding = UNIT * roundings(&ROUNDINGS, self.most, magnitudes);
         let [spread_a, spread_b, spread_c] = self.spread;
@@ -215,7 +268,6 @@ impl Prepared {
         let pushed = (radius + h * defect) * INFLATE;
         let tube = 3.0 * pushed;
         let off = norm.stretch * tube * INFLATE;
-        let end = series.at(h);
         let speeds = velocities(&sums, series.v[0], end.1, off);
         let growth = self.growth(norm, speeds);
         let factor = exponential(growth * h * if growth > 0.0 { INFLATE } else { 1.0 / INFLATE })?;
@@ -234,7 +286,7 @@ impl Prepared {
         let square_error = h
             * (off * (2.0 * v + off)
                 + square_tail
-                + UNIT * (v * v + 36.0 * sums.squares.iter().sum::<f64>())
+                + UNIT * (v * v + 36.0 * sums.squares)
                 + UNDERFLOW);
         Some(Reached {
             x: end.0,
@@ -252,18 +304,26 @@ impl Prepared {
     /// velocities v and w of motion and polynomial, and the rate is at most
     /// `(-s + max((s - m)(1 + k), (s - m)(1 - k)))/2` with `k = 2/sqrt(4 - s^2)`.
     fn growth(&self, norm: Norm, v: Interval) -> f64 {
-        let Field { a, b, c } = self.field;
+        /// More than the roundings of the sums below, relative to their terms.
+        const ROUNDED: f64 = 1e-15;
+        let [spread_a, spread_b, spread_c] = self.spread;
+        let (speed, s, k) = (v.magnitude(), norm.skew, norm.stretch);
+        let linear = [v.lower(), v.upper()].map(|v| 2.0 * self.b * v);
         // v^2 + v w + w^2 for v and w in one interval: between 0 (3/4 of the larger square) and 3 of it.
-        let square = v.square();
-        let least = if v.contains(0.0) { 0.0 } else { 3.0 * square.lower() * (1.0 - 1e-15) };
-        let cubic = Interval::new(least, 3.0 * square.upper() * (1.0 + 1e-15));
-        let m = a + b * v.twice() + c * cubic;
-        let (s, k) = (Interval::point(norm.skew), norm.stretch);
-        let excess = s - m;
+        let least = if v.contains(0.0) { 0.0 } else { v.lower().abs().min(v.upper().abs()) };
+        let cubic = [least, speed].map(|v| 3.0 * self.c * (v * v));
+        let blur = spread_a
+            + speed * (2.0 * spread_b + 3.0 * spread_c * speed)
+            + ROUNDED * (self.most[0] + speed * (2.0 * self.most[1] + 3.0 * self.most[2] * speed));
+        let low = self.a + linear[0].min(linear[1]) + cubic[0].min(cubic[1]) - blur;
+        let high = self.a + linear[0].max(linear[1]) + cubic[0].max(cubic[1]) + blur;
+        // Least and largest are not told from what is not a number.
+        if !(low <= high && blur < f64::INFINITY) {
+            return f64::INFINITY;
+        }
         // A negative excess times 1 - k, which is not positive, and a positive one times 1 + k.
-        let part =
-            (excess.upper().max(0.0) * (1.0 + k)).max((-excess.lower()).max(0.0) * (k - 1.0));
-        0.5 * (Interval::point(part * (1.0 + 1e-15)) - s).upper()
+        let part = ((s - low).max(0.0) * (1.0 + k)).max((high - s).max(0.0) * (k - 1.0));
+        0.5 * (part - s) + ROUNDED * (part + s.abs())
     }
 }
 
@@ -272,7 +332,7 @@ impl Prepared {
 /// They are within the sum of the terms of `v0`, and within `h^2/8` times the largest second derivative of the
 /// interval from `v0` to `v1`: a function is that close to its chord. `v1` itself is rounded.
 fn velocities(sums: &Sums, v0: f64, v1: f64, off: f64) -> Interval {
-    let away = Interval::around(v0, (sums.tails[1] + off) * INFLATE);
+    let away = Interval::around(v0, (sums.after_first + off) * INFLATE);
     let rounded = UNIT * (HORNER[0] * sums.v + HORNER[1] * sums.v_degree);
     let bend = (sums.bend / 8.0 + rounded + off) * INFLATE;
     let chord = Interval::new(v0.min(v1), v0.max(v1)) + Interval::new(-bend, bend);

@@ -1,5 +1,7 @@
 //! The certified half swing: from `(x, v)`, `v >= 0`, to the next `v = 0`, or the proof that there is none.
 
+use std::convert::Infallible;
+
 use super::field::{Field, scaled};
 use super::norm::Norm;
 use super::rounding::{INFLATE, UNIT};
@@ -8,6 +10,7 @@ use super::series::Series;
 use super::step::{Prepared, Reached};
 use crate::numerics::Interval;
 use crate::numerics::elementary::powi;
+use crate::numerics::root::{Bracket, Change, illinois, newton};
 use crate::numerics::scaling::exponent;
 
 /// Where a half swing starts: any point of a box. On `v = 0` it starts left of the centre, `x < 0`.
@@ -32,6 +35,8 @@ impl Start {
 pub struct Swing {
     /// Position at which it arrives.
     pub end: Interval,
+    /// Velocity there: 0, unless it was given up.
+    pub speed: Interval,
     /// How long it takes.
     pub duration: Interval,
     /// Integral of the divergence of the field along it.
@@ -74,7 +79,8 @@ impl Swing {
     pub fn times_power(self, k: i32) -> Self {
         let fastest = self.fastest.map(|it| scaled(it, k));
         let derivatives = self.derivatives.map(|it| by_units(it, k));
-        Swing { end: scaled(self.end, k), unit: self.unit + k, fastest, derivatives, ..self }
+        let [end, speed] = [self.end, self.speed].map(|it| scaled(it, k));
+        Swing { end, speed, unit: self.unit + k, fastest, derivatives, ..self }
     }
 }
 
@@ -108,6 +114,12 @@ pub fn swing(field: &Field, start: &Start, wants_fastest: bool) -> Passage {
 #[must_use]
 pub fn swing_below(field: &Field, start: &Start, ceiling: f64) -> Passage {
     run(field, start, ceiling, false, None)
+}
+
+/// The same with the largest velocity, given up after that was reached.
+#[must_use]
+pub fn swing_past_peak(field: &Field, start: &Start, ceiling: f64) -> Passage {
+    run(field, start, ceiling, true, None)
 }
 
 /// The same with the derivatives by the coefficients of the field (lemma 21), for four times the cost.
@@ -159,11 +171,11 @@ fn run(
         match run.advance(&mut series, wants_fastest) {
             Some(Arrival::Later) => {}
             Some(Arrival::Now { end, lag }) => {
-                let swing = run.finish(&start, end, lag, unit, steps);
+                let swing = run.finish(&start, (end, Interval::point(0.0)), lag, unit, steps);
                 return swing.map_or(Passage::Unknown, Passage::Arrives);
             }
-            Some(Arrival::Above(end)) => {
-                let swing = run.finish(&start, end, 0.0, unit, steps);
+            Some(Arrival::Above(end, speed)) => {
+                let swing = run.finish(&start, (end, speed), 0.0, unit, steps);
                 return swing.map_or(Passage::Unknown, Passage::Exceeds);
             }
             Some(Arrival::Never) => return Passage::Never,
@@ -187,10 +199,10 @@ fn by_units([a, b, c]: [Interval; 3], k: i32) -> [Interval; 3] {
 #[must_use]
 pub fn never_returns(field: &Field, x: f64, v: f64) -> bool {
     let m = Interval::point(v) - Interval::point(x);
-    let [a, b, c] = [field.a, field.b, field.c].map(|it| Interval::point(it.upper()));
-    if !(m.lower() > 0.0 && v >= 0.0 && c.upper() <= 0.0) {
+    if !(field.c.upper() <= 0.0 && m.lower() > 0.0 && v >= 0.0) {
         return false;
     }
+    let [a, b, c] = [field.a, field.b, field.c].map(|it| Interval::point(it.upper()));
     let (at, two, three) = (Interval::point(v), Interval::point(2.0), Interval::point(3.0));
     let linear = a + two;
     // Coefficients of P in powers of the velocity beyond v.
@@ -256,8 +268,8 @@ enum Arrival {
         /// How far from the end of the last step, in time.
         lag: f64,
     },
-    /// Faster than the ceiling, at this position.
-    Above(Interval),
+    /// Faster than the ceiling, at this position and velocity.
+    Above(Interval, Interval),
     Never,
 }
 
@@ -268,21 +280,23 @@ impl Run {
         if !(h > 0.0) {
             return None;
         }
-        let ahead = series.velocity(h).0;
+        let mut end = series.at(h);
         let mut last = false;
-        let norm = self.local.norm(self.norm, [self.v, ahead], h);
+        let norm = self.local.norm(self.norm, [self.v, end.1], h);
         self.radius *= self.norm.into(norm) * INFLATE;
         self.norm = norm;
-        if !(ahead > 4.0 * norm.stretch * self.radius) {
-            (h, last) = arrival(series, h, ahead)?;
+        if !(end.1 > 4.0 * norm.stretch * self.radius) {
+            (h, last) = arrival(series, h, end.1)?;
+            end = series.at(h);
         }
         let mut reached = None;
         for _ in 0..ATTEMPTS {
-            reached = self.local.carry(self.norm, series, h, self.radius);
+            reached = self.local.carry(self.norm, series, (h, end), self.radius);
             if reached.is_some() {
                 break;
             }
             (h, last) = (0.75 * h, false);
+            end = series.at(h);
         }
         let reached = reached?;
         if wants_fastest && self.fastest.is_none() {
@@ -308,8 +322,9 @@ impl Run {
         if !(self.v > off) {
             return None;
         }
-        if self.v - off > self.ceiling {
-            return Some(Arrival::Above(Interval::around(self.x, off)));
+        if self.v - off > self.ceiling && (!wants_fastest || self.fastest.is_some()) {
+            let [x, v] = [self.x, self.v].map(|it| Interval::around(it, off));
+            return Some(Arrival::Above(x, v));
         }
         let escapes =
             never_returns(self.local.field(), (self.x + off).next_up(), (self.v - off).next_down());
@@ -346,18 +361,20 @@ impl Run {
     /// Near it, with acceleration at most `d` in size at velocity v, the rest of the rise is at most
     /// `d^2/(v - d f)`, where f bounds the slope of the damping.
     fn turn_of_speed(&self, series: &Series, h: f64, end: &Reached) -> Speed {
+        /// An error of the moment costs its square.
+        const NEAR: f64 = 1e-10;
         let field = self.local.field();
         let rough =
             |x: f64, v: f64| field.acceleration(Interval::point(x), Interval::point(v)).middle();
         if rough(end.x, end.v) > 0.0 {
             return Speed::StillRising;
         }
-        let (mut low, mut high) = (0.0, h);
-        for _ in 0..40 {
-            let middle = 0.5 * (low + high);
-            if series.velocity(middle).1 > 0.0 { low = middle } else { high = middle }
-        }
-        let Some(near) = self.local.carry(self.norm, series, high, self.radius) else {
+        let ends = [0.0, h].map(|at| (at, series.velocity(at).1));
+        let Ok([near, _]) = illinois(ends, 0.0, Change::Absolute(NEAR * h), |at| {
+            Ok::<_, Infallible>(series.velocity(at).1)
+        });
+        let near = (near.0, series.at(near.0));
+        let Some(near) = self.local.carry(self.norm, series, near, self.radius) else {
             return Speed::Uncertain;
         };
         let off = self.norm.stretch * near.radius * INFLATE;
@@ -377,7 +394,7 @@ impl Run {
     fn finish(
         &self,
         start: &Start,
-        end: Interval,
+        (end, velocity): (Interval, Interval),
         lag: f64,
         unit: i32,
         steps: u32,
@@ -393,6 +410,7 @@ impl Run {
         let known = duration.is_finite() && divergence.is_finite() && duration.lower() > 0.0;
         known.then(|| Swing {
             end: scaled(end, unit),
+            speed: scaled(velocity, unit),
             duration,
             divergence,
             square,
@@ -412,24 +430,9 @@ impl Run {
 fn arrival(series: &Series, h: f64, ahead: f64) -> Option<(f64, bool)> {
     /// How far beyond the step its polynomial is trusted.
     const BEYOND: f64 = 1.02;
-    let (mut low, mut high) = (0.0, if ahead > 0.0 { BEYOND * h } else { h });
-    let mut at = h;
-    for _ in 0..60 {
-        let (value, slope) = series.velocity(at);
-        if value > 0.0 {
-            low = at;
-        } else {
-            high = at;
-        }
-        let newton = at - value / slope;
-        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-        let change = (next - at).abs();
-        at = next;
-        if change <= 1e-15 * h {
-            break;
-        }
-    }
-    if at > low.max(0.0) * 0.999 && at > 0.0 && at < BEYOND * h * (1.0 - 1e-9) {
+    let bracket = Bracket::falling(0.0, if ahead > 0.0 { BEYOND * h } else { h });
+    let at = newton(bracket, h, Change::Relative(1e-9), |at| series.velocity(at)).at;
+    if at > 0.0 && at < BEYOND * h * (1.0 - 1e-9) {
         Some((at, true))
     } else if ahead > 0.0 {
         Some((0.8 * h, false))

@@ -7,6 +7,7 @@ use super::speeds::Speeds;
 use super::whole::{Course, Kinds};
 use super::zones::Zones;
 use crate::flow::{Cost, Reason, Trajectory};
+use crate::proof::Proof;
 use crate::study::accuracy::Reference;
 use crate::study::chart::Chart;
 use crate::study::claims::Examined;
@@ -41,6 +42,7 @@ answers! {
     /// To [`Request::Machine`](super::request::Request::Machine) and `Portrait`.
     Whole(Box<Whole>) costs |answer| answer.drawn.cost();
     Speeds(Speeds) costs |answer| answer.cost;
+    Proof(Proof) costs |_| Cost::default();
     /// To [`Request::Zones`](super::request::Request::Zones) and `MachineZones`.
     Zones(Zones) costs |answer| answer.cost;
     Capture(Borders) costs |answer| answer.cost;

@@ -18,6 +18,7 @@ pub mod machine_zones;
 pub mod means;
 pub mod motion;
 pub mod portrait;
+pub mod proof;
 pub mod reference;
 pub mod regimes;
 pub mod request;

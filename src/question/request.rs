@@ -5,8 +5,8 @@ use super::kind::Question;
 use super::means::{Fineness, Means, Rows};
 use super::topic::Topic;
 use super::{
-    balance, branch, capture, claims, cycles, fit, machine, machine_zones, portrait, reference,
-    regimes, return_map, scan, speeds, trade, zones,
+    balance, branch, capture, claims, cycles, fit, machine, machine_zones, portrait, proof,
+    reference, regimes, return_map, scan, speeds, trade, zones,
 };
 use crate::flow::{Limits, Problem, Reason};
 use crate::study::scan::Scan;
@@ -73,6 +73,8 @@ requests! {
     Cycles(cycles::Asked) about Cycles, answered by Answer::Cycles;
     /// All cycles of a machine and the border of its basin.
     Portrait(portrait::Asked) about Cycles, answered by Whole::cycles;
+    /// How many cycles there are for certain.
+    Proof(proof::Asked) about Proof, answered by Answer::Proof;
     /// What is safe and what is lost for certain.
     Zones(zones::Asked) about Zones, answered by Answer::Zones;
     /// The same of a machine by the whole model.
@@ -102,10 +104,10 @@ requests! {
 }
 
 impl Request {
-    /// Whether it may take long, is answered in pieces, and must not keep others waiting.
+    /// Whether it may take long and must not keep others waiting.
     #[must_use]
     pub fn is_long(&self) -> bool {
-        matches!(self, Request::Scan(_))
+        matches!(self, Request::Scan(_) | Request::Proof(_))
     }
 
     /// How alike this is to a question: how many of their numbers are equal. `None` where its answer must

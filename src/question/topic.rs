@@ -51,6 +51,8 @@ topics! {
     Scan "scan";
     /// The claims of the paper.
     Claims "paper";
+    /// How many cycles there are for certain.
+    Proof "proof";
     /// What errors are measured against: wanted last of all.
     Reference "reference";
 }

@@ -29,6 +29,8 @@ struct Row {
     area: Option<f64>,
     captured_part: f64,
     lyapunov_share: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    certified: Option<Survived>,
 }
 
 pub fn json(found: &Survey, certified: Option<&Kicks>, seconds: f64) -> String {
@@ -39,15 +41,16 @@ pub fn json(found: &Survey, certified: Option<&Kicks>, seconds: f64) -> String {
     })
 }
 
-pub fn csv(found: &Survey) -> String {
-    let row = Row {
+pub fn csv(found: &Survey, certified: Option<&Kicks>) -> String {
+    let row = |certified| Row {
         counts: found.counts,
         margin: found.margin,
         area: found.area,
         captured_part: found.captured,
         lyapunov_share: found.lyapunov_share,
+        certified,
     };
-    csv::sheet(&row, [&row])
+    csv::sheet(&row(certified.map(|_| Survived::like())), [row(certified.map(survived))])
 }
 
 /// What borders the basin of the sticking set.

@@ -2,10 +2,11 @@
 
 use serde::Serialize;
 
-use super::certified::Bordered;
+use super::certified::{Bordered, Bounds};
 use super::csv::Sheet;
 use super::json::{self, Price};
 use super::table::{Table, parameters, rounded};
+use crate::numerics::Interval;
 use crate::oscillator::{Parameters, Symbol};
 use crate::study::fold::{Boundary, BoundaryPoint};
 use crate::words::number::{duration, significant};
@@ -33,6 +34,19 @@ struct Row<'a> {
     #[serde(rename = "D_c")]
     escape: Option<f64>,
     reason: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    certified: Option<Sure>,
+}
+
+/// What is enclosed there, a column for each bound.
+#[derive(Serialize)]
+struct Sure {
+    #[serde(rename = "D_F")]
+    fold: Option<Bounds>,
+    #[serde(rename = "D_c")]
+    escape: Option<Bounds>,
+    proved: bool,
+    open: String,
 }
 
 pub fn json(found: &Boundary, certified: Option<&[Bordered]>, seconds: f64) -> String {
@@ -46,9 +60,25 @@ pub fn json(found: &Boundary, certified: Option<&[Bordered]>, seconds: f64) -> S
 }
 
 /// One row for each value of the second parameter.
-pub fn csv(found: &Boundary) -> String {
-    let mut sheet = Sheet::like(&Row::default(), &[("value", found.second.spec().name)]);
-    for point in &found.points {
+pub fn csv(found: &Boundary, certified: Option<&[Bordered]>) -> String {
+    let all = || Some(Interval::ALL.into());
+    let like = Row {
+        certified: certified.map(|_| Sure {
+            fold: all(),
+            escape: all(),
+            proved: false,
+            open: String::new(),
+        }),
+        ..Row::default()
+    };
+    let mut sheet = Sheet::like(&like, &[("value", found.second.spec().name)]);
+    for (index, point) in found.points.iter().enumerate() {
+        let certified = certified.and_then(|all| all.get(index)).map(|it| Sure {
+            fold: it.fold,
+            escape: it.escape,
+            proved: it.proved,
+            open: it.open.join(", "),
+        });
         sheet.row(&Row {
             value: point.value,
             fold: point.fold.map(|fold| fold.d),
@@ -57,6 +87,7 @@ pub fn csv(found: &Boundary) -> String {
             harmonic_fold: point.harmonic_fold,
             escape: point.escape,
             reason: point.reason.as_deref(),
+            certified,
         });
     }
     sheet.into_text()

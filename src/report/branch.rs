@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::certified::{Decided, decided};
+use super::certified::{Decided, PieceBounds, decided};
 use super::csv::Sheet;
 use super::cycles::{COLUMNS, cells};
 use super::json::{self, Price};
@@ -15,14 +15,22 @@ use crate::words::number::{duration, significant};
 /// A point, with the number of the connected piece that it belongs to.
 #[derive(Default, Serialize)]
 struct Row {
-    piece: usize,
+    piece: Option<usize>,
     #[serde(flatten)]
-    point: BranchPoint,
+    point: Option<BranchPoint>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    certified: Option<PieceBounds>,
 }
 
 fn rows(branch: &Branch) -> impl Iterator<Item = Row> {
     let pieces = branch.pieces.iter().enumerate();
-    pieces.flat_map(|(piece, points)| points.iter().map(move |point| Row { piece, point: *point }))
+    pieces.flat_map(|(piece, points)| {
+        points.iter().map(move |point| Row {
+            piece: Some(piece),
+            point: Some(*point),
+            certified: None,
+        })
+    })
 }
 
 #[derive(Serialize)]
@@ -47,10 +55,20 @@ pub fn json(branch: &Branch, certified: Option<&Range>, seconds: f64) -> String 
     })
 }
 
-/// One row for each point.
-pub fn csv(branch: &Branch) -> String {
-    let mut sheet = Sheet::like(&Row::default(), &[("value", branch.parameter.spec().name)]);
+/// One row for each point, and for each part of the range in which the number of cycles is proved or open.
+pub fn csv(branch: &Branch, certified: Option<&Range>) -> String {
+    let name = branch.parameter.spec().name;
+    let bounds = ["lower", "upper"].map(|end| (format!("value_{end}"), format!("{name}_{end}")));
+    let called = [("value", name), (&bounds[0].0, &bounds[0].1), (&bounds[1].0, &bounds[1].1)];
+    let like = Row {
+        point: Some(BranchPoint::default()),
+        certified: certified.map(|_| PieceBounds::like()),
+        ..Row::default()
+    };
+    let mut sheet = Sheet::like(&like, &called);
     rows(branch).for_each(|row| sheet.row(&row));
+    let parts = certified.map(PieceBounds::of).unwrap_or_default();
+    parts.into_iter().for_each(|part| sheet.row(&Row { certified: Some(part), ..Row::default() }));
     sheet.into_text()
 }
 

@@ -4,14 +4,14 @@ use serde::Serialize;
 
 use super::proof::certain;
 use super::table::Table;
-use crate::check::{Bounds as Pair, Certificate, Step};
+use crate::check::{Bounds as Pair, Certificate};
 use crate::numerics::Interval;
 use crate::numerics::elementary::{log10, pow};
 use crate::oscillator::Symbol;
 use crate::proof::cycles::Proof;
 use crate::proof::kicks::{Edge, Kicks};
 use crate::proof::motion::{Fate, Motion};
-use crate::proof::range::{Change, Range};
+use crate::proof::range::{Change, Piece, Range};
 use crate::study::fold::BoundaryPoint;
 use crate::words::number::significant;
 
@@ -46,6 +46,35 @@ pub struct Followed {
     turns: Vec<Turn>,
     proved: bool,
     open: Option<&'static str>,
+}
+
+/// What is enclosed of a point of a motion, a column for each bound.
+#[derive(Serialize)]
+pub struct PointBounds {
+    tau: Bounds,
+    q: Option<Bounds>,
+    v: Option<Bounds>,
+    proved: bool,
+    open: Option<&'static str>,
+}
+
+impl PointBounds {
+    /// With a column for everything.
+    pub fn like() -> Self {
+        PointBounds::of(Interval::ALL, Interval::ALL, Interval::ALL)
+    }
+
+    /// Of a point that is enclosed.
+    pub fn of(tau: Interval, q: Interval, v: Interval) -> Self {
+        let [q, v] = [q, v].map(|it| Some(it.into()));
+        PointBounds { tau: tau.into(), q, v, proved: true, open: None }
+    }
+
+    /// Of the end of a motion.
+    pub fn of_end(motion: &Motion, until: f64) -> Self {
+        let Followed { tau, q, v, proved, open, .. } = followed(motion, until);
+        PointBounds { tau, q, v, proved, open }
+    }
 }
 
 /// A motion until a time, for documents.
@@ -137,6 +166,44 @@ pub fn kicks_lines(kicks: &Kicks) -> String {
     edge + &lines + &kicks.open.map(|why| format!("open: {why}\n")).unwrap_or_default()
 }
 
+impl Survived {
+    /// With a column for everything.
+    pub fn like() -> Self {
+        let all = Some(Bounds::from(Interval::ALL));
+        Survived { edge: None, displacement: all, impulse: all, proved: false, open: None }
+    }
+}
+
+/// What holds for every value in a piece of a range, a column for each bound.
+#[derive(Clone, Copy, Serialize)]
+pub struct PieceBounds {
+    value: Bounds,
+    cycles: Option<usize>,
+    proved: bool,
+    /// Where in an open piece the number of cycles changes.
+    change: Option<Bounds>,
+}
+
+impl PieceBounds {
+    /// With a column for everything.
+    pub fn like() -> Self {
+        let all = Interval::ALL.into();
+        PieceBounds { value: all, cycles: None, proved: false, change: Some(all) }
+    }
+
+    /// Of all pieces of a range.
+    pub fn of(range: &Range) -> Vec<Self> {
+        let row = |piece: &Piece| {
+            let mut changes = range.changes.iter();
+            let change = changes.find(|change| change.between.is_within(piece.over));
+            let (cycles, value) = (piece.cycles.as_ref().map(Vec::len), piece.over.into());
+            let change = change.filter(|_| cycles.is_none()).map(|change| change.between.into());
+            PieceBounds { value, cycles, proved: cycles.is_some(), change }
+        };
+        range.pieces.iter().map(row).collect()
+    }
+}
+
 #[derive(Serialize)]
 struct PieceRow {
     #[serde(flatten)]
@@ -165,7 +232,7 @@ pub struct Decided {
 
 /// A range, for documents.
 pub fn decided(range: &Range) -> Decided {
-    let piece = |piece: &crate::proof::range::Piece| PieceRow {
+    let piece = |piece: &Piece| PieceRow {
         over: piece.over.into(),
         cycles: piece.cycles.as_ref().map(Vec::len),
         stable: piece.cycles.clone(),
@@ -322,12 +389,26 @@ pub fn boxed(proof: &Proof) -> impl Serialize {
     BoxDocument { cycles: cycles.collect(), count: super::proof::count(proof) }
 }
 
+/// The same as rows.
+pub fn box_csv(proof: &Proof) -> String {
+    #[derive(Serialize)]
+    struct Row {
+        stable: Option<bool>,
+        certified: super::proof::CycleBounds,
+    }
+    let cycles = proof.cycles.iter().map(|cycle| Row {
+        stable: Some(cycle.stable),
+        certified: super::proof::CycleBounds::of(cycle.enclosure),
+    });
+    let open = super::proof::CycleBounds::open(proof);
+    let open = open.map(|certified| Row { stable: None, certified });
+    let like = Row { stable: None, certified: super::proof::CycleBounds::like() };
+    super::csv::sheet(&like, cycles.chain(open))
+}
+
 /// What a checked certificate says.
 pub fn certificate_table(certificate: &Certificate) -> String {
     let interval = |[lower, upper]: Pair| Interval::new(lower, upper);
-    let parameters = certificate.parameters;
-    let values =
-        [("D", parameters.d), ("D2", parameters.d2), ("D3", parameters.d3), ("r", parameters.r)];
     let value = |(name, it): (&str, Pair)| {
         if it[0] == it[1] {
             format!("{name} = {:?}", it[0])
@@ -339,11 +420,15 @@ pub fn certificate_table(certificate: &Certificate) -> String {
         Table::new(&["cycle", "right clearance", "left clearance", "period", "multiplier"]);
     let mut some = false;
     for step in &certificate.steps {
-        if let Step::Cycle { numbers, .. } = step {
+        if let Some(numbers) = step.numbers {
             some = true;
             let kind = if numbers.stable { "stable" } else { "unstable" };
-            let cells = [numbers.clearance, numbers.left, numbers.period, numbers.multiplier];
-            let cells = cells.map(|it| certain(interval(it), PLACES));
+            let contraction = interval(numbers.contraction);
+            let inverse = Interval::point(1.0) / contraction;
+            let multiplier = if numbers.stable { contraction } else { inverse };
+            let cells = [numbers.clearance, numbers.left, numbers.period].map(interval);
+            let cells = [cells.as_slice(), &[multiplier]].concat();
+            let cells: Vec<_> = cells.into_iter().map(|it| certain(it, PLACES)).collect();
             table.row([&[kind.to_owned()], cells.as_slice()].concat());
         }
     }
@@ -354,6 +439,7 @@ pub fn certificate_table(certificate: &Certificate) -> String {
     };
     let table = if some { format!("{table}\n") } else { String::new() };
     let steps = certificate.steps.len();
-    let values = values.map(value).join(", ");
+    let values = ["D", "D2", "D3", "r"].into_iter().zip(certificate.parameters).map(value);
+    let values = values.collect::<Vec<_>>().join(", ");
     format!("{values}\n\n{table}{count} and no other, at any amplitude: {steps} steps checked\n")
 }

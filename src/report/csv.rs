@@ -13,7 +13,8 @@ pub struct Sheet {
 }
 
 impl Sheet {
-    /// No rows yet, with a column for each field of such a row; a field that is itself a record or a list has none.
+    /// No rows yet, with a column for each field of such a row; a field that is itself a record or a list has none,
+    /// but [`CERTIFIED`] has those of its own fields, two for bounds.
     /// Columns may be called otherwise than their fields: `(field, name)`.
     pub fn like(row: &impl Serialize, called: &[(&str, &str)]) -> Self {
         let single = |(_, value): &(String, Value)| !value.is_object() && !value.is_array();
@@ -55,11 +56,29 @@ pub fn sheet<R: Serialize>(like: &impl Serialize, rows: impl IntoIterator<Item =
     sheet.into_text()
 }
 
+/// The field of a row with what is proved about it.
+const CERTIFIED: &str = "certified";
+
 fn fields(row: &impl Serialize) -> Map<String, Value> {
-    match serde_json::to_value(row) {
-        Ok(Value::Object(fields)) => fields,
-        _ => Map::new(),
+    let Ok(Value::Object(mut fields)) = serde_json::to_value(row) else { return Map::new() };
+    if let Some(Value::Object(certified)) = fields.remove(CERTIFIED) {
+        for (name, value) in certified {
+            let bounds = match value {
+                Value::Object(mut of) => ["lower", "upper"].map(|end| of.remove(end)),
+                Value::Array(of) => {
+                    <[Value; 2]>::try_from(of).map_or([None, None], |of| of.map(Some))
+                }
+                single => {
+                    fields.entry(name).or_insert(single);
+                    continue;
+                }
+            };
+            for (end, value) in ["lower", "upper"].into_iter().zip(bounds) {
+                fields.insert(format!("{name}_{end}"), value.unwrap_or_default());
+            }
+        }
     }
+    fields
 }
 
 fn cell(value: &Value) -> String {
@@ -114,6 +133,24 @@ mod tests {
             "\"a,b\",,0,",
         ];
         assert_eq!(text.lines().collect::<Vec<_>>(), lines);
+    }
+
+    #[test]
+    fn bounds_have_two_columns() {
+        #[derive(Serialize)]
+        struct Sure {
+            q: f64,
+            certified: Bounds,
+        }
+        #[derive(Serialize)]
+        struct Bounds {
+            q: [f64; 2],
+            proved: bool,
+        }
+        let row = |q: [f64; 2]| Sure { q: 1.0, certified: Bounds { q, proved: true } };
+        let rows = [row([0.5, 1.5]), row([0.5, f64::INFINITY])];
+        let lines = ["q,q_lower,q_upper,proved", "1.0,0.5,1.5,true", "1.0,0.5,,true"];
+        assert_eq!(sheet(&rows[0], &rows).lines().collect::<Vec<_>>(), lines);
     }
 
     #[test]

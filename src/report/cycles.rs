@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::csv;
 use super::json::{self, Price};
-use super::proof::{self, certain, enclosure};
+use super::proof::{self, CycleBounds, certain, enclosure};
 use super::table::{Table, parameters};
 use super::{basin, harmonic_balance};
 use crate::closed_form::harmonic::Harmonic;
@@ -51,9 +51,21 @@ pub fn json(
     })
 }
 
-/// One row for each cycle.
-pub fn csv(found: &Cycles) -> String {
-    csv::sheet(&Cycle::default(), &found.cycles)
+/// One row for each cycle, and for each interval of clearances that is open.
+pub fn csv(found: &Cycles, proof: &Proof) -> String {
+    #[derive(Serialize)]
+    struct Row<'a> {
+        #[serde(flatten)]
+        cycle: Option<&'a Cycle>,
+        certified: CycleBounds,
+    }
+    let cycles = found.cycles.iter().map(|cycle| Row {
+        cycle: Some(cycle),
+        certified: CycleBounds::of(enclosure(proof, cycle)),
+    });
+    let open = CycleBounds::open(proof).map(|certified| Row { cycle: None, certified });
+    let like = Row { cycle: Some(&Cycle::default()), certified: CycleBounds::like() };
+    csv::sheet(&like, cycles.chain(open))
 }
 
 /// Titles of the columns that describe a cycle.

@@ -8,6 +8,7 @@ use crate::proof::enclose::Enclosure;
 use crate::proof::field::ParameterBox;
 use crate::study::Cycle;
 use crate::study::proved::matching;
+use crate::words::cycles;
 use crate::words::number::significant;
 
 /// A cycle with what is proved about it.
@@ -19,6 +20,54 @@ pub(super) struct Row<'a> {
     proved: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     enclosure: Option<Enclosure>,
+}
+
+/// What is proved about a cycle, or clearances that are open: a column for each bound.
+#[derive(Serialize)]
+pub(super) struct CycleBounds {
+    proved: bool,
+    open: Option<&'static str>,
+    #[serde(flatten)]
+    enclosure: Option<Enclosure>,
+    #[serde(flatten)]
+    clearances: Option<Clearances>,
+}
+
+#[derive(Serialize)]
+struct Clearances {
+    clearance: Interval,
+}
+
+impl CycleBounds {
+    /// With a column for everything.
+    pub(super) fn like() -> Self {
+        let q = Interval::ALL;
+        let all = Enclosure {
+            q_max: q,
+            q_min: q,
+            v_max: q,
+            v_min: q,
+            period: q,
+            multiplier: q,
+            clearance: q,
+        };
+        CycleBounds::of(Some(all))
+    }
+
+    /// Of a cycle.
+    pub(super) fn of(enclosure: Option<Enclosure>) -> Self {
+        CycleBounds { proved: enclosure.is_some(), open: None, enclosure, clearances: None }
+    }
+
+    /// Of what is open.
+    pub(super) fn open(proof: &Proof) -> impl Iterator<Item = Self> {
+        proof.open.iter().map(|open| CycleBounds {
+            proved: false,
+            open: Some(open.reason),
+            enclosure: None,
+            clearances: Some(Clearances { clearance: Interval::new(open.lower, open.upper) }),
+        })
+    }
 }
 
 /// The number of cycles, with what is proved about it.
@@ -66,11 +115,7 @@ pub(super) fn count(proof: &Proof) -> Count<'_> {
 
 /// `2 cycles, proved`, or what is open.
 pub(super) fn sentence(found: usize, proof: &Proof) -> String {
-    let cycles = match found {
-        0 => "no limit cycle".to_owned(),
-        1 => "1 cycle".to_owned(),
-        more => format!("{more} cycles"),
-    };
+    let cycles = cycles(found);
     if proof.is_complete() {
         return format!("{cycles}, proved for the parameters as doubles\n");
     }

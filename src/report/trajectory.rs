@@ -2,11 +2,12 @@
 
 use serde::Serialize;
 
-use super::certified::{Followed, followed};
+use super::certified::{Followed, PointBounds, followed};
 use super::csv;
 use super::json::{self, Price};
 use super::table::{Table, digits, motion as question};
 use crate::flow::{Crossing, Method, Outcome, Trajectory};
+use crate::numerics::Interval;
 use crate::oscillator::{Ledger, Parameters, State};
 use crate::proof::motion::Motion;
 use crate::words::motion::sentence;
@@ -33,6 +34,8 @@ struct Row {
     tau: f64,
     q: Option<f64>,
     v: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    certified: Option<PointBounds>,
 }
 
 pub fn json(motion: &Trajectory, certified: Option<&Motion>, seconds: f64) -> String {
@@ -50,22 +53,31 @@ pub fn json(motion: &Trajectory, certified: Option<&Motion>, seconds: f64) -> St
 }
 
 /// One row for each point.
-pub fn csv(motion: &Trajectory) -> String {
+pub fn csv(motion: &Trajectory, certified: Option<&Motion>) -> String {
     let State { q, v } = motion.problem.initial;
-    let start = Row { what: "start", tau: 0.0, q: Some(q), v: Some(v) };
-    let turns = motion.crossings.iter().map(|crossing| Row {
-        what: "turn",
-        tau: crossing.tau,
-        q: Some(crossing.q),
-        v: Some(0.0),
-    });
-    let end = match motion.outcome {
-        Outcome::Captured { tau, q } => Row { what: "captured", tau, q: Some(q), v: Some(0.0) },
-        Outcome::Moving { tau, q, v } => Row { what: "moving", tau, q: Some(q), v: Some(v) },
-        Outcome::Escaped { tau } => Row { what: "escaped", tau, ..Row::default() },
-        Outcome::GaveUp { tau, .. } => Row { what: "gave-up", tau, ..Row::default() },
+    let row = |what, tau, q, v| Row { what, tau, q, v, certified: None };
+    let mut start = row("start", 0.0, Some(q), Some(v));
+    let mut end = match motion.outcome {
+        Outcome::Captured { tau, q } => row("captured", tau, Some(q), Some(0.0)),
+        Outcome::Moving { tau, q, v } => row("moving", tau, Some(q), Some(v)),
+        Outcome::Escaped { tau } => row("escaped", tau, None, None),
+        Outcome::GaveUp { tau, .. } => row("gave-up", tau, None, None),
     };
-    csv::sheet(&Row::default(), std::iter::once(start).chain(turns).chain([end]))
+    if let Some(certified) = certified {
+        let [tau, q, v] = [0.0, q, v].map(Interval::point);
+        start.certified = Some(PointBounds::of(tau, q, v));
+        end.certified = Some(PointBounds::of_end(certified, motion.problem.until));
+    }
+    let enclosed = certified.map_or(&[][..], |certified| &certified.turns);
+    let turn = |(index, crossing): (usize, &Crossing)| Row {
+        certified: enclosed
+            .get(index)
+            .map(|turn| PointBounds::of(turn.tau, turn.q, Interval::point(0.0))),
+        ..row("turn", crossing.tau, Some(crossing.q), Some(0.0))
+    };
+    let turns = motion.crossings.iter().enumerate().map(turn);
+    let like = Row { certified: certified.map(|_| PointBounds::like()), ..Row::default() };
+    csv::sheet(&like, std::iter::once(start).chain(turns).chain([end]))
 }
 
 /// The question, every turning point, the outcome, where the energy went, the cost.

@@ -77,7 +77,8 @@ pub fn figure(session: &mut Session, plots: &[usize], limits: &Limits) -> Figure
 
 /// Whether an answer has curves.
 fn is_drawn(topic: Topic) -> bool {
-    !matches!(topic, Topic::Scan | Topic::Trade | Topic::Reference | Topic::Claims | Topic::Fit)
+    use Topic::{Claims, Fit, Proof, Reference, Scan, Trade};
+    !matches!(topic, Scan | Trade | Reference | Claims | Fit | Proof)
 }
 
 fn ask(

@@ -41,7 +41,10 @@ pub fn proved(found: &Cycles) -> Result<Proof, Contradiction> {
 }
 
 /// Compares the cycles of the search with a proof.
-fn compare(found: &[Cycle], proof: &Proof) -> Result<(), Contradiction> {
+///
+/// # Errors
+/// A [`Contradiction`] where they differ.
+pub fn compare(found: &[Cycle], proof: &Proof) -> Result<(), Contradiction> {
     let contradiction = |what| Err(Contradiction { what });
     for cycle in found {
         let clearance = cycle.clearance;

@@ -17,7 +17,9 @@ use crate::scene::Layer;
 use crate::session::{Pane, Row, Session, Setup};
 use crate::study::belt::PhysicalMargin;
 use crate::study::harmonic_error::Balanced;
+use crate::study::proved::compare;
 use crate::study::{Cycle, Cycles, Edge};
+use crate::words::cycles as cycles_in_words;
 use crate::words::number::{exact, significant};
 use crate::words::quantity::with_unit;
 
@@ -277,10 +279,9 @@ fn cycles(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) -> u1
         pane::line(area, y, line, "", look, buffer);
         y += 1;
     }
-    if found.cycles.is_empty() {
-        pane::line(area, y, " none", "", look, buffer);
-        y += 1;
-    }
+    let (count, role) = counted(session, found, usize::from(area.width));
+    pane::line(area, y, Span::styled(format!(" {count}"), look.style(role)), "", look, buffer);
+    y += 1;
     let words = basin(session, found, usize::from(area.width))
         .into_iter()
         .chain(balance(session, usize::from(area.width)));
@@ -296,6 +297,24 @@ fn cycles(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) -> u1
         y += 1;
     }
     y + 1
+}
+
+/// How many cycles there are, and whether that is proved.
+fn counted(session: &Session, found: &Cycles, width: usize) -> (String, Role) {
+    let count = cycles_in_words(found.cycles.len());
+    let Some(proof) = session.proof().filter(|_| found.parameters == session.problem.parameters)
+    else {
+        return (count, Role::Quiet);
+    };
+    match compare(&found.cycles, proof) {
+        Err(_) => (format!("{count}, proof differs"), Role::Failure),
+        Ok(()) if proof.is_complete() => {
+            let whole = format!("{count}, proved");
+            let short = format!("{}, proved", found.cycles.len());
+            (if whole.chars().count() < width { whole } else { short }, Role::Text)
+        }
+        Ok(()) => (format!("{count}, others open"), Role::Quiet),
+    }
 }
 
 /// What borders the basin of the sticking set, and which kicks it survives.

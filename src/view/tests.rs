@@ -393,6 +393,7 @@ proptest! {
                     | Answer::Reference(_)
                     | Answer::Rows(_)
                     | Answer::Claims(_)
+                    | Answer::Proof(_)
                     | Answer::Fit(_),
                 )
                 | Err(_) => {}

@@ -7,6 +7,15 @@ pub mod number;
 pub mod provenance;
 pub mod quantity;
 
+/// So many limit cycles.
+pub fn cycles(count: usize) -> String {
+    match count {
+        0 => "no limit cycle".to_owned(),
+        1 => "1 cycle".to_owned(),
+        more => format!("{more} cycles"),
+    }
+}
+
 /// Whether something attracts.
 pub fn stability(stable: bool) -> &'static str {
     if stable { "stable" } else { "unstable" }

@@ -463,6 +463,44 @@ fn an_answer_in_a_file_says_where_it_comes_from_and_replaces_nothing() {
     assert_eq!(std::fs::read_to_string(&path).unwrap(), plain);
 }
 
+/// Every column that has bounds, in every row that has the number: it lies between them, up to the error of the search.
+#[test]
+fn rows_have_the_bounds_of_their_numbers() {
+    for (line, bounded) in [
+        ("cycles --set D=-0.2 --set D2=0.2 --set D3=0.5 --set r=0.1", 14),
+        ("cycles --set D=-0.2 --set D2=0.2 --set D3=0.5 --set r=0.1+-0.0001", 0),
+        ("trajectory --set D=-0.1 --set r=0.5 --set q0=2 --until 50 --certify", 14),
+        ("basin --set D=-0.2 --set D2=0.2 --set D3=0.5 --set r=0.1 --grid 3x3 --certify", 2),
+        ("branch --set D3=0.5 --set r=0.1 --over D=-0.5:-0.4:5 --certify", 0),
+        ("border --over D3=0.5:1:2 --set D2=0.2 --certify", 2),
+    ] {
+        let words: Vec<&str> = line.split(' ').chain(["--format", "csv"]).collect();
+        let text = run(&words).out;
+        let mut rows = text.lines().map(|row| row.split(',').collect::<Vec<_>>());
+        let names = rows.next().unwrap();
+        assert!(names.contains(&"proved"), "{line}: {names:?}");
+        let (mut count, mut proved) = (0, 0);
+        for row in rows {
+            let cell = |name: &str| {
+                names.iter().position(|it| *it == name).and_then(|at| row[at].parse::<f64>().ok())
+            };
+            proved +=
+                usize::from(row[names.iter().position(|it| *it == "proved").unwrap()] == "true");
+            for name in &names {
+                let ends = ["lower", "upper"].map(|end| cell(&format!("{name}_{end}")));
+                let (Some(value), [Some(lower), Some(upper)]) = (cell(name), ends) else {
+                    continue;
+                };
+                let slack = 1e-9 * value.abs();
+                assert!(lower - slack <= value && value <= upper + slack, "{line}: {name} {row:?}");
+                assert!(upper - lower <= 1e-9 * value.abs(), "{line}: {name} {row:?}");
+                count += 1;
+            }
+        }
+        assert!(count == bounded && proved > 0, "{line}: {count} {proved}\n{text}");
+    }
+}
+
 #[test]
 fn a_certified_border_encloses_its_folds_and_escape_points() {
     let folds = json("border --over D3=0.5:1:2 --set D2=0.2 --certify");

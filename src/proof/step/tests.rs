@@ -5,7 +5,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 use super::*;
 use crate::numerics::elementary::sin_cos;
 use crate::numerics::twofold::Twofold;
-use crate::proof::series::{LENGTH, Scalar};
+use crate::proof::series::Scalar;
 
 /// A magnitude, and how many units of roundoff times a magnitude it may be off.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -280,12 +280,12 @@ fn nothing_is_said_of_what_is_not_a_number() {
     let mut series = Series::<f64>::EMPTY;
     series.expand(local.middles(), -0.5, 0.2);
     let norm = Norm::new(0.0);
-    assert!(local.carry(norm, &series, 0.2, 1e-15).is_some());
-    assert!(local.carry(norm, &series, 0.2, f64::NAN).is_none());
-    assert!(local.carry(norm, &series, f64::NAN, 1e-15).is_none());
-    assert!(local.carry(norm, &series, 5.0, 1e-15).is_none());
+    assert!(local.carry(norm, &series, (0.2, series.at(0.2)), 1e-15).is_some());
+    assert!(local.carry(norm, &series, (0.2, series.at(0.2)), f64::NAN).is_none());
+    assert!(local.carry(norm, &series, (f64::NAN, series.at(f64::NAN)), 1e-15).is_none());
+    assert!(local.carry(norm, &series, (5.0, series.at(5.0)), 1e-15).is_none());
     series.v[7] = f64::NAN;
-    assert!(local.carry(norm, &series, 0.2, 1e-15).is_none());
+    assert!(local.carry(norm, &series, (0.2, series.at(0.2)), 1e-15).is_none());
 }
 
 #[test]
@@ -307,10 +307,14 @@ fn no_step_is_longer_than_a_turn() {
     let mut series = Series::<f64>::EMPTY;
     series.expand(local.middles(), -0.9, 0.2);
     for (h, held) in [(3.1, true), (3.13, true), (3.15, false), (3.4, false)] {
-        assert_eq!(local.carry(Norm::new(0.0), &series, h, 1e-12).is_some(), held, "{h}");
+        assert_eq!(
+            local.carry(Norm::new(0.0), &series, (h, series.at(h)), 1e-12).is_some(),
+            held,
+            "{h}"
+        );
     }
     // Where the velocity is certainly positive throughout, the bound of the angle does not matter.
     let fast = Prepared::new(&Field { a: point(0.0), b: point(-50.0), c: point(0.0) });
     series.expand(fast.middles(), 0.0, 1.0);
-    assert!(fast.carry(Norm::new(0.0), &series, 1e-3, 1e-12).is_some());
+    assert!(fast.carry(Norm::new(0.0), &series, (1e-3, series.at(1e-3)), 1e-12).is_some());
 }

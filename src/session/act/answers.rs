@@ -21,7 +21,10 @@ impl Session {
         let asked = self.asks().contains(&answered.request);
         if let Ok(answer) = &answered.result {
             let (cost, seconds) = (answer.cost(), answered.seconds);
-            self.price.recomputed.push(Recomputed { topic, cost, seconds });
+            // No key has waited for a proof.
+            if topic != Topic::Proof {
+                self.price.recomputed.push(Recomputed { topic, cost, seconds });
+            }
             if let Answer::Fit(fit) = answer
                 && asked
             {

@@ -11,6 +11,7 @@ use crate::flow::{Problem, Trajectory};
 use crate::numerics::elementary::{exp2, hypot, log2};
 use crate::oscillator::belt::Quantity;
 use crate::oscillator::{Belt, Symbol};
+use crate::proof::Proof;
 use crate::question;
 use crate::question::{Borders, Failure, Motion};
 use crate::scene::{Answer, Axes, Fitted, Layer, Request, Span, TOPICS, Topic, View, Window};
@@ -75,14 +76,16 @@ impl Session {
             .flat_map(|plot| self.needs(plot).into_iter().map(move |topic| (topic, plot)))
             .collect();
         let claims = matches!(self.overlay, Some(Overlay::List(Listed::Paper, _)));
-        let each = needed.into_iter().flat_map(|(topic, plot)| self.requests(topic, plot));
+        let each = needed.iter().flat_map(|(topic, plot)| self.requests(*topic, *plot));
         let last = self.measures().then(|| self.request(Topic::Reference, self.plot)).flatten();
         let all = claims
             .then_some(Request::Claims(question::claims::Asked))
             .into_iter()
             .chain(each.map(|each| each.1));
         let mut asked = Vec::new();
-        for request in all.chain(last).chain(self.scan_request()) {
+        let proof = || self.request(Topic::Proof, self.plot);
+        let proof = needed.iter().any(|(topic, _)| *topic == Topic::Cycles).then(proof).flatten();
+        for request in all.chain(last).chain(proof).chain(self.scan_request()) {
             if !asked.contains(&request) {
                 asked.push(request);
             }
@@ -189,6 +192,9 @@ impl Session {
             }
             Topic::Trade => Request::Trade(question::trade::Asked(motion())),
             Topic::Reference => Request::Reference(question::reference::Asked(motion())),
+            // Of the whole model of a machine nothing is proved.
+            Topic::Proof if self.draws_whole() => return None,
+            Topic::Proof => Request::Proof(question::proof::Asked { parameters }),
             Topic::Zones => self.zones_request(&parameters)?,
             Topic::Capture if parameters.r == 0.0 => return None,
             Topic::Capture => {
@@ -320,6 +326,14 @@ impl Session {
     pub fn cycles(&self) -> Option<&Cycles> {
         match self.answer(Topic::Cycles, self.plot)? {
             Answer::Cycles(found) => Some(found),
+            _ => None,
+        }
+    }
+
+    /// What is proved about the cycles at the present parameters; `None` until it is.
+    pub fn proof(&self) -> Option<&Proof> {
+        match self.answer(Topic::Proof, self.plot)? {
+            Answer::Proof(found) if !self.is_stale(Topic::Proof, self.plot) => Some(found),
             _ => None,
         }
     }

@@ -72,7 +72,9 @@ fn costly(request: Request, evaluations: u64) -> Answered {
 fn open(trial: &Trial) -> Vec<(Topic, bool)> {
     let session = &trial.session;
     let wanted = session.wants().into_iter().filter(|request| session.is_open(request));
+    // Nobody waits for a proof.
     wanted
+        .filter(|request| request.topic() != Topic::Proof)
         .map(|request| {
             let present =
                 session.request(request.topic(), 0).or(session.request(request.topic(), 1));

@@ -33,6 +33,7 @@ use crate::flow::{Cost, Limits, Method, Outcome, Problem, Reason, Sample, Trajec
 use crate::numerics::elementary::ln;
 use crate::numerics::twofold::Twofold;
 use crate::oscillator::{Ledger, State};
+use crate::proof::{ParameterBox, Proof};
 use crate::question;
 use crate::question::speeds::Speeds;
 use crate::question::zones::{Extent, Zones};
@@ -75,7 +76,7 @@ impl Trial {
         self.settle();
     }
 
-    /// Presses keys; returns what had to be computed for them.
+    /// Presses keys; returns what had to be computed for them. Proofs follow the cycles, and nobody waits for them.
     fn press(&mut self, keys: &str) -> Vec<Topic> {
         self.asked.clear();
         let mut player = Player::new(parse(keys).unwrap_or_else(|error| panic!("{keys}: {error}")));
@@ -89,7 +90,7 @@ impl Trial {
             }
             self.reads(before, Some(&player));
         }
-        self.asked.iter().map(Request::topic).collect()
+        self.asked.iter().map(Request::topic).filter(|topic| *topic != Topic::Proof).collect()
     }
 
     /// Reads the files that were asked for since the effect of this number, as a file that is played has
@@ -254,6 +255,13 @@ fn answered(request: Request) -> Answered {
                 cost,
             })
         }
+        Request::Proof(question::proof::Asked { parameters }) => Answer::Proof(Proof {
+            parameters: ParameterBox::from(parameters),
+            theorem: None,
+            cycles: Vec::new(),
+            open: Vec::new(),
+            swings: 0,
+        }),
         Request::Claims(question::claims::Asked) => Answer::Claims(Vec::new()),
         Request::Fit(question::fit::Asked { recording }) => {
             Answer::Fit(Fit::of(recording, &Limits::PATIENT).expect("nobody interrupts"))

@@ -51,7 +51,7 @@ fn a_diagram_outside_the_range_of_its_parameter_asks_nothing() {
     trial.session.plots[1].axes.abscissa = crate::oscillator::Symbol::R;
     trial.session.plots[1].window.x = Span::new(-2.0, -1.0).unwrap();
     assert_eq!(trial.session.request(crate::scene::Topic::Branch, 1), None);
-    assert_eq!(trial.session.wants().len(), 2);
+    assert_eq!(trial.session.wants().len(), 3, "the motion, the cycles and their proof");
 }
 
 #[test]

@@ -99,6 +99,7 @@ fn terms_that_a_scene_does_not_declare_are_zero_until_the_user_unfolds_them() {
             | Request::Speeds(_) => unreachable!("the scene is of no machine"),
             Request::Zones(question::zones::Asked { known, .. }) => known.middle(),
             Request::Cycles(question::cycles::Asked { parameters })
+            | Request::Proof(question::proof::Asked { parameters })
             | Request::Capture(question::capture::Asked { parameters, .. })
             | Request::Balance(question::balance::Asked { parameters, .. })
             | Request::ReturnMap(question::return_map::Asked { parameters, .. })

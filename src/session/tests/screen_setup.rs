@@ -95,7 +95,8 @@ fn a_plot_turned_to_a_view_shows_what_the_scene_does() {
 fn the_hidden_plots_of_an_enlarged_one_ask_nothing() {
     let mut trial = Trial::open("supercritical");
     trial.press("<tab>W z");
-    assert_eq!(trial.press("<S-tab><S-tab><down><right>").len(), trial.session.wants().len());
+    let asked = trial.press("<S-tab><S-tab><down><right>");
+    assert_eq!(asked.len() + 1, trial.session.wants().len(), "and a proof");
     assert_eq!(trial.session.on_show().len(), 1);
     trial.press("W");
     assert!(!trial.session.enlarged, "what is added is seen");

@@ -1,8 +1,11 @@
 //! Answers made by hand, so that pictures of them are always the same, and sessions that have them.
 
 use crate::flow::{Cost, Crossing, Limits, Outcome, Problem, Reason, Sample, Trajectory};
+use crate::numerics::Interval;
 use crate::numerics::elementary::{cos, ln, sin, sin_cos};
 use crate::oscillator::{Ledger, Parameters, State, Symbol};
+use crate::proof::cycles::ProvedCycle;
+use crate::proof::{ParameterBox, Proof};
 use crate::question;
 use crate::question::zones::{Extent, Zones};
 use crate::question::{Borders, Rows};
@@ -128,6 +131,21 @@ pub(super) fn by_hand(request: &Request) -> Answer {
         Request::Regimes(question::regimes::Asked { plane, .. }) => Answer::Regimes(parted(*plane)),
         Request::Trade(_) => Answer::Trade(compared()),
         Request::Reference(_) => Answer::Reference(Err(Reason::OutOfRange)),
+        // Of the cycles made up above.
+        Request::Proof(question::proof::Asked { parameters }) => {
+            let known = |low, high, stable| ProvedCycle {
+                within: Interval::new(low, high),
+                stable,
+                enclosure: None,
+            };
+            Answer::Proof(Proof {
+                parameters: ParameterBox::from(parameters),
+                theorem: None,
+                cycles: vec![known(0.3, 0.5, false), known(1.0, 1.2, true)],
+                open: Vec::new(),
+                swings: 0,
+            })
+        }
         Request::Claims(question::claims::Asked) => Answer::Claims(Vec::new()),
         Request::Fit(question::fit::Asked { recording }) => {
             Answer::Fit(Fit::of(recording, &Limits::PATIENT).expect("nobody interrupts"))

@@ -1,0 +1,31 @@
+//! The proof of how many cycles there are. Nothing waits for it: the screen says so once it is there.
+
+use super::kind::{Question, numbers};
+use super::means::Means;
+use crate::flow::Reason;
+use crate::oscillator::Parameters;
+use crate::proof::{ParameterBox, Proof, prove};
+
+/// What is asked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Asked {
+    /// The parameters.
+    pub parameters: Parameters,
+}
+
+impl Question for Asked {
+    type Found = Proof;
+
+    fn answer(&self, _means: &Means) -> Result<Proof, Reason> {
+        Ok(prove(&ParameterBox::from(&self.parameters), &[]))
+    }
+
+    fn numbers(&self) -> [f64; 8] {
+        numbers(&self.parameters, [0.0; 4])
+    }
+
+    /// What is proved elsewhere proves nothing here.
+    fn compares(&self, _wanted: &Self) -> bool {
+        false
+    }
+}
