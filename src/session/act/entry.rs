@@ -9,7 +9,7 @@ use crate::session::act::parameters::put;
 use crate::session::effect::Effect;
 use crate::session::message::key::Key;
 use crate::session::read::numbers::{range, typed, with_number};
-use crate::session::state::doubt::Doubt;
+use crate::session::state::doubt::{Doubt, symbol_of};
 use crate::session::state::overlay::{Entry, Overlay};
 use crate::session::state::rows::Row;
 use crate::session::state::session::Session;
@@ -77,11 +77,11 @@ pub(in crate::session) fn read(
 }
 
 /// What stands there with the typed number of the machine, which may have a tolerance where a parameter stands for
-/// it; without one it is known as it was.
+/// it; without one it is known exactly.
 fn built(session: &Session, setup: Setup, quantity: Quantity, text: &str) -> Result<Setup, String> {
     let read = toleranced(&text.replace('\u{b1}', "+-"))?;
     let built = session.with_quantity(setup, quantity, value_of(quantity, &read.middle)?)?;
-    if read.half_width == 0.0 {
+    if read.half_width == 0.0 && symbol_of(quantity).is_none() {
         return Ok(built);
     }
     let doubt = session.with_tolerance(&built, quantity, read.half_width)?;

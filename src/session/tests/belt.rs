@@ -1,6 +1,7 @@
 //! The speed of the belt as a number among the others: it moves D, D2, D3 and r along the machine's path.
 
 use super::Trial;
+use crate::oscillator::Symbol;
 use crate::oscillator::belt::{Quantity, Reduced};
 use crate::scene::{Layer, ScaledMachine};
 use crate::session::{Effect, Msg, Overlay, Purpose, Row, save};
@@ -283,6 +284,9 @@ fn tolerance_and_disturbance_of_a_machine_are_typed_in_newtons() {
     assert!((session.doubt.disturbance * force / 0.1 - 1.0).abs() < 1e-12);
     let known = session.doubt.on_machine(&session.running().unwrap(), &session.machine().unwrap());
     assert!((known.unwrap().half_widths["R"] / 0.2 - 1.0).abs() < 1e-12);
+    // A number typed without a tolerance is exact, as everywhere.
+    trial.press(":set<space>R=2<space>N<enter>");
+    assert_eq!(trial.session.doubt.half_width(Symbol::R), 0.0);
     for (typed, words) in [
         ("m=2<space>N", "a unit such as kg"),
         ("m=0", "m = 0 kg is outside its range"),
