@@ -327,6 +327,12 @@ fn sequences(written: &[u8]) -> BTreeSet<String> {
                         body.push(rest.next().expect("a sequence has an end"));
                     }
                 }
+                if body == "]" {
+                    while !body.ends_with("\x1b\\") {
+                        body.push(rest.next().expect("a sequence has an end"));
+                    }
+                    body = body.replace('\x1b', "ESC");
+                }
                 written_as(&body)
             }
             '\r' => "CR".to_owned(),

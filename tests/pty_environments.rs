@@ -77,6 +77,35 @@ fn every_kind_of_terminal_gets_what_it_can_show() {
     }
 }
 
+/// The colour of the heading of the pane in use.
+fn heading(terminal: &Terminal) -> vt100::Color {
+    terminal.screen().cell(1, 3).expect("the screen has a second row").fgcolor()
+}
+
+#[test]
+fn the_theme_follows_the_background_that_the_terminal_tells_at_any_time() {
+    const QUESTION: &[u8] = b"\x1b]11;?\x1b\\";
+    let asked = |terminal: &Terminal| {
+        terminal.written.windows(QUESTION.len()).filter(|bytes| *bytes == QUESTION).count()
+    };
+    let mut terminal = Terminal::start(&[PROGRAM], &[], (80, 24), Answers::AtOnce);
+    // The picture does not wait for an answer.
+    terminal.wait_for(TITLE);
+    terminal.quiet(QUIET);
+    assert_eq!((asked(&terminal), heading(&terminal)), (1, vt100::Color::Idx(6)));
+    terminal.types("\x1b]11;rgb:fdfd/f6f6/e3e3\x1b\\");
+    terminal.wait("light theme", |terminal| heading(terminal) == vt100::Color::Idx(4));
+    terminal.types("q");
+    assert_eq!(terminal.end(), 0);
+    for chosen in [&[PROGRAM, "--theme", "dark"][..], &[PROGRAM, "--color", "never"]] {
+        let mut terminal = Terminal::start(chosen, &[], (80, 24), Answers::AtOnce);
+        terminal.wait_for(TITLE);
+        assert_eq!(asked(&terminal), 0, "{chosen:?}");
+        terminal.types("q");
+        assert_eq!(terminal.end(), 0);
+    }
+}
+
 #[test]
 fn a_terminal_on_one_side_only_is_refused_in_one_line() {
     for (redirection, named) in

@@ -214,15 +214,15 @@ fn motions(picture: &mut Picture, session: &Session, index: usize) {
     }
 }
 
-/// Numbers a curve of one of several motions on its way to the end, where others are far away: dashes repeat.
+/// Numbers a curve of one of several motions at its end, as at its start: dashes repeat.
 pub(super) fn number_curve(
     picture: &mut Picture,
     number: Option<usize>,
     points: &[Point],
     role: Role,
 ) {
-    if let Some(number) = number {
-        picture.name_curve(&points[points.len() / 2..], &number.to_string(), role);
+    if let Some((number, end)) = number.zip(points.last()) {
+        picture.caption(*end, number.to_string(), role);
     }
 }
 

@@ -88,7 +88,10 @@ fn guide(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let inner = Rect { x: area.x + 1, width: area.width.saturating_sub(2), ..area };
     let whole = [apart, together].into_iter();
     let mut whole = whole.filter(|lines| prose::rows(lines, inner.width) <= area.height);
-    let lines = whole.next().unwrap_or_else(|| [&watch[..], &[short]].concat());
+    let lines = whole.next().unwrap_or_else(|| {
+        let blank = (prose::rows(&watch, inner.width) + 1 < area.height).then(Line::default);
+        watch.into_iter().chain(blank).chain([short]).collect()
+    });
     prose::write(inner, lines, look, buffer);
 }
 

@@ -172,6 +172,44 @@ fn a_map_labels_decades_and_is_the_stronger_the_more_dangerous_in_one_hue() {
     assert!(!colours.is_empty() && colours.iter().all(|fg| *fg == hue));
 }
 
+#[test]
+fn what_is_drawn_in_red_and_green_is_a_cycle_or_the_edge_of_a_basin() {
+    let names = ["stable", "cycle", "edge of the basin", "rest", "fixed point", "stick-slip"];
+    let mut looked = 0;
+    for scene in library() {
+        let mut session = settled(&scene.name, 120, 40, "");
+        session.layers = crate::scene::LAYERS.iter().map(|row| row.layer).collect();
+        settle(&mut session);
+        for index in 0..session.plots.len() {
+            let picture = crate::picture::of(&session, index);
+            for item in &picture.items {
+                let (role, name) = match item {
+                    Item::Curve(line, _)
+                    | Item::Path(line, _)
+                    | Item::Graph(line, _)
+                    | Item::Upright(line, _)
+                    | Item::Bar(line, ..)
+                    | Item::Shade(line, _)
+                    | Item::Columns(line, ..)
+                    | Item::Rows(line, ..) => (line.role, line.name.to_string()),
+                    Item::Arrows(role, _) => (*role, "direction of flow".to_owned()),
+                    Item::Marks(marks) => (marks.role, marks.name.to_string()),
+                    Item::Texture(_) | Item::Caption { .. } | Item::Cross(_) => continue,
+                };
+                if matches!(role, Role::Stable | Role::Unstable) {
+                    assert!(
+                        names.iter().any(|known| name.contains(known)),
+                        "{}: {name}",
+                        scene.name
+                    );
+                    looked += 1;
+                }
+            }
+        }
+    }
+    assert!(looked > 50, "{looked}");
+}
+
 /// By computation, not by hand: the motion from inside of the unstable cycle comes to rest, the one from outside
 /// does not, and both stand in one picture, told apart, with the numbers at their starts.
 #[test]
@@ -211,7 +249,7 @@ fn both_sides_of_the_unstable_cycle_stand_in_one_picture() {
     let at = |number: &str, at: Point| (number.to_owned(), at);
     let starts = [at("1", *first), at("2", inside.3), at("3", outside.3)];
     assert!(starts.iter().all(|start| numbers.contains(start)), "{numbers:?}");
-    // And on the way to the end, where the curves have parted.
+    // And at the ends.
     assert_eq!(numbers.len(), 6, "{numbers:?}");
     assert_eq!(rests, [Role::Beside], "the one from inside, and no other");
     let screen = text(&draw(&session, braille()));
