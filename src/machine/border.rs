@@ -1,7 +1,7 @@
 //! The border of the basin of rest where it is no cycle: followed backward in time from where the return map
 //! jumps.
 
-use super::arc::{Flow, Stop};
+use super::arc::{End, Flow, Stop};
 use super::curve::{Curve, Piece};
 use super::landmarks::Landmarks;
 use super::model::Phase;
@@ -17,6 +17,12 @@ impl Flow<'_> {
     ) -> Result<f64, Stop> {
         let speed = self.model.speed;
         let Some(marks) = landmarks else { return Err(Stop::Steps) };
+        // Where static friction holds what the orbit comes from, its way to the line is not on the border.
+        match self.arc(Phase::Between, (x, 0.0), true, &mut ()) {
+            Ok(End { on_belt: true, .. }) => {}
+            Ok(_) | Err(Stop::Settled) => return self.capture_border(x, landmarks, curve),
+            Err(stop) => return Err(stop),
+        }
         let corner =
             if Some(x) == marks.grazing.right { marks.lines.fold } else { marks.lines.low };
         let left = self.left_before(corner, speed, curve)?;

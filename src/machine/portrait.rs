@@ -227,7 +227,8 @@ impl Portrait {
             }
         };
         let (up, down) = curve.velocities_at(0.0, model.speed);
-        let speed = |y: Option<f64>| y.map_or(f64::INFINITY, |y| (y * model.omega_0).abs());
+        // A border that does not pass there begins at the steady position itself, a node that repels.
+        let speed = |y: Option<f64>| y.map_or(0.0, |y| (y * model.omega_0).abs());
         self.margin =
             Some(Margin { displacement: (*x, -left), velocity: (speed(up), speed(down)) });
         Ok(())

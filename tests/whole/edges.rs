@@ -247,3 +247,21 @@ fn a_mode_far_beyond_critical_damping_has_an_answer() {
         assert!((1.0..1.2).contains(&size), "{ratio}: {size}");
     }
 }
+
+#[test]
+fn what_static_friction_alone_holds_survives_no_kick_along_the_belt() {
+    // Rest is a node that repels: nothing that moves upwards from it turns before it comes to the belt.
+    let text = "m = 1\nc = 1\nd1 = 0.08\nF = 4.7\nv0 = 0.06\nR_static = 0.05\n\
+                friction.stribeck = { rest = 0.5, kinetic = 0.2, velocity = 0.1 }\n";
+    let found = portrait(&parse("x", "x.toml", text, |_| Err(String::new())).unwrap().belt);
+    let margin = found.margin.unwrap();
+    assert!(margin.least_velocity() == 0.0 && margin.velocity.0 < 1e-9, "{margin:?}");
+    for displacement in [margin.displacement.0, margin.displacement.1] {
+        assert!((displacement / 0.05 - 1.0).abs() < 1e-11, "{margin:?}");
+    }
+    for kick in [1e-4, -1e-4, 0.03] {
+        assert!(matches!(found.fate(0.0, kick), Ok(Fate::Cycle(_))), "{kick}");
+    }
+    assert_eq!(found.fate(0.05 * (1.0 - 1e-9), 0.0), Ok(Fate::Rest));
+    assert!(matches!(found.fate(0.05 * (1.0 + 1e-9), 0.0), Ok(Fate::Cycle(_))));
+}
