@@ -13,7 +13,7 @@ use super::units;
 use crate::closed_form::lyapunov;
 use crate::flow::{Outcome, Problem, Sample, Trajectory};
 use crate::machine;
-use crate::numerics::elementary::sin_cos;
+use crate::numerics::elementary::{hypot, sin_cos};
 use crate::oscillator::{HalfPlane, Parameters, Side, State};
 use crate::question::zones::Extent;
 use crate::scene::{Answer, Layer, Point, Topic, View};
@@ -287,9 +287,16 @@ fn safe(picture: &mut Picture, extent: &Extent) {
 /// Beyond which nothing comes to rest, whatever the parameters and the disturbance are.
 fn lost(picture: &mut Picture, extent: &Extent) {
     let Extent::Within(border) = extent else { return };
-    let border: Vec<Point> = border.iter().map(point).collect();
+    /// Ends of a closed border are this near to each other, as a part of its width.
+    const CLOSED: f64 = 1e-3;
+    let mut border: Vec<Point> = border.iter().map(point).collect();
+    let (Some(first), Some(last)) = (border.first().copied(), border.last().copied()) else {
+        return;
+    };
+    let width = border.iter().map(|at| (at.x - first.x).abs()).fold(0.0, f64::max);
     // An open border, a separatrix, has no outside that a window could be filled with.
-    if border.first() == border.last() {
+    if hypot(last.x - first.x, last.y - first.y) <= CLOSED * width {
+        border.push(first);
         let area = Line::new("surely lost", Role::Danger, Dash::Solid);
         picture.items.push(Item::Beyond(area, border.clone()));
     }
