@@ -284,6 +284,9 @@ fn nothing_is_said_of_what_is_not_a_number() {
     assert!(local.carry(norm, &series, (0.2, series.at(0.2)), f64::NAN).is_none());
     assert!(local.carry(norm, &series, (f64::NAN, series.at(f64::NAN)), 1e-15).is_none());
     assert!(local.carry(norm, &series, (5.0, series.at(5.0)), 1e-15).is_none());
+    // Nothing times something infinite is not a number.
+    let linear = Prepared::new(&Field { a: point(-0.2), b: point(0.0), c: point(0.0) });
+    assert_eq!(linear.growth(norm, Interval::ALL), f64::INFINITY);
     series.v[7] = f64::NAN;
     assert!(local.carry(norm, &series, (0.2, series.at(0.2)), 1e-15).is_none());
 }
