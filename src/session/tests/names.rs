@@ -107,7 +107,7 @@ fn every_command_of_the_keys_is_a_line_too() {
     assert_ne!(trial.session.layers.contains(&Layer::Field), on);
     run(&mut trial, "theme light");
     run(&mut trial, "theme");
-    assert_eq!(trial.notice(), "theme: contrast");
+    assert_eq!(trial.notice(), "theme: dark");
     run(&mut trial, "quit");
     assert!(trial.session.quit && trial.effects.contains(&Effect::Quit));
 }
