@@ -299,8 +299,12 @@ fn interrupted_sessions_are_offered_newest_first_and_forgotten_all_at_once() {
     }
     assert_eq!(kept(memory.path()).len(), 2);
     let mut terminal = explorer(&[], memory.path());
-    terminal.wait_for("<f3> resumes the newest, <f4> forgets all");
-    terminal.types("\x1bOS");
+    terminal.wait_for("<f3> lists them, <f4> forgets all");
+    terminal.types("\x1bOR");
+    terminal.wait_for("interrupted sessions");
+    terminal.wait_for("linear D = -0.345 (1 change)");
+    assert!(terminal.text().find("-0.456") < terminal.text().find("-0.345"), "the newest first");
+    terminal.types("X");
     terminal.wait_for("2 interrupted sessions are not offered again");
     assert_eq!(kept(memory.path()), [] as [PathBuf; 0]);
     leave(terminal);

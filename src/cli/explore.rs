@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
+use std::time::SystemTime;
 
 use clap::Args;
 
@@ -18,7 +19,7 @@ use crate::runtime::{Options, Record, explore};
 use crate::scene::library::PLAIN;
 use crate::session::opening::opening;
 use crate::session::replay::{Recorder, Script, Step};
-use crate::session::{Notice, Session, Size, save};
+use crate::session::{Kept, Key, Notice, Session, Size, save};
 use crate::terminal::Environment;
 
 /// Opens the explorer.
@@ -120,7 +121,7 @@ pub fn go(
     let record = record.transpose().map_err(Failure::Usage)?;
     let memory = Memory::open();
     if let Some(memory) = &memory {
-        session.interrupted = memory.interrupted();
+        session.interrupted = memory.interrupted().into_iter().map(kept).collect();
         let welcome = welcome(&session, memory).map(|text| Notice { error: false, text });
         session.notice = welcome.or(session.notice);
     }
@@ -134,10 +135,28 @@ pub fn go(
         .map_err(|error| Failure::Unanswered(format!("the terminal: {error}")))
 }
 
+/// An interrupted session, with what is in it.
+fn kept((ended, path): (SystemTime, PathBuf)) -> Kept {
+    let what = Files::read(&path).and_then(|text| save::summary(&text));
+    let what = what.unwrap_or_else(|why| format!("cannot be continued: {why}"));
+    Kept { when: ago(ended.elapsed().unwrap_or_default().as_secs()), what, path }
+}
+
+/// How long ago something was, in words.
+fn ago(seconds: u64) -> String {
+    match seconds {
+        0..60 => "just now".to_owned(),
+        60..3_600 => format!("{} min ago", seconds / 60),
+        3_600..86_400 => format!("{} h ago", seconds / 3_600),
+        86_400..172_800 => "yesterday".to_owned(),
+        _ => format!("{} days ago", seconds / 86_400),
+    }
+}
+
 /// What is said before the first key: that a session was interrupted, or what to press at the first start.
 fn welcome(session: &Session, memory: &Memory) -> Option<String> {
     let said = if session.interrupted.len() > 1 {
-        "sessions were interrupted: {restore} resumes the newest, {forget-interrupted} forgets all"
+        "sessions were interrupted: {restore} lists them, {forget-interrupted} forgets all"
     } else if !session.interrupted.is_empty() {
         "a session was interrupted: {restore} resumes it, {forget-interrupted} forgets it"
     } else if memory.is_new {
@@ -145,7 +164,7 @@ fn welcome(session: &Session, memory: &Memory) -> Option<String> {
     } else {
         return None;
     };
-    Some(session.keymap.fill(said, |key| key.to_string()))
+    Some(session.keymap.fill(said, Key::said))
 }
 
 /// The command line of this process, as a comment for a recorded file.

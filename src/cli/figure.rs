@@ -12,7 +12,7 @@ use crate::flow::Limits;
 use crate::question::Fineness;
 use crate::runtime::print::{complete, figure};
 use crate::runtime::provenance_file;
-use crate::scene::library::library;
+use crate::scene::library::names;
 use crate::session::{Session, Size};
 use crate::view::screen;
 use crate::view::{self, Look};
@@ -63,7 +63,7 @@ impl Figure {
     /// Computes and writes.
     pub fn run(&self) -> Result<(), Failure> {
         let Some(name) = self.named.as_deref().or(self.start.scene.as_deref()) else {
-            let names: Vec<_> = library().iter().map(|scene| scene.name.as_str()).collect();
+            let names: Vec<_> = names().collect();
             return Err(Failure::Usage(format!("which figure? There are {}", names.join(", "))));
         };
         let scene = self.start.scene_named(name)?;

@@ -39,6 +39,7 @@ mod tour;
 mod trade;
 mod trajectory;
 
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
@@ -122,9 +123,25 @@ impl Command {
     }
 }
 
+/// The words of a command line, with a settings file that is named before a command after it: the options of
+/// the explorer exclude commands, but this one belongs to some of them.
+fn settings_last(mut words: Vec<OsString>) -> Vec<OsString> {
+    let named = words.iter().skip(1).take_while(|word| {
+        let word = word.to_string_lossy();
+        word.starts_with("--config") || word == "--no-config"
+    });
+    let separate = words.get(1).is_some_and(|word| word == "--config");
+    let options = if separate { 2 } else { named.count() };
+    let command = words.get(1 + options).map(|word| word.to_string_lossy().into_owned());
+    if command.is_some_and(|command| command_names().contains(&command)) {
+        words[1..=1 + options].rotate_right(1);
+    }
+    words
+}
+
 /// Parses the command line of this process, runs one command and says how it ended.
 pub fn main() -> ExitCode {
-    let result = match Cli::try_parse() {
+    let result = match Cli::try_parse_from(settings_last(std::env::args_os().collect())) {
         Ok(Cli { command: Some(command), .. }) => command.run(),
         Ok(Cli { command: None, explore }) => explore.run(),
         Err(error) if error.use_stderr() => Err(Failure::from_parser(&error)),
@@ -149,6 +166,23 @@ mod tests {
     #[test]
     fn the_definition_of_the_command_line_is_consistent() {
         Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn a_settings_file_can_be_named_before_the_command() {
+        for (given, taken) in [
+            ("h --config F keys --format csv", "h keys --config F --format csv"),
+            ("h --config=F keys", "h keys --config=F"),
+            ("h --no-config tour", "h tour --no-config"),
+            ("h --config F linear", "h --config F linear"),
+            ("h keys --config F", "h keys --config F"),
+            ("h", "h"),
+            ("h --config", "h --config"),
+        ] {
+            let words = given.split(' ').map(OsString::from).collect();
+            let words: Vec<_> = settings_last(words);
+            assert_eq!(words.join(&OsString::from(" ")), OsString::from(taken));
+        }
     }
 
     #[test]

@@ -57,8 +57,9 @@ impl Memory {
         self.folder.join(LAST)
     }
 
-    /// The sessions that were interrupted and have not been put aside since, the newest first.
-    pub fn interrupted(&self) -> Vec<PathBuf> {
+    /// The sessions that were interrupted and have not been put aside since, with when they ended, the newest
+    /// first.
+    pub fn interrupted(&self) -> Vec<(SystemTime, PathBuf)> {
         let Ok(entries) = std::fs::read_dir(&self.folder) else { return Vec::new() };
         let kept = entries.filter_map(|entry| {
             let entry = entry.ok()?;
@@ -69,6 +70,6 @@ impl Memory {
         });
         let mut kept: Vec<_> = kept.collect();
         kept.sort_by(|one, other| other.cmp(one));
-        kept.into_iter().map(|(_, path)| path).collect()
+        kept
     }
 }

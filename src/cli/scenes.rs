@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::output::{Format, print};
 use super::scene_cost;
 use crate::report::{scene_cost as cost, scenes as report};
-use crate::scene::library::library;
+use crate::scene::{Scene, library};
 
 /// Lists the scenes
 #[derive(Debug, Args)]
@@ -31,11 +31,12 @@ impl Scenes {
             });
         }
         let scenes = library();
-        let width = scenes.iter().map(|scene| scene.name.chars().count()).max().unwrap_or(0);
+        let names = |scene: &Scene| scene.names().collect::<Vec<_>>().join(" ");
+        let width = scenes.iter().map(|scene| names(scene).chars().count()).max().unwrap_or(0);
         print(&match self.format {
             Format::Table => {
-                let line = |name: &str, title: &str| format!("{name:width$}  {title}\n");
-                scenes.iter().map(|scene| line(&scene.name, &scene.title)).collect()
+                let line = |scene: &Scene| format!("{:width$}  {}\n", names(scene), scene.title);
+                scenes.iter().map(|scene| line(scene)).collect()
             }
             Format::Json => report::json(scenes.iter().map(AsRef::as_ref)),
             Format::Csv => report::csv(scenes.iter().map(AsRef::as_ref)),

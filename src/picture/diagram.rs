@@ -44,8 +44,8 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         .into_iter()
         .filter_map(|(variant, branch)| {
             let height = session.height(index, variant);
-            let label = all.get(variant)?.label.clone();
-            Some(Found { variant: Variant { index: variant, label }, branch, height })
+            let Shown { label, present, .. } = all.get(variant)?.clone();
+            Some(Found { variant: Variant { index: variant, label }, branch, height, present })
         })
         .collect();
 
@@ -61,6 +61,10 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     if ordinate.spec().harmonic.is_some() {
         for (variant, shown) in variants(&all) {
             let height = diagram.axes.height(shown.problem.parameters.r);
+            // Beside branches of other values the formulas stand for the present one alone.
+            if !shown.present && all.iter().any(|one| one.present) {
+                continue;
+            }
             if shows(Layer::Asymptotes) {
                 asymptotes(&mut picture, shown, &variant, abscissa, height);
             }
@@ -110,6 +114,8 @@ struct Found<'a> {
     variant: Variant,
     branch: &'a Branch,
     height: Height,
+    /// Whether it is that of the present values.
+    present: bool,
 }
 
 /// Where the point that is held stands in a diagram: in every one over its parameter. A cycle that has
@@ -204,7 +210,7 @@ fn largest_amplitude(diagram: &session::Plot, height: Height, found: &[Found]) -
 /// Adds a piece, run by run of equal stability; neighbouring runs meet at the fold between them. One of
 /// several branches has its label where it is highest in the window.
 fn branch(picture: &mut Picture, piece: &[BranchPoint], found: &Found) {
-    let Found { variant, branch: Branch { special, .. }, height } = found;
+    let Found { variant, branch: Branch { special, .. }, height, present } = found;
     let place =
         |point: &BranchPoint| Point { x: point.value, y: height.of(point.value, &point.cycle) };
     let mut start = None;
@@ -216,7 +222,7 @@ fn branch(picture: &mut Picture, piece: &[BranchPoint], found: &Found) {
         let (role, dash) = stability(first.cycle.stable);
         let name = if first.cycle.stable { "stable cycle" } else { "unstable cycle" };
         let line = Line::new(name, role, dash).of(variant);
-        if variant.label.is_empty() {
+        if *present {
             let points: Vec<Point> = run.iter().map(place).collect();
             picture.label_curve(
                 &points,

@@ -70,7 +70,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
             picture.curve(line, border.iter().map(point));
         }
     }
-    if shows(Layer::Ghost) {
+    if shows(Layer::Ghost) && session.variants(index).is_none() {
         ghost(&mut picture, session);
     }
     picture.level(Line::guide(), 0.0);

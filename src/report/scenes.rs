@@ -30,10 +30,10 @@ struct Row<'a> {
 pub fn json<'a>(scenes: impl IntoIterator<Item = &'a Scene>) -> String {
     let keymap = Keymap::default();
     // What always holds, and what holds of the numbers given here.
-    let here = |one| matches!(one, Condition::Here | Condition::Opened);
+    let here = |one| matches!(one, Condition::Here | Condition::Path | Condition::Opened);
     let sentence = |text: &str| keymap.fill(&said(text, here), |key| key.to_string());
-    let document = |scene: &'a Scene| Document {
-        name: &scene.name,
+    let document = |scene: &'a Scene, name: &'a str| Document {
+        name,
         title: &scene.title,
         look: sentence(&scene.look),
         press: sentence(&scene.press),
@@ -41,11 +41,12 @@ pub fn json<'a>(scenes: impl IntoIterator<Item = &'a Scene>) -> String {
         initial: &scene.problem.initial,
         until: scene.problem.until,
     };
-    json::text(&scenes.into_iter().map(document).collect::<Vec<_>>())
+    let documents = |scene: &'a Scene| scene.names().map(move |name| document(scene, name));
+    json::text(&scenes.into_iter().flat_map(documents).collect::<Vec<_>>())
 }
 
-/// One row for each scene.
+/// One row for each name of a scene.
 pub fn csv<'a>(scenes: impl IntoIterator<Item = &'a Scene>) -> String {
-    let row = |scene: &'a Scene| Row { name: &scene.name, title: &scene.title };
-    csv::sheet(&Row::default(), scenes.into_iter().map(row))
+    let rows = |scene: &'a Scene| scene.names().map(|name| Row { name, title: &scene.title });
+    csv::sheet(&Row::default(), scenes.into_iter().flat_map(rows))
 }

@@ -27,6 +27,7 @@ pub const UNTIL_RANGE: (f64, f64) = (0.0, 1e9);
 #[serde(deny_unknown_fields)]
 struct File {
     title: String,
+    also: Option<String>,
     look: String,
     press: String,
     terms: Option<BTreeSet<Symbol>>,
@@ -103,6 +104,7 @@ fn scene(name: &str, read: File) -> Result<Scene, Complaint> {
     }
     Ok(Scene {
         name: name.to_owned(),
+        also: read.also,
         title: read.title,
         look: read.look,
         press: read.press,

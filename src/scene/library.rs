@@ -17,7 +17,7 @@ macro_rules! scene_file {
 }
 
 /// The files, in the order in which they are listed.
-const FILES: [(&str, &str); 37] = [
+const FILES: [(&str, &str); 32] = [
     scene_file!("plain"),
     scene_file!("capture"),
     scene_file!("linear"),
@@ -41,40 +41,16 @@ const FILES: [(&str, &str); 37] = [
     scene_file!("fig04"),
     scene_file!("fig05"),
     scene_file!("fig06"),
-    scene_file!("fig07"),
     scene_file!("fig08"),
     scene_file!("fig09"),
     scene_file!("fig10"),
     scene_file!("fig11"),
     scene_file!("fig12"),
-    scene_file!("fig13"),
     scene_file!("fig14"),
     scene_file!("fig15"),
     scene_file!("fig16"),
-    scene_file!("fig16a"),
-    scene_file!("fig16b"),
-    scene_file!("fig16c"),
     scene_file!("fig17"),
 ];
-
-/// Lessons that show the phenomenon of a figure of the paper, and that figure.
-const TWINS: [(&str, &str); 5] = [
-    ("linear", "fig07"),
-    ("marginal", "fig16a"),
-    ("supercritical", "fig16b"),
-    ("subcritical", "fig16c"),
-    ("asymmetry", "fig13"),
-];
-
-/// The figure of the paper that shows what a lesson shows.
-pub fn figure_of(lesson: &str) -> Option<&'static str> {
-    TWINS.into_iter().find(|(name, _)| *name == lesson).map(|(_, figure)| figure)
-}
-
-/// The lesson that shows what a figure of the paper shows.
-pub fn lesson_of(figure: &str) -> Option<&'static str> {
-    TWINS.into_iter().find(|(_, name)| *name == figure).map(|(lesson, _)| lesson)
-}
 
 /// What a scene is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -122,6 +98,11 @@ pub fn library() -> &'static [Arc<Scene>] {
     &SCENES
 }
 
+/// Every name by which one of them is opened.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    library().iter().flat_map(|scene| scene.names())
+}
+
 /// The plain oscillator: linear damping and dry friction with the defaults of the parameter table.
 pub fn plain() -> Arc<Scene> {
     Arc::clone(&library()[0])
@@ -138,7 +119,7 @@ pub struct NoScene {
 impl fmt::Display for NoScene {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (lead, names) = if self.nearest.is_empty() {
-            ("there are ", library().iter().map(|scene| scene.name.as_str()).collect())
+            ("there are ", names().collect())
         } else {
             ("did you mean ", self.nearest.clone())
         };
@@ -156,11 +137,11 @@ const ALIKE: f64 = 0.7;
 /// # Errors
 /// [`NoScene`] with the names that look like it.
 pub fn find(name: &str) -> Result<Arc<Scene>, NoScene> {
-    library().iter().find(|scene| scene.name == name).cloned().ok_or_else(|| {
+    let known = library().iter().find(|scene| scene.names().any(|own| own == name));
+    known.cloned().ok_or_else(|| {
         let wanted = name.to_lowercase();
-        let mut rated: Vec<_> = library()
-            .iter()
-            .map(|scene| (strsim::jaro(&wanted, &scene.name), scene.name.as_str()))
+        let mut rated: Vec<_> = names()
+            .map(|name| (strsim::jaro(&wanted, name), name))
             .filter(|(likeness, _)| *likeness >= ALIKE)
             .collect();
         rated.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -178,7 +159,7 @@ mod tests {
 
     #[test]
     fn every_scene_of_a_figure_names_it_says_what_is_in_it_and_where_its_numbers_are_from() {
-        let figures = FILES.iter().filter_map(|(name, _)| Some((name, name.strip_prefix("fig")?)));
+        let figures = names().filter_map(|name| Some((name, name.strip_prefix("fig")?)));
         let mut count = 0;
         for (name, number) in figures {
             let scene = find(name).unwrap();
@@ -279,18 +260,23 @@ mod tests {
     }
 
     #[test]
-    fn twins_are_a_lesson_and_a_figure_with_the_same_terms() {
-        for (lesson, figure) in TWINS {
-            let [one, other] = [lesson, figure].map(|name| find(name).unwrap());
-            assert_eq!((Group::of(&one), Group::of(&other)), (Group::Lesson, Group::Figure));
-            assert_eq!(one.terms, other.terms, "{lesson}");
-            let number = |title: &str| title.rsplit_once('(').map(|(_, number)| number.to_owned());
-            assert_eq!(
-                number(&one.title),
-                number(&other.title),
-                "{lesson}: the figure in its title"
-            );
+    fn both_names_of_a_lesson_that_shows_a_figure_open_it() {
+        let both = library().iter().filter_map(|scene| Some((scene, scene.also.as_deref()?)));
+        let found: Vec<_> = both.clone().map(|(scene, also)| (scene.name.as_str(), also)).collect();
+        let expected = [
+            ("linear", "fig07"),
+            ("marginal", "fig16a"),
+            ("supercritical", "fig16b"),
+            ("subcritical", "fig16c"),
+            ("asymmetry", "fig13"),
+        ];
+        assert_eq!(found, expected);
+        for (scene, also) in both {
+            assert!(Arc::ptr_eq(&find(also).unwrap(), scene), "{also}");
+            assert_eq!(Group::of(scene), Group::Lesson, "{also}");
         }
+        let all: std::collections::BTreeSet<_> = names().collect();
+        assert_eq!(all.len(), names().count(), "each name opens one scene");
     }
 
     #[test]

@@ -8,6 +8,8 @@
 pub enum Condition {
     /// The numbers are those that the scene opens with.
     Here,
+    /// The numbers are those of the machine, at whatever speed of its belt.
+    Path,
     /// The plots show what they do when the scene opens.
     Opened,
     /// There is an unstable cycle.
@@ -27,8 +29,9 @@ pub enum Condition {
 }
 
 /// Every condition under its name in scene files; `two` is one of both kinds of cycles.
-pub const CONDITIONS: [(&str, &[Condition]); 10] = [
+pub const CONDITIONS: [(&str, &[Condition]); 11] = [
     ("here", &[Condition::Here]),
+    ("path", &[Condition::Path]),
     ("opened", &[Condition::Opened]),
     ("unstable", &[Condition::Unstable]),
     ("stable", &[Condition::Stable]),

@@ -22,6 +22,9 @@ use crate::question::Recording;
 pub struct Scene {
     /// The name by which it is opened.
     pub name: String,
+    /// The figure of the paper that it shows, by whose name it is opened too.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub also: Option<String>,
     pub title: String,
     /// What to look at, in a sentence or two.
     pub look: String,
@@ -67,6 +70,11 @@ impl Variant {
 }
 
 impl Scene {
+    /// Every name by which it is opened.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        std::iter::once(self.name.as_str()).chain(self.also.as_deref())
+    }
+
     /// Whether a parameter belongs to this scene; initial values always do.
     pub fn declares(&self, symbol: Symbol) -> bool {
         matches!(symbol, Symbol::Q0 | Symbol::V0) || self.terms.contains(&symbol)
@@ -91,6 +99,7 @@ impl ScaledMachine {
             |view| PlotSetup { view, axes: Axes::default(), window: None, family: None };
         Scene {
             name: self.machine.name.clone(),
+            also: None,
             title: self.machine.title.clone(),
             look: self.machine.look.clone(),
             press: "{play-motion} plays the motion and holds it, {motion-pace} changes the pace; {step-up} on D adds damping, on r friction."
@@ -125,6 +134,7 @@ impl Recording {
         let unit = self.record().unit.clone().unwrap_or_else(|| "the file's unit".to_owned());
         Scene {
             name: self.name().to_owned(),
+            also: None,
             title: format!("{}, fitted", self.name()),
             look: format!(
                 "Dots are what was measured, the line is the motion that fits best; lengths are in {unit}, times in \

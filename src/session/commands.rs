@@ -18,8 +18,8 @@ use crate::session::effect::Effect;
 use crate::session::lines::lines;
 use crate::session::state::command::Command;
 use crate::session::state::context::Context::{
-    self, Always, Count, Entry, Everywhere, Form, Help, Layers, Letter, Lists, Offer, Palette,
-    Paper, Parameters, Plots, Prompt, Scenes, Search, View as In, Views, Walk,
+    self, Always, Count, Entry, Everywhere, Form, Help, Interrupted, Layers, Letter, Lists, Offer,
+    Palette, Paper, Parameters, Plots, Prompt, Scenes, Search, View as In, Views, Walk,
 };
 use crate::session::state::input::Input;
 use crate::session::state::keymap::Keymap;
@@ -231,7 +231,7 @@ const COMMANDS: &[Row] = &[
     row("motion-back", &[(Everywhere, &["<f7>"])], "",
         "Move a little back along the motion", |s, _| playback::step(s, -1.0)),
     row("motion-pace", &[(Everywhere, &["<C-t>"])], "",
-        "Play at the next pace: slower, faster, a machine in real time", |s, _| playback::pace(s)),
+        "Play at the next faster pace; after the fastest, at the slowest", |s, _| playback::pace(s)),
     row("unfold", &[(Everywhere, &["x"])], "unfold",
         "Show the parameters that the scene does not need, or hide them", |s, _| parameters::unfold(s)),
     row("reset-scene", &[(Everywhere, &["R"])], "",
@@ -272,9 +272,15 @@ const COMMANDS: &[Row] = &[
     row("tour", &[(Everywhere, &["<f6>"])], "",
         "A tour with captions, which can be left at any point", |s, _| files::tour(s)),
     row("restore", &[(Everywhere, &["<f3>"])], "",
-        "Go on with the session that was interrupted", |s, _| files::restore(s)),
+        "Continue the session that was interrupted; of several, list them", |s, _| files::restore(s)),
     row("forget-interrupted", &[(Everywhere, &["<f4>"])], "",
-        "Offer interrupted sessions no longer", |s, _| files::forget(s)),
+        "Stop offering the sessions that were interrupted", |s, _| files::forget(s)),
+    row("restore-selected", &[(Interrupted, &["<enter>"])], "continue",
+        "Continue the selected session", |s, _| files::restore_selected(s)),
+    row("forget-one", &[(Interrupted, &["x", "<del>"])], "forget it",
+        "Stop offering the selected session", |s, _| files::forget_selected(s)),
+    row("forget-all", &[(Interrupted, &["X", "<f4>"])], "forget all",
+        "Stop offering all of these sessions", |s, _| files::forget(s)),
 
     row("costs", &[(Everywhere, &["$"])], "",
         "List what the picture costs, and what each step asks again", |s, _| lists::open_cost(s)),
@@ -304,7 +310,7 @@ const COMMANDS: &[Row] = &[
         "Drop the cursor, stop a scan or a figure; never leaves", |s, _| plots::drop_cursor(s)),
     row("back", &[(Lists, &["<esc>", "q"]), (Entry, &["<esc>"]), (Prompt, &["<esc>"]), (Palette, &["<esc>"]), (Form, &["<esc>"]), (Offer, &["<esc>"])], "close",
         "Close what is open", |s, _| general::back(s)),
-    row("close-again", &[(Help, &["?", "<f1>", "$"]), (Scenes, &["s"]), (Layers, &["v"]), (Views, &["V"]), (Paper, &["<f10>"])], "",
+    row("close-again", &[(Help, &["?", "<f1>", "$"]), (Scenes, &["s"]), (Layers, &["v"]), (Views, &["V"]), (Paper, &["<f10>"]), (Interrupted, &["<f3>"])], "",
         "Close with the key that opened", |s, _| general::back(s)),
     row("quit", &[(Everywhere, &["q"]), (Walk, &["q"]), (Always, &["<C-c>"])], "quit",
         "Leave", |s, _| general::quit(s)),

@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::scene::library;
+use crate::scene::library::names;
 use crate::scene::misread::{self, Complaint, Misread};
 use crate::session::message::key::Key;
 use crate::session::state::command::Command;
@@ -71,13 +71,9 @@ pub fn parse(file: &str, text: &str) -> Result<Config, Misread> {
 }
 
 fn config(read: &File) -> Result<Config, Complaint> {
-    let scenes: Vec<_> =
-        library().iter().map(|scene| (scene.name.clone(), scene.name.as_str())).collect();
     let scene = read.scene.as_ref().map(|given| {
-        let known = scenes.iter().find(|(name, _)| name == given.get_ref());
-        known
-            .map(|(name, _)| name.clone())
-            .ok_or_else(|| unknown(given, "scene", scenes.iter().map(|(_, name)| *name)))
+        let known = names().find(|name| name == given.get_ref());
+        known.map(str::to_owned).ok_or_else(|| unknown(given, "scene", names()))
     });
     Ok(Config {
         scene: scene.transpose()?,
@@ -135,6 +131,9 @@ fn keymap(read: &BTreeMap<Spanned<String>, Keys>) -> Result<Keymap, Complaint> {
                 return Err(Complaint { at: name.span(), message });
             }
             given.push((known, found, keys));
+            if known == Context::Everywhere && follows(read, found) {
+                given.push((Context::Walk, found, keys));
+            }
         }
     }
     for (context, command, _) in &given {
@@ -155,6 +154,19 @@ fn keymap(read: &BTreeMap<Spanned<String>, Keys>) -> Result<Keymap, Complaint> {
         }
     }
     Ok(keymap)
+}
+
+/// Whether a command has by default the same keys on a walk as everywhere, and the file says nothing else:
+/// then its keys of everywhere hold there too.
+fn follows(read: &BTreeMap<Spanned<String>, Keys>, command: &Command) -> bool {
+    let own = |at: Context| command.keys.iter().find(|(context, _)| *context == at);
+    let alike = match (own(Context::Everywhere), own(Context::Walk)) {
+        (Some((_, everywhere)), Some((_, walk))) => everywhere == walk,
+        _ => false,
+    };
+    let walk = read.iter().filter(|(context, _)| context.get_ref() == Context::Walk.name());
+    let said = walk.flat_map(|(_, commands)| commands.keys());
+    alike && said.into_iter().all(|name| name.get_ref() != command.name)
 }
 
 #[cfg(test)]
@@ -189,6 +201,16 @@ mod tests {
         assert_eq!(meaning(&config, Context::Parameters, "h"), None);
         // In the plots nothing was said about it.
         assert_eq!(meaning(&config, Context::Plots, "<gt>"), Some("step-up"));
+    }
+
+    #[test]
+    fn keys_of_everywhere_hold_on_a_walk_too_unless_it_has_its_own() {
+        let text = "[keys.everywhere]\nquit = [\"<C-q>\"]\nundo = [\"<A-u>\"]\n[keys.walk]\nundo = [\"u\"]\n";
+        let config = parse("config.toml", text).unwrap();
+        assert_eq!(meaning(&config, Context::Walk, "<C-q>"), Some("quit"));
+        assert_eq!(meaning(&config, Context::Walk, "q"), None);
+        assert_eq!(meaning(&config, Context::Walk, "u"), Some("undo"));
+        assert_eq!(meaning(&config, Context::Walk, "<A-u>"), None);
     }
 
     #[test]
@@ -245,7 +267,7 @@ mod tests {
         let config = parse("config.toml", "[keys.everywhere]\nundo = [\"<A-u>\"]").unwrap();
         let written = |text: &str| config.keymap.fill(text, |key| key.to_string());
         assert_eq!(written("{undo} or {step-up}, {no"), "<A-u> or <right>, {no");
-        for scene in library() {
+        for scene in crate::scene::library() {
             for text in [&scene.look, &scene.press] {
                 for name in text.split('{').skip(1).map(|rest| rest.split('}').next().unwrap()) {
                     let known = commands().any(|command| command.name == name);

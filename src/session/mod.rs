@@ -43,6 +43,7 @@ pub use state::command::{Command, LineCommand};
 pub use state::context::Context;
 pub use state::doubt::Doubt;
 pub use state::input::Input;
+pub use state::kept::Kept;
 pub use state::keymap::{self, Keymap};
 pub use state::overlay::{self, Entry, List, Listed, Overlay, Prompt};
 pub use state::pending::Pending;

@@ -43,9 +43,9 @@ fn act(session: &mut Session, key: Key) -> Vec<Effect> {
     } else if let Some(command) = elsewhere(session, key) {
         return run_where_it_belongs(session, command, key);
     } else {
-        let help = session.keymap.key_of("help");
-        let more = help.map(|help| format!("; {help} lists the keys")).unwrap_or_default();
-        inform(session, format!("{key} has no meaning here{more}"));
+        let text = format!("{} has no meaning here; {{help}} lists the keys", key.said());
+        let text = told(session, &text);
+        inform(session, text);
     }
     Vec::new()
 }
@@ -112,7 +112,7 @@ fn letter(session: &mut Session, what: Letter, count: u32, key: Key) -> Vec<Effe
         (Letter::GoTo, None) if asks("go-to-mark") => marks::go_back(session),
         (_, None) if session.keymap.command(&[Context::Always], key).is_some() => act(session, key),
         (_, None) => {
-            refuse(session, format!("{key} is no letter from a to z"));
+            refuse(session, format!("{} is not a letter from a to z", key.said()));
             Vec::new()
         }
     }

@@ -17,6 +17,7 @@ use crate::scene::file::{TOLERANCE_RANGE, UNTIL_RANGE};
 use crate::scene::{
     Arrangement, Axes, Layer, MOST_PLOTS, PlotSetup, Point, Scene, Setting, View, Window, find,
 };
+use crate::session::read::numbers::difference;
 use crate::session::replay;
 use crate::session::replay::script::Step;
 use crate::session::state::doubt::Doubt;
@@ -150,6 +151,7 @@ enum Change {
 /// One line, if the text cannot be made; no session is known for which that is so.
 pub fn text(session: &Session) -> Result<String, String> {
     let (past, future) = session.history.parts();
+    let left = session.marks.left.as_ref().map(|mark| &mark.setup);
     let file = File {
         hopfscope: VERSION,
         selected: session.selected.name().to_owned(),
@@ -173,40 +175,16 @@ pub fn text(session: &Session) -> Result<String, String> {
             scene: named(&session.scene),
         },
         plots: session.plots.iter().map(look).collect(),
-        marks: session
-            .marks
-            .places
-            .iter()
-            .map(|(name, mark)| (*name, mark.setup.problem))
-            .collect(),
-        belts: session
-            .marks
-            .places
-            .iter()
-            .filter_map(|(name, mark)| Some((*name, mark.setup.setting?)))
-            .collect(),
-        beside: session
-            .marks
-            .places
-            .iter()
-            .map(|(name, mark)| (*name, mark.setup.others.all().to_vec()))
-            .filter(|(_, beside)| !beside.is_empty())
-            .collect(),
-        doubts: session
-            .marks
-            .places
-            .iter()
-            .map(|(name, mark)| (*name, mark.setup.doubt))
-            .filter(|(_, doubt)| !doubt.is_none())
-            .collect(),
-        left: session.marks.left.as_ref().map(|mark| mark.setup.problem),
-        left_beside: session
-            .marks
-            .left
-            .as_ref()
-            .map_or_else(Vec::new, |mark| mark.setup.others.all().to_vec()),
-        left_belt: session.marks.left.as_ref().and_then(|mark| mark.setup.setting),
-        left_doubt: session.marks.left.as_ref().map_or_else(Doubt::default, |it| it.setup.doubt),
+        marks: of_marks(session, |setup| Some(setup.problem)),
+        belts: of_marks(session, |setup| setup.setting),
+        beside: of_marks(session, |setup| {
+            Some(setup.others.all().to_vec()).filter(|beside| !beside.is_empty())
+        }),
+        doubts: of_marks(session, |setup| Some(setup.doubt).filter(|doubt| !doubt.is_none())),
+        left: left.map(|setup| setup.problem),
+        left_beside: left.map_or_else(Vec::new, |setup| setup.others.all().to_vec()),
+        left_belt: left.and_then(|setup| setup.setting),
+        left_doubt: left.map_or_else(Doubt::default, |setup| setup.doubt),
         registers: session
             .macros
             .registers
@@ -218,6 +196,12 @@ pub fn text(session: &Session) -> Result<String, String> {
     };
     let body = toml::to_string(&file).map_err(|error| format!("not saved: {error}"))?;
     Ok(format!("# A session of hopfscope; `hopfscope --open FILE` resumes it.\n{body}"))
+}
+
+/// What is so of the marks, as far as it is.
+fn of_marks<T>(session: &Session, of: impl Fn(&Setup) -> Option<T>) -> BTreeMap<char, T> {
+    let marks = session.marks.places.iter();
+    marks.filter_map(|(name, mark)| Some((*name, of(&mark.setup)?))).collect()
 }
 
 fn named(scene: &Arc<Scene>) -> Named {
@@ -333,6 +317,28 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     opened.look = session.look;
     *session = opened;
     Ok(())
+}
+
+/// What is in a saved session, in a line: its scene, what was changed, and how often.
+///
+/// # Errors
+/// One line that says what is wrong.
+pub fn summary(text: &str) -> Result<String, String> {
+    let file = read(text)?;
+    let scene = scene(file.present.scene)?;
+    let setup = checked(file.present.motion, &file.present.beside, file.present.belt)?;
+    let changed = difference(&Setup::of_scene(&scene), &setup);
+    let marks = match file.marks.len() {
+        0 => String::new(),
+        1 => ", 1 mark".to_owned(),
+        count => format!(", {count} marks"),
+    };
+    let changes = match file.past.len() {
+        1 => "1 change".to_owned(),
+        count => format!("{count} changes"),
+    };
+    let with = if changed.is_empty() { changed } else { format!(" {changed}") };
+    Ok(format!("{}{with} ({changes}{marks})", scene.name))
 }
 
 /// The file, if it is one of a format that is known.

@@ -7,7 +7,7 @@
 use crate::flow::Reason;
 use crate::question::Failure;
 use crate::scene::Answered;
-use crate::session::act::notice::{inform, refuse};
+use crate::session::act::notice::{inform, refuse, told};
 use crate::session::act::{answers, files, history, macros, mouse, typing, walk};
 use crate::session::effect::Effect;
 use crate::session::message::Msg;
@@ -27,6 +27,7 @@ pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
         // Nobody gives another press as long as one waits, but to forget that.
         if session.waiting.take().is_some() && waiting::forgets(&message) {
             inform(session, "no longer waited for");
+            macros::end(session);
             return Vec::new();
         }
         if let (Some(request), Some(step)) = (session.awaited(&message), Step::of(&message)) {
@@ -70,6 +71,10 @@ fn take_in(session: &mut Session, message: Msg) -> Vec<Effect> {
             Vec::new()
         }
         Msg::Say(caption, place) => {
+            // Without words: what was played is over.
+            if caption.is_empty() {
+                macros::end(session);
+            }
             session.caption =
                 if caption.is_empty() { Caption::Nothing } else { Caption::Tour(caption, place) };
             Vec::new()
@@ -132,9 +137,8 @@ fn take(session: &mut Session, answered: Answered) {
     if let Some(failure) = failure.filter(|_| asked)
         && failure != Failure::Reason(Reason::Interrupted)
     {
-        let retry = session.keymap.key_of("retry");
-        let again = retry.map(|key| format!("; {key} tries again")).unwrap_or_default();
-        refuse(session, format!("{name}: {failure}{again}"));
+        let again = told(session, "{retry} tries again");
+        refuse(session, format!("{name}: {failure}; {again}"));
     }
 }
 

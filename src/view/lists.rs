@@ -14,11 +14,11 @@ use super::pane;
 use super::paper;
 use super::prose;
 use crate::picture::role::Role;
-use crate::scene::library::{Group, figure_of};
+use crate::scene::library::Group;
 use crate::scene::said::said;
 use crate::scene::{Layer, ViewSpec, letters};
 use crate::session::read::palette::PaletteRow;
-use crate::session::{List, Listed, Overlay, Session};
+use crate::session::{Kept, List, Listed, Overlay, Session};
 
 const WIDTH: u16 = 90;
 
@@ -34,6 +34,7 @@ pub fn draw(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         Some(Overlay::List(Listed::Cost, list)) => (list, costs::content(session, list, look)),
         Some(Overlay::List(Listed::Paper, list)) => (list, paper::content(session, list, look)),
         Some(Overlay::List(Listed::Palette, list)) => (list, palette(session, list, look)),
+        Some(Overlay::List(Listed::Interrupted, list)) => (list, interrupted(session, list, look)),
         Some(Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Scan(_) | Overlay::Offer(_))
         | None => return,
     };
@@ -184,7 +185,7 @@ fn scenes(session: &Session, list: &List, look: &Look) -> Content {
             group = Some(Group::of(scene));
             rows.extend(group.map(|group| Entry::Heading(group.title())));
         }
-        let figure = figure_of(&scene.name).filter(|_| whole).unwrap_or_default();
+        let figure = scene.also.as_deref().unwrap_or_default();
         rows.push(Entry::Row(vec![
             Span::styled(format!("{:<14}", scene.name), look.style(Role::Key)),
             Span::styled(format!("{figure:<7}"), look.style(Role::Quiet)),
@@ -197,9 +198,7 @@ fn scenes(session: &Session, list: &List, look: &Look) -> Content {
         let always = |text: &str| said(text, |_| false);
         let text =
             |text: &str| Line::styled(keys::sentence(&always(text), &session.keymap, look), quiet);
-        let figure = figure_of(&scene.name)
-            .map(|name| Line::styled(format!(":scene {name} is the picture of the paper."), quiet));
-        [text(&scene.look), Line::default(), text(&scene.press)].into_iter().chain(figure).collect()
+        vec![text(&scene.look), Line::default(), text(&scene.press)]
     });
     Content { title: "scenes", rows, about: about.unwrap_or_default(), below: TEXT }
 }
@@ -241,4 +240,16 @@ fn views(session: &Session, list: &List, look: &Look) -> Content {
     };
     let rows = session.view_rows(list).into_iter().map(row).collect();
     Content { title: "show", rows, about: Vec::new(), below: 0 }
+}
+
+/// The interrupted sessions, with what is in each.
+fn interrupted(session: &Session, list: &List, look: &Look) -> Content {
+    let row = |(_, kept): (usize, &Kept)| {
+        Entry::Row(vec![
+            Span::styled(format!("{:<12} ", kept.when), look.style(Role::Key)),
+            Span::styled(kept.what.clone(), look.style(Role::Text)),
+        ])
+    };
+    let rows = session.interrupted_rows(list).into_iter().map(row).collect();
+    Content { title: "interrupted sessions", rows, about: Vec::new(), below: 0 }
 }

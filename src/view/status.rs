@@ -36,7 +36,9 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     } else {
         let (sentence, role) = outcome(session);
         let of = session.number(0).map_or_else(String::new, |number| format!("motion {number} "));
-        (format!("{}{of}{sentence}", symbol(session, look)), role)
+        // The symbol belongs to the motion: what else is said has none.
+        let symbol = Some(symbol(session, look)).filter(|_| role == Role::Text);
+        (format!("{}{of}{sentence}", symbol.unwrap_or_default()), role)
     };
     let busy = if session.is_busy() { "computing " } else { "" };
     let busy = match session.writing.as_ref().and_then(|path| path.file_name()) {

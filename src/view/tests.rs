@@ -12,7 +12,7 @@ use crate::flow::{Method, Outcome, Problem, Reason, Sample};
 use crate::oscillator::{Parameters, State, Symbol};
 use crate::question::Failure;
 use crate::question::zones::Extent;
-use crate::scene::library::{find, lesson_of, library};
+use crate::scene::library::{find, library};
 use crate::scene::{
     Answer, Answered, Axes, LAYERS, Layer, PlotSetup, Point, Scene, Span, View, Window,
 };
@@ -181,8 +181,7 @@ fn a_search_leaves_what_contains_it() {
 fn the_scene_picker_shows_every_scene_and_what_the_selected_one_is_about() {
     let session = settled("linear", 100, 60, "s");
     let screen = text(&draw(&session, letters()));
-    let mut own = library().iter().filter(|scene| lesson_of(&scene.name).is_none());
-    assert!(own.all(|scene| screen.contains(&scene.title)), "{screen}");
+    assert!(library().iter().all(|scene| screen.contains(&scene.title)), "{screen}");
     assert!(screen.contains("supercritical fig16b Friction turns"), "{screen}");
     assert!(
         ["Lessons", "Figures of the paper", "Machines"].iter().all(|group| screen.contains(group))

@@ -13,7 +13,9 @@ pub fn reading(session: &Session, look: &Look, width: u16) -> Option<String> {
     let held = session.held?;
     let name = session.plots[session.plot].axes.abscissa.spec().name;
     let shown = session.shown(session.plot);
-    let label = shown.get(held.variant).map_or("", |shown| shown.label.as_str());
+    // The present values stand in the parameter pane.
+    let other = shown.get(held.variant).filter(|shown| !shown.present);
+    let label = other.map_or("", |shown| shown.label.as_str());
     let line = |digits: &usize| sentence(name, label, &held, *digits, look.symbols().dot);
     // The status line begins with a blank and a symbol.
     let fits = |text: &String| text.chars().count() + 4 <= usize::from(width);

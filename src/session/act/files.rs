@@ -14,6 +14,7 @@ use crate::session::act::{history, macros, prompt};
 use crate::session::effect::Effect;
 use crate::session::message::Purpose;
 use crate::session::replay::script::Script;
+use crate::session::state::overlay::{List, Listed, Overlay};
 use crate::session::state::session::Session;
 use crate::session::{replay, save};
 
@@ -128,7 +129,8 @@ fn take(
             save::open(session, &text).map_err(of_file)?;
             let others = match session.interrupted.len() {
                 0 => String::new(),
-                count => told(session, &format!("; {{restore}} brings one of {count} older ones")),
+                1 => told(session, "; {restore} brings the older one"),
+                count => told(session, &format!("; {{restore}} lists {count} others")),
             };
             inform(session, format!("the interrupted session is back{others}"));
             return Ok(vec![Effect::PutAside(path.to_owned())]);
@@ -186,25 +188,58 @@ fn open_machine(
     Ok(Vec::new())
 }
 
-/// Goes on with the session that was interrupted.
+/// Continues the session that was interrupted, or lists several.
 pub fn restore(session: &mut Session) -> Vec<Effect> {
-    if session.interrupted.is_empty() {
-        return none_interrupted(session);
+    match session.interrupted.len() {
+        0 => return none_interrupted(session),
+        1 => return restore_number(session, 0),
+        _ => session.overlay = Some(Overlay::List(Listed::Interrupted, List::default())),
     }
-    let path = session.interrupted.remove(0);
+    Vec::new()
+}
+
+/// Continues the selected one of the interrupted sessions.
+pub(in crate::session) fn restore_selected(session: &mut Session) -> Vec<Effect> {
+    selected(session).map_or_else(Vec::new, |number| restore_number(session, number))
+}
+
+fn restore_number(session: &mut Session, number: usize) -> Vec<Effect> {
+    session.overlay = None;
+    let path = session.interrupted.remove(number).path;
     vec![Effect::Read { path, purpose: Purpose::Restore }]
 }
 
-/// Offers interrupted sessions no longer.
+/// The place of the selected one among all interrupted sessions.
+fn selected(session: &Session) -> Option<usize> {
+    let Some(Overlay::List(Listed::Interrupted, list)) = &session.overlay else { return None };
+    session.interrupted_rows(list).get(list.selected).map(|(number, _)| *number)
+}
+
+/// Stops offering the selected one of the interrupted sessions.
+pub fn forget_selected(session: &mut Session) -> Vec<Effect> {
+    let Some(number) = selected(session) else { return Vec::new() };
+    if session.interrupted.len() == 1 {
+        return forget(session);
+    }
+    let path = session.interrupted.remove(number).path;
+    let last = session.list_length().saturating_sub(1);
+    if let Some(list) = session.list_mut() {
+        list.selected = list.selected.min(last);
+    }
+    vec![Effect::PutAside(path)]
+}
+
+/// Stops offering all interrupted sessions.
 pub fn forget(session: &mut Session) -> Vec<Effect> {
-    let paths = std::mem::take(&mut session.interrupted);
-    match paths.len() {
+    let all = std::mem::take(&mut session.interrupted);
+    session.overlay = None;
+    match all.len() {
         0 => return none_interrupted(session),
         1 => inform(session, "the interrupted session is not offered again"),
         count => inform(session, format!("{count} interrupted sessions are not offered again")),
     }
     // The newest is put aside last, and so stays the last one.
-    paths.into_iter().rev().map(Effect::PutAside).collect()
+    all.into_iter().rev().map(|kept| Effect::PutAside(kept.path)).collect()
 }
 
 fn none_interrupted(session: &mut Session) -> Vec<Effect> {

@@ -41,7 +41,7 @@ fn present(session: &Session, other: &Before) -> Before {
 }
 
 /// Everything that a scene sets, as it is now.
-fn snapshot(session: &Session) -> Snapshot {
+pub(in crate::session) fn snapshot(session: &Session) -> Snapshot {
     Snapshot {
         scene: Arc::clone(&session.scene),
         setup: session.setup(),

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use crate::scene::library::lesson_of;
 use crate::scene::{find, letters};
 use crate::session::act::general::toggle;
 use crate::session::act::history::open_scene;
@@ -20,9 +19,8 @@ pub const PAGE: isize = 10;
 /// Opens the scene picker, with the present scene selected.
 pub fn open_scenes(session: &mut Session) -> Vec<Effect> {
     let name = session.scene.name.as_str();
-    let shown = lesson_of(name).unwrap_or(name);
     let rows = session.scene_rows(&List::default());
-    let present = rows.iter().position(|scene| scene.name == shown);
+    let present = rows.iter().position(|scene| scene.name == name);
     let list = List { selected: present.unwrap_or(0), ..List::default() };
     session.overlay = Some(Overlay::List(Listed::Scenes, list));
     Vec::new()
@@ -38,7 +36,7 @@ pub fn open_layers(session: &mut Session) -> Vec<Effect> {
 pub fn toggle_letter(session: &mut Session, key: Key) -> Vec<Effect> {
     let view = session.view_in_use();
     let Some((_, layer)) = letters(view).find(|(letter, _)| key.typed() == Some(*letter)) else {
-        refuse(session, format!("{key} is no layer of the {}", view.spec().title));
+        refuse(session, format!("{} is no layer of the {}", key.said(), view.spec().title));
         return Vec::new();
     };
     if let Some(Overlay::List(Listed::Layers, list)) = &session.overlay {

@@ -3,11 +3,13 @@
 //! A macro is a short keystroke file. What is played while another one is recorded is recorded in its
 //! place, so that a recorded macro plays by itself and never plays another.
 
+use crate::session::act::history::snapshot;
 use crate::session::act::notice::{inform, refuse};
 use crate::session::effect::Effect;
 use crate::session::message::Msg;
 use crate::session::replay::recorder::Recorder;
 use crate::session::replay::script::Script;
+use crate::session::state::macros::Played;
 use crate::session::state::pending::{Letter, Pending};
 use crate::session::state::session::Session;
 
@@ -19,6 +21,9 @@ pub(in crate::session) fn note(session: &mut Session, message: &Msg) {
     let macros = &mut session.macros;
     if matches!(message, Msg::Key(_) | Msg::Paste(_) | Msg::Pointed(_) | Msg::Run(_)) {
         macros.chord += 1;
+        if let Some(played) = &mut macros.played {
+            played.left = played.left.saturating_sub(1);
+        }
         if let Some((_, recorder)) = &mut macros.recording {
             recorder.note(message);
         }
@@ -27,6 +32,9 @@ pub(in crate::session) fn note(session: &mut Session, message: &Msg) {
 
 /// Begins a new chord where nothing is open and nothing waited for.
 pub(in crate::session) fn rest(session: &mut Session) {
+    if session.macros.played.as_ref().is_some_and(|played| played.left == 0) {
+        end(session);
+    }
     let macros = &mut session.macros;
     if macros.chord > 0 && session.overlay.is_none() && session.pending.is_none() {
         macros.asked = std::mem::take(&mut macros.chord);
@@ -77,7 +85,23 @@ pub(in crate::session) fn play(session: &mut Session, register: char, times: u32
     let script = Script::repeated(steps, times);
     inline(session);
     session.macros.last = Some(register);
+    let left = script.presses();
+    match &mut session.macros.played {
+        // A register of a file can play another one.
+        Some(played) => played.left += left,
+        None => {
+            let (depth, before) = (session.history.depth().0, Box::new(snapshot(session)));
+            session.macros.played = Some(Played { left, depth, before });
+        }
+    }
     vec![Effect::PlayRegister(script)]
+}
+
+/// What a register has changed becomes one change: it is played to its end, or was stopped.
+pub(in crate::session) fn end(session: &mut Session) {
+    if let Some(Played { depth, before, .. }) = session.macros.played.take() {
+        session.history.merge_all(depth, before);
+    }
 }
 
 /// Plays the register played or recorded last.

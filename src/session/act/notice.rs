@@ -1,6 +1,7 @@
 //! Lines for the user.
 
 use crate::session::message::Notice;
+use crate::session::message::key::Key;
 use crate::session::state::session::Session;
 
 /// Shows a line that is no complaint.
@@ -10,7 +11,7 @@ pub(in crate::session) fn inform(session: &mut Session, text: impl Into<String>)
 
 /// A sentence in which `{command}` stands for the key of that command.
 pub(in crate::session) fn told(session: &Session, sentence: &str) -> String {
-    session.keymap.fill(sentence, |key| key.to_string())
+    session.keymap.fill(sentence, Key::said)
 }
 
 /// Shows a line that says what was refused.

@@ -55,7 +55,7 @@ impl Session {
     /// Time has passed: the head moves on, and stands still at the end.
     pub(in crate::session) fn elapse(&mut self, seconds: f64) {
         if self.playback.playing && seconds > 0.0 {
-            self.advance(seconds * self.rate());
+            self.advance(seconds * self.rate(self.playback.pace));
         }
     }
 
@@ -75,12 +75,12 @@ impl Session {
         self.advance(steps * TAU / STEPS);
     }
 
-    /// The next pace; only a machine has its own.
+    /// The next faster pace, after the fastest the slowest; only a machine has its own.
     pub(in crate::session) fn next_pace(&mut self) {
-        let now = PACES.iter().position(|pace| *pace == self.playback.pace).unwrap_or(0);
-        let real = self.scene.machine.is_some();
-        let usable = |pace: &&Pace| real || **pace != Pace::Real;
-        let next = PACES[now + 1..].iter().chain(&PACES[..now]).find(usable);
-        self.playback.pace = next.copied().unwrap_or(PACES[0]);
+        let real = self.scene.machine.is_some().then_some(Pace::Real);
+        let mut paces: Vec<Pace> = PACES.into_iter().chain(real).collect();
+        paces.sort_by(|one, other| self.rate(*one).total_cmp(&self.rate(*other)));
+        let now = paces.iter().position(|pace| *pace == self.playback.pace);
+        self.playback.pace = now.and_then(|now| paces.get(now + 1)).copied().unwrap_or(paces[0]);
     }
 }

@@ -111,6 +111,12 @@ impl Key {
         }
     }
 
+    /// The key as a sentence names it: a character by itself, any other by its name in angle brackets.
+    pub fn said(self) -> String {
+        let typed = self.typed().filter(|typed| *typed != ' ');
+        typed.map_or_else(|| self.to_string(), String::from)
+    }
+
     /// Reads what stands between angle brackets.
     ///
     /// # Errors

@@ -22,7 +22,7 @@ fn complete(session: &Session, kind: Words, given: &[&str]) -> Vec<String> {
     match kind {
         Words::Assignments => assignments(session, given),
         Words::Methods => methods(),
-        Words::Scenes => library().iter().map(|scene| scene.name.clone()).collect(),
+        Words::Scenes => library::names().map(str::to_owned).collect(),
         Words::Machines => machines().iter().map(|machine| machine.name.clone()).collect(),
         Words::Views => owned(&VIEWS.map(|row| row.name)),
         Words::Layers if first => owned(&LAYERS.map(|row| row.name)),

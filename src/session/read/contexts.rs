@@ -31,6 +31,7 @@ impl Session {
             Some(Overlay::List(Listed::Layers, _)) => Context::Layers,
             Some(Overlay::List(Listed::Views, _)) => Context::Views,
             Some(Overlay::List(Listed::Paper, _)) => Context::Paper,
+            Some(Overlay::List(Listed::Interrupted, _)) => Context::Interrupted,
             Some(Overlay::Entry(_)) => Context::Entry,
             Some(Overlay::Prompt(_)) => Context::Prompt,
             Some(Overlay::Scan(_)) => Context::Form,

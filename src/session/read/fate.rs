@@ -10,6 +10,7 @@ use crate::numerics::elementary::hypot;
 use crate::question::whole::Course;
 use crate::scene::said::{self, Condition};
 use crate::session::state::session::Session;
+use crate::session::state::setup::Setup;
 use crate::study::{Cycle, Cycles, Edge};
 
 /// What becomes of a motion.
@@ -178,8 +179,14 @@ impl Session {
 
     /// Whether something is so, of the answers that are on show.
     fn holds(&self, condition: Condition) -> bool {
-        let cycles = |stable: bool| {
-            self.cycles().is_some_and(|it| it.cycles.iter().any(|cycle| cycle.stable == stable))
+        let whole = self.kinds().filter(|_| self.draws_whole());
+        let cycles = |stable: bool| match whole {
+            // Of unstable ones, that which borders what comes to rest.
+            Some(kinds) if !stable => kinds.border == "cycle",
+            Some(kinds) => kinds.cycles.iter().any(|cycle| cycle.stable),
+            None => {
+                self.cycles().is_some_and(|it| it.cycles.iter().any(|cycle| cycle.stable == stable))
+            }
         };
         let edge = |edge: Edge| self.cycles().is_some_and(|found| found.edge == edge);
         let end = || self.fate().map(|fate| fate.end);
@@ -187,7 +194,9 @@ impl Session {
             Condition::Here => {
                 let (own, scene) = (self.problem, self.scene.problem);
                 (own.parameters, own.initial) == (scene.parameters, scene.initial)
+                    && self.setting == Setup::of_scene(&self.scene).setting
             }
+            Condition::Path => self.is_on_the_belt() == Some(true),
             Condition::Opened => {
                 let own = self.plots.iter().map(|plot| (plot.view, plot.axes));
                 own.eq(self.scene.plots.iter().map(|plot_setup| (plot_setup.view, plot_setup.axes)))
@@ -199,8 +208,7 @@ impl Session {
                 edge(Edge::None) && self.cycles().is_some_and(|found| found.parameters.r > 0.0)
             }
             Condition::Sticks => {
-                let kinds = self.kinds().filter(|_| self.draws_whole());
-                kinds.is_some_and(|kinds| kinds.cycles.iter().any(|cycle| cycle.sticks))
+                whole.is_some_and(|kinds| kinds.cycles.iter().any(|cycle| cycle.sticks))
             }
             Condition::Rests => matches!(end(), Some(End::Rests)),
             Condition::Grows => matches!(end(), Some(End::Grows | End::Onto { grows: true, .. })),

@@ -2,19 +2,18 @@
 
 use std::sync::Arc;
 
-use crate::scene::library::{Group, lesson_of};
+use crate::scene::library::Group;
 use crate::scene::{LAYERS, LayerSpec, Scene, VIEWS, View, ViewSpec, library};
+use crate::session::state::kept::Kept;
 use crate::session::state::overlay::{List, Listed, Overlay};
 use crate::session::state::session::Session;
 use crate::study::claims::{Claim, Examined, Verdict, claims};
 
 impl Session {
-    /// The scenes that the picker lists, in groups. A lesson stands for the figure that shows the same, as
-    /// long as nothing is searched.
+    /// The scenes that the picker lists, in groups.
     pub fn scene_rows(&self, list: &List) -> Vec<&'static Arc<Scene>> {
-        let all = list.search.trim().is_empty();
         let found = library().iter().filter(|scene| {
-            list.matches(&[&scene.name, &scene.title]) && !(all && lesson_of(&scene.name).is_some())
+            list.matches(&[&scene.name, scene.also.as_deref().unwrap_or_default(), &scene.title])
         });
         let mut rows: Vec<_> = found.collect();
         rows.sort_by_key(|scene| Group::of(scene));
@@ -50,6 +49,12 @@ impl Session {
         rows.filter(matches).collect()
     }
 
+    /// The interrupted sessions that their list shows, each with its place among all.
+    pub fn interrupted_rows(&self, list: &List) -> Vec<(usize, &Kept)> {
+        let all = self.interrupted.iter().enumerate();
+        all.filter(|(_, kept)| list.matches(&[&kept.when, &kept.what])).collect()
+    }
+
     /// How many rows the open list has.
     pub(in crate::session) fn list_length(&self) -> usize {
         match &self.overlay {
@@ -59,6 +64,7 @@ impl Session {
             Some(Overlay::List(Listed::Paper, list)) => self.claim_rows(list).len(),
             Some(Overlay::List(Listed::Palette, list)) => self.palette_rows(list).len(),
             Some(Overlay::List(Listed::Cost, list)) => self.cost_rows(list).len(),
+            Some(Overlay::List(Listed::Interrupted, list)) => self.interrupted_rows(list).len(),
             Some(Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Scan(_) | Overlay::Offer(_))
             | None => 0,
         }

@@ -95,6 +95,7 @@ impl PaletteRow {
         match self {
             PaletteRow::View(view) => view.title,
             PaletteRow::Claim(claim) => claim.section,
+            PaletteRow::Scene(scene) => scene.also.as_deref().unwrap_or_default(),
             _ => other.map_or("", |(_, words)| words),
         }
     }

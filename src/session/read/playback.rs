@@ -51,9 +51,9 @@ impl Session {
         Followed::of(motion, sticking).sticks
     }
 
-    /// Dimensionless time that passes in a second.
-    pub fn rate(&self) -> f64 {
-        match (self.playback.pace, self.running()) {
+    /// Dimensionless time that passes in a second at a pace.
+    pub fn rate(&self, pace: Pace) -> f64 {
+        match (pace, self.running()) {
             (Pace::Period(seconds), _) => TAU / seconds,
             (Pace::Real, Some(machine)) => machine.reduced.units.omega_0,
             (Pace::Real, None) => TAU,

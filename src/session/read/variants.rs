@@ -2,6 +2,8 @@
 //!
 //! A variant holds some values, the others follow the keys.
 
+use std::collections::BTreeMap;
+
 use crate::flow::Problem;
 use crate::oscillator::Symbol;
 use crate::question;
@@ -13,9 +15,11 @@ use crate::study::Branch;
 /// A motion that a plot shows, and what tells it from the others there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shown {
-    /// The values that are held; empty for the present motion.
+    /// The values that are held; empty where the plot shows the present motion alone.
     pub label: String,
     pub problem: Problem,
+    /// Whether nothing is held: it is the present motion.
+    pub present: bool,
 }
 
 impl Session {
@@ -27,13 +31,15 @@ impl Session {
 
     /// What a plot shows: the present problem, or its variants.
     pub fn shown(&self, plot: usize) -> Vec<Shown> {
-        let present = || vec![Shown { label: String::new(), problem: self.problem }];
+        let present = || vec![Shown { label: String::new(), problem: self.problem, present: true }];
         let variant = |(variant, label): (&Variant, String)| Shown {
             label,
             problem: variant.of(self.problem),
+            present: variant.held.is_empty(),
         };
-        let labelled =
-            |all: &[Variant]| all.iter().zip(labels(all, false)).map(variant).collect::<Vec<_>>();
+        let labelled = |all: &[Variant]| {
+            all.iter().zip(labels(all, &self.problem, false)).map(variant).collect::<Vec<_>>()
+        };
         self.variants(plot).map_or_else(present, labelled)
     }
 
@@ -47,7 +53,8 @@ impl Session {
     /// The answers about this topic for what a plot shows, stale or not; each with its place among that, and
     /// the values that are held.
     pub fn found(&self, topic: Topic, plot: usize) -> Vec<(usize, String, &Answer)> {
-        let labels = self.variants(plot).map(|all| labels(all, topic == Topic::Trajectory));
+        let starts = topic == Topic::Trajectory;
+        let labels = self.variants(plot).map(|all| labels(all, &self.problem, starts));
         let label = |index: usize| labels.as_ref()?.get(index).cloned();
         let found = self.answers_for_each(topic, plot);
         found.map(|(index, answer)| (index, label(index).unwrap_or_default(), answer)).collect()
@@ -92,12 +99,16 @@ impl Session {
 }
 
 /// What tells each of some variants from the others: the parameters that they do not hold alike, and
-/// where motions are meant, from where they start.
-fn labels(all: &[Variant], starts: bool) -> Vec<String> {
+/// where motions are meant, from where they start. One that holds nothing has the present values.
+fn labels(all: &[Variant], present: &Problem, starts: bool) -> Vec<String> {
     let tells =
         |symbol: Symbol, value: f64| (starts || is_parameter(symbol)) && !alike(all, symbol, value);
+    let held = all.iter().flat_map(|variant| variant.held.keys());
+    let now: BTreeMap<Symbol, f64> =
+        held.map(|symbol| (*symbol, symbol.get(&present.parameters, &present.initial))).collect();
     let label = |variant: &Variant| {
-        text(variant.held.iter().filter(|(symbol, value)| tells(**symbol, **value)))
+        let values = if variant.held.is_empty() { &now } else { &variant.held };
+        text(values.iter().filter(|(symbol, value)| tells(**symbol, **value)))
     };
     all.iter().map(label).collect()
 }

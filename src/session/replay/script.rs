@@ -112,6 +112,16 @@ impl Script {
         Script { steps: (0..times).flat_map(|_| once.iter().cloned()).collect() }
     }
 
+    /// How many messages of a user it gives to a session.
+    pub fn presses(&self) -> u64 {
+        let presses = |located: &Located| match located.step {
+            Step::Key { count, .. } => u64::from(count),
+            Step::Pointed(_) | Step::Paste(_) | Step::Run(_) => 1,
+            _ => 0,
+        };
+        self.steps.iter().map(presses).sum()
+    }
+
     /// How many keys it presses.
     pub fn keys(&self) -> u64 {
         let presses = |located: &Located| match located.step {

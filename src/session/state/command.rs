@@ -26,8 +26,17 @@ impl PartialEq for Command {
 }
 
 /// Short names that other programs have for commands, and what those are called here.
-const SHORT: [(&str, &str); 5] =
-    [("q", "quit"), ("q!", "quit"), ("w", "write"), ("w!", "write!"), ("e", "open")];
+///
+/// Leaving keeps the session, so that `wq` has nothing else to write.
+const SHORT: [(&str, &str); 7] = [
+    ("q", "quit"),
+    ("q!", "quit"),
+    ("wq", "quit"),
+    ("x", "quit"),
+    ("w", "write"),
+    ("w!", "write!"),
+    ("e", "open"),
+];
 
 /// The name of the command that a word stands for: itself, unless it is a short one.
 pub fn full_name(word: &str) -> &str {

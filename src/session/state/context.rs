@@ -27,6 +27,8 @@ pub enum Context {
     Views,
     /// The claims of the paper are open.
     Paper,
+    /// The list of interrupted sessions is open.
+    Interrupted,
     /// The palette is open.
     Palette,
     /// A count is being typed before a key.
@@ -83,7 +85,7 @@ const fn row(context: Context, name: &'static str, title: &'static str, kind: Ki
 
 /// The contexts besides those of the views.
 #[rustfmt::skip]
-const OTHERS: [ContextSpec; 19] = [
+const OTHERS: [ContextSpec; 20] = [
     row(Context::Parameters, "parameters", "Parameters", Kind::Pane),
     row(Context::Walk, "walk", "Walking along the branch", Kind::Held),
     row(Context::Plots, "plots", "Every plot", Kind::Shared),
@@ -93,6 +95,7 @@ const OTHERS: [ContextSpec; 19] = [
     row(Context::Layers, "layers", "In the layer list", Kind::List),
     row(Context::Views, "views", "In the picker of views", Kind::List),
     row(Context::Paper, "paper", "In the list of claims", Kind::List),
+    row(Context::Interrupted, "interrupted", "In the list of interrupted sessions", Kind::List),
     row(Context::Palette, "palette", "While searching the list", Kind::Text),
     row(Context::Count, "count", "After a count", Kind::Question),
     row(Context::Letter, "letter", "Before the letter of a register or mark", Kind::Question),

@@ -74,6 +74,15 @@ impl History {
         }
     }
 
+    /// Makes one change of all those since the past was so deep, before which things stood like this.
+    pub fn merge_all(&mut self, depth: usize, before: Box<Snapshot>) {
+        self.merge(depth, |before| matches!(before, Before::Setup(_)));
+        if self.past.len() > depth + 1 {
+            self.past.truncate(depth);
+            self.past.push(Before::Scene(before));
+        }
+    }
+
     /// The state before the last change. `present` tells the present state to the same extent, for redo.
     pub fn undo(&mut self, present: impl FnOnce(&Before) -> Before) -> Option<Before> {
         let before = self.past.pop()?;

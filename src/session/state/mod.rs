@@ -6,6 +6,7 @@ pub mod context;
 pub mod doubt;
 pub mod history;
 pub mod input;
+pub mod kept;
 pub mod keymap;
 pub mod macros;
 pub mod marks;

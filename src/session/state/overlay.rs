@@ -35,6 +35,8 @@ pub enum Listed {
     Palette,
     /// What the picture costs, question by question.
     Cost,
+    /// The sessions that were interrupted, to continue one.
+    Interrupted,
 }
 
 impl Overlay {

@@ -9,9 +9,9 @@ pub enum Pace {
     Real,
 }
 
-/// The paces, in the order in which the key visits them.
-pub(in crate::session) const PACES: [Pace; 5] =
-    [Pace::Period(4.0), Pace::Period(2.0), Pace::Period(1.0), Pace::Real, Pace::Period(8.0)];
+/// The paces besides that of a machine itself.
+pub(in crate::session) const PACES: [Pace; 4] =
+    [Pace::Period(8.0), Pace::Period(4.0), Pace::Period(2.0), Pace::Period(1.0)];
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Playback {
@@ -24,6 +24,6 @@ pub struct Playback {
 
 impl Default for Playback {
     fn default() -> Self {
-        Playback { at: None, playing: false, pace: PACES[0] }
+        Playback { at: None, playing: false, pace: PACES[1] }
     }
 }

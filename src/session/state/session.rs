@@ -16,6 +16,7 @@ use crate::session::message::key::Key;
 use crate::session::state::answers::Answers;
 use crate::session::state::doubt::Doubt;
 use crate::session::state::history::History;
+use crate::session::state::kept::Kept;
 use crate::session::state::keymap::Keymap;
 use crate::session::state::macros::Macros;
 use crate::session::state::marks::Marks;
@@ -130,8 +131,8 @@ pub struct Session {
     pub marks: Marks,
     /// What is said in words above the status lines.
     pub caption: Caption,
-    /// The files of sessions that were interrupted and could be gone on with, the newest first.
-    pub interrupted: Vec<PathBuf>,
+    /// The sessions that were interrupted and can be continued, the newest first.
+    pub interrupted: Vec<Kept>,
     /// The figure that is being written.
     pub writing: Option<PathBuf>,
     /// The lines typed on the command line, the newest last.

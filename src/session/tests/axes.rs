@@ -7,7 +7,7 @@ use crate::session::{Framing, Overlay};
 
 #[test]
 fn every_parameter_comes_below_the_diagram_and_the_scene_s_own_comes_back() {
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     let scene = trial.session.plots[1].clone();
     trial.press("<tab><tab>");
     let mut seen = Vec::new();
@@ -34,7 +34,7 @@ fn every_parameter_comes_below_the_diagram_and_the_scene_s_own_comes_back() {
 
 #[test]
 fn the_window_follows_a_value_of_today_that_is_out_of_the_ordinary() {
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     trial.press("<down>7<enter><tab><tab>X X");
     assert_eq!(trial.session.plots[1].axes.abscissa, Symbol::D3);
     assert!(trial.session.plots[1].window.x.contains(7.0));
@@ -42,7 +42,7 @@ fn the_window_follows_a_value_of_today_that_is_out_of_the_ordinary() {
 
 #[test]
 fn every_ordinate_is_fitted_to_the_cycles_that_are_there() {
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     trial.press("<tab><tab>");
     for row in ORDINATES.iter().cycle().skip(1).take(ORDINATES.len()) {
         assert_eq!(trial.press("Y"), [], "{}", row.name);
@@ -60,7 +60,7 @@ fn every_ordinate_is_fitted_to_the_cycles_that_are_there() {
 
 #[test]
 fn home_brings_the_axes_of_the_scene_back() {
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     trial.press("<tab><tab>Y X");
     assert_eq!(trial.press("<home>"), [], "known still");
     assert_eq!(
@@ -72,7 +72,7 @@ fn home_brings_the_axes_of_the_scene_back() {
 
 #[test]
 fn the_harmonic_answer_has_no_multiplier() {
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     trial.press("<tab><tab>");
     assert_eq!(trial.session.not_drawn(Layer::Harmonic), None);
     trial.press("Y Y Y Y Y Y");

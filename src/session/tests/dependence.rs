@@ -134,7 +134,7 @@ fn a_step_asks_again_only_the_variants_that_depend_on_it() {
         ("fig17", 12, Symbol::D, &[][..]),
         ("fig17", 12, Symbol::D3, &[]),
         ("fig16b", 6, Symbol::D, &[Trajectory, Cycles]),
-        ("fig16b", 6, Symbol::R, &[Trajectory, Cycles]),
+        ("fig16b", 6, Symbol::R, &[Trajectory, Cycles, Branch]),
         ("fig16b", 6, Symbol::D3, &[Trajectory, Cycles, Branch, Branch, Branch]),
         ("fig15", 10, Symbol::R, &[Trajectory, Cycles]),
     ] {

@@ -18,7 +18,7 @@ fn dial(trial: &Trial) -> (f64, &'static str) {
 
 #[test]
 fn the_dial_goes_through_its_stops_and_ends() {
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     assert_eq!(dial(&trial), (1e-10, "normal"));
     trial.press("}");
     assert_eq!(dial(&trial), (1e-13, "fine"));
@@ -41,7 +41,7 @@ fn the_dial_goes_through_its_stops_and_ends() {
 
 #[test]
 fn the_dial_is_the_same_whatever_its_number_is_called() {
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     trial.press("} <down*6><enter><C-u>rk4<enter>");
     assert_eq!(dial(&trial), (1e-3, "fine"), "a step as fine as the tolerance was");
     trial.press("{");
@@ -85,7 +85,7 @@ fn open(trial: &Trial) -> Vec<(Topic, bool)> {
 
 #[test]
 fn what_took_long_is_answered_by_a_draft_first_and_refined_then() {
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     update(&mut trial.session, Msg::Key("<right>".parse().unwrap()));
     assert_eq!(open(&trial), [(Topic::Trajectory, false), (Topic::Cycles, false)], "cheap so far");
     let request = trial.session.request(Topic::Trajectory, 0).unwrap();
@@ -156,7 +156,7 @@ fn plots_with_like_questions_keep_their_drafts_apart() {
 
 #[test]
 fn a_draft_that_fails_is_not_tried_again() {
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     update(&mut trial.session, Msg::Key("<right>".parse().unwrap()));
     let request = trial.session.request(Topic::Trajectory, 0).unwrap();
     update(&mut trial.session, Msg::Answered(Box::new(costly(request, 10_000_000))));
@@ -175,7 +175,7 @@ fn a_draft_that_fails_is_not_tried_again() {
 
 #[test]
 fn an_error_is_measured_only_while_the_user_rests_on_the_dial() {
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     assert_eq!(
         trial
             .press("<right><left> <down*4><right>")
@@ -251,7 +251,7 @@ fn why_there_is_no_measured_error_is_known() {
 fn a_step_of_each_number_asks_exactly_these_questions_anew() {
     use Symbol::{D, D2, D3, Q0, R, V0};
     use Topic::{Balance, Branch, Capture, Cycles, Reference, Trajectory};
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     trial.press("<run \"layer bands\"> <run \"layer balance\"> <down*9>");
     let now = [Trajectory, Cycles, Capture, Branch, Balance, Reference];
     let columns = |row: Row| {
@@ -306,7 +306,7 @@ fn what_a_scene_does_not_need_costs_nothing() {
     assert_eq!(linear.method, Method::Exact);
     assert_eq!(linear.cost.evaluations, linear.crossings.len() as u64, "one for each half swing");
 
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     trial.press("<run \"layer trajectory\"><run \"layer cycles\"><run \"layer basin\"><run \"layer branch\"><run \"layer special\">");
     assert_eq!(trial.session.wants(), [], "all layers that ask are hidden");
     assert_eq!(trial.session.requirements(), []);

@@ -72,10 +72,14 @@ fn keys_are_recorded_and_played_and_played_again() {
     assert_eq!(d(&trial), -0.01);
     trial.press("*3@@");
     assert_eq!(d(&trial), 0.08);
+    trial.press("u");
+    assert_eq!(d(&trial), -0.01, "however often it is played, it is one change");
+    trial.press("uu");
+    assert_eq!((d(&trial), trial.session.history.depth()), (-0.07, (3, 3)));
     trial.press("@q");
     assert_eq!(trial.notice(), "register q is empty");
     trial.press("@?");
-    assert_eq!(trial.notice(), "? is no letter from a to z");
+    assert_eq!(trial.notice(), "? is not a letter from a to z");
     assert_eq!(trial.session.overlay, None, "what was no letter does nothing else");
 }
 
@@ -89,6 +93,17 @@ fn what_is_played_while_recording_is_recorded_in_its_place() {
     assert_eq!(text("", &trial.session.macros.registers[&'c']), "<right>\n");
     trial.press("&d <right> <space>record-macro<enter>");
     assert_eq!(text("", &trial.session.macros.registers[&'d']), "<right>\n");
+}
+
+#[test]
+fn a_register_is_one_change_whatever_it_changes() {
+    let mut trial = Trial::open("plain");
+    trial.press("&a <right> W &");
+    let (plots, here) = (trial.session.plots.len(), d(&trial));
+    trial.press("*2@a u");
+    assert_eq!((trial.session.plots.len(), d(&trial)), (plots, here));
+    trial.press("<C-r>");
+    assert_eq!(trial.session.plots.len(), 4);
 }
 
 #[test]
@@ -136,7 +151,7 @@ fn a_mark_without_a_letter_or_a_point_is_refused() {
     for (keys, said) in [
         ("'x", "there is no mark x"),
         ("''", "no mark has been gone to yet"),
-        ("\"7", "7 is no letter from a to z"),
+        ("\"7", "7 is not a letter from a to z"),
         ("@@", "no register has been played yet"),
     ] {
         trial.press(keys);

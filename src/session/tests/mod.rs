@@ -38,7 +38,7 @@ use crate::question;
 use crate::question::speeds::Speeds;
 use crate::question::zones::{Extent, Zones};
 use crate::question::{Borders, Rows};
-use crate::scene::{Answer, Answered, Fit, Request, Topic, find};
+use crate::scene::{Answer, Answered, Fit, Request, Scene, Topic, find};
 use crate::study::accuracy::{Deviation, Ending, Reference, Source};
 use crate::study::chart::Chart;
 use crate::study::harmonic_error::HarmonicBalance;
@@ -62,8 +62,20 @@ const COST: u64 = 100;
 impl Trial {
     /// A session that has just opened a scene and shows it.
     fn open(scene: &str) -> Self {
-        let scene = find(scene).unwrap();
-        let session = Session::new(Arc::clone(&scene), Size { width: 80, height: 24 });
+        Trial::of(find(scene).unwrap())
+    }
+
+    /// The same of a scene whose plots show the present values alone.
+    fn alone(scene: &str) -> Self {
+        let mut scene = find(scene).unwrap();
+        let alone = Arc::make_mut(&mut scene);
+        alone.families.clear();
+        alone.plots.iter_mut().for_each(|plot| plot.family = None);
+        Trial::of(scene)
+    }
+
+    fn of(scene: Arc<Scene>) -> Self {
+        let session = Session::new(scene, Size { width: 80, height: 24 });
         let mut trial = Trial { session, asked: Vec::new(), effects: Vec::new() };
         trial.settle();
         trial

@@ -276,7 +276,7 @@ fn scenes_views_layers_and_claims_are_run_from_the_palette() {
     trial.press("<space>lyapunov<enter>");
     assert!(trial.session.layers.contains(&crate::scene::Layer::Lyapunov), "{}", trial.notice());
     trial.press("<space>fig16b<enter>");
-    assert_eq!(trial.session.scene.name, "fig16b");
+    assert_eq!(trial.session.scene.name, "supercritical");
 }
 
 #[test]
@@ -297,12 +297,14 @@ fn words_that_are_no_command_are_looked_for_in_the_list_of_everything() {
 }
 
 #[test]
-fn scenes_are_picked_from_groups_in_which_a_lesson_stands_for_its_figure() {
+fn scenes_are_picked_from_groups_by_any_of_their_names() {
     let mut trial = Trial::open("fig16b");
     trial.press("s<enter>");
     assert_eq!(trial.session.scene.name, "supercritical");
-    trial.press("s/fig16b<enter>");
-    assert_eq!(trial.session.scene.name, "fig16b");
+    trial.press("s/fig16a<enter>");
+    assert_eq!(trial.session.scene.name, "marginal");
+    run(&mut trial, "scene fig07");
+    assert_eq!(trial.session.scene.name, "linear");
     trial.press("s<end><enter>");
     assert!(trial.session.scene.machine.is_some());
 }

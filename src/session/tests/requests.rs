@@ -42,7 +42,7 @@ fn a_key_recomputes_exactly_what_depends_on_it() {
         ("vn<esc> ) (", &[Topic::Balance, Topic::Balance]), // another N, another answer; the first is known
         ("va<esc> <tab>L K vaa<esc>", &[Topic::Capture]),   // as far as the next power of two
     ] {
-        let mut trial = Trial::open("supercritical");
+        let mut trial = Trial::alone("supercritical");
         let selecting = keys.trim_end_matches("<right>");
         if keys.starts_with("<down") {
             assert_eq!(trial.press(selecting), [], "{selecting}");
@@ -55,7 +55,7 @@ fn a_key_recomputes_exactly_what_depends_on_it() {
 
 #[test]
 fn a_hidden_layer_asks_nothing() {
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     trial.press("<run \"layer trajectory\">");
     assert_eq!(trial.press("<right>"), [Topic::Cycles]);
     // Cycles and basin share an answer: it is needed as long as one of them is on.
@@ -70,7 +70,7 @@ fn a_hidden_layer_asks_nothing() {
 
 #[test]
 fn a_plot_that_the_other_has_replaced_asks_nothing() {
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     trial.press("<tab> z <S-tab>");
     assert_eq!(trial.press("<down><right>"), POINT);
     assert_eq!(trial.press("<tab><tab>"), BRANCH, "the diagram comes to the front, up to date");
@@ -78,7 +78,7 @@ fn a_plot_that_the_other_has_replaced_asks_nothing() {
 
 #[test]
 fn what_was_answered_is_not_asked_again() {
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     assert_eq!(trial.press("<run \"layer trajectory\"><run \"layer trajectory\"><run \"layer cycles\"><run \"layer cycles\"><run \"layer branch\"><run \"layer branch\">"), []);
     assert_eq!(trial.press("<down*3>"), []);
     assert_eq!(trial.press("<right>u"), [Topic::Trajectory], "the way back is known");
@@ -143,7 +143,7 @@ fn the_branch_does_not_contain_the_value_of_its_own_parameter() {
 
 #[test]
 fn the_price_of_a_key_is_what_it_made_necessary() {
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     assert_eq!(trial.session.price.key, None);
     assert_eq!(trial.session.price.evaluations(), 3 * COST, "the first picture");
     trial.press("<right>");

@@ -8,7 +8,7 @@ use super::strange::any_key;
 use super::{Trial, answered};
 use crate::flow::Problem;
 use crate::scene::{Request, Topic, library};
-use crate::session::{Effect, Msg, Notice, Purpose, Session, save, update};
+use crate::session::{Effect, Kept, Msg, Notice, Purpose, Session, save, update};
 
 /// Everything of a session that a file holds.
 fn essence(session: &Session) -> impl PartialEq + std::fmt::Debug {
@@ -134,7 +134,8 @@ fn an_interrupted_session_is_offered_until_it_is_taken_or_forgotten() {
     let mut trial = Trial::open("plain");
     trial.press("<f3>");
     assert_eq!(trial.notice(), "no session was interrupted");
-    trial.session.interrupted = vec![path.clone()];
+    let one = Kept { path: path.clone(), ..Kept::default() };
+    trial.session.interrupted = vec![one.clone()];
     trial.press("<f3>");
     let asked = Effect::Read { path: path.clone(), purpose: Purpose::Restore };
     assert_eq!(trial.effects.last(), Some(&asked));
@@ -144,9 +145,31 @@ fn an_interrupted_session_is_offered_until_it_is_taken_or_forgotten() {
     );
     assert_eq!(effects, [Effect::PutAside(path.clone())]);
     assert_eq!(trial.session.scene.name, "supercritical");
-    trial.session.interrupted = vec![path.clone()];
+    trial.session.interrupted = vec![one];
     trial.press("<f4>");
     assert_eq!(trial.effects.last(), Some(&Effect::PutAside(path)));
+}
+
+#[test]
+fn several_interrupted_sessions_are_listed_and_one_is_taken_or_forgotten() {
+    let said = save::summary(&save::text(&used().session).unwrap()).unwrap();
+    assert!(said.starts_with("supercritical (") && said.ends_with("changes, 1 mark)"), "{said}");
+    let mut trial = Trial::open("linear");
+    trial.press("-0.3<enter>");
+    let said = save::summary(&save::text(&trial.session).unwrap());
+    assert_eq!(said.as_deref(), Ok("linear D = -0.3 (1 change)"));
+    let kept = |name: &str| Kept { path: name.into(), when: String::new(), what: name.to_owned() };
+    trial.session.interrupted = ["a", "b", "c", "d"].map(kept).to_vec();
+    trial.press("<f3> <down> x");
+    assert_eq!(trial.effects.last(), Some(&Effect::PutAside("b".into())));
+    trial.press("/d<enter> <enter>");
+    let asked = Effect::Read { path: "d".into(), purpose: Purpose::Restore };
+    assert_eq!(trial.effects.last(), Some(&asked));
+    assert_eq!(trial.session.overlay, None);
+    trial.press("<f3> <esc> <f3> X");
+    let last = &trial.effects[trial.effects.len() - 2..];
+    assert_eq!(last, [Effect::PutAside("c".into()), Effect::PutAside("a".into())]);
+    assert_eq!((trial.session.overlay.clone(), trial.session.interrupted.len()), (None, 0));
 }
 
 #[test]

@@ -17,7 +17,7 @@ fn views(trial: &Trial) -> String {
 
 #[test]
 fn plots_are_added_removed_moved_and_each_change_is_undone() {
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     let opened = trial.session.plots.clone();
     assert_eq!(views(&trial), "pd");
     let mut seen = vec![views(&trial)];
@@ -40,7 +40,7 @@ fn plots_are_added_removed_moved_and_each_change_is_undone() {
 
 #[test]
 fn there_are_one_to_four_plots() {
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     trial.press("W W W");
     assert_eq!(trial.session.plots.len(), 4);
     assert_eq!(trial.notice(), "there are 4 plots, and no more fit");
@@ -50,7 +50,7 @@ fn there_are_one_to_four_plots() {
 
 #[test]
 fn equal_questions_of_two_plots_are_one() {
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     // Another diagram like the first: its branch is known.
     trial.press("<tab>");
     assert_eq!(trial.press("; , ;"), []);
@@ -67,7 +67,7 @@ fn equal_questions_of_two_plots_are_one() {
 
 #[test]
 fn two_diagrams_over_different_axes_stand_side_by_side() {
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     trial.press("<tab>;");
     assert_eq!(trial.press("X"), [Topic::Branch]);
     let over = |trial: &Trial, plot: usize| {
@@ -82,7 +82,7 @@ fn two_diagrams_over_different_axes_stand_side_by_side() {
 
 #[test]
 fn a_plot_turned_to_a_view_shows_what_the_scene_does() {
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     trial.press("<tab><tab>Y<tab><tab>V/diagram<enter>");
     assert_eq!(trial.session.plots[0].axes, Axes::default(), "the scene's is on show no more");
     trial.press("<tab> Q V/diagram<enter>");
@@ -93,7 +93,7 @@ fn a_plot_turned_to_a_view_shows_what_the_scene_does() {
 
 #[test]
 fn the_hidden_plots_of_an_enlarged_one_ask_nothing() {
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     trial.press("<tab>W z");
     let asked = trial.press("<S-tab><S-tab><down><right>");
     assert_eq!(asked.len() + 1, trial.session.wants().len(), "and a proof");

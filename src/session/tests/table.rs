@@ -79,3 +79,32 @@ fn an_arrow_key_that_arrives_in_pieces_destroys_nothing() {
         }
     }
 }
+
+/// Commands with one meaning in different panes: directions, and what is drawn along an axis.
+const ALIKE: [&[&str]; 9] = [
+    &["step-down", "walk-back", "scan-back", "cursor-left"],
+    &["step-up", "walk-on", "scan-on", "cursor-right"],
+    &["select-next", "walk-back", "scan-down", "cursor-down"],
+    &["select-previous", "walk-on", "scan-up", "cursor-up"],
+    &["step-far-down", "walk-far-back", "scan-far-back", "pan-left"],
+    &["step-far-up", "walk-far-on", "scan-far-on", "pan-right"],
+    &["next-abscissa", "next-chart-right"],
+    &["next-ordinate", "next-chart-up", "scan-column"],
+    &["walk", "walk-let-go"],
+];
+
+#[test]
+fn no_letter_means_two_things_outside_of_lists_and_forms() {
+    let mut meanings: BTreeMap<char, BTreeSet<&str>> = BTreeMap::new();
+    for (context, key, name) in bindings() {
+        let letter = key.typed().filter(char::is_ascii_alphabetic);
+        if let Some(letter) = letter.filter(|_| !context.is_overlay()) {
+            meanings.entry(letter).or_default().insert(name);
+        }
+    }
+    assert!(meanings.len() > 30, "{meanings:?}");
+    meanings.retain(|_, names| {
+        names.len() > 1 && !ALIKE.iter().any(|alike| names.iter().all(|it| alike.contains(it)))
+    });
+    assert!(meanings.is_empty(), "{meanings:?}");
+}

@@ -9,7 +9,7 @@ use crate::study::claims::claims;
 
 /// A scene with one plot, turned to a view.
 fn turned_to(view: &str) -> Trial {
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     trial.press(&format!("<tab>Q V/{view}<enter>"));
     assert_eq!(trial.session.plots.len(), 1);
     trial
@@ -67,7 +67,7 @@ fn enter_on_a_chart_takes_both_parameters_as_one_change() {
 
 #[test]
 fn views_of_the_same_answers_cost_nothing() {
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     assert_eq!(trial.press("<tab>V/energy<enter>"), [], "the cycles have their works");
     assert_eq!(trial.press("V/time<enter>"), []);
     assert_eq!(trial.press("v f n e p t <esc>"), []);
@@ -106,7 +106,7 @@ fn enter_takes_the_point_under_the_cursor_into_the_phase_plane() {
         trial.press(keys);
         trial.session.problem.initial
     };
-    let opened = Trial::open("supercritical").session.problem.initial;
+    let opened = Trial::alone("supercritical").session.problem.initial;
     // By hand the motion stays where it starts, and the unstable cycle turns at r + 1 = 1.1.
     assert_eq!(initial("time-series", "<right*5><enter>"), opened);
     assert_eq!(initial("energy-ledger", "<down><enter>"), State { q: 1.1, v: 0.0 });

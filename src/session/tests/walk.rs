@@ -16,7 +16,7 @@ fn q_max(trial: &Trial) -> f64 {
 
 #[test]
 fn the_arrows_walk_along_the_branch_and_esc_lets_go() {
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     trial.press("<tab><tab>w<home>");
     assert_eq!((q_max(&trial), trial.session.contexts()[0]), (1.1, Context::Walk));
     let walk = [("<right>", 1.5), ("l", 3.1), ("<right>", 3.1), ("<down>", 1.5), ("<home>", 1.1)];
@@ -35,7 +35,7 @@ fn the_arrows_walk_along_the_branch_and_esc_lets_go() {
 
 #[test]
 fn tab_jumps_to_special_points_and_ends_and_around() {
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     trial.press("<tab><tab>w<home><tab>");
     assert_eq!(held(&trial).special, Some(SpecialKind::Fold));
     trial.press("<tab>");
@@ -48,7 +48,7 @@ fn tab_jumps_to_special_points_and_ends_and_around() {
 
 #[test]
 fn enter_takes_the_point_into_the_phase_plane_as_one_change() {
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     let before = trial.session.problem;
     trial.press("<tab><tab>w<home><tab><enter>");
     let taken = trial.session.problem;
@@ -62,7 +62,7 @@ fn enter_takes_the_point_into_the_phase_plane_as_one_change() {
 
 #[test]
 fn the_cursor_says_where_to_take_hold() {
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     trial.press("<tab><tab><right>");
     trial.session.plots[1].cursor.as_mut().unwrap().y = 3.0;
     trial.press("<C-left*9> w");
@@ -71,7 +71,7 @@ fn the_cursor_says_where_to_take_hold() {
 
 #[test]
 fn there_must_be_a_branch_to_hold() {
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     trial.press("<tab><tab> <run \"layer branch\"><run \"layer special\"> w");
     assert_eq!(trial.notice(), "the branch is not shown: v lists the layers");
     assert_eq!(trial.session.held, None);
@@ -85,10 +85,10 @@ fn there_must_be_a_branch_to_hold() {
 
 #[test]
 fn of_variants_the_present_one_is_walked_first_and_each_brings_its_values() {
-    // Three frictions, of which the second is the present one.
+    // Three frictions, of which the first is the present one.
     let mut trial = Trial::open("fig16b");
     trial.press("<tab>w");
-    assert_eq!(held(&trial).variant, 1);
+    assert_eq!(held(&trial).variant, 0);
     let mut seen = Vec::new();
     for _ in 0..9 {
         trial.press("<tab>");
@@ -108,7 +108,7 @@ fn of_variants_the_present_one_is_walked_first_and_each_brings_its_values() {
 
 #[test]
 fn another_scene_takes_the_hold_away() {
-    let mut trial = Trial::open("supercritical");
+    let mut trial = Trial::alone("supercritical");
     trial.press("s/basin<enter> <tab><tab>w");
     assert!(trial.session.held.is_some());
     trial.press("u");

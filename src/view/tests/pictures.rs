@@ -49,8 +49,9 @@ fn rest_is_in_every_bifurcation_diagram() {
                     .filter(|at| plot.axes.abscissa != Symbol::D || *at != 0.0)
                     .flat_map(|at| {
                         let found = rests(&session, index, at);
+                        let of = |line: &Line| line.variant.as_ref().map(|it| it.label.clone());
                         let ours =
-                            |(line, _): &(Line, f64)| line.full_name().ends_with(&shown.label);
+                            |(line, _): &(Line, f64)| of(line).unwrap_or_default() == shown.label;
                         found
                             .into_iter()
                             .filter(ours)
