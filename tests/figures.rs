@@ -348,7 +348,7 @@ fn extents_of_the_basin_are_those_of_the_formulas() {
 #[test]
 fn the_borders_of_the_basins_are_the_cycles_of_the_formulas() {
     let drawn = figure("fig07", Fineness::PRINT);
-    for (panel, d) in [(0, -0.4), (1, -0.7), (2, -0.999)] {
+    for (panel, d) in [(0, -0.4), (2, -0.7), (3, -0.999)] {
         let (q, v) = linear_extents(d, 1.0);
         let [cycle] = &curves(&drawn, panel, "unstable cycle")[..] else { panic!("one cycle") };
         let areas = &drawn.panels[panel].areas;

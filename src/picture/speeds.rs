@@ -24,7 +24,7 @@ const KINDS: [Row; 5] = [
     ("unstable slip cycle", Role::Unstable, Some(Dash::Dashed), |it| {
         !it.stable && !it.sticks && !it.overtakes
     }),
-    ("stick-slip cycle", Role::Stable, None, |it| it.sticks),
+    ("branch of stick-slip cycles", Role::Stable, None, |it| it.sticks),
     ("stable overtaking cycle", Role::Velocity, Some(Dash::Dotted), |it| {
         it.stable && it.overtakes && !it.sticks
     }),

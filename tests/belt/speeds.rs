@@ -106,12 +106,12 @@ fn the_view_draws_each_kind_its_own_way_and_marks_the_jumps() {
         (
             "slow-belt",
             ["jump on a faster belt"].as_slice(),
-            ["stick-slip cycle", "unstable slip cycle"],
+            ["branch of stick-slip cycles", "unstable slip cycle"],
         ),
         (
             "benchmark",
             &["jump on a slower belt", "jump on a faster belt"],
-            ["stick-slip cycle", "unstable slip cycle"],
+            ["branch of stick-slip cycles", "unstable slip cycle"],
         ),
     ] {
         let session = shown(scene);
