@@ -286,9 +286,9 @@ fn safe(picture: &mut Picture, extent: &Extent) {
 
 /// Beyond which nothing comes to rest, whatever the parameters and the disturbance are.
 fn lost(picture: &mut Picture, extent: &Extent) {
-    let Extent::Within(border) = extent else { return };
     /// Ends of a closed border are this near to each other, as a part of its width.
     const CLOSED: f64 = 1e-3;
+    let Extent::Within(border) = extent else { return };
     let mut border: Vec<Point> = border.iter().map(point).collect();
     let (Some(first), Some(last)) = (border.first().copied(), border.last().copied()) else {
         return;

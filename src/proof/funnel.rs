@@ -280,7 +280,7 @@ impl Funnel {
         let path = scaled(end + start, -unit);
         let divergence = -(a * duration + (b * path).twice() + c * square * three);
         let speed = Interval::point(0.0);
-        Some(Swing { end, speed, duration, square, unit, divergence, ..*fallen })
+        Some(Swing { end, speed, duration, divergence, square, unit, ..*fallen })
     }
 
     /// The integral of the slope of the damping over time from the line `v = speed` on.

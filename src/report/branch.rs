@@ -68,7 +68,9 @@ pub fn csv(branch: &Branch, certified: Option<&Range>) -> String {
     let mut sheet = Sheet::like(&like, &called);
     rows(branch).for_each(|row| sheet.row(&row));
     let parts = certified.map(PieceBounds::of).unwrap_or_default();
-    parts.into_iter().for_each(|part| sheet.row(&Row { certified: Some(part), ..Row::default() }));
+    for part in parts {
+        sheet.row(&Row { certified: Some(part), ..Row::default() });
+    }
     sheet.into_text()
 }
 

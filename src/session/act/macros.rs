@@ -86,13 +86,12 @@ pub(in crate::session) fn play(session: &mut Session, register: char, times: u32
     inline(session);
     session.macros.last = Some(register);
     let left = script.presses();
-    match &mut session.macros.played {
+    if let Some(played) = &mut session.macros.played {
         // A register of a file can play another one.
-        Some(played) => played.left += left,
-        None => {
-            let (depth, before) = (session.history.depth().0, Box::new(snapshot(session)));
-            session.macros.played = Some(Played { left, depth, before });
-        }
+        played.left += left;
+    } else {
+        let (depth, before) = (session.history.depth().0, Box::new(snapshot(session)));
+        session.macros.played = Some(Played { left, depth, before });
     }
     vec![Effect::PlayRegister(script)]
 }
