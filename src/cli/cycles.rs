@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::failure::Failure;
-use super::output::{Format, Output, write};
+use super::output::{Format, Output, write, write_source};
 use super::start::Start;
 use super::timing::timed;
 use crate::check::check;
@@ -30,7 +30,7 @@ pub struct Cycles {
     /// Shows the harmonic balance beside the cycles: 1, 3, 5, .. up to N harmonics, and their errors
     #[arg(long, value_name = "N", value_parser = harmonics)]
     harmonics: Option<usize>,
-    /// Writes what is proved, step by step, for `hopfscope check`
+    /// Writes what is proved, step by step, for `hopfscope check`, and where it comes from to FILE.provenance
     #[arg(long, value_name = "FILE")]
     certificate: Option<PathBuf>,
     /// Replaces a file that holds something else
@@ -89,7 +89,8 @@ impl Cycles {
         let made = certificate(proof).map_err(unwritten)?;
         let text = text(&made).map_err(|error| unwritten(error.to_string()))?;
         check(&text).map_err(unwritten)?;
-        write(path, text.as_bytes(), self.force)
+        write(path, text.as_bytes(), self.force)?;
+        write_source(path)
     }
 
     /// The cycles, their proof, and the harmonic balance if asked for.

@@ -51,9 +51,14 @@ impl Output {
         if self.format == Format::Json {
             return Ok(());
         }
-        provenance_file::write(path, &provenance_file::of_process())
-            .map_err(|error| Failure::file(path, &error))
+        write_source(path)
     }
+}
+
+/// Writes beside a file where it comes from.
+pub fn write_source(path: &Path) -> Result<(), Failure> {
+    provenance_file::write(path, &provenance_file::of_process())
+        .map_err(|error| Failure::file(path, &error))
 }
 
 /// An answer, and within it, where it is a JSON document, where it comes from.

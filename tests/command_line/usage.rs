@@ -1,6 +1,7 @@
 //! How the command line is used: wrong input, help, readers that go away, settings; what commands answer is
 //! in `main.rs`.
 
+use std::fs;
 use std::io::Read;
 use std::process::Stdio;
 
@@ -127,4 +128,26 @@ fn keys_lists_what_the_settings_file_makes_of_them() {
     }
     let missing = run(&["keys", "--config", "/no/such/file"]);
     assert_eq!((missing.code, missing.err.lines().count()), (2, 1));
+}
+
+#[test]
+fn a_certificate_is_checked_by_another_run_and_says_where_it_comes_from() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("two.json");
+    let path = path.to_str().unwrap();
+    let write =
+        ["cycles", "--set", "D=-0.3", "--set", "D3=0.5", "--set", "r=0.1", "--certificate", path];
+    assert_eq!(run(&write).code, 0);
+    let checked = run(&["check", path]);
+    assert_eq!((checked.code, checked.err.as_str()), (0, ""));
+    assert!(checked.out.contains("2 limit cycles and no other"), "{}", checked.out);
+    let source = fs::read_to_string(format!("{path}.provenance")).unwrap();
+    assert!(source.contains("hopfscope cycles --set D=-0.3"), "{source}");
+    // One step less leaves a gap.
+    let text = fs::read_to_string(path).unwrap();
+    let step = text.lines().nth(5).unwrap();
+    fs::write(path, text.replacen(&format!("{step}\n"), "", 1)).unwrap();
+    let refused = run(&["check", path]);
+    assert_eq!((refused.code, refused.out.as_str()), (1, ""), "{}", refused.err);
+    assert_eq!(refused.err.lines().count(), 1, "{}", refused.err);
 }
