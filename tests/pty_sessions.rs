@@ -239,7 +239,7 @@ fn keys_pressed_while_a_file_plays_are_not_mixed_into_it() {
         terminal.next(Duration::from_millis(5));
     }
     terminal.wait_for("replay done");
-    for row in [" D          -0.1 ", " r          0.25 "] {
+    for row in [" D           -0.1 ", " r           0.25 "] {
         assert!(terminal.text().replace('\u{25b8}', " ").contains(row), "{}", terminal.text());
     }
     leave(terminal);

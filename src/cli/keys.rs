@@ -6,6 +6,7 @@ use serde::Serialize;
 use super::config::Settings;
 use super::failure::Failure;
 use super::output::{Format, print};
+use super::wrapped::on_terminal;
 use crate::report::table::Table;
 use crate::report::{csv, json};
 use crate::session::commands;
@@ -55,7 +56,7 @@ impl Keys {
                         ("meaning", &|row| row.meaning.to_owned()),
                     ],
                 );
-                table.aligned_left()
+                on_terminal(&table.aligned_left())
             }
             Format::Json => json::text(&rows),
             Format::Csv => {

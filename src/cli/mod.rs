@@ -38,6 +38,7 @@ mod timing;
 mod tour;
 mod trade;
 mod trajectory;
+mod wrapped;
 
 use std::ffi::OsString;
 use std::process::ExitCode;

@@ -7,6 +7,7 @@ use clap::{Args, ValueEnum};
 
 use super::failure::Failure;
 use super::timing::timed;
+use super::wrapped::on_terminal;
 use crate::flow::Reason;
 use crate::runtime::provenance_file;
 
@@ -37,6 +38,14 @@ impl Output {
         let (found, seconds) = timed(self.repeat, compute);
         let found = found.map_err(|reason| Failure::Unanswered(format!("{failed}: {reason}")))?;
         Ok((found, seconds))
+    }
+
+    /// The same of a list whose last column is text: a terminal shows it broken to its width.
+    pub fn print_list(&self, answer: &str) -> Result<(), Failure> {
+        if self.write.is_none() && self.format == Format::Table {
+            return print(&on_terminal(answer));
+        }
+        self.print(answer)
     }
 
     /// Prints or writes an answer; a JSON document says itself where it comes from.

@@ -22,7 +22,7 @@ impl Paper {
         let (examined, seconds) = timed(self.output.repeat, || examine_all(&Limits::PATIENT));
         let examined = examined
             .map_err(|reason| Failure::Unanswered(format!("the examination gave up: {reason}")))?;
-        self.output.print(&match self.output.format {
+        self.output.print_list(&match self.output.format {
             Format::Table => claims::table(&examined, seconds),
             Format::Json => claims::json(&examined, seconds),
             Format::Csv => claims::csv(&examined),

@@ -1,0 +1,95 @@
+//! Lists whose last column is text, broken to the width of the terminal that shows them.
+
+/// Narrowest last column that still reads as one: where there is less room it goes on below its row.
+const NARROWEST: usize = 30;
+
+/// Blanks before text that goes on below its row.
+const INDENT: usize = 4;
+
+/// A list as a terminal shows it; as it is where it goes to a file or a pipe.
+pub fn on_terminal(list: &str) -> String {
+    rustix::termios::tcgetwinsize(rustix::stdio::stdout())
+        .map_or_else(|_| list.to_owned(), |size| wrapped(list, usize::from(size.ws_col)))
+}
+
+/// The list with the last column of rows that are longer than `width` broken between words; the first line names the
+/// columns, two or more blanks apart.
+fn wrapped(list: &str, width: usize) -> String {
+    let heading: Vec<char> = list.lines().next().unwrap_or_default().chars().collect();
+    let gap = heading.windows(2).rposition(|pair| pair == [' ', ' ']);
+    let Some(start) = gap.map(|gap| gap + 2).filter(|_| width > INDENT + NARROWEST) else {
+        return list.to_owned();
+    };
+    let (indent, room) =
+        if width >= start + NARROWEST { (start, width - start) } else { (INDENT, width - INDENT) };
+    let mut out = String::new();
+    for row in list.lines() {
+        let cells: Vec<char> = row.chars().collect();
+        if cells.len() <= width.max(start) || cells[start - 1] != ' ' {
+            out += row;
+            out.push('\n');
+            continue;
+        }
+        let head: String = cells[..start].iter().collect();
+        let text: String = cells[start..].iter().collect();
+        let mut line =
+            if indent == start { head } else { format!("{}\n{:INDENT$}", head.trim_end(), "") };
+        let mut used = 0;
+        for word in text.split(' ') {
+            let length = word.chars().count();
+            if used > 0 && used + 1 + length > room {
+                out += line.trim_end();
+                out.push('\n');
+                (line, used) = (" ".repeat(indent), 0);
+            } else if used > 0 {
+                line.push(' ');
+                used += 1;
+            }
+            line += word;
+            used += length;
+        }
+        out += line.trim_end();
+        out.push('\n');
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LIST: &str = "\
+key  meaning
+a    one two three four five six seven eight nine ten
+b    short
+";
+
+    #[test]
+    fn the_last_column_goes_on_below_itself() {
+        let expected = "\
+key  meaning
+a    one two three four five six
+     seven eight nine ten
+b    short
+";
+        assert_eq!(wrapped(LIST, 36), expected);
+    }
+
+    #[test]
+    fn where_there_is_little_room_it_goes_on_below_its_row() {
+        let list = format!("{:40}meaning\n{:40}one two three four\nnot a row\n", "key", "a");
+        let narrow = list.replace("one two three four", "one two three four five six");
+        assert_eq!(wrapped(&list, 58), list);
+        assert_eq!(
+            wrapped(&narrow, 58),
+            format!("{:40}meaning\na\n    one two three four five six\nnot a row\n", "key")
+        );
+    }
+
+    #[test]
+    fn nothing_changes_where_all_fits_or_nothing_would() {
+        assert_eq!(wrapped(LIST, 80), LIST);
+        assert_eq!(wrapped(LIST, 20), LIST);
+        assert_eq!(wrapped("", 80), "");
+    }
+}
