@@ -12,6 +12,7 @@ use super::output::{Format, Output, write};
 use super::timing::timed;
 use crate::figure::{self, Figure, Form};
 use crate::fit::contour::{RISES, contour};
+use crate::fit::curves::Curves;
 use crate::fit::levenberg_marquardt::Runs;
 use crate::fit::names::{Choice, NAMES, NameSpec, named};
 use crate::fit::observation::{D, OMEGA0, R};
@@ -220,7 +221,8 @@ impl Fit {
         })?;
         let contours = if self.pictures.is_some() { contours(&estimate) } else { Vec::new() };
         let name = short_name(&self.file);
-        Ok(Fitted { name, record, estimate, margins, contours, inertia, seconds })
+        let curves = Curves::of(&estimate, &margins);
+        Ok(Fitted { name, record, estimate, margins, curves, contours, inertia, seconds })
     }
 
     fn question(&self) -> Result<Question, Failure> {

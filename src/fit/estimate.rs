@@ -73,6 +73,11 @@ impl Estimate {
         self.used.iter().filter(|used| !**used).count() - self.alike
     }
 
+    /// The residuals that count.
+    pub fn kept_residuals(&self) -> impl Iterator<Item = f64> + '_ {
+        self.residuals.iter().zip(&self.used).filter(|(_, used)| **used).map(|(it, _)| *it)
+    }
+
     /// The rows of the numbers that were asked for and could be estimated.
     pub fn wanted(&self) -> impl Iterator<Item = &'static NameSpec> + '_ {
         NAMES.iter().filter(|row| self.choice.is_wanted(row) && self.free[row.place])

@@ -1,5 +1,6 @@
 //! A fit with all that is said about it, and what the record itself cannot say: its unit, a mass.
 
+use super::curves::Curves;
 use super::estimate::Estimate;
 use super::margin::Margins;
 use super::record::Record;
@@ -42,6 +43,8 @@ pub struct Fitted {
     pub estimate: Estimate,
     /// The distribution of the margin.
     pub margins: Margins,
+    /// What its pictures draw.
+    pub curves: Curves,
     /// For the pictures: where chi-squared has risen by each of [`RISES`](super::contour::RISES) in the plane of D
     /// and r.
     pub contours: Vec<Vec<[f64; 2]>>,

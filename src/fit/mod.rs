@@ -33,6 +33,7 @@
 //! ```
 
 pub(crate) mod contour;
+pub(crate) mod curves;
 pub(crate) mod decrements;
 #[doc(hidden)]
 pub mod estimate;
@@ -60,6 +61,7 @@ pub(crate) mod record;
 #[doc(hidden)]
 pub mod refit;
 pub(crate) mod residuals;
+pub(crate) mod sampled;
 pub(crate) mod samples;
 pub(crate) mod search;
 pub(crate) mod separable;

@@ -3,6 +3,6 @@
 mod damping;
 mod pictures;
 mod pieces;
-mod sampled;
 
-pub use pictures::pictures;
+pub use damping::damping;
+pub use pictures::{margin, pictures, residuals};

@@ -1,14 +1,10 @@
 //! The pictures of a fit: record and residuals, damping over amplitude, phase plane, margin, D and r
 //! together.
 
-use std::f64::consts::TAU;
-
 use super::damping::damping;
-use super::pieces::{Curve, at, curve, picture, with_unit};
-use super::sampled::Sampled;
+use super::pieces::{Curve, at, curve, picture, points, window, with_unit};
 use crate::fit::Fitted;
-use crate::fit::observation::{D, Data, OFFSET, OMEGA0, Q0, R, parameters};
-use crate::fit::residuals::autocorrelations;
+use crate::fit::observation::{D, OFFSET, Q0, R, parameters};
 use crate::flow::Limits;
 use crate::oscillator::Parameters;
 use crate::picture::items::{Item, Line, Marks, Picture};
@@ -22,18 +18,13 @@ const EDGES: usize = 20;
 
 /// All pictures of a fit; peaks alone have no record to be drawn.
 pub fn pictures(fitted: &Fitted) -> Vec<Picture<'static>> {
-    let seen = match &fitted.estimate.data {
-        Data::Samples { t, x } => Some(Sampled::of(fitted, t, x)),
-        Data::Peaks { .. } => None,
-    };
-    let of_record = seen.iter().flat_map(|seen| {
-        [record(fitted, seen), residuals(fitted, seen), memory(fitted)].into_iter().flatten()
-    });
-    let others = [damping(fitted), phase(fitted, seen.as_ref()), margin(fitted), together(fitted)];
-    of_record.chain(others.into_iter().flatten()).collect()
+    let all =
+        [record, residuals, memory, damping, phase, margin, together].map(|draw| draw(fitted));
+    all.into_iter().flatten().collect()
 }
 
-fn record(fitted: &Fitted, seen: &Sampled) -> Option<Picture<'static>> {
+fn record(fitted: &Fitted) -> Option<Picture<'static>> {
+    let seen = fitted.curves.sampled.as_ref()?;
     let offset = fitted.estimate.p[OFFSET];
     let measured = seen.t.iter().zip(&seen.x).map(|(t, x)| at(*t, *x)).collect();
     let fit = seen.motion.iter().map(|[t, q, _]| at(*t, q + offset)).collect();
@@ -45,7 +36,8 @@ fn record(fitted: &Fitted, seen: &Sampled) -> Option<Picture<'static>> {
     picture("record and fit", names, curves, None)
 }
 
-fn residuals(fitted: &Fitted, seen: &Sampled) -> Option<Picture<'static>> {
+pub fn residuals(fitted: &Fitted) -> Option<Picture<'static>> {
+    let seen = fitted.curves.sampled.as_ref()?;
     let deviation = fitted.estimate.covariance.deviation;
     let points = seen.t.iter().zip(&seen.residual).map(|(t, e)| at(*t, *e)).collect();
     let (first, last) = (*seen.t.first()?, *seen.t.last()?);
@@ -61,37 +53,18 @@ fn residuals(fitted: &Fitted, seen: &Sampled) -> Option<Picture<'static>> {
 
 /// The autocorrelation of the residuals over two periods.
 fn memory(fitted: &Fitted) -> Option<Picture<'static>> {
-    const LAGS: usize = 400;
-    let estimate = &fitted.estimate;
-    let Data::Samples { t, .. } = &estimate.data else { return None };
-    let span = t[t.len() - 1] - t[0];
+    let memory = &fitted.curves.memory;
+    let [periods, _] = *memory.last()?;
     #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
-    let step = span / t.len() as f64;
-    let kept: Vec<f64> = estimate
-        .residuals
-        .iter()
-        .zip(&estimate.used)
-        .filter(|(_, used)| **used)
-        .map(|(residual, _)| *residual)
-        .collect();
-    let periods = 2.0 * TAU / estimate.p[OMEGA0];
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "capped by n")]
-    let most = ((periods / step) as usize).clamp(4, (kept.len() / 2).max(4));
-    let lags: Vec<usize> = (1..most).step_by(most.div_ceil(LAGS)).collect();
-    let values = autocorrelations(&kept, &lags);
-    #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
-    let points = lags.iter().zip(values).map(|(lag, rho)| at(*lag as f64 * step, rho)).collect();
-    #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
-    let chance = 2.0 / (kept.len() as f64).sqrt();
+    let chance = 2.0 / (fitted.estimate.kept_residuals().count() as f64).sqrt();
     let level = |height: f64| vec![at(0.0, height), at(periods, height)];
     let curves = vec![
-        curve("autocorrelation of the residuals", Role::Energy, Dash::Solid, points),
+        curve("autocorrelation of the residuals", Role::Energy, Dash::Solid, points(memory)),
         curve("+-2 standard deviations", Role::Current, Dash::Dashed, level(chance)),
         curve("+-2 standard deviations", Role::Current, Dash::Dashed, level(-chance)),
     ];
-    let window = Window { x: Span::new(0.0, periods).ok()?, y: Span::new(-1.0, 1.0).ok()? };
     let names = ("lag [s]".to_owned(), "correlation".to_owned());
-    picture("memory of the residuals", names, curves, Some(window))
+    picture("memory of the residuals", names, curves, window([0.0, periods, -1.0, 1.0]))
 }
 
 /// The first border of a basin, thinned, as a curve.
@@ -104,7 +77,7 @@ fn border(found: &Basin, name: &'static str, role: Role, dash: Dash) -> Option<C
     Some(curve(name, role, dash, points.iter().map(|point| at(point.q, point.v)).collect()))
 }
 
-fn phase(fitted: &Fitted, seen: Option<&Sampled>) -> Option<Picture<'static>> {
+fn phase(fitted: &Fitted) -> Option<Picture<'static>> {
     let estimate = &fitted.estimate;
     let p = &estimate.p;
     let (_, largest) = estimate.amplitudes();
@@ -119,7 +92,7 @@ fn phase(fitted: &Fitted, seen: Option<&Sampled>) -> Option<Picture<'static>> {
     let own = edge_of(&parameters(p));
     curves
         .extend(own.and_then(|own| border(&own, "edge of the basin", Role::Unstable, Dash::Solid)));
-    if let Some(seen) = seen {
+    if let Some(seen) = &fitted.curves.sampled {
         let mut motion = seen.motion.iter().peekable();
         let mut data = Vec::new();
         for (t, x) in seen.t.iter().zip(&seen.x) {
@@ -159,38 +132,16 @@ fn together(fitted: &Fitted) -> Option<Picture<'static>> {
 }
 
 /// The cumulative distribution of the margin; what is missing to 1 is the share in which every kick is survived.
-fn margin(fitted: &Fitted) -> Option<Picture<'static>> {
-    /// Largest amplitudes up to which margins are shown.
-    const FAR: f64 = 10.0;
-    let margins = &fitted.margins;
+pub fn margin(fitted: &Fitted) -> Option<Picture<'static>> {
     let (_, largest) = fitted.estimate.amplitudes();
-    let finite: Vec<f64> =
-        margins.displacements.iter().copied().filter(|it| it.is_finite()).collect();
-    #[expect(clippy::cast_precision_loss, reason = "counts of draws")]
-    let share = |count: usize| count as f64 / margins.displacements.len() as f64;
-    let mut steps = vec![at(0.0, 0.0)];
-    for (index, &x) in finite.iter().enumerate() {
-        steps.extend([at(x, share(index)), at(x, share(index + 1))]);
-    }
-    // The tail of margins far beyond the record says no more than that they are.
-    let typical = margins.displacement.upper.or(margins.displacement.median);
-    let far = typical.or(finite.last().copied()).unwrap_or(largest).min(FAR * largest);
-    let to = far.max(largest) + 0.1 * (far.max(largest) - far.min(largest)).max(0.02 * largest);
-    steps.push(at(to.max(finite.last().copied().unwrap_or(0.0)), share(finite.len())));
+    let steps = points(&fitted.curves.spread);
+    let ends = vec![at(largest, 0.0), at(largest, 1.0)];
     let curves = vec![
         curve("margin is less than this", Role::Danger, Dash::Solid, steps),
-        curve(
-            "largest amplitude measured",
-            Role::Current,
-            Dash::Dashed,
-            vec![at(largest, 0.0), at(largest, 1.0)],
-        ),
+        curve("largest amplitude measured", Role::Current, Dash::Dashed, ends),
     ];
-    // A narrow distribution is looked at closely.
-    let near = margins.displacement.lower.unwrap_or(0.0).min(largest);
-    let from = if near > 0.7 * to { near - 0.3 * (to - near) } else { 0.0 };
-    let window = Window { x: Span::new(from, to).ok()?, y: Span::new(0.0, 1.0).ok()? };
     let name = with_unit("smallest displacement not survived", fitted.unit());
     let names = (name, "probability".to_owned());
-    picture("distribution of the margin", names, curves, Some(window))
+    let extent = Some(window(fitted.curves.spread_extent)?);
+    picture("distribution of the margin", names, curves, extent)
 }

@@ -1,5 +1,6 @@
 //! Pieces of the pictures of a fit.
 
+use crate::fit::curves::{Extent, Place};
 use crate::picture::items::{Line, Picture};
 use crate::picture::role::{Dash, Role};
 use crate::scene::{Point, Span, Window};
@@ -9,6 +10,15 @@ pub type Curve = (Line, Vec<Point>);
 
 pub fn at(x: f64, y: f64) -> Point {
     Point { x, y }
+}
+
+pub fn points(places: &[Place]) -> Vec<Point> {
+    places.iter().map(|&[x, y]| Point { x, y }).collect()
+}
+
+/// What is worth seeing; `None` if it has no extent.
+pub fn window([left, right, low, high]: Extent) -> Option<Window> {
+    Some(Window { x: Span::new(left, right).ok()?, y: Span::new(low, high).ok()? })
 }
 
 /// A curve through these points.

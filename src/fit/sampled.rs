@@ -1,17 +1,19 @@
 //! What is drawn of a sampled record, and the fitted motion beside it.
 
-use crate::fit::Fitted;
-use crate::fit::motion::{Way, follow};
-use crate::fit::observation::{LAST, OMEGA0, Q0, Start, parameters};
+use super::estimate::Estimate;
+use super::motion::{Way, follow};
+use super::observation::{Data, LAST, OMEGA0, Q0, Start, parameters};
 use crate::oscillator::State;
 
 /// Most points of a record that are drawn; of longer ones every second, third, .. is.
 const POINTS: usize = 4000;
 
 /// What is drawn of a sampled record.
+#[derive(Clone, Debug)]
 pub struct Sampled {
     /// Times in s; not a number in a gap.
     pub t: Vec<f64>,
+    /// Displacements.
     pub x: Vec<f64>,
     /// Differences from the fitted motion.
     pub residual: Vec<f64>,
@@ -20,15 +22,18 @@ pub struct Sampled {
 }
 
 impl Sampled {
-    pub fn of(fitted: &Fitted, t: &[f64], x: &[f64]) -> Self {
+    /// What is drawn of a fitted record; `None` of peaks alone.
+    #[must_use]
+    pub fn of(estimate: &Estimate) -> Option<Self> {
         /// A step of so many usual ones is a gap.
         const GAP: f64 = 6.0;
+        let Data::Samples { t, x } = &estimate.data else { return None };
         let every = t.len().div_ceil(POINTS);
         let mut seen = Sampled {
             t: Vec::new(),
             x: Vec::new(),
             residual: Vec::new(),
-            motion: motion(fitted, t),
+            motion: motion(estimate, t),
         };
         #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
         let step = (t[t.len() - 1] - t[0]) * every as f64 / t.len() as f64;
@@ -36,9 +41,9 @@ impl Sampled {
             if seen.t.last().is_some_and(|last| t[index] - last > GAP * step) {
                 seen.push([f64::NAN; 3]);
             }
-            seen.push([t[index], x[index], fitted.estimate.residuals[index]]);
+            seen.push([t[index], x[index], estimate.residuals[index]]);
         }
-        seen
+        Some(seen)
     }
 
     fn push(&mut self, [t, x, residual]: [f64; 3]) {
@@ -49,10 +54,9 @@ impl Sampled {
 }
 
 /// The fitted motion, finely.
-fn motion(fitted: &Fitted, t: &[f64]) -> Vec<[f64; 3]> {
+fn motion(estimate: &Estimate, t: &[f64]) -> Vec<[f64; 3]> {
     /// Points on each half swing.
     const FINE: usize = 40;
-    let estimate = &fitted.estimate;
     let p = &estimate.p;
     let (first, last) = (t[0], t[t.len() - 1]);
     let (origin, velocity) = match estimate.start {

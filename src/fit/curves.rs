@@ -1,0 +1,177 @@
+//! The curves of the pictures of a fit, computed once with the answer: drawing them computes nothing.
+
+use std::f64::consts::TAU;
+
+use super::decrements::averaged;
+use super::estimate::Estimate;
+use super::margin::Margins;
+use super::motion::{Way, follow};
+use super::observation::{Data, OMEGA0, parameters};
+use super::residuals::autocorrelations;
+use super::sampled::Sampled;
+use crate::oscillator::{Parameters, State};
+
+/// A point of a curve.
+pub type Place = [f64; 2];
+
+/// The part of the world that a picture shows: from, to, from, to.
+pub type Extent = [f64; 4];
+
+/// What is drawn of a fit.
+#[derive(Clone, Debug)]
+pub struct Curves {
+    /// Record, residuals and motion; `None` of peaks alone.
+    pub sampled: Option<Sampled>,
+    /// Autocorrelation of the residuals over lags in s, as far as two periods.
+    pub memory: Vec<Place>,
+    /// Damping over amplitude.
+    pub damping: Damping,
+    /// The share of draws whose smallest displacement not survived is less than the abscissa.
+    pub spread: Vec<Place>,
+    /// What is worth seeing of that.
+    pub spread_extent: Extent,
+}
+
+/// Damping over amplitude.
+#[derive(Clone, Debug)]
+pub struct Damping {
+    /// Measured: amplitude, loss, and the standard error of the loss.
+    pub measured: Vec<[f64; 3]>,
+    /// By the fitted motion, exactly.
+    pub exact: Vec<Place>,
+    /// By averaging.
+    pub averaged: Vec<Place>,
+    /// Around nine tenths of the draws of that: below, and back above.
+    pub band: Vec<Place>,
+    /// What is worth seeing.
+    pub extent: Extent,
+}
+
+impl Curves {
+    /// Computes them all.
+    #[must_use]
+    pub fn of(estimate: &Estimate, margins: &Margins) -> Self {
+        let (spread, spread_extent) = spread(estimate, margins);
+        Curves {
+            sampled: Sampled::of(estimate),
+            memory: memory(estimate),
+            damping: damping(estimate, margins),
+            spread,
+            spread_extent,
+        }
+    }
+}
+
+fn memory(estimate: &Estimate) -> Vec<Place> {
+    const LAGS: usize = 400;
+    let Data::Samples { t, .. } = &estimate.data else { return Vec::new() };
+    #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
+    let step = (t[t.len() - 1] - t[0]) / t.len() as f64;
+    let kept: Vec<f64> = estimate.kept_residuals().collect();
+    let periods = 2.0 * TAU / estimate.p[OMEGA0];
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "capped by n")]
+    let most = ((periods / step) as usize).clamp(4, (kept.len() / 2).max(4));
+    let lags: Vec<usize> = (1..most).step_by(most.div_ceil(LAGS)).collect();
+    let values = autocorrelations(&kept, &lags);
+    #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
+    lags.iter().zip(values).map(|(lag, rho)| [*lag as f64 * step, rho]).collect()
+}
+
+/// The relative loss of amplitude per unit of time between turning points two apart.
+fn pair(q: &[f64]) -> Option<Place> {
+    let half = |k: usize| 0.5 * (q[k + 1] - q[k]).abs();
+    (q.len() == 4 && half(1) > 0.0).then(|| [half(1), (half(0) - half(2)) / (TAU * half(1))])
+}
+
+/// The exact damping from motions that begin at rest at a displacement, as it is measured.
+fn exact(parameters: &Parameters, from: f64) -> Option<Place> {
+    let way = Way { linear: false, with_derivatives: false, reach: 1e3 * from, turns: 3 };
+    let found = follow(parameters, State { q: from, v: 0.0 }, &[40.0], way, |_, _| {}).ok()?;
+    let turns: Vec<f64> =
+        std::iter::once(from).chain(found.turns.iter().map(|turn| turn.q)).collect();
+    pair(&turns)
+}
+
+fn damping(estimate: &Estimate, margins: &Margins) -> Damping {
+    const POINTS: u32 = 160;
+    let (_, largest) = estimate.amplitudes();
+    let parameters = parameters(&estimate.p);
+    let to = 1.25 * largest;
+    let amplitudes: Vec<f64> =
+        (1..=POINTS).map(|i| to * f64::from(i) / f64::from(POINTS)).collect();
+    let x: Vec<f64> = estimate.extremes.iter().map(|extreme| extreme.x).collect();
+    let measured: Vec<[f64; 3]> = x
+        .windows(4)
+        .filter_map(pair)
+        .map(|[a, delta]| [a, delta, error_of_decrement(estimate, a)])
+        .collect();
+    let exact: Vec<Place> = amplitudes.iter().filter_map(|&a| exact(&parameters, a)).collect();
+    let own = |a: f64| averaged(parameters.d, parameters.d3, parameters.r, a);
+    let heights = measured.iter().map(|it| it[1]).chain(exact.iter().map(|it| it[1])).chain([0.0]);
+    let (low, high) = heights
+        .filter(|it| it.is_finite())
+        .fold((0.0_f64, 0.0_f64), |(low, high), it| (low.min(it), high.max(it)));
+    let room = 0.15 * (high - low).max(f64::MIN_POSITIVE);
+    Damping {
+        measured,
+        exact,
+        averaged: amplitudes.iter().map(|&a| [a, own(a)]).collect(),
+        band: band(margins, &amplitudes),
+        extent: [0.0, to, low - room, high + room],
+    }
+}
+
+/// Each half peak to peak has the error of two turning points, which are read off about a sixth of a period of
+/// samples.
+fn error_of_decrement(estimate: &Estimate, a: f64) -> f64 {
+    let read = match &estimate.data {
+        #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
+        Data::Samples { t, .. } => {
+            let rate = t.len() as f64 / (t[t.len() - 1] - t[0]);
+            (rate * TAU / estimate.p[OMEGA0] / 6.0).max(1.0)
+        }
+        Data::Peaks { .. } => 1.0,
+    };
+    estimate.covariance.deviation / read.sqrt() / (TAU * a)
+}
+
+/// The averaged damping of nine tenths of the draws.
+fn band(margins: &Margins, amplitudes: &[f64]) -> Vec<Place> {
+    let (mut below, mut above) = (Vec::new(), Vec::new());
+    for &a in amplitudes {
+        let mut values: Vec<f64> =
+            margins.draws.iter().map(|draw| averaged(draw.d, draw.d3, draw.r, a)).collect();
+        values.sort_by(f64::total_cmp);
+        let Some(last) = values.len().checked_sub(1) else { continue };
+        below.push([a, values[(values.len() / 20).min(last)]]);
+        above.push([a, values[(values.len() * 19 / 20).min(last)]]);
+    }
+    above.reverse();
+    below.extend(above);
+    below.extend(below.first().copied());
+    below
+}
+
+/// The steps of the distribution of the margin, and what is worth seeing of them.
+fn spread(estimate: &Estimate, margins: &Margins) -> (Vec<Place>, Extent) {
+    /// Largest amplitudes up to which margins are shown.
+    const FAR: f64 = 10.0;
+    let (_, largest) = estimate.amplitudes();
+    let finite: Vec<f64> =
+        margins.displacements.iter().copied().filter(|it| it.is_finite()).collect();
+    #[expect(clippy::cast_precision_loss, reason = "counts of draws")]
+    let share = |count: usize| count as f64 / margins.displacements.len() as f64;
+    let mut steps = vec![[0.0, 0.0]];
+    for (index, &x) in finite.iter().enumerate() {
+        steps.extend([[x, share(index)], [x, share(index + 1)]]);
+    }
+    // The tail of margins far beyond the record says no more than that they are.
+    let typical = margins.displacement.upper.or(margins.displacement.median);
+    let far = typical.or(finite.last().copied()).unwrap_or(largest).min(FAR * largest);
+    let to = far.max(largest) + 0.1 * (far.max(largest) - far.min(largest)).max(0.02 * largest);
+    steps.push([to.max(finite.last().copied().unwrap_or(0.0)), share(finite.len())]);
+    // A narrow distribution is looked at closely.
+    let near = margins.displacement.lower.unwrap_or(0.0).min(largest);
+    let from = if near > 0.7 * to { near - 0.3 * (to - near) } else { 0.0 };
+    (steps, [from, to, 0.0, 1.0])
+}
