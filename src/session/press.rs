@@ -111,10 +111,7 @@ fn letter(session: &mut Session, what: Letter, count: u32, key: Key) -> Vec<Effe
         (Letter::GoTo, Some(name)) => marks::go_to(session, name),
         (Letter::GoTo, None) if asks("go-to-mark") => marks::go_back(session),
         (_, None) if session.keymap.command(&[Context::Always], key).is_some() => act(session, key),
-        (_, None) => {
-            refuse(session, format!("{} is not a letter from a to z", key.said()));
-            Vec::new()
-        }
+        (_, None) => refuse(session, format!("{} is not a letter from a to z", key.said())),
     }
 }
 
@@ -124,8 +121,7 @@ fn run_where_it_belongs(session: &mut Session, command: &Command, key: Key) -> V
         Ok(Some(pane)) => focus_on(session, pane),
         Ok(None) => {}
         Err(place) => {
-            refuse(session, format!("{} {}", command.name, missing(session, place)));
-            return Vec::new();
+            return refuse(session, format!("{} {}", command.name, missing(session, place)));
         }
     }
     run(session, command, key)
@@ -166,13 +162,9 @@ fn run(session: &mut Session, command: &Command, key: Key) -> Vec<Effect> {
 fn run_typed(session: &mut Session, text: &str) -> Vec<Effect> {
     let open = session.overlay.take();
     run_line(session, text).unwrap_or_else(|why| {
-        match open {
-            Some(Overlay::Prompt(prompt)) => {
-                let refused = Prompt { refused: Some(why), completion: None, back: 0, ..prompt };
-                session.overlay = Some(Overlay::Prompt(refused));
-            }
-            _ => refuse(session, why),
-        }
+        let Some(Overlay::Prompt(prompt)) = open else { return refuse(session, why) };
+        let refused = Prompt { refused: Some(why), completion: None, back: 0, ..prompt };
+        session.overlay = Some(Overlay::Prompt(refused));
         Vec::new()
     })
 }
@@ -205,10 +197,7 @@ pub fn run_line(session: &mut Session, text: &str) -> Result<Vec<Effect>, String
 /// Runs a line that was not typed.
 pub(super) fn run_untyped(session: &mut Session, text: &str) -> Vec<Effect> {
     (session.overlay, session.pending, session.notice) = (None, None, None);
-    run_line(session, text).unwrap_or_else(|why| {
-        refuse(session, why);
-        Vec::new()
-    })
+    run_line(session, text).unwrap_or_else(|why| refuse(session, why))
 }
 
 /// The name that looks most like this one.

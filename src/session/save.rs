@@ -26,8 +26,7 @@ use crate::session::state::marks::{Mark, Marks};
 use crate::session::state::overlay::Overlay;
 use crate::session::state::plot::{Framing, Pane, Plot};
 use crate::session::state::rows::{ROWS, Row, Steps};
-use crate::session::state::session::MOST_HARMONICS;
-use crate::session::state::session::Session;
+use crate::session::state::session::{MOST_HARMONICS, Session};
 use crate::session::state::setup::Setup;
 use crate::session::state::starts::{MOST_MOTIONS, Starts};
 

@@ -118,18 +118,22 @@ fn paste(session: &mut Session, text: &str) -> Vec<Effect> {
     }
     // Words without any key by its name are rather pasted by mistake.
     if !text.contains('<') && !text.trim_start().starts_with('#') {
-        refuse(session, "the pasted text names no key, as <right>: it is no keystroke file");
-        return Vec::new();
+        return refuse(
+            session,
+            "the pasted text names no key, as <right>: it is no keystroke file",
+        );
     }
     match parse(text) {
-        Ok(script) if script.keys() > 0 => session.overlay = Some(Overlay::Offer(script)),
+        Ok(script) if script.keys() > 0 => {
+            session.overlay = Some(Overlay::Offer(script));
+            Vec::new()
+        }
         Ok(_) => inform(session, "the pasted text presses no key"),
         Err(error) => refuse(session, format!("the pasted text is no keystroke file: {error}")),
     }
-    Vec::new()
 }
 
-/// Takes an answer of the worker; says what went wrong with a question of today.
+/// Takes an answer of the worker; says what went wrong, if the question is still asked.
 fn take(session: &mut Session, answered: Answered) {
     let name = answered.request.topic().name();
     let failure = answered.result.as_ref().err().cloned();

@@ -39,7 +39,7 @@ impl Session {
     fn show_fit(&mut self, fit: &Fit) {
         let found = match fit.found() {
             Ok(found) => found,
-            Err(unfit) => return refuse(self, unfit.to_string()),
+            Err(unfit) => return drop(refuse(self, unfit.to_string())),
         };
         let problem = found.problem(self.problem);
         // What the user has changed meanwhile stays.

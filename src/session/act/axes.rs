@@ -17,8 +17,7 @@ pub fn next_abscissa(session: &mut Session) -> Vec<Effect> {
     let at = ABSCISSAE.iter().position(|(symbol, _)| *symbol == axes.abscissa).unwrap_or(0);
     let (symbol, _) = ABSCISSAE[(at + 1) % ABSCISSAE.len()];
     set(session, Axes { abscissa: symbol, ..axes });
-    inform(session, format!("over {}: {}", symbol.spec().name, symbol.spec().meaning));
-    Vec::new()
+    inform(session, format!("over {}: {}", symbol.spec().name, symbol.spec().meaning))
 }
 
 /// Draws the chart in focus over the next parameter to the right or upwards, never one over the other's.
@@ -35,8 +34,7 @@ pub fn next_of_chart(session: &mut Session, upwards: bool) -> Vec<Effect> {
     plot.fit_from(
         PlotSetup { view: plot.view, axes: plot.axes, window: None, family: plot.family }.opening(),
     );
-    inform(session, format!("over {}: {}", symbol.spec().name, symbol.spec().meaning));
-    Vec::new()
+    inform(session, format!("over {}: {}", symbol.spec().name, symbol.spec().meaning))
 }
 
 /// Gives the diagram in focus these axes.
@@ -62,8 +60,7 @@ pub fn next_ordinate(session: &mut Session) -> Vec<Effect> {
     let row = &ORDINATES[(plot.axes.ordinate as usize + 1) % ORDINATES.len()];
     let axes = Axes { ordinate: row.ordinate, ..plot.axes };
     set(session, axes);
-    inform(session, format!("{}: {}", axes.label(), row.meaning));
-    Vec::new()
+    inform(session, format!("{}: {}", axes.label(), row.meaning))
 }
 
 /// Measures lengths of the cycles in units of r, or as the equation does; the branch is the same.
@@ -71,15 +68,13 @@ pub fn next_unit(session: &mut Session) -> Vec<Effect> {
     let Some(plot) = session.focused() else { return Vec::new() };
     let (spec, unit) = (plot.axes.ordinate.spec(), plot.axes.unit);
     if spec.ratio.is_none() {
-        refuse(session, format!("{} is no length, and has no unit", spec.label));
-        return Vec::new();
+        return refuse(session, format!("{} is no length, and has no unit", spec.label));
     }
     let unit = if unit == Unit::One { Unit::Friction } else { Unit::One };
     let axes = Axes { unit, ..plot.axes };
     set(session, axes);
     let units = if unit == Unit::One { "" } else { ", in units of r" };
-    inform(session, format!("{}: {}{units}", axes.label(), spec.meaning));
-    Vec::new()
+    inform(session, format!("{}: {}{units}", axes.label(), spec.meaning))
 }
 
 /// The diagram that the scene has in the place of the one in focus.

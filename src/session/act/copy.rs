@@ -43,8 +43,7 @@ pub fn row(session: &mut Session) -> Vec<Effect> {
 
 fn copied(session: &mut Session, words: &[String]) -> Vec<Effect> {
     if words.is_empty() {
-        refuse(session, "nothing is pointed at: arrows show a cursor");
-        return Vec::new();
+        return refuse(session, "nothing is pointed at: arrows show a cursor");
     }
     vec![Effect::Copy(words.join(" "))]
 }

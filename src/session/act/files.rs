@@ -102,10 +102,7 @@ pub(in crate::session) fn read(
     purpose: Purpose,
     result: Result<String, String>,
 ) -> Vec<Effect> {
-    take(session, path, purpose, result).unwrap_or_else(|why| {
-        refuse(session, why);
-        Vec::new()
-    })
+    take(session, path, purpose, result).unwrap_or_else(|why| refuse(session, why))
 }
 
 fn take(
@@ -237,14 +234,13 @@ pub fn forget(session: &mut Session) -> Vec<Effect> {
         0 => return none_interrupted(session),
         1 => inform(session, "the interrupted session is not offered again"),
         count => inform(session, format!("{count} interrupted sessions are not offered again")),
-    }
+    };
     // The newest is put aside last, and so stays the last one.
     all.into_iter().rev().map(|kept| Effect::PutAside(kept.path)).collect()
 }
 
 fn none_interrupted(session: &mut Session) -> Vec<Effect> {
-    refuse(session, "no session was interrupted");
-    Vec::new()
+    refuse(session, "no session was interrupted")
 }
 
 /// The tour that comes with the program, as a keystroke file.
@@ -261,9 +257,6 @@ pub fn tour(session: &mut Session) -> Vec<Effect> {
             macros::inline(session);
             vec![Effect::Play(script)]
         }
-        Err(why) => {
-            refuse(session, why);
-            Vec::new()
-        }
+        Err(why) => refuse(session, why),
     }
 }

@@ -5,8 +5,7 @@ use crate::session::act::macros;
 use crate::session::act::notice::{inform, refuse, told};
 use crate::session::effect::Effect;
 use crate::session::state::overlay::{Caption, Overlay};
-use crate::session::state::session::MOST_HARMONICS;
-use crate::session::state::session::Session;
+use crate::session::state::session::{MOST_HARMONICS, Session};
 use crate::session::state::settings::{GLYPHS, THEMES, next_of};
 use crate::study::harmonic_error::ladder;
 
@@ -31,8 +30,7 @@ pub fn toggle(session: &mut Session, layer: Layer) -> Vec<Effect> {
         _ => format!("{} {state}: {}", spec.name, spec.meaning),
     };
     let text = told(session, &text);
-    inform(session, text);
-    Vec::new()
+    inform(session, text)
 }
 
 /// Takes the next number of harmonics of a ladder, and shows their cycles.
@@ -48,11 +46,10 @@ pub fn harmonics(session: &mut Session, more: bool) -> Vec<Effect> {
     match next {
         Some(next) => {
             session.harmonics = *next;
-            inform(session, format!("harmonic balance with N = {next}"));
+            inform(session, format!("harmonic balance with N = {next}"))
         }
         None => refuse(session, format!("the number of harmonics ends at {now}")),
     }
-    Vec::new()
 }
 
 /// Shows what there is to see in the scene and to press, or hides it.
@@ -66,16 +63,14 @@ pub fn explain(session: &mut Session) -> Vec<Effect> {
 pub fn glyphs(session: &mut Session) -> Vec<Effect> {
     let (glyphs, name) = next_of(&GLYPHS, session.look.glyphs);
     session.look.glyphs = glyphs;
-    inform(session, format!("glyphs: {name}"));
-    Vec::new()
+    inform(session, format!("glyphs: {name}"))
 }
 
 /// Uses the next theme.
 pub fn theme(session: &mut Session) -> Vec<Effect> {
     let (theme, name) = next_of(&THEMES, session.look.theme);
     session.look.theme = theme;
-    inform(session, format!("theme: {name}"));
-    Vec::new()
+    inform(session, format!("theme: {name}"))
 }
 
 /// Draws phase planes with equal units, or over all of their place.
@@ -86,8 +81,7 @@ pub fn equal(session: &mut Session) -> Vec<Effect> {
     } else {
         "equal units: a circle looks like one"
     };
-    inform(session, text);
-    Vec::new()
+    inform(session, text)
 }
 
 /// Shows axes of machines in their units, or without units.
@@ -98,8 +92,7 @@ pub fn units(session: &mut Session) -> Vec<Effect> {
     } else {
         "axes of machines in their units"
     };
-    inform(session, text);
-    Vec::new()
+    inform(session, text)
 }
 
 /// Closes what is open.

@@ -64,7 +64,7 @@ fn opening(scene: Arc<Scene>) -> Snapshot {
 
 fn bring_back(session: &mut Session, found: Option<Before>, name: &str) -> Vec<Effect> {
     match found {
-        None => refuse(session, format!("nothing to {name}")),
+        None => return refuse(session, format!("nothing to {name}")),
         Some(Before::Setup(setup)) => {
             inform(session, format!("{name}: {}", difference(&session.setup(), &setup)));
             session.set_setup(setup);

@@ -59,8 +59,7 @@ pub fn record_or_end(session: &mut Session) -> Vec<Effect> {
 
 pub(in crate::session) fn record(session: &mut Session, register: char) -> Vec<Effect> {
     session.macros.recording = Some((register, Recorder::default()));
-    inform(session, format!("recording into register {register}"));
-    Vec::new()
+    inform(session, format!("recording into register {register}"))
 }
 
 /// Forgets what asks for keys to be played, so that these are recorded in its place.
@@ -74,13 +73,11 @@ pub(in crate::session) fn inline(session: &mut Session) {
 /// Plays a register so many times.
 pub(in crate::session) fn play(session: &mut Session, register: char, times: u32) -> Vec<Effect> {
     let Some(steps) = session.macros.registers.get(&register) else {
-        refuse(session, format!("register {register} is empty"));
-        return Vec::new();
+        return refuse(session, format!("register {register} is empty"));
     };
     let keys = Script::repeated(steps, 1).keys();
     if keys * u64::from(times) > MOST {
-        refuse(session, format!("{times} times {keys} keys are more than {MOST}"));
-        return Vec::new();
+        return refuse(session, format!("{times} times {keys} keys are more than {MOST}"));
     }
     let script = Script::repeated(steps, times);
     inline(session);
@@ -108,6 +105,5 @@ pub(in crate::session) fn play_again(session: &mut Session, times: u32) -> Vec<E
     if let Some(register) = session.macros.last {
         return play(session, register, times);
     }
-    refuse(session, "no register has been played yet");
-    Vec::new()
+    refuse(session, "no register has been played yet")
 }

@@ -17,8 +17,7 @@ pub(in crate::session) fn set(session: &mut Session, name: char) -> Vec<Effect> 
     session.marks.places.insert(name, present(session));
     let key = session.keymap.key_of("go-to-mark");
     let back = key.map(|key| format!("; {key}{name} comes back")).unwrap_or_default();
-    inform(session, format!("mark {name} is here{back}"));
-    Vec::new()
+    inform(session, format!("mark {name} is here{back}"))
 }
 
 /// Goes to a mark.
@@ -27,7 +26,6 @@ pub(in crate::session) fn go_to(session: &mut Session, name: char) -> Vec<Effect
         Some(mark) => go(session, &mark),
         None => refuse(session, format!("there is no mark {name}")),
     }
-    Vec::new()
 }
 
 /// Goes to the point that was left last.
@@ -36,20 +34,19 @@ pub(in crate::session) fn go_back(session: &mut Session) -> Vec<Effect> {
         Some(mark) => go(session, &mark),
         None => refuse(session, "no mark has been gone to yet"),
     }
-    Vec::new()
 }
 
 /// Goes to a point, as a change that can be undone, and keeps what is known about the one that is left.
-fn go(session: &mut Session, mark: &Mark) {
+fn go(session: &mut Session, mark: &Mark) -> Vec<Effect> {
     let here = present(session);
     if mark.setup == here.setup {
-        inform(session, "here already");
-        return;
+        return inform(session, "here already");
     }
-    inform(session, difference(&here.setup, &mark.setup));
+    let moved = difference(&here.setup, &mark.setup);
     put(session, mark.setup);
     session.marks.left = Some(here);
     session.layers.insert(Layer::Ghost);
+    inform(session, moved)
 }
 
 fn present(session: &Session) -> Mark {

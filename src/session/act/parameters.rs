@@ -81,18 +81,13 @@ fn step_machine(session: &mut Session, quantity: Quantity, count: i32) -> Vec<Ef
     let Some(size) = session.steps.of(Row::Quantity(quantity)) else { return Vec::new() };
     let value = size.from(session.quantity(quantity), count);
     match session.with_quantity(session.setup(), quantity, value) {
-        Ok(setup) => {
-            if !put(session, setup) {
-                let unit = quantity.spec().unit;
-                refuse(
-                    session,
-                    format!("the step is too small to change {} {unit}", shortest(value)),
-                );
-            }
+        Ok(setup) if put(session, setup) => Vec::new(),
+        Ok(_) => {
+            let unit = quantity.spec().unit;
+            refuse(session, format!("the step is too small to change {} {unit}", shortest(value)))
         }
         Err(why) => refuse(session, why),
     }
-    Vec::new()
 }
 
 /// Steps the bound on the disturbance, which is not negative.
@@ -110,28 +105,23 @@ fn step_disturbance(session: &mut Session, count: i32) -> Vec<Effect> {
 pub fn half_width(session: &mut Session, count: i32) -> Vec<Effect> {
     let present = session.setup();
     let Row::Parameter(symbol) = session.selected else {
-        refuse(session, "only D, D2, D3 and r have a half width");
-        return Vec::new();
+        return refuse(session, "only D, D2, D3 and r have a half width");
     };
     let step = session.steps.parameters[symbol as usize];
     let half = step.from(present.doubt.half_width(symbol), count).max(0.0);
     match present.doubt.with_half_width(symbol, half) {
-        Ok(doubt) => {
-            if !put(session, Setup { doubt, ..present }) {
-                refuse(session, format!("{symbol} has no half width"));
-            }
-        }
+        Ok(doubt) if put(session, Setup { doubt, ..present }) => Vec::new(),
+        Ok(_) => refuse(session, format!("{symbol} has no half width")),
         Err(why) => refuse(session, why),
     }
-    Vec::new()
 }
 
 /// Makes the step of the selected row larger or smaller.
 pub fn step_size(session: &mut Session, larger: bool) -> Vec<Effect> {
-    match session.steps.of_mut(session.selected) {
-        Some(size) => *size = if larger { size.larger() } else { size.smaller() },
-        None => refuse(session, format!("{} has no step size", session.selected.name())),
-    }
+    let Some(size) = session.steps.of_mut(session.selected) else {
+        return refuse(session, format!("{} has no step size", session.selected.name()));
+    };
+    *size = if larger { size.larger() } else { size.smaller() };
     Vec::new()
 }
 
@@ -188,11 +178,10 @@ pub fn dial(session: &mut Session, finer: bool) -> Vec<Effect> {
             change(session, session.problem.at(quality));
             let (dial, meaning) = (session.problem.method.spec().dial, quality.meaning);
             let setting = shortest(session.problem.setting());
-            inform(session, format!("{}: {} {setting}; {meaning}", quality.name, dial.name()));
+            inform(session, format!("{}: {} {setting}; {meaning}", quality.name, dial.name()))
         }
         None => refuse(session, format!("the dial ends at {}", end_of_dial(finer))),
     }
-    Vec::new()
 }
 
 fn end_of_dial(finer: bool) -> &'static str {
@@ -232,8 +221,7 @@ pub fn next_method(session: &mut Session, by: isize) -> Vec<Effect> {
     let row = rows[next];
     session.measuring = true;
     change(session, Problem { method: row.method, ..session.problem });
-    inform(session, format!("{}: {}", row.name, row.guarantee));
-    Vec::new()
+    inform(session, format!("{}: {}", row.name, row.guarantee))
 }
 
 impl Session {

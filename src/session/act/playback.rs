@@ -14,8 +14,7 @@ pub fn play(session: &mut Session) -> Vec<Effect> {
     let shown = session.shows(Layer::Trajectory) || session.shows(Layer::Mass);
     let given_up = session.failure(Topic::Trajectory, session.plot).is_some();
     if !shown || given_up || session.trajectory().is_none() {
-        refuse(session, "there is no motion on show to play");
-        return Vec::new();
+        return refuse(session, "there is no motion on show to play");
     }
     let at_end = session.playback.at.is_some_and(|at| at >= session.last_moment());
     session.playback.playing = !session.playback.playing;
@@ -27,8 +26,7 @@ pub fn play(session: &mut Session) -> Vec<Effect> {
     } else {
         "held".to_owned()
     };
-    inform(session, text);
-    Vec::new()
+    inform(session, text)
 }
 
 /// Moves the head a little on, or back.
@@ -44,8 +42,7 @@ pub fn step(session: &mut Session, steps: f64) -> Vec<Effect> {
 /// Plays faster or slower.
 pub fn pace(session: &mut Session) -> Vec<Effect> {
     session.next_pace();
-    inform(session, format!("pace: {}", session.pace()));
-    Vec::new()
+    inform(session, format!("pace: {}", session.pace()))
 }
 
 /// Parts of a period by which a key steps.

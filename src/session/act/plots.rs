@@ -175,14 +175,12 @@ pub fn use_method(session: &mut Session) -> Vec<Effect> {
     if cursor(session).is_none() {
         return Vec::new();
     }
-    match session.row_under_cursor(index).map(|row| row.problem) {
-        Some(row) => {
-            let taken = Problem { method: row.method, ..session.problem };
-            session.measuring = true;
-            change(session, taken.with_setting(row.setting()));
-        }
-        None => refuse(session, "no method is compared here yet"),
-    }
+    let Some(row) = session.row_under_cursor(index).map(|row| row.problem) else {
+        return refuse(session, "no method is compared here yet");
+    };
+    let taken = Problem { method: row.method, ..session.problem };
+    session.measuring = true;
+    change(session, taken.with_setting(row.setting()));
     Vec::new()
 }
 
@@ -192,10 +190,10 @@ pub fn take_speed(session: &mut Session) -> Vec<Effect> {
     match session.with_quantity(session.setup(), Quantity::BeltSpeed, x) {
         Ok(setup) => {
             put(session, setup);
+            Vec::new()
         }
         Err(why) => refuse(session, why),
     }
-    Vec::new()
 }
 
 /// Starts a motion where the cursor is, in the phase plane beside those that are there: at its state, at the state
@@ -210,18 +208,14 @@ pub fn start_here(session: &mut Session) -> Vec<Effect> {
         Some(View::Phase) => Some(State { q: x, v: y }),
         _ => return Vec::new(),
     };
-    match initial {
-        // The phase plane shows motions beside each other; from another view this may be out of sight.
-        Some(initial) if session.focused().is_some_and(|plot| plot.view == View::Phase) => {
-            start(session, initial);
-        }
-        Some(initial) => {
-            if change(session, Problem { initial, ..session.problem }) {
-                let State { q, v } = initial;
-                inform(session, format!("q0 = {}, v0 = {}", shortest(q), shortest(v)));
-            }
-        }
-        None => refuse(session, "there is no motion to be taken here"),
+    let Some(initial @ State { q, v }) = initial else {
+        return refuse(session, "there is no motion to be taken here");
+    };
+    // The phase plane shows motions beside each other; from another view this may be out of sight.
+    if session.focused().is_some_and(|plot| plot.view == View::Phase) {
+        start(session, initial);
+    } else if change(session, Problem { initial, ..session.problem }) {
+        inform(session, format!("q0 = {}, v0 = {}", shortest(q), shortest(v)));
     }
     Vec::new()
 }
@@ -237,10 +231,7 @@ pub fn jump_here(session: &mut Session) -> Vec<Effect> {
     for (symbol, value) in [(axes.abscissa, cursor.x)].into_iter().chain(upwards) {
         match symbol.spec().check(value) {
             Ok(value) => symbol.set(&mut problem.parameters, &mut problem.initial, value),
-            Err(refused) => {
-                refuse(session, refused.to_string());
-                return Vec::new();
-            }
+            Err(refused) => return refuse(session, refused.to_string()),
         }
     }
     change(session, problem);

@@ -117,8 +117,7 @@ pub fn start(session: &mut Session, scan: Scan) -> Vec<Effect> {
         None => beside(session),
     }
     refit(session);
-    inform(session, SCANNING);
-    Vec::new()
+    inform(session, SCANNING)
 }
 
 /// Shows the scan beside the phase plane into which its points are taken: in the plot in use, in another one,
@@ -152,19 +151,17 @@ pub fn stop(session: &mut Session) -> Vec<Effect> {
 pub fn pause(session: &mut Session) -> Vec<Effect> {
     let Some(scanned) = &mut session.scanned else { return none(session) };
     match scanned.progress {
-        Progress::Running { .. } => return stop(session),
+        Progress::Running { .. } => stop(session),
         Progress::Stopped => {
             scanned.progress = Progress::Running { from: scanned.rows.len() };
-            inform(session, SCANNING);
+            inform(session, SCANNING)
         }
         Progress::Done => inform(session, "the scan is done"),
     }
-    Vec::new()
 }
 
 fn none(session: &mut Session) -> Vec<Effect> {
-    refuse(session, "there is no scan");
-    Vec::new()
+    refuse(session, "there is no scan")
 }
 
 /// Plots the next measured column.
@@ -222,8 +219,7 @@ pub fn take(session: &mut Session) -> Vec<Effect> {
         said.push(format!("{} = {}", sweep.symbol, shortest(value)));
     }
     change(session, problem);
-    inform(session, said.join(", "));
-    Vec::new()
+    inform(session, said.join(", "))
 }
 
 /// Writes the rows so far to a file, in the form of the command `scan`.

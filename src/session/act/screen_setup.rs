@@ -70,8 +70,7 @@ pub fn show(session: &mut Session, view: View) -> Vec<Effect> {
     }
     focus_on(session, Pane::Plot(index));
     let spec = view.spec();
-    inform(session, format!("{}: {}", spec.title, spec.meaning));
-    Vec::new()
+    inform(session, format!("{}: {}", spec.title, spec.meaning))
 }
 
 /// Lets the plot in use show the next view of the list, around its end.
@@ -84,8 +83,7 @@ pub fn next_view(session: &mut Session, by: isize) -> Vec<Effect> {
 /// Adds a plot beside the one in use: the first view that is not on show, else another of the same.
 pub fn add(session: &mut Session) -> Vec<Effect> {
     if session.plots.len() >= MOST_PLOTS {
-        refuse(session, format!("there are {MOST_PLOTS} plots, and no more fit"));
-        return Vec::new();
+        return refuse(session, format!("there are {MOST_PLOTS} plots, and no more fit"));
     }
     let index = session.plot;
     let absent = |view: &View| session.plots.iter().all(|plot| plot.view != *view);
@@ -102,15 +100,13 @@ pub fn add(session: &mut Session) -> Vec<Effect> {
     inform(
         session,
         format!("{} more: {}", plot_setup.view.spec().title, plot_setup.view.spec().meaning),
-    );
-    Vec::new()
+    )
 }
 
 /// Removes the plot in use.
 pub fn remove(session: &mut Session) -> Vec<Effect> {
     if session.plots.len() < 2 {
-        refuse(session, "the last plot stays");
-        return Vec::new();
+        return refuse(session, "the last plot stays");
     }
     record(session);
     let removed = session.plots.remove(session.plot);
@@ -118,15 +114,13 @@ pub fn remove(session: &mut Session) -> Vec<Effect> {
     if session.focus != Pane::Parameters {
         focus_on(session, Pane::Plot(session.plot));
     }
-    inform(session, format!("{} removed", removed.view.spec().title));
-    Vec::new()
+    inform(session, format!("{} removed", removed.view.spec().title))
 }
 
 /// Gives the plot in use the place of the next one, and that its.
 pub fn move_on(session: &mut Session) -> Vec<Effect> {
     if session.plots.len() < 2 {
-        refuse(session, "there is only one plot");
-        return Vec::new();
+        return refuse(session, "there is only one plot");
     }
     record(session);
     let (from, to) = (session.plot, (session.plot + 1) % session.plots.len());
@@ -140,6 +134,5 @@ pub fn arrange(session: &mut Session) -> Vec<Effect> {
     record(session);
     let (arrangement, name) = crate::session::settings::next_of(&ARRANGEMENTS, session.arrangement);
     session.arrangement = arrangement;
-    inform(session, format!("arrangement: {name}"));
-    Vec::new()
+    inform(session, format!("arrangement: {name}"))
 }

@@ -38,15 +38,13 @@ pub(in crate::session) fn start(session: &mut Session, initial: State) {
 /// Takes the newest motion away; the one before is then the present one.
 pub fn drop_newest(session: &mut Session) -> Vec<Effect> {
     let Some(initial) = session.others.all().last().copied() else {
-        refuse(session, "one motion is on show, and stays");
-        return Vec::new();
+        return refuse(session, "one motion is on show, and stays");
     };
     let problem = Problem { initial, ..session.problem };
     put(session, Setup { problem, others: session.others.without(initial), ..session.setup() });
     let State { q, v } = initial;
     let count = session.problems().len();
-    inform(session, format!("{count} on show; q0 = {}, v0 = {}", shortest(q), shortest(v)));
-    Vec::new()
+    inform(session, format!("{count} on show; q0 = {}, v0 = {}", shortest(q), shortest(v)))
 }
 
 /// Takes all motions away but the newest.
@@ -61,10 +59,8 @@ pub fn drop_others(session: &mut Session) -> Vec<Effect> {
 /// right, or the separatrix's.
 pub fn beside_edge(session: &mut Session, factor: f64) -> Vec<Effect> {
     match beside(session, factor) {
-        Ok(q) => {
-            start(session, State { q, v: 0.0 });
-        }
-        Err(why) => refuse(session, told(session, &why)),
+        Ok(q) => start(session, State { q, v: 0.0 }),
+        Err(why) => return refuse(session, told(session, &why)),
     }
     Vec::new()
 }

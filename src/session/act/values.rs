@@ -8,15 +8,15 @@ use crate::scene::{
     find,
 };
 use crate::session::act::notice::inform;
-use crate::session::act::{axes as axis, entry, general, macros, marks, parameters, screen_setup};
-use crate::session::act::{focus, history};
+use crate::session::act::{
+    axes as axis, entry, focus, general, history, macros, marks, parameters, screen_setup,
+};
 use crate::session::effect::Effect;
 use crate::session::read::completion::{properties, rows};
 use crate::session::state::pending::MOST;
 use crate::session::state::plot::{Framing, Pane};
 use crate::session::state::rows::Row;
-use crate::session::state::session::MOST_HARMONICS;
-use crate::session::state::session::Session;
+use crate::session::state::session::{MOST_HARMONICS, Session};
 use crate::session::state::settings::{COLORS, GLYPHS, THEMES, named};
 
 /// What a line has done, or why not.
@@ -171,8 +171,7 @@ pub fn harmonics(session: &mut Session, rest: &str) -> Done {
     session.harmonics =
         count.ok_or_else(|| format!("{rest:?} is not a number of harmonics from 1 to {most}"))?;
     session.layers.insert(crate::scene::Layer::Balance);
-    inform(session, format!("harmonic balance with N = {rest}"));
-    Ok(Vec::new())
+    Ok(inform(session, format!("harmonic balance with N = {rest}")))
 }
 
 /// The letter of a register or mark.

@@ -19,10 +19,7 @@ pub const FAR: isize = 10;
 pub fn take_hold(session: &mut Session) -> Vec<Effect> {
     match first(session) {
         Ok(stop) => session.held = Some(stop),
-        Err(why) => {
-            let why = told(session, why);
-            refuse(session, why);
-        }
+        Err(why) => return refuse(session, told(session, why)),
     }
     Vec::new()
 }
@@ -89,10 +86,7 @@ pub fn take(session: &mut Session) -> Vec<Effect> {
     let spec = abscissa.spec();
     let value = match spec.check(held.value) {
         Ok(value) => value,
-        Err(refused) => {
-            refuse(session, refused.to_string());
-            return Vec::new();
-        }
+        Err(refused) => return refuse(session, refused.to_string()),
     };
     let shown = session.shown(session.plot);
     let Some(variant) = shown.get(held.variant) else { return Vec::new() };
@@ -106,8 +100,7 @@ pub fn take(session: &mut Session) -> Vec<Effect> {
     let start = held.cycle.map(|_| ", and the motion starts on its cycle").unwrap_or_default();
     let also = if variant.label.is_empty() { "" } else { ", " };
     let label = &variant.label;
-    inform(session, format!("{} = {}{also}{label}{start}", spec.name, shortest(value)));
-    Vec::new()
+    inform(session, format!("{} = {}{also}{label}{start}", spec.name, shortest(value)))
 }
 
 /// Lets go of the branch.

@@ -7,7 +7,6 @@ use crate::flow::Problem;
 use crate::oscillator::belt::Quantity;
 use crate::oscillator::{Belt, Parameters, State, Symbol};
 use crate::question::Whole;
-use crate::question::speeds::Speeds;
 use crate::question::whole::{Course, Kinds};
 use crate::scene::{Answer, Layer, Machine, Running, Setting, Topic};
 use crate::session::state::doubt::{Doubt, symbol_of};
@@ -77,18 +76,9 @@ impl Session {
     }
 
     fn whole(&self, topic: Topic) -> Option<&Whole> {
-        match self.standing(topic, self.plot).answered()?.result.as_ref().ok()? {
-            Answer::Whole(whole) => Some(whole),
-            _ => None,
-        }
-    }
-
-    /// The cycles over the speed of the belt that were computed last for a plot, stale or not.
-    pub fn speeds(&self, plot: usize) -> Option<&Speeds> {
-        match self.answer(Topic::Speeds, plot)? {
-            Answer::Speeds(found) => Some(found),
-            _ => None,
-        }
+        let found = self.standing(topic, self.plot).answered()?.result.as_ref().ok()?;
+        let Answer::Whole(whole) = found else { return None };
+        Some(whole)
     }
 
     /// Reads numbers out of some parameters.

@@ -5,8 +5,7 @@ use std::sync::Arc;
 
 use crate::oscillator::Parameters;
 use crate::question;
-use crate::question::zones::Zones;
-use crate::scene::{Answer, Layer, Request, Topic, View};
+use crate::scene::{Layer, Request, View};
 use crate::session::state::session::Session;
 
 impl Session {
@@ -31,13 +30,5 @@ impl Session {
                 disturbance: self.doubt.disturbance,
             }),
         })
-    }
-
-    /// What is safe and lost for certain at the present parameters.
-    pub fn zones(&self) -> Option<&Zones> {
-        match self.answer(Topic::Zones, self.plot)? {
-            Answer::Zones(found) => Some(found),
-            _ => None,
-        }
     }
 }

@@ -27,10 +27,9 @@ impl Session {
         let asked = self.problems().into_iter().enumerate();
         let found = asked.filter_map(|(place, problem)| {
             let request = self.request_for(Topic::Trajectory, self.plot, problem)?;
-            match self.answers.standing(&request).answer()? {
-                Answer::Trajectory(found) => Some((place, found)),
-                _ => None,
-            }
+            let answer = self.answers.standing(&request).answer()?;
+            let Answer::Trajectory(found) = answer else { return None };
+            Some((place, found))
         });
         found.collect()
     }

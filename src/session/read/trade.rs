@@ -1,19 +1,11 @@
 //! The view of what accuracy costs: the row that the cursor is nearest to, and taking its method.
 
 use crate::numerics::elementary::hypot;
-use crate::scene::{Answer, Point, Topic, View, Window};
+use crate::scene::{Point, View, Window};
 use crate::session::state::session::Session;
-use crate::study::trade::{Row, Trade};
+use crate::study::trade::Row;
 
 impl Session {
-    /// The last comparison of the methods, stale or not.
-    pub fn trade(&self) -> Option<&Trade> {
-        match self.answer(Topic::Trade, self.plot)? {
-            Answer::Trade(found) => Some(found),
-            _ => None,
-        }
-    }
-
     /// The row that is nearest to the cursor of a plot, as the eye sees it.
     pub fn row_under_cursor(&self, plot: usize) -> Option<&Row> {
         let plot = self.plots.get(plot).filter(|plot| plot.view == View::Trade)?;

@@ -7,13 +7,13 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use crate::flow::{Problem, Trajectory};
+use crate::flow::Problem;
 use crate::numerics::elementary::{exp2, hypot, log2};
 use crate::oscillator::belt::Quantity;
 use crate::oscillator::{Belt, Symbol};
 use crate::proof::Proof;
 use crate::question;
-use crate::question::{Borders, Failure, Motion};
+use crate::question::{Failure, Motion};
 use crate::scene::{Answer, Axes, Fitted, Layer, Request, Span, TOPICS, Topic, View, Window};
 use crate::session::state::answers::Standing;
 use crate::session::state::overlay::{Listed, Overlay};
@@ -23,8 +23,6 @@ use crate::session::state::session::Session;
 use crate::study::accuracy::{Deviation, NoComparison, Reference};
 use crate::study::chart::{Chart, Plane};
 use crate::study::claims::Examined;
-use crate::study::harmonic_error::HarmonicBalance;
-use crate::study::{Cycles, ReturnMap};
 
 /// Evaluations beyond which the answers about a topic may take longer than a quarter of a frame: the next
 /// questions about it are answered by drafts first.
@@ -306,46 +304,6 @@ impl Session {
         self.answers.failure(&self.request(topic, plot)?)
     }
 
-    /// The last motion computed, stale or not.
-    pub fn trajectory(&self) -> Option<&Trajectory> {
-        match self.answer(Topic::Trajectory, self.plot)? {
-            Answer::Trajectory(found) => Some(found),
-            _ => None,
-        }
-    }
-
-    /// The fit of the record on show; `None` until it is found.
-    pub fn fitted(&self) -> Option<&Fitted> {
-        match self.answer(Topic::Fit, self.plot)? {
-            Answer::Fit(fit) if !self.is_stale(Topic::Fit, self.plot) => fit.found().ok(),
-            _ => None,
-        }
-    }
-
-    /// The last cycles computed, stale or not.
-    pub fn cycles(&self) -> Option<&Cycles> {
-        match self.answer(Topic::Cycles, self.plot)? {
-            Answer::Cycles(found) => Some(found),
-            _ => None,
-        }
-    }
-
-    /// What is proved about the cycles at the present parameters; `None` until it is.
-    pub fn proof(&self) -> Option<&Proof> {
-        match self.answer(Topic::Proof, self.plot)? {
-            Answer::Proof(found) if !self.is_stale(Topic::Proof, self.plot) => Some(found),
-            _ => None,
-        }
-    }
-
-    /// The last harmonic balance computed, stale or not.
-    pub fn balance(&self) -> Option<&HarmonicBalance> {
-        match self.answer(Topic::Balance, self.plot)? {
-            Answer::Balance(found) => Some(found),
-            _ => None,
-        }
-    }
-
     /// The error of the motion on show, and what it was measured against, where both are known.
     ///
     /// `None` until both are computed, and where there is no error: [`Session::unmeasured`] says why.
@@ -376,12 +334,16 @@ impl Session {
         })
     }
 
-    /// The last borders of capture bands computed for a phase plane, stale or not.
-    pub fn borders(&self, plot: usize) -> Option<&Borders> {
-        match self.answer(Topic::Capture, plot)? {
-            Answer::Capture(found) => Some(found),
-            _ => None,
-        }
+    /// The fit of the record on show; `None` until it is found.
+    pub fn fitted(&self) -> Option<&Fitted> {
+        let Answer::Fit(fit) = self.answer(Topic::Fit, self.plot)? else { return None };
+        fit.found().ok().filter(|_| !self.is_stale(Topic::Fit, self.plot))
+    }
+
+    /// What is proved about the cycles at the present parameters; `None` until it is.
+    pub fn proof(&self) -> Option<&Proof> {
+        let Answer::Proof(found) = self.answer(Topic::Proof, self.plot)? else { return None };
+        Some(found).filter(|_| !self.is_stale(Topic::Proof, self.plot))
     }
 
     /// The claims of the paper, examined; none until they are.
@@ -395,22 +357,8 @@ impl Session {
     /// The last chart computed over the two parameters of a plot, stale or not.
     pub fn chart(&self, plot: usize) -> Option<&Chart> {
         let Axes { abscissa, against, .. } = self.plots.get(plot)?.axes;
-        match self.answer(Topic::Regimes, plot)? {
-            Answer::Regimes(found)
-                if (found.plane.right, found.plane.up) == (abscissa, against) =>
-            {
-                Some(found)
-            }
-            _ => None,
-        }
-    }
-
-    /// The last return map computed for a plot, stale or not.
-    pub fn return_map(&self, plot: usize) -> Option<&ReturnMap> {
-        match self.answer(Topic::ReturnMap, plot)? {
-            Answer::ReturnMap(found) => Some(found),
-            _ => None,
-        }
+        let Answer::Regimes(found) = self.answer(Topic::Regimes, plot)? else { return None };
+        Some(found).filter(|found| (found.plane.right, found.plane.up) == (abscissa, against))
     }
 }
 

@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::flow::Problem;
-use crate::oscillator::Symbol;
 use crate::oscillator::belt::{QUANTITIES, Quantity};
+use crate::oscillator::{PARAMETERS, Symbol};
 use crate::scene::{ScaledMachine, Scene};
 use crate::session::state::step_size::StepSize;
 
@@ -135,14 +135,7 @@ const UNTIL_STEP: f64 = 10.0;
 impl Steps {
     /// The step of a row; `None` where a step is not a number (method) or a factor of ten (tolerance).
     pub fn of(&self, row: Row) -> Option<StepSize> {
-        match row {
-            Row::BELT => Some(self.belt),
-            Row::Quantity(quantity) => Some(self.machine[quantity as usize]),
-            Row::Parameter(symbol) => Some(self.parameters[symbol as usize]),
-            Row::Disturbance => Some(self.disturbance),
-            Row::Until => Some(self.until),
-            Row::Method | Row::Tolerance => None,
-        }
+        { *self }.of_mut(row).copied()
     }
 
     /// The step of a row, to be changed.
@@ -163,14 +156,7 @@ impl Steps {
             StepSize::near(scene.steps.get(&symbol).copied().unwrap_or(symbol.spec().step))
         };
         Steps {
-            parameters: [
-                step(Symbol::D),
-                step(Symbol::D2),
-                step(Symbol::D3),
-                step(Symbol::R),
-                step(Symbol::Q0),
-                step(Symbol::V0),
-            ],
+            parameters: PARAMETERS.each_ref().map(|row| step(row.symbol)),
             disturbance: step_of_disturbance(scene),
             until: StepSize::near(UNTIL_STEP),
             machine: scene.machine.as_deref().map_or_else(usual_machine_steps, machine_steps),

@@ -3,7 +3,7 @@
 use super::Trial;
 use crate::oscillator::Symbol;
 use crate::scene::{Layer, ORDINATES, Ordinate, Topic, Unit};
-use crate::session::{Framing, Overlay};
+use crate::session::Framing;
 
 #[test]
 fn every_parameter_comes_below_the_diagram_and_the_scene_s_own_comes_back() {
@@ -112,8 +112,7 @@ fn ratios_to_r_are_another_look_at_the_same_branch() {
         ("axes<space>D<space>size", "no property \"size\"; there are q_max"),
     ] {
         trial.press(&format!("<esc>:{line}<enter>"));
-        let Some(Overlay::Prompt(prompt)) = &trial.session.overlay else { panic!("{line}: taken") };
-        let refused = prompt.refused.clone().unwrap_or_default();
+        let refused = trial.refused();
         assert!(refused.contains(words), "{refused}");
     }
 }

@@ -4,7 +4,7 @@ use super::Trial;
 use crate::oscillator::Symbol;
 use crate::oscillator::belt::{Quantity, Reduced};
 use crate::scene::{Layer, ScaledMachine};
-use crate::session::{Effect, Msg, Overlay, Purpose, Row, save};
+use crate::session::{Effect, Msg, Purpose, Row, save};
 
 /// The textbook machine at a speed of its belt, reduced without the session.
 fn at(speed: f64) -> Reduced {
@@ -104,8 +104,7 @@ fn speeds_that_are_none_are_refused_in_one_line() {
     ] {
         let mut trial = Trial::open("fig01");
         trial.press(&format!("<up><enter><C-u><paste {typed:?}><enter>"));
-        let Some(Overlay::Entry(entry)) = &trial.session.overlay else { panic!("{typed}: taken") };
-        let refused = entry.refused.clone().unwrap_or_default();
+        let refused = trial.refused();
         assert!(refused.contains(words) && !refused.contains('\n'), "{typed}: {refused}");
         trial.press("<esc>");
         runs_at(&trial, 0.3);
@@ -117,8 +116,7 @@ fn speeds_that_are_none_are_refused_in_one_line() {
     assert!(trial.notice().starts_with("v0 = 0 m/s is outside its range"), "{}", trial.notice());
     let mut trial = Trial::open("plain");
     trial.press(":set<space>belt=0.3<enter>");
-    let Some(Overlay::Prompt(prompt)) = &trial.session.overlay else { panic!("it is taken") };
-    let refused = prompt.refused.clone().unwrap_or_default();
+    let refused = trial.refused();
     assert!(refused.starts_with("set: no value \"belt\"; there are D, D2"), "{refused}");
     assert!(!trial.session.rows().contains(&Row::BELT));
 }
@@ -177,12 +175,6 @@ fn the_path_over_the_speed_asks_nothing() {
     assert!(plain.not_drawn(Layer::BeltPath).is_some_and(|why| why.contains("no machine")));
 }
 
-/// Why the line that is typed is refused.
-fn refused(trial: &Trial) -> String {
-    let Some(Overlay::Prompt(prompt)) = &trial.session.overlay else { panic!("it is taken") };
-    prompt.refused.clone().unwrap_or_default()
-}
-
 #[test]
 fn a_machine_of_the_program_opens_by_its_name_which_can_be_completed() {
     let mut trial = Trial::open("plain");
@@ -192,7 +184,7 @@ fn a_machine_of_the_program_opens_by_its_name_which_can_be_completed() {
     assert!(trial.session.draws_whole());
     trial.press(":belt<space>tractor<enter>");
     assert_eq!(
-        refused(&trial),
+        trial.refused(),
         "belt: no machine \"tractor\"; there are textbook, clutch, slideway, straight, bstab, groan"
     );
     trial.press("<esc> u");
@@ -296,10 +288,7 @@ fn tolerance_and_disturbance_of_a_machine_are_typed_in_newtons() {
     ] {
         let mut trial = Trial::open("fig01");
         trial.press(&format!(":set<space>{typed}<enter>"));
-        let Some(Overlay::Prompt(prompt)) = &trial.session.overlay else {
-            panic!("{typed}: taken")
-        };
-        let refused = prompt.refused.clone().unwrap_or_default();
+        let refused = trial.refused();
         assert!(refused.contains(words) && !refused.contains('\n'), "{typed}: {refused}");
     }
 }

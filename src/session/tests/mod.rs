@@ -28,7 +28,7 @@ mod walk;
 use std::sync::Arc;
 
 use super::replay::{Action, Player, parse};
-use super::{Effect, Msg, Session, Size, update};
+use super::{Effect, Msg, Overlay, Session, Size, update};
 use crate::flow::{Cost, Limits, Method, Outcome, Problem, Reason, Sample, Trajectory};
 use crate::numerics::elementary::ln;
 use crate::numerics::twofold::Twofold;
@@ -145,6 +145,16 @@ impl Trial {
     /// The first branch of a diagram.
     fn branch(&self, plot: usize) -> &Branch {
         self.session.branches(plot)[0].1
+    }
+
+    /// Why what is typed was not taken.
+    fn refused(&self) -> String {
+        let refused = match &self.session.overlay {
+            Some(Overlay::Entry(entry)) => &entry.refused,
+            Some(Overlay::Prompt(prompt)) => &prompt.refused,
+            other => panic!("it is taken: {other:?}"),
+        };
+        refused.clone().unwrap_or_default()
     }
 
     /// The line for the user.
