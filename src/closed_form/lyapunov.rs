@@ -6,6 +6,7 @@
 //! `l = -r/(2 D)` (24); with all terms the radius is a root of a cubic, found here too, since (24)
 //! promises too much where `D2` or negative `D3` feed energy in.
 
+use crate::numerics::root::{TO_ROUNDING, bisect};
 use crate::oscillator::{Parameters, State};
 
 /// The rate of change `V'` of the energy (equations 17 to 19, with the terms of higher order).
@@ -62,22 +63,9 @@ pub fn full_disk(parameters: &Parameters) -> Disk {
             .take_while(|v| v.is_finite())
             .find(|&v| loss(v) < 0.0)
     };
-    negative.map_or(Disk::Plane, |negative| Disk::Radius(last_not_negative(loss, negative)))
-}
-
-/// The last double before the sign of `function` changes, given that it is negative at `high` and not
-/// at 0. Halves the number of doubles in between, which are ordered like their bit patterns.
-fn last_not_negative(function: impl Fn(f64) -> f64, high: f64) -> f64 {
-    let (mut low, mut high) = (0, high.to_bits());
-    while high - low > 1 {
-        let middle = low + (high - low) / 2;
-        if function(f64::from_bits(middle)) < 0.0 {
-            high = middle;
-        } else {
-            low = middle;
-        }
-    }
-    f64::from_bits(low)
+    negative.map_or(Disk::Plane, |negative| {
+        Disk::Radius(bisect(0.0, negative, TO_ROUNDING, |v| loss(v) < 0.0).0)
+    })
 }
 
 #[cfg(test)]

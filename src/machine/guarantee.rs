@@ -14,6 +14,7 @@ use std::fmt;
 use super::portrait::{Border, Portrait};
 use super::survey::{Trouble, portrait};
 use super::tolerance::{Corners, MOST, Tolerances, TooMany};
+use crate::numerics::root::try_bisect;
 use crate::oscillator::Belt;
 
 /// Kicks that are survived for certain; infinite where every one is.
@@ -169,7 +170,7 @@ impl Corners {
     /// The portrait of a worst machine whose border stays below the line of every belt, with as much friction
     /// as that allows, and the velocities along the border.
     fn below_the_line(&self, corner: usize, less: f64) -> Result<Option<Bordered>, Trouble> {
-        const HALVINGS: usize = 24;
+        const HALVINGS: u32 = 24;
         let slowest = self.slowest();
         let at = |less: f64| -> Result<Option<Bordered>, Trouble> {
             let portrait = portrait(&self.worst(corner, less))?;
@@ -179,15 +180,13 @@ impl Corners {
         if let Some(found) = at(less)? {
             return Ok(Some(found));
         }
-        let (mut beyond, mut within) = (less, self.friction / self.stiffest);
         let mut best = None;
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (beyond + within);
-            match at(middle)? {
-                Some(found) => (within, best) = (middle, Some(found)),
-                None => beyond = middle,
-            }
-        }
+        try_bisect(less, self.friction / self.stiffest, HALVINGS, |less| {
+            let found = at(less)?;
+            let holds = found.is_some();
+            best = found.or_else(|| best.take());
+            Ok::<_, Trouble>(holds)
+        })?;
         Ok(best)
     }
 }

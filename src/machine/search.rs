@@ -8,7 +8,7 @@
 
 use super::arc::Stop;
 use crate::numerics::hermite::Hermite;
-use crate::numerics::root::{Bracket, Change, try_newton};
+use crate::numerics::root::{Bracket, Change, illinois, try_newton};
 
 /// A value of the function.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -142,39 +142,29 @@ pub fn zero(
     Ok(root.at)
 }
 
-/// Where the slope vanishes between two samples with slopes of different sign.
+/// Where the slope vanishes between two samples with slopes of different sign, or a place on the way there at which
+/// the function has another sign than at both.
 ///
 /// # Errors
 /// The [`Stop`] of an evaluation.
-pub fn extremum(
-    mut left: Sample,
-    mut right: Sample,
+fn extremum(
+    left: Sample,
+    right: Sample,
     evaluate: &mut impl FnMut(f64) -> Result<Sample, Stop>,
 ) -> Result<Sample, Stop> {
+    const WIDTH: Change = Change::Absolute(1e-9);
     let mut best = if left.f.abs() < right.f.abs() { left } else { right };
-    // The rule of Illinois on the slope: an end that stays counts half.
-    let (mut a, mut b) = (left.slope, right.slope);
-    let mut side = 0;
-    for _ in 0..60 {
-        let next = (left.u * b - right.u * a) / (b - a);
-        let inside = next > left.u && next < right.u;
-        let here = evaluate(if inside { next } else { 0.5 * (left.u + right.u) })?;
+    // What ends the search early stands where an error would.
+    let slope = |u| {
+        let here = evaluate(u).map_err(Err)?;
         if here.f.abs() < best.f.abs() {
             best = here;
         }
-        let crossed = (here.f > 0.0) != (best.f > 0.0) || (here.f > 0.0) != (left.f > 0.0);
-        if crossed || here.slope == 0.0 || right.u - left.u < 1e-9 {
-            return Ok(here);
-        }
-        if (here.slope > 0.0) == (left.slope > 0.0) {
-            (left, a) = (here, here.slope);
-            b *= if side == 1 { 0.5 } else { 1.0 };
-            side = 1;
-        } else {
-            (right, b) = (here, here.slope);
-            a *= if side == 2 { 0.5 } else { 1.0 };
-            side = 2;
-        }
+        let crossed = (here.f > 0.0) != (left.f > 0.0);
+        if crossed { Err(Ok(here)) } else { Ok(here.slope) }
+    };
+    match illinois([(left.u, left.slope), (right.u, right.slope)], 0.0, WIDTH, slope) {
+        Err(found) => found,
+        Ok(_) => Ok(best),
     }
-    Ok(best)
 }

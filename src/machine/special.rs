@@ -14,7 +14,7 @@ use super::portrait::{Border, Portrait};
 use super::search::Sample;
 use super::turn::Place;
 use crate::numerics::elementary::{exp, ln};
-use crate::numerics::root::{Change, illinois};
+use crate::numerics::root::{Change, illinois, try_bisect};
 
 /// A kind of change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -201,33 +201,34 @@ fn count(portrait: &Portrait) -> (usize, usize, bool) {
 /// The fold between two places where the numbers of stable and of unstable cycles both differ by one.
 fn fold(family: Family, left: (f64, Portrait), right: (f64, Portrait)) -> Option<Special> {
     /// Halvings that bring the portraits near the fold.
-    const NEAR: usize = 12;
+    const NEAR: u32 = 12;
     if count(&left.1) == count(&right.1) {
         return None;
     }
-    let (mut with, mut without) =
+    let (with, without) =
         if left.1.cycles.len() > right.1.cycles.len() { (left, right) } else { (right, left) };
-    for _ in 0..NEAR {
-        let middle = 0.5 * (with.0 + without.0);
-        let portrait = Portrait::new(&family(middle)?).ok()?;
-        if count(&portrait) == count(&with.1) {
-            with = (middle, portrait);
-        } else {
-            without = (middle, portrait);
+    let (wanted, mut nearest) = (count(&with.1), with.1);
+    let (without, with) = try_bisect(without.0, with.0, NEAR, |value| {
+        let portrait = family(value).and_then(|model| Portrait::new(&model).ok()).ok_or(())?;
+        let holds = count(&portrait) == wanted;
+        if holds {
+            nearest = portrait;
         }
-    }
-    let pairs =
-        with.1.cycles.windows(2).filter(|pair| {
-            pair[0].stable != pair[1].stable && !pair.iter().any(|cycle| cycle.sticks)
-        });
+        Ok::<_, ()>(holds)
+    })
+    .ok()?;
+    let pairs = nearest
+        .cycles
+        .windows(2)
+        .filter(|pair| pair[0].stable != pair[1].stable && !pair.iter().any(|cycle| cycle.sticks));
     let gap = |pair: &&[super::Cycle]| pair[1].x.1 / pair[0].x.1;
     let pair = pairs.min_by(|one, other| gap(one).total_cmp(&gap(other)))?;
     let (low, high) = (pair[0].x.1, pair[1].x.1);
     let extremum = |value: f64| -> Option<Sample> {
         steepest(&family(value)?, (low * high).sqrt(), ln(high / low))
     };
-    let ends = (extremum(with.0)?, extremum(without.0)?);
-    let value = zero(&|value| Some(extremum(value)?.f), (with.0, ends.0.f), (without.0, ends.1.f))?;
+    let ends = (extremum(with)?, extremum(without)?);
+    let value = zero(&|value| Some(extremum(value)?.f), (with, ends.0.f), (without, ends.1.f))?;
     let x = exp(extremum(value)?.u);
     Some(Special { kind: Kind::Fold, value, x_max: Some(x), jumps: Jumps::default() })
 }

@@ -17,6 +17,7 @@ use super::closed_pair::Closing;
 use super::closing::{Equation, Route};
 use crate::flow::{Cost, Limits, Reason};
 use crate::numerics::elementary::{hypot, ln};
+use crate::numerics::root::try_bisect;
 use crate::oscillator::{Parameters, Side, State, Symbol};
 
 /// Tolerance of the integration steps, in units of that of the points.
@@ -208,22 +209,20 @@ impl<'a> Curve<'a> {
     /// The [`Reason`] why a swing failed.
     pub fn bracketed(&mut self, u: f64, range: (f64, f64)) -> Result<Option<CurvePoint>, Reason> {
         /// Halvings after which the bracket is as fine as the parameter.
-        const HALVINGS: usize = 60;
-        let (mut low, mut high) = range;
-        for halving in 0..HALVINGS {
-            let p = 0.5 * (low + high);
-            if halving % 4 == 3
-                && let Some(found) = self.correct((u, p), Tangent::ACROSS_P, Route::Mixed)?
-            {
-                return Ok(Some(found));
+        const HALVINGS: u32 = 60;
+        /// Newton's method is tried after so many of them.
+        const OFTEN: u32 = 4;
+        let mut halvings = 0;
+        // What Newton's method finds ends the bisection where an error would.
+        let falls = try_bisect(range.0, range.1, HALVINGS, |p| {
+            halvings += 1;
+            if halvings % OFTEN == 0 {
+                let found = self.correct((u, p), Tangent::ACROSS_P, Route::Mixed).map_err(Err)?;
+                found.map_or(Ok(()), |found| Err(Ok(found)))?;
             }
-            if self.value(u, p)? > 0.0 {
-                low = p;
-            } else {
-                high = p;
-            }
-        }
-        Ok(None)
+            Ok(self.value(u, p).map_err(Err)? <= 0.0)
+        });
+        falls.map_or_else(|found: Result<_, Reason>| found.map(Some), |_| Ok(None))
     }
 
     /// The residual of the mixed route, infinite with its sign where a swing does not end.

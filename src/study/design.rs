@@ -11,6 +11,7 @@ use super::basin::basin;
 use super::margin::Margin;
 use crate::flow::{Cost, Limits, Reason};
 use crate::numerics::elementary::{exp, ln};
+use crate::numerics::root::{Change, illinois};
 use crate::oscillator::Parameters;
 
 /// A kick out of rest.
@@ -152,36 +153,24 @@ fn smallest(
     if high.1 < 0.0 || low.1 >= 0.0 {
         return Err(lost);
     }
-    // The values at both ends as the rule of Illinois weighs them: halved where an end stays.
-    let (mut below, mut above) = (low.1, high.1);
-    let mut rose = None;
-    for _ in 0..STEPS {
-        if high.0 - low.0 <= WIDTH * high.0 {
-            break;
-        }
-        let chord = (below / (below - above)) * ln(high.0 / low.0);
-        let secant = low.0 * exp(chord);
-        let middle = 0.5 * (low.0 + high.0);
-        let steep = !above.is_finite() || secant <= low.0 || secant >= high.0;
-        let next = if steep { middle } else { secant };
-        if next <= low.0 || next >= high.0 {
-            break;
-        }
-        let here = match excess(next) {
-            // The upper end is the safe one, and known.
-            Err(Reason::NoConvergence { .. }) if high.0 - low.0 <= BLUR * high.0 => break,
-            here => here?,
-        };
-        if here.abs() <= WIDTH {
-            return Ok(Needed::Friction { r: next });
-        }
-        if here < 0.0 {
-            (low, below) = ((next, here), here);
-            above *= if rose.replace(false) == Some(false) { 0.5 } else { 1.0 };
-        } else {
-            (high, above) = ((next, here), here);
-            below *= if rose.replace(true) == Some(true) { 0.5 } else { 1.0 };
-        }
+    // In the logarithm of r, as a part of the first upper end.
+    let unit = high.0;
+    let ends = [(ln(low.0 / unit), low.1), (0.0, high.1)];
+    let searched = illinois(ends, WIDTH, Change::Absolute(WIDTH), |log| {
+        let r = unit * exp(log);
+        let here = match excess(r) {
+            // The upper end is the safe one, and known: that ends the search where an error would.
+            Err(Reason::NoConvergence { .. }) if high.0 - low.0 <= BLUR * high.0 => Err(None),
+            here => here.map_err(Some),
+        }?;
+        *(if here < 0.0 { &mut low } else { &mut high }) = (r, here);
+        Ok(here)
+    });
+    if let Err(Some(reason)) = searched {
+        return Err(reason);
+    }
+    if low.1 >= -WIDTH {
+        return Ok(Needed::Friction { r: low.0 });
     }
     Ok(if high.1.is_finite() {
         Needed::Friction { r: high.0 }

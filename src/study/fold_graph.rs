@@ -9,6 +9,7 @@ use super::fold_point::FoldPoint;
 use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason};
 use crate::numerics::elementary::{exp, ln};
+use crate::numerics::root::try_maximum;
 use crate::oscillator::{Parameters, Side, Symbol};
 
 /// The cycle of the largest D.
@@ -187,22 +188,16 @@ impl Graph<'_> {
     /// cycle may begin at the very end of the sticking set. D comes out to rounding, the amplitude to
     /// about half of the digits.
     fn highest(&mut self, low: CurvePoint, high: CurvePoint) -> Result<CurvePoint, Reason> {
-        /// The shorter part of a golden section.
-        const GOLDEN: f64 = 0.381_966_011_250_105_2;
         /// Width in u at which D is flat to rounding.
         const FLAT: f64 = 1e-7;
-        let (mut from, mut to) = (low.u, high.u);
-        let mut inner = self.at(from + GOLDEN * (to - from))?.ok_or(LOST)?;
-        let mut outer = self.at(to - GOLDEN * (to - from))?.ok_or(LOST)?;
-        while to - from > FLAT {
-            if inner.p > outer.p {
-                (to, outer) = (outer.u, inner);
-                inner = self.at(from + GOLDEN * (to - from))?.ok_or(LOST)?;
-            } else {
-                (from, inner) = (inner.u, outer);
-                outer = self.at(to - GOLDEN * (to - from))?.ok_or(LOST)?;
+        let mut best = None::<CurvePoint>;
+        try_maximum(low.u, high.u, FLAT, |u| {
+            let found = self.at(u)?.ok_or(LOST)?;
+            if best.is_none_or(|best| found.p >= best.p) {
+                best = Some(found);
             }
-        }
-        Ok(if inner.p > outer.p { inner } else { outer })
+            Ok(found.p)
+        })?;
+        best.ok_or(LOST)
     }
 }

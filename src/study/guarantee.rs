@@ -21,9 +21,10 @@ use super::closings::{STEP, innermost_bracket};
 use super::cycle::Edge;
 use super::half_map::{HalfMap, Length};
 use super::margin::Margin;
-use super::search::{Bracket, Node};
+use super::search::Bracket;
 use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::{Cost, Limits, Reason};
+use crate::numerics::root::{Change, illinois};
 use crate::oscillator::{HalfPlane, Interval, ParameterBox, Parameters, Side};
 
 /// An oscillator with parameters of its own on each side of `v = 0`, the friction being the same.
@@ -148,37 +149,23 @@ const NOISE: f64 = 1e-12;
 /// The inner end of a bracket as narrow as rounding allows, and the relative error of the clearance there.
 fn refine(
     equation: &mut Equation,
-    (mut low, mut high): Bracket,
+    (low, high): Bracket,
     limits: &Limits,
 ) -> Result<(f64, f64), Reason> {
-    /// Halvings from a bracket of length 2 to rounding.
-    const HALVINGS: usize = 60;
+    /// A value of 0 does not end the search, which is for both ends of the bracket.
+    const BOTH_ENDS: f64 = -1.0;
     let mut slope = low.slope;
-    for _ in 0..HALVINGS {
-        let width = high.at - low.at;
-        if width <= 4.0 * f64::EPSILON * low.at.abs().max(1.0) {
-            break;
-        }
-        // A little inside of where the line through a node vanishes, so that both ends close in.
-        let newton = |node: &Node| node.at - node.value() / node.slope;
-        let guess = newton(&low);
-        let inside = guess > low.at && guess < high.at;
-        let at = if inside { guess.min(high.at - 0.25 * width) } else { low.at + 0.5 * width };
+    let width = Change::Absolute(4.0 * f64::EPSILON * low.at.abs().max(1.0));
+    let ends = [(low.at, low.value()), (high.at, high.value())];
+    let [one, other] = illinois(ends, BOTH_ENDS, width, |at| {
         let node = equation.at(Route::Mixed, at, limits)?.node;
-        if node.value().is_nan() {
-            return Err(Reason::OutOfRange);
-        }
-        if node.value() > 0.0 {
-            high = node;
-        } else {
-            low = node;
-        }
         if node.slope.is_finite() {
             slope = node.slope;
         }
-    }
-    let width = high.at - low.at;
-    Ok((low.at, width + NOISE / slope.abs().min(1.0)))
+        if node.value().is_nan() { Err(Reason::OutOfRange) } else { Ok(node.value()) }
+    })?;
+    let width = (other.0 - one.0).abs();
+    Ok((one.0.min(other.0), width + NOISE / slope.abs().min(1.0)))
 }
 
 /// Margins that hold for certain.

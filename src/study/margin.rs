@@ -23,6 +23,7 @@ use super::limit_cycle::Edge;
 pub use super::limit_cycle::Margin;
 use crate::closed_form::lyapunov;
 use crate::numerics::elementary::hypot;
+use crate::numerics::root::maximum;
 use crate::oscillator::{Parameters, State};
 
 impl Basin {
@@ -68,9 +69,10 @@ impl Basin {
     /// The least distance of the border, refined between the points of its curve.
     #[must_use]
     pub fn inner_radius(&self) -> Option<f64> {
-        /// Points on each integration step, and thirds taken between the neighbours of the nearest.
+        /// Points on each integration step, and the part of the way between the neighbours of the nearest in which
+        /// the distance is flat.
         const POINTS: u16 = 24;
-        const THIRDS: usize = 60;
+        const FLAT: f64 = 1e-9;
         if self.edge == Edge::None {
             return None;
         }
@@ -86,15 +88,8 @@ impl Basin {
         };
         let ends = [nearest.saturating_sub(1), (nearest + 1).min(curve.len() - 1)];
         let [one, other] = ends.map(|index| curve[index].q);
-        let (mut low, mut high) = (one.min(other), one.max(other));
-        for _ in 0..THIRDS {
-            let third = (high - low) / 3.0;
-            if distance(low + third) < distance(high - third) {
-                high -= third;
-            } else {
-                low += third;
-            }
-        }
+        let (low, high) = (one.min(other), one.max(other));
+        let (low, high) = maximum(low, high, FLAT * (high - low), |q| -distance(q));
         Some(distance(f64::midpoint(low, high)).min(far(&curve[nearest])))
     }
 

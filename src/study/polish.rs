@@ -12,7 +12,7 @@ use super::precise_closing::{FINER, PreciseEquation};
 use super::search::{Bracket, Node};
 use crate::flow::{Limits, Reason};
 use crate::numerics::elementary::exp_m1;
-use crate::numerics::root;
+use crate::numerics::root::{self, try_newton};
 use crate::numerics::twofold::Twofold;
 
 /// Slope of the residual below which it is weighed as energy.
@@ -26,9 +26,6 @@ pub(super) const VAGUE: f64 = 1e-3;
 
 /// Newton steps without progress, all within the error bound of the residual, that are enough.
 const STALLS: u8 = 4;
-
-/// Newton steps before giving up; bisection alone needs 60.
-const ITERATIONS: usize = 200;
 
 /// Whether rounding is what limits an equation, so that weighing works and more digits help.
 pub(super) fn is_exact(equation: &Equation) -> bool {
@@ -113,78 +110,119 @@ fn newton(
     /// How far off coarse steps may put a cliff of the residual, such as the edge of an escape, and its slope.
     const SLACK: f64 = 1e-6;
     const STEEP: f64 = 1e3;
+    /// No change ends the method by itself: what ends it depends on noise.
+    const NEVER: f64 = -1.0;
     let rising = bracket.1.value() > bracket.0.value();
     let (mut low, mut high) = (bracket.0.at, bracket.1.at);
     if (bracket.1.value() - bracket.0.value()).abs() > STEEP * (high - low) {
         (low, high) = (low - SLACK, high + SLACK);
     }
-    let mut route = beyond_the_end(&bracket);
-    let mut switched = false;
-    let (mut u, mut weigh) = start;
-    let (mut change, mut stalls) = (f64::INFINITY, 0);
-    for _ in 0..ITERATIONS {
-        let weighed = if weigh && route == Route::Mixed {
-            weighed_closing(equation, u, limits)?
-        } else {
-            None
-        };
-        let (mut closing, mut energy) = match weighed {
-            Some((closing, energy)) => (closing, Some(energy)),
-            None => (equation.at(route, u, limits)?, None),
-        };
-        let mut node = closing.node;
-        let contracting = Route::steadiest(closing.growth);
-        // Beyond the domain of one swing a route that runs it the other way has a value.
-        if !node.value().is_finite() && !switched {
-            if route == Route::Mixed {
-                let first = node.rise == f64::INFINITY;
-                route = if first { Route::Backward } else { Route::Forward };
-                switched = true;
-                continue;
-            }
-            route = Route::Mixed;
-        }
-        // Where two routes contract alike each may say that the other is better: move on regardless.
-        if node.value().is_finite() && contracting != route && !switched {
-            (route, switched) = (contracting, true);
-            continue;
-        }
-        switched = false;
+    let ends = root::Bracket { low, high, rising };
+    let mut steps = Steps::new(equation, beyond_the_end(&bracket), start.1);
+    let found = try_newton(ends, start.0, root::Change::Absolute(NEVER), |u| steps.at(u, limits));
+    let change = steps.change;
+    let root = match found {
+        Err(found) => return found,
+        Ok(root) => root,
+    };
+    if root.bracket.high - root.bracket.low > 2.0 * f64::EPSILON * root.at.abs() {
+        return Err(Reason::NoConvergence { sought: "a limit cycle", change });
+    }
+    closest(equation, root.at, limits)
+}
+
+/// The evaluations of Newton's method, and what they tell about where it ends.
+struct Steps<'a> {
+    equation: &'a mut Equation,
+    route: Route,
+    /// Whether the residual is to be weighed as energy next time.
+    weigh: bool,
+    /// Newton's last change of the unknown.
+    change: f64,
+    stalls: u8,
+}
+
+/// What ends Newton's method: the closing that is settled, or the reason why there is none.
+type End = Result<Closing, Reason>;
+
+impl<'a> Steps<'a> {
+    fn new(equation: &'a mut Equation, route: Route, weigh: bool) -> Self {
+        Steps { equation, route, weigh, change: f64::INFINITY, stalls: 0 }
+    }
+
+    /// The residual and its slope at `u`; the closing there in place of an error, once it is settled.
+    fn at(&mut self, u: f64, limits: &Limits) -> Result<(f64, f64), End> {
+        let (mut closing, mut energy) = self.closing(u, limits).map_err(Err)?;
         let ends = closing.duration.is_finite();
-        let flat = route == Route::Mixed && node.slope.abs() < FLAT;
-        weigh = flat && ends;
-        if weigh && energy.is_none() {
-            energy = weighed_closing(equation, u, limits)?.map(|(_, energy)| energy);
+        let flat = self.route == Route::Mixed && closing.node.slope.abs() < FLAT;
+        self.weigh = flat && ends;
+        if self.weigh && energy.is_none() {
+            let weighed = weighed_closing(self.equation, u, limits).map_err(Err)?;
+            energy = weighed.map(|(_, energy)| energy);
         }
-        if weigh && let Some((weighed, noise)) = energy {
+        // The closing keeps the plain residual.
+        let mut node = closing.node;
+        if self.weigh
+            && let Some((weighed, noise)) = energy
+        {
             node.difference = weighed;
             closing.uncertainty = (weighed.abs() + noise) / node.slope.abs();
         }
-        if (node.value() > 0.0) == rising {
-            high = u;
-        } else {
-            low = u;
-        }
-        let newton = u - node.value() / node.slope;
-        let last = std::mem::replace(&mut change, (newton - u).abs());
+        let (value, slope) = (node.value(), node.slope);
+        let newton = u - value / slope;
+        let last = std::mem::replace(&mut self.change, (newton - u).abs());
+        let change = self.change;
         // Rounding moves the root by an ulp, divided by the slope where the residual is a plain
         // difference. A weighed one does better: it goes on while it does.
         let rounding = 4.0 * f64::EPSILON * u.abs().max(1.0);
-        let blurred = change.is_finite() && change <= rounding / node.slope.abs().min(1.0);
+        let blurred = change.is_finite() && change <= rounding / slope.abs().min(1.0);
         // Where rounding of the swings is larger than that, Newton's method stops making progress.
         let idle = change >= 0.5 * last;
-        stalls += u8::from(idle && change <= closing.noise / node.slope.abs());
-        let stalled = (idle && change <= 16.0 * rounding) || stalls >= STALLS;
-        let settled = change <= rounding || stalled || (blurred && (!flat || change >= 0.5 * last));
-        if settled && node.value().is_finite() {
-            return Ok(closing);
-        }
-        if high - low <= f64::EPSILON * u.abs() {
-            return closest(equation, u, limits);
-        }
-        u = if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
+        self.stalls += u8::from(idle && change <= closing.noise / slope.abs());
+        let stalled = (idle && change <= 16.0 * rounding) || self.stalls >= STALLS;
+        let settled = change <= rounding || stalled || (blurred && (!flat || idle));
+        if settled && value.is_finite() { Err(Ok(closing)) } else { Ok((value, slope)) }
     }
-    Err(Reason::NoConvergence { sought: "a limit cycle", change })
+
+    /// The closing at `u` along the route that contracts, and what it is weighed as.
+    fn closing(
+        &mut self,
+        u: f64,
+        limits: &Limits,
+    ) -> Result<(Closing, Option<(f64, f64)>), Reason> {
+        let mut switched = false;
+        loop {
+            let route = self.route;
+            let weighed = if self.weigh && route == Route::Mixed {
+                weighed_closing(self.equation, u, limits)?
+            } else {
+                None
+            };
+            let (closing, energy) = match weighed {
+                Some((closing, energy)) => (closing, Some(energy)),
+                None => (self.equation.at(route, u, limits)?, None),
+            };
+            // Where two routes contract alike each may say that the other is better: move on regardless.
+            if switched {
+                return Ok((closing, energy));
+            }
+            let finite = closing.node.value().is_finite();
+            self.route = if finite {
+                Route::steadiest(closing.growth)
+            } else if route != Route::Mixed {
+                Route::Mixed
+            } else if closing.node.rise == f64::INFINITY {
+                // Beyond the domain of one swing a route that runs it the other way has a value.
+                Route::Backward
+            } else {
+                Route::Forward
+            };
+            if self.route == route || (!finite && route != Route::Mixed) {
+                return Ok((closing, energy));
+            }
+            switched = true;
+        }
+    }
 }
 
 /// The route to begin with: where one swing has no end on one side of the bracket, the one that runs it the

@@ -12,6 +12,8 @@
 //! error was measured. Assumption: the function varies on scales not below 1e-4.
 
 use crate::numerics::hermite::Hermite;
+use crate::numerics::root::{Change, illinois};
+
 /// Intervals of this length are not halved any more.
 const FINEST: f64 = 1e-4;
 
@@ -144,8 +146,8 @@ fn is_monotone(low: &Node, high: &Node, error: f64) -> bool {
 
 /// The extremum between two nodes of one sign, if their slopes say that it lies towards zero.
 fn extremum_towards_zero<E>(
-    mut low: Node,
-    mut high: Node,
+    low: Node,
+    high: Node,
     function: &mut impl FnMut(f64, bool) -> Result<Node, E>,
 ) -> Result<Option<Node>, E> {
     let sign = low.value().signum();
@@ -154,27 +156,19 @@ fn extremum_towards_zero<E>(
         return Ok(None);
     }
     let mut best = if low.value().abs() < high.value().abs() { low } else { high };
-    for _ in 0..60 {
-        let secant = low.at + (high.at - low.at) * low.slope / (low.slope - high.slope);
-        let inside = secant > low.at && secant < high.at;
-        let node = function(if inside { secant } else { 0.5 * (low.at + high.at) }, true)?;
+    // A value beyond zero ends the search where an error would.
+    let slope = |at| {
+        let node = function(at, true).map_err(Some)?;
         if sign * node.value() < sign * best.value() {
             best = node;
         }
-        if sign * node.value() < 0.0 || node.at == low.at || node.at == high.at {
-            break;
-        }
-        let before = high.at - low.at;
-        if sign * node.slope < 0.0 {
-            low = node;
-        } else {
-            high = node;
-        }
-        if before <= 4.0 * f64::EPSILON * high.at.abs().max(1.0) {
-            break;
-        }
+        if sign * node.value() < 0.0 { Err(None) } else { Ok(node.slope) }
+    };
+    let width = Change::Absolute(4.0 * f64::EPSILON * high.at.abs().max(1.0));
+    match illinois([(low.at, low.slope), (high.at, high.slope)], 0.0, width, slope) {
+        Err(Some(error)) => Err(error),
+        Ok(_) | Err(None) => Ok(Some(best)),
     }
-    Ok(Some(best))
 }
 
 #[cfg(test)]

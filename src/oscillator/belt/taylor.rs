@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::friction::Derivatives;
 use super::mass::Belt;
+use crate::numerics::root::maximum;
 
 /// The largest difference between friction and its cubic Taylor polynomial over the velocities that a
 /// motion reaches.
@@ -36,6 +37,8 @@ impl Belt {
     pub fn taylor_error(&self, (low, high): (f64, f64)) -> Option<TaylorError> {
         /// Intervals of the range.
         const INTERVALS: u32 = 512;
+        /// Part of two intervals over which a maximum is flat.
+        const FLAT: f64 = 1e-8;
         /// Rounding of a law and of its cubic, relative to them.
         const ROUNDING: f64 = 16.0 * f64::EPSILON;
         let v0 = self.belt_speed;
@@ -64,7 +67,9 @@ impl Belt {
             .max_by(|one, other| difference(*one).total_cmp(&difference(*other)))
             .unwrap_or(range.0);
         let inside = |v: f64| v.clamp(range.0, range.1);
-        let polished = maximum(&difference, inside(worst - step), inside(worst + step));
+        let ends = (inside(worst - step), inside(worst + step));
+        let ends = maximum(ends.0, ends.1, FLAT * (ends.1 - ends.0), &difference);
+        let polished = f64::midpoint(ends.0, ends.1);
         let at = if difference(polished) > difference(worst) { polished } else { worst };
         let force = self.normal_force * difference(at);
         let least_mu = places.clone().map(law).fold(mu.value, f64::min);
@@ -79,16 +84,4 @@ impl Belt {
             of_change: (largest > 0.0).then(|| difference(at) / largest),
         })
     }
-}
-
-/// Where a function with one maximum between `low` and `high` is largest, by golden section.
-fn maximum(function: &impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
-    /// Steps until the bracket has shrunk to the square root of rounding, where a maximum is flat.
-    const STEPS: u32 = 40;
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    for _ in 0..STEPS {
-        let (left, right) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
-        if function(left) > function(right) { high = right } else { low = left }
-    }
-    0.5 * (low + high)
 }
