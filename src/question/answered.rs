@@ -1,7 +1,6 @@
 //! Answers as they come back from the worker.
 
-use super::answer::Answer;
-use super::request::Request;
+use super::request::{Answer, Request};
 use crate::flow::Reason;
 
 /// An answer with its question and its price, as it comes back from the worker.

@@ -1,10 +1,53 @@
 //! Questions that the screen asks, and their answers.
 //!
 //! Each kind of question has a file: what it asks, how that is answered, by which rougher question first, and
-//! what makes two alike. [`request`] is the one table of them, and the one place where a question becomes a
-//! computation.
+//! what makes two alike. The table here names them all; [`request`] makes of it what a request, a topic and an
+//! answer are, and is the one place where a question becomes a computation.
 
-pub mod answer;
+/// The table of questions by topic, the most urgent topic first: the file of what is asked, the name of the topic
+/// on the screen, and what the answer cost. Where a machine is asked about by another file, that follows, with what
+/// its answer becomes.
+macro_rules! questions {
+    ($make:ident) => {
+        $make! {
+            /// The oscillator that a record is of, and the margin that follows.
+            Fit(fit) "fit" costs |_| Cost::default();
+            /// The motion on show.
+            Trajectory(motion) "motion" costs |found| found.cost,
+                or Machine(machine) answered by Whole::motion;
+            /// All cycles, and the border of the basin.
+            Cycles(cycles) "cycles" costs |found| found.cost,
+                or Portrait(portrait) answered by Whole::cycles;
+            /// What is safe and what is lost for certain.
+            Zones(zones) "certainty" costs |found| found.cost,
+                or MachineZones(machine_zones) answered by Answer::Zones;
+            /// The borders of the bands of capture.
+            Capture(capture) "bands" costs |found| found.cost;
+            /// The cycles along a parameter.
+            Branch(branch) "branch" costs |found| found.cost;
+            /// The cycles of N harmonics.
+            Balance(balance) "harmonics" costs |found| found.cost;
+            /// From turning points to the next ones.
+            ReturnMap(return_map) "return map" costs |found| found.cost;
+            /// What becomes of kicks, over two parameters.
+            Regimes(regimes) "regimes" costs |found| found.cost;
+            /// The cycles of a machine over the speed of its belt.
+            Speeds(speeds) "speeds" costs |found| found.cost;
+            /// What accuracy costs.
+            Trade(trade) "trade" costs |found| found.cost();
+            /// The rows of a scan that are not there yet.
+            Scan(scan) "scan" costs |found| found.cost();
+            /// The claims of the paper.
+            Claims(claims) "paper" costs |_| Cost::default();
+            /// How many cycles there are for certain.
+            Proof(proof) "proof" costs |_| Cost::default();
+            /// What errors are measured against: wanted last of all.
+            Reference(reference) "reference" costs |found|
+                found.as_ref().map_or_else(|_| Cost::default(), |found| found.cost);
+        }
+    };
+}
+
 pub mod answered;
 pub mod balance;
 pub mod branch;
@@ -25,16 +68,13 @@ pub mod request;
 pub mod return_map;
 pub mod scan;
 pub mod speeds;
-pub mod topic;
 pub mod trade;
 pub mod whole;
 pub mod zones;
 
-pub use answer::{Answer, Whole};
 pub use answered::{Answered, Failure};
 pub use capture::Borders;
 pub use fit::{Fit, Fitted, Recording};
 pub use kind::Motion;
 pub use means::{Fineness, Means, Rows};
-pub use request::{Request, answer, answer_by, answer_for};
-pub use topic::{TOPICS, Topic};
+pub use request::{Answer, Request, TOPICS, Topic, Whole, answer, answer_by, answer_for};

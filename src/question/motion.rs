@@ -6,6 +6,9 @@ use crate::flow::quality::DRAFT;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Method, Problem, Reason, Trajectory};
 
+/// What is asked: the motion itself.
+pub use crate::flow::Problem as Asked;
+
 impl Question for Problem {
     type Found = Trajectory;
 

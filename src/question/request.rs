@@ -1,23 +1,63 @@
-//! Requests: exactly the inputs that a layer depends on, so that equal requests need no new answer.
+//! Requests, topics and answers: what the table of questions makes of each kind.
 
-use super::answer::{Answer, Whole};
 use super::kind::Question;
 use super::means::{Fineness, Means, Rows};
-use super::topic::Topic;
-use super::{
-    balance, branch, capture, claims, cycles, fit, machine, machine_zones, portrait, proof,
-    reference, regimes, return_map, scan, speeds, trade, zones,
-};
-use crate::flow::{Limits, Problem, Reason};
+use super::whole::{Course, Kinds};
+use crate::flow::{Cost, Limits, Reason, Trajectory};
+use crate::study::Cycles;
 use crate::study::scan::Scan;
 
-/// The table of questions: each with what it asks, what it is about, and what its answer becomes.
-macro_rules! requests {
-    ($($(#[$doc:meta])* $name:ident($asked:ty) about $topic:ident, answered by $answer:expr;)*) => {
-        /// A question to the worker. Two equal requests have the same answer.
+/// Makes the types of the table of questions.
+macro_rules! types {
+    ($(
+        $(#[$doc:meta])* $topic:ident($module:ident) $name:literal costs |$found:pat_param| $cost:expr
+        $(, or $request:ident($its:ident) answered by $answer:path)?;
+    )*) => {
+        /// A question to the worker: exactly the inputs that a layer depends on, so that two equal requests have
+        /// the same answer.
         #[derive(Clone, Debug, PartialEq)]
         pub enum Request {
-            $($(#[$doc])* $name($asked),)*
+            $($(#[$doc])* $topic(super::$module::Asked),
+            $(/// The same of a machine by the whole model.
+            $request(super::$its::Asked),)?)*
+        }
+
+        /// What a request asks about.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub enum Topic {
+            $($(#[$doc])* $topic,)*
+        }
+
+        /// What the worker found.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum Answer {
+            $($(#[$doc])* $topic(<super::$module::Asked as Question>::Found),)*
+            /// By the whole model: a motion, or cycles.
+            Whole(Box<Whole>),
+        }
+
+        /// Every topic, the most urgent first.
+        pub const TOPICS: &[Topic] = &[$(Topic::$topic),*];
+
+        impl Topic {
+            /// The name on the screen.
+            #[must_use]
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Topic::$topic => $name,)*
+                }
+            }
+        }
+
+        impl Answer {
+            /// What the computation cost, counted.
+            #[must_use]
+            pub fn cost(&self) -> Cost {
+                match self {
+                    $(Answer::$topic($found) => $cost,)*
+                    Answer::Whole(whole) => whole.drawn.cost(),
+                }
+            }
         }
 
         impl Request {
@@ -25,7 +65,7 @@ macro_rules! requests {
             #[must_use]
             pub fn topic(&self) -> Topic {
                 match self {
-                    $(Request::$name(_) => Topic::$topic,)*
+                    $(Request::$topic(_) $(| Request::$request(_))? => Topic::$topic,)*
                 }
             }
 
@@ -34,19 +74,22 @@ macro_rules! requests {
             #[must_use]
             pub fn draft(&self) -> Option<Request> {
                 match self {
-                    $(Request::$name(asked) => asked.draft().map(Request::$name),)*
+                    $(Request::$topic(asked) => asked.draft().map(Request::$topic),
+                    $(Request::$request(asked) => asked.draft().map(Request::$request),)?)*
                 }
             }
 
             fn numbers(&self) -> [f64; 8] {
                 match self {
-                    $(Request::$name(asked) => asked.numbers(),)*
+                    $(Request::$topic(asked) => asked.numbers(),
+                    $(Request::$request(asked) => asked.numbers(),)?)*
                 }
             }
 
             fn compares(&self, wanted: &Request) -> bool {
                 match (self, wanted) {
-                    $((Request::$name(mine), Request::$name(wanted)) => mine.compares(wanted),)*
+                    $((Request::$topic(mine), Request::$topic(wanted)) => mine.compares(wanted),
+                    $((Request::$request(mine), Request::$request(wanted)) => mine.compares(wanted),)?)*
                     _ => self.topic() == wanted.topic(),
                 }
             }
@@ -58,49 +101,46 @@ macro_rules! requests {
         /// The [`Reason`] why there is no answer.
         pub fn answer_by(request: &Request, means: &Means) -> Result<Answer, Reason> {
             match request {
-                $(Request::$name(asked) => asked.answer(means).map($answer),)*
+                $(Request::$topic(asked) => asked.answer(means).map(Answer::$topic),
+                $(Request::$request(asked) => asked.answer(means).map($answer),)?)*
             }
         }
     };
 }
 
-requests! {
-    /// The motion on show.
-    Trajectory(Problem) about Trajectory, answered by Answer::Trajectory;
-    /// The motion of a machine by the whole model.
-    Machine(machine::Asked) about Trajectory, answered by Whole::motion;
-    /// All cycles at some parameters.
-    Cycles(cycles::Asked) about Cycles, answered by Answer::Cycles;
-    /// All cycles of a machine and the border of its basin.
-    Portrait(portrait::Asked) about Cycles, answered by Whole::cycles;
-    /// How many cycles there are for certain.
-    Proof(proof::Asked) about Proof, answered by Answer::Proof;
-    /// What is safe and what is lost for certain.
-    Zones(zones::Asked) about Zones, answered by Answer::Zones;
-    /// The same of a machine by the whole model.
-    MachineZones(machine_zones::Asked) about Zones, answered by Answer::Zones;
-    /// The borders of the bands of capture.
-    Capture(capture::Asked) about Capture, answered by Answer::Capture;
-    /// The cycles of N harmonics.
-    Balance(balance::Asked) about Balance, answered by Answer::Balance;
-    /// The cycles along a parameter.
-    Branch(branch::Asked) about Branch, answered by Answer::Branch;
-    /// From turning points to the next ones.
-    ReturnMap(return_map::Asked) about ReturnMap, answered by Answer::ReturnMap;
-    /// What becomes of kicks, over two parameters.
-    Regimes(regimes::Asked) about Regimes, answered by Answer::Regimes;
-    /// The cycles of a machine over the speed of its belt.
-    Speeds(speeds::Asked) about Speeds, answered by Answer::Speeds;
-    /// What accuracy costs.
-    Trade(trade::Asked) about Trade, answered by Answer::Trade;
-    /// What errors are measured against.
-    Reference(reference::Asked) about Reference, answered by Answer::Reference;
-    /// The rows of a scan that are not there yet.
-    Scan(scan::Asked) about Scan, answered by Answer::Rows;
-    /// The claims of the paper.
-    Claims(claims::Asked) about Claims, answered by Answer::Claims;
-    /// The oscillator that a record is of, and the margin that follows.
-    Fit(fit::Asked) about Fit, answered by Answer::Fit;
+questions!(types);
+
+impl Topic {
+    /// Whether it is asked of each variant that a plot shows.
+    #[must_use]
+    pub fn is_of_variants(self) -> bool {
+        matches!(self, Topic::Trajectory | Topic::Cycles | Topic::Branch)
+    }
+}
+
+/// An answer by the whole model, with what the paper's oscillator has no place for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Whole {
+    /// The motion or the cycles, as views draw them.
+    pub drawn: Answer,
+    /// What a motion becomes, and where it rides on the belt.
+    pub motion: Option<Course>,
+    /// What the cycles are like; `None` where the whole model has no answer and its expansion is drawn.
+    pub cycles: Option<Kinds>,
+}
+
+impl Whole {
+    /// The answer to the question for a motion.
+    fn motion((drawn, course): (Trajectory, Course)) -> Answer {
+        let drawn = Answer::Trajectory(drawn);
+        Answer::Whole(Box::new(Whole { drawn, motion: Some(course), cycles: None }))
+    }
+
+    /// The answer to the question for cycles.
+    fn cycles((drawn, cycles): (Cycles, Option<Kinds>)) -> Answer {
+        let drawn = Answer::Cycles(drawn);
+        Answer::Whole(Box::new(Whole { drawn, motion: None, cycles }))
+    }
 }
 
 impl Request {

@@ -146,7 +146,7 @@ pub fn answer(scan: &Scan, from: usize, limits: &Limits, tell: &Tell) -> Result<
         if told.is_none_or(|told| told.elapsed() >= EVERY) {
             told = Some(Instant::now());
             let next = Rows { first: index + 1, rows: Vec::new() };
-            tell(Answer::Rows(std::mem::replace(&mut piece, next)));
+            tell(Answer::Scan(std::mem::replace(&mut piece, next)));
         }
         ControlFlow::Continue(())
     })

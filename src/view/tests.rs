@@ -390,7 +390,7 @@ proptest! {
                     | Answer::Speeds(_)
                     | Answer::Trade(_)
                     | Answer::Reference(_)
-                    | Answer::Rows(_)
+                    | Answer::Scan(_)
                     | Answer::Claims(_)
                     | Answer::Proof(_)
                     | Answer::Fit(_),

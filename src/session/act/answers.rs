@@ -60,7 +60,7 @@ impl Session {
         let Some(scanned) = &mut self.scanned else { return false };
         scanned.seconds = answered.seconds;
         match &answered.result {
-            Ok(Answer::Rows(Rows { first, rows })) if *first == scanned.rows.len() => {
+            Ok(Answer::Scan(Rows { first, rows })) if *first == scanned.rows.len() => {
                 scanned.rows.extend_from_slice(rows);
             }
             Ok(_) => return false,

@@ -296,7 +296,7 @@ fn answered(request: Request) -> Answered {
             Answer::Regimes(Chart { plane: *plane, along, lines: Vec::new(), cost })
         }
         Request::Scan(question::scan::Asked { scan, from }) => {
-            Answer::Rows(Rows { first: *from, rows: scan::rows(scan, *from..scan.points()) })
+            Answer::Scan(Rows { first: *from, rows: scan::rows(scan, *from..scan.points()) })
         }
         Request::Branch(question::branch::Asked {
             parameter,

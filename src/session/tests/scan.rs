@@ -33,7 +33,7 @@ fn piece(session: &mut Session, request: &Request, points: Range<usize>) {
     let Request::Scan(question::scan::Asked { scan, .. }) = request else { panic!("{request:?}") };
     let complete = points.end == scan.points();
     let rows = Rows { first: points.start, rows: rows(scan, points) };
-    let (request, result) = (request.clone(), Ok(Answer::Rows(rows)));
+    let (request, result) = (request.clone(), Ok(Answer::Scan(rows)));
     let answered = Answered { request, result, seconds: 1.0, complete };
     update(session, Msg::Answered(Box::new(answered)));
 }

@@ -100,7 +100,7 @@ pub(super) fn by_hand(request: &Request) -> Answer {
                 cost: Cost::default(),
             };
             let rows = (*from..scan.points()).map(row).collect();
-            Answer::Rows(Rows { first: *from, rows })
+            Answer::Scan(Rows { first: *from, rows })
         }
         Request::Zones(_) | Request::MachineZones(_) => Answer::Zones(Zones {
             safe: Extent::Within(circle(0.4)),
