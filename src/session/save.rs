@@ -277,7 +277,7 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     }
     let mark = |problem, beside: &[State], belt, doubt| {
         let doubt = Doubt::checked(doubt)?;
-        checked(problem, beside, belt).map(|it| Mark::new(Setup { doubt, ..it }))
+        checked(problem, beside, belt).map(|it| Mark::new(&Setup { doubt, ..it }))
     };
     let doubt = |name: &char| file.doubts.get(name).copied().unwrap_or_default();
     let beside = |name: &char| file.beside.get(name).map_or(&[][..], Vec::as_slice);
@@ -298,7 +298,7 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     let history = History::of(changes(file.past)?, changes(file.future)?);
 
     let mut opened = Session::new(scene, session.size);
-    opened.set_setup(setup);
+    opened.set_setup(&setup);
     opened.steps = file.present.steps;
     opened.layers = file.present.layers;
     opened.arrangement = file.present.arrangement;

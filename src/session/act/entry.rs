@@ -42,10 +42,10 @@ pub fn begin(session: &mut Session, key: Key) -> Vec<Effect> {
 /// Takes the typed value, or says in the line why not.
 pub fn accept(session: &mut Session) -> Vec<Effect> {
     let Some(Overlay::Entry(entry)) = &session.overlay else { return Vec::new() };
-    match read(session, session.setup(), entry.row, entry.input.text()) {
+    match read(session, &session.setup(), entry.row, entry.input.text()) {
         Ok(setup) => {
             session.overlay = None;
-            put(session, setup);
+            put(session, &setup);
         }
         Err(why) => {
             if let Some(Overlay::Entry(entry)) = &mut session.overlay {
@@ -59,7 +59,7 @@ pub fn accept(session: &mut Session) -> Vec<Effect> {
 /// What stands there with the typed value in a row, or one line that says what is allowed.
 pub(in crate::session) fn read(
     session: &Session,
-    setup: Setup,
+    setup: &Setup,
     row: Row,
     text: &str,
 ) -> Result<Setup, String> {
@@ -73,12 +73,17 @@ pub(in crate::session) fn read(
         return within(setup, symbol, text);
     }
     let problem = read_number(setup.problem, row, text)?;
-    Ok(Setup { problem, ..setup })
+    Ok(Setup { problem, ..*setup })
 }
 
 /// What stands there with the typed number of the machine, which may have a tolerance where a parameter stands for
 /// it; without one it is known exactly.
-fn built(session: &Session, setup: Setup, quantity: Quantity, text: &str) -> Result<Setup, String> {
+fn built(
+    session: &Session,
+    setup: &Setup,
+    quantity: Quantity,
+    text: &str,
+) -> Result<Setup, String> {
     let read = toleranced(&text.replace('\u{b1}', "+-"))?;
     let built = session.with_quantity(setup, quantity, value_of(quantity, &read.middle)?)?;
     if read.half_width == 0.0 && symbol_of(quantity).is_none() {
@@ -89,27 +94,27 @@ fn built(session: &Session, setup: Setup, quantity: Quantity, text: &str) -> Res
 }
 
 /// What stands there with the typed bound on the disturbance: in the unit of r, or with a unit of force.
-fn disturbed(session: &Session, setup: Setup, text: &str) -> Result<Setup, String> {
+fn disturbed(session: &Session, setup: &Setup, text: &str) -> Result<Setup, String> {
     let refused = || format!("{text:?} is no disturbance; w takes 0 or more");
     let read = measured(&plain_minus(text)).map_err(|_| refused())?;
     let unit = match read.dimension {
         None => 1.0,
-        Some(_) => session.unit_of_force(&setup)?,
+        Some(_) => session.unit_of_force(setup)?,
     };
     let value = read.as_a(Dimension::FORCE, "N")? / unit;
     let disturbance = Some(value).filter(|it| *it >= 0.0).ok_or_else(refused)?;
-    Ok(Setup { doubt: Doubt { disturbance: disturbance + 0.0, ..setup.doubt }, ..setup })
+    Ok(Setup { doubt: Doubt { disturbance: disturbance + 0.0, ..setup.doubt }, ..*setup })
 }
 
 /// What stands there with the typed value of a parameter, which may have a half width; without one it is
 /// known exactly.
-fn within(setup: Setup, symbol: Symbol, text: &str) -> Result<Setup, String> {
+fn within(setup: &Setup, symbol: Symbol, text: &str) -> Result<Setup, String> {
     let row = Row::Parameter(symbol);
     let typed = plain_minus(text).replace('\u{b1}', "+-");
     if !(typed.contains("+-") || typed.contains("..")) {
         let problem = read_number(setup.problem, row, text)?;
         let doubt = setup.doubt.with_half_width(symbol, 0.0).unwrap_or(setup.doubt);
-        return Ok(Setup { problem, doubt, ..setup });
+        return Ok(Setup { problem, doubt, ..*setup });
     }
     let known: Interval = typed.parse()?;
     let mut within = ParameterBox::from(setup.problem.parameters);
@@ -120,7 +125,7 @@ fn within(setup: Setup, symbol: Symbol, text: &str) -> Result<Setup, String> {
         None => (known.middle(), known.half_width()),
     };
     let problem = with_number(setup.problem, row, value + 0.0);
-    Ok(Setup { problem, doubt: setup.doubt.with_half_width(symbol, half)?, ..setup })
+    Ok(Setup { problem, doubt: setup.doubt.with_half_width(symbol, half)?, ..*setup })
 }
 
 fn number_in(text: &str) -> Result<f64, String> {

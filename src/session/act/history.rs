@@ -67,7 +67,7 @@ fn bring_back(session: &mut Session, found: Option<Before>, name: &str) -> Vec<E
         None => return refuse(session, format!("nothing to {name}")),
         Some(Before::Setup(setup)) => {
             inform(session, format!("{name}: {}", difference(&session.setup(), &setup)));
-            session.set_setup(setup);
+            session.set_setup(&setup);
         }
         Some(Before::ScreenSetup(screen_setup)) => {
             let titles: Vec<_> =
@@ -85,7 +85,7 @@ fn bring_back(session: &mut Session, found: Option<Before>, name: &str) -> Vec<E
 
 fn restore(session: &mut Session, snapshot: Snapshot) {
     session.scene = snapshot.scene;
-    session.set_setup(snapshot.setup);
+    session.set_setup(&snapshot.setup);
     session.steps = snapshot.steps;
     session.layers = snapshot.layers;
     set_up(session, &snapshot.screen_setup);

@@ -43,7 +43,7 @@ fn go(session: &mut Session, mark: &Mark) -> Vec<Effect> {
         return inform(session, "here already");
     }
     let moved = difference(&here.setup, &mark.setup);
-    put(session, mark.setup);
+    put(session, &mark.setup);
     session.marks.left = Some(here);
     session.layers.insert(Layer::Ghost);
     inform(session, moved)

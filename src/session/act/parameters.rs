@@ -21,14 +21,14 @@ use crate::session::state::step_size::shortest;
 /// Makes another motion the one on show, as one change that can be undone; the belt keeps its speed.
 /// Returns whether it differs.
 pub(in crate::session) fn change(session: &mut Session, problem: Problem) -> bool {
-    put(session, Setup { problem, ..session.setup() })
+    put(session, &Setup { problem, ..session.setup() })
 }
 
 /// Makes another motion, with a speed of the belt, the one on show, as one change that can be undone.
 /// Returns whether it differs.
-pub(in crate::session) fn put(session: &mut Session, setup: Setup) -> bool {
+pub(in crate::session) fn put(session: &mut Session, setup: &Setup) -> bool {
     let before = session.setup();
-    let differs = setup != before;
+    let differs = *setup != before;
     if differs {
         let was_on = session.is_on_the_belt() == Some(true);
         session.history.record(Before::Setup(before));
@@ -80,8 +80,8 @@ pub fn step(session: &mut Session, count: i32) -> Vec<Effect> {
 fn step_machine(session: &mut Session, quantity: Quantity, count: i32) -> Vec<Effect> {
     let Some(size) = session.steps.of(Row::Quantity(quantity)) else { return Vec::new() };
     let value = size.from(session.quantity(quantity), count);
-    match session.with_quantity(session.setup(), quantity, value) {
-        Ok(setup) if put(session, setup) => Vec::new(),
+    match session.with_quantity(&session.setup(), quantity, value) {
+        Ok(setup) if put(session, &setup) => Vec::new(),
         Ok(_) => {
             let unit = quantity.spec().unit;
             refuse(session, format!("the step is too small to change {} {unit}", shortest(value)))
@@ -95,7 +95,7 @@ fn step_disturbance(session: &mut Session, count: i32) -> Vec<Effect> {
     let present = session.setup();
     let stepped = session.steps.disturbance.from(present.doubt.disturbance, count).max(0.0);
     let doubt = Doubt { disturbance: stepped, ..present.doubt };
-    if !put(session, Setup { doubt, ..present }) {
+    if !put(session, &Setup { doubt, ..present }) {
         refuse(session, "w ends at 0");
     }
     Vec::new()
@@ -110,7 +110,7 @@ pub fn half_width(session: &mut Session, count: i32) -> Vec<Effect> {
     let step = session.steps.parameters[symbol as usize];
     let half = step.from(present.doubt.half_width(symbol), count).max(0.0);
     match present.doubt.with_half_width(symbol, half) {
-        Ok(doubt) if put(session, Setup { doubt, ..present }) => Vec::new(),
+        Ok(doubt) if put(session, &Setup { doubt, ..present }) => Vec::new(),
         Ok(_) => refuse(session, format!("{symbol} has no half width")),
         Err(why) => refuse(session, why),
     }
@@ -136,7 +136,7 @@ pub fn reset_row(session: &mut Session) -> Vec<Effect> {
     let reset = match row {
         Row::Quantity(quantity) => session.scene.machine.as_ref().map_or_else(
             || Ok(present),
-            |scaled| session.with_quantity(present, quantity, scaled.machine.belt.get(quantity)),
+            |scaled| session.with_quantity(&present, quantity, scaled.machine.belt.get(quantity)),
         ),
         Row::Method => {
             Ok(Setup { problem: Problem { method: scene.method, ..session.problem }, ..present })
@@ -158,7 +158,7 @@ pub fn reset_row(session: &mut Session) -> Vec<Effect> {
         }
     };
     let reset = reset.unwrap_or(present);
-    if !put(session, reset) {
+    if !put(session, &reset) {
         inform(session, format!("{} has the scene's value", row.name_in(&session.problem)));
     }
     Vec::new()
@@ -226,8 +226,8 @@ pub fn next_method(session: &mut Session, by: isize) -> Vec<Effect> {
 
 impl Session {
     /// Makes this what is on show, with a setting of the machine if and only if there is one.
-    pub(in crate::session) fn set_setup(&mut self, setup: Setup) {
-        let Setup { problem, others, setting, doubt } = setup;
+    pub(in crate::session) fn set_setup(&mut self, setup: &Setup) {
+        let Setup { problem, others, setting, doubt } = *setup;
         self.doubt = doubt;
         let scaled = self.scene.machine.as_ref();
         let can_run = |setting: &Setting| {

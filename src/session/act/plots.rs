@@ -187,9 +187,9 @@ pub fn use_method(session: &mut Session) -> Vec<Effect> {
 /// Gives the belt the speed under the cursor.
 pub fn take_speed(session: &mut Session) -> Vec<Effect> {
     let Some(Point { x, .. }) = cursor(session) else { return Vec::new() };
-    match session.with_quantity(session.setup(), Quantity::BeltSpeed, x) {
+    match session.with_quantity(&session.setup(), Quantity::BeltSpeed, x) {
         Ok(setup) => {
-            put(session, setup);
+            put(session, &setup);
             Vec::new()
         }
         Err(why) => refuse(session, why),

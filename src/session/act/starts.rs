@@ -32,7 +32,7 @@ pub(in crate::session) fn start(session: &mut Session, initial: State) {
         inform(session, text);
     }
     let problem = Problem { initial, ..session.problem };
-    put(session, Setup { problem, others, ..session.setup() });
+    put(session, &Setup { problem, others, ..session.setup() });
 }
 
 /// Takes the newest motion away; the one before is then the present one.
@@ -41,7 +41,7 @@ pub fn drop_newest(session: &mut Session) -> Vec<Effect> {
         return refuse(session, "one motion is on show, and stays");
     };
     let problem = Problem { initial, ..session.problem };
-    put(session, Setup { problem, others: session.others.without(initial), ..session.setup() });
+    put(session, &Setup { problem, others: session.others.without(initial), ..session.setup() });
     let State { q, v } = initial;
     let count = session.problems().len();
     inform(session, format!("{count} on show; q0 = {}, v0 = {}", shortest(q), shortest(v)))
@@ -49,7 +49,7 @@ pub fn drop_newest(session: &mut Session) -> Vec<Effect> {
 
 /// Takes all motions away but the newest.
 pub fn drop_others(session: &mut Session) -> Vec<Effect> {
-    if !put(session, Setup { others: Starts::default(), ..session.setup() }) {
+    if !put(session, &Setup { others: Starts::default(), ..session.setup() }) {
         refuse(session, "one motion is on show, and stays");
     }
     Vec::new()

@@ -56,16 +56,16 @@ pub fn set(session: &mut Session, rest: &str) -> Done {
     }
     let mut setup = session.setup();
     for (name, value) in given {
-        setup = entry::read(session, setup, row_named(session, name)?, &value)?;
+        setup = entry::read(session, &setup, row_named(session, name)?, &value)?;
     }
-    parameters::put(session, setup);
+    parameters::put(session, &setup);
     Ok(Vec::new())
 }
 
 pub fn set_row(session: &mut Session, row: &str, value: &str) -> Done {
     let row = row_named(session, row)?;
-    let setup = entry::read(session, session.setup(), row, value)?;
-    parameters::put(session, setup);
+    let setup = entry::read(session, &session.setup(), row, value)?;
+    parameters::put(session, &setup);
     Ok(Vec::new())
 }
 

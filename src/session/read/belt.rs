@@ -139,18 +139,18 @@ impl Session {
     /// One line, where there is no machine, or none with that number.
     pub(in crate::session) fn with_quantity(
         &self,
-        setup: Setup,
+        setup: &Setup,
         quantity: Quantity,
         value: f64,
     ) -> Result<Setup, String> {
         let value = quantity.check(value).map_err(|refused| refused.to_string())?;
-        let was = self.set_machine(&setup)?;
+        let was = self.set_machine(setup)?;
         let setting = setup.setting.unwrap_or(Setting::of_speed(was.belt.belt_speed));
         let setting = setting.with(quantity, value);
         let is = setting.on(&was);
         let running = Running::at(&was, was.belt.belt_speed)?;
         let other = Running::at(&is, setting.speed)?;
-        let Setup { problem, others, doubt, .. } = setup;
+        let Setup { problem, others, doubt, .. } = *setup;
         let brought = |initial| running.brought_to(&other, Problem { initial, ..problem }).initial;
         let others = others.map(brought);
         let problem = running.brought_to(&other, problem);

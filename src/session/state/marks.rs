@@ -23,7 +23,7 @@ pub struct Mark {
 
 impl Mark {
     /// A point that has not been on show.
-    pub fn new(setup: Setup) -> Self {
-        Mark { setup, asked: Vec::new() }
+    pub fn new(setup: &Setup) -> Self {
+        Mark { setup: *setup, asked: Vec::new() }
     }
 }
