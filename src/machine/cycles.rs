@@ -123,7 +123,7 @@ impl Flow<'_> {
         let touch = marks.and_then(|marks| marks.grazing.right);
         let scale = self.scale(marks);
         let at = |x: f64| ln(x / scale);
-        let mut smallest = match self.smallest(scale) {
+        let caught = match self.smallest(scale) {
             // What comes to rest does so at once, or leaves the law.
             Err(stop @ Stop::OutsideLaw { .. }) => {
                 let held = Sample { u: at(self.model.guide_static), f: -FAR, slope: 0.0 };
@@ -133,17 +133,19 @@ impl Flow<'_> {
             }
             smallest => smallest?,
         };
+        // By rounding a motion from there may still come to rest.
+        let beyond = |x: f64| x * (1.0 + 1e-12);
+        let held = self.model.guide_static;
+        let mut smallest = caught.max(beyond(held));
         if let Some((x, image)) = self.innermost(smallest)? {
             found.points.push((x, image));
             smallest = x;
         }
-        // By rounding a motion from there may still come to rest.
-        smallest *= 1.0 + 1e-12;
-        let held = self.model.guide_static;
+        smallest = beyond(smallest);
         let touches_before = touch.is_some_and(|touch| touch > held && touch <= smallest);
         if held > 0.0 && smallest.is_finite() && !touches_before && found.points.is_empty() {
             let grows = self.growth(at(smallest), scale)?.f > 0.0;
-            found.capture = grows.then_some(smallest);
+            found.capture = grows.then_some(caught);
         }
         let slipping = match touch {
             _ if smallest.is_infinite() => None,
@@ -174,11 +176,13 @@ impl Flow<'_> {
                 Some((released, Ok(Return::Turns(image)))) if image.sticks_from.is_some() => {
                     found.points.push((released, image));
                 }
-                Some((_, Err(stop))) => found.stop = Some(stop),
+                // What runs away is known.
+                Some((_, Err(stop))) if stop != Stop::Escaped => found.stop = Some(stop),
                 _ => {}
             }
             if let Some(beyond) = marks.beyond {
                 let start = beyond * (1.0 + 4.0 * f64::EPSILON);
+                let start = if smallest.is_finite() { start.max(smallest) } else { start };
                 if let Ok(first) = self.growth(at(start), scale) {
                     let last = self.farthest(start, scale, &mut found)?;
                     found.end = scale * exp(last.u);
@@ -219,7 +223,7 @@ impl Flow<'_> {
         if held > 0.0 {
             // What comes to rest there was released by the belt: all that only slips rests before.
             let before = self.preimage(held)?;
-            return Ok(before.map_or(f64::INFINITY, |before| before.x.max(held * (1.0 + 1e-12))));
+            return Ok(before.map_or(f64::INFINITY, |before| before.x.max(held)));
         }
         let mut x = scale * 1e-3;
         let linear = self.model.linear_growth();
