@@ -22,8 +22,6 @@ pub type Extent = [f64; 4];
 pub struct Curves {
     /// Record, residuals and motion; `None` of peaks alone.
     pub sampled: Option<Sampled>,
-    /// Autocorrelation of the residuals over lags in s, as far as two periods.
-    pub memory: Vec<Place>,
     /// Damping over amplitude.
     pub damping: Damping,
     /// The share of draws whose smallest displacement not survived is less than the abscissa.
@@ -48,13 +46,21 @@ pub struct Damping {
 }
 
 impl Curves {
+    /// What is worth seeing of the residuals.
+    #[must_use]
+    pub fn residual_extent(&self, deviation: f64) -> Option<Extent> {
+        let seen = self.sampled.as_ref()?;
+        let sizes = seen.residual.iter().filter(|it| it.is_finite()).map(|it| it.abs());
+        let far = 1.06 * sizes.fold(2.0 * deviation, f64::max);
+        Some([*seen.t.first()?, *seen.t.last()?, -far, far])
+    }
+
     /// Computes them all.
     #[must_use]
     pub fn of(estimate: &Estimate, margins: &Margins) -> Self {
         let (spread, spread_extent) = spread(estimate, margins);
         Curves {
             sampled: Sampled::of(estimate),
-            memory: memory(estimate),
             damping: damping(estimate, margins),
             spread,
             spread_extent,
@@ -62,7 +68,9 @@ impl Curves {
     }
 }
 
-fn memory(estimate: &Estimate) -> Vec<Place> {
+/// Autocorrelation of the residuals over lags in s, as far as two periods.
+#[must_use]
+pub fn memory(estimate: &Estimate) -> Vec<Place> {
     const LAGS: usize = 400;
     let Data::Samples { t, .. } = &estimate.data else { return Vec::new() };
     #[expect(clippy::cast_precision_loss, reason = "a count of samples")]

@@ -1,12 +1,17 @@
 //! A fit with all that is said about it, and what the record itself cannot say: its unit, a mass.
 
+use serde::{Deserialize, Serialize};
+
 use super::curves::Curves;
 use super::estimate::Estimate;
 use super::margin::Margins;
+use super::observation::OMEGA0;
 use super::record::Record;
+use crate::oscillator::belt::Units;
 
 /// What the record itself cannot say.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Inertia {
     /// Mass in kg.
     Mass(f64),
@@ -55,6 +60,22 @@ pub struct Fitted {
 }
 
 impl Fitted {
+    /// What 1 of time, length, velocity, force and impulse stands for; the last two are not a number where neither
+    /// mass nor stiffness is known. `None` without a frequency or a known unit of length.
+    #[must_use]
+    pub fn units(&self) -> Option<Units> {
+        let displacement = length_in_metres(self.unit()).filter(|_| self.estimate.free[OMEGA0])?;
+        let omega_0 = self.estimate.p[OMEGA0];
+        let mass = match self.inertia {
+            Some((Inertia::Mass(mass), _)) => mass,
+            Some((Inertia::Stiffness(stiffness), _)) => stiffness / (omega_0 * omega_0),
+            None => f64::NAN,
+        };
+        let velocity = omega_0 * displacement;
+        let (impulse, force) = (mass * velocity, mass * omega_0 * velocity);
+        Some(Units { omega_0, displacement, velocity, time: 1.0 / omega_0, impulse, force })
+    }
+
     /// The unit of the displacements as it is written behind numbers.
     #[must_use]
     pub fn unit(&self) -> &str {

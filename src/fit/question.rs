@@ -54,6 +54,11 @@ pub enum Unfit {
     Blind,
     /// A newer question took its place.
     Interrupted,
+    /// It is being fitted.
+    Underway {
+        /// Motions computed so far.
+        motions: u64,
+    },
 }
 
 impl fmt::Display for Unfit {
@@ -77,6 +82,7 @@ impl fmt::Display for Unfit {
                 "the record does not depend on one of the unknowns; hold some with --set or --free"
             ),
             Unfit::Interrupted => write!(out, "interrupted"),
+            Unfit::Underway { motions } => write!(out, "fitting: {motions} motions so far"),
         }
     }
 }

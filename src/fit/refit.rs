@@ -1,9 +1,13 @@
 //! A fit after some of its numbers have been moved: all others follow, from where they were.
 
+use nalgebra::{DMatrix, DVector};
+
 use super::estimate::Estimate;
 use super::levenberg_marquardt::{NoFit, Optimum, Runs, Task};
 use super::loss::Loss;
 use super::observation::{D2, D3, Observation, R, UNKNOWNS, Unknowns};
+use super::question::Unfit;
+use super::uncertainty::Covariance;
 
 /// An estimate of which some unknowns are held; the loss is that of the samples that count.
 pub struct Refit<'a> {
@@ -68,6 +72,57 @@ impl<'a> Refit<'a> {
     }
 }
 
+/// The same estimate with some numbers held: all that follows from the new minimum, but for intervals and rivals.
+///
+/// # Errors
+/// [`Unfit::NoMotion`] where the motion with these numbers escapes; [`Unfit::Interrupted`].
+pub fn held(
+    estimate: &Estimate,
+    numbers: &[(usize, f64)],
+    runs: &mut Runs,
+) -> Result<Estimate, Unfit> {
+    let places: Vec<usize> = numbers.iter().map(|(place, _)| *place).collect();
+    let refit = Refit::without(estimate, &places);
+    let optimum = refit.at(following(estimate, numbers), runs)?;
+    let task = refit.task();
+    let autocorrelation = &estimate.whiteness.autocorrelation;
+    let covariance = Covariance::at(&task, &optimum, autocorrelation).ok_or(Unfit::Blind)?;
+    Ok(Estimate {
+        p: optimum.p,
+        free: refit.free,
+        covariance,
+        intervals: Default::default(),
+        residuals: optimum.seen.residuals.iter().map(|residual| residual.value).collect(),
+        half_swings: optimum.seen.turns.len(),
+        rests: optimum.seen.rests,
+        rivals: Vec::new(),
+        ..estimate.clone()
+    })
+}
+
+/// Where all unknowns go by the linear model when some are moved.
+fn following(estimate: &Estimate, numbers: &[(usize, f64)]) -> Unknowns {
+    let Covariance { columns, white, .. } = &estimate.covariance;
+    let at = |place: usize| columns.iter().position(|column| *column == place);
+    let white = |one, other| at(one).zip(at(other)).map_or(0.0, |place| white[place]);
+    let moved: Vec<&(usize, f64)> =
+        numbers.iter().filter(|(place, _)| estimate.free[*place]).collect();
+    let among = DMatrix::from_fn(moved.len(), moved.len(), |row, column| {
+        white(moved[row].0, moved[column].0)
+    });
+    let steps = DVector::from_fn(moved.len(), |row, _| moved[row].1 - estimate.p[moved[row].0]);
+    let weights = among.lu().solve(&steps).unwrap_or_else(|| DVector::zeros(moved.len()));
+    let mut guess: Unknowns = std::array::from_fn(|place| {
+        let follows = moved.iter().zip(weights.iter());
+        let step: f64 = follows.map(|(held, weight)| white(place, held.0) * weight).sum();
+        estimate.p[place] + step
+    });
+    for (place, value) in numbers {
+        guess[*place] = *value;
+    }
+    guess
+}
+
 /// The best motion with one of the unknowns held at a value.
 ///
 /// # Errors
@@ -79,9 +134,6 @@ pub fn refitted(
     runs: &mut Runs,
 ) -> Result<Optimum, NoFit> {
     // The others follow by the linear model first; the descent has the rest to do.
-    let along = estimate.covariance.along(place);
-    let step = value - estimate.p[place];
-    let mut guess: Unknowns = std::array::from_fn(|other| estimate.p[other] + step * along[other]);
-    guess[place] = value;
+    let guess = following(estimate, &[(place, value)]);
     Refit::without(estimate, &[place]).at(guess, runs)
 }

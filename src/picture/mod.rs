@@ -46,6 +46,21 @@ pub fn scales(session: &Session, index: usize) -> [Scale; 2] {
 const EXPANDED: [View; 5] =
     [View::Diagram, View::ReturnMap, View::Regimes, View::EnergyRate, View::Trade];
 
+/// A picture of the fit in its window.
+fn of_fit(
+    session: &Session,
+    index: usize,
+    draw: fn(&crate::fit::Fitted) -> Option<Picture<'static>>,
+) -> Picture<'static> {
+    let plot = &session.plots[index];
+    let drawn = session.fitted().and_then(|fitted| draw(&fitted.fit));
+    let title = plot.view.spec().title;
+    let mut picture = drawn.unwrap_or_else(|| Picture::new(title, "", "", plot.window));
+    picture.window = plot.window;
+    picture.cross(plot.cursor);
+    picture
+}
+
 /// What the plot with this index shows.
 pub fn of(session: &Session, index: usize) -> Picture<'_> {
     let mut picture = match session.plots[index].view {
@@ -61,6 +76,9 @@ pub fn of(session: &Session, index: usize) -> Picture<'_> {
         View::Scan => scan::picture(session, index),
         View::Speeds => speeds::picture(session, index),
         View::Belt => belt::picture(session, index),
+        View::Damping => of_fit(session, index, fit::damping),
+        View::Residuals => of_fit(session, index, fit::residuals),
+        View::Spread => of_fit(session, index, fit::margin),
     };
     if session.draws_whole() && EXPANDED.contains(&session.plots[index].view) {
         picture.title = format!("{}, cubic expansion", picture.title).into();

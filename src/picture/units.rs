@@ -1,7 +1,8 @@
 //! The axes of a machine in its own units: metres, seconds, and parts of these.
 
 use super::ticks::Scale;
-use crate::scene::{Layer, Running, Span, View, Window};
+use crate::oscillator::belt::Units as Physical;
+use crate::scene::{Layer, Span, View, Window};
 use crate::session::Session;
 use crate::words::number::resolved;
 
@@ -15,9 +16,9 @@ const VELOCITIES: Units =
 
 const TIMES: Units = [("t [s]", "s", 1.0), ("t [ms]", "ms", 1e3), ("t [us]", "us", 1e6)];
 
-/// The machine in whose units a session shows its axes.
-fn machine(session: &Session) -> Option<Running<'_>> {
-    session.running().filter(|_| !session.look.dimensionless)
+/// The units of the machine or the record in which a session shows its axes.
+fn shown(session: &Session) -> Option<Physical> {
+    session.units().filter(|_| !session.look.dimensionless)
 }
 
 /// The largest unit of which the axis reaches one, when 1 on it is so much in SI units.
@@ -36,7 +37,7 @@ fn scale(units: &Units, one: f64, span: Span) -> Scale {
 /// The axes of the plot with this index in the units of the machine; `None` where there is none, or where the plot
 /// has no such axes.
 pub fn scales(session: &Session, index: usize) -> Option<[Scale; 2]> {
-    let units = machine(session)?.reduced.units;
+    let units = shown(session)?;
     let plot = session.plots.get(index)?;
     let Window { x, y } = plot.window;
     let length = |span| scale(&LENGTHS, units.displacement, span);
@@ -56,7 +57,7 @@ pub fn scales(session: &Session, index: usize) -> Option<[Scale; 2]> {
 
 /// A place of the phase plane in the units of the machine, to the digits that can be told apart.
 pub fn reading(session: &Session, x: f64, y: f64, window: Window, cells: f64) -> Option<String> {
-    let units = machine(session)?.reduced.units;
+    let units = shown(session)?;
     let text = |table: &Units, one: f64, value: f64, span: Span| {
         let (_, unit, factor) = chosen(table, one, span);
         format!("{} {unit}", resolved(factor * value, factor * span.width() / cells))

@@ -1,32 +1,54 @@
 //! A recorded motion on show: the record, and what a fit makes of it.
 
+use std::cell::Cell;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use super::means::Means;
+use crate::fit::curves::Curves;
+use crate::fit::levenberg_marquardt::Runs;
 use crate::fit::observation::{D, D2, D3, Data, LAST, OFFSET, OMEGA0, Observation, Q0, R, Start};
-use crate::fit::{Estimate, Margins, Question, Record, Unfit, estimate, margins, parameters};
+use crate::fit::{self, refit};
+use crate::fit::{
+    Estimate, Inertia, Margins, Question, Record, Unfit, estimate, length_in_metres, margins,
+    parameters,
+};
 use crate::flow::{Limits, Problem, Reason};
 use crate::oscillator::{State, Symbol};
 
 /// Draws for the distribution of the margin: fewer than on the command line, to be there soon.
 const DRAWN: usize = 100;
 
-/// A record that was opened, with the name of its file. Copies share it, and are equal at once.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(from = "(String, Record)", into = "(String, Record)")]
-pub struct Recording(Arc<(String, Record)>);
+/// What was opened.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Opened {
+    /// The name of the file.
+    pub name: String,
+    /// What was read.
+    pub record: Record,
+    /// Mass or stiffness, if it is known; the record names its unit of length then.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inertia: Option<Inertia>,
+    /// Whether the rows are successive turning points.
+    #[serde(default)]
+    pub peaks: bool,
+}
 
-impl From<(String, Record)> for Recording {
-    fn from(named: (String, Record)) -> Self {
-        Recording(Arc::new(named))
+/// A record that was opened. Copies share it, and are equal at once.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(from = "Opened", into = "Opened")]
+pub struct Recording(Arc<Opened>);
+
+impl From<Opened> for Recording {
+    fn from(opened: Opened) -> Self {
+        Recording(Arc::new(opened))
     }
 }
 
-impl From<Recording> for (String, Record) {
-    fn from(Recording(named): Recording) -> Self {
-        (*named).clone()
+impl From<Recording> for Opened {
+    fn from(Recording(opened): Recording) -> Self {
+        (*opened).clone()
     }
 }
 
@@ -36,17 +58,11 @@ impl PartialEq for Recording {
     }
 }
 
-impl Recording {
-    /// The name of the file.
-    #[must_use]
-    pub fn name(&self) -> &str {
-        &self.0.0
-    }
+impl std::ops::Deref for Recording {
+    type Target = Opened;
 
-    /// What was read.
-    #[must_use]
-    pub fn record(&self) -> &Record {
-        &self.0.1
+    fn deref(&self) -> &Opened {
+        &self.0
     }
 }
 
@@ -61,7 +77,7 @@ impl super::kind::Question for Asked {
     type Found = Fit;
 
     fn answer(&self, means: &Means) -> Result<Fit, Reason> {
-        Fit::of(&self.recording, means.limits)
+        Fit::of(&self.recording, means.limits, &|_| ())
     }
 
     fn numbers(&self) -> [f64; 8] {
@@ -83,10 +99,8 @@ pub struct Measured {
 /// A fitted record.
 #[derive(Clone, Debug)]
 pub struct Fitted {
-    /// What was estimated.
-    pub estimate: Estimate,
-    /// The distribution of the margin.
-    pub margins: Margins,
+    /// What was estimated, the distribution of the margin, and the curves of the pictures.
+    pub fit: fit::Fitted,
     /// What was measured; lists of peaks have no velocities but zero.
     pub points: Vec<Measured>,
 }
@@ -101,25 +115,73 @@ impl PartialEq for Fit {
     }
 }
 
+impl From<Unfit> for Fit {
+    fn from(unfit: Unfit) -> Self {
+        Fit(Arc::new(Err(unfit)))
+    }
+}
+
 impl Fit {
-    /// Fits a record.
+    /// Fits a record, and tells how many motions it has computed so far.
     ///
     /// # Errors
     /// [`Reason::Interrupted`].
-    pub fn of(recording: &Recording, limits: &Limits) -> Result<Self, Reason> {
-        let interrupted = || (limits.interrupted)();
-        let peaks = recording.record().t.is_none();
-        let question = Question { peaks, ..Question::default() };
-        let found = match estimate(recording.record(), &question, &interrupted) {
-            Ok(estimate) => Ok(Fitted {
-                margins: margins(&estimate, DRAWN, limits)?,
-                points: points(&estimate),
-                estimate,
-            }),
-            Err(Unfit::Interrupted) => return Err(Reason::Interrupted),
-            Err(unfit) => Err(unfit),
+    pub fn of(recording: &Recording, limits: &Limits, told: &dyn Fn(u64)) -> Result<Self, Reason> {
+        let motions = Cell::new(0);
+        let interrupted = || {
+            motions.set(motions.get() + 1);
+            told(motions.get());
+            (limits.interrupted)()
         };
-        Ok(Fit(Arc::new(found)))
+        let peaks = recording.peaks || recording.record.t.is_none();
+        let question = Question { peaks, ..Question::default() };
+        let estimate = match estimate(&recording.record, &question, &interrupted) {
+            Ok(estimate) => estimate,
+            Err(Unfit::Interrupted) => return Err(Reason::Interrupted),
+            Err(unfit) => return Ok(unfit.into()),
+        };
+        let margins = margins(&estimate, DRAWN, limits)?;
+        Ok(Fit::with(
+            recording.name.clone(),
+            &recording.record,
+            estimate,
+            margins,
+            metric(recording),
+        ))
+    }
+
+    /// The same with D, D2, D3 and r held where they have values; the distribution of the margin stays that without.
+    ///
+    /// # Errors
+    /// [`Reason::Interrupted`].
+    pub fn held(&self, values: [Option<f64>; 4], limits: &Limits) -> Result<Self, Reason> {
+        let Ok(Fitted { fit, .. }) = self.found() else { return Ok(self.clone()) };
+        let named = [D, D2, D3, R].into_iter().zip(values);
+        let numbers: Vec<_> = named.filter_map(|(place, value)| Some((place, value?))).collect();
+        let interrupted = || (limits.interrupted)();
+        let mut runs = Runs { with_derivatives: 0, plain: 0, interrupted: &interrupted };
+        match refit::held(&fit.estimate, &numbers, &mut runs) {
+            Ok(estimate) => {
+                let (name, margins) = (fit.name.clone(), fit.margins.clone());
+                Ok(Fit::with(name, &fit.record, estimate, margins, fit.inertia))
+            }
+            Err(Unfit::Interrupted) => Err(Reason::Interrupted),
+            Err(unfit) => Ok(unfit.into()),
+        }
+    }
+
+    fn with(
+        name: String,
+        record: &Record,
+        estimate: Estimate,
+        margins: Margins,
+        inertia: Option<(Inertia, f64)>,
+    ) -> Self {
+        let (points, curves) = (points(&estimate), Curves::of(&estimate, &margins));
+        let (record, contours, seconds) = (record.clone(), Vec::new(), 0.0);
+        let fit =
+            fit::Fitted { name, record, estimate, margins, curves, contours, inertia, seconds };
+        Fit(Arc::new(Ok(Fitted { fit, points })))
     }
 
     /// What was found, or why there is nothing.
@@ -129,6 +191,11 @@ impl Fit {
     pub fn found(&self) -> Result<&Fitted, &Unfit> {
         self.0.as_ref().as_ref()
     }
+}
+
+/// Mass or stiffness with the metres in the record's unit of length.
+fn metric(recording: &Recording) -> Option<(Inertia, f64)> {
+    recording.inertia.zip(length_in_metres(recording.record.unit.as_deref()?))
 }
 
 /// The record around the fitted motion.
@@ -181,8 +248,8 @@ impl Fitted {
     /// The fitted motion.
     #[must_use]
     pub fn problem(&self, before: Problem) -> Problem {
-        let p = &self.estimate.p;
-        let v = if self.estimate.start == Start::Moving { p[LAST] } else { 0.0 };
+        let p = &self.fit.estimate.p;
+        let v = if self.fit.estimate.start == Start::Moving { p[LAST] } else { 0.0 };
         let last = self.points.last().map_or(before.until, |point| point.tau);
         Problem {
             parameters: parameters(p),
@@ -192,14 +259,14 @@ impl Fitted {
         }
     }
 
-    /// The standard error of a number; `None` where it was not estimated.
+    /// The unknown that a number is, with its standard error; `None` where it was not estimated.
     #[must_use]
     pub fn error(&self, symbol: Symbol) -> Option<f64> {
-        let place = if symbol == Symbol::V0 && self.estimate.start == Start::Moving {
+        let place = if symbol == Symbol::V0 && self.fit.estimate.start == Start::Moving {
             LAST
         } else {
             place(symbol)?
         };
-        self.estimate.free[place].then(|| self.estimate.covariance.error(place))
+        self.fit.estimate.free[place].then(|| self.fit.estimate.covariance.error(place))
     }
 }

@@ -12,6 +12,8 @@ macro_rules! questions {
         $make! {
             /// The oscillator that a record is of, and the margin that follows.
             Fit(fit) "fit" costs |_| Cost::default();
+            /// The same with some numbers held.
+            Refit(refit) "refit" costs |_| Cost::default();
             /// The motion on show.
             Trajectory(motion) "motion" costs |found| found.cost,
                 or Machine(machine) answered by Whole::motion;
@@ -63,6 +65,7 @@ pub mod motion;
 pub mod portrait;
 pub mod proof;
 pub mod reference;
+pub mod refit;
 pub mod regimes;
 pub mod request;
 pub mod return_map;
@@ -74,7 +77,7 @@ pub mod zones;
 
 pub use answered::{Answered, Failure};
 pub use capture::Borders;
-pub use fit::{Fit, Fitted, Recording};
+pub use fit::{Fit, Fitted, Opened, Recording};
 pub use kind::Motion;
 pub use means::{Fineness, Means, Rows};
 pub use request::{Answer, Request, TOPICS, Topic, Whole, answer, answer_by, answer_for};

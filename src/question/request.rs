@@ -147,7 +147,7 @@ impl Request {
     /// Whether it may take long and must not keep others waiting.
     #[must_use]
     pub fn is_long(&self) -> bool {
-        matches!(self, Request::Scan(_) | Request::Proof(_))
+        matches!(self, Request::Scan(_) | Request::Proof(_) | Request::Fit(_))
     }
 
     /// How alike this is to a question: how many of their numbers are equal. `None` where its answer must

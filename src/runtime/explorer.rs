@@ -1,8 +1,10 @@
 //! The explorer: a session, drawn for the terminal at hand.
 
+use std::cell::Cell;
 use std::io;
 use std::path::Path;
 use std::process::ExitCode;
+use std::time::{Duration, Instant};
 
 use ratatui::Frame;
 use ratatui::buffer::Buffer;
@@ -15,8 +17,9 @@ use super::launch::{Options, launch};
 use super::worker::Tell;
 use super::{print, provenance_file, scanning};
 use crate::figure::{self, Form};
+use crate::fit::Unfit;
 use crate::flow::{Limits, Reason};
-use crate::question::{self, Fineness, Means};
+use crate::question::{self, Fineness, Fit, Means, Recording};
 use crate::scene::{Answer, Request};
 use crate::session::replay::Script;
 use crate::session::{Effect, Msg, Place, Session, save, settings, update};
@@ -120,7 +123,22 @@ impl Application for Explorer {
 /// The [`Reason`] why there is no answer.
 pub fn answer(request: &Request, limits: &Limits, tell: &Tell) -> Result<Answer, Reason> {
     let rows = |scan: &Scan, from| scanning::answer(scan, from, limits, tell);
+    if let Request::Fit(asked) = request {
+        return fitted(&asked.recording, limits, tell).map(Answer::Fit);
+    }
     question::answer_by(request, &Means { fineness: Fineness::SCREEN, limits, rows: &rows })
+}
+
+/// Fits a record, and tells now and then how far that is.
+fn fitted(recording: &Recording, limits: &Limits, tell: &Tell) -> Result<Fit, Reason> {
+    const EVERY: Duration = Duration::from_millis(200);
+    let told = Cell::new(Instant::now());
+    Fit::of(recording, limits, &|motions| {
+        if told.get().elapsed() >= EVERY {
+            told.set(Instant::now());
+            tell(Answer::Fit(Unfit::Underway { motions }.into()));
+        }
+    })
 }
 
 /// Runs a session in the terminal, until the user leaves or a signal ends the program.

@@ -90,6 +90,14 @@ pub enum Layer {
     Safe,
     /// Starts that are lost whatever the parameters and the disturbance are.
     Lost,
+    /// Damping over amplitude.
+    #[serde(rename = "decrements")]
+    Damping,
+    /// Residuals of a fit.
+    #[serde(rename = "differences")]
+    Residuals,
+    /// The distribution of the margin.
+    Spread,
 }
 
 /// One row of [`LAYERS`].
@@ -110,7 +118,7 @@ pub struct LayerSpec {
 
 /// Every layer, in the order in which they are listed.
 #[rustfmt::skip]
-pub const LAYERS: [LayerSpec; 42] = [
+pub const LAYERS: [LayerSpec; 45] = [
     row(Layer::Trajectory, "trajectory", View::Phase, Some(Topic::Trajectory), true, "the motion from (q0, v0)"),
     row(Layer::Sticking, "sticking", View::Phase, None, true, "the sticking set: every point of it is at rest"),
     row(Layer::Cycles, "cycles", View::Phase, Some(Topic::Cycles), true, "limit cycles, stable and unstable"),
@@ -153,6 +161,9 @@ pub const LAYERS: [LayerSpec; 42] = [
     row(Layer::Speeds, "speeds", View::Speeds, Some(Topic::Speeds), true, "cycles over the belt's speed, and the jumps"),
     row(Layer::Safe, "safe", View::Phase, Some(Topic::Zones), false, "surely safe, for all half widths and disturbances"),
     row(Layer::Lost, "lost", View::Phase, Some(Topic::Zones), false, "surely lost, for the same"),
+    row(Layer::Damping, "decrements", View::Damping, Some(Topic::Fit), true, "measured decrements, exact and averaged damping"),
+    row(Layer::Residuals, "differences", View::Residuals, Some(Topic::Fit), true, "measured less fitted, and two deviations"),
+    row(Layer::Spread, "spread", View::Spread, Some(Topic::Fit), true, "distribution of the margin, by draws"),
 ];
 
 const fn row(

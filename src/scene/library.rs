@@ -240,7 +240,10 @@ mod tests {
                     | View::Trade
                     | View::Eigenvalues
                     | View::Speeds
-                    | View::Scan => {}
+                    | View::Scan
+                    | View::Damping
+                    | View::Residuals
+                    | View::Spread => {}
                 }
             }
         }

@@ -121,6 +121,9 @@ impl Recording {
     /// A scene of the record: over time and in the phase plane, with the motion that the fit will find.
     pub fn scene(self) -> Scene {
         let layers = [
+            Layer::Damping,
+            Layer::Residuals,
+            Layer::Spread,
             Layer::Record,
             Layer::Recorded,
             Layer::Position,
@@ -131,25 +134,27 @@ impl Recording {
         ];
         let plot_setup =
             |view| PlotSetup { view, axes: Axes::default(), window: None, family: None };
-        let unit = self.record().unit.clone().unwrap_or_else(|| "the file's unit".to_owned());
+        let unit = self.record.unit.clone().unwrap_or_else(|| "the file's unit".to_owned());
         Scene {
-            name: self.name().to_owned(),
+            name: self.name.clone(),
             also: None,
-            title: format!("{}, fitted", self.name()),
+            title: format!("{}, fitted", self.name),
             look: format!(
                 "Dots are what was measured, the line is the motion that fits best; lengths are in {unit}, times in \
                  1/omega0. A number whose error is as large as itself is not known from this record."
             ),
-            press: "{step-up} and {step-down} move a number away from its best value; {reset-scene} goes back. \
-                    {toggle-record} hides the record."
+            press: "{step-up} and {step-down} hold a number beside its best value, and all others are fitted again; \
+                    {reset-row} lets it go, {reset-scene} all. {views} picks what a plot shows: residuals too."
                 .to_owned(),
             terms: [Symbol::D, Symbol::D2, Symbol::D3, Symbol::R].into_iter().collect(),
             problem: Problem { until: UNTIL, tolerance: TOLERANCE, ..Problem::default() },
             steps: BTreeMap::new(),
             layers: layers.into_iter().collect(),
-            plots: [View::TimeSeries, View::Phase].map(plot_setup).to_vec(),
+            plots: [View::Damping, View::TimeSeries, View::Phase, View::Spread]
+                .map(plot_setup)
+                .to_vec(),
             families: Vec::new(),
-            arrangement: Arrangement::Rows,
+            arrangement: Arrangement::Auto,
             machine: None,
             recording: Some(self),
         }

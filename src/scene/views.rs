@@ -40,6 +40,13 @@ pub enum View {
     Speeds,
     /// What was measured at each point of a scan.
     Scan,
+    /// The loss of amplitude over amplitude, as a record shows it.
+    Damping,
+    /// What was measured less what was fitted, over time.
+    Residuals,
+    /// The distribution of the margin that a record leaves.
+    #[serde(rename = "margin")]
+    Spread,
 }
 
 /// One row of [`VIEWS`].
@@ -59,7 +66,7 @@ pub struct ViewSpec {
 }
 
 /// Every view, in the order in which they are listed and the keys visit them.
-pub const VIEWS: [ViewSpec; 12] = [
+pub const VIEWS: [ViewSpec; 15] = [
     ViewSpec {
         view: View::Phase,
         name: "phase",
@@ -154,6 +161,30 @@ pub const VIEWS: [ViewSpec; 12] = [
         title: "scan",
         heading: "Scan",
         meaning: "what was measured at each point of a line or grid",
+        window: Window { x: Span::known(0.0, 1.0), y: Span::known(0.0, 1.0) },
+    },
+    ViewSpec {
+        view: View::Damping,
+        name: "damping",
+        title: "damping",
+        heading: "Damping over amplitude",
+        meaning: "loss of amplitude of a recorded motion, and its zeros",
+        window: Window { x: Span::known(0.0, 1.0), y: Span::known(-1.0, 1.0) },
+    },
+    ViewSpec {
+        view: View::Residuals,
+        name: "residuals",
+        title: "residuals",
+        heading: "Residuals of a fit",
+        meaning: "what was measured less what was fitted, over time",
+        window: Window { x: Span::known(0.0, 1.0), y: Span::known(-1.0, 1.0) },
+    },
+    ViewSpec {
+        view: View::Spread,
+        name: "margin",
+        title: "margin",
+        heading: "Distribution of the margin",
+        meaning: "how sure the margin is that a record leaves",
         window: Window { x: Span::known(0.0, 1.0), y: Span::known(0.0, 1.0) },
     },
 ];

@@ -307,7 +307,7 @@ const COMMANDS: &[Row] = &[
     row("theme", &[(Everywhere, &["T"])], "",
         "Use the next theme", |s, _| general::theme(s)),
     row("drop-cursor", &[(Everywhere, &["<esc>"])], "",
-        "Drop the cursor, stop a scan or a figure; never leaves", |s, _| plots::drop_cursor(s)),
+        "Drop the cursor, stop a scan, a fit or a figure; never leaves", |s, _| plots::drop_cursor(s)),
     row("back", &[(Lists, &["<esc>", "q"]), (Entry, &["<esc>"]), (Prompt, &["<esc>"]), (Palette, &["<esc>"]), (Form, &["<esc>"]), (Offer, &["<esc>"])], "close",
         "Close what is open", |s, _| general::back(s)),
     row("close-again", &[(Help, &["?", "<f1>", "$"]), (Scenes, &["s"]), (Layers, &["v"]), (Views, &["V"]), (Paper, &["<f10>"]), (Interrupted, &["<f3>"])], "",

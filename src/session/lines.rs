@@ -4,7 +4,7 @@
 //! the help. Every command of a key can be typed by its name too. A line is run as a whole or not at all,
 //! and a line that is refused says what is allowed.
 
-use crate::session::act::{files, scan, values};
+use crate::session::act::{files, measurement, scan, values};
 use crate::session::effect::Effect;
 use crate::session::message::Purpose;
 use crate::session::state::command::{LineCommand, Words};
@@ -74,8 +74,8 @@ const LINES: &[Row] = &[
         Words::Unknown, |s, rest| files::write(s, rest, true)),
     row("open", "FILE", "Go on with a saved session",
         Words::Unknown, |_, rest| Ok(files::ask(rest, Purpose::Open))),
-    row("fit", "FILE", "Fit a recorded motion: times and displacements",
-        Words::Unknown, |_, rest| Ok(files::ask(rest, Purpose::Fit))),
+    row("fit", "FILE [mass=2 kg] [columns=1,3] ..", "Fit a recorded motion: times and displacements",
+        Words::Unknown, |_, rest| measurement::ask(rest)),
     row("figure", "FILE", "Write what is shown as .svg, .png, .csv or .json",
         Words::Unknown, |s, rest| files::figure(s, rest, None, false)),
     row("figure!", "FILE", "The same, in place of what is there",

@@ -94,6 +94,7 @@ fn take_in(session: &mut Session, message: Msg) -> Vec<Effect> {
         }
         Msg::Idle => Vec::new(),
     };
+    answers::follow_fit(session);
     keep_selection(session);
     let asked = session.asks().into_iter().chain(session.compared().cloned()).collect();
     session.answers.ask(asked);

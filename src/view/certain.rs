@@ -8,6 +8,9 @@ use crate::study::Margin;
 use crate::words::number::significant;
 use crate::words::quantity::with_unit;
 
+/// Columns of a screen from which on margins are told as forces, too.
+const WIDE: u16 = 110;
+
 /// Digits of a margin.
 const PLACES: usize = 4;
 
@@ -51,11 +54,17 @@ fn margins(session: &Session) -> Option<(Margin, Result<Margin, String>)> {
 /// A displacement and an impulse, in the units of the machine where there is one.
 fn size(session: &Session, margin: &Margin, places: usize) -> Option<String> {
     let (q, v) = (margin.displacement?, margin.impulse?);
-    Some(match session.running() {
-        Some(running) => {
-            let units = &running.reduced.units;
+    Some(match session.units() {
+        Some(units) => {
             let x = with_unit(q * units.displacement, places, "m");
-            format!("{x} or {}", with_unit(v * units.impulse, places, "N s"))
+            if !units.force.is_finite() {
+                return Some(format!("{x} or {}", with_unit(v * units.velocity, places, "m/s")));
+            }
+            // The force that holds the mass there.
+            let wide = session.size.width >= WIDE;
+            let force = with_unit(q * units.force, places, "N");
+            let force = if wide { format!(" ({force})") } else { String::new() };
+            format!("{x}{force} or {}", with_unit(v * units.impulse, places, "N s"))
         }
         None => format!("q {} or v {}", significant(q, places), significant(v, places)),
     })

@@ -11,6 +11,7 @@ mod content;
 mod costs;
 pub mod dots;
 pub mod energy_ledger;
+mod fitted;
 pub mod footer;
 pub mod frame;
 pub mod keys;

@@ -5,6 +5,7 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
 use super::certain;
+use super::fitted::{fitted, spread};
 use super::keys;
 use super::layout::DESIGNED;
 use super::look::Look;
@@ -132,33 +133,43 @@ fn row_line(
     // Two numbers after a sign of either would not be told apart.
     let half = matches!(row, Row::Parameter(symbol) if session.doubt.half_width(symbol) > 0.0);
     let step = if half && !selected { String::new() } else { step };
+    let room = usize::from(width).saturating_sub(VALUES);
+    let fits = |text: &String| text.chars().count() + 2 <= room;
     let physical = physical(session, row).map(|(name, value)| format!("{name} {value}"));
     // Of a fitted number its error says more than what the step is.
-    let physical = physical.or_else(|| error(session, row, look));
+    let physical = physical.or_else(|| {
+        let mut told = fitted(session, row, look);
+        let first = told.iter().position(fits);
+        first.map(|at| told.swap_remove(at)).or_else(|| told.pop())
+    });
     let meaning = physical.clone().unwrap_or_else(|| meaning(&session.problem, row).to_owned());
     // On a narrow pane what the number means on the machine stands in place of the step, of which the
     // selected row alone needs to speak.
-    let room = usize::from(width).saturating_sub(VALUES);
-    let fits = |text: &String| text.chars().count() <= room;
     let text = if width >= WITH_MEANINGS {
         format!("{step:<STEP$}  {meaning}")
     } else {
-        let physical = physical.filter(|_| !selected).map(|physical| format!("  {physical}"));
-        physical.filter(fits).unwrap_or(step)
+        let physical = physical.filter(|text| !selected && fits(text));
+        physical.map_or(step, |physical| format!("  {physical}"))
     };
     line.push(Span::styled(text, look.style(Role::Quiet)));
     line
 }
 
-/// The standard error of a fitted number.
-fn error(session: &Session, row: Row, look: &Look) -> Option<String> {
-    let Row::Parameter(symbol) = row else { return None };
-    let error = session.fitted()?.error(symbol)?;
-    Some(format!("{}{}", look.symbols().plus_minus, significant(error, 2)))
-}
-
 /// What a row means on the machine: the quantity and its value.
 fn physical(session: &Session, row: Row) -> Option<(&'static str, String)> {
+    let units = session.units();
+    let (name, value, unit) = match (row, units) {
+        (Row::Disturbance, Some(units)) if units.force.is_finite() => {
+            ("w", session.doubt.disturbance * units.force, "N")
+        }
+        (Row::Until, Some(units)) => ("t", session.problem.until * units.time, "s"),
+        _ => return on_its_belt(session, row),
+    };
+    Some((name, with_unit(value, 4, unit)))
+}
+
+/// The same of a number of the machine.
+fn on_its_belt(session: &Session, row: Row) -> Option<(&'static str, String)> {
     let running = session.running()?;
     let (name, value, unit) = match row {
         Row::BELT if session.is_on_the_belt() == Some(false) => {
@@ -169,9 +180,7 @@ fn physical(session: &Session, row: Row) -> Option<(&'static str, String)> {
             (spec.name, session.quantity(quantity), spec.unit)
         }
         Row::Parameter(symbol) => running.meaning(symbol, session.value(symbol))?,
-        Row::Disturbance => ("w", session.doubt.disturbance * running.reduced.units.force, "N"),
-        Row::Until => ("t", session.problem.until * running.reduced.units.time, "s"),
-        Row::Method | Row::Tolerance => return None,
+        Row::Disturbance | Row::Until | Row::Method | Row::Tolerance => return None,
     };
     Some((name, with_unit(value, 4, unit)))
 }
@@ -363,16 +372,6 @@ fn basin(session: &Session, found: &Cycles, width: usize) -> Vec<String> {
         .chain(share(found))
         .chain(area(found))
         .collect()
-}
-
-/// Where the smallest displacement that is not survived lies with 95 %, by the record.
-fn spread(session: &Session) -> Option<String> {
-    let spread = session.fitted()?.margins.displacement;
-    let end = |end: Option<f64>| end.map_or("any".to_owned(), |end| significant(end, 3));
-    Some(match spread.lower {
-        None => "95 %: every kick".to_owned(),
-        Some(_) => format!("95 %: q {} .. {}", end(spread.lower), end(spread.upper)),
-    })
 }
 
 /// The margin on the machine, and which cycles overtake its belt.

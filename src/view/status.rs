@@ -40,7 +40,10 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         let symbol = Some(symbol(session, look)).filter(|_| role == Role::Text);
         (format!("{}{of}{sentence}", symbol.unwrap_or_default()), role)
     };
-    let busy = if session.is_busy() { "computing " } else { "" };
+    let fitting = session.is_fitting();
+    let fitting = fitting.then(|| format!("fitting: {} motions, esc stops ", session.fitting));
+    let computing = if session.is_busy() { "computing " } else { "" };
+    let busy = fitting.as_deref().unwrap_or(computing);
     let busy = match session.writing.as_ref().and_then(|path| path.file_name()) {
         Some(name) => format!("{busy}writing {} ", name.display()),
         None => busy.to_owned(),

@@ -1,6 +1,7 @@
 //! Words for numbers, quantities and answers, the same on the screen, in tables and in figures.
 
 pub mod claim;
+pub mod fit;
 pub mod measured;
 pub mod motion;
 pub mod number;

@@ -4,6 +4,7 @@
 use super::damping::damping;
 use super::pieces::{Curve, at, curve, picture, points, window, with_unit};
 use crate::fit::Fitted;
+use crate::fit::curves::memory as memory_of;
 use crate::fit::observation::{D, OFFSET, Q0, R, parameters};
 use crate::flow::Limits;
 use crate::oscillator::Parameters;
@@ -53,13 +54,13 @@ pub fn residuals(fitted: &Fitted) -> Option<Picture<'static>> {
 
 /// The autocorrelation of the residuals over two periods.
 fn memory(fitted: &Fitted) -> Option<Picture<'static>> {
-    let memory = &fitted.curves.memory;
+    let memory = memory_of(&fitted.estimate);
     let [periods, _] = *memory.last()?;
     #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
     let chance = 2.0 / (fitted.estimate.kept_residuals().count() as f64).sqrt();
     let level = |height: f64| vec![at(0.0, height), at(periods, height)];
     let curves = vec![
-        curve("autocorrelation of the residuals", Role::Energy, Dash::Solid, points(memory)),
+        curve("autocorrelation of the residuals", Role::Energy, Dash::Solid, points(&memory)),
         curve("+-2 standard deviations", Role::Current, Dash::Dashed, level(chance)),
         curve("+-2 standard deviations", Role::Current, Dash::Dashed, level(-chance)),
     ];

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::words::sentences;
 use crate::fit::Fitted;
 use crate::fit::margin::Spread;
 use crate::fit::names::NAMES;
@@ -13,6 +12,7 @@ use crate::fit::physical::{self, kicks, rows};
 use crate::fit::separable::combinations;
 use crate::report::csv;
 use crate::report::json;
+use crate::words::fit::sentences;
 
 #[derive(Serialize)]
 struct Number {

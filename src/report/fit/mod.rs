@@ -2,7 +2,6 @@
 
 mod document;
 mod table;
-mod words;
 
 pub use document::{csv, json};
 pub use table::table;

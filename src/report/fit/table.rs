@@ -1,12 +1,12 @@
 //! A fit to read.
 
-use super::words::sentences;
 use crate::fit::Fitted;
 use crate::fit::margin::Spread;
 use crate::fit::names::{NAMES, NameSpec};
 use crate::fit::observation::{Data, LAST, Q0, Start};
 use crate::fit::physical::{kicks, rows};
 use crate::report::table::Table;
+use crate::words::fit::sentences;
 use crate::words::number::{duration, resolved, significant};
 
 /// The unit of a number: powers of the record's unit of length and of a second.

@@ -2,14 +2,18 @@
 
 use std::sync::Arc;
 
-use crate::flow::Reason;
+use crate::fit::Unfit;
+use crate::flow::{Problem, Reason};
+use crate::oscillator::PARAMETERS;
 use crate::question::{Failure, Rows};
 use crate::scene::{Answer, Answered, Fit, Topic, View};
-use crate::session::act::notice::refuse;
+use crate::session::act::notice::{inform, refuse};
 use crate::session::read::fit::{fitted, is_pending};
 use crate::session::state::plot::Framing;
+use crate::session::state::rows::Steps;
 use crate::session::state::scan::{Progress, SCANNING};
 use crate::session::state::session::{Recomputed, Session};
+use crate::words::fit::sentences;
 
 impl Session {
     /// Takes an answer in; returns whether it is the answer to a question that is asked now.
@@ -28,7 +32,13 @@ impl Session {
             if let Answer::Fit(fit) = answer
                 && asked
             {
-                self.show_fit(&fit.clone());
+                let fit = fit.clone();
+                if let Err(Unfit::Underway { motions }) = fit.found() {
+                    self.fitting = *motions;
+                    return asked;
+                }
+                self.fitting = 0;
+                self.show_fit(&fit);
             }
         }
         self.answers.keep(answered);
@@ -41,14 +51,27 @@ impl Session {
             Ok(found) => found,
             Err(unfit) => return drop(refuse(self, unfit.to_string())),
         };
-        let problem = found.problem(self.problem);
-        // What the user has changed meanwhile stays.
-        if self.problem == self.scene.problem {
-            self.problem = problem;
+        let problem = found.problem(self.scene.problem);
+        let errors =
+            PARAMETERS.iter().filter_map(|row| Some((row.symbol, found.error(row.symbol)?)));
+        let said = sentences(&found.fit);
+        let scene = Arc::make_mut(&mut self.scene);
+        // A step of one standard error is the least that says anything.
+        scene.steps.extend(errors.filter(|(_, error)| *error > 0.0));
+        scene.look = format!("{}. {}", said.join("; "), scene.look);
+        if self.problem.until == scene.problem.until {
+            self.problem.until = problem.until;
         }
-        Arc::make_mut(&mut self.scene).problem = problem;
+        scene.problem = problem;
+        self.steps = Steps::of_scene(&self.scene);
         for plot in &mut self.plots {
             plot.framing = Framing::Fitting;
+        }
+        let doubtful = found.fit.estimate.whiteness.systematic;
+        match said.into_iter().find(|text| !doubtful || text.starts_with("the residuals")) {
+            Some(text) if doubtful => drop(refuse(self, text)),
+            Some(text) => drop(inform(self, text)),
+            None => {}
         }
     }
 
@@ -78,6 +101,22 @@ impl Session {
             plot.window = scanned.window();
         }
         true
+    }
+}
+
+/// Brings the numbers that nobody holds to what the fit makes of those that are held.
+pub(in crate::session) fn follow_fit(session: &mut Session) {
+    if session.scene.recording.is_none() {
+        return;
+    }
+    let Some(Problem { parameters, initial, .. }) =
+        session.followed().map(|fitted| fitted.problem(session.problem))
+    else {
+        return;
+    };
+    let Problem { parameters: own, initial: start, .. } = &mut session.problem;
+    for row in PARAMETERS.iter().filter(|row| !session.doubt.holds(row.symbol)) {
+        row.symbol.set(own, start, row.symbol.get(&parameters, &initial));
     }
 }
 

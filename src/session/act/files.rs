@@ -4,13 +4,12 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::fit::Reading;
 use crate::scene::machine::file::parse;
 use crate::scene::machine::mode::{NO_BELT, is_mode};
 use crate::scene::{Recording, ScaledMachine};
 use crate::session::act::notice::{inform, refuse, told};
 use crate::session::act::values::letter;
-use crate::session::act::{history, macros, prompt};
+use crate::session::act::{history, macros, measurement, prompt};
 use crate::session::effect::Effect;
 use crate::session::message::Purpose;
 use crate::session::replay::script::Script;
@@ -132,12 +131,9 @@ fn take(
             inform(session, format!("the interrupted session is back{others}"));
             return Ok(vec![Effect::PutAside(path.to_owned())]);
         }
-        Purpose::Fit => {
-            let record = crate::fit::parse(text.as_bytes(), &Reading::default());
-            let record = record.map_err(|error| of_file(error.to_string()))?;
-            let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-            let recording = Recording::from((name.into_owned(), record));
-            history::open_scene(session, Arc::new(recording.scene()));
+        Purpose::Fit(words) => {
+            let opened = measurement::opened(path, &words, &text).map_err(of_file)?;
+            history::open_scene(session, Arc::new(Recording::from(opened).scene()));
         }
         Purpose::Machine => return open_machine(session, path, text, None),
         // Taken above, with a table that cannot be read too.

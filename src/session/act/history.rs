@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
+use crate::fit::Unfit;
 use crate::oscillator::Symbol;
-use crate::scene::Scene;
+use crate::scene::{Answer, Answered, Scene, Topic};
 use crate::session::act::notice::{inform, refuse};
 use crate::session::act::screen_setup::set_up;
 use crate::session::effect::Effect;
@@ -21,6 +22,22 @@ pub fn undo(session: &mut Session) -> Vec<Effect> {
     let found = history.undo(|before| present(session, before));
     session.history = history;
     bring_back(session, found, "undo")
+}
+
+/// Stops fitting the record on show: what was there before comes back.
+pub fn stop_fitting(session: &mut Session) -> Vec<Effect> {
+    let recording = session.scene.recording.clone();
+    while session.scene.recording == recording && session.history.depth().0 > 0 {
+        undo(session);
+    }
+    if session.scene.recording == recording
+        && let Some(request) = session.request(Topic::Fit, session.plot)
+    {
+        let result = Ok(Answer::Fit(Unfit::Interrupted.into()));
+        session.answers.keep(Answered { request, result, seconds: 0.0, complete: true });
+    }
+    session.fitting = 0;
+    inform(session, "the fit was stopped")
 }
 
 /// Redoes what was undone last.

@@ -11,6 +11,7 @@ pub mod history;
 pub mod lists;
 pub mod macros;
 pub mod marks;
+pub mod measurement;
 pub mod mouse;
 pub mod notice;
 pub mod palette;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::flow::{METHODS, Method, Problem, QUALITIES};
 use crate::machine::stepped::Way;
 use crate::numerics::elementary::log10;
+use crate::oscillator::PARAMETERS;
 use crate::oscillator::belt::Quantity;
 use crate::scene::{Running, Setting, View};
 use crate::session::act::notice::{inform, refuse};
@@ -28,16 +29,31 @@ pub(in crate::session) fn change(session: &mut Session, problem: Problem) -> boo
 /// Returns whether it differs.
 pub(in crate::session) fn put(session: &mut Session, setup: &Setup) -> bool {
     let before = session.setup();
-    let differs = *setup != before;
+    let setup = holding(session, &before, *setup);
+    let differs = setup != before;
     if differs {
         let was_on = session.is_on_the_belt() == Some(true);
         session.history.record(Before::Setup(before));
-        session.set_setup(setup);
+        session.set_setup(&setup);
         if was_on && session.is_on_the_belt() == Some(false) {
             inform(session, "off the belt: no speed has these numbers; the row belt leads back");
         }
     }
     differs
+}
+
+/// What a change by hand holds: of a fitted record the numbers that it moves, while the fit follows with all others.
+fn holding(session: &Session, before: &Setup, mut setup: Setup) -> Setup {
+    // A mark says itself what is held.
+    if session.scene.recording.is_some() && setup.doubt.held == before.doubt.held {
+        for row in &PARAMETERS {
+            let value = |problem: &Problem| row.symbol.get(&problem.parameters, &problem.initial);
+            if value(&setup.problem) != value(&before.problem) {
+                setup.doubt.held[row.symbol as usize] = true;
+            }
+        }
+    }
+    setup
 }
 
 /// Moves the selection among the rows that stand in the pane.
@@ -144,6 +160,11 @@ pub fn reset_row(session: &mut Session) -> Vec<Effect> {
         Row::Disturbance => {
             let disturbance = Setup::of_scene(&session.scene).doubt.disturbance;
             Ok(Setup { doubt: Doubt { disturbance, ..present.doubt }, ..present })
+        }
+        Row::Parameter(symbol) if session.scene.recording.is_some() => {
+            let mut doubt = present.doubt.with_half_width(symbol, 0.0).unwrap_or(present.doubt);
+            doubt.held[symbol as usize] = false;
+            Ok(Setup { doubt, ..present })
         }
         Row::Parameter(symbol) => {
             let value = number(&Setup::alone(scene), row);

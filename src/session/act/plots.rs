@@ -89,6 +89,9 @@ pub fn drop_cursor(session: &mut Session) -> Vec<Effect> {
     if session.writing.is_some() {
         return vec![Effect::StopWriting];
     }
+    if session.is_fitting() {
+        return super::history::stop_fitting(session);
+    }
     if session.focuses_scan() {
         return super::scan::stop(session);
     }

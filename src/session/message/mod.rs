@@ -58,8 +58,8 @@ pub enum Purpose {
     Play,
     /// To have its keys in a register.
     Register(char),
-    /// To be fitted, as a record of a motion.
-    Fit,
+    /// To be fitted, as a record of a motion, with what else was said about it.
+    Fit(String),
     /// To be looked at, as a machine.
     Machine,
     /// The table of friction that a machine names.

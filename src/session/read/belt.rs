@@ -121,6 +121,13 @@ impl Session {
     /// # Errors
     /// One line, where the scene is of no machine.
     pub(in crate::session) fn unit_of_force(&self, setup: &Setup) -> Result<f64, String> {
+        let fitted = self.fitted().and_then(|fitted| fitted.fit.units());
+        if let Some(units) = fitted {
+            let known = Some(units.force).filter(|force| force.is_finite());
+            return known.ok_or_else(|| {
+                "no mass is known: :fit FILE mass=2 kg, or stiffness=800 N/m".to_owned()
+            });
+        }
         let machine = self.set_machine(setup)?;
         Ok(Running::at(&machine, machine.belt.belt_speed)?.reduced.units.force)
     }

@@ -13,7 +13,7 @@ impl Session {
     pub fn tells_certain(&self, plot: usize) -> bool {
         let layers = [Layer::Safe, Layer::Lost].iter().any(|it| self.layers.contains(it));
         let phase = self.plots.get(plot).is_some_and(|plot| plot.view == View::Phase);
-        phase && (layers || !self.doubt.is_none())
+        phase && (layers || !self.doubt.is_certain())
     }
 
     /// What is safe for certain at these parameters; of a machine by the model that is drawn. `None` where no

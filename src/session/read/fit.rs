@@ -1,6 +1,7 @@
 //! Windows fitted to what is on show.
 
 use crate::closed_form::lyapunov;
+use crate::fit::curves::Extent;
 use crate::flow::{Outcome, Trajectory};
 use crate::numerics::elementary::hypot;
 use crate::oscillator::energy::energy;
@@ -54,6 +55,12 @@ pub(in crate::session) fn fitted(session: &Session, index: usize) -> Option<Wind
         View::EnergyRate => energy_rate(session),
         View::Eigenvalues => eigenvalues(session),
         View::Speeds => speeds(session, index),
+        View::Damping => extent(session.fitted()?.fit.curves.damping.extent),
+        View::Residuals => {
+            let fit = &session.fitted()?.fit;
+            extent(fit.curves.residual_extent(fit.estimate.covariance.deviation)?)
+        }
+        View::Spread => extent(session.fitted()?.fit.curves.spread_extent),
         View::Scan => session.scanned.as_ref().map(Scanned::window),
         #[allow(
             unreachable_patterns,
@@ -61,6 +68,10 @@ pub(in crate::session) fn fitted(session: &Session, index: usize) -> Option<Wind
         )]
         view => Some(view.spec().window),
     }
+}
+
+fn extent([left, right, low, high]: Extent) -> Option<Window> {
+    Some(Window { x: Span::new(left, right).ok()?, y: Span::new(low, high).ok()? })
 }
 
 /// Whether something that a plot shows is still to be computed.

@@ -6,6 +6,7 @@ pub mod completion;
 pub mod contexts;
 pub mod fate;
 pub mod fit;
+pub mod fitted;
 mod last_answers;
 pub mod ledger;
 pub mod lists;

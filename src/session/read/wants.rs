@@ -14,7 +14,7 @@ use crate::oscillator::{Belt, Symbol};
 use crate::proof::Proof;
 use crate::question;
 use crate::question::{Failure, Motion};
-use crate::scene::{Answer, Axes, Fitted, Layer, Request, Span, TOPICS, Topic, View, Window};
+use crate::scene::{Answer, Axes, Layer, Request, Span, TOPICS, Topic, View, Window};
 use crate::session::state::answers::Standing;
 use crate::session::state::overlay::{Listed, Overlay};
 use crate::session::state::plot::{Framing, Pane};
@@ -76,9 +76,10 @@ impl Session {
         let claims = matches!(self.overlay, Some(Overlay::List(Listed::Paper, _)));
         let each = needed.iter().flat_map(|(topic, plot)| self.requests(*topic, *plot));
         let last = self.measures().then(|| self.request(Topic::Reference, self.plot)).flatten();
-        let all = claims
-            .then_some(Request::Claims(question::claims::Asked))
+        let all = self
+            .refit_request()
             .into_iter()
+            .chain(claims.then_some(Request::Claims(question::claims::Asked)).into_iter())
             .chain(each.map(|each| each.1));
         let mut asked = Vec::new();
         let proof = || self.request(Topic::Proof, self.plot);
@@ -166,6 +167,7 @@ impl Session {
             Topic::Fit => {
                 Request::Fit(question::fit::Asked { recording: self.scene.recording.clone()? })
             }
+            Topic::Refit => self.refit_request()?,
             Topic::Trajectory => match self.machine().filter(|_| self.draws_whole()) {
                 Some(belt) => {
                     Request::Machine(question::machine::Asked { belt: Arc::new(belt), problem })
@@ -332,12 +334,6 @@ impl Session {
             Err(NoComparison::GaveUp(_)) => Err(Unmeasured::GaveUp),
             Err(NoComparison::OtherFate) => Err(Unmeasured::OtherFate),
         })
-    }
-
-    /// The fit of the record on show; `None` until it is found.
-    pub fn fitted(&self) -> Option<&Fitted> {
-        let Answer::Fit(fit) = self.answer(Topic::Fit, self.plot)? else { return None };
-        fit.found().ok().filter(|_| !self.is_stale(Topic::Fit, self.plot))
     }
 
     /// What is proved about the cycles at the present parameters; `None` until it is.

@@ -1,4 +1,4 @@
-//! How exactly the parameters are known, and what disturbs the motion.
+//! How exactly the parameters are known, which of a fit's are held, and what disturbs the motion.
 
 use serde::{Deserialize, Serialize};
 
@@ -15,6 +15,9 @@ pub struct Doubt {
     pub half_widths: [f64; 4],
     /// Bound w on the disturbance, in the unit of r.
     pub disturbance: f64,
+    /// Which of D, D2, D3, r, q0 and v0 a fit leaves as they are set by hand.
+    #[serde(default)]
+    pub held: [bool; 6],
 }
 
 /// The parameters that may have a half width.
@@ -33,9 +36,19 @@ pub fn symbol_of(quantity: Quantity) -> Option<Symbol> {
 }
 
 impl Doubt {
-    /// Whether everything is known exactly and nothing disturbs.
+    /// Whether there is nothing to say.
     pub fn is_none(&self) -> bool {
         *self == Self::default()
+    }
+
+    /// Whether everything is known exactly and nothing disturbs.
+    pub fn is_certain(&self) -> bool {
+        self.disturbance == 0.0 && self.half_widths == [0.0; 4]
+    }
+
+    /// Whether a number is held by hand.
+    pub fn holds(&self, symbol: Symbol) -> bool {
+        self.held[symbol as usize]
     }
 
     /// The same, if no number of it is negative.

@@ -143,6 +143,8 @@ pub struct Session {
     pub scanned: Option<Scanned>,
     /// The form as it was when the last scan was started.
     pub scan_form: Option<Form>,
+    /// Motions that a fit has computed so far.
+    pub fitting: u64,
     /// What the last key press cost.
     pub price: Price,
     /// Whether the last key turned the dial or changed the method: then the error is measured.
@@ -193,6 +195,7 @@ impl Session {
             answers: Answers::default(),
             scanned: None,
             scan_form: None,
+            fitting: 0,
             price: Price::default(),
             measuring: false,
             notice: None,
@@ -223,7 +226,8 @@ impl Session {
             }
             Row::Disturbance => {
                 self.unfolded
-                    || !self.doubt.is_none()
+                    || self.scene.recording.is_some()
+                    || !self.doubt.is_certain()
                     || [Layer::Safe, Layer::Lost].iter().any(|it| self.layers.contains(it))
             }
             Row::Until | Row::Method | Row::Tolerance => true,

@@ -18,7 +18,7 @@ fn a_half_width_is_typed_stepped_undone_and_saved() {
     assert_eq!(certainty(&trial), None, "nothing is in doubt");
     trial.press(":set<space>r=0.10+-0.01<space>w=0.02<enter>");
     assert_eq!(trial.session.value(Symbol::R), 0.1);
-    let doubt = Doubt { half_widths: [0.0, 0.0, 0.0, 0.01], disturbance: 0.02 };
+    let doubt = Doubt { half_widths: [0.0, 0.0, 0.0, 0.01], disturbance: 0.02, ..Doubt::default() };
     assert_eq!(trial.session.doubt, doubt);
     let text = save::text(&trial.session).unwrap();
     let mut other = Trial::open("plain").session;

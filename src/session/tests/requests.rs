@@ -91,7 +91,9 @@ fn terms_that_a_scene_does_not_declare_are_zero_until_the_user_unfolds_them() {
     assert_eq!((d2, d3), (0.0, 0.0));
     for request in trial.session.wants() {
         let parameters = match request {
-            Request::Claims(question::claims::Asked) | Request::Fit(_) => continue,
+            Request::Claims(question::claims::Asked) | Request::Fit(_) | Request::Refit(_) => {
+                continue;
+            }
             Request::Trajectory(problem) => problem.parameters,
             Request::Machine(_)
             | Request::Portrait(_)

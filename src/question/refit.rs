@@ -1,0 +1,32 @@
+//! A fitted record with some numbers held.
+
+use super::fit::Fit;
+use super::kind::Question;
+use super::means::Means;
+use crate::flow::Reason;
+
+/// What is asked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Asked {
+    /// The fit of all numbers.
+    pub fit: Fit,
+    /// Values at which D, D2, D3 and r are held.
+    pub held: [Option<f64>; 4],
+}
+
+impl Question for Asked {
+    type Found = Fit;
+
+    fn answer(&self, means: &Means) -> Result<Fit, Reason> {
+        self.fit.held(self.held, means.limits)
+    }
+
+    fn numbers(&self) -> [f64; 8] {
+        let [d, d2, d3, r] = self.held.map(Option::unwrap_or_default);
+        [d, d2, d3, r, 0.0, 0.0, 0.0, 0.0]
+    }
+
+    fn compares(&self, wanted: &Self) -> bool {
+        self.fit == wanted.fit
+    }
+}

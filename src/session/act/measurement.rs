@@ -1,0 +1,99 @@
+//! Opening a recorded motion: the file, and what the file does not say.
+
+use std::path::{Path, PathBuf};
+
+use crate::fit::{Column, Inertia, LENGTHS, Reading, length_in_metres, parse};
+use crate::oscillator::belt::Dimension;
+use crate::question::Opened;
+use crate::scene::machine::unit::measured;
+use crate::session::effect::Effect;
+use crate::session::message::Purpose;
+
+/// What may stand behind the name of the file.
+const WORDS: [&str; 5] = ["mass", "stiffness", "unit", "columns", "peaks"];
+
+/// What the file does not say.
+#[derive(Debug, Default)]
+struct Said {
+    inertia: Option<Inertia>,
+    unit: Option<String>,
+    reading: Reading,
+}
+
+/// Asks for the file that a line names; `FILE mass=2 kg columns=1,3 peaks`.
+pub fn ask(rest: &str) -> Result<Vec<Effect>, String> {
+    let begins = |word: &str| {
+        let name = word.split_once('=').map_or(word, |(name, _)| name);
+        WORDS.contains(&name) && (word.contains('=') || name == "peaks")
+    };
+    let mut blanks = rest.match_indices(' ').map(|(at, _)| at);
+    let end = blanks.find(|at| begins(rest[at + 1..].split(' ').next().unwrap_or_default()));
+    let (file, words) = rest.split_at(end.unwrap_or(rest.len()));
+    said(words)?;
+    let (path, purpose) = (PathBuf::from(file.trim()), Purpose::Fit(words.trim().to_owned()));
+    Ok(vec![Effect::Read { path, purpose }])
+}
+
+fn said(words: &str) -> Result<Said, String> {
+    let mut given: Vec<(&str, String)> = Vec::new();
+    for word in words.split_whitespace() {
+        match (word.split_once('='), given.last_mut()) {
+            (Some((name, value)), _) => given.push((name, value.to_owned())),
+            (None, _) if word == "peaks" => given.push((word, String::new())),
+            (None, Some((_, value))) => *value = format!("{value} {word}"),
+            (None, None) => return Err(unknown(word)),
+        }
+    }
+    let mut said = Said::default();
+    for (name, value) in given {
+        match name {
+            "mass" => said.inertia = Some(Inertia::Mass(positive(&value, (1, 0, 0), "kg")?)),
+            "stiffness" => {
+                said.inertia = Some(Inertia::Stiffness(positive(&value, (1, 0, -2), "N/m")?));
+            }
+            "unit" => said.unit = Some(value),
+            "columns" => said.reading = columns(&value, said.reading)?,
+            "peaks" => said.reading.peaks = true,
+            _ => return Err(unknown(name)),
+        }
+    }
+    Ok(said)
+}
+
+fn unknown(word: &str) -> String {
+    format!("behind the file may stand {}, not {word:?}", WORDS.join(", "))
+}
+
+fn positive(text: &str, (kg, m, s): (i8, i8, i8), unit: &str) -> Result<f64, String> {
+    let value = measured(text)?.as_a(Dimension::new(kg, m, s), unit)?;
+    if value > 0.0 { Ok(value) } else { Err(format!("{text:?} is not positive")) }
+}
+
+/// Times and displacements, by number from 1 or by name.
+fn columns(text: &str, reading: Reading) -> Result<Reading, String> {
+    let (time, displacement) =
+        text.split_once(',').ok_or_else(|| format!("{text:?} is no columns=1,3"))?;
+    let column = |name: &str| match name.trim().parse() {
+        Ok(0) => Err("columns are counted from 1".to_owned()),
+        Ok(number) => Ok(Some(Column::Number(number))),
+        Err(_) => Ok(Some(Column::Name(name.trim().to_owned()))),
+    };
+    Ok(Reading { time: column(time)?, displacement: column(displacement)?, ..reading })
+}
+
+/// Reads the record.
+///
+/// # Errors
+/// One line: what is wrong, where, and what is allowed.
+pub(in crate::session) fn opened(path: &Path, words: &str, text: &str) -> Result<Opened, String> {
+    let Said { inertia, unit, reading } = said(words)?;
+    let mut record = parse(text.as_bytes(), &reading).map_err(|error| error.to_string())?;
+    record.unit = unit.or(record.unit);
+    let known = record.unit.as_deref().is_some_and(|unit| length_in_metres(unit).is_some());
+    if inertia.is_some() && !known {
+        let lengths = LENGTHS.map(|it| it.0).join(", ");
+        return Err(format!("the file names no known unit of length; unit= one of {lengths}"));
+    }
+    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+    Ok(Opened { name, record, inertia, peaks: reading.peaks })
+}

@@ -1,0 +1,58 @@
+//! What is known of the record on show: the fit of all numbers, or that of the others when some are held by hand.
+
+use crate::oscillator::Symbol;
+use crate::oscillator::belt::Units;
+use crate::question;
+use crate::question::{Fit, Fitted};
+use crate::scene::{Answer, Request, Topic};
+use crate::session::state::session::Session;
+
+impl Session {
+    /// The fit of the record on show with what is held; until that is there, the one that comes closest to it.
+    pub fn fitted(&self) -> Option<&Fitted> {
+        let held = self.refit_request().and_then(|request| {
+            match self.answers.standing(&request).answer()? {
+                Answer::Refit(fit) => fit.found().ok(),
+                _ => None,
+            }
+        });
+        held.or_else(|| self.fit_of_all()?.found().ok())
+    }
+
+    /// The same only if it is what is asked for at present.
+    pub(in crate::session) fn followed(&self) -> Option<&Fitted> {
+        let pending = self.refit_request().is_some_and(|it| !self.answers.standing(&it).is_fresh());
+        if pending { None } else { self.fitted() }
+    }
+
+    /// The fit of all numbers; `None` until it is there.
+    fn fit_of_all(&self) -> Option<&Fit> {
+        let standing = self.standing(Topic::Fit, self.plot);
+        match standing.answer()? {
+            Answer::Fit(fit) if standing.is_fresh() => Some(fit),
+            _ => None,
+        }
+    }
+
+    /// The question for the fit with what is held; `None` where nothing is.
+    pub(in crate::session) fn refit_request(&self) -> Option<Request> {
+        let held = [Symbol::D, Symbol::D2, Symbol::D3, Symbol::R]
+            .map(|symbol| self.doubt.holds(symbol).then(|| self.value(symbol)));
+        let fit = self.fit_of_all().filter(|_| held.iter().any(Option::is_some))?.clone();
+        Some(Request::Refit(question::refit::Asked { fit, held }))
+    }
+
+    /// Whether the record on show is being fitted.
+    pub fn is_fitting(&self) -> bool {
+        let request = self.request(Topic::Fit, self.plot);
+        request.is_some_and(|request| self.is_open(&request))
+    }
+
+    /// What 1 stands for on the machine or in the record on show.
+    pub fn units(&self) -> Option<Units> {
+        match self.running() {
+            Some(running) => Some(running.reduced.units),
+            None => self.fitted()?.fit.units(),
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! What a fitted record says in the pane: numbers with their errors, in physical units where these are known.
+
+use super::look::Look;
+use crate::fit::observation::OMEGA0;
+use crate::fit::physical::rows;
+use crate::oscillator::{PARAMETERS, Symbol};
+use crate::scene::Fitted;
+use crate::session::{Row, Session};
+use crate::words::number::significant;
+use crate::words::quantity::with_unit;
+
+/// What a fitted number stands for with its standard error, and the error alone; or that it is held.
+pub fn fitted(session: &Session, row: Row, look: &Look) -> Vec<String> {
+    let (Row::Parameter(symbol), Some(found)) = (row, session.fitted()) else { return Vec::new() };
+    let sign = look.symbols().plus_minus;
+    let error = found.error(symbol);
+    let told = match error {
+        Some(error) => format!("{sign}{}", significant(error, 2)),
+        None if session.doubt.holds(symbol) => "held".to_owned(),
+        None => return Vec::new(),
+    };
+    let physical = rows(&found.fit).into_iter().find(|row| row.name == stands_for(symbol));
+    let value = session.value(symbol);
+    let physical = match (physical, found.fit.units()) {
+        (Some(row), _) => {
+            let error = error.map_or_else(String::new, |_| {
+                format!(" {sign}{}", with_unit(row.standard_error, 2, row.unit))
+            });
+            Some(format!("{} {}{error}", row.name, with_unit(row.value, 4, row.unit)))
+        }
+        (None, Some(units)) => {
+            let scale = match symbol {
+                Symbol::R | Symbol::Q0 => Some((units.displacement, "m")),
+                Symbol::V0 => Some((units.velocity, "m/s")),
+                Symbol::D | Symbol::D2 | Symbol::D3 => None,
+            };
+            scale.map(|(scale, unit)| {
+                let error = error.map_or_else(String::new, |error| {
+                    format!(" {sign}{}", with_unit(error * scale, 2, unit))
+                });
+                with_unit(value * scale, 4, unit) + &error
+            })
+        }
+        _ => None,
+    };
+    let held = if error.is_none() { " held" } else { "" };
+    physical.map(|text| text + held).into_iter().chain([told]).collect()
+}
+
+/// The number of a mass on a spring that a parameter is a measure of.
+fn stands_for(symbol: Symbol) -> &'static str {
+    match symbol {
+        Symbol::D => "d1",
+        Symbol::D2 => "d2",
+        Symbol::D3 => "d3",
+        Symbol::R => "R",
+        Symbol::Q0 | Symbol::V0 => "",
+    }
+}
+
+/// The frequency of a record, and where the smallest displacement that is not survived lies with 95 %; with numbers
+/// held, how much worse the fit is.
+pub fn spread(session: &Session) -> Vec<String> {
+    let Some(Fitted { fit, .. }) = session.fitted() else { return Vec::new() };
+    let estimate = &fit.estimate;
+    let hertz = |value: f64| value / std::f64::consts::TAU;
+    let error = hertz(estimate.covariance.error(OMEGA0));
+    let frequency = with_unit(hertz(estimate.p[OMEGA0]), 4, "Hz");
+    let frequency = format!("f0 {frequency} +-{}", significant(error, 2));
+    let spread = fit.margins.displacement;
+    let scale = fit.units().map(|units| units.displacement);
+    let end = |end: Option<f64>| match (end, scale) {
+        (None, _) => "any".to_owned(),
+        (Some(end), Some(metres)) => with_unit(end * metres, 3, "m"),
+        (Some(end), None) => significant(end, 3),
+    };
+    let held = PARAMETERS.iter().any(|row| session.doubt.holds(row.symbol));
+    let margin = match spread.lower {
+        _ if held => "95 %: not with numbers held".to_owned(),
+        None => "95 %: every kick".to_owned(),
+        Some(_) => format!("95 %: q {} .. {}", end(spread.lower), end(spread.upper)),
+    };
+    let frequency = estimate.free[OMEGA0].then_some(frequency);
+    frequency.into_iter().chain([margin]).collect()
+}
