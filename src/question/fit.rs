@@ -103,6 +103,8 @@ pub struct Fitted {
     pub fit: fit::Fitted,
     /// What was measured; lists of peaks have no velocities but zero.
     pub points: Vec<Measured>,
+    /// By how much chi-squared is larger than without what is held.
+    pub rise: f64,
 }
 
 /// A fitted record, or why it could not be fitted; the same fit is equal at once.
@@ -141,13 +143,8 @@ impl Fit {
             Err(unfit) => return Ok(unfit.into()),
         };
         let margins = margins(&estimate, DRAWN, limits)?;
-        Ok(Fit::with(
-            recording.name.clone(),
-            &recording.record,
-            estimate,
-            margins,
-            metric(recording),
-        ))
+        let named = (recording.name.clone(), &recording.record);
+        Ok(Fit::with(named, estimate, margins, metric(recording), 0.0))
     }
 
     /// The same with D, D2, D3 and r held where they have values; the distribution of the margin stays that without.
@@ -162,8 +159,12 @@ impl Fit {
         let mut runs = Runs { with_derivatives: 0, plain: 0, interrupted: &interrupted };
         match refit::held(&fit.estimate, &numbers, &mut runs) {
             Ok(estimate) => {
-                let (name, margins) = (fit.name.clone(), fit.margins.clone());
-                Ok(Fit::with(name, &fit.record, estimate, margins, fit.inertia))
+                let cost = |of: &Estimate| of.kept_residuals().map(|it| it * it).sum::<f64>();
+                let deviation = fit.estimate.covariance.deviation;
+                let unit = deviation * deviation;
+                let rise = (cost(&estimate) - cost(&fit.estimate)) / unit;
+                let (named, margins) = ((fit.name.clone(), &fit.record), fit.margins.clone());
+                Ok(Fit::with(named, estimate, margins, fit.inertia, rise))
             }
             Err(Unfit::Interrupted) => Err(Reason::Interrupted),
             Err(unfit) => Ok(unfit.into()),
@@ -171,17 +172,17 @@ impl Fit {
     }
 
     fn with(
-        name: String,
-        record: &Record,
+        (name, record): (String, &Record),
         estimate: Estimate,
         margins: Margins,
         inertia: Option<(Inertia, f64)>,
+        rise: f64,
     ) -> Self {
         let (points, curves) = (points(&estimate), Curves::of(&estimate, &margins));
         let (record, contours, seconds) = (record.clone(), Vec::new(), 0.0);
         let fit =
             fit::Fitted { name, record, estimate, margins, curves, contours, inertia, seconds };
-        Fit(Arc::new(Ok(Fitted { fit, points })))
+        Fit(Arc::new(Ok(Fitted { fit, points, rise })))
     }
 
     /// What was found, or why there is nothing.

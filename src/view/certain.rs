@@ -52,7 +52,7 @@ fn margins(session: &Session) -> Option<(Margin, Result<Margin, String>)> {
 }
 
 /// A displacement and an impulse, in the units of the machine where there is one.
-fn size(session: &Session, margin: &Margin, places: usize) -> Option<String> {
+pub fn size(session: &Session, margin: &Margin, places: usize) -> Option<String> {
     let (q, v) = (margin.displacement?, margin.impulse?);
     Some(match session.units() {
         Some(units) => {

@@ -60,13 +60,14 @@ fn stands_for(symbol: Symbol) -> &'static str {
 
 /// The frequency of a record, and where the smallest displacement that is not survived lies with 95 %; with numbers
 /// held, how much worse the fit is.
-pub fn spread(session: &Session) -> Vec<String> {
-    let Some(Fitted { fit, .. }) = session.fitted() else { return Vec::new() };
+pub fn spread(session: &Session, look: &Look) -> Vec<String> {
+    let Some(Fitted { fit, rise, .. }) = session.fitted() else { return Vec::new() };
     let estimate = &fit.estimate;
     let hertz = |value: f64| value / std::f64::consts::TAU;
     let error = hertz(estimate.covariance.error(OMEGA0));
     let frequency = with_unit(hertz(estimate.p[OMEGA0]), 4, "Hz");
-    let frequency = format!("f0 {frequency} +-{}", significant(error, 2));
+    let frequency =
+        format!("f0 {frequency} {}{}", look.symbols().plus_minus, significant(error, 2));
     let spread = fit.margins.displacement;
     let scale = fit.units().map(|units| units.displacement);
     let end = |end: Option<f64>| match (end, scale) {
@@ -76,7 +77,7 @@ pub fn spread(session: &Session) -> Vec<String> {
     };
     let held = PARAMETERS.iter().any(|row| session.doubt.holds(row.symbol));
     let margin = match spread.lower {
-        _ if held => "95 %: not with numbers held".to_owned(),
+        _ if held => format!("held: chi^2 +{}", significant(*rise, 3)),
         None => "95 %: every kick".to_owned(),
         Some(_) => format!("95 %: q {} .. {}", end(spread.lower), end(spread.upper)),
     };

@@ -132,7 +132,9 @@ fn row_line(
     let step = step.unwrap_or_default();
     // Two numbers after a sign of either would not be told apart.
     let half = matches!(row, Row::Parameter(symbol) if session.doubt.half_width(symbol) > 0.0);
-    let step = if half && !selected { String::new() } else { step };
+    // On a narrow pane the error of a fitted number would be taken for its step.
+    let recorded = session.scene.recording.is_some() && width < WITH_MEANINGS;
+    let step = if (half && !selected) || recorded { String::new() } else { step };
     let room = usize::from(width).saturating_sub(VALUES);
     let fits = |text: &String| text.chars().count() + 2 <= room;
     let physical = physical(session, row).map(|(name, value)| format!("{name} {value}"));
@@ -148,7 +150,7 @@ fn row_line(
     let text = if width >= WITH_MEANINGS {
         format!("{step:<STEP$}  {meaning}")
     } else {
-        let physical = physical.filter(|text| !selected && fits(text));
+        let physical = physical.filter(|text| (!selected || recorded) && fits(text));
         physical.map_or(step, |physical| format!("  {physical}"))
     };
     line.push(Span::styled(text, look.style(Role::Quiet)));
@@ -294,7 +296,7 @@ fn cycles(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) -> u1
     let (count, role) = counted(session, found, usize::from(area.width));
     pane::line(area, y, Span::styled(format!(" {count}"), look.style(role)), "", look, buffer);
     y += 1;
-    let words = basin(session, found, usize::from(area.width))
+    let words = basin(session, found, usize::from(area.width), look)
         .into_iter()
         .chain(balance(session, usize::from(area.width)));
     for text in words {
@@ -330,7 +332,7 @@ fn counted(session: &Session, found: &Cycles, width: usize) -> (String, Role) {
 }
 
 /// What borders the basin of the sticking set, and which kicks it survives.
-fn basin(session: &Session, found: &Cycles, width: usize) -> Vec<String> {
+fn basin(session: &Session, found: &Cycles, width: usize, look: &Look) -> Vec<String> {
     let kinds = session.kinds().filter(|_| session.draws_whole());
     let edge = match found.edge {
         _ if kinds.is_some_and(|kinds| kinds.border == "no-basin") => "rest repels",
@@ -352,14 +354,14 @@ fn basin(session: &Session, found: &Cycles, width: usize) -> Vec<String> {
         // Rather fewer digits than a number cut short.
         (1..=5).rev().map(text).find(|text| text.len() < width)
     });
-    let kicks = kicks.into_iter().chain(spread(session));
+    let kicks = kicks.into_iter().chain(spread(session, look));
     let physical = on_the_machine(session, found, width);
     let certain = certain::line(session, width);
     let lines = std::iter::once(edge.to_owned());
     if session.size.height >= DESIGNED {
         // The second status line says the rest.
         return lines
-            .chain(spread(session))
+            .chain(spread(session, look))
             .chain(physical)
             .chain(certain)
             .chain(area(found))

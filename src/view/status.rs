@@ -276,7 +276,6 @@ fn margin(session: &Session) -> Option<String> {
         return Some("every kick is survived".to_owned());
     }
     let picture = found.picture.as_ref()?;
-    let (q, v) = (picture.margin.displacement?, picture.margin.impulse?);
     let proved = match picture.lyapunov_share {
         Some(share) if share <= 1.0 => {
             format!(" (Lyapunov proves {} %)", significant(100.0 * share, 2))
@@ -284,8 +283,8 @@ fn margin(session: &Session) -> Option<String> {
         Some(_) => " (Lyapunov: not valid)".to_owned(),
         None => String::new(),
     };
-    let [q, v] = [q, v].map(|value| significant(value, 4));
-    Some(format!("survives kicks up to q {q} or v {v}{proved}"))
+    let kicks = certain::size(session, &picture.margin, 4)?;
+    Some(format!("survives kicks up to {kicks}{proved}"))
 }
 
 /// How the motion was computed, what it cost, and its error: measured while the dial is in use, else
