@@ -393,7 +393,8 @@ proptest! {
                     | Answer::Scan(_)
                     | Answer::Claims(_)
                     | Answer::Proof(_)
-                    | Answer::Fit(_),
+                    | Answer::Fit(_)
+                    | Answer::Refit(_),
                 )
                 | Err(_) => {}
             }
