@@ -92,7 +92,6 @@ pub fn half_width(text: &str) -> Result<(Symbol, f64), String> {
 /// A parameter and the values through which it goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Over {
-    /// Which parameter.
     pub symbol: Symbol,
     /// Smallest and largest value.
     pub range: (f64, f64),
@@ -148,7 +147,6 @@ pub fn grid(text: &str) -> Result<(usize, usize), String> {
     )
 }
 
-/// A method by its name.
 pub fn method(name: &str) -> Result<Method, String> {
     Method::named(name).ok_or_else(|| {
         let names: Vec<_> = METHODS.iter().map(|row| row.name).collect();

@@ -151,7 +151,6 @@ pub fn main() -> ExitCode {
     result.unwrap_or_else(|failure| failure.report())
 }
 
-/// The names of the commands.
 fn command_names() -> Vec<String> {
     use clap::CommandFactory;
     Cli::command().get_subcommands().map(|command| command.get_name().to_owned()).collect()

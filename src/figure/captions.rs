@@ -42,7 +42,6 @@ impl Place {
 
 /// What a text should keep clear of, on paper.
 struct Surroundings {
-    /// The spots of each curve.
     curves: Vec<Vec<Spot>>,
     /// Lines to be read against.
     guides: Vec<Vec<Spot>>,

@@ -79,7 +79,6 @@ pub struct Caption {
     pub text: String,
     /// What it says where the text would cover a curve.
     pub short: String,
-    /// What it stands for.
     pub role: Role,
 }
 
@@ -98,7 +97,6 @@ pub struct Axis {
 pub struct Curve {
     /// What it is, and which values it has of its own.
     pub name: String,
-    /// What it stands for.
     pub role: &'static str,
     /// How it is drawn: solid, dashed, dotted, sparse or thick.
     pub style: &'static str,
@@ -109,7 +107,6 @@ pub struct Curve {
     /// What it is, whichever variant it belongs to.
     #[serde(skip)]
     pub kind: String,
-    /// What it stands for.
     #[serde(skip)]
     pub pen: Role,
 }
@@ -117,7 +114,6 @@ pub struct Curve {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Area {
     pub name: String,
-    /// What it stands for.
     pub role: &'static str,
     /// The parameters that hold all over it; those on an axis of the panel are left out.
     pub parameters: BTreeMap<&'static str, f64>,
@@ -126,7 +122,6 @@ pub struct Area {
     /// What it is, whichever variant it belongs to.
     #[serde(skip)]
     pub kind: String,
-    /// What it stands for.
     #[serde(skip)]
     pub pen: Role,
 }
@@ -142,7 +137,6 @@ pub struct Mark {
     /// How it is drawn.
     #[serde(skip)]
     pub mark: role::Mark,
-    /// What it stands for.
     #[serde(skip)]
     pub pen: Role,
 }

@@ -49,7 +49,6 @@ fn halve(
     points.push(to);
 }
 
-/// Points on a lattice of the window.
 pub(super) fn lattice(window: Window) -> impl Iterator<Item = Point> {
     const COUNT: u32 = 17;
     let fraction = |index: u32| (f64::from(index) + 0.5) / f64::from(COUNT);

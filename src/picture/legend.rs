@@ -13,7 +13,6 @@ pub enum Sample {
     Point,
 }
 
-/// An entry of the legend.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     /// How it is drawn.

@@ -386,7 +386,6 @@ fn ends(picture: &mut Picture, session: &Session, index: usize, shown: &[Shown])
     }
 }
 
-/// Where a motion is in the end.
 fn end(picture: &mut Picture, motion: &Trajectory, role: Role) {
     match motion.outcome {
         Outcome::Captured { q, .. } => {

@@ -14,6 +14,7 @@ use crate::proof::motion::{Fate, Motion};
 use crate::proof::range::{Change, Piece, Range};
 use crate::study::fold::BoundaryPoint;
 use crate::words::number::significant;
+use crate::words::stability;
 
 const PLACES: usize = 12;
 
@@ -98,7 +99,6 @@ pub fn followed(motion: &Motion, until: f64) -> Followed {
     }
 }
 
-/// The same in a line.
 pub fn motion_line(motion: &Motion, until: f64) -> String {
     let number = |it| certain(it, PLACES);
     let swings = match motion.turns.len() {
@@ -149,7 +149,6 @@ pub fn survived(kicks: &Kicks) -> Survived {
     }
 }
 
-/// The same in lines.
 pub fn kicks_lines(kicks: &Kicks) -> String {
     let edge = match kicks.edge {
         Some(Edge::None) => "proved: every start is captured\n".to_owned(),
@@ -191,7 +190,6 @@ impl PieceBounds {
         PieceBounds { value: all, cycles: None, proved: false, change: Some(all) }
     }
 
-    /// Of all pieces of a range.
     pub fn of(range: &Range) -> Vec<Self> {
         let row = |piece: &Piece| {
             let mut changes = range.changes.iter();
@@ -253,7 +251,6 @@ pub fn decided(range: &Range) -> Decided {
     }
 }
 
-/// The same as a table.
 pub fn range_table(range: &Range, symbol: Symbol) -> String {
     let name = symbol.spec().name;
     let mut table = Table::new(&["from", "to", "cycles"]);
@@ -303,7 +300,6 @@ impl Bordered {
     }
 }
 
-/// Points of a border as lines.
 pub fn border_lines(points: &[Bordered], symbol: Symbol) -> String {
     let mut table = Table::new(&[symbol.spec().name, "D_F, proved", "D_c, proved"]);
     let cell = |it: Option<Bounds>| {
@@ -320,7 +316,7 @@ pub fn box_table(proof: &Proof) -> String {
     let mut table =
         Table::new(&["cycle", "q_min", "q_max", "v_min", "v_max", "period", "multiplier"]);
     for cycle in &proof.cycles {
-        let kind = if cycle.stable { "stable" } else { "unstable" };
+        let kind = stability(cycle.stable);
         let mut cells = vec![kind.to_owned()];
         let ends = |it: Interval| {
             let [lower, upper] = outward(it);
@@ -422,7 +418,7 @@ pub fn certificate_table(certificate: &Certificate) -> String {
     for step in &certificate.steps {
         if let Some(numbers) = step.numbers {
             some = true;
-            let kind = if numbers.stable { "stable" } else { "unstable" };
+            let kind = stability(numbers.stable);
             let contraction = interval(numbers.contraction);
             let inverse = Interval::point(1.0) / contraction;
             let multiplier = if numbers.stable { contraction } else { inverse };

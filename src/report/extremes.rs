@@ -171,7 +171,6 @@ fn summary(verdicts: &[Verdict]) -> String {
     table.to_string()
 }
 
-/// The extremes that have names.
 fn names(named: &[Named]) -> String {
     let table = Table::of(
         named,

@@ -54,12 +54,10 @@ impl CycleBounds {
         CycleBounds::of(Some(all))
     }
 
-    /// Of a cycle.
     pub(super) fn of(enclosure: Option<Enclosure>) -> Self {
         CycleBounds { proved: enclosure.is_some(), open: None, enclosure, clearances: None }
     }
 
-    /// Of what is open.
     pub(super) fn open(proof: &Proof) -> impl Iterator<Item = Self> {
         proof.open.iter().map(|open| CycleBounds {
             proved: false,
@@ -102,7 +100,6 @@ pub(super) fn rows<'a>(cycles: &'a [Cycle], proof: &Proof) -> Vec<Row<'a>> {
     cycles.iter().map(row).collect()
 }
 
-/// What encloses a cycle.
 pub(super) fn enclosure(proof: &Proof, cycle: &Cycle) -> Option<Enclosure> {
     matching(proof, cycle).and_then(|proved| proved.enclosure)
 }

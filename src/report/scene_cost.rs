@@ -20,7 +20,6 @@ pub struct Question {
     pub layers: Vec<Layer>,
     /// What it cost, counted.
     pub cost: Cost,
-    /// What it cost in seconds.
     pub seconds: f64,
 }
 
@@ -34,7 +33,6 @@ pub struct StepCost {
     pub reused: Vec<Topic>,
 }
 
-/// What a scene costs.
 #[derive(Clone, Debug)]
 pub struct SceneCost {
     pub scene: Arc<Scene>,

@@ -20,7 +20,6 @@ use crate::study::scan::Scan;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Part {
     pub path: PathBuf,
-    /// The points it is for.
     pub points: Range<usize>,
     /// Whether a line of names comes before its rows.
     pub headed: bool,

@@ -19,7 +19,6 @@ const LONGER: u32 = 4;
 /// The turn with which a request begins whose draft is wanted too.
 const REFINEMENT: u32 = 2;
 
-/// What there is to do.
 #[derive(Debug, Default)]
 pub struct Queue {
     /// What is wanted, the most urgent first; the request in progress is among it.
@@ -37,7 +36,6 @@ pub struct Queue {
 #[derive(Debug)]
 struct Wanted {
     request: Request,
-    /// Turns that it has had.
     turns: u32,
 }
 

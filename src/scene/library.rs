@@ -52,7 +52,6 @@ const FILES: [(&str, &str); 32] = [
     scene_file!("fig17"),
 ];
 
-/// What a scene is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Group {
     /// To learn about the oscillator.

@@ -36,7 +36,6 @@ pub struct Scene {
     pub problem: Problem,
     /// Steps of the keys that differ from those of the table.
     pub steps: BTreeMap<Symbol, f64>,
-    /// The layers that are on.
     pub layers: BTreeSet<Layer>,
     /// The plots, one to four, in the order of the focus.
     pub plots: Vec<PlotSetup>,

@@ -21,7 +21,6 @@ pub(super) enum Run {
     Choose(fn(&mut Session) -> Option<Chosen>),
 }
 
-/// A command and what it does.
 #[derive(Debug)]
 pub(super) struct Row {
     pub(super) command: Command,

@@ -58,7 +58,6 @@ impl fmt::Display for Refusal {
 impl std::error::Error for Refusal {}
 
 impl Environment {
-    /// The environment of this process.
     pub fn of_process() -> Environment {
         use std::io::IsTerminal;
         let value = |name| std::env::var(name).ok().filter(|value| !value.is_empty());
@@ -169,7 +168,6 @@ const MONOCHROME: [&str; 4] = ["vt1", "vt2", "vt3", "dumb"];
 mod tests {
     use super::*;
 
-    /// An environment in a terminal with these variables.
     fn environment(variables: &[(&str, &str)]) -> Environment {
         let value = |name| {
             let found = variables.iter().find(|(given, _)| *given == name);

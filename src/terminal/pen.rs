@@ -36,7 +36,6 @@ impl Pen {
     pub const PLAIN: Pen =
         Pen { foreground: Color::Reset, background: Color::Reset, attributes: Modifier::empty() };
 
-    /// The pen that a cell asks for.
     pub fn of(cell: &Cell) -> Pen {
         Pen { foreground: cell.fg, background: cell.bg, attributes: cell.modifier }
     }

@@ -14,7 +14,6 @@ use unicode_width::UnicodeWidthStr;
 
 use super::pen::Pen;
 
-/// Where the terminal's cursor is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cursor {
     /// Column and row, from 0.

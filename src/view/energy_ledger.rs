@@ -17,11 +17,10 @@ use crate::scene::{Point, Span, View, Window};
 use crate::session::ledger::{Entry, Owner};
 use crate::session::{self, Pane, Session};
 use crate::words::number::significant;
+use crate::words::stability;
 
-/// Digits of an energy.
 const DIGITS: usize = 4;
 
-/// Digits of an error.
 const ERROR_DIGITS: usize = 2;
 
 /// Draws the plot with this index.
@@ -61,8 +60,7 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
                     (symbols.points[1], Role::Unstable)
                 };
                 let short = format!("{symbol} q_max {}", significant(cycle.q_max, DIGITS));
-                let stability = if cycle.stable { "stable" } else { "unstable" };
-                let full = format!("{short}, {stability} cycle");
+                let full = format!("{short}, {} cycle", stability(cycle.stable));
                 let room = usize::from(plot.inner().width);
                 let fits = full.chars().count() <= room;
                 plot.write(y, if fits { &full } else { &short }, role);

@@ -242,7 +242,6 @@ fn views(session: &Session, list: &List, look: &Look) -> Content {
     Content { title: "show", rows, about: Vec::new(), below: 0 }
 }
 
-/// The interrupted sessions, with what is in each.
 fn interrupted(session: &Session, list: &List, look: &Look) -> Content {
     let row = |(_, kept): (usize, &Kept)| {
         Entry::Row(vec![

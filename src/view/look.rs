@@ -196,7 +196,6 @@ impl Look {
         ground.copied().unwrap_or(self.style(Role::Danger))
     }
 
-    /// The style of a role.
     pub fn style(&self, role: Role) -> Style {
         self.styles[role as usize]
     }

@@ -53,7 +53,6 @@ pub struct Heading {
 }
 
 impl Heading {
-    /// The heading of a pane, as the session has it.
     pub fn of(session: &Session, pane: Pane) -> Self {
         Heading {
             focused: session.focus == pane && session.overlay.is_none(),

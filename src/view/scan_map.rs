@@ -124,7 +124,6 @@ pub fn draw(plot: &Plot, scanned: &Scanned, look: &Look, buffer: &mut Buffer) {
     }
 }
 
-/// The style of a word that is so dangerous.
 fn of_word(danger: Option<f64>, look: &Look) -> Style {
     match danger {
         None => look.style(Role::Quiet),

@@ -59,7 +59,6 @@ struct Place<'a> {
     paint: Paint,
 }
 
-/// The rows of a screen.
 fn rows(screen: &Buffer) -> impl Iterator<Item = Vec<Place<'_>>> {
     screen.content.chunks(usize::from(screen.area.width).max(1)).map(places)
 }

@@ -87,6 +87,7 @@ fn shorter(session: &Session, mut text: String, room: usize) -> String {
 }
 
 /// The words of the second line.
+#[derive(Clone, Copy)]
 struct Words {
     evaluations: &'static str,
     error: &'static str,
@@ -102,8 +103,8 @@ struct Words {
 }
 
 /// The words in full, and shorter for narrow screens.
-const WORDS: [Words; 4] = [
-    Words {
+const WORDS: [Words; 4] = {
+    let full = Words {
         evaluations: "evaluations",
         error: "energy error",
         energy: "energy error",
@@ -116,42 +117,14 @@ const WORDS: [Words; 4] = [
         recomputed: "recomputed ",
         duration: true,
         choice: true,
-    },
-    Words {
-        evaluations: "ev",
-        error: "error",
-        energy: "energy error",
-        measured: "measured",
-        unmeasured: [
-            "the tighter run gave up",
-            "no tighter run: this one gave up",
-            "the tighter run ends otherwise",
-        ],
-        recomputed: "",
-        duration: true,
-        choice: true,
-    },
-    Words {
-        evaluations: "ev",
-        error: "error",
-        energy: "energy error",
-        measured: "measured",
-        unmeasured: ["tighter run gave up", "gave up", "tighter run ends otherwise"],
-        recomputed: "",
-        duration: true,
-        choice: false,
-    },
-    Words {
-        evaluations: "ev",
-        error: "error",
-        energy: "energy error",
-        measured: "measured",
-        unmeasured: ["gave up", "gave up", "ends otherwise"],
-        recomputed: "",
-        duration: false,
-        choice: false,
-    },
-];
+    };
+    let short =
+        Words { evaluations: "ev", error: "error", measured: "measured", recomputed: "", ..full };
+    let unmeasured = ["tighter run gave up", "gave up", "tighter run ends otherwise"];
+    let shorter = Words { unmeasured, choice: false, ..short };
+    let unmeasured = ["gave up", "gave up", "ends otherwise"];
+    [full, short, shorter, Words { unmeasured, duration: false, ..shorter }]
+};
 
 /// What became of the motion, in a sentence.
 fn outcome(session: &Session) -> (String, Role) {

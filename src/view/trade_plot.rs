@@ -69,7 +69,6 @@ pub fn in_letters(trade: &Trade, seconds: &[f64]) -> String {
     format!("{}      {}\n", screen::text(&buffer), key.join("  "))
 }
 
-/// The letter of a method.
 fn letter(method: Method) -> char {
     match method {
         Method::Auto => 'a',

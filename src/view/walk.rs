@@ -4,6 +4,7 @@ use super::look::Look;
 use crate::session::{Session, Stop};
 use crate::study::{Cycle, SpecialKind};
 use crate::words::number::significant;
+use crate::words::stability;
 
 /// Significant digits: as many as fit, at most as many as distinguish special points from others.
 const DIGITS: [usize; 5] = [10, 8, 6, 5, 4];
@@ -34,7 +35,7 @@ fn sentence(name: &str, label: &str, held: &Stop, digits: usize, dot: &str) -> S
         Some(cycle) => {
             // Neither at a fold nor where the cycle vanishes.
             if !matches!(held.special, Some(SpecialKind::Fold | SpecialKind::Hopf)) {
-                parts.insert(0, if cycle.stable { "stable" } else { "unstable" }.to_owned());
+                parts.insert(0, stability(cycle.stable).to_owned());
             }
             let short = digits.min(5);
             parts.push(format!(

@@ -11,7 +11,6 @@ pub fn name(examined: &Examined) -> &'static str {
     examined.finding.as_ref().map_or(UNKNOWN, |finding| Finding::verdict(finding).name())
 }
 
-/// The verdict in words.
 pub fn verdict(examined: &Examined) -> String {
     let percent = |part: f64| format!("{} %", significant(100.0 * part, 2));
     let Ok(finding) = &examined.finding else { return UNKNOWN.to_owned() };

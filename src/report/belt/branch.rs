@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::document::{Cost, CycleOf, kind};
+use super::table::{CYCLE, cells};
 use super::{Head, PLACES};
 use crate::machine::branch::Branch;
 use crate::machine::jumps::{Jump, Landing};
@@ -11,10 +12,9 @@ use crate::machine::varied::Varied;
 use crate::report::csv::Sheet;
 use crate::report::json::text;
 use crate::report::table::Table;
-use crate::words::number::{duration, significant};
+use crate::words::number::duration;
 use crate::words::quantity::with_unit;
 
-/// A branch with what it is a branch of.
 pub struct Branched<'a> {
     /// What it is about.
     pub head: &'a Head<'a>,
@@ -59,16 +59,12 @@ struct Point {
 fn points(branched: &Branched) -> Vec<Point> {
     let mut points = Vec::new();
     for point in &branched.branch.points {
-        let value = point.value;
+        let row = |reason, cycle| Point { value: point.value, reason, cycle };
         match &point.found {
-            Ok(found) => points.extend(found.cycles.iter().map(|cycle| Point {
-                value,
-                reason: None,
-                cycle: Some(CycleOf::new(cycle)),
-            })),
-            Err(trouble) => {
-                points.push(Point { value, reason: Some(trouble.to_string()), cycle: None });
+            Ok(found) => {
+                points.extend(found.cycles.iter().map(|it| row(None, Some(CycleOf::new(it)))));
             }
+            Err(trouble) => points.push(row(Some(trouble.to_string()), None)),
         }
     }
     points
@@ -122,27 +118,13 @@ fn jumps(special: &Special) -> String {
 /// The branch, to read.
 pub fn table(branched: &Branched) -> String {
     let (name, unit) = (branched.varied.name(), branched.varied.unit());
-    let titles =
-        [name, "cycle", "x from", "to", "v from", "to", "period", "on the belt", "multiplier"];
-    let mut rows = Table::new(&titles);
+    let mut rows = Table::new(&[&[name, "cycle"], CYCLE].concat());
     for point in &branched.branch.points {
         let value = with_unit(point.value, PLACES, unit);
         match &point.found {
             Ok(found) => {
                 for cycle in &found.cycles {
-                    let stability = if cycle.stable { "stable" } else { "unstable" };
-                    let over = if cycle.overtakes { ", overtaking" } else { "" };
-                    rows.row(vec![
-                        value.clone(),
-                        format!("{stability} {}{over}", kind(cycle)),
-                        with_unit(cycle.x.0, PLACES, "m"),
-                        with_unit(cycle.x.1, PLACES, "m"),
-                        with_unit(cycle.v.0, PLACES, "m/s"),
-                        with_unit(cycle.v.1, PLACES, "m/s"),
-                        with_unit(cycle.period, PLACES, "s"),
-                        with_unit(cycle.stick_duration, PLACES, "s"),
-                        significant(cycle.multiplier, PLACES),
-                    ]);
+                    rows.row([vec![value.clone()], cells(cycle)].concat());
                 }
             }
             Err(trouble) => rows.row(vec![value, trouble.to_string()]),

@@ -22,7 +22,6 @@ pub(super) struct Expansion<'a> {
     pub margin: Option<ExpandedMargin>,
 }
 
-/// A cycle of the expansion.
 #[derive(Serialize)]
 pub(super) struct ExpandedCycle<'a> {
     pub stable: bool,
@@ -50,7 +49,6 @@ pub(super) struct CycleError {
     period: f64,
 }
 
-/// Margins by the expansion.
 #[derive(Serialize)]
 pub(super) struct ExpandedMargin {
     #[serde(flatten)]

@@ -73,7 +73,6 @@ pub struct Head<'a> {
 }
 
 impl<'a> Head<'a> {
-    /// Of a mass on a belt.
     pub fn of_machine(machine: &'a Machine) -> Self {
         Head { name: &machine.name, title: &machine.title, numbers: numbers(&machine.belt) }
     }

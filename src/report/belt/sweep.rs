@@ -12,7 +12,6 @@ use crate::report::table::Table;
 use crate::words::number::{duration, significant};
 use crate::words::quantity::with_unit;
 
-/// A point of a sweep.
 pub struct SweepPoint {
     /// Value of the quantity, in SI units.
     pub value: f64,

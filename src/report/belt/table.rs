@@ -17,6 +17,7 @@ use crate::report::csv::Sheet;
 use crate::report::table::Table;
 use crate::words::number::{duration, significant};
 use crate::words::quantity::with_unit;
+use crate::words::stability;
 
 /// Digits of a dimensionless number.
 const DIGITS: usize = 10;
@@ -182,25 +183,27 @@ pub(super) fn cycles(cycles: &[Cycle]) -> String {
     if cycles.is_empty() {
         return "no cycle\n".to_owned();
     }
-    let titles = ["", "x from", "to", "v from", "to", "period", "on the belt", "multiplier"];
-    let mut table = Table::new(&titles);
-    for cycle in cycles {
-        let stability = if cycle.stable { "stable" } else { "unstable" };
-        let over = if cycle.overtakes { ", overtaking" } else { "" };
-        let length = |x| with_unit(x, PLACES, "m");
-        let speed = |v| with_unit(v, PLACES, "m/s");
-        table.row(vec![
-            format!("{stability} {}{over}", kind(cycle)),
-            length(cycle.x.0),
-            length(cycle.x.1),
-            speed(cycle.v.0),
-            speed(cycle.v.1),
-            with_unit(cycle.period, PLACES, "s"),
-            with_unit(cycle.stick_duration, PLACES, "s"),
-            significant(cycle.multiplier, PLACES),
-        ]);
-    }
+    let mut table = Table::new(&[&[""], CYCLE].concat());
+    cycles.iter().for_each(|cycle| table.row(cells(cycle)));
     table.to_string()
+}
+
+/// Titles of the columns that tell a cycle, behind that of its kind.
+pub(super) const CYCLE: &[&str] =
+    &["x from", "to", "v from", "to", "period", "on the belt", "multiplier"];
+
+/// The cells of these columns, behind the kind.
+pub(super) fn cells(cycle: &Cycle) -> Vec<String> {
+    let over = if cycle.overtakes { ", overtaking" } else { "" };
+    let mut cells = vec![format!("{} {}{over}", stability(cycle.stable), kind(cycle))];
+    let ([from, to], [slowest, fastest]) = ([cycle.x.0, cycle.x.1], [cycle.v.0, cycle.v.1]);
+    let numbers = [(from, "m"), (to, "m"), (slowest, "m/s"), (fastest, "m/s")];
+    let times = [(cycle.period, "s"), (cycle.stick_duration, "s")];
+    cells.extend(
+        numbers.into_iter().chain(times).map(|(value, unit)| with_unit(value, PLACES, unit)),
+    );
+    cells.push(significant(cycle.multiplier, PLACES));
+    cells
 }
 
 /// What becomes of the motion, in a sentence.
@@ -317,8 +320,7 @@ fn put(
 /// Adds a row for each number of each cycle, and the share.
 pub(super) fn csv_rows(out: &mut Sheet, portrait: &Portrait, rest_share: Option<f64>) {
     for (index, cycle) in portrait.cycles.iter().enumerate() {
-        let stability = if cycle.stable { "stable" } else { "unstable" };
-        let lead = format!("{stability} {} cycle {index}", kind(cycle));
+        let lead = format!("{} {} cycle {index}", stability(cycle.stable), kind(cycle));
         for (name, value, unit) in [
             ("x_min", cycle.x.0, "m"),
             ("x_max", cycle.x.1, "m"),

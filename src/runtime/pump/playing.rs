@@ -6,65 +6,13 @@
 use std::io::{self, Write};
 use std::path::Path;
 
+use super::play::{Pause, Playing};
 use super::{Application, Files, Outcome, Pump, picture};
 use crate::runtime::event::{Event, Stop};
 use crate::session::read::waiting::forgets;
-use crate::session::replay::{Action, Player, Recorder, Script};
+use crate::session::replay::{Action, Script};
 use crate::session::{Code, Key, Msg, Notice};
 use crate::view;
-
-/// Why a play stands still.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Pause {
-    Not,
-    /// A caption waits to be read.
-    Caption,
-    /// The user wishes it.
-    Wished,
-}
-
-#[derive(Debug)]
-pub(super) struct Playing {
-    player: Player,
-    /// What is played, to start over.
-    script: Script,
-    /// Captions that are passed by, on the way back to the one before.
-    passed: usize,
-    /// A register: what the user does comes after it.
-    register: bool,
-    /// Presses that asked for it, the last ones recorded.
-    pub(super) asked: u32,
-    /// What it has given to the session.
-    given: Recorder,
-    /// Whether time has passed for the session besides what it says itself.
-    timed: bool,
-    pause: Pause,
-}
-
-impl Playing {
-    pub(super) fn new(script: Script, register: bool, asked: u32) -> Self {
-        Playing {
-            player: Player::new(script.clone()),
-            script,
-            passed: 0,
-            register,
-            asked,
-            given: Recorder::default(),
-            timed: false,
-            pause: Pause::Not,
-        }
-    }
-}
-
-impl Playing {
-    /// Goes back to the caption before this one: all is played again up to there.
-    fn go_back(&mut self) {
-        if let Some(passed) = self.player.said().checked_sub(2) {
-            self.player = Player::new(self.script.clone());
-            (self.passed, self.pause) = (passed, Pause::Not);
-        }
-    }
-}
 
 /// Leaves whatever is open, and whatever keys the user has chosen.
 fn leaves(msg: &Msg) -> bool {

@@ -14,7 +14,6 @@ pub struct Machine {
     pub title: String,
     /// What it is, and what to look at, in a sentence or two.
     pub look: String,
-    /// The mass on its belt.
     pub belt: Belt,
     /// How exactly its numbers are known, and what disturbs it.
     #[serde(default, skip_serializing_if = "Tolerances::is_none")]

@@ -335,7 +335,6 @@ pub(super) fn number(
     )))
 }
 
-/// The one law that a file gives.
 fn law(
     given: Friction,
     whole: &Range<usize>,

@@ -34,7 +34,6 @@ pub(in crate::session) fn record(session: &mut Session, path: &str, replace: boo
     vec![Effect::Record { path: PathBuf::from(path), forget, replace }]
 }
 
-/// Asks for a file.
 pub(in crate::session) fn ask(path: &str, purpose: Purpose) -> Vec<Effect> {
     vec![Effect::Read { path: PathBuf::from(path), purpose }]
 }
@@ -71,7 +70,6 @@ pub fn offer_figure(session: &mut Session) -> Vec<Effect> {
     prompt::open_with(session, format!("figure-pane {scene}-{}.svg", session.plot + 1))
 }
 
-/// A register and a file.
 fn register(rest: &str) -> Result<(char, &str), String> {
     let (name, path) = rest
         .split_once(char::is_whitespace)

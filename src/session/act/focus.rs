@@ -17,7 +17,6 @@ pub fn focus(session: &mut Session, by: isize) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Gives the focus to a pane.
 pub(in crate::session) fn focus_on(session: &mut Session, pane: Pane) {
     session.focus = pane;
     if let Pane::Plot(index) = pane {

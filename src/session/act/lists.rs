@@ -26,7 +26,6 @@ pub fn open_scenes(session: &mut Session) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Opens the list of layers.
 pub fn open_layers(session: &mut Session) -> Vec<Effect> {
     session.overlay = Some(Overlay::List(Listed::Layers, List::default()));
     Vec::new()

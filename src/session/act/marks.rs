@@ -20,7 +20,6 @@ pub(in crate::session) fn set(session: &mut Session, name: char) -> Vec<Effect> 
     inform(session, format!("mark {name} is here{back}"))
 }
 
-/// Goes to a mark.
 pub(in crate::session) fn go_to(session: &mut Session, name: char) -> Vec<Effect> {
     match session.marks.places.get(&name).cloned() {
         Some(mark) => go(session, &mark),

@@ -201,7 +201,6 @@ pub fn play(session: &mut Session, rest: &str) -> Done {
     Ok(macros::play(session, letter(name)?, count))
 }
 
-/// The value with a name in a table of looks.
 fn look<T: Copy>(table: &[(T, &'static str)], name: &str) -> Result<T, String> {
     let names = || listed(table.iter().map(|row| row.1));
     named(table, name).ok_or_else(|| format!("no {name:?}; there are {}", names()))

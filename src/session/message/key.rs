@@ -103,7 +103,6 @@ impl Key {
         }
     }
 
-    /// The character that this key types, if it types one.
     pub fn typed(self) -> Option<char> {
         match self.code {
             Code::Char(char) if !self.control && !self.alt && !char.is_control() => Some(char),

@@ -6,7 +6,6 @@ use crate::session::state::rows::{ROWS, Row};
 use crate::session::state::setup::Setup;
 use crate::session::state::step_size::shortest;
 
-/// The range of a row that is a number.
 pub(in crate::session) fn range(problem: &Problem, row: Row) -> (f64, f64) {
     match row {
         Row::Quantity(quantity) => (quantity.spec().min, quantity.spec().max),

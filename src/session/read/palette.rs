@@ -11,7 +11,6 @@ use crate::session::state::plot::Pane;
 use crate::session::state::session::Session;
 use crate::study::claims::{Claim, claims};
 
-/// A row of the palette.
 #[derive(Clone, Copy, Debug)]
 pub enum PaletteRow {
     /// A command of the keys.

@@ -21,7 +21,6 @@ impl Session {
         std::iter::once(Pane::Parameters).chain(self.on_show().map(Pane::Plot)).collect()
     }
 
-    /// The plot in focus.
     pub fn focused(&self) -> Option<&Plot> {
         match self.focus {
             Pane::Parameters => None,

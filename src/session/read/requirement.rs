@@ -28,7 +28,6 @@ pub enum CostRow {
 }
 
 impl Session {
-    /// The rows of the list of costs.
     pub fn cost_rows(&self, list: &List) -> Vec<CostRow> {
         let topics = |requests: Vec<Request>| requests.iter().map(Request::topic).collect();
         let asked = self.requirements().into_iter().map(CostRow::Asked);

@@ -10,7 +10,6 @@ use crate::session::replay::script::{Located, Script, Step};
 /// What to do next.
 #[derive(Clone, Debug)]
 pub enum Action {
-    /// Give this to the session.
     Give(Msg),
     /// Keep the screen under this name.
     Keep(String),

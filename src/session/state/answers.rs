@@ -43,7 +43,6 @@ impl<'a> Standing<'a> {
         Some(if let Answer::Whole(whole) = found { &whole.drawn } else { found })
     }
 
-    /// Whether the answer is there.
     pub fn is_fresh(self) -> bool {
         matches!(self, Standing::Fresh(_))
     }

@@ -26,7 +26,6 @@ pub struct Snapshot {
     /// The motion, and the speed of its belt.
     pub setup: Setup,
     pub steps: Steps,
-    /// Layers that are on.
     pub layers: BTreeSet<Layer>,
     /// Plots and their arrangement.
     pub screen_setup: ScreenSetup,

@@ -29,12 +29,7 @@ pub struct Keymap {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Unbindable {
     /// A key would mean two things where contexts hold together.
-    Clash {
-        key: Key,
-        /// The command that has it.
-        command: &'static str,
-        context: Context,
-    },
+    Clash { key: Key, command: &'static str, context: Context },
     /// A key that types a character cannot be a command where text is typed.
     Types(Key),
 }
@@ -84,7 +79,6 @@ impl Keymap {
         self.lines.iter().copied()
     }
 
-    /// The command with this name.
     pub fn named(&self, name: &str) -> Option<&'static Command> {
         self.commands().find(|command| command.name == name)
     }
@@ -165,7 +159,6 @@ impl Keymap {
         filled + rest
     }
 
-    /// The contexts in which a command has keys, with them.
     pub fn places(&self, command: &Command) -> Vec<(Context, Vec<Key>)> {
         let contexts = command.keys.iter().map(|(context, _)| *context);
         contexts

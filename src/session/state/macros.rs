@@ -29,6 +29,5 @@ pub struct Played {
     pub left: u64,
     /// How deep the past was before it.
     pub depth: usize,
-    /// What was there before it.
     pub before: Box<Snapshot>,
 }

@@ -20,7 +20,6 @@ pub enum Overlay {
     Offer(Script),
 }
 
-/// What a list is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Listed {
     /// The scenes, to pick one.
@@ -40,7 +39,6 @@ pub enum Listed {
 }
 
 impl Overlay {
-    /// The list, if it is one.
     pub fn list(&self) -> Option<&List> {
         if let Overlay::List(_, list) = self { Some(list) } else { None }
     }

@@ -8,11 +8,7 @@ pub enum Pending {
     /// More digits, or the key to be pressed so many times. Zero: no digit yet.
     Count(u32),
     /// The letter of a register or mark.
-    Letter {
-        /// What to do with it.
-        what: Letter,
-        count: u32,
-    },
+    Letter { what: Letter, count: u32 },
 }
 
 /// What a letter is asked for.

@@ -80,7 +80,6 @@ impl Scanned {
         number(self.rows.get(index)?, self.column)
     }
 
-    /// Whether words are plotted.
     pub fn plots_words(&self) -> bool {
         let mut values = self.rows.iter().filter_map(|row| row.values.get(self.column));
         values.any(|value| matches!(value, Value::Word(_)))

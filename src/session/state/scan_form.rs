@@ -4,7 +4,6 @@ use crate::oscillator::{PARAMETERS, Symbol};
 use crate::session::state::input::Input;
 use crate::study::measure::MEASURES;
 
-/// The fields of the form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Field {
     /// The name of a parameter.

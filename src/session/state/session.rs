@@ -117,7 +117,6 @@ pub struct Session {
     pub held: Option<Stop>,
     /// Number N of harmonics of the layer `balance`.
     pub harmonics: usize,
-    /// The layers that are on.
     pub layers: BTreeSet<Layer>,
     /// What lies over the panes and gets the keys.
     pub overlay: Option<Overlay>,
@@ -137,7 +136,6 @@ pub struct Session {
     pub writing: Option<PathBuf>,
     /// The lines typed on the command line, the newest last.
     pub lines: Vec<String>,
-    /// What has been answered.
     pub answers: Answers,
     /// The scan, once there is one.
     pub scanned: Option<Scanned>,

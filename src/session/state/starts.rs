@@ -43,7 +43,6 @@ impl Starts {
         full
     }
 
-    /// The same without one.
     pub fn without(&self, start: State) -> Self {
         let states: Vec<State> =
             self.all().iter().copied().filter(|known| *known != start).collect();

@@ -16,7 +16,6 @@ pub struct Stop {
 }
 
 impl Stop {
-    /// A point of the branch of a variant.
     pub fn on(variant: usize, point: &BranchPoint) -> Self {
         Stop { variant, value: point.value, cycle: Some(point.cycle), special: None }
     }
