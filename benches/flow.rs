@@ -7,7 +7,7 @@ use hopfscope::flow::method::{Dial, EPSILON, STEP};
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, Method, Outcome, Problem};
 use hopfscope::oscillator::{Parameters, State, Symbol};
-use hopfscope::study::basin::{Survey, Window};
+use hopfscope::study::basin::{SurveyedBasin, Window};
 use hopfscope::study::branch::{Points, branch};
 use hopfscope::study::cycle::cycles;
 
@@ -128,7 +128,8 @@ fn one_cycle(bencher: Bencher) {
 fn basin_by_ordering(bencher: Bencher) {
     let parameters = Parameters { d: -0.2, d2: 0.2, d3: 0.5, r: 0.1 };
     let window = Window { q: (-6.0, 6.0), v: (-6.0, 6.0) };
-    bencher.bench(|| Survey::of(black_box(&parameters), &window, (320, 384), &Limits::PATIENT));
+    bencher
+        .bench(|| SurveyedBasin::of(black_box(&parameters), &window, (320, 384), &Limits::PATIENT));
 }
 
 /// The same by brute force, for 32 by 38 starts only: a hundredth of them.

@@ -5,7 +5,7 @@ use hopfscope::flow::{Detail, Limits, Outcome, Problem, Reason};
 use hopfscope::numerics::elementary::pow;
 use hopfscope::oscillator::{Parameters, State};
 use hopfscope::study::Edge;
-use hopfscope::study::basin::{Basin, Fate, Survey, Window, basin};
+use hopfscope::study::basin::{Basin, Fate, SurveyedBasin, Window, basin};
 use hopfscope::study::cycle::cycles;
 use hopfscope::study::measure::{Measure, Value, measure};
 use proptest::prelude::*;
@@ -44,7 +44,7 @@ fn borders_are_those_computed_elsewhere() {
         .filter_map(|row| {
             let [left, right, low, high] = row.window;
             let window = Window { q: (left, right), v: (low, high) };
-            let found = Survey::of(&row.parameters, &window, (9, 9), &LIMITS);
+            let found = SurveyedBasin::of(&row.parameters, &window, (9, 9), &LIMITS);
             let right = found.as_ref().is_ok_and(|found| {
                 let near = |found: Option<f64>, expected: Option<f64>| match (found, expected) {
                     (Some(found), Some(expected)) => same(found, expected, 1e-10),

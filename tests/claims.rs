@@ -4,7 +4,9 @@ use std::sync::LazyLock;
 
 use hopfscope::flow::{Limits, Reason};
 use hopfscope::scene::find;
-use hopfscope::study::claims::{Examined, Finding, Mark, Sense, UNSAID, Verdict, claims, examine};
+use hopfscope::study::claims::{
+    Certainty, Examined, Finding, Sense, UNSAID, Verdict, claims, examine,
+};
 
 /// Of the piecewise linear motion with D = -0.1, r = 0.1 from rest at q = 1.5 until tau = 20, from its closed
 /// form in 30 digits.
@@ -166,9 +168,9 @@ fn what_proofs_reach_carries_a_mark_and_no_mark_contradicts_a_verdict() {
         let (mark, name) = (finding.mark, one.claim.statement);
         match finding.verdict() {
             Verdict::Agrees | Verdict::Approximates { .. } => {
-                assert_ne!(mark, Some(Mark::Refuted), "{name}");
+                assert_ne!(mark, Some(Certainty::Refuted), "{name}");
             }
-            _ => assert!([None, Some(Mark::Refuted)].contains(&mark), "{name}: {mark:?}"),
+            _ => assert!([None, Some(Certainty::Refuted)].contains(&mark), "{name}: {mark:?}"),
         }
         if let Some(bounds) = finding.computed.bounds {
             // A number of the search lies within its bounds, up to its own error.
@@ -178,19 +180,19 @@ fn what_proofs_reach_carries_a_mark_and_no_mark_contradicts_a_verdict() {
         }
     }
     for (equation, words, mark) in [
-        ("5", "periodic solution", Mark::Refuted),
-        ("(24)", "D2 acts", Mark::Refuted),
-        ("(30)", "-0.999", Mark::Enclosed),
-        ("(48)", "D2 = 0:", Mark::Proved),
-        ("(48)", "D2 = 0.2", Mark::Proved),
-        ("(48)", "D2 = 0.5", Mark::Refuted),
-        ("Fig. 9", "between", Mark::Refuted),
-        ("Fig. 9", "below both", Mark::Proved),
-        ("Fig. 10", "D3 > 0", Mark::Refuted),
-        ("multiplier", "slope", Mark::Enclosed),
-        ("escape", "D3 < 0", Mark::Proved),
-        ("D_c", "worst", Mark::Proved),
-        ("D_c", "none above", Mark::Proved),
+        ("5", "periodic solution", Certainty::Refuted),
+        ("(24)", "D2 acts", Certainty::Refuted),
+        ("(30)", "-0.999", Certainty::Enclosed),
+        ("(48)", "D2 = 0:", Certainty::Proved),
+        ("(48)", "D2 = 0.2", Certainty::Proved),
+        ("(48)", "D2 = 0.5", Certainty::Refuted),
+        ("Fig. 9", "between", Certainty::Refuted),
+        ("Fig. 9", "below both", Certainty::Proved),
+        ("Fig. 10", "D3 > 0", Certainty::Refuted),
+        ("multiplier", "slope", Certainty::Enclosed),
+        ("escape", "D3 < 0", Certainty::Proved),
+        ("D_c", "worst", Certainty::Proved),
+        ("D_c", "none above", Certainty::Proved),
     ] {
         assert_eq!(about(equation, words).mark, Some(mark), "{equation} {words}");
     }

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Cost, Detail, Limits, METHODS, Outcome, Problem, Reason};
 use hopfscope::oscillator::{Parameters, State, Symbol};
-use hopfscope::study::basin::{Survey, Window};
+use hopfscope::study::basin::{SurveyedBasin, Window};
 use hopfscope::study::branch::{Points, branch};
 use hopfscope::study::capture::bands;
 use hopfscope::study::cycle::cycles;
@@ -134,7 +134,7 @@ fn a_fold_stops() {
 fn basins_stop_however_fine_the_grid() {
     let parameters = parameters()[0];
     let window = Window { q: (-2.0, 2.0), v: (-2.0, 2.0) };
-    check("basin", |limits| match Survey::of(&parameters, &window, (2_000, 50), limits) {
+    check("basin", |limits| match SurveyedBasin::of(&parameters, &window, (2_000, 50), limits) {
         Ok(found) => (None, Some(found.cost)),
         Err(reason) => (Some(reason), None),
     });
@@ -149,7 +149,7 @@ fn basins_stop_however_fine_the_grid() {
         false
     };
     let limits = Limits { interrupted: &count, ..Limits::PATIENT };
-    Survey::of(&parameters, &window, (2_000, 50), &limits).unwrap();
+    SurveyedBasin::of(&parameters, &window, (2_000, 50), &limits).unwrap();
     assert!(polls.load(Ordering::Relaxed) >= 2_000);
 }
 

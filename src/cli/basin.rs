@@ -10,7 +10,7 @@ use crate::flow::Limits;
 use crate::proof::kicks::kicks;
 use crate::proof::{ParameterBox, prove};
 use crate::report::{basin as report, certified};
-use crate::study::basin::{Survey, Window};
+use crate::study::basin::{SurveyedBasin, Window};
 
 /// Says where the starts of a window end, and the margins of the sticking set
 #[derive(Debug, Args)]
@@ -35,7 +35,7 @@ impl Basin {
     pub fn run(&self) -> Result<(), Failure> {
         self.start.note_own_method();
         let parameters = self.start.problem()?.parameters;
-        let survey = || Survey::of(&parameters, &self.window, self.grid, &Limits::PATIENT);
+        let survey = || SurveyedBasin::of(&parameters, &self.window, self.grid, &Limits::PATIENT);
         let (found, seconds) = self.output.timed("the basin could not be completed", survey)?;
         let enclose = || {
             let proof = prove(&ParameterBox::from(&parameters), &[]);

@@ -7,7 +7,7 @@ use super::output::{Format, Output};
 use super::start::Start;
 use crate::flow::Limits;
 use crate::report::kicks;
-use crate::study::kicks::Kicks as Law;
+use crate::study::kicks::Kicks as Distribution;
 use crate::study::repeated::repeated;
 
 /// Says which part of random kicks is lost, and how many in a row are survived
@@ -24,7 +24,7 @@ pub struct Kicks {
         value_name = "q=MEAN+-SPREAD,v=MEAN+-SPREAD",
         allow_hyphen_values = true
     )]
-    law: Law,
+    law: Distribution,
 }
 
 impl Kicks {

@@ -6,7 +6,7 @@
 
 use super::limits::Reason;
 use super::step::{ErrorScale, Field, LONGEST, Point, Powers, Step, Stepper, stopping_time};
-use super::tableau::{Estimate, Scheme, dop853, dopri5, rk4};
+use super::tableau::{ErrorEstimate, Scheme, dop853, dopri5, rk4};
 use crate::numerics::root::{Bracket, Change, newton};
 use crate::numerics::scaling::{rough_exp2, rough_log2};
 use crate::oscillator::HalfPlane;
@@ -101,7 +101,7 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
     }
 
     fn is_fixed(&self) -> bool {
-        self.scheme.estimate == Estimate::None
+        self.scheme.estimate == ErrorEstimate::None
     }
 
     /// Makes `from` the start of the next attempts, and evaluates the slope there unless it is known.
@@ -148,9 +148,9 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
             x * x + v * v
         };
         match self.scheme.estimate {
-            Estimate::None => (if end.size().is_finite() { 0.0 } else { f64::INFINITY }, 1.0),
-            Estimate::Embedded(power) => (h * (0.5 * norm(self.errors[0])).sqrt(), power),
-            Estimate::Combined(power) => {
+            ErrorEstimate::None => (if end.size().is_finite() { 0.0 } else { f64::INFINITY }, 1.0),
+            ErrorEstimate::Embedded(power) => (h * (0.5 * norm(self.errors[0])).sqrt(), power),
+            ErrorEstimate::Combined(power) => {
                 let (fifth, third) = (norm(self.errors[0]), norm(self.errors[1]));
                 if fifth == 0.0 && third == 0.0 {
                     return (0.0, power);

@@ -16,7 +16,7 @@ use crate::oscillator::{HalfPlane, Side};
 
 /// An arrival at `v = 0`, or where a motion is at its end.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mark {
+pub struct Arrived {
     /// Time.
     pub tau: Twofold,
     /// Displacement.
@@ -27,11 +27,11 @@ pub struct Mark {
 
 /// How a motion ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum End {
+pub enum PreciseEnd {
     /// At rest: the last arrival, or the start.
-    Captured(Mark),
+    Captured(Arrived),
     /// Moving still at the end time.
-    Moving(Mark),
+    Moving(Arrived),
     /// The velocity becomes infinite at this time.
     Escaped {
         /// The time.
@@ -43,9 +43,9 @@ pub enum End {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Precise {
     /// Every arrival at `v = 0` after the start, the last one included.
-    pub turns: Vec<Mark>,
+    pub turns: Vec<Arrived>,
     /// How it ended.
-    pub end: End,
+    pub end: PreciseEnd,
     /// What it cost; an evaluation here takes a hundred times that of a double.
     pub cost: Cost,
 }
@@ -88,35 +88,37 @@ pub fn precise(problem: &Problem, grain: Grain, limits: &Limits) -> Result<Preci
     let Problem { parameters, initial, until, .. } = *problem;
     let r = parameters.r;
     let (mut tau, mut turns, mut cost) = (ZERO, Vec::new(), Cost::default());
-    let mark = |tau, q, v| Mark { tau, q, v };
+    let mark = |tau, q, v| Arrived { tau, q, v };
     let start = mark(ZERO, Twofold::of(initial.q), Twofold::of(initial.v));
     let Some(mut side) = Side::entered_from(initial, r).filter(|_| !rests(initial, r)) else {
-        return Ok(Precise { turns, end: End::Captured(start), cost });
+        return Ok(Precise { turns, end: PreciseEnd::Captured(start), cost });
     };
     let mut place = (Twofold::sum(side.sign() * initial.q, r), Twofold::of(initial.v.abs()));
     loop {
         let remaining = Twofold::of(until).minus(tau);
         if remaining.high <= 0.0 {
             let last = turns.last().copied().unwrap_or(start);
-            return Ok(Precise { turns, end: End::Moving(mark(tau, last.q, last.v)), cost });
+            return Ok(Precise { turns, end: PreciseEnd::Moving(mark(tau, last.q, last.v)), cost });
         }
-        let mut swing = Swing::new(HalfPlane::new(&parameters, side), place, grain);
+        let mut swing = PreciseSwing::new(HalfPlane::new(&parameters, side), place, grain);
         let arrival = swing.run(tau.high, remaining, &mut cost, limits)?;
         tau = tau.plus(swing.time);
         let (x, v) = swing.place();
         let sign = side.sign();
         let q = x.minus(Twofold::of(r)).times(sign);
         match arrival {
-            Arrival::Escape => return Ok(Precise { turns, end: End::Escaped { tau }, cost }),
+            Arrival::Escape => {
+                return Ok(Precise { turns, end: PreciseEnd::Escaped { tau }, cost });
+            }
             Arrival::Time => {
-                let end = End::Moving(mark(Twofold::of(until), q, v.times(sign)));
+                let end = PreciseEnd::Moving(mark(Twofold::of(until), q, v.times(sign)));
                 return Ok(Precise { turns, end, cost });
             }
             Arrival::Standstill => turns.push(mark(tau, q, ZERO)),
         }
         let clearance = x.minus(Twofold::of(2.0 * r));
         if clearance.high <= 0.0 {
-            return Ok(Precise { turns, end: End::Captured(mark(tau, q, ZERO)), cost });
+            return Ok(Precise { turns, end: PreciseEnd::Captured(mark(tau, q, ZERO)), cost });
         }
         side = side.opposite();
         place = (clearance.opposite(), ZERO);
@@ -137,7 +139,7 @@ pub fn half_swing(
 ) -> Result<Option<(Twofold, Twofold)>, Reason> {
     /// No half swing that arrives takes longer.
     const PATIENCE: f64 = 1e100;
-    let mut swing = Swing::new(field, (start.opposite(), ZERO), grain);
+    let mut swing = PreciseSwing::new(field, (start.opposite(), ZERO), grain);
     Ok(match swing.run(0.0, Twofold::of(PATIENCE), cost, limits)? {
         Arrival::Standstill => Some((swing.place().0, swing.time)),
         Arrival::Escape | Arrival::Time => None,
@@ -152,7 +154,7 @@ enum Arrival {
 }
 
 /// One half swing, in units of a power of two in which it is near 1.
-struct Swing {
+struct PreciseSwing {
     /// The field in the units of the problem, and in those of the swing.
     plane: HalfPlane,
     field: HalfPlane,
@@ -164,10 +166,10 @@ struct Swing {
     time: Twofold,
 }
 
-impl Swing {
+impl PreciseSwing {
     fn new(plane: HalfPlane, (x, v): (Twofold, Twofold), grain: Grain) -> Self {
         let unit = exponent(x.high.abs().max(v.high.abs()));
-        let mut swing = Swing {
+        let mut swing = PreciseSwing {
             plane,
             field: plane.in_units(unit),
             unit,
@@ -223,7 +225,7 @@ impl Swing {
             }
             if point.size() > FAR {
                 let (place, time) = (self.place(), self.time);
-                *self = Swing { time, ..Swing::new(self.plane, place, self.grain) };
+                *self = PreciseSwing { time, ..PreciseSwing::new(self.plane, place, self.grain) };
             }
         }
     }

@@ -10,7 +10,7 @@ use crate::oscillator::{HalfPlane, Parameters, Side};
 
 /// What stands for the sign of `v`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Law {
+pub enum SignLaw {
     /// `tanh(v/epsilon)`.
     Tanh(f64),
     /// The sign itself, 0 at 0.
@@ -23,13 +23,13 @@ pub struct Regularized {
     /// Damping and restoring force.
     smooth: HalfPlane,
     r: f64,
-    law: Law,
+    law: SignLaw,
 }
 
 impl Regularized {
     /// The field of these parameters.
     #[must_use]
-    pub fn new(parameters: &Parameters, law: Law) -> Self {
+    pub fn new(parameters: &Parameters, law: SignLaw) -> Self {
         Regularized { smooth: HalfPlane::new(parameters, Side::Upper), r: parameters.r, law }
     }
 }
@@ -37,20 +37,20 @@ impl Regularized {
 impl Field for Regularized {
     fn acceleration(&self, x: f64, v: f64) -> f64 {
         let sign = match self.law {
-            Law::Tanh(epsilon) => tanh(v / epsilon),
-            Law::Sign if v == 0.0 => 0.0,
-            Law::Sign => v.signum(),
+            SignLaw::Tanh(epsilon) => tanh(v / epsilon),
+            SignLaw::Sign if v == 0.0 => 0.0,
+            SignLaw::Sign => v.signum(),
         };
         self.smooth.acceleration(x, v) - self.r * sign
     }
 
     fn divergence(&self, v: f64) -> f64 {
         let slope = match self.law {
-            Law::Tanh(epsilon) => {
+            SignLaw::Tanh(epsilon) => {
                 let tanh = tanh(v / epsilon);
                 (1.0 - tanh) * (1.0 + tanh) / epsilon
             }
-            Law::Sign => 0.0,
+            SignLaw::Sign => 0.0,
         };
         self.smooth.divergence(v) - self.r * slope
     }

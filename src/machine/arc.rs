@@ -99,7 +99,7 @@ impl<A: Watch, B: Watch> Watch for (&mut A, &mut B) {
 
 /// The end of an arc.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct End {
+pub struct ArcEnd {
     /// Displacement.
     pub x: f64,
     /// Whether it ended on the belt's line; otherwise at `y = 0`.
@@ -108,7 +108,7 @@ pub struct End {
     pub accelerations: (f64, f64),
 }
 
-impl End {
+impl ArcEnd {
     /// Logarithm of the first acceleration over the last, in the direction of integration.
     #[must_use]
     pub fn log_ratio(&self) -> f64 {
@@ -161,7 +161,7 @@ impl<'a> Flow<'a> {
         (x, y): (f64, f64),
         backward: bool,
         watch: &mut impl Watch,
-    ) -> Result<End, Stop> {
+    ) -> Result<ArcEnd, Stop> {
         let model = self.model;
         let (side, offset) = (model.side(phase), model.offset(phase));
         let (least, most) = model.range(phase);
@@ -204,7 +204,7 @@ impl<'a> Flow<'a> {
                 if level == most || level == least {
                     let accelerations = (entered, forward * slope);
                     let on_belt = level != 0.0;
-                    return Ok(End { x: x - offset, on_belt, accelerations });
+                    return Ok(ArcEnd { x: x - offset, on_belt, accelerations });
                 }
                 let outer = if level == high { side.pieces.last() } else { side.pieces.first() };
                 if outer.is_some_and(|outer| outer.low == piece.low) {
@@ -250,7 +250,7 @@ fn creeps(phase: Phase, side: &Side, (x, y): (f64, f64), forward: f64) -> bool {
 }
 
 /// Where a step turns, and where it first reaches a level.
-struct Crossing {
+struct Reached {
     peak: Option<f64>,
     /// Time and level.
     hit: Option<(f64, f64)>,
@@ -258,7 +258,7 @@ struct Crossing {
 
 /// The first of two levels that a step reaches, given that the speed turns at most once, from growing to
 /// falling.
-fn crossing(series: &Series, phase: Phase, end: f64, (low, high): (f64, f64)) -> Crossing {
+fn crossing(series: &Series, phase: Phase, end: f64, (low, high): (f64, f64)) -> Reached {
     let sign = phase.sign();
     let (outer, inner) = if sign > 0.0 { (high, low) } else { (low, high) };
     let grows = |slope: f64| sign * slope > 0.0;
@@ -274,7 +274,7 @@ fn crossing(series: &Series, phase: Phase, end: f64, (low, high): (f64, f64)) ->
             (turn, series.velocity(turn).0)
         };
         if beyond(fastest, outer) >= 0.0 {
-            return Crossing { peak, hit: Some((root(series, outer, (0.0, until), sign), outer)) };
+            return Reached { peak, hit: Some((root(series, outer, (0.0, until), sign), outer)) };
         }
     }
     let falls = if beyond(velocity, inner) <= 0.0 && !grows(slope) {
@@ -282,7 +282,7 @@ fn crossing(series: &Series, phase: Phase, end: f64, (low, high): (f64, f64)) ->
     } else {
         None
     };
-    Crossing { peak, hit: falls }
+    Reached { peak, hit: falls }
 }
 
 /// The time in a bracket on which y is monotone, with the given direction, at which it is at a level.

@@ -1,7 +1,7 @@
 //! The border of the basin of rest where it is no cycle: followed backward in time from where the return map
 //! jumps.
 
-use super::arc::{End, Flow, Stop};
+use super::arc::{ArcEnd, Flow, Stop};
 use super::curve::{Curve, Piece};
 use super::landmarks::Landmarks;
 use super::model::Phase;
@@ -19,7 +19,7 @@ impl Flow<'_> {
         let Some(marks) = landmarks else { return Err(Stop::Steps) };
         // Where static friction holds what the orbit comes from, its way to the line is not on the border.
         match self.arc(Phase::Between, (x, 0.0), true, &mut ()) {
-            Ok(End { on_belt: true, .. }) => {}
+            Ok(ArcEnd { on_belt: true, .. }) => {}
             Ok(_) | Err(Stop::Settled) => return self.capture_border(x, landmarks, curve),
             Err(stop) => return Err(stop),
         }

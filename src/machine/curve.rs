@@ -65,7 +65,7 @@ impl Slip {
     }
 
     /// The parts of the step between the places where it passes these values of x and y.
-    fn cuts(&self, window: &Window) -> Vec<f64> {
+    fn cuts(&self, window: &Rectangle) -> Vec<f64> {
         let mut cuts = vec![0.0];
         let turns = self.peak.into_iter().chain([self.duration]);
         let mut from = 0.0;
@@ -90,7 +90,7 @@ impl Slip {
     }
 
     /// The integral of the clamped velocity over x, as far as x lies within the window.
-    fn area(&self, window: &Window) -> f64 {
+    fn area(&self, window: &Rectangle) -> f64 {
         let cuts = self.cuts(window);
         let part = |ends: &[f64]| {
             let (from, length) = (ends[0], ends[1] - ends[0]);
@@ -116,14 +116,14 @@ fn span(low: f64, high: f64) -> f64 {
 
 /// A rectangle of the phase plane; velocities divided by the natural frequency.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Window {
+pub struct Rectangle {
     /// From which displacement to which.
     pub x: (f64, f64),
     /// From which velocity to which.
     pub y: (f64, f64),
 }
 
-impl Window {
+impl Rectangle {
     /// Its area.
     #[must_use]
     pub fn area(&self) -> f64 {
@@ -189,7 +189,7 @@ impl Curve {
     /// The area that a closed curve has in common with a window: the integral of `y dx` along it, with y
     /// clamped to the window.
     #[must_use]
-    pub fn area_within(&self, window: &Window, speed: f64) -> f64 {
+    pub fn area_within(&self, window: &Rectangle, speed: f64) -> f64 {
         let clamped = speed.clamp(window.y.0, window.y.1);
         let of = |piece: &Piece| match piece {
             Piece::Slip(slip) => slip.area(window),

@@ -9,7 +9,7 @@ use crate::numerics::elementary::{exp, exp_m1, ln_1p, pow};
 
 /// A polynomial `sum c_k (y - center)^k` for velocities in `low ..= high`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Piece {
+pub struct ForcePiece {
     pub low: f64,
     pub high: f64,
     pub center: f64,
@@ -18,7 +18,7 @@ pub struct Piece {
     pub falls: bool,
 }
 
-impl Piece {
+impl ForcePiece {
     /// Value and slope.
     fn at(&self, y: f64) -> (f64, f64) {
         let step = y - self.center;
@@ -102,14 +102,14 @@ impl Fall {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Side {
     /// Pieces that follow one another in y.
-    pub pieces: Vec<Piece>,
+    pub pieces: Vec<ForcePiece>,
     /// The exponential part.
     pub fall: Option<Fall>,
 }
 
 impl Side {
     /// The piece for a motion at `y` towards larger or smaller velocities; `None` beyond the law.
-    pub fn piece(&self, y: f64, rising: bool) -> Option<&Piece> {
+    pub fn piece(&self, y: f64, rising: bool) -> Option<&ForcePiece> {
         self.pieces.iter().find(|piece| {
             if rising { piece.low <= y && y < piece.high } else { piece.low < y && y <= piece.high }
         })
@@ -119,7 +119,7 @@ impl Side {
     /// strongly each of them decays at least. `None` where no bound is at hand.
     pub fn decay(&self, reach: f64, forward: f64) -> Option<f64> {
         let covers =
-            |piece: &&Piece| piece.center == 0.0 && piece.low <= -reach && reach <= piece.high;
+            |piece: &&ForcePiece| piece.center == 0.0 && piece.low <= -reach && reach <= piece.high;
         let piece = self.pieces.iter().find(covers)?;
         let fall = match self.fall.filter(|_| piece.falls) {
             None => 0.0,

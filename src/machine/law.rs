@@ -1,6 +1,6 @@
 //! The friction law as forces on the mass: on either side of the belt's speed, with the damper's.
 
-use super::force::{Fall, Piece, Side, shifted};
+use super::force::{Fall, ForcePiece, Side, shifted};
 use crate::numerics::elementary::{pow, powi};
 use crate::oscillator::belt::FrictionLaw;
 
@@ -87,7 +87,7 @@ pub(super) fn slower(law: &Scaled, damper: &[f64], speed: f64, pull: f64, reach:
         let pull_of = shifted(coefficients, about - from).into_iter().enumerate().map(alternating);
         let mut coefficients = added(damper_about(damper, center), pull_of);
         coefficients[0] = if steady { 0.0 } else { coefficients[0] - pull };
-        Some(Piece {
+        Some(ForcePiece {
             low: speed - to,
             high: speed - from,
             center,
@@ -95,7 +95,7 @@ pub(super) fn slower(law: &Scaled, damper: &[f64], speed: f64, pull: f64, reach:
             falls: *from == 0.0,
         })
     };
-    let mut pieces: Vec<Piece> = law.pieces.iter().filter_map(piece).collect();
+    let mut pieces: Vec<ForcePiece> = law.pieces.iter().filter_map(piece).collect();
     pieces.reverse();
     let fall = |(drop, velocity, exponent)| Fall { drop, velocity, exponent, speed, above: false };
     Side { pieces, fall: law.fall.map(fall) }
@@ -109,7 +109,7 @@ pub(super) fn faster(law: &Scaled, damper: &[f64], speed: f64, reach: f64) -> Si
         let pull = coefficients.iter().map(|number| 0.0 - number);
         let coefficients = added(damper_about(damper, center), pull);
         let falls = *from == 0.0;
-        (from <= &to).then_some(Piece {
+        (from <= &to).then_some(ForcePiece {
             low: center,
             high: speed + to,
             center,

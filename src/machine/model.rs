@@ -12,7 +12,7 @@
 
 use std::fmt;
 
-use super::force::{Piece, Side};
+use super::force::{ForcePiece, Side};
 use super::law::{Scaled, faster, slower};
 use super::reach::first_below_zero;
 use super::series::FINEST;
@@ -237,7 +237,7 @@ impl Model {
             damping: damper.get(1).copied().unwrap_or(0.0),
             tolerance: FINEST,
             slower: Side {
-                pieces: vec![Piece { low, high, center: 0.0, coefficients, falls: false }],
+                pieces: vec![ForcePiece { low, high, center: 0.0, coefficients, falls: false }],
                 fall: None,
             },
             faster: Side::default(),

@@ -5,7 +5,7 @@
 //! start, which needs no more than the way to its next right turning point.
 
 use super::arc::{Flow, Stop};
-use super::curve::{Curve, Piece, Window};
+use super::curve::{Curve, Piece, Rectangle};
 use super::cycles::Cycle;
 use super::landmarks::Landmarks;
 use super::model::{Model, Phase};
@@ -135,7 +135,7 @@ pub struct Portrait {
 
 /// A place on the line of right turning points where something changes.
 #[derive(Clone, Copy, Debug)]
-enum Mark {
+enum Divide {
     Cycle(usize),
     Jump,
     /// Up to here the guide catches the mass; motions from beyond grow.
@@ -151,22 +151,23 @@ impl Portrait {
         let mut flow = Flow::new(model);
         let landmarks = flow.landmarks()?;
         let found = flow.fixed_points(landmarks.as_ref())?;
-        let mut marks: Vec<(f64, Mark)> = found
+        let mut marks: Vec<(f64, Divide)> = found
             .points
             .iter()
             .enumerate()
-            .map(|(index, (x, _))| (*x, Mark::Cycle(index)))
+            .map(|(index, (x, _))| (*x, Divide::Cycle(index)))
             .collect();
-        marks.extend(jumps(model, landmarks.as_ref()).into_iter().map(|x| (x, Mark::Jump)));
-        marks.extend(found.capture.map(|x| (x, Mark::Capture)));
+        marks.extend(jumps(model, landmarks.as_ref()).into_iter().map(|x| (x, Divide::Jump)));
+        marks.extend(found.capture.map(|x| (x, Divide::Capture)));
         marks.sort_by(|one, other| one.0.total_cmp(&other.0));
         let ways = ways(&mut flow, &marks, found.end)?;
         let mut cycles = Vec::new();
         for (index, (x, image)) in found.points.iter().enumerate() {
             let place =
-                marks.iter().position(|(_, mark)| matches!(mark, Mark::Cycle(i) if *i == index));
-            let attracts =
-                |place: usize| ways[place] == Way::Outward && ways[place + 1] == Way::Inward;
+                marks.iter().position(|(_, mark)| matches!(mark, Divide::Cycle(i) if *i == index));
+            let attracts = |place: usize| {
+                ways[place] == Tendency::Outward && ways[place + 1] == Tendency::Inward
+            };
             let stable = image.sticks_from.is_some() || place.is_some_and(attracts);
             cycles.push(flow.describe(*x, image, stable)?);
         }
@@ -188,7 +189,7 @@ impl Portrait {
         Ok(portrait)
     }
 
-    fn settle_border(&mut self, flow: &mut Flow, marks: &[(f64, Mark)]) -> Result<(), Stop> {
+    fn settle_border(&mut self, flow: &mut Flow, marks: &[(f64, Divide)]) -> Result<(), Stop> {
         let model = &self.model;
         let Some(first) = self.gaps.first() else { return Ok(()) };
         let inner = if self.neutral { Fate::Neutral } else { Fate::Rest };
@@ -209,18 +210,18 @@ impl Portrait {
         };
         let mut curve = Curve::default();
         let left = match mark {
-            Mark::Cycle(index) => {
+            Divide::Cycle(index) => {
                 let cycle = &self.cycles[*index];
                 let left = flow.around(*x, !cycle.sticks && !cycle.overtakes, &mut curve)?;
                 self.border = Border::Cycle(*index, curve.clone());
                 left
             }
-            Mark::Jump => {
+            Divide::Jump => {
                 let left = flow.jump_border(*x, self.landmarks.as_ref(), &mut curve)?;
                 self.border = Border::Grazing(curve.clone());
                 left
             }
-            Mark::Capture => {
+            Divide::Capture => {
                 let left = flow.capture_border(*x, self.landmarks.as_ref(), &mut curve)?;
                 self.border = Border::Grazing(curve.clone());
                 left
@@ -303,7 +304,7 @@ impl Portrait {
     #[must_use]
     pub fn rest_share(&self, x: (f64, f64), v: (f64, f64)) -> f64 {
         let y = (self.model.scaled_velocity(v.0), self.model.scaled_velocity(v.1));
-        let window = Window { x, y };
+        let window = Rectangle { x, y };
         match &self.border {
             Border::None => 1.0,
             Border::NoBasin => 0.0,
@@ -327,7 +328,7 @@ fn jumps(model: &Model, landmarks: Option<&Landmarks>) -> Vec<f64> {
 
 /// Where motions go in a gap.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Way {
+enum Tendency {
     Outward,
     Inward,
     /// They are periodic.
@@ -337,13 +338,13 @@ enum Way {
 }
 
 /// Where motions go in each gap.
-fn ways(flow: &mut Flow, marks: &[(f64, Mark)], end: f64) -> Result<Vec<Way>, Stop> {
+fn ways(flow: &mut Flow, marks: &[(f64, Divide)], end: f64) -> Result<Vec<Tendency>, Stop> {
     let mut ways = Vec::with_capacity(marks.len() + 1);
     let held = flow.model.guide_static;
     let mut low = held;
     for mark in marks.iter().map(Some).chain([None]) {
-        if let Some((x, Mark::Capture)) = mark {
-            ways.push(Way::Inward);
+        if let Some((x, Divide::Capture)) = mark {
+            ways.push(Tendency::Inward);
             low = *x;
             continue;
         }
@@ -352,9 +353,9 @@ fn ways(flow: &mut Flow, marks: &[(f64, Mark)], end: f64) -> Result<Vec<Way>, St
         let x = low + 0.5 * (high - low);
         ways.push(match flow.returned(x) {
             Ok(Return::Turns(image)) => way(image.x, x),
-            Ok(Return::Rests(_)) | Err(Stop::Settled) => Way::Inward,
-            Err(Stop::Escaped) => Way::Outward,
-            Err(stop @ Stop::OutsideLaw { .. }) => Way::Lost(stop),
+            Ok(Return::Rests(_)) | Err(Stop::Settled) => Tendency::Inward,
+            Err(Stop::Escaped) => Tendency::Outward,
+            Err(stop @ Stop::OutsideLaw { .. }) => Tendency::Lost(stop),
             Err(Stop::Steps) => return Err(Stop::Steps),
         });
         low = high;
@@ -362,44 +363,44 @@ fn ways(flow: &mut Flow, marks: &[(f64, Mark)], end: f64) -> Result<Vec<Way>, St
     Ok(ways)
 }
 
-fn way(image: f64, x: f64) -> Way {
+fn way(image: f64, x: f64) -> Tendency {
     let change = (image - x) / x;
     if change.abs() < super::search::NOTHING {
-        Way::Nowhere
+        Tendency::Nowhere
     } else if change > 0.0 {
-        Way::Outward
+        Tendency::Outward
     } else {
-        Way::Inward
+        Tendency::Inward
     }
 }
 
 /// The fate of each gap.
-fn gaps(marks: &[(f64, Mark)], ways: &[Way], stop: Option<Stop>) -> Vec<Gap> {
+fn gaps(marks: &[(f64, Divide)], ways: &[Tendency], stop: Option<Stop>) -> Vec<Gap> {
     let fate = |gap: usize| {
         let mut here = gap;
         loop {
             let (mark, next) = match ways[here] {
-                Way::Lost(stop) => return Fate::Unknown(stop),
-                Way::Nowhere => return Fate::Neutral,
-                Way::Outward => (marks.get(here), here + 1),
-                Way::Inward if here == 0 => return Fate::Rest,
-                Way::Inward => (marks.get(here - 1), here - 1),
+                Tendency::Lost(stop) => return Fate::Unknown(stop),
+                Tendency::Nowhere => return Fate::Neutral,
+                Tendency::Outward => (marks.get(here), here + 1),
+                Tendency::Inward if here == 0 => return Fate::Rest,
+                Tendency::Inward => (marks.get(here - 1), here - 1),
             };
             match mark {
                 None => return stop.map_or(Fate::Escaped, Fate::Unknown),
-                Some((_, Mark::Cycle(index))) => return Fate::Cycle(*index),
+                Some((_, Divide::Cycle(index))) => return Fate::Cycle(*index),
                 // Motions go on across a jump; the map rises there, so it never sends them back.
-                Some((_, Mark::Jump | Mark::Capture)) => here = next,
+                Some((_, Divide::Jump | Divide::Capture)) => here = next,
             }
         }
     };
-    let gap = |(gap, mark): (usize, Option<&(f64, Mark)>)| {
-        let (to, mark) = mark.map_or((f64::INFINITY, Mark::Capture), |(x, mark)| (*x, *mark));
+    let gap = |(gap, mark): (usize, Option<&(f64, Divide)>)| {
+        let (to, mark) = mark.map_or((f64::INFINITY, Divide::Capture), |(x, mark)| (*x, *mark));
         let end = match mark {
-            Mark::Cycle(index) => Fate::Cycle(index),
+            Divide::Cycle(index) => Fate::Cycle(index),
             // What touches the belt sticks to it.
-            Mark::Jump => fate(gap + 1),
-            Mark::Capture => fate(gap),
+            Divide::Jump => fate(gap + 1),
+            Divide::Capture => fate(gap),
         };
         Gap { to, fate: fate(gap), end }
     };

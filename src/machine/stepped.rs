@@ -12,7 +12,7 @@ use crate::numerics::root::bisect;
 
 /// The methods that can follow a machine beside Taylor series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Way {
+pub enum SteppedMethod {
     /// Dormand and Prince's pair of order 8.
     Dop853,
     /// Dormand and Prince's pair of order 5.
@@ -26,16 +26,16 @@ pub const ALLOWED: &str = "auto, taylor, dop853 and dopri5";
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OneLine;
 
-impl Way {
+impl SteppedMethod {
     /// The way of a method; `None` for Taylor series.
     ///
     /// # Errors
     /// [`OneLine`] for a method that cannot follow a machine; [`ALLOWED`] tells which can.
-    pub fn of(method: Method) -> Result<Option<Way>, OneLine> {
+    pub fn of(method: Method) -> Result<Option<SteppedMethod>, OneLine> {
         match method {
             Method::Auto | Method::Taylor => Ok(None),
-            Method::Dop853 => Ok(Some(Way::Dop853)),
-            Method::Dopri5 => Ok(Some(Way::Dopri5)),
+            Method::Dop853 => Ok(Some(SteppedMethod::Dop853)),
+            Method::Dopri5 => Ok(Some(SteppedMethod::Dopri5)),
             _ => Err(OneLine),
         }
     }
@@ -44,8 +44,8 @@ impl Way {
     #[must_use]
     pub fn method(self) -> Method {
         match self {
-            Way::Dop853 => Method::Dop853,
-            Way::Dopri5 => Method::Dopri5,
+            SteppedMethod::Dop853 => Method::Dop853,
+            SteppedMethod::Dopri5 => Method::Dopri5,
         }
     }
 
@@ -119,7 +119,7 @@ pub struct Traced {
 /// [`Stop`] where it leaves the law, runs away, or needs too many steps.
 pub fn stepped(
     model: &Model,
-    way: Way,
+    way: SteppedMethod,
     tolerance: f64,
     start: (f64, f64),
     until: f64,
@@ -134,12 +134,18 @@ pub fn stepped(
 
 /// The same with all of its steps, as far as it can be followed.
 #[must_use]
-pub fn traced(model: &Model, way: Way, tolerance: f64, (x, v): (f64, f64), until: f64) -> Traced {
+pub fn traced(
+    model: &Model,
+    way: SteppedMethod,
+    tolerance: f64,
+    (x, v): (f64, f64),
+    until: f64,
+) -> Traced {
     let start = (x, model.scaled_velocity(v));
     let field = Slope { model, phase: Phase::Between };
     match way {
-        Way::Dop853 => follow(Dop853::dop853(field, tolerance), model, start, until),
-        Way::Dopri5 => follow(Dopri5::dopri5(field, tolerance), model, start, until),
+        SteppedMethod::Dop853 => follow(Dop853::dop853(field, tolerance), model, start, until),
+        SteppedMethod::Dopri5 => follow(Dopri5::dopri5(field, tolerance), model, start, until),
     }
 }
 

@@ -7,7 +7,7 @@ use super::arc::{Flow, Stop};
 use super::model::{Model, Unfit};
 use super::motion::Motion;
 use super::portrait::{Fate, Portrait};
-use super::stepped::{Stepped, Way, stepped};
+use super::stepped::{Stepped, SteppedMethod, stepped};
 use crate::flow::{Limits, Reason};
 use crate::oscillator::Belt;
 use crate::oscillator::belt::{BeltError, Reduced};
@@ -45,7 +45,7 @@ pub struct Course {
 #[derive(Clone, Copy, Debug)]
 pub struct Second {
     /// The method.
-    pub way: Way,
+    pub way: SteppedMethod,
     /// Its tolerance.
     pub tolerance: f64,
     /// What it found.
@@ -73,7 +73,7 @@ impl Course {
 
 impl Course {
     /// Follows the motion once more by another method.
-    pub fn follow_by(&mut self, way: Way, tolerance: f64, start: (f64, f64), until: f64) {
+    pub fn follow_by(&mut self, way: SteppedMethod, tolerance: f64, start: (f64, f64), until: f64) {
         let found = stepped(&self.portrait.model, way, tolerance, start, until);
         self.second = Some(Second { way, tolerance, found });
     }

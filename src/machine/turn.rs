@@ -3,7 +3,7 @@
 //! Where the inclusion leaves a choice the mass is held: by the belt wherever static friction suffices, by
 //! the guide likewise. An orbit that touches the belt's line tangentially sticks.
 
-use super::arc::{End, Flow, Stop, Watch};
+use super::arc::{ArcEnd, Flow, Stop, Watch};
 use super::model::{Model, Phase};
 
 /// What the mass does at a place of the phase plane.
@@ -112,7 +112,7 @@ impl Flow<'_> {
     }
 
     /// What follows an arc, and where; no motion arrives where its own side pushes away, but by rounding.
-    pub(super) fn after(&self, phase: Phase, end: &End) -> (Place, f64) {
+    pub(super) fn after(&self, phase: Phase, end: &ArcEnd) -> (Place, f64) {
         let model = self.model;
         let x = match (end.on_belt, phase, model.lines) {
             (false, Phase::Below, _) => end.x.min(model.guide),

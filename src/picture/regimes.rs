@@ -1,6 +1,6 @@
 //! The chart of regimes: what becomes of kicks, over two parameters.
 //!
-//! Each regime has its texture and its name; computed borders are drawn through, the border by one
+//! Each regime has its texture and its name; computed boundaries are drawn through, the boundary by one
 //! harmonic (48) is dotted. The present point is marked: stepping the two parameters moves it and nothing
 //! else.
 
@@ -40,18 +40,18 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     }
     signs(&mut picture, abscissa, against, session.value(Symbol::R));
     if let Some(chart) = found {
-        let mut border = |border, line: Line| {
-            for run in chart.border(border) {
+        let mut boundary = |boundary, line: Line| {
+            for run in chart.boundary(boundary) {
                 picture.curve(line.clone(), run.into_iter().map(|(x, y)| Point { x, y }));
             }
         };
         if shows(Layer::Borders) {
-            border(BoundaryKind::Fold, Line::new("fold", Role::Special, Dash::Solid));
-            border(BoundaryKind::Escape, Line::new("escape", Role::Danger, Dash::Solid));
+            boundary(BoundaryKind::Fold, Line::new("fold", Role::Special, Dash::Solid));
+            boundary(BoundaryKind::Escape, Line::new("escape", Role::Danger, Dash::Solid));
         }
         if shows(Layer::HarmonicBorder) {
             let line = Line::new("fold of the first harmonic", Role::Harmonic, Dash::Dotted);
-            border(BoundaryKind::Harmonic, line.briefly("fold of one harmonic"));
+            boundary(BoundaryKind::Harmonic, line.briefly("fold of one harmonic"));
         }
         if shows(Layer::Regimes) {
             names_of_regimes(&mut picture, chart);
@@ -122,7 +122,7 @@ fn names_of_regimes(picture: &mut Picture, chart: &Chart) {
             let far = |cell: &(f64, f64, Option<Regime>)| {
                 ((cell.0 - x).abs() / NAME.0).max((cell.1 - y).abs() / NAME.1)
             };
-            // The ends of the window are borders like the others.
+            // The ends of the window are boundaries like the others.
             let ends = (x.min(1.0 - x) / NAME.0).min(y.min(1.0 - y) / NAME.1);
             others.map(far).fold(ends, f64::min)
         };

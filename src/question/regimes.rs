@@ -6,17 +6,17 @@ use crate::flow::Reason;
 use crate::oscillator::Parameters;
 use crate::study::chart::{Chart, Plane, Resolution, chart};
 
-/// Lines of a chart of regimes, evenly spaced; borders between them are interpolated.
+/// Lines of a chart of regimes, evenly spaced; boundaries between them are interpolated.
 const CHART_LINES: usize = 40;
 
 /// The same in a draft.
 const DRAFT_LINES: usize = 4;
 
-/// Relative error of clearances at the borders of a chart.
-const BORDER_TOLERANCE: f64 = 1e-13;
+/// Relative error of clearances at the boundaries of a chart.
+const BOUNDARY_TOLERANCE: f64 = 1e-13;
 
 /// The same in a draft.
-const DRAFT_BORDER_TOLERANCE: f64 = 1e-3;
+const DRAFT_BOUNDARY_TOLERANCE: f64 = 1e-3;
 
 /// What is asked.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,9 +34,9 @@ impl Question for Asked {
 
     fn answer(&self, means: &Means) -> Result<Chart, Reason> {
         let (lines, chord, tolerance) = if self.rough {
-            (DRAFT_LINES, f64::INFINITY, DRAFT_BORDER_TOLERANCE)
+            (DRAFT_LINES, f64::INFINITY, DRAFT_BOUNDARY_TOLERANCE)
         } else {
-            (CHART_LINES, means.fineness.chord, BORDER_TOLERANCE)
+            (CHART_LINES, means.fineness.chord, BOUNDARY_TOLERANCE)
         };
         let resolution = Resolution { lines, chord, tolerance };
         chart(&self.parameters, self.plane, resolution, means.limits)

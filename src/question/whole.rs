@@ -5,7 +5,7 @@ use crate::flow::trajectory::{Crossing, Outcome, Sample, Trajectory};
 use crate::flow::{Cost, Limits, Method, Problem, Reason};
 use crate::machine::curve::{Curve, Piece};
 use crate::machine::motion::{self, Motion};
-use crate::machine::stepped::{Traced, Way, traced};
+use crate::machine::stepped::{SteppedMethod, Traced, traced};
 use crate::machine::turn::Place;
 use crate::machine::{Fate, Flow, Ledger, Model, Phase, Portrait, Stop};
 use crate::numerics::elementary::ln;
@@ -106,7 +106,7 @@ pub fn motion(
     let portrait = Portrait::new(&model).map_err(reason)?;
     model.tolerance = problem.tolerance;
     let units = Units::of(&model);
-    let way = Way::of(problem.method).map_err(|_| Reason::NotApplicable {
+    let way = SteppedMethod::of(problem.method).map_err(|_| Reason::NotApplicable {
         needs: "to know both switching lines of a machine, as auto, taylor, dop853 and dopri5 do",
     })?;
     let (x, v) = (problem.initial.q * units.x, problem.initial.v * units.v);
@@ -155,7 +155,7 @@ impl Drawn {
     }
 
     /// By the steps of another method.
-    fn stepped(found: Traced, way: Way) -> Self {
+    fn stepped(found: Traced, way: SteppedMethod) -> Self {
         let Traced { legs, samples, outcome, evaluations, steps } = found;
         let end = samples.last().copied().unwrap_or(motion::State { t: 0.0, x: 0.0, v: 0.0 });
         let cost = Cost { evaluations, steps, rejected: 0 };

@@ -7,14 +7,14 @@ use super::csv;
 use super::json::{self, Price};
 use super::table::{Table, parameters, rounded};
 use crate::proof::kicks::Kicks;
-use crate::study::basin::{Counts, Survey};
+use crate::study::basin::{Counts, SurveyedBasin};
 use crate::study::{Edge, Margin};
 use crate::words::number::{duration, significant};
 
 #[derive(Serialize)]
 struct Document<'a> {
     #[serde(flatten)]
-    found: &'a Survey,
+    found: &'a SurveyedBasin,
     #[serde(skip_serializing_if = "Option::is_none")]
     certified: Option<Survived>,
     cost: Price,
@@ -33,7 +33,7 @@ struct Row {
     certified: Option<Survived>,
 }
 
-pub fn json(found: &Survey, certified: Option<&Kicks>, seconds: f64) -> String {
+pub fn json(found: &SurveyedBasin, certified: Option<&Kicks>, seconds: f64) -> String {
     json::text(&Document {
         found,
         certified: certified.map(survived),
@@ -41,7 +41,7 @@ pub fn json(found: &Survey, certified: Option<&Kicks>, seconds: f64) -> String {
     })
 }
 
-pub fn csv(found: &Survey, certified: Option<&Kicks>) -> String {
+pub fn csv(found: &SurveyedBasin, certified: Option<&Kicks>) -> String {
     let row = |certified| Row {
         counts: found.counts,
         margin: found.margin,
@@ -63,7 +63,7 @@ pub(super) fn edge(edge: Edge) -> &'static str {
 }
 
 /// The counts, the margins and the area.
-pub fn table(found: &Survey, seconds: f64) -> String {
+pub fn table(found: &SurveyedBasin, seconds: f64) -> String {
     const PLACES: usize = 10;
     let mut out = format!("{}\n{}\n", parameters(&found.parameters, None), edge(found.edge));
     let Counts { captured, cycle, escaped, undecided } = found.counts;

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::csv;
 use crate::flow::Reason;
 use crate::numerics::Interval;
-use crate::study::claims::{Examined, Finding, Mark, Sense, Verdict};
+use crate::study::claims::{Certainty, Examined, Finding, Sense, Verdict};
 use crate::words::claim;
 use crate::words::number::{duration, significant};
 
@@ -80,7 +80,7 @@ fn row(examined: &Examined) -> Row<'_> {
         error: finding.map(|finding| finding.computed.error),
         difference: finding.and_then(Finding::difference),
         bound: finding.map(Finding::bound),
-        proof: finding.and_then(|finding| finding.mark).map(Mark::name),
+        proof: finding.and_then(|finding| finding.mark).map(Certainty::name),
         lower: bounds.map(Interval::lower).filter(|end| end.is_finite()),
         upper: bounds.map(Interval::upper).filter(|end| end.is_finite()),
         verdict: claim::name(examined),
@@ -135,7 +135,7 @@ pub fn table(examined: &[Examined], seconds: f64) -> String {
 
 /// What is certain, or a dash.
 fn mark(finding: Option<&Finding>) -> String {
-    finding.and_then(|finding| finding.mark).map_or("-", Mark::name).to_owned()
+    finding.and_then(|finding| finding.mark).map_or("-", Certainty::name).to_owned()
 }
 
 /// The claim, and where it was tested.

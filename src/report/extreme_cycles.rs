@@ -7,7 +7,7 @@ use super::json;
 use super::table::Table;
 use crate::oscillator::Parameters;
 use crate::study::Cycle;
-use crate::study::extremes::sets::{BUDGET, Found, SetAnswer, SetVerdict};
+use crate::study::extremes::sets::{BUDGET, LatticeCycle, SetAnswer, SetVerdict};
 use crate::words::number::{exact as short, significant};
 use crate::words::stability;
 
@@ -16,7 +16,7 @@ const CLOSED: f64 = 1e-11;
 
 /// As a table to read.
 pub fn table(verdicts: &[SetVerdict]) -> String {
-    let list = |verdict: &SetVerdict, digits: usize, value: &dyn Fn(&Found) -> f64| {
+    let list = |verdict: &SetVerdict, digits: usize, value: &dyn Fn(&LatticeCycle) -> f64| {
         let values = verdict.cycles().iter().map(|it| significant(value(it), digits));
         values.collect::<Vec<_>>().join(", ")
     };
@@ -45,7 +45,7 @@ pub fn table(verdicts: &[SetVerdict]) -> String {
 
 /// As comma-separated values: one row for each cycle, or for a set without any.
 pub fn csv(verdicts: &[SetVerdict]) -> String {
-    let row = |verdict: &SetVerdict, answer, found: Option<&Found>| Row {
+    let row = |verdict: &SetVerdict, answer, found: Option<&LatticeCycle>| Row {
         parameters: verdict.parameters,
         answer,
         reason: match &verdict.answer {

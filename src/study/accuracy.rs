@@ -19,7 +19,7 @@ const TIGHT: (f64, f64) = (1e-14, 1e-13);
 
 /// A turning point: an arrival at `v = 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Turn {
+pub struct PreciseTurn {
     /// Time.
     pub tau: Twofold,
     /// Displacement.
@@ -63,7 +63,7 @@ pub enum Source {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reference {
     /// Every arrival at `v = 0` after the start, the last one included.
-    pub turns: Vec<Turn>,
+    pub turns: Vec<PreciseTurn>,
     /// How it ended.
     pub end: Ending,
     /// Where it comes from.
@@ -130,11 +130,12 @@ impl Reference {
 
     fn agreed(problem: &Problem, fine: &Precise, coarse: &Precise) -> Self {
         let reference = |found: &Precise| {
-            let turns = found.turns.iter().map(|mark| Turn { tau: mark.tau, q: mark.q }).collect();
+            let turns =
+                found.turns.iter().map(|mark| PreciseTurn { tau: mark.tau, q: mark.q }).collect();
             let end = match found.end {
-                precise::End::Captured(mark) => Ending::Rest { q: mark.q },
-                precise::End::Moving(mark) => Ending::Moving { q: mark.q, v: mark.v },
-                precise::End::Escaped { tau } => Ending::Escape { tau },
+                precise::PreciseEnd::Captured(mark) => Ending::Rest { q: mark.q },
+                precise::PreciseEnd::Moving(mark) => Ending::Moving { q: mark.q, v: mark.v },
+                precise::PreciseEnd::Escaped { tau } => Ending::Escape { tau },
             };
             Self::new(problem, turns, end, Source::TwicePrecision, found.cost)
         };
@@ -165,12 +166,18 @@ impl Reference {
             Outcome::Escaped { tau } => Ending::Escape { tau: of(tau) },
             Outcome::GaveUp { reason, .. } => return Err(reason),
         };
-        let turn = |at: &Crossing| Turn { tau: of(at.tau), q: of(at.q) };
+        let turn = |at: &Crossing| PreciseTurn { tau: of(at.tau), q: of(at.q) };
         let turns = found.crossings.iter().map(turn).collect();
         Ok(Self::new(&found.problem, turns, end, source, found.cost))
     }
 
-    fn new(problem: &Problem, turns: Vec<Turn>, end: Ending, source: Source, cost: Cost) -> Self {
+    fn new(
+        problem: &Problem,
+        turns: Vec<PreciseTurn>,
+        end: Ending,
+        source: Source,
+        cost: Cost,
+    ) -> Self {
         let last = match end {
             Ending::Rest { q } | Ending::Moving { q, .. } => q.high,
             Ending::Escape { .. } => 0.0,
@@ -228,7 +235,7 @@ impl Reference {
             if let (Some(one), Some(other)) = (one, other) {
                 time = time.max(apart(one.tau, other.tau));
             }
-            let place = |turn: Option<&Turn>, end| turn.map(|turn| turn.q).or(end);
+            let place = |turn: Option<&PreciseTurn>, end| turn.map(|turn| turn.q).or(end);
             let one = place(one, rest.map(|rest| rest.0));
             let other = place(other, rest.map(|rest| rest.1));
             error = error.max(apart(one?, other?));

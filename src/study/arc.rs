@@ -44,7 +44,7 @@ impl Direction {
 
 /// One integration step of an arc.
 #[derive(Clone, Debug)]
-struct Piece {
+struct ArcStep {
     step: LastStep,
     unit: i32,
     duration: f64,
@@ -65,9 +65,9 @@ pub struct Arc {
     clearance: Length,
     /// At which the computation began.
     length: Length,
-    pieces: Vec<Piece>,
+    pieces: Vec<ArcStep>,
     /// From where the motion is linear to its end, if it was not followed there.
-    rest: Option<Piece>,
+    rest: Option<ArcStep>,
     /// The swing, or why it has no end.
     pub swing: Result<HalfSwing, NoEnd>,
     /// What it cost.
@@ -94,13 +94,13 @@ impl Arc {
         };
         let detail = DETAIL * (clearance.value + parameters.r);
         let mut map = HalfMap::integrating_above(detail, field, TOLERANCE);
-        let mut pieces: Vec<Piece> = Vec::new();
+        let mut pieces: Vec<ArcStep> = Vec::new();
         let limits =
             Limits { evaluations: limits.evaluations.min(BUDGET), interrupted: limits.interrupted };
         let swing = map.swing_watched(length, &limits, |stepper, unit, duration| {
             let step = stepper.last_step();
             let end = times_power(step.at(duration).x, unit);
-            pieces.push(Piece { step, unit, duration, end });
+            pieces.push(ArcStep { step, unit, duration, end });
         });
         if let Err(NoEnd::Failed(reason)) = swing {
             return Err(reason);
@@ -178,7 +178,7 @@ impl Arc {
     /// Area between the arc and `v = 0`: the integral of `v dq`, which is that of `v^2 dtau`.
     #[must_use]
     pub fn area(&self) -> f64 {
-        let piece_area = |piece: &Piece| {
+        let piece_area = |piece: &ArcStep| {
             let second = piece.step.powers().second;
             times_power(times_power(second, piece.unit), piece.unit)
         };
@@ -189,7 +189,7 @@ impl Arc {
     #[must_use]
     pub fn powers(&self) -> Powers {
         let mut sum = Powers::default();
-        for Piece { step, unit, .. } in &self.pieces {
+        for ArcStep { step, unit, .. } in &self.pieces {
             let powers = step.powers();
             let square = times_power(times_power(1.0, *unit), *unit);
             sum.second += square * powers.second;
@@ -202,7 +202,7 @@ impl Arc {
     /// The integral of the displacement over time.
     #[must_use]
     pub fn time_integral(&self) -> f64 {
-        let piece_integral = |piece: &Piece| {
+        let piece_integral = |piece: &ArcStep| {
             let displacement = |time: f64| {
                 let x = self.direction.sense() * times_power(piece.step.at(time).x, piece.unit);
                 self.side.displacement(x, self.r)
@@ -233,10 +233,10 @@ impl Arc {
 }
 
 /// What is left of an arc after `pieces` that end below `detail`: linear, so in closed form.
-fn rest(field: &HalfPlane, pieces: &[Piece], detail: f64) -> Option<Piece> {
+fn rest(field: &HalfPlane, pieces: &[ArcStep], detail: f64) -> Option<ArcStep> {
     /// Time after which a motion that creeps has decayed beyond the range of numbers, in units of its own.
     const DECAYED: f64 = 750.0;
-    let &Piece { ref step, unit, duration, .. } = pieces.last()?;
+    let &ArcStep { ref step, unit, duration, .. } = pieces.last()?;
     let from = step.at(duration);
     if field.d < 0.0 || from.v <= 0.0 || times_power(from.size(), unit) > detail {
         return None;
@@ -246,10 +246,10 @@ fn rest(field: &HalfPlane, pieces: &[Piece], detail: f64) -> Option<Piece> {
     // Both times of decay have the product 1, and the sum 2 D.
     let step = exact.advance(from, DECAYED * (2.0 * field.d).max(1.0)).ok()?;
     let end = times_power(step.end.x, unit);
-    Some(Piece { step: LastStep::Closed(exact), unit, duration: step.duration, end })
+    Some(ArcStep { step: LastStep::Closed(exact), unit, duration: step.duration, end })
 }
 
-impl Piece {
+impl ArcStep {
     /// v where the position is `target`, which lies on this piece.
     fn speed_at(&self, target: f64) -> f64 {
         // The position is monotone in time.

@@ -224,7 +224,7 @@ impl Basin {
 
 /// A basin, surveyed over a window of starts.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Survey {
+pub struct SurveyedBasin {
     /// The parameters.
     pub parameters: Parameters,
     /// What borders the basin of the sticking set.
@@ -244,7 +244,7 @@ pub struct Survey {
     pub cost: Cost,
 }
 
-impl Survey {
+impl SurveyedBasin {
     /// Surveys a grid of `columns` by `rows` starts.
     ///
     /// # Errors
@@ -260,7 +260,7 @@ impl Survey {
         let counts = basin.count(window, columns, rows, limits)?;
         #[expect(clippy::cast_precision_loss, reason = "at most 1e10 starts")]
         let captured = counts.captured as f64 / (columns * rows) as f64;
-        Ok(Survey {
+        Ok(SurveyedBasin {
             parameters: *parameters,
             edge: basin.edge,
             counts,

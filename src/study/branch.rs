@@ -25,7 +25,7 @@ use serde::Serialize;
 
 use super::closing::{Equation, Route, first_side};
 use super::closings::{STEP, other_closings};
-use super::continuation::{Curve, CurvePoint, Place, covers, passes};
+use super::continuation::{Curve, CurvePlace, CurvePoint, covers, passes};
 use super::cycle::Cycle;
 use super::escape::{escape_point, escape_product};
 use super::polish::polish_near;
@@ -382,7 +382,7 @@ impl Tracer<'_> {
     }
 
     /// The cycle at a place as the search for cycles finds it, to rounding; `None` where it cannot be told.
-    fn polished(&mut self, place: &Place) -> Result<Option<Cycle>, Reason> {
+    fn polished(&mut self, place: &CurvePlace) -> Result<Option<Cycle>, Reason> {
         let parameters = self.curve.parameters_at(place.p);
         if let Some(closing) = weak_closing(&parameters) {
             return Ok(Some(closing.describe(&parameters, self.curve.side)));

@@ -1,9 +1,9 @@
-//! A chart of regimes over two parameters: exact borders, and what lies between them.
+//! A chart of regimes over two parameters: exact boundaries, and what lies between them.
 //!
-//! The chart is cut into lines along one of its parameters. On each line the borders are numbers: the
+//! The chart is cut into lines along one of its parameters. On each line the boundaries are numbers: the
 //! fold `D_F`, the escape point `D_c`, and the places where a parameter changes its sign. Where D is a
 //! parameter of the chart, lines run along D and each takes one fold. Where it is not, the place on the
-//! line is sought at which the fold comes to the given D. Between two borders one regime holds
+//! line is sought at which the fold comes to the given D. Between two boundaries one regime holds
 //! ([`Regime::of`]): nothing is scanned.
 
 mod line;
@@ -42,7 +42,7 @@ pub struct Chart {
     pub cost: Cost,
 }
 
-/// A border that a chart shows.
+/// A boundary that a chart shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BoundaryKind {
     /// The fold of the cycles.
@@ -75,10 +75,10 @@ impl Plane {
 pub struct Resolution {
     /// Lines that it has in any case, about.
     pub lines: usize,
-    /// Largest distance between a border and its chord from line to line, as a part of the range; where
+    /// Largest distance between a boundary and its chord from line to line, as a part of the range; where
     /// it is more, further lines are drawn between. Infinite: none are.
     pub chord: f64,
-    /// Relative error of the clearance at a fold; that of the borders is at most a hundred times this.
+    /// Relative error of the clearance at a fold; that of the boundaries is at most a hundred times this.
     pub tolerance: f64,
 }
 
@@ -123,12 +123,12 @@ pub fn chart(
 }
 
 impl Chart {
-    /// The places of a border as points (right, up), in runs without a gap.
+    /// The places of a boundary as points (right, up), in runs without a gap.
     #[must_use]
-    pub fn border(&self, border: BoundaryKind) -> Vec<Vec<(f64, f64)>> {
+    pub fn boundary(&self, boundary: BoundaryKind) -> Vec<Vec<(f64, f64)>> {
         let mut runs: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
         for line in &self.lines {
-            let place = match border {
+            let place = match boundary {
                 BoundaryKind::Fold => line.fold,
                 BoundaryKind::Harmonic => line.harmonic,
                 BoundaryKind::Escape => line.escape,

@@ -11,7 +11,7 @@ mod spread;
 
 use point::UNIT_OF_U;
 pub use point::{CurvePoint, Tangent, covers, passes};
-pub use spread::Place;
+pub use spread::CurvePlace;
 
 use super::closed_pair::Closing;
 use super::closing::{Equation, Route};

@@ -18,7 +18,7 @@ use crate::oscillator::{Parameters, Side, State, Symbol};
 
 /// A fold: the cycle at which two meet.
 #[derive(Clone, Copy, Debug)]
-pub struct Fold {
+pub struct FoldCycle {
     /// The parameters.
     pub parameters: Parameters,
     /// The cycle.
@@ -55,14 +55,14 @@ impl Guess {
     pub fn in_damping(parameters: &Parameters) -> Option<Self> {
         /// Largest product of D2 and the amplitude at which the estimate is any good.
         const BENT: f64 = 3.5;
-        let Estimate { d, u, bend } = Estimate::of(parameters)?;
+        let FoldEstimate { d, u, bend } = FoldEstimate::of(parameters)?;
         (bend <= BENT).then(|| Guess::at(&Parameters { d, ..*parameters }, u))
     }
 
     /// The same beside a fold that is known: as far from the estimate as this one is.
     #[must_use]
-    pub fn beside(known: &Fold, parameters: &Parameters) -> Option<Self> {
-        let (here, there) = (Estimate::of(parameters)?, Estimate::of(&known.parameters)?);
+    pub fn beside(known: &FoldCycle, parameters: &Parameters) -> Option<Self> {
+        let (here, there) = (FoldEstimate::of(parameters)?, FoldEstimate::of(&known.parameters)?);
         let d = here.d * (known.parameters.d / there.d);
         let (parameters, u) = (Parameters { d, ..*parameters }, known.u + here.u - there.u);
         Some(Guess { parameters, u, slopes: Some(known.along) })
@@ -80,14 +80,14 @@ impl Guess {
 /// The harmonic fold (48, 49), with the leading order of the escape point, to which it tends for weak D3, and
 /// turning points to second order in D2. The rest was fitted to a few per cent of computed folds: an estimate decides
 /// how long the search takes, and nothing else.
-struct Estimate {
+struct FoldEstimate {
     d: f64,
     u: f64,
     /// D2 times the amplitude.
     bend: f64,
 }
 
-impl Estimate {
+impl FoldEstimate {
     fn of(parameters: &Parameters) -> Option<Self> {
         let Parameters { d2, d3, r, .. } = *parameters;
         let harmonic = harmonic::fold(d3, r)?;
@@ -99,7 +99,7 @@ impl Estimate {
         let farthest = 14.0 / d2;
         let escape = (2.0 / std::f64::consts::PI).sqrt() * d2;
         let d = -cbrt(powi(escape, 3) - powi(harmonic.d, 3));
-        Some(Estimate { d, u: ln(r * clearance.min(farthest)), bend })
+        Some(FoldEstimate { d, u: ln(r * clearance.min(farthest)), bend })
     }
 }
 
@@ -113,7 +113,7 @@ pub fn fold_near(
     symbol: Symbol,
     tolerance: f64,
     limits: &Limits,
-) -> Result<(Option<Fold>, Cost), Reason> {
+) -> Result<(Option<FoldCycle>, Cost), Reason> {
     let side = first_side(&guess.parameters);
     let mut system = System { guess, symbol, side, limits, cost: Cost::default() };
     let found = system.solve(tolerance)?;
@@ -167,7 +167,7 @@ impl System<'_> {
         Ok(finite.then_some(Values { step, f, g, slope, closing }))
     }
 
-    fn solve(&mut self, tolerance: f64) -> Result<Option<Fold>, Reason> {
+    fn solve(&mut self, tolerance: f64) -> Result<Option<FoldCycle>, Reason> {
         /// Steps before giving up.
         const STEPS: usize = 16;
         /// Tolerance of coarse integration steps, and the change for which they are too coarse.
@@ -218,8 +218,8 @@ impl System<'_> {
         change: [f64; 2],
         here: &Values,
         slopes: Slopes,
-    ) -> Option<Fold> {
-        let fold = Fold {
+    ) -> Option<FoldCycle> {
+        let fold = FoldCycle {
             parameters: self.parameters_at(place[1] + change[1]),
             closing: here.closing,
             side: self.side,

@@ -61,7 +61,7 @@ const LOST: Reason = Reason::NoConvergence { sought: "the fold", change: f64::NA
 
 /// Where the search begins.
 #[derive(Clone, Copy)]
-struct Start {
+struct Outset {
     u: f64,
     d: f64,
     /// First stride in u.
@@ -70,7 +70,7 @@ struct Start {
 
 /// The harmonic estimate where it is near, else a cycle close to the sticking set, which lies below the
 /// fold.
-fn start(parameters: &Parameters) -> Option<Start> {
+fn start(parameters: &Parameters) -> Option<Outset> {
     /// Mean shift, as a part of the amplitude, and damping up to which the harmonic estimate is near.
     const NEAR: (f64, f64) = (0.3, 0.8);
     /// Clearance that is small, in units of r.
@@ -82,7 +82,7 @@ fn start(parameters: &Parameters) -> Option<Start> {
     let clearance =
         if near { estimate.amplitude + shift - parameters.r } else { CLOSE * parameters.r };
     let u = ln(clearance.max(CLOSE * parameters.r));
-    Some(Start { u, d: estimate.d.max(-0.5), stride: if near { 0.2 } else { 0.5 } })
+    Some(Outset { u, d: estimate.d.max(-0.5), stride: if near { 0.2 } else { 0.5 } })
 }
 
 /// What is known of the place of the fold.
@@ -104,7 +104,7 @@ struct Graph<'a> {
 
 impl Graph<'_> {
     /// The cycle at which two meet.
-    fn meeting(&mut self, start: Start) -> Result<CurvePoint, Reason> {
+    fn meeting(&mut self, start: Outset) -> Result<CurvePoint, Reason> {
         match self.around_fold(start)? {
             Around::Plateau(point) => Ok(*point),
             Around::Between(ends) => match self.curve.fold_between(&ends[0], &ends[1])? {
@@ -140,7 +140,7 @@ impl Graph<'_> {
 
     /// A cycle on either side of the fold: the inner ones are unstable (multiplier above 1), the outer
     /// ones stable.
-    fn around_fold(&mut self, start: Start) -> Result<Around, Reason> {
+    fn around_fold(&mut self, start: Outset) -> Result<Around, Reason> {
         /// Shortest and longest stride, and strides before giving up.
         const LENGTHS: (f64, f64) = (0.01, 1.0);
         const STRIDES: usize = 60;

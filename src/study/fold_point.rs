@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::extended::Fold;
+use super::extended::FoldCycle;
 use super::limit_cycle::Cycle;
 
 /// The fold at given D2, D3 and r.
@@ -24,8 +24,8 @@ pub struct FoldPoint {
     pub grazes: bool,
 }
 
-impl From<&Fold> for FoldPoint {
-    fn from(fold: &Fold) -> Self {
+impl From<&FoldCycle> for FoldPoint {
+    fn from(fold: &FoldCycle) -> Self {
         let Cycle { q_max, period, .. } = fold.closing.describe(&fold.parameters, fold.side);
         FoldPoint { d: fold.parameters.d, q_max, period, grazes: false }
     }

@@ -15,7 +15,7 @@ use crate::numerics::quadrature::integrate;
 
 /// How a random number is spread.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Law {
+pub enum Distribution {
     /// Normal; the spread is the standard deviation.
     Normal,
     /// Evenly within the spread on either side.
@@ -26,7 +26,7 @@ pub enum Law {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Kicks {
     /// How both parts are spread.
-    pub law: Law,
+    pub law: Distribution,
     /// Mean and spread of the displacement.
     pub q: (f64, f64),
     /// Mean and spread of the velocity.
@@ -36,7 +36,7 @@ pub struct Kicks {
 impl Default for Kicks {
     /// Normal, with standard deviations of 1.
     fn default() -> Self {
-        Kicks { law: Law::Normal, q: (0.0, 1.0), v: (0.0, 1.0) }
+        Kicks { law: Distribution::Normal, q: (0.0, 1.0), v: (0.0, 1.0) }
     }
 }
 
@@ -49,9 +49,9 @@ impl FromStr for Kicks {
             format!("{text:?}: expected kicks such as q=0+-0.1,v=0+-0.05 or uniform:q=0+-0.1,v=0")
         };
         let (law, parts) = match text.split_once(':') {
-            None => (Law::Normal, text),
-            Some(("normal", parts)) => (Law::Normal, parts),
-            Some(("uniform", parts)) => (Law::Uniform, parts),
+            None => (Distribution::Normal, text),
+            Some(("normal", parts)) => (Distribution::Normal, parts),
+            Some(("uniform", parts)) => (Distribution::Uniform, parts),
             Some(_) => return Err(form()),
         };
         let mut kicks = Kicks { law, q: (0.0, 0.0), v: (0.0, 0.0) };
@@ -78,19 +78,19 @@ impl FromStr for Kicks {
 
 impl fmt::Display for Kicks {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let law = if self.law == Law::Uniform { "uniform:" } else { "" };
+        let law = if self.law == Distribution::Uniform { "uniform:" } else { "" };
         let (q, v) = (self.q, self.v);
         write!(out, "{law}q={}+-{},v={}+-{}", q.0, q.1, v.0, v.1)
     }
 }
 
-impl Law {
+impl Distribution {
     /// One word.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Law::Normal => "normal",
-            Law::Uniform => "uniform",
+            Distribution::Normal => "normal",
+            Distribution::Uniform => "uniform",
         }
     }
 
@@ -100,8 +100,8 @@ impl Law {
             return f64::from(u8::from(x <= 0.0));
         }
         match self {
-            Law::Normal => 0.5 * erfc(x / spread / SQRT_2),
-            Law::Uniform => (0.5 - 0.5 * x / spread).clamp(0.0, 1.0),
+            Distribution::Normal => 0.5 * erfc(x / spread / SQRT_2),
+            Distribution::Uniform => (0.5 - 0.5 * x / spread).clamp(0.0, 1.0),
         }
     }
 
@@ -109,16 +109,16 @@ impl Law {
     pub(super) fn density(self, x: f64, spread: f64) -> f64 {
         let scaled = x / spread;
         match self {
-            Law::Normal => exp(-0.5 * scaled * scaled) / (spread * (2.0 * PI).sqrt()),
-            Law::Uniform => f64::from(u8::from(scaled.abs() <= 1.0)) / (2.0 * spread),
+            Distribution::Normal => exp(-0.5 * scaled * scaled) / (spread * (2.0 * PI).sqrt()),
+            Distribution::Uniform => f64::from(u8::from(scaled.abs() <= 1.0)) / (2.0 * spread),
         }
     }
 
     /// How many times the spread a number can be away from its mean, to 1e-18.
     pub(super) fn reach(self) -> f64 {
         match self {
-            Law::Normal => 9.0,
-            Law::Uniform => 1.0,
+            Distribution::Normal => 9.0,
+            Distribution::Uniform => 1.0,
         }
     }
 }
@@ -212,10 +212,10 @@ mod tests {
     #[test]
     fn kicks_are_read_and_written() {
         let kicks: Kicks = "q=0+-0.1,v=0.2+-0.05".parse().unwrap();
-        assert_eq!(kicks.law, Law::Normal);
+        assert_eq!(kicks.law, Distribution::Normal);
         assert_eq!((kicks.q, kicks.v), ((0.0, 0.1), (0.2, 0.05)));
         assert_eq!(kicks.to_string(), "q=0+-0.1,v=0.2+-0.05");
-        assert_eq!("uniform:v=1+-1".parse::<Kicks>().unwrap().law, Law::Uniform);
+        assert_eq!("uniform:v=1+-1".parse::<Kicks>().unwrap().law, Distribution::Uniform);
         for text in ["q", "x=1", "cauchy:q=1", "q=1+-", "q=1+--1", "q=inf"] {
             assert!(text.parse::<Kicks>().is_err(), "{text}");
         }
@@ -227,7 +227,7 @@ mod tests {
             let parameters = Parameters { d, d2, d3, r: 0.1 };
             let found = basin(&parameters, 2.0, &Limits::PATIENT).unwrap();
             let window = Window { q: (-0.5, 0.7), v: (-0.6, 0.4) };
-            let kicks = Kicks { law: Law::Uniform, q: (0.1, 0.6), v: (-0.1, 0.5) };
+            let kicks = Kicks { law: Distribution::Uniform, q: (0.1, 0.6), v: (-0.1, 0.5) };
             let (lost, held) = (kicks.lost(&found), found.captured_share(&window));
             assert!((lost.part + held.part - 1.0).abs() <= lost.error + held.error + 1e-12);
         }
@@ -237,10 +237,11 @@ mod tests {
     fn normal_kicks_are_lost_as_often_as_a_monte_carlo_loses_them() {
         let parameters = Parameters { d: -0.3, d2: 0.2, d3: 0.5, r: 0.1 };
         let found = basin(&parameters, 3.0, &Limits::PATIENT).unwrap();
-        let kicks = Kicks { law: Law::Normal, q: (0.02, 0.08), v: (0.0, 0.1) };
+        let kicks = Kicks { law: Distribution::Normal, q: (0.02, 0.08), v: (0.0, 0.1) };
         let lost = kicks.lost(&found);
         // Points of a lattice in the unit square, made normal by the inverse of the distribution.
-        let inverse = |part: f64| bisect(-9.0, 9.0, 40, |at| Law::Normal.above(at, 1.0) <= part).0;
+        let inverse =
+            |part: f64| bisect(-9.0, 9.0, 40, |at| Distribution::Normal.above(at, 1.0) <= part).0;
         let draws = 20_000;
         let mut out = 0;
         for index in 0..draws {
@@ -259,8 +260,9 @@ mod tests {
         let parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.0, r: 0.1 };
         let found = basin(&parameters, 3.0, &Limits::PATIENT).unwrap();
         let margin = found.margin().impulse.unwrap();
-        let lost =
-            |v: f64| Kicks { law: Law::Normal, q: (0.0, 0.0), v: (v, 0.0) }.lost(&found).part;
+        let lost = |v: f64| {
+            Kicks { law: Distribution::Normal, q: (0.0, 0.0), v: (v, 0.0) }.lost(&found).part
+        };
         assert_eq!([lost(0.999 * margin), lost(1.001 * margin)], [0.0, 1.0]);
     }
 }

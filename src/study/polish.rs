@@ -143,7 +143,7 @@ struct Steps<'a> {
 }
 
 /// What ends Newton's method: the closing that is settled, or the reason why there is none.
-type End = Result<Closing, Reason>;
+type Settled = Result<Closing, Reason>;
 
 impl<'a> Steps<'a> {
     fn new(equation: &'a mut Equation, route: Route, weigh: bool) -> Self {
@@ -151,7 +151,7 @@ impl<'a> Steps<'a> {
     }
 
     /// The residual and its slope at `u`; the closing there in place of an error, once it is settled.
-    fn at(&mut self, u: f64, limits: &Limits) -> Result<(f64, f64), End> {
+    fn at(&mut self, u: f64, limits: &Limits) -> Result<(f64, f64), Settled> {
         let (mut closing, mut energy) = self.closing(u, limits).map_err(Err)?;
         let ends = closing.duration.is_finite();
         let flat = self.route == Route::Mixed && closing.node.slope.abs() < FLAT;

@@ -52,7 +52,7 @@ impl Regime {
         REGIMES[self as usize].1
     }
 
-    /// The regime at parameters of which the borders in D are known.
+    /// The regime at parameters of which the boundaries in D are known.
     ///
     /// `fold` is `D_F` (asked for only where `D3 > 0`, `r > 0`; minus infinity where it is lower than
     /// anyone asks), `escape` is `D_c` (only where `D3 = 0`, `D2 != 0`; `None` where it lies below -1).
@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn signs_and_borders_decide() {
+    fn signs_and_boundaries_decide() {
         let at = |d, d2, d3, r| regime(&oscillator(d, d2, d3, r), &Limits::PATIENT).unwrap();
         assert_eq!(at(-0.3, 0.0, 0.5, 0.1), Regime::Coexisting);
         assert_eq!(at(-0.1, 0.0, 0.5, 0.1), Regime::Global);

@@ -262,7 +262,7 @@ fn real(count: usize) -> f64 {
 mod tests {
     use super::*;
     use crate::numerics::random::Random;
-    use crate::study::kicks::Law;
+    use crate::study::kicks::Distribution;
 
     /// Kicks one after the other, each from where the last one came to rest: mean number until one is lost, and
     /// its standard error.
@@ -291,7 +291,7 @@ mod tests {
     }
 
     const PARAMETERS: Parameters = Parameters { d: -0.3, d2: 0.2, d3: 0.5, r: 0.1 };
-    const KICKS: Kicks = Kicks { law: Law::Normal, q: (0.0, 0.04), v: (0.02, 0.08) };
+    const KICKS: Kicks = Kicks { law: Distribution::Normal, q: (0.0, 0.04), v: (0.02, 0.08) };
 
     fn agrees(parameters: &Parameters, kicks: &Kicks, drawn_kicks: u32) {
         let found = repeated(parameters, kicks, &Limits::PATIENT).unwrap();

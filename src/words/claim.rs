@@ -1,7 +1,7 @@
 //! The verdicts on the claims of the paper.
 
 use super::number::significant;
-use crate::study::claims::{Examined, Finding, Mark, Sense, Verdict};
+use crate::study::claims::{Certainty, Examined, Finding, Sense, Verdict};
 
 /// The name of the verdict where no number could be computed.
 const UNKNOWN: &str = "unknown";
@@ -45,12 +45,13 @@ pub fn summary(examined: &[Examined]) -> String {
     let counts = NAMES.iter().map(|&(name, words)| (count(name), words));
     let parts =
         counts.filter(|(count, _)| *count > 0).map(|(count, words)| format!("{count} {words}"));
-    let marked = |mark: Mark| {
+    let marked = |mark: Certainty| {
         let carries = |one: &&Examined| one.finding.as_ref().is_ok_and(|it| it.mark == Some(mark));
         let count = examined.iter().filter(carries).count();
         (count > 0).then(|| format!("{count} {}", mark.name()))
     };
-    let marks = [Mark::Proved, Mark::Refuted, Mark::Enclosed].into_iter().filter_map(marked);
+    let marks =
+        [Certainty::Proved, Certainty::Refuted, Certainty::Enclosed].into_iter().filter_map(marked);
     let parts: Vec<_> = parts.chain(marks).collect();
     format!("{} claims: {}", examined.len(), parts.join(", "))
 }

@@ -17,7 +17,7 @@ use hopfscope::study::branch::{Points, branch};
 use hopfscope::study::closing::{Equation, Route};
 use hopfscope::study::closings::closings;
 use hopfscope::study::cycle::cycles;
-use hopfscope::study::extremes::sets::{Found, SetAnswer, SetVerdict, judge_set, sets};
+use hopfscope::study::extremes::sets::{LatticeCycle, SetAnswer, SetVerdict, judge_set, sets};
 use hopfscope::study::half_map::{HalfMap, Length, NoEnd};
 use hopfscope::study::polish::polish;
 use proptest::prelude::*;
@@ -270,7 +270,7 @@ fn check_extreme_cycles(sets: Vec<Parameters>, most_given_up: usize) {
     const BESIDE: f64 = 1e-4;
     let verdicts: Vec<SetVerdict> =
         sets.into_par_iter().map(|set| judge_set(&set, &LIMITS)).collect();
-    let wrong = |verdict: &SetVerdict, found: &Found| {
+    let wrong = |verdict: &SetVerdict, found: &LatticeCycle| {
         let Parameters { d, d2, d3, r } = verdict.parameters;
         let cycle = found.cycle;
         let mut broken = !(found.residual <= 1e-9

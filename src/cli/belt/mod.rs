@@ -20,7 +20,7 @@ use crate::flow::Method;
 use crate::machine::branch::{borders, branch, spaced};
 use crate::machine::design::friction_for;
 use crate::machine::guarantee::guaranteed;
-use crate::machine::stepped::{ALLOWED, Way};
+use crate::machine::stepped::{ALLOWED, SteppedMethod};
 use crate::machine::survey::{Course, Trouble, survey};
 use crate::machine::{Body, Portrait, Subject, Tolerances};
 use crate::report::belt::branch::{Borders, Branched};
@@ -164,7 +164,7 @@ impl Belt {
     }
 
     /// The method beside Taylor series.
-    fn second(&self) -> Result<Option<Way>, Failure> {
+    fn second(&self) -> Result<Option<SteppedMethod>, Failure> {
         let Some(method) = self.method else { return Ok(None) };
         let refused = |_| {
             let line = format!(
@@ -172,7 +172,7 @@ impl Belt {
             );
             Failure::Usage(line)
         };
-        let Some(way) = Way::of(method).map_err(refused)? else { return Ok(None) };
+        let Some(way) = SteppedMethod::of(method).map_err(refused)? else { return Ok(None) };
         if self.branch.is_some() || self.sweep.is_some() {
             let line =
                 "--method dop853 and dopri5 follow one motion; --sweep and --branch have none";
@@ -187,7 +187,7 @@ impl Belt {
     }
 
     /// The tolerance of the Taylor steps, which stay exact beside another method.
-    fn own(&self, second: Option<Way>) -> Option<f64> {
+    fn own(&self, second: Option<SteppedMethod>) -> Option<f64> {
         self.tol.filter(|_| second.is_none())
     }
 
@@ -231,7 +231,7 @@ impl Belt {
     }
 
     /// The answer about a vibration mode, which has no belt.
-    fn of_mode(&self, mut mode: Mode, second: Option<Way>) -> Result<(), Failure> {
+    fn of_mode(&self, mut mode: Mode, second: Option<SteppedMethod>) -> Result<(), Failure> {
         if self.disturbance.is_some() {
             let line = "--disturbance is for belts: guaranteed margins of a mode are not computed";
             return Err(Failure::Usage(line.to_owned()));

@@ -45,7 +45,7 @@ pub struct Basis {
 
 /// One unknown, and the equation of the same name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Entry {
+enum Unknown {
     /// `A0`; the residual weighted by 1.
     Mean,
     /// `a_k`; the residual weighted by `cos(k t)`.
@@ -54,21 +54,21 @@ enum Entry {
     Sine(usize),
 }
 
-impl Entry {
+impl Unknown {
     /// The harmonic that it belongs to.
     fn harmonic(self) -> usize {
         match self {
-            Entry::Mean => 0,
-            Entry::Cosine(k) | Entry::Sine(k) => k,
+            Unknown::Mean => 0,
+            Unknown::Cosine(k) | Unknown::Sine(k) => k,
         }
     }
 
     /// Reads this equation out of the residual's coefficient of its harmonic.
     fn of(self, coefficient: Complex<f64>) -> f64 {
         match self {
-            Entry::Mean => coefficient.re,
-            Entry::Cosine(_) => 2.0 * coefficient.re,
-            Entry::Sine(_) => -2.0 * coefficient.im,
+            Unknown::Mean => coefficient.re,
+            Unknown::Cosine(_) => 2.0 * coefficient.re,
+            Unknown::Sine(_) => -2.0 * coefficient.im,
         }
     }
 }
@@ -80,10 +80,10 @@ impl Basis {
         Basis { count, odd: parameters.d2 == 0.0 }
     }
 
-    fn entries(self) -> impl Iterator<Item = Entry> {
-        let mean = (!self.odd).then_some(Entry::Mean);
+    fn entries(self) -> impl Iterator<Item = Unknown> {
+        let mean = (!self.odd).then_some(Unknown::Mean);
         let pairs = (1..=self.count).step_by(if self.odd { 2 } else { 1 });
-        mean.into_iter().chain(pairs.flat_map(|k| [Entry::Cosine(k), Entry::Sine(k)]))
+        mean.into_iter().chain(pairs.flat_map(|k| [Unknown::Cosine(k), Unknown::Sine(k)]))
     }
 
     /// Number of unknowns, and of equations.
@@ -99,10 +99,10 @@ impl Basis {
         for (entry, change) in self.entries().zip(changes.iter()) {
             let change = part * change;
             match entry {
-                Entry::Mean => to.q.coefficients[0].re += change,
-                Entry::Cosine(k) => to.q.coefficients[k].re += 0.5 * change,
-                Entry::Sine(1) => to.frequency += change,
-                Entry::Sine(k) => to.q.coefficients[k].im -= 0.5 * change,
+                Unknown::Mean => to.q.coefficients[0].re += change,
+                Unknown::Cosine(k) => to.q.coefficients[k].re += 0.5 * change,
+                Unknown::Sine(1) => to.frequency += change,
+                Unknown::Sine(k) => to.q.coefficients[k].im -= 0.5 * change,
             }
         }
         to
@@ -131,23 +131,23 @@ pub struct Residual {
     /// `p^3`, up to harmonic N.
     cube: Fourier,
     /// Where p changes its sign.
-    crossings: Vec<Crossing>,
+    crossings: Vec<ChangeWaves>,
 }
 
 /// A sign change of p, with `e^(i k t)` there for every harmonic k.
 #[derive(Clone, Debug)]
-struct Crossing {
+struct ChangeWaves {
     change: SignChange,
     waves: Vec<Complex<f64>>,
 }
 
-impl Crossing {
+impl ChangeWaves {
     fn new(change: SignChange, count: usize) -> Self {
         let wave = |k| {
             let (sin, cos) = sin_cos(factor(k) * change.angle);
             Complex::new(cos, sin)
         };
-        Crossing { change, waves: (0..=count).map(wave).collect() }
+        ChangeWaves { change, waves: (0..=count).map(wave).collect() }
     }
 }
 
@@ -158,7 +158,7 @@ impl Residual {
         let p = ansatz.q.derivative();
         let square = p.product(&p, 2 * basis.count);
         let cube = square.product(&p, basis.count);
-        let crossing = |change| Crossing::new(change, basis.count);
+        let crossing = |change| ChangeWaves::new(change, basis.count);
         Residual {
             parameters: *parameters,
             basis,
@@ -211,10 +211,10 @@ impl Residual {
         let mut jacobian = DMatrix::zeros(size, size);
         for (mut column, unknown) in jacobian.column_iter_mut().zip(self.basis.entries()) {
             let change = |m: usize| match unknown {
-                Entry::Mean => self.by_coefficient(&damping, 0, Complex::from(1.0), m),
-                Entry::Cosine(k) => self.by_coefficient(&damping, k, Complex::from(0.5), m),
-                Entry::Sine(1) => self.by_frequency(m),
-                Entry::Sine(k) => self.by_coefficient(&damping, k, Complex::new(0.0, -0.5), m),
+                Unknown::Mean => self.by_coefficient(&damping, 0, Complex::from(1.0), m),
+                Unknown::Cosine(k) => self.by_coefficient(&damping, k, Complex::from(0.5), m),
+                Unknown::Sine(1) => self.by_frequency(m),
+                Unknown::Sine(k) => self.by_coefficient(&damping, k, Complex::new(0.0, -0.5), m),
             };
             // The equations weighted by cosine and sine stand together and read one coefficient.
             let mut last = (usize::MAX, Complex::default());
@@ -370,9 +370,9 @@ mod tests {
         let got = values(&GENERAL, basis, &ansatz);
         for (got, entry) in got.iter().zip(basis.entries()) {
             let expected = match entry {
-                Entry::Mean => weighted(&|_| 1.0) / TAU,
-                Entry::Cosine(k) => weighted(&|t| cos(factor(k) * t)) / PI,
-                Entry::Sine(k) => weighted(&|t| sin(factor(k) * t)) / PI,
+                Unknown::Mean => weighted(&|_| 1.0) / TAU,
+                Unknown::Cosine(k) => weighted(&|t| cos(factor(k) * t)) / PI,
+                Unknown::Sine(k) => weighted(&|t| sin(factor(k) * t)) / PI,
             };
             assert!((got - expected).abs() < 1e-12, "{entry:?}: {got} for {expected}");
         }

@@ -114,13 +114,13 @@ pub fn harmonic_cycle(
     count: usize,
     interrupted: &dyn Fn() -> bool,
 ) -> Result<HarmonicCycle, Lost> {
-    let branch = Branch::new(parameters, first, interrupted);
+    let branch = Followed::new(parameters, first, interrupted);
     branch.cycle(count.clamp(1, MOST))
 }
 
 /// The branch of solutions that begins at one first-order answer, in units of a power of two that makes
 /// the first-order amplitude about 1.
-struct Branch<'a> {
+struct Followed<'a> {
     parameters: Parameters,
     first: Ansatz,
     stable: bool,
@@ -132,7 +132,7 @@ struct Branch<'a> {
 /// Harmonics that are enough to follow a branch in the strength.
 const COARSE: usize = 7;
 
-impl<'a> Branch<'a> {
+impl<'a> Followed<'a> {
     fn new(parameters: &Parameters, first: &Harmonic, interrupted: &'a dyn Fn() -> bool) -> Self {
         let Parameters { d, d2, d3, r } = *parameters;
         let unit = exponent(first.amplitude);
@@ -145,7 +145,7 @@ impl<'a> Branch<'a> {
         let mean = Complex::from(times_power(first.mean, -unit));
         let wave = Complex::from(0.5 * times_power(first.amplitude, -unit));
         let first_order = Ansatz { frequency: 1.0, q: Fourier { coefficients: vec![mean, wave] } };
-        Branch { parameters: scaled, first: first_order, stable: first.stable, unit, interrupted }
+        Followed { parameters: scaled, first: first_order, stable: first.stable, unit, interrupted }
     }
 
     fn cycle(&self, count: usize) -> Result<HarmonicCycle, Lost> {

@@ -46,14 +46,14 @@ pub fn sign_changes(function: &Fourier) -> Vec<SignChange> {
     let noise = f64::EPSILON * (function.bound(1) + function.mean().abs());
     let pieces = PIECES * function.degree();
     let mut search = Search { function, rest, noise, found: Vec::new() };
-    let first = End::of(function, 0.0);
+    let first = PieceEnd::of(function, 0.0);
     let mut left = first;
     for piece in 1..=pieces {
         let right = if piece < pieces {
-            End::of(function, TAU * (factor(piece) / factor(pieces)))
+            PieceEnd::of(function, TAU * (factor(piece) / factor(pieces)))
         } else {
             // The end of the turn is its beginning, and rounding must not make its sign another.
-            End { angle: TAU, ..first }
+            PieceEnd { angle: TAU, ..first }
         };
         search.piece(left, right);
         left = right;
@@ -67,15 +67,15 @@ const ORDER: usize = 8;
 
 /// An end of a piece.
 #[derive(Clone, Copy)]
-struct End {
+struct PieceEnd {
     angle: f64,
     /// Zero counts as positive wherever a sign is asked for.
     positive: bool,
 }
 
-impl End {
+impl PieceEnd {
     fn of(function: &Fourier, angle: f64) -> Self {
-        End { angle, positive: function.at(angle).value >= 0.0 }
+        PieceEnd { angle, positive: function.at(angle).value >= 0.0 }
     }
 }
 
@@ -90,7 +90,7 @@ struct Search<'a> {
 
 impl Search<'_> {
     /// Finds the sign changes of a piece.
-    fn piece(&mut self, left: End, right: End) {
+    fn piece(&mut self, left: PieceEnd, right: PieceEnd) {
         let angle = 0.5 * (left.angle + right.angle);
         let half = 0.5 * (right.angle - left.angle);
         let derivatives: [f64; ORDER] = self.function.derivatives(angle);
@@ -114,14 +114,14 @@ impl Search<'_> {
                 self.polish(left, right);
             }
         } else {
-            let middle = End { angle, positive: value >= 0.0 };
+            let middle = PieceEnd { angle, positive: value >= 0.0 };
             self.piece(left, middle);
             self.piece(middle, right);
         }
     }
 
     /// Adds the sign change between two ends of different sign.
-    fn polish(&mut self, left: End, right: End) {
+    fn polish(&mut self, left: PieceEnd, right: PieceEnd) {
         let bracket = Bracket { low: left.angle, high: right.angle, rising: right.positive };
         let settled = Change::Relative(f64::EPSILON);
         let angle = newton(bracket, bracket.middle(), settled, |angle| {

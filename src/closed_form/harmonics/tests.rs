@@ -168,7 +168,7 @@ proptest! {
             prop_assert!((cycle.v_max - first.amplitude).abs() <= scale);
             // The equations agree that it is their solution, and with its stability.
             prop_assert!(cycle.residual <= 16.0 * f64::EPSILON, "{}", cycle.residual);
-            let branch = Branch::new(&parameters, &first, &|| false);
+            let branch = Followed::new(&parameters, &first, &|| false);
             let basis = Basis::new(&branch.parameters, 1);
             if let Ok(again) = solve(&branch.parameters, basis, &branch.first, &|| false) {
                 prop_assert_eq!(again.unstable, !first.stable);

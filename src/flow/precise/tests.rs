@@ -29,7 +29,7 @@ fn without_damping_each_half_swing_takes_pi_and_two_r_to_thirty_digits() {
         assert!(apart(turn.q, Twofold::of(place)) < 1e-28, "{turn:?}");
         assert!(apart(turn.tau, PI.times(f64::from(index + 1))) < 1e-28, "{turn:?}");
     }
-    assert_eq!(found.end, End::Captured(found.turns[11]));
+    assert_eq!(found.end, PreciseEnd::Captured(found.turns[11]));
 }
 
 /// D = 2 sqrt(2)/3 makes `omega = 1/3`, but is no double; so the ratio of two successive half swings
@@ -77,14 +77,14 @@ fn an_escape_has_its_time() {
     let start = State { q: 0.0, v: 1e9 };
     let question = Problem { initial: start, ..problem([0.0, 0.0, -1.0, 0.0], 0.0, 1.0) };
     let found = precise(&question, FINE, &Limits::PATIENT).unwrap();
-    let End::Escaped { tau } = found.end else { panic!("{found:?}") };
+    let PreciseEnd::Escaped { tau } = found.end else { panic!("{found:?}") };
     assert!((tau.value() / 5e-19 - 1.0).abs() < 1e-15, "{tau:?}");
 }
 
 #[test]
 fn a_rest_stays_and_a_budget_is_kept() {
     let rest = precise(&problem([-0.1, 0.0, 0.0, 0.5], 0.5, 9.0), FINE, &Limits::PATIENT);
-    assert!(matches!(rest.unwrap().end, End::Captured(mark) if mark.q == Twofold::of(0.5)));
+    assert!(matches!(rest.unwrap().end, PreciseEnd::Captured(mark) if mark.q == Twofold::of(0.5)));
     let limits = Limits { evaluations: 1000, ..Limits::PATIENT };
     let stiff = precise(&problem([0.0, 0.0, 1.0, 0.1], 1e6, 1e4), FINE, &limits);
     assert!(matches!(stiff, Err(Reason::Budget { .. })));

@@ -3,13 +3,13 @@
 //! Dormand and Prince; Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, 2nd
 //! edition (1993), sections II.5 and II.6, and the authors' program.
 
-use super::{Estimate, Scheme};
+use super::{ErrorEstimate, Scheme};
 
 /// The scheme.
 pub static SCHEME: Scheme<STAGES, 16> = Scheme {
     columns: Scheme::<STAGES, 16>::columns(&A, &WEIGHTS, &[&ERROR5, &ERROR3]),
     weights: WEIGHTS,
-    estimate: Estimate::Combined(8.0),
+    estimate: ErrorEstimate::Combined(8.0),
     last_is_end: false,
     extra: &EXTRA,
     dense: &DENSE,

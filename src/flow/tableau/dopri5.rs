@@ -3,13 +3,13 @@
 //! Dormand and Prince, *A family of embedded Runge-Kutta formulae*, Journal of Computational and Applied
 //! Mathematics 6 (1980); dense output by Shampine as in Hairer, Norsett and Wanner I, section II.6.
 
-use super::{Estimate, Scheme};
+use super::{ErrorEstimate, Scheme};
 
 /// The scheme.
 pub static SCHEME: Scheme<STAGES, 8> = Scheme {
     columns: Scheme::<STAGES, 8>::columns(&A, &WEIGHTS, &[&ERROR]),
     weights: WEIGHTS,
-    estimate: Estimate::Embedded(5.0),
+    estimate: ErrorEstimate::Embedded(5.0),
     last_is_end: true,
     extra: &[],
     dense: &DENSE,

@@ -19,7 +19,7 @@ pub struct Scheme<const S: usize, const R: usize> {
     /// Weights of the solution.
     pub weights: [f64; S],
     /// How the error of a step is estimated.
-    pub estimate: Estimate,
+    pub estimate: ErrorEstimate,
     /// Whether the last stage is evaluated at the end of the step, where the next one begins.
     pub last_is_end: bool,
     /// Stages that only the dense output needs, after the slope at the end of the step.
@@ -30,7 +30,7 @@ pub struct Scheme<const S: usize, const R: usize> {
 
 /// How the error of a step is estimated.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Estimate {
+pub enum ErrorEstimate {
     /// Not at all: the step has a fixed length.
     None,
     /// By an embedded solution; the error grows with this power of the step.

@@ -1,12 +1,12 @@
 //! The classical method of order 4 (Kutta 1901), for steps of fixed length.
 
-use super::{Estimate, Scheme};
+use super::{ErrorEstimate, Scheme};
 
 /// The scheme.
 pub static SCHEME: Scheme<STAGES, 4> = Scheme {
     columns: Scheme::<STAGES, 4>::columns(&A, &WEIGHTS, &[]),
     weights: WEIGHTS,
-    estimate: Estimate::None,
+    estimate: ErrorEstimate::None,
     last_is_end: false,
     extra: &[],
     dense: &[],

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::flow::{METHODS, Method, Problem, QUALITIES};
-use crate::machine::stepped::Way;
+use crate::machine::stepped::SteppedMethod;
 use crate::numerics::elementary::log10;
 use crate::oscillator::PARAMETERS;
 use crate::oscillator::belt::Quantity;
@@ -231,7 +231,7 @@ pub fn next_method(session: &mut Session, by: isize) -> Vec<Effect> {
     let whole = session.draws_whole();
     let usable = METHODS.iter().filter(|row| {
         if whole {
-            Way::of(row.method).is_ok()
+            SteppedMethod::of(row.method).is_ok()
         } else {
             !(nonlinear && row.method == Method::Exact)
         }

@@ -1,4 +1,4 @@
-//! A line of a chart: the borders on it and the bands between them.
+//! A line of a chart: the boundaries on it and the bands between them.
 
 use crate::flow::Reason;
 use crate::study::regime::Regime;
@@ -14,7 +14,7 @@ pub struct Band {
     pub regime: Option<Regime>,
 }
 
-/// The bands at one value of the other parameter, and the borders between them.
+/// The bands at one value of the other parameter, and the boundaries between them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
     /// Value of the other parameter.
@@ -27,6 +27,6 @@ pub struct Line {
     pub harmonic: Option<f64>,
     /// The escape point.
     pub escape: Option<f64>,
-    /// Why the borders could not be computed.
+    /// Why the boundaries could not be computed.
     pub failure: Option<Reason>,
 }

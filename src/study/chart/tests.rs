@@ -1,4 +1,4 @@
-//! Charts against known borders and against the search for cycles.
+//! Charts against known boundaries and against the search for cycles.
 
 use super::*;
 use crate::numerics::elementary::{hypot, powi};
@@ -46,13 +46,13 @@ fn bands_are_right(parameters: &Parameters, chart: &Chart) {
 }
 
 #[test]
-fn over_d_the_borders_are_the_known_folds_and_escape_points() {
+fn over_d_the_boundaries_are_the_known_folds_and_escape_points() {
     let over_r = drawn(&PLAIN, plane(Symbol::D, (-0.5, 0.1), Symbol::R, (0.1, 0.2)), 4);
     assert_eq!(over_r.along, Symbol::D);
     let parameters = Parameters { r: 0.1, ..PLAIN };
     let known = fold(&parameters, &Limits::PATIENT).unwrap().0.unwrap().d;
     assert_eq!(over_r.lines[0].fold, Some(known));
-    let [run] = &over_r.border(BoundaryKind::Fold)[..] else { panic!("one run") };
+    let [run] = &over_r.boundary(BoundaryKind::Fold)[..] else { panic!("one run") };
     assert_eq!((run.len(), run[0]), (5, (known, 0.1)));
     // A little to the left of the fold a cycle attracts, to the right of it nothing does.
     assert_eq!(over_r.regime_at(known - 1e-6, 0.1), Some(Regime::Coexisting));
@@ -124,13 +124,13 @@ fn lines_stand_closer_where_a_sign_changes() {
 }
 
 #[test]
-fn between_lines_borders_are_followed_as_closely_as_asked() {
+fn between_lines_boundaries_are_followed_as_closely_as_asked() {
     // With friction to the right the fold is hyperbolic: r^2 D3 is the same all along.
     let over_r = plane(Symbol::R, (0.0, 0.5), Symbol::D3, (0.02, 2.0));
     let chord = 1e-4;
     let resolution = Resolution { lines: 8, chord, ..COARSE };
     let close = chart(&PLAIN, over_r, resolution, &Limits::PATIENT).unwrap();
-    let [run] = &close.border(BoundaryKind::Fold)[..] else { panic!("one run") };
+    let [run] = &close.boundary(BoundaryKind::Fold)[..] else { panic!("one run") };
     let kappa = powi(run[0].0, 2) * run[0].1;
     let mut farthest: f64 = 0.0;
     for pair in run.windows(2) {
@@ -141,7 +141,7 @@ fn between_lines_borders_are_followed_as_closely_as_asked() {
         farthest = farthest.max(aside.abs() / hypot(1.0, slope));
     }
     assert!(farthest < chord, "{farthest}");
-    // Where the border comes into the range, just below D3 = kappa / 0.25, nothing is left blank.
+    // Where the boundary comes into the range, just below D3 = kappa / 0.25, nothing is left blank.
     let enters = kappa / 0.25;
     for part in [0.7, 0.9, 0.99, 1.01, 1.1] {
         let expected = if part < 1.0 { Regime::Coexisting } else { Regime::Global };

@@ -1,5 +1,5 @@
-//! Drawing the lines of a chart: the borders on each, the bands between them, and further lines where a
-//! border is bent.
+//! Drawing the lines of a chart: the boundaries on each, the bands between them, and further lines where a
+//! boundary is bent.
 
 use super::line::{Band, Line};
 use crate::closed_form::harmonic;
@@ -9,14 +9,14 @@ use crate::numerics::root::{Change, illinois};
 use crate::oscillator::{Parameters, State, Symbol};
 use crate::study::cycle::cycles;
 use crate::study::escape::{escape_point, escape_product};
-use crate::study::extended::{Fold, Guess, fold_near};
+use crate::study::extended::{FoldCycle, Guess, fold_near};
 use crate::study::fold::fold_within;
 use crate::study::regime::Regime;
 
-/// How often the way from one line to the next is halved at most, to come close to a border.
+/// How often the way from one line to the next is halved at most, to come close to a boundary.
 pub(super) const HALVINGS: u32 = 8;
 
-/// Relative error of a border that is sought, in units of that of the clearance at a fold.
+/// Relative error of a boundary that is sought, in units of that of the clearance at a fold.
 const SLACK: f64 = 100.0;
 
 /// Values of a parameter at which lines are drawn: evenly spaced, and denser towards zero, where a sign
@@ -60,11 +60,11 @@ pub(super) struct Tracer<'a> {
     /// The fold in units of the harmonic one, on the line before.
     pub ratio: f64,
     /// The fold found last.
-    pub known: Option<Fold>,
+    pub known: Option<FoldCycle>,
 }
 
 impl Tracer<'_> {
-    /// Adds the lines that are needed between two, so that chords lie close to the borders.
+    /// Adds the lines that are needed between two, so that chords lie close to the boundaries.
     pub fn between(
         &mut self,
         before: &Line,
@@ -81,13 +81,15 @@ impl Tracer<'_> {
         let middle = self.line(f64::midpoint(before.at, after.at))?;
         let (width, height) =
             (self.range.1 - self.range.0, self.across_range.1 - self.across_range.0);
-        let bent = [|line: &Line| line.fold, |line: &Line| line.escape].into_iter().any(|border| {
-            let [Some(from), Some(middle), Some(to)] = [before, &middle, after].map(border) else {
-                return false;
-            };
-            let slope = (to - from) / width / ((after.at - before.at) / height);
-            (middle - f64::midpoint(from, to)).abs() / width > chord * hypot(1.0, slope)
-        });
+        let bent =
+            [|line: &Line| line.fold, |line: &Line| line.escape].into_iter().any(|boundary| {
+                let [Some(from), Some(middle), Some(to)] = [before, &middle, after].map(boundary)
+                else {
+                    return false;
+                };
+                let slope = (to - from) / width / ((after.at - before.at) / height);
+                (middle - f64::midpoint(from, to)).abs() / width > chord * hypot(1.0, slope)
+            });
         if bent || !before.alike(after) {
             self.between(before, &middle, chord, halvings - 1, lines)?;
             lines.push(middle.clone());
@@ -101,25 +103,25 @@ impl Tracer<'_> {
         let mut here = self.parameters;
         self.across.set(&mut here, &mut State { q: 0.0, v: 0.0 }, at);
         let harmonic = self.harmonic(&here);
-        let borders = if self.along == Symbol::D {
-            self.borders_in_d(&here)
+        let boundaries = if self.along == Symbol::D {
+            self.boundaries_in_d(&here)
         } else {
-            self.borders_at_d(&here)
+            self.boundaries_at_d(&here)
         };
-        let (borders, failure) = match borders {
+        let (boundaries, failure) = match boundaries {
             Err(Reason::Interrupted) => return Err(Reason::Interrupted),
-            Err(reason) => (Borders::default(), Some(reason)),
-            Ok(borders) => (borders, None),
+            Err(reason) => (Boundaries::default(), Some(reason)),
+            Ok(boundaries) => (boundaries, None),
         };
-        if let (Some(fold), Some(harmonic)) = (borders.fold, harmonic)
+        if let (Some(fold), Some(harmonic)) = (boundaries.fold, harmonic)
             && fold.is_finite()
             && fold != 0.0
         {
             self.ratio = fold / harmonic;
         }
-        let bands = self.bands(&here, &borders, failure.is_some());
-        let shown = |border: Option<f64>| border.filter(|border| border.is_finite());
-        let (fold, escape) = (shown(borders.fold), shown(borders.escape));
+        let bands = self.bands(&here, &boundaries, failure.is_some());
+        let shown = |boundary: Option<f64>| boundary.filter(|boundary| boundary.is_finite());
+        let (fold, escape) = (shown(boundaries.fold), shown(boundaries.escape));
         Ok(Line { at, bands, fold, harmonic, escape, failure })
     }
 
@@ -153,16 +155,16 @@ impl Tracer<'_> {
     }
 
     /// `D_F` and `D_c` on a line along D.
-    fn borders_in_d(&mut self, here: &Parameters) -> Result<Borders, Reason> {
+    fn boundaries_in_d(&mut self, here: &Parameters) -> Result<Boundaries, Reason> {
         /// Beyond critical damping folds take long; whether the range has any can be asked at its end.
         const CRITICAL: f64 = -1.0 + 1e-6;
         const DOUBTFUL: f64 = -0.75;
         if here.r == 0.0 || here.d3 < 0.0 {
-            return Ok(Borders::default());
+            return Ok(Boundaries::default());
         }
         if here.d3 == 0.0 {
             let escape = self.escape(here)?;
-            return Ok(Borders { fold: None, escape: escape.or(Some(f64::NEG_INFINITY)) });
+            return Ok(Boundaries { fold: None, escape: escape.or(Some(f64::NEG_INFINITY)) });
         }
         let strong = harmonic::fold(here.d3, here.r).is_none_or(|fold| fold.d < DOUBTFUL)
             || here.r * here.d2.abs() > -DOUBTFUL;
@@ -171,16 +173,16 @@ impl Tracer<'_> {
             let found = cycles(&end, false, self.limits)?;
             self.cost += found.cost;
             if found.cycles.is_empty() {
-                return Ok(Borders { fold: Some(f64::NEG_INFINITY), escape: None });
+                return Ok(Boundaries { fold: Some(f64::NEG_INFINITY), escape: None });
             }
         }
-        Ok(Borders { fold: Some(self.fold(here)?), escape: None })
+        Ok(Boundaries { fold: Some(self.fold(here)?), escape: None })
     }
 
     /// Where on a line along D3 or r the fold or the escape point comes to the given D.
-    fn borders_at_d(&mut self, here: &Parameters) -> Result<Borders, Reason> {
+    fn boundaries_at_d(&mut self, here: &Parameters) -> Result<Boundaries, Reason> {
         let Parameters { d, d2, d3, r } = *here;
-        let nowhere = Ok(Borders::default());
+        let nowhere = Ok(Boundaries::default());
         if d >= 0.0 {
             return nowhere;
         }
@@ -192,14 +194,17 @@ impl Tracer<'_> {
             let least = self.escape(&Parameters { d3: 0.0, ..*here })?;
             let none = d2 != 0.0 && least.is_none_or(|least| d >= least);
             let fold = if none { Some(0.0) } else { self.seek(here)? };
-            return Ok(Borders { fold, escape: None });
+            return Ok(Boundaries { fold, escape: None });
         }
         if d3 > 0.0 {
-            return Ok(Borders { fold: self.seek(here)?, escape: None });
+            return Ok(Boundaries { fold: self.seek(here)?, escape: None });
         }
         if d3 == 0.0 && d2 != 0.0 && d > -1.0 {
             // D_c depends on r D2 alone.
-            return Ok(Borders { fold: None, escape: Some(self.product_of_escape(d)? / d2.abs()) });
+            return Ok(Boundaries {
+                fold: None,
+                escape: Some(self.product_of_escape(d)? / d2.abs()),
+            });
         }
         nowhere
     }
@@ -257,22 +262,22 @@ impl Tracer<'_> {
         (d < 0.0 && value.is_finite() && value > 0.0).then_some(value)
     }
 
-    /// The bands between the borders within the range.
-    fn bands(&self, here: &Parameters, borders: &Borders, failed: bool) -> Vec<Band> {
+    /// The bands between the boundaries within the range.
+    fn bands(&self, here: &Parameters, boundaries: &Boundaries, failed: bool) -> Vec<Band> {
         let (from, to) = self.range;
         let inside = |value: &f64| *value > from && *value < to;
         let fixed = match self.along {
             Symbol::D => vec![-1.0, 0.0],
             _ => vec![0.0],
         };
-        let borders_there = [borders.fold, borders.escape].into_iter().flatten();
-        let mut ends: Vec<f64> = fixed.into_iter().chain(borders_there).filter(inside).collect();
+        let boundaries_there = [boundaries.fold, boundaries.escape].into_iter().flatten();
+        let mut ends: Vec<f64> = fixed.into_iter().chain(boundaries_there).filter(inside).collect();
         ends.extend([from, to]);
         ends.sort_by(f64::total_cmp);
         ends.dedup();
         let mut bands: Vec<Band> = Vec::new();
         for pair in ends.windows(2) {
-            let regime = self.regime(here, 0.5 * (pair[0] + pair[1]), borders, failed);
+            let regime = self.regime(here, 0.5 * (pair[0] + pair[1]), boundaries, failed);
             match bands.last_mut() {
                 Some(last) if last.regime == regime => last.to = pair[1],
                 _ => bands.push(Band { from: pair[0], to: pair[1], regime }),
@@ -285,7 +290,7 @@ impl Tracer<'_> {
         &self,
         here: &Parameters,
         value: f64,
-        borders: &Borders,
+        boundaries: &Boundaries,
         failed: bool,
     ) -> Option<Regime> {
         let parameters = self.with(here, value);
@@ -294,20 +299,20 @@ impl Tracer<'_> {
             return None;
         }
         if self.along == Symbol::D {
-            return Some(Regime::of(&parameters, borders.fold, borders.escape));
+            return Some(Regime::of(&parameters, boundaries.fold, boundaries.escape));
         }
-        // A line that crosses a border at the given D lies below the border in D before it.
-        let border = |border: Option<f64>| {
-            let beyond = border.is_some_and(|border| value >= border);
+        // A line that crosses a boundary at the given D lies below the boundary in D before it.
+        let boundary = |boundary: Option<f64>| {
+            let beyond = boundary.is_some_and(|boundary| value >= boundary);
             Some(if beyond { f64::NEG_INFINITY } else { 0.0 })
         };
-        Some(Regime::of(&parameters, border(borders.fold), border(borders.escape)))
+        Some(Regime::of(&parameters, boundary(boundaries.fold), boundary(boundaries.escape)))
     }
 }
 
-/// The borders on a line.
+/// The boundaries on a line.
 #[derive(Clone, Copy, Debug, Default)]
-struct Borders {
+struct Boundaries {
     fold: Option<f64>,
     escape: Option<f64>,
 }
@@ -338,12 +343,12 @@ fn root(
         stride *= 1.6;
         steps += 1;
         if steps > MOST {
-            return Err(Reason::NoConvergence { sought: "a border", change: stride });
+            return Err(Reason::NoConvergence { sought: "a boundary", change: stride });
         }
     }
     let [best, other] = illinois([low, high], small, Change::Absolute(small), function)?;
     if best.1.abs() <= small || (other.0 - best.0).abs() <= small {
         return Ok(best.0);
     }
-    Err(Reason::NoConvergence { sought: "a border", change: (other.0 - best.0).abs() })
+    Err(Reason::NoConvergence { sought: "a boundary", change: (other.0 - best.0).abs() })
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::certain::Found;
+use super::certain::ProvedCycle;
 use super::known::Answer;
 use super::measure::{
     Known, amplitude, at_rest, beside_proof, captured, cycles, edge, largest, mean, of_cycle,
@@ -117,7 +117,7 @@ pub const CLAIMS: &[Claim] = &[
             ] {
                 let parameters = oscillator(d, 0.0, d3, 0.0);
                 let found = cycles(&parameters, limits)?;
-                let as_expected = |found: &[Found]| {
+                let as_expected = |found: &[ProvedCycle]| {
                     found.iter().map(|cycle| cycle.stable).eq(expected.iter().copied())
                 };
                 cases.push((place(&parameters), found.answer(as_expected)));

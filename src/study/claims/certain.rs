@@ -1,5 +1,5 @@
 //! What proofs say about claims: beside a number stands an interval that certainly holds it, beside the answer to
-//! a question whether it is certain. From these follows the [`Mark`] of a claim.
+//! a question whether it is certain. From these follows the [`Certainty`] of a claim.
 
 use std::ops::Deref;
 
@@ -13,7 +13,7 @@ use crate::study::cycle::Cycle;
 
 /// What is certain about a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mark {
+pub enum Certainty {
     /// It holds in all cases that were tested.
     Proved,
     /// It does not hold: in one of these at least.
@@ -22,36 +22,36 @@ pub enum Mark {
     Enclosed,
 }
 
-impl Mark {
+impl Certainty {
     /// One word for scripts and tables.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Mark::Proved => "proved",
-            Mark::Refuted => "refuted",
-            Mark::Enclosed => "enclosed",
+            Certainty::Proved => "proved",
+            Certainty::Refuted => "refuted",
+            Certainty::Enclosed => "enclosed",
         }
     }
 
     /// The mark of a claim about two cases.
     #[must_use]
-    pub(super) fn and(one: Option<Mark>, other: Option<Mark>) -> Option<Mark> {
+    pub(super) fn and(one: Option<Certainty>, other: Option<Certainty>) -> Option<Certainty> {
         match (one?, other?) {
-            (Mark::Refuted, _) | (_, Mark::Refuted) => Some(Mark::Refuted),
-            (Mark::Proved, Mark::Proved) => Some(Mark::Proved),
-            _ => Some(Mark::Enclosed),
+            (Certainty::Refuted, _) | (_, Certainty::Refuted) => Some(Certainty::Refuted),
+            (Certainty::Proved, Certainty::Proved) => Some(Certainty::Proved),
+            _ => Some(Certainty::Enclosed),
         }
     }
 
     /// The mark of a formula beside what it is compared with.
     #[must_use]
-    pub(super) fn of(sense: Sense, formula: f64, computed: &Known) -> Option<Mark> {
+    pub(super) fn of(sense: Sense, formula: f64, computed: &Known) -> Option<Certainty> {
         let bounds = computed.bounds?;
         let formula = with_rounding(formula, computed.error);
         let decided = |holds: bool, fails: bool| match (holds, fails) {
-            (true, _) => Some(Mark::Proved),
-            (_, true) => Some(Mark::Refuted),
-            _ => bounds.is_finite().then_some(Mark::Enclosed),
+            (true, _) => Some(Certainty::Proved),
+            (_, true) => Some(Certainty::Refuted),
+            _ => bounds.is_finite().then_some(Certainty::Enclosed),
         };
         match sense {
             Sense::Equal => decided(false, formula.intersection(bounds).is_none()),
@@ -68,17 +68,17 @@ impl Mark {
 
     /// The mark of a limit, from the formula and what it is compared with far from it and nearer.
     #[must_use]
-    pub(super) fn of_limit(far: (f64, &Known), near: (f64, &Known)) -> Option<Mark> {
+    pub(super) fn of_limit(far: (f64, &Known), near: (f64, &Known)) -> Option<Certainty> {
         let miss = |(formula, computed): (f64, &Known)| {
             Some(miss(with_rounding(formula, computed.error), computed.bounds?))
         };
         let (far, near) = (miss(far)?, miss(near)?);
         if near.upper() < far.lower() {
-            Some(Mark::Proved)
+            Some(Certainty::Proved)
         } else if near.lower() > far.upper() {
-            Some(Mark::Refuted)
+            Some(Certainty::Refuted)
         } else {
-            Some(Mark::Enclosed)
+            Some(Certainty::Enclosed)
         }
     }
 }
@@ -101,21 +101,21 @@ fn miss(formula: Interval, bounds: Interval) -> Interval {
 
 /// A cycle of the search, and bounds of its numbers.
 #[derive(Clone, Copy, Debug)]
-pub struct Found {
+pub struct ProvedCycle {
     cycle: Cycle,
     /// Where it is proved.
     pub bounds: Option<Enclosure>,
 }
 
-impl Found {
+impl ProvedCycle {
     /// Of a search and a proof.
     #[must_use]
     pub fn new(cycle: Cycle, bounds: Option<Enclosure>) -> Self {
-        Found { cycle, bounds }
+        ProvedCycle { cycle, bounds }
     }
 }
 
-impl Deref for Found {
+impl Deref for ProvedCycle {
     type Target = Cycle;
 
     fn deref(&self) -> &Cycle {
@@ -127,7 +127,7 @@ impl Deref for Found {
 #[derive(Clone, Debug)]
 pub struct AllFound {
     /// The cycles.
-    pub cycles: Vec<Found>,
+    pub cycles: Vec<ProvedCycle>,
     /// Whether their number is proved.
     pub certain: bool,
 }
@@ -135,7 +135,7 @@ pub struct AllFound {
 impl AllFound {
     /// Whether something holds that depends on the number and the stability of the cycles only.
     #[must_use]
-    pub fn answer(&self, holds: impl Fn(&[Found]) -> bool) -> Answer {
+    pub fn answer(&self, holds: impl Fn(&[ProvedCycle]) -> bool) -> Answer {
         Answer { holds: holds(&self.cycles), certain: self.certain }
     }
 

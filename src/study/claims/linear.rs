@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::certain::Found;
+use super::certain::ProvedCycle;
 use super::equilibria::{least_kick, shifted};
 use super::measure::{
     Known, at_rest, edge, half_swing, of_cycle, oscillator, place, smallest, state_at,
@@ -43,7 +43,7 @@ pub const CLAIMS: &[Claim] = &[
             let mut cases = Vec::new();
             for d in DAMPINGS {
                 let found = super::measure::cycles(&units_of_friction(d), limits)?;
-                let further = |found: &[Found]| found.len() == 1 && found[0].clearance > 0.0;
+                let further = |found: &[ProvedCycle]| found.len() == 1 && found[0].clearance > 0.0;
                 cases.push((format!("D = {d}"), found.answer(further)));
             }
             Ok(Finding::always(cases))
@@ -84,7 +84,7 @@ pub const CLAIMS: &[Claim] = &[
         scene: Some("fig06"),
         check: |limits| {
             Finding::worst(DAMPINGS.map(|d| {
-                let (parameters, swing) = (units_of_friction(d), Swing::new(d));
+                let (parameters, swing) = (units_of_friction(d), LinearSwing::new(d));
                 let tau = 0.4 * PI / swing.omega;
                 let start = at_rest(-parameters.r - 1.0);
                 let [_, velocity] = state_at(&parameters, start, tau, limits)?;
@@ -128,7 +128,8 @@ pub const CLAIMS: &[Claim] = &[
             // An exponential of 70 has as many times the relative error of its exponent.
             let bounds = cycle.bounds.map(|it| it.clearance);
             let computed = Known::relative(cycle.clearance, 70.0 * 1e-14).within(bounds);
-            Ok(Finding::equal(Swing::new(-0.999).clearance(), computed).at(place(&parameters)))
+            Ok(Finding::equal(LinearSwing::new(-0.999).clearance(), computed)
+                .at(place(&parameters)))
         },
     },
     Claim {
@@ -198,7 +199,7 @@ fn units_of_friction(d: f64) -> Parameters {
 }
 
 /// What the formulas of a half swing are made of, in units of friction.
-struct Swing {
+struct LinearSwing {
     d: f64,
     /// Frequency `omega_d`.
     omega: f64,
@@ -206,10 +207,10 @@ struct Swing {
     growth: f64,
 }
 
-impl Swing {
+impl LinearSwing {
     fn new(d: f64) -> Self {
         let omega = (1.0 - d * d).sqrt();
-        Swing { d, omega, growth: exp(-PI * d / omega) }
+        LinearSwing { d, omega, growth: exp(-PI * d / omega) }
     }
 
     /// (30).
@@ -219,7 +220,7 @@ impl Swing {
 
     /// (33) as it stands in the paper.
     fn printed_velocity(&self) -> f64 {
-        let Swing { d, omega, growth } = *self;
+        let LinearSwing { d, omega, growth } = *self;
         let angle = atan(omega / d);
         2.0 * exp(-d * PI) / (omega * (growth - 1.0)) * exp(-d / omega * angle) * sin(omega + angle)
     }
@@ -232,7 +233,7 @@ impl Swing {
 
     /// (31), on the upper half.
     fn curve(&self, angle: f64) -> State {
-        let Swing { d, omega, growth } = *self;
+        let LinearSwing { d, omega, growth } = *self;
         let grown = 2.0 / (growth - 1.0) * exp(-d / omega * angle);
         let (sine, cosine) = sin_cos(angle);
         State { q: -1.0 - grown * (cosine + d / omega * sine), v: grown / omega * sine }
@@ -242,12 +243,12 @@ impl Swing {
 /// A formula of the half swing from `(-2, 0)` against the integrated one, at the worst of some dampings.
 fn over_swings(
     limits: &Limits,
-    formula: fn(&Swing) -> f64,
+    formula: fn(&LinearSwing) -> f64,
     read: fn([Known; 2]) -> Known,
 ) -> Result<Finding, Reason> {
     Finding::worst(DAMPINGS.map(|d| {
         let parameters = units_of_friction(d);
-        let paper = formula(&Swing::new(d));
+        let paper = formula(&LinearSwing::new(d));
         let computed = read(half_swing(&parameters, at_rest(-2.0), limits)?);
         Ok(Finding::equal(paper, computed).at(format!("{}, from q = -2", place(&parameters))))
     }))
@@ -259,13 +260,13 @@ type Reading = (fn(&Cycle) -> f64, fn(&Enclosure) -> Interval);
 /// A formula of the cycle against the one found by the search, at the worst of some dampings.
 fn over_cycles(
     limits: &Limits,
-    formula: fn(&Swing) -> (f64, Option<f64>),
+    formula: fn(&LinearSwing) -> (f64, Option<f64>),
     (read, bounds): Reading,
 ) -> Result<Finding, Reason> {
     Finding::worst(DAMPINGS.map(|d| {
         let parameters = units_of_friction(d);
         let cycle = smallest(&parameters, limits)?;
-        let (paper, corrected) = formula(&Swing::new(d));
+        let (paper, corrected) = formula(&LinearSwing::new(d));
         let computed = of_cycle(&cycle, read(&cycle), bounds);
         let finding = Finding::equal(paper, computed).at(place(&parameters));
         Ok(Finding { corrected, ..finding })
@@ -280,7 +281,7 @@ fn on_the_curve(
 ) -> Result<Finding, Reason> {
     const ANGLE: f64 = 2.0;
     Finding::worst(DAMPINGS.map(|d| {
-        let (parameters, swing) = (units_of_friction(d), Swing::new(d));
+        let (parameters, swing) = (units_of_friction(d), LinearSwing::new(d));
         let start = at_rest(swing.curve(0.0).q);
         let state = read(state_at(&parameters, start, ANGLE / swing.omega, limits)?);
         // The start is rounded, and near D = -1 its clearance is a small part of it.

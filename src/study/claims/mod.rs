@@ -4,7 +4,7 @@
 //! evaluates the paper's formula and computes the same thing without it: by integrating motions, by
 //! searching cycles, by differentiating the physical law. That function returns a [`Finding`], numbers
 //! and nothing else; the [`Verdict`] follows from the numbers by one rule for all claims
-//! ([`Finding::verdict`]). Where a proof encloses what was computed, a [`Mark`] says what is certain.
+//! ([`Finding::verdict`]). Where a proof encloses what was computed, a [`Certainty`] says what is certain.
 
 mod amplitudes;
 mod belt;
@@ -20,7 +20,7 @@ mod model;
 mod summary;
 mod verdict;
 
-pub use certain::Mark;
+pub use certain::Certainty;
 pub use known::Sense;
 pub use verdict::{Finding, Verdict};
 

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::certain::Mark;
+use super::certain::Certainty;
 use super::known::{Answer, Known, POOR, Sense};
 
 /// Rounding of a formula, as a part of its value.
@@ -24,7 +24,7 @@ pub struct Finding {
     /// How many cases this one, the worst, was chosen from.
     pub cases: usize,
     /// What is certain, of all cases.
-    pub mark: Option<Mark>,
+    pub mark: Option<Certainty>,
 }
 
 /// What the numbers say about a claim.
@@ -56,7 +56,7 @@ impl Finding {
     }
 
     fn new(sense: Sense, paper: f64, computed: Known) -> Self {
-        let mark = Mark::of(sense, paper, &computed);
+        let mark = Certainty::of(sense, paper, &computed);
         let (place, paper, corrected) = (String::new(), Some(paper), None);
         Finding { sense, place, paper, corrected, computed, cases: 1, mark }
     }
@@ -77,7 +77,7 @@ impl Finding {
     #[must_use]
     pub fn tends(far: (f64, Known), near: (f64, Known)) -> Self {
         let before = Self::near(far.0, far.1).miss();
-        let mark = Mark::of_limit((far.0, &far.1), (near.0, &near.1));
+        let mark = Certainty::of_limit((far.0, &far.1), (near.0, &near.1));
         Finding { mark, ..Self::new(Sense::Tends { before }, near.0, near.1) }
     }
 
@@ -98,7 +98,8 @@ impl Finding {
         }
         let computed = Known::exact(f64::from(holds));
         let cases = all as usize;
-        let mark = if refuted { Some(Mark::Refuted) } else { certain.then_some(Mark::Proved) };
+        let mark =
+            if refuted { Some(Certainty::Refuted) } else { certain.then_some(Certainty::Proved) };
         let mark = mark.filter(|_| all > 0);
         Finding { place, cases, mark, ..Self::new(Sense::Always, f64::from(all), computed) }
     }
@@ -127,11 +128,11 @@ impl Finding {
     /// The first error among them.
     pub fn worst<E>(findings: impl IntoIterator<Item = Result<Self, E>>) -> Result<Self, E> {
         let mut worst = Self::always::<bool>([]);
-        let (mut cases, mut mark) = (0, Some(Mark::Proved));
+        let (mut cases, mut mark) = (0, Some(Certainty::Proved));
         for finding in findings {
             let finding = finding?;
             cases += 1;
-            mark = Mark::and(mark, finding.mark);
+            mark = Certainty::and(mark, finding.mark);
             if cases == 1 || finding.strain() > worst.strain() {
                 worst = finding;
             }
@@ -293,31 +294,34 @@ mod tests {
     fn marks_follow_from_bounds() {
         let known = known(1.0).within(Interval::new(0.99, 1.01));
         let mark = |finding: Finding| finding.mark.unwrap();
-        assert_eq!(mark(Finding::equal(1.005, known)), Mark::Enclosed);
-        assert_eq!(mark(Finding::equal(1.02, known)), Mark::Refuted);
-        assert_eq!(mark(Finding::near(1.08, known)), Mark::Proved);
-        assert_eq!(mark(Finding::near(1.1, known)), Mark::Enclosed);
-        assert_eq!(mark(Finding::near(1.12, known)), Mark::Refuted);
-        assert_eq!(mark(Finding::at_most(0.98, known)), Mark::Proved);
-        assert_eq!(mark(Finding::at_most(1.0, known)), Mark::Enclosed);
-        assert_eq!(mark(Finding::at_most(1.02, known)), Mark::Refuted);
-        assert_eq!(mark(Finding::tends((1.5, known), (1.1, known))), Mark::Proved);
-        assert_eq!(mark(Finding::tends((1.1, known), (1.5, known))), Mark::Refuted);
+        assert_eq!(mark(Finding::equal(1.005, known)), Certainty::Enclosed);
+        assert_eq!(mark(Finding::equal(1.02, known)), Certainty::Refuted);
+        assert_eq!(mark(Finding::near(1.08, known)), Certainty::Proved);
+        assert_eq!(mark(Finding::near(1.1, known)), Certainty::Enclosed);
+        assert_eq!(mark(Finding::near(1.12, known)), Certainty::Refuted);
+        assert_eq!(mark(Finding::at_most(0.98, known)), Certainty::Proved);
+        assert_eq!(mark(Finding::at_most(1.0, known)), Certainty::Enclosed);
+        assert_eq!(mark(Finding::at_most(1.02, known)), Certainty::Refuted);
+        assert_eq!(mark(Finding::tends((1.5, known), (1.1, known))), Certainty::Proved);
+        assert_eq!(mark(Finding::tends((1.1, known), (1.5, known))), Certainty::Refuted);
         assert_eq!(Finding::near(1.0, self::known(1.0)).mark, None);
         // A bound on one side decides or says nothing.
         let above = self::known(1.0).within(Interval::new(f64::NEG_INFINITY, 1.01));
-        assert_eq!(Finding::at_most(1.02, above).mark, Some(Mark::Refuted));
+        assert_eq!(Finding::at_most(1.02, above).mark, Some(Certainty::Refuted));
         assert_eq!(Finding::at_most(0.5, above).mark, None);
         // One case that certainly fails refutes, all that certainly hold prove.
         let case = |holds, certain| (String::new(), Answer { holds, certain });
-        assert_eq!(Finding::always([case(true, true), case(true, true)]).mark, Some(Mark::Proved));
+        assert_eq!(
+            Finding::always([case(true, true), case(true, true)]).mark,
+            Some(Certainty::Proved)
+        );
         assert_eq!(Finding::always([case(true, true), case(true, false)]).mark, None);
         assert_eq!(
             Finding::always([case(true, false), case(false, true)]).mark,
-            Some(Mark::Refuted)
+            Some(Certainty::Refuted)
         );
         let several = [Finding::near(1.0, known), Finding::near(1.12, known)].map(Ok::<_, ()>);
-        assert_eq!(Finding::worst(several).unwrap().mark, Some(Mark::Refuted));
+        assert_eq!(Finding::worst(several).unwrap().mark, Some(Certainty::Refuted));
     }
 
     #[test]

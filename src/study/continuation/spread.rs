@@ -10,7 +10,7 @@ use crate::study::closing::Route;
 
 /// Where a cycle of the curve is to be found.
 #[derive(Clone, Copy, Debug)]
-pub struct Place {
+pub struct CurvePlace {
     /// The parameter.
     pub p: f64,
     /// Logarithm of the clearance: of a cycle, or interpolated.
@@ -19,9 +19,9 @@ pub struct Place {
     pub log_multiplier: f64,
 }
 
-impl From<&CurvePoint> for Place {
+impl From<&CurvePoint> for CurvePlace {
     fn from(point: &CurvePoint) -> Self {
-        Place { p: point.p, u: point.u, log_multiplier: point.log_multiplier }
+        CurvePlace { p: point.p, u: point.u, log_multiplier: point.log_multiplier }
     }
 }
 
@@ -34,17 +34,21 @@ impl Curve<'_> {
     ///
     /// # Errors
     /// The [`Reason`] why a swing failed.
-    pub fn spread(&mut self, points: &[CurvePoint], count: usize) -> Result<Vec<Place>, Reason> {
+    pub fn spread(
+        &mut self,
+        points: &[CurvePoint],
+        count: usize,
+    ) -> Result<Vec<CurvePlace>, Reason> {
         let (Some(first), Some(last)) = (points.first(), points.last()) else {
             return Ok(Vec::new());
         };
         let arc = arc_lengths(points);
         let total = arc[arc.len() - 1];
         if points.len() < 2 || total == 0.0 {
-            return Ok(points.iter().map(Place::from).collect());
+            return Ok(points.iter().map(CurvePlace::from).collect());
         }
         let window = points.len().min(6);
-        let mut spread = vec![Place::from(first)];
+        let mut spread = vec![CurvePlace::from(first)];
         self.slope_in_p = None;
         for index in 1..count.saturating_sub(1) {
             #[expect(clippy::cast_precision_loss, reason = "counts of points are small")]
@@ -60,7 +64,7 @@ impl Curve<'_> {
             let fraction = (s - arc[after - 1]) / (arc[after] - arc[after - 1]);
             spread.extend(self.corrected(pair, smooth, fraction)?);
         }
-        spread.push(Place::from(last));
+        spread.push(CurvePlace::from(last));
         Ok(spread)
     }
 
@@ -70,7 +74,7 @@ impl Curve<'_> {
         [one, other]: [&CurvePoint; 2],
         smooth: (f64, f64),
         fraction: f64,
-    ) -> Result<Option<Place>, Reason> {
+    ) -> Result<Option<CurvePlace>, Reason> {
         let tangent = Tangent::between(one, other, self.scale);
         let growth = [0, 1].map(|i| 0.5 * (one.closing.growth[i] + other.closing.growth[i]));
         let route = Route::steadiest(growth);
@@ -82,20 +86,20 @@ impl Curve<'_> {
             let straight = (between(one.u, other.u), between(one.p, other.p));
             found = self.correct(straight, tangent, route)?;
         }
-        Ok(found.as_ref().map(Place::from))
+        Ok(found.as_ref().map(CurvePlace::from))
     }
 }
 
 /// An interpolated place where the curve is a graph over the parameter: between two points that are no fold's
 /// neighbours, the one cycle at this parameter is what Newton's method finds from there.
-fn between_steep([one, other]: [&CurvePoint; 2], (u, p): (f64, f64)) -> Option<Place> {
+fn between_steep([one, other]: [&CurvePoint; 2], (u, p): (f64, f64)) -> Option<CurvePlace> {
     /// Logarithm of a multiplier far enough from that of a fold.
     const STEEP: f64 = 0.3;
     let log_multiplier = 0.5 * (one.log_multiplier + other.log_multiplier);
     let steep = one.log_multiplier.abs().min(other.log_multiplier.abs()) >= STEEP
         && one.log_multiplier.signum() == other.log_multiplier.signum();
     let within = |from: f64, to: f64, at: f64| at > from.min(to) && at < from.max(to);
-    (steep && within(one.p, other.p, p) && within(one.u, other.u, u)).then_some(Place {
+    (steep && within(one.p, other.p, p) && within(one.u, other.u, u)).then_some(CurvePlace {
         p,
         u,
         log_multiplier,

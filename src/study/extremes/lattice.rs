@@ -19,7 +19,7 @@ pub const D2_D3: [f64; 5] = [-1e6, -1e-12, 0.0, 1e-12, 1e6];
 /// A start, by what is special about it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Start {
+pub enum SpecialStart {
     /// At rest in the middle of the sticking set.
     Centre,
     /// At `q = r`.
@@ -50,43 +50,43 @@ pub enum Start {
     Escaping,
 }
 
-impl fmt::Display for Start {
+impl fmt::Display for SpecialStart {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         out.pad(match self {
-            Start::Centre => "centre",
-            Start::RightEnd => "right-end",
-            Start::LeftEnd => "left-end",
-            Start::InsideRight => "inside-right",
-            Start::InsideLeft => "inside-left",
-            Start::OutsideRight => "outside-right",
-            Start::OutsideLeft => "outside-left",
-            Start::NegativeZero => "negative-zero",
-            Start::SmallestUp => "smallest-up",
-            Start::SmallestDown => "smallest-down",
-            Start::Tiny => "tiny",
-            Start::Far => "far",
-            Start::Huge => "huge",
-            Start::Escaping => "escaping",
+            SpecialStart::Centre => "centre",
+            SpecialStart::RightEnd => "right-end",
+            SpecialStart::LeftEnd => "left-end",
+            SpecialStart::InsideRight => "inside-right",
+            SpecialStart::InsideLeft => "inside-left",
+            SpecialStart::OutsideRight => "outside-right",
+            SpecialStart::OutsideLeft => "outside-left",
+            SpecialStart::NegativeZero => "negative-zero",
+            SpecialStart::SmallestUp => "smallest-up",
+            SpecialStart::SmallestDown => "smallest-down",
+            SpecialStart::Tiny => "tiny",
+            SpecialStart::Far => "far",
+            SpecialStart::Huge => "huge",
+            SpecialStart::Escaping => "escaping",
         })
     }
 }
 
 /// Every start.
-pub const STARTS: [Start; 14] = [
-    Start::Centre,
-    Start::RightEnd,
-    Start::LeftEnd,
-    Start::InsideRight,
-    Start::InsideLeft,
-    Start::OutsideRight,
-    Start::OutsideLeft,
-    Start::NegativeZero,
-    Start::SmallestUp,
-    Start::SmallestDown,
-    Start::Tiny,
-    Start::Far,
-    Start::Huge,
-    Start::Escaping,
+pub const STARTS: [SpecialStart; 14] = [
+    SpecialStart::Centre,
+    SpecialStart::RightEnd,
+    SpecialStart::LeftEnd,
+    SpecialStart::InsideRight,
+    SpecialStart::InsideLeft,
+    SpecialStart::OutsideRight,
+    SpecialStart::OutsideLeft,
+    SpecialStart::NegativeZero,
+    SpecialStart::SmallestUp,
+    SpecialStart::SmallestDown,
+    SpecialStart::Tiny,
+    SpecialStart::Far,
+    SpecialStart::Huge,
+    SpecialStart::Escaping,
 ];
 
 /// End time of every motion: some twenty half swings.
@@ -102,12 +102,12 @@ pub struct Case {
     /// Its parameters.
     pub parameters: Parameters,
     /// What is special about its start.
-    pub start: Start,
+    pub start: SpecialStart,
     /// Its start.
     pub initial: State,
 }
 
-impl Start {
+impl SpecialStart {
     /// The start at these parameters.
     #[must_use]
     pub fn state(self, parameters: &Parameters) -> State {
@@ -116,20 +116,20 @@ impl Start {
         let Parameters { d, d2, d3, r } = *parameters;
         let at = |q| State { q, v: 0.0 };
         match self {
-            Start::Centre => at(0.0),
-            Start::RightEnd => at(r),
-            Start::LeftEnd => at(-r),
-            Start::InsideRight => at(r.next_down()),
-            Start::InsideLeft => at((-r).next_up()),
-            Start::OutsideRight => at(r.next_up()),
-            Start::OutsideLeft => at((-r).next_down()),
-            Start::NegativeZero => State { q: 4.0 * r.max(1e-3), v: -0.0 },
-            Start::SmallestUp => State { q: 0.0, v: 5e-324 },
-            Start::SmallestDown => State { q: 0.0, v: -5e-324 },
-            Start::Tiny => at(1e-300),
-            Start::Far => at(1e6),
-            Start::Huge => at(1e150),
-            Start::Escaping => {
+            SpecialStart::Centre => at(0.0),
+            SpecialStart::RightEnd => at(r),
+            SpecialStart::LeftEnd => at(-r),
+            SpecialStart::InsideRight => at(r.next_down()),
+            SpecialStart::InsideLeft => at((-r).next_up()),
+            SpecialStart::OutsideRight => at(r.next_up()),
+            SpecialStart::OutsideLeft => at((-r).next_down()),
+            SpecialStart::NegativeZero => State { q: 4.0 * r.max(1e-3), v: -0.0 },
+            SpecialStart::SmallestUp => State { q: 0.0, v: 5e-324 },
+            SpecialStart::SmallestDown => State { q: 0.0, v: -5e-324 },
+            SpecialStart::Tiny => at(1e-300),
+            SpecialStart::Far => at(1e6),
+            SpecialStart::Huge => at(1e150),
+            SpecialStart::Escaping => {
                 let others = 1.0 + 2.0 * d.abs();
                 let quadratic = if d2 == 0.0 { 0.0 } else { others / d2.abs() };
                 let cubic = if d3 == 0.0 { 0.0 } else { others.sqrt() / d3.abs().sqrt() };

@@ -23,7 +23,7 @@ const AGAIN: f64 = 1e-13;
 
 /// A limit cycle of the lattice.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Found {
+pub struct LatticeCycle {
     /// The cycle.
     #[serde(flatten)]
     pub cycle: Cycle,
@@ -39,7 +39,7 @@ pub enum SetAnswer {
     /// All cycles, by amplitude.
     Found {
         /// They.
-        cycles: Vec<Found>,
+        cycles: Vec<LatticeCycle>,
     },
     /// No answer.
     GaveUp {
@@ -67,7 +67,7 @@ pub struct SetVerdict {
 impl SetVerdict {
     /// The cycles; none where it gave up.
     #[must_use]
-    pub fn cycles(&self) -> &[Found] {
+    pub fn cycles(&self) -> &[LatticeCycle] {
         match &self.answer {
             SetAnswer::Found { cycles } => cycles,
             SetAnswer::GaveUp { .. } => &[],
@@ -97,7 +97,7 @@ pub fn judge_set(parameters: &Parameters, limits: &Limits) -> SetVerdict {
         Ok(closings) => SetAnswer::Found {
             cycles: closings
                 .iter()
-                .map(|closing| Found {
+                .map(|closing| LatticeCycle {
                     cycle: closing.describe(&scaled, equation.side).times_power(-unit),
                     residual: residual(closing, &scaled, &limits),
                 })

@@ -23,7 +23,7 @@ use crate::study::stability::Share;
 
 /// What was computed at a point; `None` for what no measure needed.
 #[derive(Clone, Debug, Default)]
-pub struct Point {
+pub struct ScanPoint {
     motion: Option<Trajectory>,
     cycles: Option<Cycles>,
     /// Those of the cycles, for the edge.
@@ -44,7 +44,7 @@ pub struct Point {
 }
 
 /// Fills the columns of these measures at a point, in their order. What could not be computed is [`Value::Nothing`],
-/// and [`Point::failures`] says why.
+/// and [`ScanPoint::failures`] says why.
 ///
 /// # Errors
 /// [`Reason::Interrupted`], and no other.
@@ -53,8 +53,8 @@ pub fn measure(
     measures: &[Measure],
     conditions: &Conditions,
     limits: &Limits,
-) -> Result<(Vec<Value>, Point), Reason> {
-    let mut point = Point::default();
+) -> Result<(Vec<Value>, ScanPoint), Reason> {
+    let mut point = ScanPoint::default();
     // The edge has to be followed as far as the window or the kicks reach only if these matter.
     let far = [(Measure::Stability, conditions.reach()), (Measure::Lost, conditions.kicks.reach())];
     let reaches = far.iter().filter(|(measure, _)| measures.contains(measure));
@@ -70,7 +70,7 @@ pub fn measure(
     Ok((values, point))
 }
 
-impl Point {
+impl ScanPoint {
     fn compute(
         &mut self,
         need: Need,
@@ -254,7 +254,7 @@ mod tests {
         Problem { parameters: Parameters { d, d2, d3, r }, ..Problem::default() }
     }
 
-    fn measured(problem: &Problem, measures: &[Measure]) -> (Vec<Value>, Point) {
+    fn measured(problem: &Problem, measures: &[Measure]) -> (Vec<Value>, ScanPoint) {
         measure(problem, measures, &WINDOW.into(), &Limits::PATIENT).unwrap()
     }
 
