@@ -5,13 +5,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::layer::Layer;
 use super::machine::{self, ScaledMachine};
 use super::misread::{self, Complaint, Misread};
 use super::ordinate::{ABSCISSAE, Ordinate, Unit};
+use super::plot_setup::{Arrangement, Axes, MOST_PLOTS, PlotSetup};
 use super::scene::{Scene, Variant};
 use super::usual::{TOLERANCE, UNTIL};
-use super::views::{Arrangement, Axes, MOST_PLOTS, PlotSetup, View};
+use super::views::{Layer, View};
 use super::window::{Span, Window};
 use crate::flow::method::{EPSILON, EPSILON_RANGE, STEP, STEP_RANGE};
 pub use crate::flow::quality::TOLERANCE_RANGE;

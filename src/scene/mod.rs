@@ -1,11 +1,11 @@
 //! What is on show: a scene, and the layers it is drawn in with what they ask.
 
 pub mod file;
-pub mod layer;
 pub mod library;
 pub mod machine;
 pub mod misread;
 pub mod ordinate;
+pub mod plot_setup;
 pub mod said;
 #[expect(clippy::module_inception, reason = "the scene itself, beside what belongs to it")]
 pub mod scene;
@@ -14,11 +14,11 @@ pub mod views;
 pub mod window;
 
 pub use crate::question::{Answer, Answered, Fit, Fitted, Recording, Request, TOPICS, Topic};
-pub use layer::{LAYERS, Layer, LayerSpec, letters};
 pub use library::{NoScene, find, library, plain};
 pub use machine::{Machine, Running, ScaledMachine, Setting};
 pub use misread::Misread;
 pub use ordinate::{ABSCISSAE, Height, ORDINATES, Ordinate, Unit};
+pub use plot_setup::{ARRANGEMENTS, Arrangement, Axes, MOST_PLOTS, PlotSetup};
 pub use scene::{Scene, Variant};
-pub use views::{ARRANGEMENTS, Arrangement, Axes, MOST_PLOTS, PlotSetup, VIEWS, View, ViewSpec};
+pub use views::{LAYERS, Layer, LayerSpec, VIEWS, View, ViewSpec, letters};
 pub use window::{Point, Span, Window};

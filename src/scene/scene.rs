@@ -8,10 +8,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
-use super::layer::Layer;
 use super::machine::ScaledMachine;
+use super::plot_setup::{Arrangement, Axes, PlotSetup};
 use super::usual::{TOLERANCE, UNTIL};
-use super::views::{Arrangement, Axes, PlotSetup, View};
+use super::views::{Layer, View};
 use crate::flow::Problem;
 use crate::oscillator::Symbol;
 use crate::question::Recording;

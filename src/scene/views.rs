@@ -1,50 +1,32 @@
-//! Views: what a plot of the screen can show.
+//! What a plot of the screen can show: the table of views, and that of the layers that are drawn in them.
 //!
-//! [`VIEWS`] is the one table of views. A screen has one to [`MOST_PLOTS`] plots; each shows a view, and
-//! two plots may show the same one over different axes. Layers belong to a view, not to a plot.
+//! A screen has one to [`MOST_PLOTS`](super::MOST_PLOTS) plots; each shows a view, and two plots may show the same
+//! one over different axes. Layers belong to a view, not to a plot. [`LAYERS`] says which view shows a layer and
+//! which question must be answered for it: a layer that is off asks nothing, and several may share one answer.
 
 use serde::{Deserialize, Serialize};
 
-use super::ordinate::{Height, Ordinate, Unit, usual_values};
 use super::window::{Span, Window};
-use crate::oscillator::Symbol;
+use crate::question::Topic;
 
-/// Plots on a screen at most: more would be too small to read.
-pub const MOST_PLOTS: usize = 4;
-
-/// What a plot shows.
+/// What a plot shows; [`VIEWS`] says what that is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum View {
-    /// The phase plane, q to the right and v upwards.
     Phase,
-    /// The bifurcation diagram: a property of the cycles over a parameter.
     Diagram,
-    /// Displacement, velocity, friction force and energy over time.
     TimeSeries,
-    /// The work that each source does over one turn of each cycle, and along the motion.
     EnergyLedger,
-    /// The next turning point on the same side over a turning point.
     ReturnMap,
-    /// What becomes of kicks, over two parameters.
     Regimes,
-    /// The error of every method over its cost.
     Trade,
-    /// The mass on its belt.
     Belt,
-    /// The rate of the energy over the velocity.
     EnergyRate,
-    /// The eigenvalues of the rest without friction in the complex plane.
     Eigenvalues,
-    /// The cycles of a machine over the speed of its belt.
     Speeds,
-    /// What was measured at each point of a scan.
     Scan,
-    /// The loss of amplitude over amplitude, as a record shows it.
     Damping,
-    /// What was measured less what was fitted, over time.
     Residuals,
-    /// The distribution of the margin that a record leaves.
     #[serde(rename = "margin")]
     Spread,
 }
@@ -59,134 +41,58 @@ pub struct ViewSpec {
     pub title: &'static str,
     /// A heading for its keys.
     pub heading: &'static str,
-    /// What it shows, in a few words.
-    pub meaning: &'static str,
     /// What is looked at where nothing else is asked for.
     pub window: Window,
+    /// What it shows, in a few words.
+    pub meaning: &'static str,
+}
+
+const fn view(
+    view: View,
+    [name, title, heading]: [&'static str; 3],
+    [x, y]: [Span; 2],
+    meaning: &'static str,
+) -> ViewSpec {
+    ViewSpec { view, name, title, heading, window: Window { x, y }, meaning }
+}
+
+const fn span(from: f64, to: f64) -> Span {
+    Span::known(from, to)
 }
 
 /// Every view, in the order in which they are listed and the keys visit them.
+#[rustfmt::skip]
 pub const VIEWS: [ViewSpec; 15] = [
-    ViewSpec {
-        view: View::Phase,
-        name: "phase",
-        title: "phase plane",
-        heading: "Phase plane",
-        meaning: "velocity over position: where motions go and where they rest",
-        window: Window { x: Span::known(-2.0, 2.0), y: Span::known(-2.0, 2.0) },
-    },
-    ViewSpec {
-        view: View::Diagram,
-        name: "diagram",
-        title: "bifurcation",
-        heading: "Bifurcation diagram",
-        meaning: "a property of the limit cycles over a parameter",
-        window: Window { x: Span::known(-0.9, 0.1), y: Span::known(0.0, 2.0) },
-    },
-    ViewSpec {
-        view: View::TimeSeries,
-        name: "time-series",
-        title: "time series",
-        heading: "Time series",
-        meaning: "displacement, velocity, friction, energy over time",
-        window: Window { x: Span::known(0.0, 60.0), y: Span::known(-2.0, 2.0) },
-    },
-    ViewSpec {
-        view: View::EnergyLedger,
-        name: "energy-ledger",
-        title: "energy",
-        heading: "Energy ledger",
-        meaning: "what feeds cycles and motion, and what brakes them",
-        window: Window { x: Span::known(-1.1, 1.1), y: Span::known(0.0, 10.0) },
-    },
-    ViewSpec {
-        view: View::ReturnMap,
-        name: "return-map",
-        title: "return map",
-        heading: "Return map",
-        meaning: "the next turning point over a turning point",
-        window: Window { x: Span::known(0.0, 2.0), y: Span::known(0.0, 2.0) },
-    },
-    ViewSpec {
-        view: View::Regimes,
-        name: "regimes",
-        title: "regimes",
-        heading: "Chart of regimes",
-        meaning: "what becomes of kicks, over two parameters",
-        window: Window { x: Span::known(-0.9, 0.1), y: Span::known(-1.0, 1.0) },
-    },
-    ViewSpec {
-        view: View::Trade,
-        name: "trade",
-        title: "trade",
-        heading: "Trade of error for cost",
-        meaning: "error over cost: what accuracy costs, by every method",
-        window: Window { x: Span::known(1.0, 6.0), y: Span::known(-17.0, 1.0) },
-    },
-    ViewSpec {
-        view: View::Belt,
-        name: "belt",
-        title: "mass on belt",
-        heading: "Mass on its belt",
-        meaning: "the machine, moving with the motion",
-        window: Window { x: Span::known(-2.0, 2.0), y: Span::known(0.0, 1.0) },
-    },
-    ViewSpec {
-        view: View::EnergyRate,
-        name: "energy-rate",
-        title: "energy rate",
-        heading: "Rate of the energy",
-        meaning: "V' over velocity: what damping feeds and friction takes",
-        window: Window { x: Span::known(-2.0, 2.0), y: Span::known(-2.0, 2.0) },
-    },
-    ViewSpec {
-        view: View::Eigenvalues,
-        name: "eigenvalues",
-        title: "eigenvalues",
-        heading: "Eigenvalues",
-        meaning: "of the rest without friction, in the complex plane",
-        window: Window { x: Span::known(-1.5, 1.5), y: Span::known(-1.5, 1.5) },
-    },
-    ViewSpec {
-        view: View::Speeds,
-        name: "speeds",
-        title: "belt speeds",
-        heading: "Cycles over the belt's speed",
-        meaning: "cycles of the machine over the speed of its belt",
-        window: Window { x: Span::known(0.01, 1.0), y: Span::known(0.0, 1.0) },
-    },
-    ViewSpec {
-        view: View::Scan,
-        name: "scan",
-        title: "scan",
-        heading: "Scan",
-        meaning: "what was measured at each point of a line or grid",
-        window: Window { x: Span::known(0.0, 1.0), y: Span::known(0.0, 1.0) },
-    },
-    ViewSpec {
-        view: View::Damping,
-        name: "damping",
-        title: "damping",
-        heading: "Damping over amplitude",
-        meaning: "loss of amplitude of a recorded motion, and its zeros",
-        window: Window { x: Span::known(0.0, 1.0), y: Span::known(-1.0, 1.0) },
-    },
-    ViewSpec {
-        view: View::Residuals,
-        name: "residuals",
-        title: "residuals",
-        heading: "Residuals of a fit",
-        meaning: "what was measured less what was fitted, over time",
-        window: Window { x: Span::known(0.0, 1.0), y: Span::known(-1.0, 1.0) },
-    },
-    ViewSpec {
-        view: View::Spread,
-        name: "margin",
-        title: "margin",
-        heading: "Distribution of the margin",
-        meaning: "how sure the margin is that a record leaves",
-        window: Window { x: Span::known(0.0, 1.0), y: Span::known(0.0, 1.0) },
-    },
+    view(View::Phase, ["phase", "phase plane", "Phase plane"], [span(-2.0, 2.0), span(-2.0, 2.0)],
+        "velocity over position: where motions go and where they rest"),
+    view(View::Diagram, ["diagram", "bifurcation", "Bifurcation diagram"], [span(-0.9, 0.1), span(0.0, 2.0)],
+        "a property of the limit cycles over a parameter"),
+    view(View::TimeSeries, ["time-series", "time series", "Time series"], [span(0.0, 60.0), span(-2.0, 2.0)],
+        "displacement, velocity, friction, energy over time"),
+    view(View::EnergyLedger, ["energy-ledger", "energy", "Energy ledger"], [span(-1.1, 1.1), span(0.0, 10.0)],
+        "what feeds cycles and motion, and what brakes them"),
+    view(View::ReturnMap, ["return-map", "return map", "Return map"], [span(0.0, 2.0), span(0.0, 2.0)],
+        "the next turning point over a turning point"),
+    view(View::Regimes, ["regimes", "regimes", "Chart of regimes"], [span(-0.9, 0.1), span(-1.0, 1.0)],
+        "what becomes of kicks, over two parameters"),
+    view(View::Trade, ["trade", "trade", "Trade of error for cost"], [span(1.0, 6.0), span(-17.0, 1.0)],
+        "error over cost: what accuracy costs, by every method"),
+    view(View::Belt, ["belt", "mass on belt", "Mass on its belt"], [span(-2.0, 2.0), span(0.0, 1.0)],
+        "the machine, moving with the motion"),
+    view(View::EnergyRate, ["energy-rate", "energy rate", "Rate of the energy"], [span(-2.0, 2.0), span(-2.0, 2.0)],
+        "V' over velocity: what damping feeds and friction takes"),
+    view(View::Eigenvalues, ["eigenvalues", "eigenvalues", "Eigenvalues"], [span(-1.5, 1.5), span(-1.5, 1.5)],
+        "of the rest without friction, in the complex plane"),
+    view(View::Speeds, ["speeds", "belt speeds", "Cycles over the belt's speed"], [span(0.01, 1.0), span(0.0, 1.0)],
+        "cycles of the machine over the speed of its belt"),
+    view(View::Scan, ["scan", "scan", "Scan"], [span(0.0, 1.0), span(0.0, 1.0)],
+        "what was measured at each point of a line or grid"),
+    view(View::Damping, ["damping", "damping", "Damping over amplitude"], [span(0.0, 1.0), span(-1.0, 1.0)],
+        "loss of amplitude of a recorded motion, and its zeros"),
+    view(View::Residuals, ["residuals", "residuals", "Residuals of a fit"], [span(0.0, 1.0), span(-1.0, 1.0)],
+        "what was measured less what was fitted, over time"),
+    view(View::Spread, ["margin", "margin", "Distribution of the margin"], [span(0.0, 1.0), span(0.0, 1.0)],
+        "how sure the margin is that a record leaves"),
 ];
 
 impl View {
@@ -196,89 +102,172 @@ impl View {
     }
 }
 
-/// What stands on the axes of a view that leaves a choice; a view that leaves none keeps it for others.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Axes {
-    /// The parameter to the right.
-    pub abscissa: Symbol,
-    /// The property of the cycles upwards.
-    pub ordinate: Ordinate,
-    /// What it is measured in, where it is a length.
-    #[serde(default)]
-    pub unit: Unit,
-    /// The parameter upwards, in a chart of two.
-    pub against: Symbol,
-}
-
-impl Default for Axes {
-    /// The axes of the paper's diagrams.
-    fn default() -> Self {
-        Axes { abscissa: Symbol::D, ordinate: Ordinate::QMax, unit: Unit::One, against: Symbol::D3 }
-    }
-}
-
-impl Axes {
-    /// The name of the ordinate of a diagram.
-    pub fn label(&self) -> &'static str {
-        let spec = self.ordinate.spec();
-        spec.ratio.filter(|_| self.unit == Unit::Friction).unwrap_or(spec.label)
-    }
-
-    /// How high things stand in a diagram whose cycles live at this friction.
-    pub fn height(&self, friction: f64) -> Height {
-        let friction = (self.abscissa != Symbol::R).then_some(friction);
-        Height { ordinate: self.ordinate, unit: self.unit, friction }
-    }
-}
-
-/// A plot as a scene sets it up: what it shows, over which axes, and which part of that.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct PlotSetup {
-    pub view: View,
-    /// Over which axes, where there is a choice.
-    pub axes: Axes,
-    /// Which part of it; `None` for a window fitted to what there is to see.
-    pub window: Option<Window>,
-    /// Which family of the scene's stands in for the present values, if one does.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub family: Option<usize>,
-}
-
-impl PlotSetup {
-    /// The window with which the plot opens; where none is given, the one from which fitting begins.
-    pub fn opening(&self) -> Window {
-        let usual = self.view.spec().window;
-        self.window.unwrap_or(match self.view {
-            View::Diagram => Window { x: usual_values(self.axes.abscissa), ..usual },
-            View::Regimes => {
-                let Axes { abscissa, against, .. } = self.axes;
-                Window { x: usual_values(abscissa), y: usual_values(against) }
-            }
-            _ => usual,
-        })
-    }
-}
-
-/// How the plots share the screen.
-#[derive(
-    Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize,
-)]
+/// Something drawn in a view that can be switched on and off; [`LAYERS`] says what that is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Arrangement {
-    /// As leaves each nearest to a square.
-    #[default]
-    Auto,
-    Columns,
+pub enum Layer {
+    Trajectory,
+    Sticking,
+    Cycles,
+    Basin,
+    Field,
+    Lyapunov,
+    Bands,
+    Balance,
+    Ghost,
+    Belt,
+    Mass,
+    Branch,
+    Harmonic,
+    Asymptotes,
+    Special,
+    Position,
+    Velocity,
+    Friction,
+    Energy,
+    Events,
+    CycleWorks,
+    MotionWorks,
+    Map,
+    Cobweb,
+    FixedPoints,
+    Regimes,
+    Borders,
+    HarmonicBorder,
     Rows,
+    Front,
+    Extents,
+    Levels,
+    Spirals,
+    Rate,
+    Locus,
+    BeltPath,
+    Record,
+    Recorded,
+    Whole,
+    Speeds,
+    Safe,
+    Lost,
+    #[serde(rename = "decrements")]
+    Damping,
+    #[serde(rename = "differences")]
+    Residuals,
+    Spread,
 }
 
-/// The arrangements with their names, in the order in which the key visits them.
-pub const ARRANGEMENTS: [(Arrangement, &str); 3] =
-    [(Arrangement::Auto, "auto"), (Arrangement::Columns, "columns"), (Arrangement::Rows, "rows")];
+/// One row of [`LAYERS`].
+#[derive(Clone, Copy, Debug)]
+pub struct LayerSpec {
+    pub layer: Layer,
+    /// Its name in scene files and on the screen.
+    pub name: &'static str,
+    /// The view that shows it.
+    pub view: View,
+    /// What it shows, in a few words.
+    pub meaning: &'static str,
+    /// The question whose answer it draws; `None` where formulas do.
+    pub needs: Option<Topic>,
+    /// Whether it is switched on with its view, where the scene has nothing to say about that.
+    pub usual: bool,
+}
+
+/// Every layer, in the order in which they are listed.
+#[rustfmt::skip]
+pub const LAYERS: [LayerSpec; 45] = [
+    layer(Layer::Trajectory, "trajectory", View::Phase, Some(Topic::Trajectory), true, "the motion from (q0, v0)"),
+    layer(Layer::Sticking, "sticking", View::Phase, None, true, "the sticking set: every point of it is at rest"),
+    layer(Layer::Cycles, "cycles", View::Phase, Some(Topic::Cycles), true, "limit cycles, stable and unstable"),
+    layer(Layer::Basin, "basin", View::Phase, Some(Topic::Cycles), true, "starts that come to rest, shaded"),
+    layer(Layer::Field, "field", View::Phase, None, false, "directions of the flow"),
+    layer(Layer::Lyapunov, "lyapunov", View::Phase, None, false, "the circle of starts whose capture is proved"),
+    layer(Layer::Bands, "bands", View::Phase, Some(Topic::Capture), false, "bands of capture: one more half swing in each"),
+    layer(Layer::Balance, "balance", View::Phase, Some(Topic::Balance), false, "cycles of N harmonics, and their error"),
+    layer(Layer::Ghost, "ghost", View::Phase, None, false, "the point left for a mark, its motion and cycles"),
+    layer(Layer::Belt, "belt", View::Phase, None, false, "the speed of the belt, at which the mass sticks"),
+    layer(Layer::Mass, "mass", View::Belt, Some(Topic::Trajectory), true, "the mass on its belt, moving with the motion"),
+    layer(Layer::Branch, "branch", View::Diagram, Some(Topic::Branch), true, "computed limit cycles, stable and unstable"),
+    layer(Layer::Harmonic, "harmonic", View::Diagram, None, false, "amplitudes of the first-order harmonic balance"),
+    layer(Layer::Asymptotes, "asymptotes", View::Diagram, None, false, "asymptotes A1 and A2 of the harmonic amplitudes"),
+    layer(Layer::Special, "special", View::Diagram, Some(Topic::Branch), true, "special points: fold, crossing, escape, Hopf"),
+    layer(Layer::Position, "position", View::TimeSeries, Some(Topic::Trajectory), true, "displacement q"),
+    layer(Layer::Velocity, "velocity", View::TimeSeries, Some(Topic::Trajectory), false, "velocity v"),
+    layer(Layer::Friction, "friction", View::TimeSeries, Some(Topic::Trajectory), true, "force of dry friction, between -r and r"),
+    layer(Layer::Energy, "energy", View::TimeSeries, Some(Topic::Trajectory), false, "energy (q^2 + v^2)/2"),
+    layer(Layer::Events, "events", View::TimeSeries, Some(Topic::Trajectory), true, "turning points, capture"),
+    layer(Layer::CycleWorks, "cycle-works", View::EnergyLedger, Some(Topic::Cycles), true, "works over one turn of each cycle"),
+    layer(Layer::MotionWorks, "motion-works", View::EnergyLedger, Some(Topic::Trajectory), true, "works along the motion"),
+    layer(Layer::Map, "map", View::ReturnMap, Some(Topic::ReturnMap), true, "the next turning point on the same side"),
+    layer(Layer::Cobweb, "cobweb", View::ReturnMap, Some(Topic::Trajectory), true, "the turning points of the motion, step by step"),
+    layer(Layer::FixedPoints, "fixed-points", View::ReturnMap, Some(Topic::Cycles), true, "limit cycles, stable and unstable"),
+    layer(Layer::Regimes, "regimes", View::Regimes, Some(Topic::Regimes), true, "what becomes of kicks"),
+    layer(Layer::Borders, "borders", View::Regimes, Some(Topic::Regimes), true, "computed fold and escape point"),
+    layer(Layer::HarmonicBorder, "harmonic-border", View::Regimes, Some(Topic::Regimes), false, "the fold by one harmonic (48)"),
+    layer(Layer::Rows, "rows", View::Trade, Some(Topic::Trade), true, "every method over its tolerances, steps or widths"),
+    layer(Layer::Front, "front", View::Trade, Some(Topic::Trade), true, "the best choices: nothing else is better for less"),
+    layer(Layer::Extents, "extents", View::Diagram, Some(Topic::Branch), false, "largest velocity of the cycles, beside the ordinate"),
+    layer(Layer::Levels, "levels", View::Phase, None, false, "levels of the energy, and shaded where it falls"),
+    layer(Layer::Spirals, "spirals", View::Phase, None, false, "the two shifted spirals that make the cycle"),
+    layer(Layer::Rate, "rate", View::EnergyRate, None, true, "V', what damping feeds and what friction takes"),
+    layer(Layer::Locus, "locus", View::Eigenvalues, None, true, "the eigenvalues, and their way over D"),
+    layer(Layer::BeltPath, "belt-path", View::Regimes, None, true, "the machine over the speed of its belt"),
+    layer(Layer::Record, "record", View::TimeSeries, Some(Topic::Fit), false, "measured displacements of the record"),
+    layer(Layer::Recorded, "recorded", View::Phase, Some(Topic::Fit), false, "measured displacements over their fitted velocity"),
+    layer(Layer::Whole, "whole", View::Phase, None, false, "the whole model in place of its cubic expansion"),
+    layer(Layer::Speeds, "speeds", View::Speeds, Some(Topic::Speeds), true, "cycles over the belt's speed, and the jumps"),
+    layer(Layer::Safe, "safe", View::Phase, Some(Topic::Zones), false, "surely safe, for all half widths and disturbances"),
+    layer(Layer::Lost, "lost", View::Phase, Some(Topic::Zones), false, "surely lost, for the same"),
+    layer(Layer::Damping, "decrements", View::Damping, Some(Topic::Fit), true, "measured decrements, exact and averaged damping"),
+    layer(Layer::Residuals, "differences", View::Residuals, Some(Topic::Fit), true, "measured less fitted, and two deviations"),
+    layer(Layer::Spread, "spread", View::Spread, Some(Topic::Fit), true, "distribution of the margin, by draws"),
+];
+
+const fn layer(
+    layer: Layer,
+    name: &'static str,
+    view: View,
+    needs: Option<Topic>,
+    usual: bool,
+    meaning: &'static str,
+) -> LayerSpec {
+    LayerSpec { layer, name, view, meaning, needs, usual }
+}
+
+impl Layer {
+    /// The row of [`LAYERS`] that describes this layer.
+    pub fn spec(self) -> &'static LayerSpec {
+        &LAYERS[self as usize]
+    }
+}
+
+/// The letters that move in a list or close it.
+const TAKEN: [char; 5] = ['g', 'j', 'k', 'q', 'v'];
+
+/// The layers of a view, each with its letter in the list of layers: the first of its name that no layer
+/// before it has.
+pub fn letters(view: View) -> impl Iterator<Item = (char, Layer)> {
+    let mut taken = TAKEN.to_vec();
+    LAYERS.iter().filter(move |row| row.view == view).filter_map(move |row| {
+        let mut letters = row.name.chars().filter(char::is_ascii_lowercase).chain('a'..='z');
+        let letter = letters.find(|letter| !taken.contains(letter))?;
+        taken.push(letter);
+        Some((letter, row.layer))
+    })
+}
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn every_layer_has_a_letter_of_its_own_in_its_view() {
+        for row in &VIEWS {
+            let letters: Vec<char> = letters(row.view).map(|(letter, _)| letter).collect();
+            let own: std::collections::BTreeSet<_> = letters.iter().collect();
+            let layers = LAYERS.iter().filter(|layer| layer.view == row.view).count();
+            assert_eq!((letters.len(), own.len()), (layers, layers), "{}", row.name);
+        }
+        assert_eq!(letters(View::Phase).next(), Some(('t', Layer::Trajectory)));
+    }
 
     #[test]
     fn every_view_stands_at_its_own_row_under_the_name_of_scene_files() {
@@ -286,8 +275,14 @@ mod tests {
             assert_eq!(row.view.spec().name, row.name);
             assert_eq!(serde_json::to_value(row.view).unwrap(), row.name);
         }
-        for (arrangement, name) in ARRANGEMENTS {
-            assert_eq!(serde_json::to_value(arrangement).unwrap(), name);
+    }
+
+    #[test]
+    fn every_layer_stands_at_its_own_row_under_the_name_of_scene_files() {
+        for row in &LAYERS {
+            assert_eq!(row.layer.spec().name, row.name);
+            assert_eq!(serde_json::to_value(row.layer).unwrap(), row.name);
+            assert!(row.meaning.len() <= 52, "{} is cut at 80 columns", row.name);
         }
     }
 }
