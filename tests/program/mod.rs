@@ -15,6 +15,23 @@ pub struct Ran {
     pub err: String,
 }
 
+impl Ran {
+    /// Fails unless the command line was refused as bad input, in one line with all of these words.
+    #[allow(dead_code, reason = "not every test program refuses something")]
+    pub fn is_refused(&self, words: &[&str]) {
+        assert_eq!((self.code, self.err.lines().count()), (2, 1), "{}{}", self.out, self.err);
+        for word in words {
+            assert!(self.err.contains(word), "{word}: {}", self.err);
+        }
+    }
+}
+
+/// A number of a document.
+#[allow(dead_code, reason = "not every test program asks for JSON")]
+pub fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is not a number"))
+}
+
 /// The program with these arguments, not yet started.
 pub fn command(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_hopfscope"));
