@@ -10,7 +10,7 @@ use crate::study::claims::claims;
 /// A scene with one plot, turned to a view.
 fn turned_to(view: &str) -> Trial {
     let mut trial = Trial::alone("supercritical");
-    trial.press(&format!("<tab>Q V/{view}<enter>"));
+    trial.press(&format!("<tab>Q :view<space>{view}<enter>"));
     assert_eq!(trial.session.plots.len(), 1);
     trial
 }
