@@ -1,4 +1,4 @@
-//! The piecewise linear oscillator, `D2 = D3 = 0`: half swings and the cycle in closed form
+//! The piecewise linear oscillator, `D2 = D3 = 0`: the cycle in closed form
 //! (equations 25 to 33, corrected).
 //!
 //! With the clearance `c = abs(q) - r` of a turning point as the unknown, a half swing is one
@@ -17,33 +17,6 @@ use serde::Serialize;
 use super::linear::Linear;
 use crate::numerics::elementary::{atan2, exp, exp_m1, ln, ln_1p, sin_cos};
 use crate::oscillator::State;
-
-/// A half swing from rest outside the sticking set.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HalfSwing {
-    /// How long it takes, `pi/omega`.
-    pub duration: f64,
-    /// Where it ends in the frame of its half plane, `X = c e^x`; infinite where that overflows.
-    pub arrival: f64,
-}
-
-impl HalfSwing {
-    /// The half swing that starts with clearance `c > 0` (equation 29).
-    ///
-    /// `None` where `abs(D) >= 1`: an overdamped motion creeps to the rim of the sticking set or runs
-    /// away, and never returns to `v = 0`. Guarantee: right to a few units in the last place.
-    #[must_use]
-    pub fn from_clearance(d: f64, clearance: f64) -> Option<Self> {
-        let rest = Linear::new(d).first_standstill(-clearance, 0.0)?;
-        Some(HalfSwing { duration: rest.time, arrival: rest.x })
-    }
-
-    /// Clearance of the next half swing; zero or less means that this one ends in the sticking set.
-    #[must_use]
-    pub fn next_clearance(&self, r: f64) -> f64 {
-        self.arrival - 2.0 * r
-    }
-}
 
 /// The unstable cycle that borders the basin of attraction of the sticking set.
 ///
@@ -199,6 +172,7 @@ impl LinearCycle {
 mod tests {
     use proptest::prelude::*;
 
+    use super::super::linear::first_standstill;
     use super::super::reference::CYCLES;
     use super::*;
     use crate::numerics::elementary::{atan2, exp, exp2, ln, powi};
@@ -260,9 +234,9 @@ mod tests {
     #[test]
     fn undamped_half_swings_lose_exactly_two_r() {
         for d in [0.0, -0.0, 1e-300] {
-            let swing = HalfSwing::from_clearance(d, 2.875).unwrap();
-            assert_eq!(swing.duration, std::f64::consts::PI);
-            assert_eq!(swing.next_clearance(0.125), 2.625);
+            let swing = first_standstill(d, -2.875, 0.0).unwrap();
+            assert_eq!(swing.time, std::f64::consts::PI);
+            assert_eq!(swing.x - 2.0 * 0.125, 2.625);
         }
     }
 
@@ -271,11 +245,11 @@ mod tests {
         // PHYSICS: from (2, 0) at D = -0.1, r = 0.5 the motion rests at q = -0.116144440390138.
         let (r, mut clearance, mut swings) = (0.5, 1.5, 0);
         let q = loop {
-            let swing = HalfSwing::from_clearance(-0.1, clearance).unwrap();
+            let swing = first_standstill(-0.1, -clearance, 0.0).unwrap();
             swings += 1;
-            clearance = swing.next_clearance(r);
+            clearance = swing.x - 2.0 * r;
             if clearance <= 0.0 {
-                break swing.arrival - r;
+                break swing.x - r;
             }
         };
         // The third half swing runs to the left.
@@ -287,11 +261,11 @@ mod tests {
         #[test]
         fn the_cycle_is_the_fixed_point_of_the_half_swing(d in -0.99..-1e-6, r in 1e-3..1e3) {
             let cycle = LinearCycle::new(d, r).unwrap();
-            let swing = HalfSwing::from_clearance(d, cycle.clearance).unwrap();
+            let swing = first_standstill(d, -cycle.clearance, 0.0).unwrap();
             // X - 2 r, with X = c e^x, is c again to rounding of X.
-            prop_assert!((swing.next_clearance(r) - cycle.clearance).abs() <= 8.0 * f64::EPSILON * swing.arrival);
-            prop_assert!(close(2.0 * swing.duration, cycle.period, 2.0));
-            let growth = swing.arrival / cycle.clearance;
+            prop_assert!((swing.x - 2.0 * r - cycle.clearance).abs() <= 8.0 * f64::EPSILON * swing.x);
+            prop_assert!(close(2.0 * swing.time, cycle.period, 2.0));
+            let growth = swing.x / cycle.clearance;
             prop_assert!(close(growth * growth, cycle.multiplier.unwrap(), 100.0));
         }
 

@@ -15,8 +15,4 @@ impl Question for Asked {
     fn answer(&self, means: &Means) -> Result<Self::Found, Reason> {
         examine_all(means.limits)
     }
-
-    fn numbers(&self) -> [f64; 8] {
-        [0.0; 8]
-    }
 }

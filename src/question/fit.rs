@@ -79,10 +79,6 @@ impl super::kind::Question for Asked {
     fn answer(&self, means: &Means) -> Result<Fit, Reason> {
         Fit::of(&self.recording, means.limits, &|_| ())
     }
-
-    fn numbers(&self) -> [f64; 8] {
-        [0.0; 8]
-    }
 }
 
 /// A point of the record in the units of the oscillator: time in `1/omega0`, lengths in the record's unit.

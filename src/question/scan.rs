@@ -22,8 +22,4 @@ impl Question for Asked {
     fn answer(&self, means: &Means) -> Result<Rows, Reason> {
         (means.rows)(&self.scan, self.from)
     }
-
-    fn numbers(&self) -> [f64; 8] {
-        [0.0; 8]
-    }
 }

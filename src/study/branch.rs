@@ -97,18 +97,9 @@ pub fn branch(
     if points == Points::Followed {
         (curve.strides, curve.budget) = (LONG_STRIDES, BUDGET);
     }
-    let mut tracer = Tracer {
-        curve,
-        parameter,
-        points,
-        found: Branch {
-            parameter,
-            pieces: Vec::new(),
-            special: Vec::new(),
-            vague: Vec::new(),
-            cost: Cost::default(),
-        },
-    };
+    let (pieces, special, vague) = Default::default();
+    let found = Branch { parameter, pieces, special, vague, cost: Cost::default() };
+    let mut tracer = Tracer { curve, parameter, points, found };
     if parameter == Symbol::D && parameters.is_piecewise_linear() {
         tracer.found.pieces.extend(linear_branch(parameters.r, from, to, points));
         tracer.hopf(parameters.r, from, to);
@@ -238,15 +229,7 @@ impl Tracer<'_> {
             Err(Reason::Budget { .. } | Reason::NoConvergence { .. }) if rough => Vec::new(),
             closings => closings?,
         };
-        Ok(closings
-            .into_iter()
-            .map(|closing| CurvePoint {
-                u: closing.node.at,
-                p,
-                closing,
-                log_multiplier: closing.log_multiplier(&parameters),
-            })
-            .collect())
+        Ok(closings.into_iter().map(|closing| CurvePoint::of(closing, p, &parameters)).collect())
     }
 
     /// Follows one curve and ends it exactly at the border that it crosses.
@@ -337,10 +320,7 @@ impl Tracer<'_> {
                 found.extend(self.curve.at_parameter(0.0, u, route)?);
             }
         }
-        for point in found {
-            let cycle = Some(self.describe(&point));
-            self.found.special.push(Special::new(SpecialKind::ZeroCrossing, 0.0, cycle));
-        }
+        found.iter().for_each(|point| self.note(SpecialKind::ZeroCrossing, point));
         Ok(())
     }
 
@@ -357,8 +337,7 @@ impl Tracer<'_> {
                         && (it.value - fold.p).abs() <= SAME * self.curve.scale
                 };
                 if !self.found.special.iter().any(near) {
-                    let cycle = Some(self.describe(&fold));
-                    self.found.special.push(Special::new(SpecialKind::Fold, fold.p, cycle));
+                    self.note(SpecialKind::Fold, &fold);
                 }
             }
         }
@@ -371,9 +350,8 @@ impl Tracer<'_> {
                 }
             }
         } else {
-            let described =
-                points.iter().map(|at| BranchPoint { value: at.p, cycle: self.describe(at) });
-            piece.extend(described);
+            let described = |at: &CurvePoint| BranchPoint { value: at.p, cycle: self.describe(at) };
+            piece.extend(points.iter().map(described));
         }
         if !piece.is_empty() {
             self.found.pieces.push(piece);
@@ -401,6 +379,11 @@ impl Tracer<'_> {
 
     fn describe(&self, point: &CurvePoint) -> Cycle {
         point.closing.describe(&self.curve.parameters_at(point.p), self.curve.side)
+    }
+
+    /// Notes a cycle of a curve that is a special point.
+    fn note(&mut self, kind: SpecialKind, point: &CurvePoint) {
+        self.found.special.push(Special::new(kind, point.p, Some(self.describe(point))));
     }
 
     /// Notes the Hopf point: without friction the steady state changes its stability at `D = 0`.

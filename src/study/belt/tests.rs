@@ -4,27 +4,11 @@ use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits, Problem};
 use crate::oscillator::Belt;
 use crate::oscillator::belt::{FrictionLaw, Reduced, TaylorError};
+use crate::study::claims::belt::machine as paper;
 use crate::study::cycle::cycles;
 
 fn belt() -> Belt {
-    Belt {
-        mass: 2.0,
-        stiffness: 5000.0,
-        damping: 5.0,
-        cubic_damping: 600.0,
-        normal_force: 100.0,
-        friction: 1.0,
-        belt_speed: 0.3,
-        law: FrictionLaw::Stribeck {
-            rest: 0.4,
-            kinetic: 0.2,
-            velocity: 0.3,
-            exponent: 1.0,
-            viscous: 0.0,
-        },
-        static_coefficient: None,
-        static_guide: None,
-    }
+    Belt { belt_speed: 0.3, ..paper() }
 }
 
 /// The motion of the oscillator that the machine reduces to, and its velocities up to the belt's, in m/s.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::certain::ProvedCycle;
+use super::certain::BoundedCycle;
 use super::harmonic::largest_amplitude;
 use super::measure::{
     Known, amplitude, beside_proof, cycles, largest, last_cycle, of_cycle, oscillator, place,
@@ -291,7 +291,7 @@ pub const CLAIMS: &[Claim] = &[
             for d in [-0.9, -0.5, -0.3, -0.2] {
                 let parameters = Parameters { d, ..TWO_CYCLES };
                 let found = cycles(&parameters, limits)?;
-                let pair = |found: &[ProvedCycle]| {
+                let pair = |found: &[BoundedCycle]| {
                     found.iter().map(|cycle| cycle.stable).eq([false, true])
                 };
                 cases.push((place(&parameters), found.answer(pair)));
@@ -309,7 +309,7 @@ pub const CLAIMS: &[Claim] = &[
             for d in [-0.8, -0.3, 0.0, 0.3, 0.8] {
                 let parameters = oscillator(d, 0.0, -0.5, 0.1);
                 let found = cycles(&parameters, limits)?;
-                let unstable = |found: &[ProvedCycle]| found.iter().all(|cycle| !cycle.stable);
+                let unstable = |found: &[BoundedCycle]| found.iter().all(|cycle| !cycle.stable);
                 cases.push((place(&parameters), found.answer(unstable)));
             }
             Ok(Finding::always(cases))

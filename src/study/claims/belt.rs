@@ -24,7 +24,7 @@ const OUTSIDE: f64 = 1.05;
 const UNTIL: f64 = 300.0;
 
 /// A mass of 2 kg on a spring of 5 N/mm.
-fn machine() -> Belt {
+pub(in crate::study) fn machine() -> Belt {
     Belt {
         mass: 2.0,
         stiffness: 5e3,

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::certain::ProvedCycle;
+use super::certain::BoundedCycle;
 use super::known::Answer;
 use super::measure::{
     Known, amplitude, at_rest, beside_proof, captured, cycles, edge, largest, mean, of_cycle,
@@ -117,7 +117,7 @@ pub const CLAIMS: &[Claim] = &[
             ] {
                 let parameters = oscillator(d, 0.0, d3, 0.0);
                 let found = cycles(&parameters, limits)?;
-                let as_expected = |found: &[ProvedCycle]| {
+                let as_expected = |found: &[BoundedCycle]| {
                     found.iter().map(|cycle| cycle.stable).eq(expected.iter().copied())
                 };
                 cases.push((place(&parameters), found.answer(as_expected)));

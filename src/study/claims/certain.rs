@@ -101,21 +101,21 @@ fn miss(formula: Interval, bounds: Interval) -> Interval {
 
 /// A cycle of the search, and bounds of its numbers.
 #[derive(Clone, Copy, Debug)]
-pub struct ProvedCycle {
+pub struct BoundedCycle {
     cycle: Cycle,
     /// Where it is proved.
     pub bounds: Option<Enclosure>,
 }
 
-impl ProvedCycle {
+impl BoundedCycle {
     /// Of a search and a proof.
     #[must_use]
     pub fn new(cycle: Cycle, bounds: Option<Enclosure>) -> Self {
-        ProvedCycle { cycle, bounds }
+        BoundedCycle { cycle, bounds }
     }
 }
 
-impl Deref for ProvedCycle {
+impl Deref for BoundedCycle {
     type Target = Cycle;
 
     fn deref(&self) -> &Cycle {
@@ -127,7 +127,7 @@ impl Deref for ProvedCycle {
 #[derive(Clone, Debug)]
 pub struct AllFound {
     /// The cycles.
-    pub cycles: Vec<ProvedCycle>,
+    pub cycles: Vec<BoundedCycle>,
     /// Whether their number is proved.
     pub certain: bool,
 }
@@ -135,7 +135,7 @@ pub struct AllFound {
 impl AllFound {
     /// Whether something holds that depends on the number and the stability of the cycles only.
     #[must_use]
-    pub fn answer(&self, holds: impl Fn(&[ProvedCycle]) -> bool) -> Answer {
+    pub fn answer(&self, holds: impl Fn(&[BoundedCycle]) -> bool) -> Answer {
         Answer { holds: holds(&self.cycles), certain: self.certain }
     }
 

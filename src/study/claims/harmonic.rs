@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::certain::{ProvedCycle, enclosed};
+use super::certain::{BoundedCycle, enclosed};
 use super::known::Answer;
 use super::measure::{
     Known, amplitude, at_rest, half_swing, largest, mean, of_cycle, oscillator, place, smallest,
@@ -72,7 +72,7 @@ pub const CLAIMS: &[Claim] = &[
             let cycle = smallest(&parameters, limits)?;
             let weaker = oscillator(-0.9, 0.0, 0.0, 1.0);
             let other = smallest(&weaker, limits)?;
-            let ratio = |cycle: &ProvedCycle| {
+            let ratio = |cycle: &BoundedCycle| {
                 of_cycle(cycle, cycle.v_max / cycle.q_max, |it| it.v_max / it.q_max)
             };
             Ok(Finding::tends((1.0, ratio(&other)), (1.0, ratio(&cycle))).at(place(&parameters)))

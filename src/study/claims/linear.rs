@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::certain::ProvedCycle;
+use super::certain::BoundedCycle;
 use super::equilibria::{least_kick, shifted};
 use super::measure::{
     Known, at_rest, edge, half_swing, of_cycle, oscillator, place, smallest, state_at,
@@ -43,7 +43,7 @@ pub const CLAIMS: &[Claim] = &[
             let mut cases = Vec::new();
             for d in DAMPINGS {
                 let found = super::measure::cycles(&units_of_friction(d), limits)?;
-                let further = |found: &[ProvedCycle]| found.len() == 1 && found[0].clearance > 0.0;
+                let further = |found: &[BoundedCycle]| found.len() == 1 && found[0].clearance > 0.0;
                 cases.push((format!("D = {d}"), found.answer(further)));
             }
             Ok(Finding::always(cases))

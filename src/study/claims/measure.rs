@@ -3,7 +3,7 @@
 //! A motion is integrated by two methods that share nothing but the field, and the error is what they
 //! differ by. Cycles come from the general search, also where a closed form exists.
 
-use super::certain::{AllFound, CertainEdge, ProvedCycle, enclosed, enclosed_state};
+use super::certain::{AllFound, BoundedCycle, CertainEdge, enclosed, enclosed_state};
 use super::known::Answer;
 pub use super::known::Known;
 use crate::flow::trajectory::trajectory;
@@ -26,7 +26,11 @@ use crate::study::proved::matching;
 const ROUNDED: f64 = 1e-14;
 
 /// A number made from those of a cycle, and the same from their bounds.
-pub fn of_cycle(cycle: &ProvedCycle, value: f64, bounds: impl Fn(&Enclosure) -> Interval) -> Known {
+pub fn of_cycle(
+    cycle: &BoundedCycle,
+    value: f64,
+    bounds: impl Fn(&Enclosure) -> Interval,
+) -> Known {
     Known::relative(value, cycle.error + ROUNDED).within(cycle.bounds.as_ref().map(bounds))
 }
 
@@ -212,7 +216,7 @@ pub fn beside_proof(parameters: &Parameters, found: Vec<Cycle>) -> AllFound {
     let proof = prove(&ParameterBox::from(parameters), &hints);
     let certain = proof.is_complete() && proof.cycles.len() == found.len();
     let with_bounds = |cycle: Cycle| {
-        ProvedCycle::new(cycle, matching(&proof, &cycle).and_then(|proved| proved.enclosure))
+        BoundedCycle::new(cycle, matching(&proof, &cycle).and_then(|proved| proved.enclosure))
     };
     AllFound { cycles: found.into_iter().map(with_bounds).collect(), certain }
 }
@@ -244,7 +248,7 @@ pub fn last_cycle(parameters: &Parameters, found: f64, error: f64) -> Known {
 ///
 /// # Errors
 /// The [`Reason`] why there is none.
-pub fn smallest(parameters: &Parameters, limits: &Limits) -> Result<ProvedCycle, Reason> {
+pub fn smallest(parameters: &Parameters, limits: &Limits) -> Result<BoundedCycle, Reason> {
     cycles(parameters, limits)?.cycles.first().copied().ok_or(missing("a limit cycle"))
 }
 
@@ -252,12 +256,12 @@ pub fn smallest(parameters: &Parameters, limits: &Limits) -> Result<ProvedCycle,
 ///
 /// # Errors
 /// The [`Reason`] why there is none.
-pub fn largest(parameters: &Parameters, limits: &Limits) -> Result<ProvedCycle, Reason> {
+pub fn largest(parameters: &Parameters, limits: &Limits) -> Result<BoundedCycle, Reason> {
     cycles(parameters, limits)?.cycles.last().copied().ok_or(missing("a limit cycle"))
 }
 
 /// Half of what lies between the turning points.
-pub fn amplitude(cycle: &ProvedCycle) -> Known {
+pub fn amplitude(cycle: &BoundedCycle) -> Known {
     of_cycle(cycle, 0.5 * (cycle.q_max - cycle.q_min), |it| {
         Interval::point(0.5) * (it.q_max - it.q_min)
     })

@@ -7,7 +7,7 @@
 //! ([`Finding::verdict`]). Where a proof encloses what was computed, a [`Certainty`] says what is certain.
 
 mod amplitudes;
-mod belt;
+pub(in crate::study) mod belt;
 mod beyond;
 mod bifurcation;
 mod certain;

@@ -1,6 +1,7 @@
 //! Points of a curve of cycles, and directions along it.
 
 use crate::numerics::elementary::hypot;
+use crate::oscillator::Parameters;
 use crate::study::closed_pair::Closing;
 use crate::study::closing::Route;
 
@@ -21,6 +22,12 @@ pub struct CurvePoint {
 }
 
 impl CurvePoint {
+    /// The cycle of a closing at a value of the parameter.
+    pub fn of(closing: Closing, p: f64, parameters: &Parameters) -> Self {
+        let log_multiplier = closing.log_multiplier(parameters);
+        CurvePoint { u: closing.node.at, p, closing, log_multiplier }
+    }
+
     /// The route on which its swings are computed best.
     #[must_use]
     pub fn route(&self) -> Route {
