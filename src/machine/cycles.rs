@@ -190,6 +190,12 @@ impl Flow<'_> {
                 }
             }
         }
+        if found.stop.is_none() && self.model.law_ends() {
+            // What comes to ride on the belt is known as far as the law goes.
+            let from = if smallest.is_finite() { smallest } else { beyond(held) };
+            let last = self.farthest(from.max(found.end), scale, &mut found)?;
+            found.end = found.end.max(scale * exp(last.u));
+        }
         for u in roots {
             found.points.extend(self.sharpened(scale * exp(u))?);
         }
@@ -311,7 +317,9 @@ impl Flow<'_> {
                 Ok(sample) => last = sample,
                 Err(stop) => {
                     found.stop = Some(stop);
-                    return Ok(self.edge(last, at(x), scale));
+                    // Motions of too many steps are too dear to find the first of them.
+                    let dear = stop == Stop::Steps;
+                    return Ok(if dear { last } else { self.edge(last, at(x), scale) });
                 }
             }
             let shrinks = doubling > ENOUGH && last.f < CONTRACTS && last.f < before.f;

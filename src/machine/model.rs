@@ -289,6 +289,13 @@ impl Model {
         self.slower.pieces.first().map_or(0.0, |piece| piece.low)
     }
 
+    /// Whether the friction law ends at some slip, or falls below zero there.
+    pub(super) fn law_ends(&self) -> bool {
+        /// Beyond this, in m, a law is said to be known for every slip.
+        const ENDLESS: f64 = 1e200;
+        -self.least_velocity() < ENDLESS
+    }
+
     /// Whether the guide holds the mass at a displacement.
     #[must_use]
     pub fn rests_at(&self, x: f64) -> bool {

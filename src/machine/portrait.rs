@@ -203,8 +203,9 @@ impl Portrait {
         }
         let last = self.gaps.iter().take_while(|gap| gap.fate == inner).count();
         let Some((x, mark)) = marks.get(last - 1).filter(|_| last < self.gaps.len()) else {
-            if matches!(self.stop, Some(Stop::OutsideLaw { .. })) {
-                self.margin = Some(self.covered());
+            let ends = model.law_ends();
+            if ends || matches!(self.stop, Some(Stop::OutsideLaw { .. } | Stop::Steps)) {
+                self.margin = Some(self.covered(ends));
             }
             return Ok(());
         };
@@ -236,8 +237,9 @@ impl Portrait {
     }
 
     /// The kicks that come to rest for certain, where motions that slip faster than the law covers are not
-    /// known; motions do not cross, so in each direction these are the kicks up to one.
-    fn covered(&self) -> Margin {
+    /// known, or those that could not be followed; motions do not cross, so in each direction these are the kicks up
+    /// to one. Only where the law ends is it sought beyond [`Self::known`].
+    fn covered(&self, ends: bool) -> Margin {
         /// To rounding.
         const HALVINGS: u32 = 60;
         let model = &self.model;
@@ -245,7 +247,11 @@ impl Portrait {
         let most = |far: f64, rests: &dyn Fn(f64) -> bool| {
             if rests(far) { far } else { bisect(0.0, far, HALVINGS, |kick| !rests(kick)).0 }
         };
-        let (x, y) = (4.0 * self.known, 4.0 * self.known.max(-model.least_velocity()));
+        let (x, y) = if ends {
+            (4.0 * self.known, 4.0 * self.known.max(-model.least_velocity()))
+        } else {
+            (self.known, self.known)
+        };
         Margin {
             displacement: (
                 most(self.known, &|kick| rests(kick, 0.0)),

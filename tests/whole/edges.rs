@@ -2,7 +2,7 @@
 //! that end beyond the cycles.
 
 use hopfscope::machine::return_map::Return;
-use hopfscope::machine::{Body, Border, Fate, Flow, Modal, Model, Portrait, Subject};
+use hopfscope::machine::{Body, Border, Fate, Flow, Modal, Model, Portrait, Stop, Subject};
 use hopfscope::numerics::elementary::exp;
 use hopfscope::oscillator::Belt;
 use hopfscope::oscillator::belt::FrictionLaw;
@@ -107,6 +107,34 @@ fn where_no_cycle_repels_the_basin_ends_where_the_guide_just_holds() {
         let share = found.rest_share((-x, x), (-x * found.model.omega_0, x * found.model.omega_0));
         assert!(share > 0.0 && share < 0.5, "{share}");
     }
+}
+
+#[test]
+fn where_the_law_ends_it_is_not_said_that_every_kick_is_survived() {
+    // The guide brakes so much that what slips rests at once; the law falls below zero at a slip of 0.4086 m/s.
+    let text = "m = 0.415\nc = 1.735\nd1 = 0.25665\nd3 = 0.233634\nF = 0.1876\nR = 0.008091\nv0 = 0.1379\n\
+                friction.polynomial.coefficients = [0.62, -1.11435, -0.98584]\n";
+    let found = portrait(&parse("x", "x.toml", text, |_| Err(String::new())).unwrap().belt);
+    let margin = found.margin.unwrap();
+    assert!(matches!(found.stop, Some(Stop::OutsideLaw { .. })) && found.incomplete().is_some());
+    // A kick against the belt is a little faster yet just after it.
+    let fastest = 0.408_645_154 - 0.1379;
+    assert!((0.9999 * fastest..fastest).contains(&margin.velocity.1), "{margin:?}");
+    for (x, v) in [(margin.displacement.0, 0.0), (-margin.displacement.1, 0.0)] {
+        assert_eq!(found.fate(0.999 * x, v), Ok(Fate::Rest), "{x}");
+        assert!(matches!(found.fate(1.001 * x, v), Err(_) | Ok(Fate::Unknown(_))), "{x}");
+    }
+}
+
+#[test]
+fn where_motions_take_too_many_steps_the_margin_is_what_was_followed() {
+    let text = "m = 0.767\nc = 3.325\nd3 = 97.188237\nF = 7.9579\nv0 = 0.0539\nfriction.static = 0.982\n\
+                friction.polynomial.coefficients = [0.437, 2.72777, 2.16231, 57.38058, 272.78022]\n";
+    let found = portrait(&parse("x", "x.toml", text, |_| Err(String::new())).unwrap().belt);
+    let margin = found.margin.unwrap();
+    assert_eq!((found.stop, margin.displacement.0), (Some(Stop::Steps), found.known));
+    assert!(margin.displacement.0 > 10.0 && margin.velocity.1 > 10.0, "{margin:?}");
+    assert!(found.steps < 100_000, "{} steps", found.steps);
 }
 
 /// A light mass without friction of the guide, whose law is a table that falls by half up to some slip.

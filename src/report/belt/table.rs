@@ -117,7 +117,7 @@ fn friction(law: &FrictionLaw, mu: &Derivatives) -> String {
 pub(super) fn border(portrait: &Portrait) -> &'static str {
     match portrait.border {
         Border::None if portrait.margin.is_some() => {
-            "every kick within the margin is survived; beyond it the friction law ends"
+            "every kick within the margin is survived; larger ones are not known"
         }
         Border::None => "every kick is survived: whatever happens, the mass comes to rest",
         Border::NoBasin => "no kick is survived, however small: rest repels",
