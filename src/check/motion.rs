@@ -27,23 +27,21 @@ pub struct Field(pub [Interval; 3]);
 /// A half swing, of all starts and coefficients.
 #[derive(Clone, Copy, Debug)]
 pub struct Swing {
+    /// Where it ends: `-inf` if no further out than the sticking set reaches, `+inf` if it never does.
     pub end: Interval,
     /// How long it takes.
     pub time: Interval,
-    /// The area below it, the integral of `v^2` over time; every number where it is not known.
+    /// The area below it, the integral of `v^2` over time.
     pub area: Interval,
     /// The integral of `f'` over time.
     pub damping: Interval,
 }
 
-/// What is certain of a half swing.
-#[derive(Clone, Copy, Debug)]
-pub enum Passage {
-    Ends(Swing),
-    /// It ends no further out than the sticking set reaches, if it ends at all.
-    Rests,
-    Never,
-    Unknown,
+impl Swing {
+    /// Of which only the end is known.
+    fn only(end: Interval) -> Self {
+        Swing { end, time: Interval::ALL, area: Interval::ALL, damping: Interval::ALL }
+    }
 }
 
 const ORDER: usize = 22;
@@ -257,9 +255,9 @@ impl Disc {
     /// `w^2 = 3 X_R (X_R - X_L)`, and a drag of at most `d < X_R/2` below the velocity w, nothing is faster than w at
     /// `X_L`, because it would need a longer way than `w^2/(3 X_R)` to come to rest; so it is there within `w/(X_L - d)`.
     fn fall(&self, field: &Field, (e, piece): (Interval, Interval)) -> Option<Swing> {
-        let from = |x: f64| match follow(field, ([x, e.middle()], 0.0), 0.0, None) {
-            Passage::Ends(swing) => Some(swing),
-            _ => None,
+        let from = |x: f64| {
+            let swing = follow(field, ([x, e.middle()], 0.0), 0.0, None)?;
+            swing.end.is_finite().then_some(swing)
         };
         let (low, high) = (from(piece.lower())?, from(piece.upper())?);
         let end = Interval::new(low.end.lower(), high.end.upper());
@@ -318,31 +316,26 @@ fn arrival(series: &Series, longest: f64) -> Option<f64> {
 }
 
 /// The half swing from rest at `-z`, for all z of an interval; `reach` is how far the sticking set reaches.
-pub fn swing(field: &Field, z: Interval, reach: f64) -> Passage {
-    if z.lower() > 0.0 {
-        run(field, ([-z.middle(), 0.0], z.radius()), reach)
-    } else {
-        Passage::Unknown
+pub fn swing(field: &Field, z: Interval, reach: f64) -> Swing {
+    if !(z.lower() > 0.0) {
+        return Swing::only(Interval::ALL);
     }
+    run(field, ([-z.middle(), 0.0], z.radius()), reach)
 }
 
 /// The half swing of all motions within a radius of a point, which are at rest if the point is; stiff ones by the fence.
-pub fn run(field: &Field, from: ([f64; 2], f64), reach: f64) -> Passage {
-    match follow(field, from, reach, None) {
-        Passage::Unknown => {
-            let fence = field.fence().filter(|(e, _)| from.0[1] <= e.lower());
-            fence.map_or(Passage::Unknown, |fence| follow(field, from, reach, Some(fence)))
-        }
-        known => known,
-    }
+pub fn run(field: &Field, from: ([f64; 2], f64), reach: f64) -> Swing {
+    let stiff = || follow(field, from, reach, field.fence().filter(|it| from.0[1] <= it.0.lower()));
+    follow(field, from, reach, None).or_else(stiff).unwrap_or(Swing::only(Interval::ALL))
 }
 
+/// `None` where it is not certain.
 fn follow(
     field: &Field,
     (centre, radius): ([f64; 2], f64),
     reach: f64,
     fence: Option<(Interval, Interval)>,
-) -> Passage {
+) -> Option<Swing> {
     let mut disc = Disc::new(centre, radius);
     for _ in 0..STEPS {
         let series = field.series(disc.centre.map(point));
@@ -351,29 +344,28 @@ fn follow(
         let longest = pow(1e-6 * SMALL * size / last, 1.0 / 22.0).min(0.4);
         let arrives = if disc.centre[1] > 0.0 { arrival(&series, longest) } else { None };
         let mut h = arrives.unwrap_or(longest);
-        let mut whole = true;
         while disc.step(field, &series, h).is_none() {
-            (h, whole) = (0.8 * h, false);
+            h *= 0.8;
             if !(h > 1e-9 * longest) {
-                return Passage::Unknown;
+                return None;
             }
         }
-        if whole && arrives.is_some() {
-            return disc.end(field).map_or(Passage::Unknown, Passage::Ends);
+        if arrives == Some(h) {
+            return disc.end(field);
         }
         let [x, v] = disc.square();
         if !(v.lower() > 0.0) {
-            return Passage::Unknown;
+            return None;
         }
         if field.never_returns(x.upper(), v.lower()) {
-            return Passage::Never;
+            return Some(Swing::only(point(f64::INFINITY)));
         }
         if field.stays(x, v, reach) {
-            return Passage::Rests;
+            return Some(Swing::only(point(f64::NEG_INFINITY)));
         }
         if let Some(fence) = fence.filter(|(e, _)| v.lower() > e.upper()) {
-            return disc.fall(field, fence).map_or(Passage::Unknown, Passage::Ends);
+            return disc.fall(field, fence);
         }
     }
-    Passage::Unknown
+    None
 }

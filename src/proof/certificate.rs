@@ -6,8 +6,8 @@
 use super::cycles::{Proof, ProvedCycle};
 use super::map::{Direction, ReturnMap};
 use super::theorems::Theorem;
-use crate::check::map::{After, Map};
-use crate::check::{Certificate, Kind, Numbers, Step};
+use crate::check::map::Map;
+use crate::check::{Bounds, Certificate, Kind, Step};
 use crate::numerics::Interval;
 
 /// Makes the certificate of a proof.
@@ -27,7 +27,7 @@ pub fn certificate(proof: &Proof) -> Result<Certificate, String> {
             Theorem::Affine => Kind::Affine,
             Theorem::Frictionless => Kind::Frictionless,
         };
-        vec![Step { kind, from: 0.0, to: None, numbers: None }]
+        vec![Step { kind, from: 0.0, to: None, clearance: None }]
     } else {
         let map = Map::new(parameters);
         let mut walk = Walk { map, at: 0.0, above: false, steps: Vec::new() };
@@ -38,7 +38,8 @@ pub fn certificate(proof: &Proof) -> Result<Certificate, String> {
         walk.leave()?;
         walk.steps
     };
-    Ok(Certificate::new(parameters.map(bounds), proof.cycles.len(), steps))
+    let bounds = |it: Interval| [it.lower(), it.upper()];
+    Ok(Certificate { parameters: parameters.map(bounds), cycles: proof.cycles.len(), steps })
 }
 
 /// The file: a line for each step, every number in its shortest form that reads back exactly.
@@ -49,12 +50,8 @@ pub fn text(of: &Certificate) -> Result<String, serde_json::Error> {
     let steps: Result<Vec<_>, _> = of.steps.iter().map(serde_json::to_string).collect();
     let mut out = format!("{{\n\"parameters\": {},\n", serde_json::to_string(&of.parameters)?);
     out += &format!("\"cycles\": {},\n\"steps\": [\n", of.cycles);
-    out += &format!("{}\n],\n\"digest\": \"{}\"\n}}\n", steps?.join(",\n"), of.digest);
+    out += &format!("{}\n]\n}}\n", steps?.join(",\n"));
     Ok(out)
-}
-
-fn bounds(it: Interval) -> [f64; 2] {
-    [it.lower(), it.upper()]
 }
 
 /// On the way outwards.
@@ -75,107 +72,89 @@ impl Walk {
         let mut map = ReturnMap::new(&proof.parameters);
         let second = map.half(1, Direction::Backward, Interval::point(0.0)).lower();
         let first = map.half(0, Direction::Backward, Interval::point(second)).lower();
-        let mut to = if first < f64::INFINITY { 0.95 * first } else { map.gap.upper() };
-        for _ in 0..20 {
-            if to > 0.0 && self.map.after(false, to) == After::Rest {
-                self.take(Kind::Rest, Some(to));
+        let known = first > 0.0 && first < f64::INFINITY;
+        let mut to = if known { 0.95 * first } else { map.gap.upper() };
+        for _ in 0..40 {
+            if self.map.after(false, to).upper() == f64::NEG_INFINITY {
+                self.take(Kind::Rest, Some(to), None);
                 return Ok(());
             }
             to *= 0.5;
         }
         self.above = true;
-        let most = proof.cycles.first().and_then(|cycle| cycle.enclosure);
-        self.step(most.map_or(f64::MAX, |it| 0.5 * it.clearance.lower()))
-            .map_err(|_| "no start is certain to come to rest within a turn".to_owned())
+        let most = proof.cycles.first().map_or(f64::MAX, |cycle| 0.5 * cycle.within.lower());
+        self.step(most).map_err(|_| "no start is certain to come to rest within a turn".to_owned())
     }
 
     /// Goes a step.
-    fn take(&mut self, kind: Kind, to: Option<f64>) {
-        self.steps.push(Step { kind, from: self.at, to, numbers: None });
+    fn take(&mut self, kind: Kind, to: Option<f64>, clearance: Option<Bounds>) {
+        self.steps.push(Step { kind, from: self.at, to, clearance });
         self.at = to.unwrap_or(f64::INFINITY);
+        self.above = kind.above().is_some_and(|[_, end]| end);
     }
 
-    /// How far the image of the place allows to go.
-    fn reach(&self) -> After {
-        self.map.after(!self.above, self.at)
+    fn aside(&self) -> Kind {
+        if self.above { Kind::Above } else { Kind::Below }
+    }
+
+    /// How far the image of the place allows to go; infinitely far if it never turns.
+    fn reach(&self) -> f64 {
+        self.map.after(!self.above, self.at).lower()
     }
 
     /// One step, to a place at most.
     fn step(&mut self, most: f64) -> Result<(), String> {
         /// A part of what the image allows, so that it is not a matter of rounding.
         const PART: f64 = 0.95;
-        let lost = || format!("a turn from the clearance {:?} is not certain", self.at);
-        let from = self.at;
-        let to = match self.reach() {
-            After::At(image) => most.min(from + PART * (image.lower() - from)),
-            After::Never => most,
-            After::Rest | After::Unknown => return Err(lost()),
-        };
+        let (from, reach) = (self.at, self.reach());
+        let to = if reach < f64::INFINITY { most.min(from + PART * (reach - from)) } else { most };
         if !(to > from && to < f64::INFINITY && self.steps.len() < MOST) {
-            return Err(lost());
+            return Err(format!("a turn from the clearance {from:?} is not certain"));
         }
-        self.take(if self.above { Kind::Above } else { Kind::Below }, Some(to));
+        self.take(self.aside(), Some(to), None);
         Ok(())
     }
 
     /// To a cycle and past it.
     fn pass(&mut self, cycle: &ProvedCycle) -> Result<(), String> {
-        /// Widths of the step, as parts of the clearance, widest first.
+        /// Widths of the step, as parts of the clearance, widest first; and how much wider than the proof's the bounds of
+        /// the clearance are, narrowest first.
         const WIDTHS: [f64; 9] = [0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3, 1e-4, 1e-5, 1e-6];
-        let bounds = cycle.enclosure.ok_or("a cycle has no bounds")?.clearance;
-        let ends = |part: f64| (bounds.lower() * (1.0 - part), bounds.upper() * (1.0 + part));
-        let narrow = |&(from, to): &(f64, f64)| {
-            let turn = self.map.turn(!cycle.stable, Interval::new(from, to));
-            from > self.at && turn.is_some_and(|turn| turn.slope.upper() < 1.0)
+        const WIDER: [f64; 9] = [1e-13, 1e-12, 1e-11, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2];
+        let bounds = cycle.enclosure.map_or(cycle.within, |it| it.clearance);
+        let ends = |part: f64| [bounds.lower() * (1.0 - part), bounds.upper() * (1.0 + part)];
+        let narrow = |&[from, to]: &Bounds| {
+            let slope = self.map.slope(!cycle.stable, Interval::new(from, to));
+            from > self.at && slope.is_some_and(|slope| slope.upper() < 1.0)
         };
-        let (from, to) = WIDTHS
-            .map(ends)
-            .into_iter()
-            .find(narrow)
-            .ok_or("the derivative of the map at a cycle is too close to 1")?;
+        let close = "the derivative of the map at a cycle is too close to 1";
+        let [from, to] = WIDTHS.map(ends).into_iter().find(narrow).ok_or(close)?;
+        let image = |z: f64| self.map.after(!cycle.stable, z);
+        let certain =
+            |&[low, high]: &Bounds| image(low).lower() > low && image(high).upper() < high;
+        let clearance =
+            WIDER.map(ends).into_iter().find(certain).ok_or("a cycle cannot be bounded")?;
         while self.at < from {
             self.step(from)?;
         }
-        let numbers = self.numbers(cycle.stable, ends)?;
-        self.steps.push(Step { kind: Kind::Cycle, from, to: Some(to), numbers: Some(numbers) });
-        (self.at, self.above) = (to, !self.above);
+        self.take(
+            if cycle.stable { Kind::Stable } else { Kind::Unstable },
+            Some(to),
+            Some(clearance),
+        );
         Ok(())
-    }
-
-    /// The numbers of a cycle by the map of the checker.
-    fn numbers(&self, stable: bool, ends: impl Fn(f64) -> (f64, f64)) -> Result<Numbers, String> {
-        /// How much wider than the proof's the bounds of the clearance are, narrowest first.
-        const WIDER: [f64; 9] = [1e-13, 1e-12, 1e-11, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2];
-        let image = |z: f64| match self.map.after(!stable, z) {
-            After::At(image) => image,
-            After::Rest | After::Never | After::Unknown => Interval::ALL,
-        };
-        let certain =
-            |&(low, high): &(f64, f64)| image(low).lower() > low && image(high).upper() < high;
-        let (low, high) =
-            WIDER.map(ends).into_iter().find(certain).ok_or("a cycle cannot be bounded")?;
-        let turn = self.map.turn(!stable, Interval::new(low, high));
-        let turn = turn.ok_or("a turn of a cycle is not certain")?;
-        Ok(Numbers {
-            stable,
-            clearance: [low, high],
-            left: bounds(turn.left),
-            period: bounds(turn.time),
-            contraction: bounds(turn.slope),
-        })
     }
 
     /// Beyond all cycles.
     fn leave(&mut self) -> Result<(), String> {
         let greatest = self.map.greatest_image();
         loop {
-            let from = self.at;
-            if !self.above && greatest < from {
-                self.take(Kind::Damped, None);
+            if !self.above && greatest < self.at {
+                self.take(Kind::Damped, None, None);
                 return Ok(());
             }
-            if self.reach() == After::Never {
-                self.take(if self.above { Kind::Above } else { Kind::Below }, None);
+            if self.reach() == f64::INFINITY {
+                self.take(self.aside(), None, None);
                 return Ok(());
             }
             self.step(f64::MAX)?;

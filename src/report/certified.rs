@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::proof::certain;
 use super::table::Table;
-use crate::check::{Bounds as Pair, Certificate};
+use crate::check::{Bounds as Pair, Certificate, Kind};
 use crate::numerics::Interval;
 use crate::numerics::elementary::{log10, pow};
 use crate::oscillator::Symbol;
@@ -412,20 +412,13 @@ pub fn certificate_table(certificate: &Certificate) -> String {
             format!("{name} in {}", interval(it))
         }
     };
-    let mut table =
-        Table::new(&["cycle", "right clearance", "left clearance", "period", "multiplier"]);
+    let mut table = Table::new(&["cycle", "right clearance"]);
     let mut some = false;
     for step in &certificate.steps {
-        if let Some(numbers) = step.numbers {
+        if let Some(clearance) = step.clearance {
             some = true;
-            let kind = stability(numbers.stable);
-            let contraction = interval(numbers.contraction);
-            let inverse = Interval::point(1.0) / contraction;
-            let multiplier = if numbers.stable { contraction } else { inverse };
-            let cells = [numbers.clearance, numbers.left, numbers.period].map(interval);
-            let cells = [cells.as_slice(), &[multiplier]].concat();
-            let cells: Vec<_> = cells.into_iter().map(|it| certain(it, PLACES)).collect();
-            table.row([&[kind.to_owned()], cells.as_slice()].concat());
+            let kind = stability(step.kind == Kind::Stable);
+            table.row(vec![kind.to_owned(), certain(interval(clearance), PLACES)]);
         }
     }
     let count = match certificate.cycles {
