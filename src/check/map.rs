@@ -32,15 +32,15 @@ impl Map {
     pub fn after(&self, inverse: bool, z: f64) -> Interval {
         let mut at = Interval::point(z);
         for field in self.halves(inverse) {
-            let end = match field.leaving() {
+            let found = match field.leaving() {
                 Some(place) if at.upper() == 0.0 && !inverse => run(&field, (place, 0.0), 0.0).end,
-                _ if inverse => swing(&field, at + self.gap, 0.0).end,
-                _ => swing(&field, at, self.gap.lower()).end,
+                _ if inverse => end(&field, at + self.gap, 0.0),
+                _ => end(&field, at, self.gap.lower()),
             };
-            if !end.is_finite() {
-                return if end.is_point() { end } else { Interval::ALL };
+            if !found.is_finite() {
+                return if found.is_point() { found } else { Interval::ALL };
             }
-            at = if inverse { end } else { end - self.gap };
+            at = if inverse { found } else { found - self.gap };
             // All from next to 0 end above the lower bound.
             at = if z == 0.0 { Interval::point(at.lower()) } else { at };
             if at.upper() <= 0.0 && z > 0.0 {
@@ -81,6 +81,16 @@ impl Map {
         });
         second.min(finite(swing(&self.fields[1], Interval::point(first), 0.0).end))
     }
+}
+
+/// The end of a half swing from an interval; from its ends if it is wide.
+fn end(field: &Field, z: Interval, reach: f64) -> Interval {
+    let end = |z: Interval| swing(field, z, reach).end;
+    if z.radius() <= 1e-9 * z.lower() {
+        return end(z);
+    }
+    let [low, high] = [z.lower(), z.upper()].map(|z| end(Interval::point(z)));
+    Interval::new(low.lower(), high.upper())
 }
 
 /// A half swing from an interval: its end and its area from the motions from both ends of the interval, its time from

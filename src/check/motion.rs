@@ -50,7 +50,7 @@ const ORDER: usize = 22;
 const SMALL: f64 = 2e-16;
 
 /// Steps after which a half swing is given up.
-const STEPS: usize = 1_000;
+const STEPS: usize = 2_500;
 
 /// Taylor coefficients: of x, of v, of the area, and of `v^2`.
 type Series = [[Interval; 4]; ORDER + 1];
@@ -172,6 +172,93 @@ impl Field {
         (holds && piece.is_finite()).then_some((e, piece))
     }
 
+    /// The end of motions that are faster than e, by those from both ends of the piece at which they come back to e;
+    /// they became so at `x`, after this time and with this integral of `f'`.
+    ///
+    /// On the way there `f'` is at least `rate v`. After it, the way in time of all is that of the two ends but for this: with
+    /// `w^2 = 3 X_R (X_R - X_L)`, and a drag of at most `d < X_R/2` below the velocity w, nothing is faster than w at
+    /// `X_L`, because it would need a longer way than `w^2/(3 X_R)` to come to rest; so it is there within `w/(X_L - d)`.
+    fn fall(
+        &self,
+        (e, piece): (Interval, Interval),
+        x: Interval,
+        time: Interval,
+        damping: Interval,
+    ) -> Option<Swing> {
+        let from = |x: f64| {
+            let swing = follow(self, ([x, e.middle()], 0.0), 0.0, None)?;
+            swing.end.is_finite().then_some(swing)
+        };
+        let [a, b, c] = self.0;
+        let way = piece - x;
+        let rate = point(a.lower().min(0.0)) / e + b.twice() + c * e * point(3.0);
+        let gained = point(rate.lower().max(0.0)) * point(way.lower().max(0.0));
+        let before = damping + gained;
+        let (Some(low), Some(high)) = (from(piece.lower()), from(piece.upper())) else {
+            return self.beyond_fold(e, piece, before.lower());
+        };
+        let end = Interval::new(low.end.lower(), high.end.upper());
+        let w = (point(3.0 * end.upper()) * point(end.width())).sqrt().upper();
+        let drag = point(self.force(Interval::new(0.0, w)).magnitude());
+        let rate = point(end.lower()) - drag;
+        if !(rate.lower() > 0.0 && drag.upper() <= 0.49 * end.upper()) {
+            return None;
+        }
+        let around = |it: Interval, off: Interval| it + Interval::new(-off.upper(), off.upper());
+        let late = point(w) / point(rate.lower());
+        let after = around(low.time.hull(high.time), late);
+        let area = around(low.area.hull(high.area), e * point(piece.width()));
+        let damping = before + self.damping(after, end - piece, area);
+        let fast = Interval::new(0.0, (point(way.upper().max(0.0)) / e).upper());
+        Some(Swing {
+            end,
+            time: time + fast + after,
+            area: Interval::ALL,
+            damping: Interval::new(damping.lower(), f64::INFINITY),
+        })
+    }
+
+    /// The half swing from all z of an interval so far out that nothing slows them down before they are faster than e: as
+    /// long as `x <= -z/2`, v grows at least at the rate `z/2 - d`, d bounding the damping below e.
+    fn far(&self, z: Interval, (e, piece): (Interval, Interval)) -> Option<Swing> {
+        let slow = Interval::new(0.0, e.upper());
+        let half = point(z.lower()) / point(2.0);
+        let rate = point((half - point(self.force(slow).magnitude())).lower());
+        let time = e / rate;
+        let way = e * time;
+        let least = point(self.slope(slow).lower().min(0.0)) * point(time.upper());
+        let x = Interval::new(-z.upper(), (way - point(z.lower())).upper());
+        let reaches = rate.lower() > 0.0 && way.upper() <= half.lower();
+        let damping = Interval::new(least.lower(), f64::INFINITY);
+        reaches.then(|| self.fall((e, piece), x, Interval::new(0.0, time.upper()), damping))?
+    }
+
+    /// The end of motions that fall through `v = e > 0` at positive x in a piece, for `b < 0 < c`, where that is at a fold of
+    /// `x = -f(v)`; `before` bounds the integral of `f'` until then from below.
+    ///
+    /// They fall until they end: where `v' = 0` it is `v'' = -v < 0`. Below e, `-f <= k = 4 |b|^3/(27 c^2) + max(-a, 0) e`; so from
+    /// the larger of k and the piece, and e, on it is `v' <= -e`, and after a further e at most they end. `f'` is at least
+    /// `a - b^2/(3 c)`. With `w = |b|/(3 c)`, motions need at most `(X - x)/w` while they are faster than w, and
+    /// while they are slower w by the least of `x + f`.
+    fn beyond_fold(&self, e: Interval, piece: Interval, before: f64) -> Option<Swing> {
+        let [a, b, c] = self.0;
+        if !(b.upper() < 0.0 && c.lower() > 0.0 && piece.lower() > 0.0) {
+            return None;
+        }
+        let pull = point((-a.lower()).max(0.0)) * e;
+        let k = point(-4.0) * b * b.square() / (point(27.0) * c.square()) + pull;
+        let last = point(k.upper().max(piece.upper())) + e.twice();
+        let end = Interval::new(piece.lower(), last.upper());
+        let w = point((-b / (point(3.0) * c)).upper());
+        let rate =
+            point((point(piece.lower()) + self.force(Interval::new(0.0, w.upper()))).lower());
+        let time = point((end - piece).upper()) / w + w / rate;
+        let least = (a - b.square() / (point(3.0) * c)).lower().min(0.0);
+        let damping = (point(before) + point(least) * point(time.upper())).lower();
+        let damping = Interval::new(damping, f64::INFINITY);
+        (rate.lower() > 0.0).then(|| Swing { damping, ..Swing::only(end) })
+    }
+
     /// A place below which no motion passes that starts at rest next to the centre, for `a <= -2`, where this is a node.
     ///
     /// On the parabola `v = x - k x^2`, `k = 2 |b| + 1`, as long as `x (2 k^2 + |c|) <= k - |b|`, motions cross upwards:
@@ -249,44 +336,6 @@ impl Disc {
         self.radius.is_finite().then_some(())
     }
 
-    /// The end of motions that are faster than e, by those from both ends of the piece at which they come back to e.
-    ///
-    /// On the way there `f'` is at least `rate v`. After it, the way in time of all is that of the two ends but for this: with
-    /// `w^2 = 3 X_R (X_R - X_L)`, and a drag of at most `d < X_R/2` below the velocity w, nothing is faster than w at
-    /// `X_L`, because it would need a longer way than `w^2/(3 X_R)` to come to rest; so it is there within `w/(X_L - d)`.
-    fn fall(&self, field: &Field, (e, piece): (Interval, Interval)) -> Option<Swing> {
-        let from = |x: f64| {
-            let swing = follow(field, ([x, e.middle()], 0.0), 0.0, None)?;
-            swing.end.is_finite().then_some(swing)
-        };
-        let (low, high) = (from(piece.lower())?, from(piece.upper())?);
-        let end = Interval::new(low.end.lower(), high.end.upper());
-        let w = (point(3.0 * end.upper()) * point(end.width())).sqrt().upper();
-        let drag = point(field.force(Interval::new(0.0, w)).magnitude());
-        let rate = point(end.lower()) - drag;
-        if !(rate.lower() > 0.0 && drag.upper() <= 0.49 * end.upper()) {
-            return None;
-        }
-        let around = |it: Interval, off: Interval| it + Interval::new(-off.upper(), off.upper());
-        let late = point(w) / point(rate.lower());
-        let time = around(low.time.hull(high.time), late);
-        let area = around(low.area.hull(high.area), e * point(piece.width()));
-        let [a, b, c] = field.0;
-        let x = self.square()[0];
-        let way = piece - x;
-        let rate = point(a.lower().min(0.0)) / e + b.twice() + c * e * point(3.0);
-        let gained = point(rate.lower().max(0.0)) * point(way.lower().max(0.0));
-        let before = field.damping(self.time, x - self.from, self.area) + gained;
-        let damping = before + field.damping(time, end - piece, area);
-        let fast = Interval::new(0.0, (point(way.upper().max(0.0)) / e).upper());
-        Some(Swing {
-            end,
-            time: self.time + fast + time,
-            area: Interval::ALL,
-            damping: Interval::new(damping.lower(), f64::INFINITY),
-        })
-    }
-
     /// The end, with `abs(v) <= m` for all motions: as long as this is so, and x is within a tenth of itself, v falls at
     /// least at the rate A, so that it vanishes within the time `m/A`, before or after, and x moves `m^2/A`.
     fn end(&self, field: &Field) -> Option<Swing> {
@@ -320,7 +369,9 @@ pub fn swing(field: &Field, z: Interval, reach: f64) -> Swing {
     if !(z.lower() > 0.0) {
         return Swing::only(Interval::ALL);
     }
-    run(field, ([-z.middle(), 0.0], z.radius()), reach)
+    let found = run(field, ([-z.middle(), 0.0], z.radius()), reach);
+    let far = || field.fence().and_then(|fence| field.far(z, fence));
+    if found.end == Interval::ALL { far().unwrap_or(found) } else { found }
 }
 
 /// The half swing of all motions within a radius of a point, which are at rest if the point is; stiff ones by the fence.
@@ -364,7 +415,8 @@ fn follow(
             return Some(Swing::only(point(f64::NEG_INFINITY)));
         }
         if let Some(fence) = fence.filter(|(e, _)| v.lower() > e.upper()) {
-            return disc.fall(field, fence);
+            let damping = field.damping(disc.time, x - disc.from, disc.area);
+            return field.fall(fence, x, disc.time, damping);
         }
     }
     None

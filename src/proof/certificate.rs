@@ -119,8 +119,9 @@ impl Walk {
     fn pass(&mut self, cycle: &ProvedCycle) -> Result<(), String> {
         /// Widths of the step, as parts of the clearance, widest first; and how much wider than the proof's the bounds of
         /// the clearance are, narrowest first.
-        const WIDTHS: [f64; 9] = [0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3, 1e-4, 1e-5, 1e-6];
-        const WIDER: [f64; 9] = [1e-13, 1e-12, 1e-11, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2];
+        const WIDTHS: [f64; 11] = [0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10];
+        const WIDER: [f64; 11] =
+            [1e-13, 1e-12, 1e-11, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 0.03, 0.1];
         let bounds = cycle.enclosure.map_or(cycle.within, |it| it.clearance);
         let ends = |part: f64| [bounds.lower() * (1.0 - part), bounds.upper() * (1.0 + part)];
         let narrow = |&[from, to]: &Bounds| {
