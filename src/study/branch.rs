@@ -320,7 +320,9 @@ impl Tracer<'_> {
                 found.extend(self.curve.at_parameter(0.0, u, route)?);
             }
         }
-        found.iter().for_each(|point| self.note(SpecialKind::ZeroCrossing, point));
+        for point in &found {
+            self.note(SpecialKind::ZeroCrossing, point);
+        }
         Ok(())
     }
 

@@ -212,17 +212,23 @@ impl<'a> Curve<'a> {
         const HALVINGS: u32 = 60;
         /// Newton's method is tried after so many of them.
         const OFTEN: u32 = 4;
-        let mut halvings = 0;
+        let (mut halvings, mut found) = (0, None);
         // What Newton's method finds ends the bisection where an error would.
         let falls = try_bisect(range.0, range.1, HALVINGS, |p| {
             halvings += 1;
             if halvings % OFTEN == 0 {
-                let found = self.correct((u, p), Tangent::ACROSS_P, Route::Mixed).map_err(Err)?;
-                found.map_or(Ok(()), |found| Err(Ok(found)))?;
+                let near = (u, p);
+                found = self.correct(near, Tangent::ACROSS_P, Route::Mixed).map_err(Some)?;
+                if found.is_some() {
+                    return Err(None);
+                }
             }
-            Ok(self.value(u, p).map_err(Err)? <= 0.0)
+            Ok(self.value(u, p).map_err(Some)? <= 0.0)
         });
-        falls.map_or_else(|found: Result<_, Reason>| found.map(Some), |_| Ok(None))
+        match falls {
+            Err(Some(reason)) => Err(reason),
+            Ok(_) | Err(None) => Ok(found),
+        }
     }
 
     /// The residual of the mixed route, infinite with its sign where a swing does not end.

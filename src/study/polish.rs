@@ -120,15 +120,17 @@ fn newton(
     let ends = root::Bracket { low, high, rising };
     let mut steps = Steps::new(equation, beyond_the_end(&bracket), start.1);
     let found = try_newton(ends, start.0, root::Change::Absolute(NEVER), |u| steps.at(u, limits));
-    let change = steps.change;
-    let root = match found {
-        Err(found) => return found,
-        Ok(root) => root,
-    };
-    if root.bracket.high - root.bracket.low > 2.0 * f64::EPSILON * root.at.abs() {
-        return Err(Reason::NoConvergence { sought: "a limit cycle", change });
+    let Steps { settled, change, .. } = steps;
+    let lost = Reason::NoConvergence { sought: "a limit cycle", change };
+    match found {
+        Err(Some(reason)) => Err(reason),
+        Err(None) => settled.ok_or(lost),
+        Ok(root) => {
+            let width = root.bracket.high - root.bracket.low;
+            let narrow = width <= 2.0 * f64::EPSILON * root.at.abs();
+            if narrow { closest(equation, root.at, limits) } else { Err(lost) }
+        }
     }
-    closest(equation, root.at, limits)
 }
 
 /// The evaluations of Newton's method, and what they tell about where it ends.
@@ -140,24 +142,23 @@ struct Steps<'a> {
     /// Newton's last change of the unknown.
     change: f64,
     stalls: u8,
+    /// The closing at which the method ends.
+    settled: Option<Closing>,
 }
-
-/// What ends Newton's method: the closing that is settled, or the reason why there is none.
-type Settled = Result<Closing, Reason>;
 
 impl<'a> Steps<'a> {
     fn new(equation: &'a mut Equation, route: Route, weigh: bool) -> Self {
-        Steps { equation, route, weigh, change: f64::INFINITY, stalls: 0 }
+        Steps { equation, route, weigh, change: f64::INFINITY, stalls: 0, settled: None }
     }
 
-    /// The residual and its slope at `u`; the closing there in place of an error, once it is settled.
-    fn at(&mut self, u: f64, limits: &Limits) -> Result<(f64, f64), Settled> {
-        let (mut closing, mut energy) = self.closing(u, limits).map_err(Err)?;
+    /// The residual and its slope at `u`; an error without a reason once the closing there is settled.
+    fn at(&mut self, u: f64, limits: &Limits) -> Result<(f64, f64), Option<Reason>> {
+        let (mut closing, mut energy) = self.closing(u, limits).map_err(Some)?;
         let ends = closing.duration.is_finite();
         let flat = self.route == Route::Mixed && closing.node.slope.abs() < FLAT;
         self.weigh = flat && ends;
         if self.weigh && energy.is_none() {
-            let weighed = weighed_closing(self.equation, u, limits).map_err(Err)?;
+            let weighed = weighed_closing(self.equation, u, limits).map_err(Some)?;
             energy = weighed.map(|(_, energy)| energy);
         }
         // The closing keeps the plain residual.
@@ -181,7 +182,11 @@ impl<'a> Steps<'a> {
         self.stalls += u8::from(idle && change <= closing.noise / slope.abs());
         let stalled = (idle && change <= 16.0 * rounding) || self.stalls >= STALLS;
         let settled = change <= rounding || stalled || (blurred && (!flat || idle));
-        if settled && value.is_finite() { Err(Ok(closing)) } else { Ok((value, slope)) }
+        if settled && value.is_finite() {
+            self.settled = Some(closing);
+            return Err(None);
+        }
+        Ok((value, slope))
     }
 
     /// The closing at `u` along the route that contracts, and what it is weighed as.

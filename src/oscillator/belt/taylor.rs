@@ -68,7 +68,7 @@ impl Belt {
             .unwrap_or(range.0);
         let inside = |v: f64| v.clamp(range.0, range.1);
         let ends = (inside(worst - step), inside(worst + step));
-        let ends = maximum(ends.0, ends.1, FLAT * (ends.1 - ends.0), &difference);
+        let ends = maximum(ends.0, ends.1, FLAT * (ends.1 - ends.0), difference);
         let polished = f64::midpoint(ends.0, ends.1);
         let at = if difference(polished) > difference(worst) { polished } else { worst };
         let force = self.normal_force * difference(at);
