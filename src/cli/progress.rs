@@ -7,7 +7,7 @@ use crate::words::number::{remaining, significant};
 
 /// Where progress is told.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum Outlet {
     /// Nobody wants to know.
     Nowhere,
     /// A line of the terminal that is written again and again.
@@ -16,12 +16,12 @@ pub enum Place {
     Log,
 }
 
-impl Place {
+impl Outlet {
     /// How often it is told.
     fn pause(self) -> Duration {
         match self {
-            Place::Line => Duration::from_millis(250),
-            Place::Nowhere | Place::Log => Duration::from_secs(10),
+            Outlet::Line => Duration::from_millis(250),
+            Outlet::Nowhere | Outlet::Log => Duration::from_secs(10),
         }
     }
 }
@@ -35,12 +35,12 @@ pub struct Progress {
     done: usize,
     started: Instant,
     written: Option<Instant>,
-    place: Place,
+    place: Outlet,
 }
 
 impl Progress {
     /// The progress of `wanted` rows that begin now, after `before` that are done.
-    pub fn new(wanted: usize, before: usize, place: Place) -> Self {
+    pub fn new(wanted: usize, before: usize, place: Outlet) -> Self {
         Progress { wanted, before, done: 0, started: Instant::now(), written: None, place }
     }
 
@@ -53,9 +53,9 @@ impl Progress {
         }
         let told = self.told((now - self.started).as_secs_f64());
         match self.place {
-            Place::Nowhere => return,
-            Place::Line => write(&format!("\r{told}\x1b[K")),
-            Place::Log => write(&format!("hopfscope: {told}\n")),
+            Outlet::Nowhere => return,
+            Outlet::Line => write(&format!("\r{told}\x1b[K")),
+            Outlet::Log => write(&format!("hopfscope: {told}\n")),
         }
         self.written = Some(now);
     }
@@ -71,7 +71,7 @@ impl Progress {
 
     /// Takes the line away.
     pub fn end(&self) {
-        if self.written.is_some() && self.place == Place::Line {
+        if self.written.is_some() && self.place == Outlet::Line {
             write("\r\x1b[K");
         }
     }
@@ -89,7 +89,7 @@ mod tests {
 
     #[test]
     fn rows_that_were_there_count_as_done_but_not_as_fast() {
-        let progress = Progress { done: 300, ..Progress::new(900, 100, Place::Log) };
+        let progress = Progress { done: 300, ..Progress::new(900, 100, Outlet::Log) };
         assert_eq!(progress.told(10.0), "400 of 1000 rows, 30 rows a second, 20 s left");
     }
 }

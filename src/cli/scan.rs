@@ -16,7 +16,7 @@ use super::input;
 use super::output::holds_something;
 use super::part::{Part, Shard};
 use super::plan::Plan;
-use super::progress::{Place, Progress};
+use super::progress::{Outlet, Progress};
 use super::start::Start;
 use crate::flow::Limits;
 use crate::oscillator::Symbol;
@@ -231,9 +231,9 @@ impl ScanCommand {
         processors.jobs = self.jobs.map_or(processors.jobs, usize::from);
         let wanted = points.len() - ahead;
         let place = match (io::stderr().is_terminal(), &self.output) {
-            (true, None) if io::stdout().is_terminal() => Place::Nowhere,
-            (true, _) => Place::Line,
-            (false, _) => Place::Log,
+            (true, None) if io::stdout().is_terminal() => Outlet::Nowhere,
+            (true, _) => Outlet::Line,
+            (false, _) => Outlet::Log,
         };
         let mut writer = Writer {
             scan: &scan,

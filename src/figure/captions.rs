@@ -21,14 +21,14 @@ const SPACING: f64 = 3.0;
 
 /// The box of a text, in pixels; y points down.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Place {
+struct Rectangle {
     left: f64,
     top: f64,
     width: f64,
 }
 
-impl Place {
-    fn overlaps(&self, other: &Place) -> bool {
+impl Rectangle {
+    fn overlaps(&self, other: &Rectangle) -> bool {
         let beside = self.left > other.left + other.width || other.left > self.left + self.width;
         !beside && (self.top - other.top).abs() < LINE
     }
@@ -109,7 +109,7 @@ impl Surroundings {
     }
 
     /// How bad a place is for a text that belongs to a spot; 0 is perfect.
-    fn harm(&self, place: &Place, spot: Spot, taken: &[Place]) -> f64 {
+    fn harm(&self, place: &Rectangle, spot: Spot, taken: &[Rectangle]) -> f64 {
         /// Harm of covering another text, a mark, a curve, a line that is there to be read against.
         const COVERED: [f64; 4] = [1000.0, 12.0, 30.0, 1.0];
         /// Harm of standing nearer to another curve than to its own, within so many pixels.
@@ -140,19 +140,19 @@ impl Surroundings {
 
 /// The boxes of a text of this width around a spot, the best first: beside it, above and below it, and
 /// further away.
-fn around((x, y): Spot, width: f64) -> impl Iterator<Item = Place> {
+fn around((x, y): Spot, width: f64) -> impl Iterator<Item = Rectangle> {
     let rows = [0.0, -1.0, 1.0, -2.0, 2.0, -3.0, 3.0, -4.0, 4.0, -6.0, 6.0, -8.0, 8.0];
     rows.into_iter().flat_map(move |row: f64| {
         let top = y + (0.5 * row - 0.5) * LINE * if row.abs() > 4.0 { 2.0 } else { 1.0 };
         let over = row.abs() > 1.0;
         let beside = [x + GAP, x - GAP - width];
         let middle = over.then_some(x - 0.5 * width);
-        beside.into_iter().chain(middle).map(move |left| Place { left, top, width })
+        beside.into_iter().chain(middle).map(move |left| Rectangle { left, top, width })
     })
 }
 
 /// A caption with the form of its text that is written, and where.
-type Placed<'a> = (&'a Caption, &'a str, Place);
+type Placed<'a> = (&'a Caption, &'a str, Rectangle);
 
 /// The places of all texts of a panel, those that need none left out. What would cover a curve is written
 /// in its short form, where that covers less.
@@ -161,7 +161,7 @@ fn places<'a>(panel: &'a Panel, frame: Frame) -> Vec<Placed<'a>> {
     const MUCH: f64 = 30.0;
     let surroundings = Surroundings::of(panel, frame);
     let mut placed: Vec<Placed<'a>> = Vec::new();
-    let mut taken: Vec<Place> = Vec::new();
+    let mut taken: Vec<Rectangle> = Vec::new();
     // What names a point has few places to go to and comes first.
     let (points, curves): (Vec<_>, Vec<_>) =
         panel.captions.iter().partition(|caption| caption.or_at.is_empty());
@@ -190,23 +190,23 @@ fn best(
     caption: &Caption,
     text: &str,
     surroundings: &Surroundings,
-    taken: &[Place],
+    taken: &[Rectangle],
     frame: Frame,
-) -> Option<(f64, Place)> {
+) -> Option<(f64, Rectangle)> {
     /// Harm of the next point of a curve, and of the next place around a point.
     const LESS_GOOD: (f64, f64) = (0.05, 0.1);
     /// Harm of a pixel further away from a point than needed: what names a curve may be anywhere beside
     /// it, what names a point stands there.
     const FAR: (f64, f64) = (0.3, 1.0);
     let width = LETTER * f64::from(u32::try_from(text.chars().count()).unwrap_or(0));
-    let inside = |place: &Place| {
+    let inside = |place: &Rectangle| {
         place.left >= frame.left + 2.0
             && place.left + width <= frame.left + PLOT.0 - 2.0
             && place.top >= frame.top + 2.0
             && place.top + LINE <= frame.top + PLOT.1 - 2.0
     };
     let far = if caption.or_at.is_empty() { FAR.1 } else { FAR.0 };
-    let mut best: Option<(f64, Place)> = None;
+    let mut best: Option<(f64, Rectangle)> = None;
     let spots = std::iter::once(&caption.at).chain(&caption.or_at);
     let mut later = 0.0;
     for spot in spots.map(|at| frame.spot(*at)) {
@@ -228,7 +228,7 @@ fn best(
 
 /// Writes the texts of a panel.
 pub(super) fn write(out: &mut String, panel: &Panel, frame: Frame) {
-    for (Caption { role, .. }, text, Place { left, top, .. }) in places(panel, frame) {
+    for (Caption { role, .. }, text, Rectangle { left, top, .. }) in places(panel, frame) {
         let (_, color) = ink(*role);
         let (text, line) = (escaped(text), top + LINE - 2.5);
         // First its halo, so that what understands no order of painting shows the letters too.

@@ -50,7 +50,7 @@ pub struct Panel {
     pub curves: Vec<Curve>,
     pub areas: Vec<Area>,
     /// Points with a meaning.
-    pub marks: Vec<Mark>,
+    pub marks: Vec<MarkedPoint>,
     /// What stands beside the axes: where they are logarithmic, the quantities themselves.
     #[serde(skip)]
     pub names: [String; 2],
@@ -128,7 +128,7 @@ pub struct Area {
 
 /// A point with a meaning.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Mark {
+pub struct MarkedPoint {
     pub name: items::Text,
     /// Along the horizontal axis.
     pub x: f64,

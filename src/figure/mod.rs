@@ -25,7 +25,7 @@ pub use chord::FAINT;
 pub use data::{csv, json};
 pub use svg::svg;
 
-pub use content::{Area, Axis, Caption, Curve, Figure, Mark, Panel};
+pub use content::{Area, Axis, Caption, Curve, Figure, MarkedPoint, Panel};
 
 use std::path::Path;
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::content::{Area, Axis, Caption, Curve, Mark, Panel};
+use super::content::{Area, Axis, Caption, Curve, MarkedPoint, Panel};
 use super::filled;
 use super::sample;
 use crate::oscillator::{State, Symbol};
@@ -137,7 +137,7 @@ impl Panel {
     fn marks(&mut self, marks: &Marks) {
         for at in &marks.at {
             let (name, mark, pen) = (marks.name.clone(), marks.mark, marks.role);
-            let mark = Mark { name, x: at.x, y: at.y, mark, pen };
+            let mark = MarkedPoint { name, x: at.x, y: at.y, mark, pen };
             if !self.marks.contains(&mark) {
                 self.marks.push(mark);
             }

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::captions;
-use super::content::{Area, Curve, Figure, Mark, Panel};
+use super::content::{Area, Curve, Figure, MarkedPoint, Panel};
 use super::data::remarks;
 use super::ink::{dashes, escaped, ink, shading};
 use super::layout::{self, ENTRY, Frame, HEAD, MARGIN, PLOT};
@@ -171,7 +171,7 @@ fn arrow(out: &mut String, at: Point, way: Point, frame: Frame) {
     );
 }
 
-fn dot(out: &mut String, mark: &Mark, frame: Frame) {
+fn dot(out: &mut String, mark: &MarkedPoint, frame: Frame) {
     let (x, y) = frame.spot(Point { x: mark.x, y: mark.y });
     if !(x.is_finite() && y.is_finite() && near(mark.x, mark.y, frame)) {
         return;
@@ -248,16 +248,16 @@ fn axes(out: &mut String, panel: &Panel, frame: Frame) {
 
 /// What the legend explains.
 #[derive(Clone, PartialEq)]
-enum Entry {
+enum Explained {
     Line(String, Role, &'static str),
     Area(String, Role),
 }
 
 /// Everything with a name that is seen, once; which of several variants a curve is stands beside it. An
 /// area whose edge has its name goes without saying.
-fn legend(figure: &Figure) -> Vec<Entry> {
+fn legend(figure: &Figure) -> Vec<Explained> {
     let mut entries = Vec::new();
-    let mut add = |entry: Entry| {
+    let mut add = |entry: Explained| {
         if !entries.contains(&entry) {
             entries.push(entry);
         }
@@ -266,27 +266,27 @@ fn legend(figure: &Figure) -> Vec<Entry> {
         for Curve { kind, pen, style, points, .. } in &panel.curves {
             let points: Vec<Point> = points.iter().map(|[x, y]| Point { x: *x, y: *y }).collect();
             if passes(&points, panel.window) {
-                add(Entry::Line(kind.clone(), *pen, style));
+                add(Explained::Line(kind.clone(), *pen, style));
             }
         }
-        panel.areas.iter().for_each(|area| add(Entry::Area(area.kind.clone(), area.pen)));
+        panel.areas.iter().for_each(|area| add(Explained::Area(area.kind.clone(), area.pen)));
     }
     let lines: Vec<(String, Role)> = entries
         .iter()
         .filter_map(|entry| match entry {
-            Entry::Line(name, role, _) => Some((name.clone(), *role)),
-            Entry::Area(..) => None,
+            Explained::Line(name, role, _) => Some((name.clone(), *role)),
+            Explained::Area(..) => None,
         })
         .collect();
     let is_edged =
         |name: &str, role: Role| lines.iter().any(|line| *line == (name.to_owned(), role));
-    entries.retain(|entry| !matches!(entry, Entry::Area(name, role) if is_edged(name, *role)));
+    entries.retain(|entry| !matches!(entry, Explained::Area(name, role) if is_edged(name, *role)));
     entries
 }
 
-fn sample(out: &mut String, entry: &Entry, (x, y): (f64, f64)) {
+fn sample(out: &mut String, entry: &Explained, (x, y): (f64, f64)) {
     let name = match entry {
-        Entry::Line(name, role, style) => {
+        Explained::Line(name, role, style) => {
             let (thickness, color) = ink(*role);
             let thickness = if *style == "thick" { 3.0 } else { thickness };
             let dashes = dashes(style);
@@ -296,7 +296,7 @@ fn sample(out: &mut String, entry: &Entry, (x, y): (f64, f64)) {
             );
             name
         }
-        Entry::Area(name, role) => {
+        Explained::Area(name, role) => {
             let (color, opacity) = shading(*role);
             let _ = writeln!(
                 out,

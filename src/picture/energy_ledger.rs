@@ -6,7 +6,7 @@ use super::items::{Line, Picture};
 use super::role::{Dash, Mark, Role};
 use crate::scene::{Point, Span, View, Window};
 use crate::session::Session;
-use crate::session::ledger::{Entry, Owner};
+use crate::session::ledger::{LedgerLine, Owner};
 use crate::words::number::significant;
 
 /// The same for a file: each work a bar with its name and number.
@@ -21,7 +21,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     picture.upright(Line::guide(), 0.0);
     for (line, entry) in lines.iter().enumerate() {
         let from = Point { x: 0.0, y: middle(line) };
-        if let Entry::Work { source, work, part, so_far } = entry {
+        if let LedgerLine::Work { source, work, part, so_far } = entry {
             let role = if *work < 0.0 { Role::Loss } else { Role::Gain };
             let line = Line::new(*source, role, Dash::Solid).captioned();
             picture.bar(line, from, Point { x: *part, ..from });
@@ -42,12 +42,12 @@ pub fn middle(line: usize) -> f64 {
 }
 
 /// A line in numbers.
-pub fn reading(entry: &Entry) -> String {
+pub fn reading(entry: &LedgerLine) -> String {
     match entry {
-        Entry::Title(Owner::Motion(_, None)) => "motion".to_owned(),
-        Entry::Title(Owner::Motion(_, Some(number))) => format!("motion {number}"),
-        Entry::Title(Owner::Cycle(cycle)) => format!("q_max {}", significant(cycle.q_max, 6)),
-        Entry::Work { source, work, .. } => format!("{source} {}", significant(*work, 6)),
-        Entry::Residual(part) => format!("error {}", significant(*part, 2)),
+        LedgerLine::Title(Owner::Motion(_, None)) => "motion".to_owned(),
+        LedgerLine::Title(Owner::Motion(_, Some(number))) => format!("motion {number}"),
+        LedgerLine::Title(Owner::Cycle(cycle)) => format!("q_max {}", significant(cycle.q_max, 6)),
+        LedgerLine::Work { source, work, .. } => format!("{source} {}", significant(*work, 6)),
+        LedgerLine::Residual(part) => format!("error {}", significant(*part, 2)),
     }
 }

@@ -14,7 +14,7 @@ pub enum Sample {
 }
 
 #[derive(Clone, Debug, PartialEq)]
-pub struct Entry {
+pub struct LegendEntry {
     /// How it is drawn.
     pub sample: Sample,
     /// What it stands for, as far as its colour goes.
@@ -23,12 +23,13 @@ pub struct Entry {
 }
 
 /// What these pictures have to explain, in the order in which they are painted.
-pub fn entries(pictures: &[Picture]) -> Vec<Entry> {
-    let mut entries: Vec<Entry> = Vec::new();
+pub fn entries(pictures: &[Picture]) -> Vec<LegendEntry> {
+    let mut entries: Vec<LegendEntry> = Vec::new();
     for picture in pictures {
         for entry in picture.items.iter().filter_map(|item| entry(picture, item)) {
             // An area whose edge has its name goes without saying.
-            let known = |other: &Entry| (other.role, &other.text) == (entry.role, &entry.text);
+            let known =
+                |other: &LegendEntry| (other.role, &other.text) == (entry.role, &entry.text);
             if !entry.text.is_empty() && !entries.iter().any(known) {
                 entries.push(entry);
             }
@@ -37,14 +38,18 @@ pub fn entries(pictures: &[Picture]) -> Vec<Entry> {
     entries
 }
 
-fn entry(picture: &Picture, item: &Item) -> Option<Entry> {
+fn entry(picture: &Picture, item: &Item) -> Option<LegendEntry> {
     let sample = match item {
         Item::Marks(Marks { role, brief, .. }) => {
-            return Some(Entry { sample: Sample::Point, role: *role, text: (*brief).to_owned() });
+            return Some(LegendEntry {
+                sample: Sample::Point,
+                role: *role,
+                text: (*brief).to_owned(),
+            });
         }
         Item::Arrows(role, _) => {
             let text = "direction of flow".to_owned();
-            return Some(Entry { sample: Sample::Arrow, role: *role, text });
+            return Some(LegendEntry { sample: Sample::Arrow, role: *role, text });
         }
         Item::Bar(..) => Sample::Bar,
         Item::Shade(..) | Item::Beyond(..) | Item::Columns(..) | Item::Rows(..) => Sample::Shade,
@@ -56,5 +61,5 @@ fn entry(picture: &Picture, item: &Item) -> Option<Entry> {
     };
     let line = item.seen(picture.window)?;
     let text = line.brief.unwrap_or(&line.name).to_owned();
-    Some(Entry { sample, role: line.role, text })
+    Some(LegendEntry { sample, role: line.role, text })
 }

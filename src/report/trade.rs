@@ -73,7 +73,7 @@ struct Document<'a> {
 
 /// All columns: those of a row, and why there is none.
 #[derive(Serialize)]
-struct Line<'a> {
+struct Reasoned<'a> {
     #[serde(flatten)]
     row: &'a Row,
     reason: Option<&'a str>,
@@ -179,7 +179,7 @@ pub fn json(timed: &Timed) -> String {
 pub fn csv(timed: &Timed) -> String {
     let (rows, unanswered) = (timed.rows(), timed.unanswered());
     let Some(first) = rows.first() else { return csv::sheet(&unanswered.first(), &unanswered) };
-    let mut sheet = Sheet::like(&Line { row: first, reason: None }, &[]);
+    let mut sheet = Sheet::like(&Reasoned { row: first, reason: None }, &[]);
     for row in &rows {
         sheet.row(row);
     }

@@ -25,7 +25,7 @@ pub const UNTIL_RANGE: (f64, f64) = (0.0, 1e9);
 /// The file as it stands on disk.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct File {
+struct SceneFile {
     title: String,
     also: Option<String>,
     look: String,
@@ -75,11 +75,11 @@ fn auto() -> Method {
 /// # Errors
 /// [`Misread`] with the place and what is allowed there.
 pub fn parse(name: &str, file: &str, text: &str) -> Result<Scene, Misread> {
-    let read: File = misread::toml(file, text)?;
+    let read: SceneFile = misread::toml(file, text)?;
     scene(name, read).map_err(|complaint| complaint.in_file(file, text))
 }
 
-fn scene(name: &str, read: File) -> Result<Scene, Complaint> {
+fn scene(name: &str, read: SceneFile) -> Result<Scene, Complaint> {
     let scaled = read.machine.as_ref().map(|name| scaled(name, read.belt.as_ref())).transpose()?;
     let terms = match (&read.terms, &scaled) {
         (Some(terms), None) => terms.clone(),
@@ -149,7 +149,7 @@ fn scaled(
 }
 
 /// The motion of a machine, to the accuracy that the file says.
-fn of_machine(scaled: &ScaledMachine, read: &File) -> Result<Problem, Complaint> {
+fn of_machine(scaled: &ScaledMachine, read: &SceneFile) -> Result<Problem, Complaint> {
     if let Some((symbol, given)) = read.values.iter().next() {
         let message = format!("{symbol} comes from the machine; leave its value out");
         return Err(Complaint { at: given.span(), message });
@@ -237,7 +237,7 @@ fn variant(read: &BTreeMap<Symbol, Spanned<f64>>) -> Result<Variant, Complaint> 
 }
 
 /// The motion of a scene: declared terms have the values of the file or of the table, others are zero.
-fn problem(read: &File, terms: &BTreeSet<Symbol>) -> Result<Problem, Complaint> {
+fn problem(read: &SceneFile, terms: &BTreeSet<Symbol>) -> Result<Problem, Complaint> {
     let mut parameters = Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 0.0 };
     let mut initial = State { q: 0.0, v: 0.0 };
     for row in &PARAMETERS {

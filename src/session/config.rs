@@ -47,7 +47,7 @@ type Keys = BTreeMap<Spanned<String>, Spanned<Vec<Spanned<String>>>>;
 /// The file as it stands on disk.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct File {
+struct SettingsFile {
     scene: Option<Spanned<String>>,
     glyphs: Option<Spanned<String>>,
     color: Option<Spanned<String>>,
@@ -66,11 +66,11 @@ const INDISPENSABLE: [&str; 2] = ["quit", "back"];
 /// # Errors
 /// [`Misread`] with the place of the first mistake and what is allowed there.
 pub fn parse(file: &str, text: &str) -> Result<Config, Misread> {
-    let read: File = misread::toml(file, text)?;
+    let read: SettingsFile = misread::toml(file, text)?;
     config(&read).map_err(|complaint| complaint.in_file(file, text))
 }
 
-fn config(read: &File) -> Result<Config, Complaint> {
+fn config(read: &SettingsFile) -> Result<Config, Complaint> {
     let scene = read.scene.as_ref().map(|given| {
         let known = names().find(|name| name == given.get_ref());
         known.map(str::to_owned).ok_or_else(|| unknown(given, "scene", names()))

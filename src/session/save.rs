@@ -22,7 +22,7 @@ use crate::session::replay;
 use crate::session::replay::script::Step;
 use crate::session::state::doubt::Doubt;
 use crate::session::state::history::{Before, History, ScreenSetup, Snapshot};
-use crate::session::state::marks::{Mark, Marks};
+use crate::session::state::marks::{Bookmark, Marks};
 use crate::session::state::overlay::Overlay;
 use crate::session::state::plot::{Framing, Pane, Plot};
 use crate::session::state::rows::{ROWS, Row, Steps};
@@ -36,7 +36,7 @@ const VERSION: u32 = 1;
 /// A session as it stands on disk.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct File {
+struct SavedSession {
     hopfscope: u32,
     /// The selected row of the parameter pane, by its name.
     selected: String,
@@ -50,7 +50,7 @@ struct File {
     /// Lines typed on the command line, the newest last.
     lines: Vec<String>,
     present: Show,
-    plots: Vec<Look>,
+    plots: Vec<SavedPlot>,
     #[serde(default)]
     marks: BTreeMap<char, Problem>,
     /// What the machine is set to at marks.
@@ -108,7 +108,7 @@ struct Show {
 /// A plot and where one looks in it.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Look {
+struct SavedPlot {
     view: View,
     framing: Framing,
     axes: Axes,
@@ -151,7 +151,7 @@ enum Change {
 pub fn text(session: &Session) -> Result<String, String> {
     let (past, future) = session.history.parts();
     let left = session.marks.left.as_ref().map(|mark| &mark.setup);
-    let file = File {
+    let file = SavedSession {
         hopfscope: VERSION,
         selected: session.selected.name().to_owned(),
         focus: match session.focus {
@@ -210,9 +210,9 @@ fn named(scene: &Arc<Scene>) -> Named {
     }
 }
 
-fn look(plot: &Plot) -> Look {
+fn look(plot: &Plot) -> SavedPlot {
     let Plot { view, axes, window, framing, cursor, family, .. } = *plot;
-    Look { view, framing, axes, window, cursor, family }
+    SavedPlot { view, framing, axes, window, cursor, family }
 }
 
 fn change(before: &Before) -> Change {
@@ -277,7 +277,7 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     }
     let mark = |problem, beside: &[State], belt, doubt| {
         let doubt = Doubt::checked(doubt)?;
-        checked(problem, beside, belt).map(|it| Mark::new(&Setup { doubt, ..it }))
+        checked(problem, beside, belt).map(|it| Bookmark::new(&Setup { doubt, ..it }))
     };
     let doubt = |name: &char| file.doubts.get(name).copied().unwrap_or_default();
     let beside = |name: &char| file.beside.get(name).map_or(&[][..], Vec::as_slice);
@@ -341,7 +341,7 @@ pub fn summary(text: &str) -> Result<String, String> {
 }
 
 /// The file, if it is one of a format that is known.
-fn read(text: &str) -> Result<File, String> {
+fn read(text: &str) -> Result<SavedSession, String> {
     #[derive(Deserialize)]
     struct Head {
         hopfscope: Option<u32>,
@@ -412,8 +412,8 @@ fn checked_plots<T, U>(plots: Vec<T>, make: impl Fn(T) -> U) -> Result<Vec<U>, S
     }
 }
 
-fn opened(look: &Look) -> Plot {
-    let Look { view, framing, axes, window, cursor, family } = *look;
+fn opened(look: &SavedPlot) -> Plot {
+    let SavedPlot { view, framing, axes, window, cursor, family } = *look;
     let plot = Plot::opened(&PlotSetup { view, axes, window: Some(window), family });
     Plot {
         framing,

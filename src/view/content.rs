@@ -7,14 +7,14 @@ pub(super) const TEXT: u16 = 8;
 
 pub(super) struct Content {
     pub title: &'static str,
-    pub rows: Vec<Entry>,
+    pub rows: Vec<ListLine>,
     /// About the selected row, below the list.
     pub about: Vec<Line<'static>>,
     pub below: u16,
 }
 
 /// A line of a list.
-pub(super) enum Entry {
+pub(super) enum ListLine {
     /// Groups the rows below it.
     Heading(&'static str),
     Row(Vec<Span<'static>>),

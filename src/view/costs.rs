@@ -2,7 +2,7 @@
 
 use ratatui::text::Span;
 
-use super::content::{Content, Entry};
+use super::content::{Content, ListLine};
 use super::look::Look;
 use crate::picture::role::Role;
 use crate::scene::{Answered, Layer, Topic};
@@ -20,7 +20,7 @@ pub(super) fn content(session: &Session, list: &List, look: &Look) -> Content {
     for row in session.cost_rows(list) {
         if matches!(row, CostRow::Step(..)) && !stepping {
             stepping = true;
-            rows.push(Entry::Heading("a step of"));
+            rows.push(ListLine::Heading("a step of"));
         }
         let (name, text) = match row {
             CostRow::Asked(requirement) => asked(session, &requirement),
@@ -29,7 +29,7 @@ pub(super) fn content(session: &Session, list: &List, look: &Look) -> Content {
                 (row.name_in(&session.problem), consequence(&reused, &anew))
             }
         };
-        rows.push(Entry::Row(vec![
+        rows.push(ListLine::Row(vec![
             Span::styled(format!("{name:<NAME$}"), look.style(Role::Key)),
             Span::styled(text, look.style(Role::Text)),
         ]));

@@ -14,7 +14,7 @@ use crate::picture::energy_ledger::{middle, reading};
 use crate::picture::role::{Dash, Role};
 use crate::picture::ticks::{Tick, Ticks};
 use crate::scene::{Point, Span, View, Window};
-use crate::session::ledger::{Entry, Owner};
+use crate::session::ledger::{LedgerLine, Owner};
 use crate::session::{self, Pane, Session};
 use crate::words::number::significant;
 use crate::words::stability;
@@ -52,8 +52,8 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
     {
         let y = seat(line, half);
         match entry {
-            Entry::Title(Owner::Motion(..)) => plot.write(y, &reading(entry), Role::Title),
-            Entry::Title(Owner::Cycle(cycle)) => {
+            LedgerLine::Title(Owner::Motion(..)) => plot.write(y, &reading(entry), Role::Title),
+            LedgerLine::Title(Owner::Cycle(cycle)) => {
                 let (symbol, role) = if cycle.stable {
                     (symbols.points[0], Role::Stable)
                 } else {
@@ -65,7 +65,7 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
                 let fits = full.chars().count() <= room;
                 plot.write(y, if fits { &full } else { &short }, role);
             }
-            Entry::Work { work, part, so_far, .. } => {
+            LedgerLine::Work { work, part, so_far, .. } => {
                 let role = if *work < 0.0 { Role::Loss } else { Role::Gain };
                 plot.bar(Point { x: 0.0, y }, Point { x: *part, y }, role);
                 if let Some(so_far) = so_far {
@@ -73,7 +73,7 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
                 }
                 plot.beside_zero(y, *work, DIGITS, *work < 0.0);
             }
-            Entry::Residual(part) => {
+            LedgerLine::Residual(part) => {
                 plot.beside_zero(y, *part, ERROR_DIGITS, true);
             }
         }
@@ -89,7 +89,7 @@ pub fn marks(area: Rect, session: &Session, window: Window) -> (Window, Ticks) {
     let window = Window { y: whole_lines(window.y, rows(area)), ..window };
     let half = half_a_row(area, window);
     let lines = session.ledger();
-    let mark = |(line, entry): (usize, &Entry)| {
+    let mark = |(line, entry): (usize, &LedgerLine)| {
         let fraction = window.y.fraction(seat(line, half));
         let label = label(entry)?.to_owned();
         is_seen(line, window, half, lines.len()).then_some(Tick { fraction, label })
@@ -134,10 +134,10 @@ fn left_out(lines: usize, window: Window, half: f64) -> Vec<f64> {
 }
 
 /// What stands at the axis.
-fn label(entry: &Entry) -> Option<&'static str> {
+fn label(entry: &LedgerLine) -> Option<&'static str> {
     match entry {
-        Entry::Work { source, .. } => Some(source),
-        Entry::Residual(_) => Some("error"),
-        Entry::Title(_) => None,
+        LedgerLine::Work { source, .. } => Some(source),
+        LedgerLine::Residual(_) => Some("error"),
+        LedgerLine::Title(_) => None,
     }
 }

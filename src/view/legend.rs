@@ -6,7 +6,7 @@ use ratatui::layout::Rect;
 use super::dots::{Dots, Pen};
 use super::look::Look;
 use crate::picture::items::Picture;
-use crate::picture::legend::{Entry, Sample, entries};
+use crate::picture::legend::{LegendEntry, Sample, entries};
 use crate::picture::role::{Dash, Role};
 
 /// Columns of a sample.
@@ -21,7 +21,7 @@ pub fn draw(area: Rect, pictures: &[Picture], look: &Look, buffer: &mut Buffer) 
     let mut entries = entries(pictures);
     entries.sort_by_key(|entry| rank(entry.sample));
     let (mut x, mut y) = (area.x + 1, area.y);
-    for (index, Entry { sample, role, text }) in entries.iter().enumerate() {
+    for (index, LegendEntry { sample, role, text }) in entries.iter().enumerate() {
         let columns = u16::try_from(text.chars().count()).unwrap_or(u16::MAX);
         let wanted = columns.saturating_add(SAMPLE + 1);
         let room = |x: u16, y: u16| {

@@ -6,7 +6,7 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
-use super::content::{Content, Entry, TEXT};
+use super::content::{Content, ListLine, TEXT};
 use super::costs;
 use super::keys;
 use super::look::Look;
@@ -69,15 +69,21 @@ fn heading(title: &str, list: &List) -> String {
 }
 
 /// Draws the rows around the selected one; returns which part of them is seen.
-fn rows(area: Rect, rows: &[Entry], selected: usize, look: &Look, buffer: &mut Buffer) -> String {
+fn rows(
+    area: Rect,
+    rows: &[ListLine],
+    selected: usize,
+    look: &Look,
+    buffer: &mut Buffer,
+) -> String {
     let height = usize::from(area.height);
-    let selectable = rows.iter().enumerate().filter(|(_, row)| matches!(row, Entry::Row(_)));
+    let selectable = rows.iter().enumerate().filter(|(_, row)| matches!(row, ListLine::Row(_)));
     let index = selectable.clone().nth(selected).map_or(0, |(index, _)| index);
     let first = index.saturating_sub(height / 2).min(rows.len().saturating_sub(height));
     for (y, (place, row)) in (area.y..area.bottom()).zip(rows.iter().enumerate().skip(first)) {
         let line = match row {
-            Entry::Heading(text) => Line::styled(*text, look.style(Role::Title)),
-            Entry::Row(spans) => {
+            ListLine::Heading(text) => Line::styled(*text, look.style(Role::Title)),
+            ListLine::Row(spans) => {
                 let pointer = if place == index { look.symbols().pointer } else { " " };
                 let mut line = vec![Span::styled(format!("{pointer} "), look.style(Role::Focus))];
                 line.extend(spans.iter().cloned().map(|span| {
@@ -135,13 +141,13 @@ fn palette(session: &Session, list: &List, look: &Look) -> Content {
         let heading = session.heading(*row);
         if list.search.is_empty() && group != heading {
             group = heading;
-            rows.push(Entry::Heading(heading));
+            rows.push(ListLine::Heading(heading));
         }
         let keys = keys_of(session, *row, look);
         let spaced = keys.join(" ");
         let keys = if spaced.chars().count() > KEYS { keys.concat() } else { spaced };
         let keys = if keys.is_empty() { row.name().to_owned() } else { keys };
-        rows.push(Entry::Row(vec![
+        rows.push(ListLine::Row(vec![
             Span::styled(format!("{keys:<KEYS$} "), look.style(Role::Key)),
             Span::styled(row.meaning(), look.style(Role::Text)),
         ]));
@@ -183,10 +189,10 @@ fn scenes(session: &Session, list: &List, look: &Look) -> Content {
     for scene in &found {
         if whole && group != Some(Group::of(scene)) {
             group = Some(Group::of(scene));
-            rows.extend(group.map(|group| Entry::Heading(group.title())));
+            rows.extend(group.map(|group| ListLine::Heading(group.title())));
         }
         let figure = scene.also.as_deref().unwrap_or_default();
-        rows.push(Entry::Row(vec![
+        rows.push(ListLine::Row(vec![
             Span::styled(format!("{:<14}", scene.name), look.style(Role::Key)),
             Span::styled(format!("{figure:<7}"), look.style(Role::Quiet)),
             Span::styled(scene.title.as_str(), look.style(Role::Text)),
@@ -211,12 +217,12 @@ fn layers(session: &Session, list: &List, look: &Look) -> Content {
     for spec in session.layer_rows(list) {
         if group != Some(spec.view) {
             group = Some(spec.view);
-            rows.push(Entry::Heading(spec.view.spec().title));
+            rows.push(ListLine::Heading(spec.view.spec().title));
         }
         let letter = letters.iter().find(|(_, layer)| *layer == spec.layer);
         let letter = letter.map_or(' ', |(letter, _)| *letter);
         let on = if session.layers.contains(&spec.layer) { "[x]" } else { "[ ]" };
-        rows.push(Entry::Row(vec![
+        rows.push(ListLine::Row(vec![
             Span::styled(format!("{letter} "), look.style(Role::Key)),
             Span::styled(format!("{on} {:<16}", spec.name), look.style(Role::Key)),
             Span::styled(
@@ -233,7 +239,7 @@ fn views(session: &Session, list: &List, look: &Look) -> Content {
     let row = |spec: &ViewSpec| {
         let shown = session.plots.iter().any(|plot| plot.view == spec.view);
         let on = if shown { "[x]" } else { "[ ]" };
-        Entry::Row(vec![
+        ListLine::Row(vec![
             Span::styled(format!("{on} {:<14}", spec.title), look.style(Role::Key)),
             Span::styled(spec.meaning, look.style(Role::Text)),
         ])
@@ -244,7 +250,7 @@ fn views(session: &Session, list: &List, look: &Look) -> Content {
 
 fn interrupted(session: &Session, list: &List, look: &Look) -> Content {
     let row = |(_, kept): (usize, &Kept)| {
-        Entry::Row(vec![
+        ListLine::Row(vec![
             Span::styled(format!("{:<12} ", kept.when), look.style(Role::Key)),
             Span::styled(kept.what.clone(), look.style(Role::Text)),
         ])

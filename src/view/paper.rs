@@ -2,7 +2,7 @@
 
 use ratatui::text::{Line, Span};
 
-use super::content::{Content, Entry, TEXT};
+use super::content::{Content, ListLine, TEXT};
 use super::look::Look;
 use crate::picture::role::Role;
 use crate::session::{List, Session};
@@ -18,13 +18,13 @@ pub(super) fn content(session: &Session, list: &List, look: &Look) -> Content {
     for (claim, examined) in &found {
         if section != Some(claim.section) {
             section = Some(claim.section);
-            rows.push(Entry::Heading(heading(claim.section)));
+            rows.push(ListLine::Heading(heading(claim.section)));
         }
         let (verdict, role) = match examined {
             Some(examined) => (claim::verdict(examined), role(examined)),
             None => ("computing".to_owned(), Role::Quiet),
         };
-        rows.push(Entry::Row(vec![
+        rows.push(ListLine::Row(vec![
             Span::styled(format!("{:<14} ", claim.equation), look.style(Role::Key)),
             Span::styled(format!("{verdict:<17} "), look.style(role)),
             Span::styled(claim.statement, look.style(Role::Text)),

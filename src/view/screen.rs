@@ -53,24 +53,24 @@ pub fn svg(screen: &Buffer) -> String {
 }
 
 /// One place on the screen: what stands there and how it is painted.
-struct Place<'a> {
+struct ScreenCell<'a> {
     /// Empty where the character before covers this place too.
     symbol: &'a str,
     paint: Paint,
 }
 
-fn rows(screen: &Buffer) -> impl Iterator<Item = Vec<Place<'_>>> {
+fn rows(screen: &Buffer) -> impl Iterator<Item = Vec<ScreenCell<'_>>> {
     screen.content.chunks(usize::from(screen.area.width).max(1)).map(places)
 }
 
 /// The places of a row; what a wide character covers looks as it does.
-fn places(row: &[Cell]) -> Vec<Place<'_>> {
-    let mut places: Vec<Place> = Vec::with_capacity(row.len());
+fn places(row: &[Cell]) -> Vec<ScreenCell<'_>> {
+    let mut places: Vec<ScreenCell> = Vec::with_capacity(row.len());
     for cell in row {
         let wide = places.last().filter(|last| last.symbol.width() > 1);
         let place = match wide {
-            Some(last) => Place { symbol: "", paint: last.paint.clone() },
-            None => Place { symbol: cell.symbol(), paint: Paint::of(cell) },
+            Some(last) => ScreenCell { symbol: "", paint: last.paint.clone() },
+            None => ScreenCell { symbol: cell.symbol(), paint: Paint::of(cell) },
         };
         places.push(place);
     }
@@ -123,7 +123,7 @@ impl Paint {
 }
 
 /// Runs of neighbouring places that `key` maps to the same value: first column, length, value.
-fn runs<K: PartialEq>(row: &[Place], key: impl Fn(&Paint) -> K) -> Vec<(usize, usize, K)> {
+fn runs<K: PartialEq>(row: &[ScreenCell], key: impl Fn(&Paint) -> K) -> Vec<(usize, usize, K)> {
     let mut runs: Vec<(usize, usize, K)> = Vec::new();
     for (column, place) in row.iter().enumerate() {
         let value = key(&place.paint);
@@ -136,7 +136,7 @@ fn runs<K: PartialEq>(row: &[Place], key: impl Fn(&Paint) -> K) -> Vec<(usize, u
 }
 
 /// Draws the grounds of a row.
-fn grounds(out: &mut String, row: &[Place], top: f64) {
+fn grounds(out: &mut String, row: &[ScreenCell], top: f64) {
     for (column, length, ground) in runs(row, |paint| paint.ground.clone()) {
         if let Some(ground) = ground {
             let (x, width) = (CELL.0 * units(column), CELL.0 * units(length));
@@ -150,7 +150,7 @@ fn grounds(out: &mut String, row: &[Place], top: f64) {
 }
 
 /// Draws the braille dots and blocks of a row, one path for each run of a colour.
-fn shapes(out: &mut String, row: &[Place], top: f64) {
+fn shapes(out: &mut String, row: &[ScreenCell], top: f64) {
     for (column, length, paint) in runs(row, Paint::clone) {
         let mut path = String::new();
         for (offset, place) in row[column..column + length].iter().enumerate() {
@@ -253,7 +253,7 @@ fn strokes(char: char) -> Option<[bool; 4]> {
 }
 
 /// Draws what is left of a row as text, one element for each run of one paint.
-fn letters(out: &mut String, row: &[Place], top: f64) {
+fn letters(out: &mut String, row: &[ScreenCell], top: f64) {
     for (column, length, paint) in runs(row, Paint::clone) {
         if paint.modifier.contains(Modifier::HIDDEN) {
             continue;

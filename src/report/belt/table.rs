@@ -184,7 +184,9 @@ pub(super) fn cycles(cycles: &[Cycle]) -> String {
         return "no cycle\n".to_owned();
     }
     let mut table = Table::new(&[&[""], CYCLE].concat());
-    cycles.iter().for_each(|cycle| table.row(cells(cycle)));
+    for cycle in cycles {
+        table.row(cells(cycle));
+    }
     table.to_string()
 }
 

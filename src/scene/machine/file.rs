@@ -41,7 +41,7 @@ const MOST_POINTS: usize = 10_000;
 /// The file as it stands on disk.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct File {
+struct MachineFile {
     #[serde(default)]
     title: String,
     #[serde(default)]
@@ -171,7 +171,7 @@ pub fn parse(
     text: &str,
     fetch: impl FnOnce(&str) -> Result<String, String>,
 ) -> Result<Machine, Misread> {
-    let mut read: File = misread::toml(file, text)?;
+    let mut read: MachineFile = misread::toml(file, text)?;
     let half_widths = half_widths(&mut read);
     half_widths
         .and_then(|half_widths| machine(name, read, half_widths, fetch))
@@ -179,8 +179,8 @@ pub fn parse(
 }
 
 /// Takes the tolerances off the numbers of a machine; what is left are the values in the middle.
-fn half_widths(read: &mut File) -> Result<BTreeMap<String, f64>, Complaint> {
-    let File { m, c, d1, d3, f, r, r_static, v0, friction, .. } = read;
+fn half_widths(read: &mut MachineFile) -> Result<BTreeMap<String, f64>, Complaint> {
+    let MachineFile { m, c, d1, d3, f, r, r_static, v0, friction, .. } = read;
     let Friction { at_rest, constant, polynomial, stribeck, .. } = friction.get_mut();
     let mut numbers: Vec<(String, &mut Spanned<Number>)> = Vec::new();
     let mut put = |name: &str, given| numbers.push((name.to_owned(), given));
@@ -218,7 +218,7 @@ fn half_widths(read: &mut File) -> Result<BTreeMap<String, f64>, Complaint> {
 
 fn machine(
     name: &str,
-    read: File,
+    read: MachineFile,
     half_widths: BTreeMap<String, f64>,
     fetch: impl FnOnce(&str) -> Result<String, String>,
 ) -> Result<Machine, Complaint> {

@@ -25,7 +25,7 @@ pub struct Mode {
 /// The file as it stands on disk.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct File {
+struct ModeFile {
     #[serde(default)]
     title: String,
     #[serde(default, rename = "look")]
@@ -56,11 +56,11 @@ pub const NO_BELT: &str =
 /// # Errors
 /// [`Misread`] with the place and what is allowed there.
 pub fn parse(name: &str, file: &str, text: &str) -> Result<Mode, Misread> {
-    let read: File = misread::toml(file, text)?;
+    let read: ModeFile = misread::toml(file, text)?;
     mode(name, &read).map_err(|complaint| complaint.in_file(file, text))
 }
 
-fn mode(name: &str, read: &File) -> Result<Mode, Complaint> {
+fn mode(name: &str, read: &ModeFile) -> Result<Mode, Complaint> {
     /// Frequencies of a mode, in 1/s.
     const FREQUENCIES: (f64, f64) = (1e-9, 1e12);
     /// Periods for which a motion is followed where a file says nothing.

@@ -9,7 +9,7 @@ use crate::session::act::parameters::put;
 use crate::session::effect::Effect;
 use crate::session::read::numbers::difference;
 use crate::session::read::wants::COMPARED;
-use crate::session::state::marks::Mark;
+use crate::session::state::marks::Bookmark;
 use crate::session::state::session::Session;
 
 /// Marks the present point.
@@ -36,7 +36,7 @@ pub(in crate::session) fn go_back(session: &mut Session) -> Vec<Effect> {
 }
 
 /// Goes to a point, as a change that can be undone, and keeps what is known about the one that is left.
-fn go(session: &mut Session, mark: &Mark) -> Vec<Effect> {
+fn go(session: &mut Session, mark: &Bookmark) -> Vec<Effect> {
     let here = present(session);
     if mark.setup == here.setup {
         return inform(session, "here already");
@@ -48,7 +48,7 @@ fn go(session: &mut Session, mark: &Mark) -> Vec<Effect> {
     inform(session, moved)
 }
 
-fn present(session: &Session) -> Mark {
+fn present(session: &Session) -> Bookmark {
     let asked = COMPARED.into_iter().filter_map(|topic| session.request(topic, session.plot));
-    Mark { setup: session.setup(), asked: asked.collect() }
+    Bookmark { setup: session.setup(), asked: asked.collect() }
 }

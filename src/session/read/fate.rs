@@ -38,7 +38,7 @@ pub enum End {
 
 /// On which side of what borders the basin a motion starts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum Side {
     /// Inside of the unstable cycle.
     InsideCycle,
     OutsideCycle,
@@ -54,7 +54,7 @@ pub enum Place {
 pub struct Fate {
     /// What becomes of it.
     pub end: End,
-    pub place: Place,
+    pub place: Side,
 }
 
 /// Relative distance from a cycle below which rounding decides, of a start that turns there, and of a
@@ -69,14 +69,14 @@ pub fn fate(found: &Cycles, motion: &Trajectory) -> Option<Fate> {
     match found.edge {
         _ if !found.cycles.is_empty() && found.edge != Edge::Separatrix => among(found, motion),
         Edge::None if found.parameters.r > 0.0 => {
-            Some(Fate { end: End::Rests, place: Place::Anywhere })
+            Some(Fate { end: End::Rests, place: Side::Anywhere })
         }
         Edge::Separatrix => beside_separatrix(found, motion),
         // Without friction, D2 and a cycle: damping decides.
         _ => {
             let decays = found.parameters.d > 0.0 && found.parameters.d3 >= 0.0;
             let alone = found.parameters.d2 == 0.0 && decays;
-            alone.then_some(Fate { end: End::Decays, place: Place::Anywhere })
+            alone.then_some(Fate { end: End::Decays, place: Side::Anywhere })
         }
     }
 }
@@ -95,7 +95,7 @@ fn turning(motion: &Trajectory, r: f64) -> Option<(f64, bool)> {
 fn among(found: &Cycles, motion: &Trajectory) -> Option<Fate> {
     let r = found.parameters.r;
     let unstable = found.cycles.iter().any(|cycle| !cycle.stable);
-    let inside = if unstable { Place::InsideCycle } else { Place::Anywhere };
+    let inside = if unstable { Side::InsideCycle } else { Side::Anywhere };
     let rests = Fate { end: End::Rests, place: inside };
     let Some((q, exact)) = turning(motion, r) else {
         return matches!(motion.outcome, Outcome::Captured { .. }).then_some(rests);
@@ -115,11 +115,11 @@ fn among(found: &Cycles, motion: &Trajectory) -> Option<Fate> {
         } else {
             End::OnTheEdge { distance: distance(cycle) }
         };
-        return Some(Fate { end, place: Place::OutsideCycle });
+        return Some(Fate { end, place: Side::OutsideCycle });
     }
     let outer = found.cycles.iter().find(|cycle| clearance(cycle) > own);
     let inner = found.cycles.iter().rfind(|cycle| clearance(cycle) < own);
-    let outside = if unstable { Place::OutsideCycle } else { Place::Anywhere };
+    let outside = if unstable { Side::OutsideCycle } else { Side::Anywhere };
     let onto = |cycle: &Cycle, grows| Fate {
         end: End::Onto { q_max: cycle.q_max, grows },
         place: outside,
@@ -141,9 +141,9 @@ fn beside_separatrix(found: &Cycles, motion: &Trajectory) -> Option<Fate> {
     let within = |q: f64| margin.is_some_and(|margin| q.abs() < margin);
     let turned = || turning(motion, found.parameters.r).is_some_and(|(q, _)| within(q));
     match motion.outcome {
-        Outcome::Captured { .. } => Some(Fate { end: End::Rests, place: Place::InsideSeparatrix }),
-        Outcome::Escaped { .. } => Some(Fate { end: End::Grows, place: Place::OutsideSeparatrix }),
-        _ => turned().then_some(Fate { end: End::Rests, place: Place::InsideSeparatrix }),
+        Outcome::Captured { .. } => Some(Fate { end: End::Rests, place: Side::InsideSeparatrix }),
+        Outcome::Escaped { .. } => Some(Fate { end: End::Grows, place: Side::OutsideSeparatrix }),
+        _ => turned().then_some(Fate { end: End::Rests, place: Side::InsideSeparatrix }),
     }
 }
 
@@ -164,9 +164,9 @@ fn of_course(course: &Course, motion: &Trajectory) -> Option<Fate> {
         machine::Fate::Neutral | machine::Fate::Unknown(_) => return None,
     };
     let place = match (course.border, end) {
-        ("cycle", End::Rests) => Place::InsideCycle,
-        ("cycle", _) => Place::OutsideCycle,
-        _ => Place::Anywhere,
+        ("cycle", End::Rests) => Side::InsideCycle,
+        ("cycle", _) => Side::OutsideCycle,
+        _ => Side::Anywhere,
     };
     Some(Fate { end, place })
 }

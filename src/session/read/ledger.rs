@@ -21,7 +21,7 @@ pub enum Owner {
 
 /// A line of the ledger.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Entry {
+pub enum LedgerLine {
     /// Whose works the lines below are.
     Title(Owner),
     /// What a source did, and as a part of the largest work of its owner.
@@ -40,7 +40,7 @@ pub enum Entry {
 
 impl Session {
     /// The lines of the energy ledger, of the layers that are on.
-    pub fn ledger(&self) -> Vec<Entry> {
+    pub fn ledger(&self) -> Vec<LedgerLine> {
         let mut lines = Vec::new();
         if self.draws_whole() {
             self.ledger_of_machine(&mut lines);
@@ -67,7 +67,7 @@ impl Session {
     }
 
     /// The same by the whole model of a machine.
-    fn ledger_of_machine(&self, lines: &mut Vec<Entry>) {
+    fn ledger_of_machine(&self, lines: &mut Vec<LedgerLine>) {
         if self.layers.contains(&Layer::CycleWorks)
             && let (Some(found), Some(kinds)) = (self.cycles(), self.kinds())
         {
@@ -88,11 +88,13 @@ impl Session {
         let line = lines.iter().enumerate().rev().find(|(index, entry)| {
             #[expect(clippy::cast_precision_loss, reason = "a few dozen lines")]
             let top = -(*index as f64);
-            matches!(entry, Entry::Title(_)) && height <= top
+            matches!(entry, LedgerLine::Title(_)) && height <= top
         });
         match line {
-            Some((_, Entry::Title(Owner::Cycle(cycle)))) => Some(State { q: cycle.q_max, v: 0.0 }),
-            Some((_, Entry::Title(Owner::Motion(place, _)))) => {
+            Some((_, LedgerLine::Title(Owner::Cycle(cycle)))) => {
+                Some(State { q: cycle.q_max, v: 0.0 })
+            }
+            Some((_, LedgerLine::Title(Owner::Motion(place, _)))) => {
                 self.problems().get(*place).map(|problem| problem.initial)
             }
             _ => None,
@@ -101,17 +103,17 @@ impl Session {
 }
 
 /// Adds the lines of one owner by the whole model.
-fn add_works(lines: &mut Vec<Entry>, owner: Owner, ledger: &machine::Ledger) {
+fn add_works(lines: &mut Vec<LedgerLine>, owner: Owner, ledger: &machine::Ledger) {
     let machine::Ledger { start, end, belt, damper, guide } = *ledger;
     let works = [("belt", belt), ("damper", -damper), ("guide", -guide)];
     let stored = matches!(owner, Owner::Motion(..)).then_some(("stored", end - start));
     let largest = works.iter().chain(&stored).map(|(_, work)| work.abs()).fold(0.0, f64::max);
     let part = |work: f64| if largest > 0.0 { work / largest } else { 0.0 };
-    lines.push(Entry::Title(owner));
+    lines.push(LedgerLine::Title(owner));
     for (source, work) in works.into_iter().filter(|(_, work)| *work != 0.0).chain(stored) {
-        lines.push(Entry::Work { source, work, part: part(work), so_far: None });
+        lines.push(LedgerLine::Work { source, work, part: part(work), so_far: None });
     }
-    lines.push(Entry::Residual(part(end - start - (belt - damper - guide))));
+    lines.push(LedgerLine::Residual(part(end - start - (belt - damper - guide))));
 }
 
 /// What works on a motion: its name, how strong it is, and what it did.
@@ -120,7 +122,7 @@ type Source = (&'static str, f64, fn(&Ledger) -> f64);
 /// Adds the lines of one owner, with those until the present moment; a term that the model does not have
 /// gets none.
 fn add(
-    lines: &mut Vec<Entry>,
+    lines: &mut Vec<LedgerLine>,
     owner: Owner,
     ledger: &Ledger,
     until: Option<&Ledger>,
@@ -137,11 +139,11 @@ fn add(
     let works = sources.iter().map(|(.., read)| read(ledger).abs());
     let largest = works.fold(stored(ledger).abs(), f64::max);
     let part = |work: f64| if largest > 0.0 { work / largest } else { 0.0 };
-    lines.push(Entry::Title(owner));
+    lines.push(LedgerLine::Title(owner));
     let mut add = |source, read: fn(&Ledger) -> f64| {
         let work = read(ledger);
         let so_far = until.map(|until| part(read(until)));
-        lines.push(Entry::Work { source, work, part: part(work), so_far });
+        lines.push(LedgerLine::Work { source, work, part: part(work), so_far });
     };
     for (source, _, read) in sources.iter().filter(|(_, strength, _)| *strength != 0.0) {
         add(source, *read);
@@ -149,5 +151,5 @@ fn add(
     if matches!(owner, Owner::Motion(..)) {
         add("stored", stored);
     }
-    lines.push(Entry::Residual(part(ledger.residual)));
+    lines.push(LedgerLine::Residual(part(ledger.residual)));
 }

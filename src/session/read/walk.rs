@@ -16,7 +16,7 @@ pub struct Way {
 }
 
 /// Where a stop stands: piece, and place in it.
-type Place = (usize, usize);
+type Position = (usize, usize);
 
 impl Way {
     /// The way along branches, each that of a variant; right is onward, from the end with the smaller
@@ -45,7 +45,7 @@ impl Way {
 
     /// Puts a special point where the detour over it is shortest.
     fn insert(&mut self, special: Stop) {
-        let mut best: Option<(f64, Place)> = None;
+        let mut best: Option<(f64, Position)> = None;
         let numbered = self.pieces.iter().enumerate();
         let same = |piece: &[Stop]| piece.first().is_some_and(|it| it.variant == special.variant);
         for (index, piece) in numbered.filter(|(_, piece)| same(piece)) {
@@ -87,7 +87,7 @@ impl Way {
     }
 
     /// Every stop with its place.
-    fn stops(&self) -> impl Iterator<Item = (Place, &Stop)> {
+    fn stops(&self) -> impl Iterator<Item = (Position, &Stop)> {
         let numbered = |(index, piece): (usize, &'_ Vec<Stop>)| {
             (0..piece.len()).map(move |place| (index, place)).collect::<Vec<_>>()
         };
@@ -120,7 +120,7 @@ impl Way {
         self.place(held).map(|(piece, place)| self.pieces[piece][place])
     }
 
-    fn place(&self, held: &Stop) -> Option<Place> {
+    fn place(&self, held: &Stop) -> Option<Position> {
         let same = self.stops().find(|(_, stop)| *stop == held);
         let rated = || self.stops().map(|(place, stop)| (self.apart(held, stop), place));
         same.map(|(place, _)| place)
@@ -137,10 +137,10 @@ impl Way {
     /// The next special point or end of a piece, on to other pieces and around the last one.
     pub fn landmark(&self, held: &Stop, onward: bool) -> Option<Stop> {
         let here = self.place(held)?;
-        let marked = |(piece, place): Place, stop: &Stop| {
+        let marked = |(piece, place): Position, stop: &Stop| {
             stop.special.is_some() || place == 0 || place + 1 == self.pieces[piece].len()
         };
-        let landmarks: Vec<Place> = self
+        let landmarks: Vec<Position> = self
             .stops()
             .filter(|(place, stop)| marked(*place, stop))
             .map(|(place, _)| place)

@@ -7,23 +7,23 @@ use crate::session::state::setup::Setup;
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Marks {
-    pub places: BTreeMap<char, Mark>,
+    pub places: BTreeMap<char, Bookmark>,
     /// The point left last: what is compared with.
-    pub left: Option<Mark>,
+    pub left: Option<Bookmark>,
 }
 
 /// A point of the parameters, and what is drawn of it beside another.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Mark {
+pub struct Bookmark {
     /// The motion, and the speed of its belt.
     pub setup: Setup,
     /// The questions for its motion and its cycles, once the point was on show.
     pub asked: Vec<Request>,
 }
 
-impl Mark {
+impl Bookmark {
     /// A point that has not been on show.
     pub fn new(setup: &Setup) -> Self {
-        Mark { setup: *setup, asked: Vec::new() }
+        Bookmark { setup: *setup, asked: Vec::new() }
     }
 }
