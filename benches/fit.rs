@@ -76,7 +76,7 @@ fn step_of_a_held_number(
         .expect("a decay is understood");
     let step = found.p[R] + 2.0 * found.covariance.error(R);
     bencher.bench(|| {
-        let mut runs = Runs { with_derivatives: 0, plain: 0, interrupted: &|| false };
+        let mut runs = Runs::new(&|| false);
         refitted(&found, R, black_box(step), &mut runs)
     });
 }

@@ -258,7 +258,7 @@ fn contours(found: &Estimate) -> Vec<Vec<[f64; 2]>> {
     if !(found.free[D] && found.free[R]) {
         return Vec::new();
     }
-    let mut runs = Runs { with_derivatives: 0, plain: 0, interrupted: &|| false };
+    let mut runs = Runs::new(&|| false);
     RISES.iter().filter_map(|rise| contour(found, [D, R], *rise, &mut runs).ok()).collect()
 }
 

@@ -20,6 +20,16 @@ pub struct Runs<'a> {
     pub plain: u64,
     /// Asked before each motion; `true` ends the computation.
     pub interrupted: &'a dyn Fn() -> bool,
+    /// The smallest root mean square of residuals that a descent has reached.
+    pub closest: f64,
+}
+
+impl<'a> Runs<'a> {
+    /// Nothing is computed yet.
+    #[must_use]
+    pub fn new(interrupted: &'a dyn Fn() -> bool) -> Self {
+        Runs { with_derivatives: 0, plain: 0, interrupted, closest: f64::INFINITY }
+    }
 }
 
 /// Why there is no fit.

@@ -32,6 +32,8 @@
 //! assert!(found.rests && found.half_swings > 5);
 //! ```
 
+pub(crate) mod cells;
+pub(crate) mod clock;
 pub(crate) mod contour;
 pub(crate) mod curves;
 pub(crate) mod decrements;
@@ -78,7 +80,12 @@ pub use observation::parameters;
 pub use question::{LossName, Question, Unfit};
 pub use record::{BadRecord, Column, Reading, Record, parse};
 
+use std::cell::Cell;
+
 use levenberg_marquardt::Runs;
+
+/// After so many motions nothing more is tried: records of this oscillator take some hundred.
+const MOST_MOTIONS: u64 = 1500;
 
 /// Fits a record.
 ///
@@ -89,10 +96,17 @@ pub fn estimate(
     question: &Question,
     interrupted: &dyn Fn() -> bool,
 ) -> Result<Estimate, Unfit> {
-    let mut runs = Runs { with_derivatives: 0, plain: 0, interrupted };
-    if question.peaks {
-        peaks::peaks(record, question, &mut runs)
-    } else {
-        samples::samples(record, question, &mut runs)
+    let motions = Cell::new(0);
+    let stops = || {
+        motions.set(motions.get() + 1);
+        motions.get() > MOST_MOTIONS || interrupted()
+    };
+    let mut runs = Runs::new(&stops);
+    let fit = if question.peaks { peaks::peaks } else { samples::samples };
+    match fit(record, question, &mut runs) {
+        Err(Unfit::Interrupted) if motions.get() > MOST_MOTIONS => {
+            Err(Unfit::GaveUp { motions: MOST_MOTIONS, closest: runs.closest })
+        }
+        other => other,
     }
 }

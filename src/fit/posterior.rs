@@ -69,7 +69,7 @@ fn weights(
     limits: &Limits,
 ) -> Result<Vec<f64>, Reason> {
     let refit = Refit::without(estimate, &[]);
-    let runs = || Runs { with_derivatives: 0, plain: 0, interrupted: limits.interrupted };
+    let runs = || Runs::new(limits.interrupted);
     let least = refit.cost(&estimate.p, &mut runs());
     let (Ok(least), Ok(unit)) = (least, refit.unit(&mut runs())) else {
         return Err(Reason::Interrupted);

@@ -32,7 +32,7 @@ pub struct Question {
 }
 
 /// Why there is no estimate.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Unfit {
     /// Too few samples or peaks for so many unknowns.
     TooFew {
@@ -54,6 +54,13 @@ pub enum Unfit {
     Blind,
     /// A newer question took its place.
     Interrupted,
+    /// The work was bounded.
+    GaveUp {
+        /// Motions computed.
+        motions: u64,
+        /// How far the closest of them is off, as a root mean square; infinite where none was found.
+        closest: f64,
+    },
     /// It is being fitted.
     Underway {
         /// Motions computed so far.
@@ -82,6 +89,11 @@ impl fmt::Display for Unfit {
                 "the record does not depend on one of the unknowns; hold some with --set or --free"
             ),
             Unfit::Interrupted => write!(out, "interrupted"),
+            Unfit::GaveUp { motions, closest } => write!(
+                out,
+                "gave up after {motions} motions, the closest of which is off by {closest:.2e} in the unit of the record: \
+                 no motion of the model explains it"
+            ),
             Unfit::Underway { motions } => write!(out, "fitting: {motions} motions so far"),
         }
     }

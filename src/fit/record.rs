@@ -7,6 +7,8 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use super::cells::{Cell, Line, Separator, lines, read};
+use super::clock;
 use super::header::{self, Header};
 
 /// A column of a file.
@@ -68,20 +70,6 @@ impl fmt::Display for BadRecord {
 
 impl std::error::Error for BadRecord {}
 
-/// What instruments write where they have no number, in lower case.
-const MISSING: [&str; 14] = [
-    "", "-", "--", "---", "nan", "na", "n/a", "#n/a", "null", "none", "inf", "-inf", "ovl",
-    "overload",
-];
-
-/// A cell.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Cell {
-    Number(f64),
-    Missing,
-    Text,
-}
-
 /// The text of a file: UTF-8, UTF-16 with its mark, or else Latin-1.
 #[must_use]
 pub fn decoded(bytes: &[u8]) -> String {
@@ -97,113 +85,6 @@ pub fn decoded(bytes: &[u8]) -> String {
             Err(_) => bytes.iter().map(|&byte| char::from(byte)).collect(),
         },
     }
-}
-
-/// A line that holds something, with its number.
-#[derive(Clone, Copy)]
-struct Line<'a> {
-    number: usize,
-    text: &'a str,
-}
-
-fn lines(text: &str) -> Vec<Line<'_>> {
-    let mut found = Vec::new();
-    let parts = text.split('\n').flat_map(|part| {
-        // A carriage return alone ends a line too; before a newline it belongs to it.
-        part.strip_suffix('\r').unwrap_or(part).split('\r')
-    });
-    for (index, text) in parts.enumerate() {
-        let text = text.trim_matches(|char| char == ' ' || char == '\0');
-        let blank = text.trim().is_empty() || text.chars().all(|char| ";,\t ".contains(char));
-        if !(blank || text.starts_with(['#', '%'])) {
-            found.push(Line { number: index + 1, text });
-        }
-    }
-    found
-}
-
-/// How the cells of a line are told apart.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Separator {
-    Sign(char),
-    Blanks,
-}
-
-impl Separator {
-    /// The separator of the last rows, which are data in any file.
-    fn of(lines: &[Line]) -> Self {
-        /// So many rows decide.
-        const ROWS: usize = 20;
-        let last = &lines[lines.len().saturating_sub(ROWS)..];
-        let most = |sign: &dyn Fn(&str) -> bool| {
-            2 * last.iter().filter(|line| sign(line.text)).count() > last.len()
-        };
-        if let Some(sign) = [';', '\t'].into_iter().find(|&sign| most(&|text| text.contains(sign)))
-        {
-            return Separator::Sign(sign);
-        }
-        let blank = |text: &str| {
-            let cells: Vec<&str> = text.split_whitespace().collect();
-            cells.len() > 1 && cells.iter().all(|cell| matches!(read(cell, true), Cell::Number(_)))
-        };
-        if most(&|text| text.contains(',')) && !most(&blank) {
-            return Separator::Sign(',');
-        }
-        Separator::Blanks
-    }
-
-    fn cells(self, text: &str) -> Vec<&str> {
-        match self {
-            Separator::Sign(sign) => split(text, sign).into_iter().map(unquoted).collect(),
-            Separator::Blanks => text.split_whitespace().map(unquoted).collect(),
-        }
-    }
-
-    fn comma_is_decimal(self) -> bool {
-        self != Separator::Sign(',')
-    }
-}
-
-/// The parts between separators that stand outside of quotation marks; where these do not pair they are nothing
-/// special.
-fn split(text: &str, sign: char) -> Vec<&str> {
-    let mut inside = false;
-    let cells = text.split(|char| {
-        inside ^= char == '"';
-        char == sign && !inside
-    });
-    let cells = cells.collect();
-    if inside { text.split(sign).collect() } else { cells }
-}
-
-fn unquoted(cell: &str) -> &str {
-    cell.trim().trim_matches('"').trim()
-}
-
-fn read(cell: &str, comma_is_decimal: bool) -> Cell {
-    if MISSING.contains(&cell.to_ascii_lowercase().as_str()) {
-        return Cell::Missing;
-    }
-    // A comma at the end of a cell separates it from the next.
-    let plain = if comma_is_decimal && cell.contains(',') && !cell.ends_with(',') {
-        // With both signs the later one is the decimal sign, the other one groups digits.
-        if cell.rfind(',') > cell.rfind('.') {
-            cell.replace('.', "").replace(',', ".")
-        } else {
-            cell.replace(',', "")
-        }
-    } else {
-        cell.to_owned()
-    };
-    // Words such as "infinity" are no numbers that an instrument measured.
-    if plain.starts_with(|char: char| char.is_ascii_digit() || "+-.".contains(char)) {
-        return match plain.parse::<f64>() {
-            Ok(value) if value.is_finite() => Cell::Number(value),
-            Ok(_) => Cell::Missing,
-            Err(_) => Cell::Text,
-        };
-    }
-    Cell::Text
 }
 
 fn whole(problem: impl Into<String>) -> BadRecord {
@@ -240,11 +121,18 @@ pub fn parse(bytes: &[u8], reading: &Reading) -> Result<Record, BadRecord> {
         });
     };
     let last = cells.iter().rposition(numeric).unwrap_or(first);
-    let header = Header::of(&cells[..first]);
     let width = cells[first].len();
+    // Names of several words cannot be told apart by blanks.
+    let header = Some(Header::of(&cells[..first]));
+    let header = header.filter(|it| separator != Separator::Blanks || it.names().len() <= width);
+    let header = header.unwrap_or_default();
     let chosen = columns(reading, &header, &cells[first..=last], width, decimal)
         .map_err(|problem| BadRecord { line: lines[first].number, column: 0, problem })?;
-    let seconds = match chosen.time.and_then(|time| header.unit(time).map(|unit| (time, unit))) {
+    let stamps = chosen.time.is_some_and(|time| {
+        cells[first].get(time).is_some_and(|cell| clock::seconds(cell).is_some())
+    });
+    let unit_of_time = chosen.time.filter(|_| !stamps);
+    let seconds = match unit_of_time.and_then(|time| header.unit(time).map(|unit| (time, unit))) {
         None => 1.0,
         Some((time, unit)) => header::seconds(&unit).ok_or_else(|| BadRecord {
             line: lines[first.saturating_sub(1)].number,
@@ -288,7 +176,8 @@ pub fn parse(bytes: &[u8], reading: &Reading) -> Result<Record, BadRecord> {
         let before = rows.len();
         rows.dedup();
         record.repeated = before - rows.len();
-        record.t = Some(rows.iter().map(|row| row.0).collect());
+        let begin = rows.first().filter(|_| stamps).map_or(0.0, |row| row.0);
+        record.t = Some(rows.iter().map(|row| row.0 - begin).collect());
     }
     record.x = rows.iter().map(|row| row.1).collect();
     Ok(record)
@@ -379,8 +268,16 @@ mod tests {
             "\"t (s)\",\"x (mm)\"\n\"0\",\"1.5\"\n\"0.001\",\"-2.25\"\n\"0.002\",\"3\"\n",
             "rig 4; floor 2\n\nt/s;x/mm\n0;1.5\n0.001;-2.25\n0.001;-2.25\n0.0015;NaN\n0.0016;\n0.002;3",
             "0;1.5\n0.001;-2.25\n0.002;3\n0.00",
+            "t [s] x [mm]\n0 1.5\n0.001 -2.25\n0.002 3\n",
+            "clock,x\n2026-03-02T23:59:59.0Z,1.5\n2026-03-02T23:59:59.001Z,-2.25\n2026-03-02 23:59:59.002,3\n",
+            "Zeit;Weg\n10:11:59,000;1,5\n10:11:59,001;-2,25\n10:11:59,002;3\n",
         ] {
-            assert_eq!(pairs(&read(text).unwrap()), expected, "{text}");
+            let found = pairs(&read(text).unwrap());
+            assert_eq!(found.len(), expected.len(), "{text}");
+            // Seconds of three years have 52 bits, too.
+            for (one, other) in found.iter().zip(&expected) {
+                assert!((one.0 - other.0).abs() < 3e-8 && one.1 == other.1, "{text}: {found:?}");
+            }
         }
         let latin = b"Zeit [\xb5s];Weg [\xb5m]\n0;1,5\n1000;-2,25\n2000;3\n";
         let record = parse(latin, &Reading::default()).unwrap();
@@ -431,7 +328,6 @@ mod tests {
         let record = read(text).unwrap();
         assert_eq!((record.t, record.x), (Some(vec![0.0, 0.01]), vec![1.5, 1.2]));
         assert_eq!(record.unit.as_deref(), Some("mm"));
-        assert_eq!(split("a \"b,c", ','), ["a \"b", "c"], "a mark alone is nothing special");
     }
 
     #[test]

@@ -55,6 +55,7 @@ impl Problem<'_> {
                 match interrupted(way(self, &self.task(&observation), guess, runs))? {
                     Ok(found) => {
                         cost = found.cost;
+                        runs.closest = runs.closest.min(self.typical(cost));
                         explained = self.explains(&found);
                         if best.as_ref().is_none_or(|(_, best)| self.is_better(&found, start, best))
                         {
@@ -82,6 +83,13 @@ impl Problem<'_> {
         let observation = self.observation(start);
         let valleys = self.valleys(&self.task(&observation), optimum, runs)?;
         Ok(Found { start, valleys })
+    }
+
+    /// The root mean square of the residuals at a cost.
+    fn typical(&self, cost: f64) -> f64 {
+        #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
+        let count = self.data.residuals().max(1) as f64;
+        (cost / count).sqrt()
     }
 
     /// Fits every minimum again, with the residuals that count now.

@@ -152,7 +152,7 @@ impl Fit {
         let named = [D, D2, D3, R].into_iter().zip(values);
         let numbers: Vec<_> = named.filter_map(|(place, value)| Some((place, value?))).collect();
         let interrupted = || (limits.interrupted)();
-        let mut runs = Runs { with_derivatives: 0, plain: 0, interrupted: &interrupted };
+        let mut runs = Runs::new(&interrupted);
         match refit::held(&fit.estimate, &numbers, &mut runs) {
             Ok(estimate) => {
                 let cost = |of: &Estimate| of.kept_residuals().map(|it| it * it).sum::<f64>();

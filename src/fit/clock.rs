@@ -1,0 +1,69 @@
+//! Times as a clock shows them.
+
+/// Dates repeat after so many days: numbers stay small enough for some 15 nanoseconds.
+const REPEAT: i64 = 1000;
+
+/// Seconds of `12:34:56.789`, `34:56,789` or `2026-03-02T12:34:56.789Z`; `None` of all else.
+#[must_use]
+pub fn seconds(cell: &str) -> Option<f64> {
+    let (days, clock) = match cell.split_once(['T', ' ']) {
+        Some((date, clock)) => (days(date)?, clock.trim()),
+        None => (0, cell),
+    };
+    let clock = clock.strip_suffix('Z').unwrap_or(clock).replace(',', ".");
+    let parts: Vec<f64> = clock.split(':').map(plain).collect::<Option<_>>()?;
+    let within = match parts[..] {
+        [hours, minutes, seconds] => (hours * 60.0 + minutes) * 60.0 + seconds,
+        [minutes, seconds] => minutes * 60.0 + seconds,
+        _ => return None,
+    };
+    #[expect(clippy::cast_precision_loss, reason = "less than a thousand")]
+    let before = days.rem_euclid(REPEAT) as f64;
+    Some(before * 86400.0 + within)
+}
+
+/// A number of digits and perhaps a point.
+fn plain(text: &str) -> Option<f64> {
+    let digits = text.chars().all(|char| char.is_ascii_digit() || char == '.');
+    text.parse().ok().filter(|_| digits)
+}
+
+/// Days of `2026-03-02`, `2.3.2026` or `3/2/2026`, by the calendar.
+fn days(date: &str) -> Option<i64> {
+    let part = |text: &str| text.parse::<i64>().ok();
+    let three = |sign: char| {
+        let parts: Vec<i64> = date.split(sign).map(part).collect::<Option<_>>()?;
+        <[i64; 3]>::try_from(parts).ok()
+    };
+    let [year, month, day] = three('-')
+        .or_else(|| three('.').map(|[day, month, year]| [year, month, day]))
+        .or_else(|| {
+            three('/').map(
+                |[one, two, three]| {
+                    if one > 31 { [one, two, three] } else { [three, one, two] }
+                },
+            )
+        })?;
+    // Years that begin in March have their leap day at the end.
+    let (year, month) = if month > 2 { (year, month - 3) } else { (year - 1, month + 9) };
+    let leap = year.div_euclid(4) - year.div_euclid(100) + year.div_euclid(400);
+    Some(365 * year + leap + (153 * month + 2) / 5 + day)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn clocks_go_on_over_midnight_and_the_ends_of_months() {
+        let step = |one: &str, other: &str| seconds(other).unwrap() - seconds(one).unwrap();
+        assert_eq!(step("2026-02-28 23:59:59.5", "2026-03-01T00:00:00.5Z"), 1.0);
+        assert_eq!(step("28.2.2024 23:59:59,5", "29.02.2024 00:00:00"), 0.5);
+        assert_eq!(step("12/31/2025 23:59:59", "1/1/2026 00:00:01"), 2.0);
+        assert_eq!(seconds("01:02:03.25"), Some(3723.25));
+        assert_eq!(seconds("02:03"), Some(123.0));
+        for text in ["12", "a:b", "12:", "rig 4: 3", "1:2:3:4", "-1:00"] {
+            assert_eq!(seconds(text), None, "{text}");
+        }
+    }
+}
