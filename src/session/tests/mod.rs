@@ -10,6 +10,7 @@ mod screen_setup;
 
 mod drafts;
 mod entries;
+mod fitting;
 mod language;
 mod motions;
 mod names;
@@ -122,7 +123,7 @@ impl Trial {
 
     fn settle(&mut self) {
         for round in 0.. {
-            assert!(round < 3, "answers make the session ask again and again");
+            assert!(round < 5, "answers make the session ask again and again");
             let open = self.open_questions();
             if open.is_empty() {
                 break;

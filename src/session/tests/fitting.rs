@@ -1,0 +1,102 @@
+//! A recorded motion: opened, fitted, with numbers held, and stopped.
+
+use super::Trial;
+use crate::oscillator::Symbol;
+use crate::scene::{Topic, View};
+use crate::session::{Code, Effect, Key, Msg, Purpose, save, update};
+
+/// A decay with D = 0.02 and r = 0.05 at 10/s, without noise but for rounding to three places.
+fn record() -> String {
+    let (decay, mut text) = ((-std::f64::consts::PI * 0.02 / 0.9998).exp(), String::new());
+    let (mut from, mut side, mut t) = (3.0_f64, 1.0, 0.0);
+    let root = (1.0_f64 - 0.02 * 0.02).sqrt();
+    while from > 0.05 {
+        for step in 0..20 {
+            let tau = std::f64::consts::PI / root * f64::from(step) / 20.0;
+            let swing =
+                (-0.02 * tau).exp() * ((root * tau).cos() + 0.02 / root * (root * tau).sin());
+            let x = side * ((from - 0.05) * swing + 0.05);
+            text += &format!("{:.5},{x:.3}\n", (t + tau) / 10.0);
+        }
+        t += std::f64::consts::PI / root;
+        (from, side) = ((from - 0.05) * decay - 0.05, -side);
+    }
+    format!("time [s],displacement [mm]\n{text}")
+}
+
+fn fitted() -> Trial {
+    let mut trial = Trial::open("plain");
+    trial.give(Msg::Run("fit decay.csv mass=2 kg".to_owned()));
+    let purpose = Purpose::Fit("mass=2 kg".to_owned());
+    assert_eq!(
+        trial.effects,
+        [Effect::Read { path: "decay.csv".into(), purpose: purpose.clone() }]
+    );
+    trial.give(Msg::Read { path: "decay.csv".into(), purpose, result: Ok(record()) });
+    trial
+}
+
+#[test]
+fn a_record_opens_with_its_pictures_and_a_number_stepped_is_held_while_the_others_follow() {
+    let mut trial = fitted();
+    let views: Vec<View> = trial.session.plots.iter().map(|plot| plot.view).collect();
+    assert_eq!(views, [View::Damping, View::TimeSeries, View::Phase, View::Spread]);
+    let best = trial.session.problem;
+    assert!((best.parameters.d - 0.02).abs() < 1e-3 && (best.parameters.r - 0.05).abs() < 1e-2);
+    // c = m omega0^2 = 200 N/m, so that 1 mm stands for 0.2 N.
+    let force = trial.session.units().unwrap().force;
+    assert!((force - 0.2).abs() < 1e-3, "{force}");
+
+    let asked = trial.press("<run \"set r=0.06\">");
+    assert!(asked.contains(&Topic::Refit), "{asked:?}");
+    let held = trial.session.problem.parameters;
+    assert!(trial.session.doubt.holds(Symbol::R) && held.r == 0.06);
+    assert!(held.d < best.parameters.d, "more friction leaves less damping: {held:?}");
+    trial.press("u");
+    assert_eq!(trial.session.problem, best);
+    assert!(!trial.session.doubt.holds(Symbol::R));
+}
+
+#[test]
+fn a_saved_session_keeps_what_is_held() {
+    let mut trial = fitted();
+    trial.press("<run \"set r=0.06\">");
+    let text = save::text(&trial.session).unwrap();
+    let mut other = Trial::open("plain");
+    save::open(&mut other.session, &text).unwrap();
+    other.settle();
+    assert!(other.session.doubt.holds(Symbol::R));
+    let (one, two) = (trial.session.problem.parameters, other.session.problem.parameters);
+    assert!((one.d - two.d).abs() < 1e-9 && one.r == two.r, "{one:?} {two:?}");
+}
+
+#[test]
+fn escape_stops_a_fit_and_what_was_there_is_back() {
+    let mut trial = Trial::open("supercritical");
+    let before = trial.session.problem;
+    let purpose = Purpose::Fit(String::new());
+    let message = Msg::Read { path: "decay.csv".into(), purpose, result: Ok(record()) };
+    update(&mut trial.session, message);
+    assert!(trial.session.is_fitting());
+    update(&mut trial.session, Msg::Key(Key::plain(Code::Esc)));
+    assert_eq!(
+        (trial.session.scene.name.as_str(), trial.session.problem),
+        ("supercritical", before)
+    );
+    assert!(!trial.session.is_fitting());
+    assert_eq!(trial.notice(), "the fit was stopped");
+}
+
+#[test]
+fn what_stands_behind_the_file_is_checked_before_it_is_read() {
+    for (line, why) in [
+        ("fit a.csv mass=-2 kg", "\"-2 kg\" is not positive"),
+        ("fit a.csv columns=0,1", "columns are counted from 1"),
+        ("fit a.csv mass=2 m", "is a length"),
+    ] {
+        let mut trial = Trial::open("plain");
+        trial.give(Msg::Run(line.to_owned()));
+        let notice = trial.notice().to_owned();
+        assert!(notice.contains(why) || why == "is a length" && notice.contains("kg"), "{notice}");
+    }
+}
