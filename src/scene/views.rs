@@ -24,11 +24,11 @@ pub enum View {
     EnergyRate,
     Eigenvalues,
     Speeds,
-    Scan,
     Damping,
     Residuals,
     #[serde(rename = "margin")]
     Spread,
+    Scan,
 }
 
 /// One row of [`VIEWS`].
@@ -85,14 +85,14 @@ pub const VIEWS: [ViewSpec; 15] = [
         "of the rest without friction, in the complex plane"),
     view(View::Speeds, ["speeds", "belt speeds", "Cycles over the belt's speed"], [span(0.01, 1.0), span(0.0, 1.0)],
         "cycles of the machine over the speed of its belt"),
-    view(View::Scan, ["scan", "scan", "Scan"], [span(0.0, 1.0), span(0.0, 1.0)],
-        "what was measured at each point of a line or grid"),
     view(View::Damping, ["damping", "damping", "Damping over amplitude"], [span(0.0, 1.0), span(-1.0, 1.0)],
         "loss of amplitude of a recorded motion, and its zeros"),
     view(View::Residuals, ["residuals", "residuals", "Residuals of a fit"], [span(0.0, 1.0), span(-1.0, 1.0)],
         "what was measured less what was fitted, over time"),
     view(View::Spread, ["margin", "margin", "Distribution of the margin"], [span(0.0, 1.0), span(0.0, 1.0)],
         "how sure the margin is that a record leaves"),
+    view(View::Scan, ["scan", "scan", "Scan"], [span(0.0, 1.0), span(0.0, 1.0)],
+        "what was measured at each point of a line or grid"),
 ];
 
 impl View {
