@@ -1,5 +1,6 @@
 //! Certificates of limit cycles: what is written is accepted, and nothing else.
 
+use hopfscope::check::motion::{Field, swing};
 use hopfscope::check::{Certificate, Kind, Step, check};
 use hopfscope::numerics::Interval;
 use hopfscope::oscillator::Parameters;
@@ -135,4 +136,19 @@ fn intervals_of_parameters_are_certified_and_what_is_open_is_not() {
     assert_eq!(check(&text).unwrap().parameters[3], [0.099_99, 0.100_01]);
     wide.d = Interval::new(-0.18, -0.17);
     assert!(certificate(&prove(&wide, &[])).is_err());
+}
+
+/// From far out all motions fall onto one curve: the end of all starts is that of one of them, and they come closer.
+#[test]
+fn swings_from_far_out_end_together() {
+    let field = Field([0.2, 25.0, 0.03].map(Interval::point));
+    let all = swing(&field, Interval::new(2e6, 2.1e6), 0.0);
+    let one = swing(&field, Interval::point(2.05e6), 0.0);
+    assert!(
+        all.end.is_finite() && all.end.intersection(one.end).is_some(),
+        "{} {}",
+        all.end,
+        one.end
+    );
+    assert!(all.end.width() < 1e-10 && all.damping.lower() > 1e6, "{} {}", all.end, all.damping);
 }
