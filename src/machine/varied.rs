@@ -2,6 +2,7 @@
 //! friction law.
 
 use super::modal::Modal;
+use crate::numerics::decimal::shortest;
 use crate::oscillator::Belt;
 use crate::oscillator::belt::{Dimension, FrictionLaw, QUANTITIES, Quantity};
 
@@ -136,6 +137,7 @@ impl Varied {
         if (min..=max).contains(&value) {
             Ok(value)
         } else {
+            let value = shortest(value);
             Err(format!("{name} = {value} {unit} is outside its range {min:?} .. {max:?} {unit}"))
         }
     }

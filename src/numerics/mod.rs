@@ -7,6 +7,7 @@
 //!   [`quadrature`] integrates, [`polynomial`] evaluates, [`hermite`] interpolates by cubics, [`spline`] smooths
 //!   measured points.
 
+pub(crate) mod decimal;
 #[doc(hidden)]
 pub mod elementary;
 pub(crate) mod hermite;

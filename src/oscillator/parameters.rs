@@ -7,6 +7,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use crate::numerics::decimal::shortest;
 use crate::numerics::scaling::times_power;
 
 /// The parameters of equation (4): damping, asymmetry, cubic damping, friction. All dimensionless.
@@ -142,6 +143,7 @@ pub struct OutOfRange {
 impl fmt::Display for OutOfRange {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { name, value, min, max } = self;
+        let value = shortest(*value);
         write!(out, "{name} = {value} is outside its range {min:?} .. {max:?}")
     }
 }

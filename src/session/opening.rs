@@ -5,13 +5,13 @@
 
 use crate::flow::method::Dial;
 use crate::flow::{METHODS, Problem};
+use crate::numerics::decimal::shortest;
 use crate::oscillator::{PARAMETERS, Symbol};
 use crate::scene::{Scene, find};
 use crate::session::replay::script::Step;
 use crate::session::save;
 use crate::session::state::session::Session;
 use crate::session::state::settings::{COLORS, GLYPHS, Look, THEMES};
-use crate::session::state::step_size::shortest;
 
 /// The name under which a file carries a session.
 const CARRIED: &str = "start.toml";

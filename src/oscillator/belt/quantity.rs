@@ -7,6 +7,8 @@ use std::fmt;
 
 use serde::Serialize;
 
+use crate::numerics::decimal::shortest;
+
 /// Exponents of kilogram, metre and second.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Dimension {
@@ -216,9 +218,9 @@ pub struct Outside {
 impl fmt::Display for Outside {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let QuantitySpec { name, unit, min, max, .. } = self.quantity.spec();
-        let value = self.value;
+        let value = shortest(self.value);
         write!(out, "{name} = {value} {unit} is outside its range {min:?} .. {max:?} {unit}")?;
-        if self.quantity == Quantity::BeltSpeed && value == 0.0 {
+        if self.quantity == Quantity::BeltSpeed && self.value == 0.0 {
             // At v0 = 0 both switching lines are one, and the pull of the belt is only bounded.
             write!(
                 out,
@@ -254,5 +256,8 @@ mod tests {
                 "{refused}"
             );
         }
+        // Nobody counts three hundred zeros.
+        let refused = Quantity::Mass.check(1e300).unwrap_err().to_string();
+        assert!(refused.starts_with("m = 1e300 kg is"), "{refused}");
     }
 }

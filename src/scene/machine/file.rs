@@ -12,6 +12,7 @@ use super::Machine;
 use super::table::table;
 use super::unit::{Measured, Toleranced, measured, toleranced};
 use crate::machine::{Model, Tolerances};
+use crate::numerics::decimal::shortest;
 use crate::numerics::spline::SmoothingSpline;
 use crate::oscillator::Belt;
 use crate::oscillator::belt::{Dimension, FrictionLaw, QUANTITIES, Quantity};
@@ -331,7 +332,8 @@ pub(super) fn number(
     }
     let blank = if unit.is_empty() { "" } else { " " };
     Err(refuse(format!(
-        "{name} = {value}{blank}{unit} is outside its range {min:?} .. {max:?}{blank}{unit}"
+        "{name} = {}{blank}{unit} is outside its range {min:?} .. {max:?}{blank}{unit}",
+        shortest(value)
     )))
 }
 

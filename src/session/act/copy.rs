@@ -2,6 +2,7 @@
 
 use crate::flow::Problem;
 use crate::flow::method::Dial;
+use crate::numerics::decimal::shortest;
 use crate::oscillator::parameters::ParameterSpec;
 use crate::oscillator::{PARAMETERS, Symbol};
 use crate::scene::{Axes, View};
@@ -10,7 +11,6 @@ use crate::session::effect::Effect;
 use crate::session::read::numbers;
 use crate::session::state::rows::Row;
 use crate::session::state::session::Session;
-use crate::session::state::step_size::shortest;
 use crate::study::measure::Value;
 
 /// Points of a copied branch: as many as a wide plot has columns.

@@ -1,6 +1,7 @@
 //! Typing a value: the line opens, takes characters, and is accepted or refused.
 
 use crate::flow::{METHODS, Method, Problem, QUALITIES};
+use crate::numerics::decimal::shortest;
 use crate::oscillator::belt::{Dimension, Quantity};
 use crate::oscillator::{Interval, ParameterBox, Symbol};
 use crate::scene::machine::file::value_of;
@@ -14,7 +15,6 @@ use crate::session::state::overlay::{Entry, Overlay};
 use crate::session::state::rows::Row;
 use crate::session::state::session::Session;
 use crate::session::state::setup::Setup;
-use crate::session::state::step_size::shortest;
 
 /// Opens the line with the value of the selected row.
 pub fn edit(session: &mut Session) -> Vec<Effect> {

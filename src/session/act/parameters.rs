@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::flow::{METHODS, Method, Problem, QUALITIES};
 use crate::machine::stepped::SteppedMethod;
+use crate::numerics::decimal::shortest;
 use crate::numerics::elementary::log10;
 use crate::oscillator::PARAMETERS;
 use crate::oscillator::belt::Quantity;
@@ -17,7 +18,6 @@ use crate::session::state::plot::{Framing, Plot};
 use crate::session::state::rows::{Row, Steps};
 use crate::session::state::session::Session;
 use crate::session::state::setup::Setup;
-use crate::session::state::step_size::shortest;
 
 /// Makes another motion the one on show, as one change that can be undone; the belt keeps its speed.
 /// Returns whether it differs.

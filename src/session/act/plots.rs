@@ -1,6 +1,7 @@
 //! Commands of the plots: cursor, zoom, pan, and taking the point under the cursor.
 
 use crate::flow::Problem;
+use crate::numerics::decimal::shortest;
 use crate::oscillator::State;
 use crate::oscillator::belt::Quantity;
 use crate::scene::{PlotSetup, Point, Span, View, Window};
@@ -10,7 +11,7 @@ use crate::session::act::starts::start;
 use crate::session::effect::Effect;
 use crate::session::state::plot::{Framing, Pane, Plot};
 use crate::session::state::session::Session;
-use crate::session::state::step_size::{StepSize, shortest};
+use crate::session::state::step_size::StepSize;
 
 /// Steps of the cursor that a far move takes.
 pub const FAR: i32 = 8;

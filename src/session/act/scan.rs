@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::flow::Problem;
+use crate::numerics::decimal::shortest;
 use crate::scene::View;
 use crate::session::act::focus::focus_on;
 use crate::session::act::notice::{inform, refuse};
@@ -18,7 +19,6 @@ use crate::session::state::rows::Row;
 use crate::session::state::scan::{Progress, SCANNING, Scanned};
 use crate::session::state::scan_form::Form;
 use crate::session::state::session::Session;
-use crate::session::state::step_size::shortest;
 use crate::study::scan::Scan;
 use crate::study::scan::Sweep;
 

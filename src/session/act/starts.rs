@@ -2,6 +2,7 @@
 //! away.
 
 use crate::flow::Problem;
+use crate::numerics::decimal::shortest;
 use crate::oscillator::State;
 use crate::scene::Topic;
 use crate::session::act::notice::{inform, refuse, told};
@@ -10,7 +11,7 @@ use crate::session::effect::Effect;
 use crate::session::state::session::Session;
 use crate::session::state::setup::Setup;
 use crate::session::state::starts::{MOST_MOTIONS, Starts};
-use crate::session::state::step_size::{decimal_sum, shortest};
+use crate::session::state::step_size::decimal_sum;
 use crate::study::{Cycles, Edge};
 
 /// Clearance from the sticking set, in that of the edge: near enough to stay close for a while, far

@@ -1,5 +1,6 @@
 //! Walking along the branch: a point is held, moved along, and taken into the phase plane.
 
+use crate::numerics::decimal::shortest;
 use crate::numerics::elementary::hypot;
 use crate::oscillator::State;
 use crate::scene::{Axes, Layer, Topic};
@@ -9,7 +10,6 @@ use crate::session::effect::Effect;
 use crate::session::read::walk::Way;
 use crate::session::state::plot::{Pane, Plot};
 use crate::session::state::session::Session;
-use crate::session::state::step_size::shortest;
 use crate::session::state::stop::Stop;
 
 /// Points that a far move takes.

@@ -1,6 +1,7 @@
 //! What a word of a line can become.
 
 use crate::flow::METHODS;
+use crate::numerics::decimal::shortest;
 use crate::oscillator::PARAMETERS;
 use crate::scene::machine::library::machines;
 use crate::scene::ordinate::OrdinateSpec;
@@ -12,7 +13,6 @@ use crate::session::state::overlay::Completion;
 use crate::session::state::rows::{ROWS, Row};
 use crate::session::state::session::Session;
 use crate::session::state::settings::{COLORS, GLYPHS, THEMES};
-use crate::session::state::step_size::shortest;
 use crate::study::measure::MEASURES;
 
 /// What the last of these words can become; all words behind the name are given.

@@ -1,10 +1,10 @@
 //! The rows of the parameter pane as numbers of a motion.
 
 use crate::flow::Problem;
+use crate::numerics::decimal::shortest;
 use crate::scene::file::UNTIL_RANGE;
 use crate::session::state::rows::{ROWS, Row};
 use crate::session::state::setup::Setup;
-use crate::session::state::step_size::shortest;
 
 pub(in crate::session) fn range(problem: &Problem, row: Row) -> (f64, f64) {
     match row {

@@ -95,13 +95,6 @@ impl StepSize {
     }
 }
 
-/// The shortest text that is read back as this number, without a needless `.0`.
-pub fn shortest(value: f64) -> String {
-    // Debug, unlike Display, writes very large and very small numbers with an exponent.
-    let text = format!("{value:?}");
-    text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
-}
-
 /// The power of ten at or below a positive number.
 #[expect(clippy::cast_possible_truncation, reason = "the exponent of a double has three digits")]
 fn decade(value: f64) -> i16 {
@@ -144,14 +137,6 @@ mod tests {
         assert_eq!(StepSize::near(1.0).from(1.1, -1), 0.1);
         assert_eq!(StepSize::near(1e20).from(3e20, 1), 4e20);
         assert_eq!(StepSize::near(1e-12).from(-1e-12, 1), 0.0);
-    }
-
-    #[test]
-    fn numbers_are_written_short_and_read_back() {
-        for (value, text) in [(1.0, "1"), (-0.1, "-0.1"), (1e300, "1e300"), (1e-10, "1e-10")] {
-            assert_eq!(shortest(value), text);
-            assert_eq!(text.parse(), Ok(value));
-        }
     }
 
     #[test]

@@ -1,0 +1,21 @@
+//! Numbers as text that is read back as the same number.
+
+/// The shortest text that is read back as this number, without a needless `.0`.
+pub fn shortest(value: f64) -> String {
+    // Debug, unlike Display, writes very large and very small numbers with an exponent.
+    let text = format!("{value:?}");
+    text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_written_short_and_read_back() {
+        for (value, text) in [(1.0, "1"), (-0.1, "-0.1"), (1e300, "1e300"), (1e-10, "1e-10")] {
+            assert_eq!(shortest(value), text);
+            assert_eq!(text.parse(), Ok(value));
+        }
+    }
+}
