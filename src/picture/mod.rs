@@ -14,6 +14,7 @@ mod energy_rate;
 mod equilibria;
 pub mod fit;
 pub mod items;
+mod kicks;
 pub mod legend;
 mod phase_plane;
 mod reading;
@@ -80,6 +81,10 @@ pub fn of(session: &Session, index: usize) -> Picture<'_> {
         View::Residuals => of_fit(session, index, fit::residuals),
         View::Spread => of_fit(session, index, fit::margin),
     };
+    // With numbers held there are no draws of their own: the distribution stays that of the whole fit.
+    if session.plots[index].view == View::Spread && session.doubt.holds_any() {
+        picture.title = format!("{}, all numbers free", picture.title).into();
+    }
     if session.draws_whole() && EXPANDED.contains(&session.plots[index].view) {
         picture.title = format!("{}, cubic expansion", picture.title).into();
     }

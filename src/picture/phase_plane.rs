@@ -7,6 +7,7 @@
 
 use super::construction;
 use super::items::{Item, Line, Picture, Variant};
+use super::kicks;
 use super::reading::{CELLS, reading};
 use super::role::{Dash, Mark, Role};
 use super::units;
@@ -73,6 +74,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     if shows(Layer::Ghost) && session.variants(index).is_none() {
         ghost(&mut picture, session);
     }
+    kicks::draw(&mut picture, session, index);
     picture.level(Line::guide(), 0.0);
     if shows(Layer::Lyapunov) {
         for (variant, shown) in variants(&shown) {

@@ -23,6 +23,8 @@ macro_rules! questions {
             /// What is safe and what is lost for certain.
             Zones(zones) "certainty" costs |found| found.cost,
                 or MachineZones(machine_zones) answered by Answer::Zones;
+            /// Which part of random kicks is lost.
+            Kicks(kicks) "kicks" costs |found| found.cost;
             /// The borders of the bands of capture.
             Capture(capture) "bands" costs |found| found.cost;
             /// The cycles along a parameter.
@@ -57,6 +59,7 @@ pub mod capture;
 pub mod claims;
 pub mod cycles;
 pub mod fit;
+pub mod kicks;
 pub mod kind;
 pub mod machine;
 pub mod machine_zones;

@@ -12,6 +12,7 @@ use super::machine::ScaledMachine;
 use super::plot_setup::{Arrangement, Axes, PlotSetup};
 use super::usual::{TOLERANCE, UNTIL};
 use super::views::{Layer, View};
+use crate::fit::length_in_metres;
 use crate::flow::Problem;
 use crate::oscillator::Symbol;
 use crate::question::Recording;
@@ -134,13 +135,20 @@ impl Recording {
         let plot_setup =
             |view| PlotSetup { view, axes: Axes::default(), window: None, family: None };
         let unit = self.record.unit.clone().unwrap_or_else(|| "the file's unit".to_owned());
+        let reduced = format!("lengths are in {unit} and times in 1/omega0");
+        let units = match self.record.unit.as_deref().and_then(length_in_metres) {
+            Some(_) if self.record.t.is_some() => {
+                format!("axes are in units of length and seconds; with units off {reduced}")
+            }
+            _ => reduced,
+        };
         Scene {
             name: self.name.clone(),
             also: None,
             title: format!("{}, fitted", self.name),
             look: format!(
-                "Dots are what was measured, the line is the motion that fits best; lengths are in {unit}, times in \
-                 1/omega0. A number whose error is as large as itself is not known from this record."
+                "Dots are what was measured, the line is the motion that fits best; {units}. \
+                 A number whose error is as large as itself is not known from this record."
             ),
             press: "{step-up} and {step-down} hold a number beside its best value, and all others are fitted again; \
                     {reset-row} lets it go, {reset-scene} all. {views} picks what a plot shows: residuals too."

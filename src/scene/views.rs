@@ -153,6 +153,7 @@ pub enum Layer {
     #[serde(rename = "differences")]
     Residuals,
     Spread,
+    Kicks,
 }
 
 /// One row of [`LAYERS`].
@@ -173,7 +174,7 @@ pub struct LayerSpec {
 
 /// Every layer, in the order in which they are listed.
 #[rustfmt::skip]
-pub const LAYERS: [LayerSpec; 45] = [
+pub const LAYERS: [LayerSpec; 46] = [
     layer(Layer::Trajectory, "trajectory", View::Phase, Some(Topic::Trajectory), true, "the motion from (q0, v0)"),
     layer(Layer::Sticking, "sticking", View::Phase, None, true, "the sticking set: every point of it is at rest"),
     layer(Layer::Cycles, "cycles", View::Phase, Some(Topic::Cycles), true, "limit cycles, stable and unstable"),
@@ -219,6 +220,7 @@ pub const LAYERS: [LayerSpec; 45] = [
     layer(Layer::Damping, "decrements", View::Damping, Some(Topic::Fit), true, "measured decrements, exact and averaged damping"),
     layer(Layer::Residuals, "differences", View::Residuals, Some(Topic::Fit), true, "measured less fitted, and two deviations"),
     layer(Layer::Spread, "spread", View::Spread, Some(Topic::Fit), true, "distribution of the margin, by draws"),
+    layer(Layer::Kicks, "kicks", View::Phase, Some(Topic::Kicks), false, "density of random kicks, and the part lost"),
 ];
 
 const fn layer(

@@ -62,6 +62,8 @@ const LINES: &[Row] = &[
         Words::Unknown, scan::save_to),
     row("harmonics", "N", "Show the cycles of N harmonics",
         Words::Unknown, values::harmonics),
+    row("kicks", "q=MEAN+-SPREAD,v=MEAN+-SPREAD", "Show random kicks over the basin, and the part lost",
+        Words::Unknown, values::kicks),
     row("mark", "LETTER", "Mark this point by a letter",
         Words::Marks, values::mark),
     row("goto", "LETTER", "Go to a mark",

@@ -29,6 +29,7 @@ use crate::session::state::rows::{ROWS, Row, Steps};
 use crate::session::state::session::{MOST_HARMONICS, Session};
 use crate::session::state::setup::Setup;
 use crate::session::state::starts::{MOST_MOTIONS, Starts};
+use crate::study::kicks::Kicks;
 
 /// The format that this program writes; it reads this one and all before.
 const VERSION: u32 = 1;
@@ -47,6 +48,8 @@ struct SavedSession {
     enlarged: bool,
     unfolded: bool,
     harmonics: usize,
+    #[serde(default)]
+    kicks: Kicks,
     /// Lines typed on the command line, the newest last.
     lines: Vec<String>,
     present: Show,
@@ -162,6 +165,7 @@ pub fn text(session: &Session) -> Result<String, String> {
         enlarged: session.enlarged,
         unfolded: session.unfolded,
         harmonics: session.harmonics,
+        kicks: session.kicks,
         lines: session.lines.clone(),
         present: Show {
             arrangement: session.arrangement,
@@ -304,8 +308,8 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     opened.arrangement = file.present.arrangement;
     opened.plots = plots;
     (opened.plot, opened.focus, opened.selected) = (plot, focus, selected);
-    (opened.enlarged, opened.unfolded, opened.harmonics) =
-        (file.enlarged, file.unfolded, file.harmonics);
+    (opened.enlarged, opened.unfolded) = (file.enlarged, file.unfolded);
+    (opened.harmonics, opened.kicks) = (file.harmonics, file.kicks);
     (opened.lines, opened.history) = (file.lines, history);
     opened.marks = Marks { places, left };
     opened.macros.registers = registers;

@@ -8,6 +8,8 @@ use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
 use std::fmt;
 use std::str::FromStr;
 
+use serde::{Deserialize, Serialize};
+
 use super::basin::{Basin, Fate};
 use super::stability::{Share, TOLERANCE, support};
 use crate::numerics::elementary::{cos, exp, sin};
@@ -23,7 +25,8 @@ pub enum Distribution {
 }
 
 /// A random kick.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
 pub struct Kicks {
     /// How both parts are spread.
     pub law: Distribution,
@@ -73,6 +76,20 @@ impl FromStr for Kicks {
             } = (mean, spread);
         }
         Ok(kicks)
+    }
+}
+
+impl TryFrom<String> for Kicks {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        text.parse()
+    }
+}
+
+impl From<Kicks> for String {
+    fn from(kicks: Kicks) -> Self {
+        kicks.to_string()
     }
 }
 

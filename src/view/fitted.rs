@@ -3,7 +3,7 @@
 use super::look::Look;
 use crate::fit::observation::OMEGA0;
 use crate::fit::physical::rows;
-use crate::oscillator::{PARAMETERS, Symbol};
+use crate::oscillator::Symbol;
 use crate::scene::Fitted;
 use crate::session::{Row, Session};
 use crate::words::number::significant;
@@ -75,7 +75,7 @@ pub fn spread(session: &Session, look: &Look) -> Vec<String> {
         (Some(end), Some(metres)) => with_unit(end * metres, 3, "m"),
         (Some(end), None) => significant(end, 3),
     };
-    let held = PARAMETERS.iter().any(|row| session.doubt.holds(row.symbol));
+    let held = session.doubt.holds_any();
     let margin = match spread.lower {
         _ if held => format!("held: chi^2 +{}", significant(*rise, 3)),
         None => "95 %: every kick".to_owned(),

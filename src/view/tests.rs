@@ -384,6 +384,7 @@ proptest! {
                     }
                 }
                 Ok(Answer::Zones(found)) => found.safe = Extent::Within(states.clone()),
+                Ok(Answer::Kicks(found)) => found.share.part = value,
                 Ok(Answer::Capture(found)) => found.curves = vec![states.clone()],
                 Ok(
                     Answer::Whole(_)

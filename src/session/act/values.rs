@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::oscillator::Symbol;
 use crate::scene::machine::library::machines;
 use crate::scene::{
     ABSCISSAE, Axes, LAYERS, ORDINATES, Ordinate, ScaledMachine, Span, Unit, VIEWS, View, Window,
@@ -18,6 +19,7 @@ use crate::session::state::plot::{Framing, Pane};
 use crate::session::state::rows::Row;
 use crate::session::state::session::{MOST_HARMONICS, Session};
 use crate::session::state::settings::{COLORS, GLYPHS, THEMES, named};
+use crate::study::kicks::Kicks;
 
 /// What a line has done, or why not.
 type Done = Result<Vec<Effect>, String>;
@@ -172,6 +174,21 @@ pub fn harmonics(session: &mut Session, rest: &str) -> Done {
         count.ok_or_else(|| format!("{rest:?} is not a number of harmonics from 1 to {most}"))?;
     session.layers.insert(crate::scene::Layer::Balance);
     Ok(inform(session, format!("harmonic balance with N = {rest}")))
+}
+
+/// Shows random kicks over the basin.
+pub fn kicks(session: &mut Session, rest: &str) -> Done {
+    let kicks: Kicks = rest.parse()?;
+    // The border is followed as far as kicks reach.
+    Symbol::Q0.spec().check(kicks.reach()).map_err(|why| format!("kicks reach too far: {why}"))?;
+    if session.draws_whole() {
+        return Err(
+            "kicks are counted by the cubic expansion alone: switch the layer whole off".to_owned()
+        );
+    }
+    session.kicks = kicks;
+    session.layers.insert(crate::scene::Layer::Kicks);
+    Ok(inform(session, format!("{} kicks {kicks}, in q and v", kicks.law.name())))
 }
 
 /// The letter of a register or mark.

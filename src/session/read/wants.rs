@@ -196,6 +196,11 @@ impl Session {
             Topic::Proof if self.draws_whole() => return None,
             Topic::Proof => Request::Proof(question::proof::Asked { parameters }),
             Topic::Zones => self.zones_request(&parameters)?,
+            // The basin of the whole model of a machine is no graph to integrate over.
+            Topic::Kicks if self.draws_whole() => return None,
+            Topic::Kicks => {
+                Request::Kicks(question::kicks::Asked { parameters, kicks: self.kicks })
+            }
             Topic::Capture if parameters.r == 0.0 => return None,
             Topic::Capture => {
                 let reach = reach(own(View::Phase)?.window);

@@ -51,6 +51,11 @@ impl Doubt {
         self.held[symbol as usize]
     }
 
+    /// Whether any number is held by hand.
+    pub fn holds_any(&self) -> bool {
+        self.held.contains(&true)
+    }
+
     /// The same, if no number of it is negative.
     ///
     /// # Errors

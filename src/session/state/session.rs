@@ -32,6 +32,7 @@ use crate::session::state::setup::Setup;
 use crate::session::state::starts::Starts;
 use crate::session::state::stop::Stop;
 use crate::session::state::waiting::Waiting;
+use crate::study::kicks::Kicks;
 
 /// Harmonics at most: more cost more than the picture shows.
 pub const MOST_HARMONICS: usize = 63;
@@ -117,6 +118,8 @@ pub struct Session {
     pub held: Option<Stop>,
     /// Number N of harmonics of the layer `balance`.
     pub harmonics: usize,
+    /// Random kicks of the layer `kicks`.
+    pub kicks: Kicks,
     pub layers: BTreeSet<Layer>,
     /// What lies over the panes and gets the keys.
     pub overlay: Option<Overlay>,
@@ -179,6 +182,7 @@ impl Session {
             playback: Playback::default(),
             held: None,
             harmonics: HARMONICS,
+            kicks: Kicks::default(),
             layers: scene.layers.clone(),
             overlay: None,
             history: History::default(),

@@ -15,11 +15,12 @@ use crate::session::{Row, Session};
 
 /// Whether an answer of this kind changes with a number, whatever a plot looks at. The columns are the
 /// four parameters of the equation, the disturbance, the two of the start, the end time, the method, and its accuracy.
-const DEPENDS: [(Topic, &str); 11] = [
+const DEPENDS: [(Topic, &str); 12] = [
     //                   equation w start until method accuracy
     (Topic::Trajectory, "  xxxx  .     xx    x     x       x"),
     (Topic::Cycles, "      xxxx  .     ..    .     .       ."),
     (Topic::Zones, "       xxxx  x     ..    .     .       ."),
+    (Topic::Kicks, "       xxxx  .     ..    .     .       ."),
     (Topic::Capture, "     xxxx  .     ..    .     .       ."),
     (Topic::Branch, "      xxxx  .     ..    .     .       x"),
     (Topic::Balance, "     xxxx  .     ..    .     .       ."),

@@ -41,6 +41,11 @@ fn a_record_opens_with_its_pictures_and_a_number_stepped_is_held_while_the_other
     let mut trial = fitted();
     let views: Vec<View> = trial.session.plots.iter().map(|plot| plot.view).collect();
     assert_eq!(views, [View::Damping, View::TimeSeries, View::Phase, View::Spread]);
+    let look = &trial.session.scene.look;
+    assert!(
+        look.contains("seconds; with units off lengths are in mm and times in 1/omega0"),
+        "{look}"
+    );
     let best = trial.session.problem;
     assert!((best.parameters.d - 0.02).abs() < 1e-3 && (best.parameters.r - 0.05).abs() < 1e-2);
     // c = m omega0^2 = 200 N/m, so that 1 mm stands for 0.2 N.
@@ -51,6 +56,8 @@ fn a_record_opens_with_its_pictures_and_a_number_stepped_is_held_while_the_other
     assert!(asked.contains(&Topic::Refit), "{asked:?}");
     let held = trial.session.problem.parameters;
     assert!(trial.session.doubt.holds(Symbol::R) && held.r == 0.06);
+    let margin = crate::picture::of(&trial.session, 3).title;
+    assert_eq!(margin, "distribution of the margin, all numbers free");
     assert!(held.d < best.parameters.d, "more friction leaves less damping: {held:?}");
     trial.press("u");
     assert_eq!(trial.session.problem, best);

@@ -11,6 +11,7 @@ mod screen_setup;
 mod drafts;
 mod entries;
 mod fitting;
+mod kicks;
 mod language;
 mod motions;
 mod names;
@@ -43,6 +44,7 @@ use crate::scene::{Answer, Answered, Fit, Request, Scene, Topic, find};
 use crate::study::accuracy::{Deviation, Ending, Reference, Source};
 use crate::study::chart::Chart;
 use crate::study::harmonic_error::HarmonicBalance;
+use crate::study::stability::Share;
 use crate::study::trade::{Row, Trade};
 use crate::study::{
     Branch, BranchPoint, Cycle, Cycles, Edge, Margin, Picture, ReturnMap, Special, SpecialKind,
@@ -261,6 +263,10 @@ fn answered(request: Request) -> Answered {
         // Nothing is known better than by hand.
         Request::Reference(_) => Answer::Reference(Err(Reason::OutOfRange)),
         Request::Zones(_) | Request::MachineZones(_) => Answer::Zones(zones()),
+        Request::Kicks(_) => {
+            let share = Share { part: 0.125, error: 1e-11 };
+            Answer::Kicks(question::kicks::Lost { share, cost })
+        }
         Request::Capture(_) => Answer::Capture(Borders { curves: Vec::new(), cost }),
         Request::Balance(question::balance::Asked { parameters, harmonics }) => {
             Answer::Balance(HarmonicBalance {

@@ -39,6 +39,7 @@ fn a_key_recomputes_exactly_what_depends_on_it() {
         ("<tab><tab>w <left> <tab> <S-right> Y <esc>", &[]),
         ("<tab><tab>w <right> <enter>", POINT),
         ("va<esc>", &[Topic::Capture]),
+        ("<run \"kicks q=0+-0.1,v=0+-0.05\">", &[Topic::Kicks]),
         ("vn<esc> ) (", &[Topic::Balance, Topic::Balance]), // another N, another answer; the first is known
         ("va<esc> <tab>L K vaa<esc>", &[Topic::Capture]),   // as far as the next power of two
     ] {
@@ -104,6 +105,7 @@ fn terms_that_a_scene_does_not_declare_are_zero_until_the_user_unfolds_them() {
             | Request::Proof(question::proof::Asked { parameters })
             | Request::Capture(question::capture::Asked { parameters, .. })
             | Request::Balance(question::balance::Asked { parameters, .. })
+            | Request::Kicks(question::kicks::Asked { parameters, .. })
             | Request::ReturnMap(question::return_map::Asked { parameters, .. })
             | Request::Regimes(question::regimes::Asked { parameters, .. })
             | Request::Branch(question::branch::Asked { parameters, .. })

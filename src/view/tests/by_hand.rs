@@ -17,6 +17,7 @@ use crate::study::harmonic_error::HarmonicBalance;
 use crate::study::measure::Value;
 use crate::study::regime::Regime;
 use crate::study::scan::Row;
+use crate::study::stability::Share;
 use crate::study::trade::Trade;
 use crate::study::{
     Branch, BranchPoint, Cycle, Cycles, Edge, Margin, Picture, Return, ReturnMap, Special,
@@ -107,6 +108,10 @@ pub(super) fn by_hand(request: &Request) -> Answer {
             hopeful: Extent::Within(circle(0.6)),
             nominal: Margin { displacement: Some(0.5), impulse: Some(0.5) },
             guaranteed: Ok(Margin { displacement: Some(0.4), impulse: Some(0.4) }),
+            cost: Cost { evaluations: 400, steps: 20, rejected: 0 },
+        }),
+        Request::Kicks(_) => Answer::Kicks(question::kicks::Lost {
+            share: Share { part: 0.125, error: 1e-11 },
             cost: Cost { evaluations: 400, steps: 20, rejected: 0 },
         }),
         Request::Capture(_) => Answer::Capture(Borders {

@@ -1,0 +1,41 @@
+//! Which part of random kicks is lost.
+
+use super::kind::{Question, numbers};
+use super::means::Means;
+use crate::flow::{Cost, Reason};
+use crate::oscillator::Parameters;
+use crate::study::basin::basin;
+use crate::study::kicks::Kicks;
+use crate::study::stability::Share;
+
+/// What is asked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Asked {
+    /// The parameters.
+    pub parameters: Parameters,
+    /// The density of the kicks.
+    pub kicks: Kicks,
+}
+
+/// The part of the kicks that leads out of the basin of the sticking set.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lost {
+    /// The part and its error.
+    pub share: Share,
+    /// What the basin cost.
+    pub cost: Cost,
+}
+
+impl Question for Asked {
+    type Found = Lost;
+
+    fn answer(&self, means: &Means) -> Result<Lost, Reason> {
+        let found = basin(&self.parameters, self.kicks.reach(), means.limits)?;
+        Ok(Lost { share: self.kicks.lost(&found), cost: found.cost })
+    }
+
+    fn numbers(&self) -> [f64; 8] {
+        let Kicks { q, v, .. } = self.kicks;
+        numbers(&self.parameters, [q.0, q.1, v.0, v.1])
+    }
+}
