@@ -13,9 +13,10 @@ use super::start::Start;
 use crate::runtime::replay;
 use crate::session::config::Config;
 use crate::session::replay::{Script, parse};
+use crate::session::settings::Theme;
 use crate::session::{Session, Size};
 use crate::terminal::Environment;
-use crate::view::screen;
+use crate::view::screen::{self, Paper};
 
 /// Runs a keystroke file without a terminal and prints the last screen
 #[derive(Debug, Args)]
@@ -55,10 +56,10 @@ impl ScreenFormat {
         }
     }
 
-    fn write(self, screen: &Buffer) -> String {
+    fn write(self, screen: &Buffer, paper: Paper) -> String {
         match self {
             ScreenFormat::Text => screen::text(screen),
-            ScreenFormat::Svg => screen::svg(screen),
+            ScreenFormat::Svg => screen::svg(screen, paper),
         }
     }
 }
@@ -71,11 +72,14 @@ impl Replay {
         let mut session = Session::new(self.start.scene()?, Size { width, height });
         // The user's own settings would make the same file show something else.
         session.look = self.looks.wishes(&Config::default());
+        let theme = session.look.theme;
         let size = ratatui::layout::Size { width, height };
         let played = replay(session, anywhere(), script, size)
             .map_err(|error| Failure::Unanswered(format!("no thread to compute in: {error}")))?;
         if let Some(directory) = &self.screens {
-            write(directory, self.screen_format, &played.kept)?;
+            let light = theme == Theme::Light;
+            let paper = if light { Paper::LIGHT } else { Paper::DARK };
+            write(directory, (self.screen_format, paper), &played.kept)?;
         }
         print(&screen::text(&played.screen))?;
         match played.unmet {
@@ -105,13 +109,13 @@ pub fn script(file: &Path) -> Result<Script, Failure> {
 /// Writes the screens that a replay kept, each under its name.
 fn write(
     directory: &Path,
-    format: ScreenFormat,
+    (format, paper): (ScreenFormat, Paper),
     screens: &[(String, Buffer)],
 ) -> Result<(), Failure> {
     std::fs::create_dir_all(directory).map_err(|error| Failure::file(directory, &error))?;
     for (name, screen) in screens {
         let path = directory.join(format!("{name}.{}", format.extension()));
-        std::fs::write(&path, format.write(screen))
+        std::fs::write(&path, format.write(screen, paper))
             .map_err(|error| Failure::file(&path, &error))?;
     }
     Ok(())

@@ -150,16 +150,12 @@ fn rides(picture: &mut Picture, session: &Session, y: f64) {
     let cycles = session.kinds().filter(|_| session.layers.contains(&Layer::Cycles));
     for (from, to) in cycles.iter().flat_map(|it| &it.cycles).filter_map(|cycle| cycle.ride) {
         let [from, to] = [from, to].map(|x| Point { x: x / unit, y });
-        picture.bar(Line::new("cycle sticking to the belt", Role::Stable, Dash::Solid), from, to);
+        picture.bar(Line::new("cycle on the belt", Role::Stable, Dash::Solid), from, to);
     }
     let motion = session.course().filter(|_| session.layers.contains(&Layer::Trajectory));
     for ride in motion.iter().flat_map(|motion| &motion.rides) {
         let [from, to] = ride.map(|end| Point { x: end.q, y });
-        picture.bar(
-            Line::new("motion sticking to the belt", Role::Trajectory, Dash::Solid),
-            from,
-            to,
-        );
+        picture.bar(Line::new("motion on the belt", Role::Trajectory, Dash::Solid), from, to);
     }
 }
 

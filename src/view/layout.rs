@@ -23,7 +23,7 @@ pub(super) const DESIGNED: u16 = 20;
 const COLUMNS: [(u16, u16); 3] = [(150, 52), (110, 34), (0, 25)];
 
 /// Rows of a screen whose legend has two rows, unless it is wide enough for one.
-const TALL: u16 = 36;
+const TALL: u16 = 24;
 
 /// The parts of the screen; an empty area is not shown.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

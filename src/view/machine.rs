@@ -1,6 +1,7 @@
 //! What is said about a machine: what becomes of its motion, and which kicks it survives, in its own units;
 //! by the whole model and by its cubic expansion.
 
+use super::pane;
 use crate::flow::{Outcome, Trajectory};
 use crate::machine::{Cycle, Fate};
 use crate::scene::Topic;
@@ -50,7 +51,7 @@ fn onto(cycle: &Cycle) -> String {
 }
 
 /// The kicks that are survived: by the model on show first, and by how much the expansion is wrong.
-pub fn margin(session: &Session) -> Option<String> {
+pub fn margin(session: &Session, width: usize) -> Option<String> {
     let fresh = !session.is_stale(Topic::Cycles, session.plot);
     let (kinds, running) = session.kinds().filter(|_| fresh).zip(session.running())?;
     let units = &running.reduced.units;
@@ -75,9 +76,16 @@ pub fn margin(session: &Session) -> Option<String> {
         (None, Some(_)) => "not every kick is survived".to_owned(),
         _ => "the same".to_owned(),
     };
-    Some(if session.draws_whole() {
-        format!("{}; cubic expansion: {error}", said(whole))
+    let texts = if session.draws_whole() {
+        let whole = said(whole);
+        vec![format!("{whole}; cubic expansion: {error}"), format!("{whole} (cubic: {error})")]
     } else {
-        format!("cubic expansion {}: {error}; whole model: {}", said(cubic), said(whole))
-    })
+        let cubic = said(cubic);
+        vec![
+            format!("cubic expansion {cubic}: {error}; whole model: {}", said(whole)),
+            format!("cubic expansion {cubic}: {error}"),
+            format!("cubic {cubic}: {error}"),
+        ]
+    };
+    Some(pane::fitting(texts, width))
 }

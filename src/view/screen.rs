@@ -14,7 +14,7 @@ use super::signs::MINUS;
 /// The rows of a screen, without the blanks at their ends and with minus signs as programs read them.
 pub fn text(screen: &Buffer) -> String {
     let mut out = String::new();
-    for row in rows(screen) {
+    for row in rows(screen, Paper::DARK) {
         let line: String = row.iter().map(|place| place.symbol).collect();
         out.push_str(&line.trim_end().replace(MINUS, "-"));
         out.push('\n');
@@ -30,20 +30,32 @@ const FONT_SIZE: f64 = 13.29;
 /// Where letters stand in a cell, from its top.
 const BASELINE: f64 = 12.0;
 
-/// Colour of text and of the ground where the screen leaves them to the terminal.
-const INK: &str = "#d8d8d8";
-const GROUND: &str = "#101418";
+/// Colours of text and of the ground where the screen leaves them to the terminal.
+#[derive(Clone, Copy)]
+pub struct Paper {
+    ink: &'static str,
+    ground: &'static str,
+}
+
+impl Paper {
+    /// As most terminals are.
+    pub const DARK: Self = Paper { ink: "#d8d8d8", ground: "#101418" };
+
+    /// For the theme made for it.
+    pub const LIGHT: Self = Paper { ink: "#1c1c1c", ground: "#fafafa" };
+}
 
 /// The picture of a screen.
-pub fn svg(screen: &Buffer) -> String {
+pub fn svg(screen: &Buffer, paper: Paper) -> String {
+    let ground = paper.ground;
     let (width, height) = (f64::from(screen.area.width), f64::from(screen.area.height));
     let (width, height) = (width * CELL.0, height * CELL.1);
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
          viewBox=\"0 0 {width} {height}\" font-family=\"DejaVu Sans Mono, Menlo, Consolas, monospace\" \
-         font-size=\"{FONT_SIZE}\" xml:space=\"preserve\">\n<rect width=\"{width}\" height=\"{height}\" fill=\"{GROUND}\"/>\n"
+         font-size=\"{FONT_SIZE}\" xml:space=\"preserve\">\n<rect width=\"{width}\" height=\"{height}\" fill=\"{ground}\"/>\n"
     );
-    for (number, row) in rows(screen).enumerate() {
+    for (number, row) in rows(screen, paper).enumerate() {
         let top = CELL.1 * units(number);
         grounds(&mut out, &row, top);
         shapes(&mut out, &row, top);
@@ -59,18 +71,18 @@ struct ScreenCell<'a> {
     paint: Paint,
 }
 
-fn rows(screen: &Buffer) -> impl Iterator<Item = Vec<ScreenCell<'_>>> {
-    screen.content.chunks(usize::from(screen.area.width).max(1)).map(places)
+fn rows(screen: &Buffer, paper: Paper) -> impl Iterator<Item = Vec<ScreenCell<'_>>> {
+    screen.content.chunks(usize::from(screen.area.width).max(1)).map(move |row| places(row, paper))
 }
 
 /// The places of a row; what a wide character covers looks as it does.
-fn places(row: &[Cell]) -> Vec<ScreenCell<'_>> {
+fn places(row: &[Cell], paper: Paper) -> Vec<ScreenCell<'_>> {
     let mut places: Vec<ScreenCell> = Vec::with_capacity(row.len());
     for cell in row {
         let wide = places.last().filter(|last| last.symbol.width() > 1);
         let place = match wide {
             Some(last) => ScreenCell { symbol: "", paint: last.paint.clone() },
-            None => ScreenCell { symbol: cell.symbol(), paint: Paint::of(cell) },
+            None => ScreenCell { symbol: cell.symbol(), paint: Paint::of(cell, paper) },
         };
         places.push(place);
     }
@@ -91,16 +103,17 @@ struct Paint {
 }
 
 impl Paint {
-    fn of(cell: &Cell) -> Self {
-        let (ink, ground) = (hex(cell.fg), hex(cell.bg));
+    fn of(cell: &Cell, paper: Paper) -> Self {
+        let ink = hex(cell.fg).unwrap_or_else(|| paper.ink.to_owned());
+        let ground = hex(cell.bg);
         if cell.modifier.contains(Modifier::REVERSED) {
             Paint {
-                ink: ground.unwrap_or_else(|| GROUND.to_owned()),
-                ground: Some(ink.unwrap_or_else(|| INK.to_owned())),
+                ink: ground.unwrap_or_else(|| paper.ground.to_owned()),
+                ground: Some(ink),
                 modifier: cell.modifier,
             }
         } else {
-            Paint { ink: ink.unwrap_or_else(|| INK.to_owned()), ground, modifier: cell.modifier }
+            Paint { ink, ground, modifier: cell.modifier }
         }
     }
 
@@ -352,7 +365,7 @@ mod tests {
 
     #[test]
     fn the_picture_draws_letters_as_text_and_dots_as_shapes() {
-        let picture = svg(&screen());
+        let picture = svg(&screen(), Paper::DARK);
         assert!(picture.contains("font-weight=\"bold\">a &lt; b</text>"), "{picture}");
         // Eight dots and one, two arcs each, in one path of one colour.
         assert_eq!(picture.matches("a1.3 1.3").count(), 18);
@@ -360,10 +373,7 @@ mod tests {
         assert!(!picture.contains('⣿'));
         // The wide character covers two cells; with the next it is three, reversed.
         assert!(picture.contains("textLength=\"24\""), "{picture}");
-        assert!(
-            picture.contains(&format!("width=\"24\" height=\"16\" fill=\"{INK}\"")),
-            "{picture}"
-        );
+        assert!(picture.contains(&format!("width=\"24\" height=\"16\" fill=\"{}\"")), "{picture}");
         assert!(picture.contains("width=\"96\" height=\"48\""));
     }
 

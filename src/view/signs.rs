@@ -16,14 +16,12 @@ pub fn minus(area: Rect, buffer: &mut Buffer, is_typed: impl Fn(u16) -> bool) {
                     x.filter(|x| area.contains((*x, y).into())).and_then(|x| buffer.cell((x, y)));
                 cell.map_or(' ', letter)
             };
-            let [early, before, here, after, late] = [
-                letter(x.checked_sub(2)),
-                letter(x.checked_sub(1)),
-                letter(Some(x)),
-                letter(x.checked_add(1)),
-                letter(x.checked_add(2)),
-            ];
-            if here == '-' && is_minus([early, before, after, late]) {
+            // Almost no cell has a hyphen: only beside one is anything read.
+            if buffer.cell((x, y)).is_none_or(|cell| cell.symbol() != "-") {
+                continue;
+            }
+            let around = [x.checked_sub(2), x.checked_sub(1), x.checked_add(1), x.checked_add(2)];
+            if is_minus(around.map(letter)) {
                 buffer[(x, y)].set_char(MINUS);
             }
         }

@@ -1,5 +1,5 @@
-//! The lines that say it in words: what becomes of the motion, and which kicks are survived; or how it was
-//! computed and what that cost, where its accuracy is turned or nothing is known of kicks.
+//! The lines that say it in words: what becomes of the motion, and which kicks are survived; while its accuracy is
+//! turned, how it was computed and what that cost.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -60,7 +60,9 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
 
     let quiet = |text| Span::styled(text, look.style(Role::Quiet));
     // What it cost is listed by a key of its own; while its accuracy is turned, it stands here.
-    if let Some(margin) = margin(session).filter(|_| !session.measures()) {
+    if !session.measures() {
+        let width = usize::from(area.width).saturating_sub(1);
+        let margin = margin(session, width).unwrap_or_default();
         return pane::line(area, 1, quiet(format!(" {margin}")), "", look, buffer);
     }
     let line = |words| (work(session, look, words), price(session, look, words));
@@ -162,15 +164,16 @@ fn held_motions(session: &Session) -> Option<String> {
         })
         .collect();
     let word = |end: &Outcome| match end {
-        Outcome::Captured { .. } => "captured",
-        Outcome::Moving { .. } => "moving",
-        Outcome::Escaped { .. } => "escaped",
+        Outcome::Captured { .. } => "come to rest",
+        Outcome::Moving { .. } => "still move",
+        Outcome::Escaped { .. } => "escape",
         Outcome::GaveUp { .. } => "given up",
     };
-    let parts = ["captured", "moving", "escaped", "given up"].into_iter().filter_map(|name| {
-        let number = outcomes.iter().filter(|end| word(end) == name).count();
-        (number > 0).then(|| format!("{number} {name}"))
-    });
+    let parts =
+        ["come to rest", "still move", "escape", "given up"].into_iter().filter_map(|name| {
+            let number = outcomes.iter().filter(|end| word(end) == name).count();
+            (number > 0).then(|| format!("{number} {name}"))
+        });
     let parts: Vec<String> = parts.collect();
     (!parts.is_empty()).then(|| format!("{} motions: {}", outcomes.len(), parts.join(", ")))
 }
@@ -237,8 +240,8 @@ fn verdict(fate: &Fate, motion: &Trajectory) -> String {
 }
 
 /// What the parameters say about kicks out of rest; `None` where that is not known.
-fn margin(session: &Session) -> Option<String> {
-    if let Some(line) = certain::status(session).or_else(|| machine::margin(session)) {
+fn margin(session: &Session, width: usize) -> Option<String> {
+    if let Some(line) = certain::status(session).or_else(|| machine::margin(session, width)) {
         return Some(line);
     }
     let found = session.cycles().filter(|_| !session.is_stale(Topic::Cycles, session.plot))?;

@@ -7,6 +7,7 @@
 use crate::flow::{Outcome, Sample, Trajectory};
 use crate::machine;
 use crate::numerics::elementary::hypot;
+use crate::oscillator::Parameters;
 use crate::question::whole::Course;
 use crate::scene::said::{self, Condition};
 use crate::session::state::session::Session;
@@ -79,6 +80,15 @@ pub fn fate(found: &Cycles, motion: &Trajectory) -> Option<Fate> {
             alone.then_some(Fate { end: End::Decays, place: Side::Anywhere })
         }
     }
+}
+
+/// The verdict without friction and nonlinear damping, where the sign of D decides and no cycle is asked for.
+fn linear(motion: &Trajectory) -> Option<Fate> {
+    let (Parameters { d, d2, d3, r }, start) = (motion.problem.parameters, motion.problem.initial);
+    let moves = start.q != 0.0 || start.v != 0.0;
+    let end = if d > 0.0 { End::Decays } else { End::Grows };
+    let alone = [d2, d3, r] == [0.0; 3] && d != 0.0 && moves;
+    alone.then_some(Fate { end, place: Place::Anywhere })
 }
 
 /// The first turning point of a motion, and whether it is where the motion starts. Where turning points
@@ -224,9 +234,13 @@ impl Session {
         }
         let known = motion.problem.method.spec().events && self.contact().is_none();
         let of_these = |found: &&Cycles| found.parameters == motion.problem.parameters;
-        let found = self.cycles().filter(|_| known).filter(of_these)?;
+        let found = self.cycles().filter(|_| known).filter(of_these);
+        let end = match found {
+            Some(found) => fate(found, motion),
+            None => linear(motion).filter(|_| known),
+        };
         // A coarse step can end on the other side.
-        fate(found, motion).filter(|fate| match motion.outcome {
+        end.filter(|fate| match motion.outcome {
             Outcome::Captured { .. } => matches!(fate.end, End::Rests | End::OnTheEdge { .. }),
             Outcome::Escaped { .. } => matches!(fate.end, End::Grows | End::OnTheEdge { .. }),
             Outcome::Moving { .. } => true,
@@ -241,7 +255,7 @@ mod tests {
     use crate::flow::trajectory::trajectory;
     use crate::flow::{Detail, Limits, Problem};
     use crate::numerics::elementary::hypot;
-    use crate::oscillator::{Parameters, State};
+    use crate::oscillator::State;
     use crate::study::cycle::cycles_drawn;
 
     fn motion(parameters: Parameters, initial: State, until: f64) -> Trajectory {
@@ -262,6 +276,17 @@ mod tests {
         [-0.4, 0.0, 0.0, 1.0],
         [-0.02, 0.5, 0.0, 0.1],
     ];
+
+    #[test]
+    fn without_friction_and_nonlinear_damping_the_sign_of_damping_decides() {
+        let fate = |d, q, r| {
+            let parameters = Parameters { d, d2: 0.0, d3: 0.0, r };
+            linear(&motion(parameters, State { q, v: 0.0 }, 8.0)).map(|fate| fate.end)
+        };
+        assert_eq!(fate(-0.05, 0.5, 0.0), Some(End::Grows));
+        assert_eq!(fate(0.1, 0.5, 0.0), Some(End::Decays));
+        assert_eq!([fate(0.0, 0.5, 0.0), fate(-0.05, 0.0, 0.0), fate(-0.05, 0.5, 0.1)], [None; 3]);
+    }
 
     #[test]
     fn what_is_said_early_comes_true_late() {
