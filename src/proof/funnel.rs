@@ -388,3 +388,6 @@ impl Fences {
         (speed > 0.0 && speed.is_finite()).then_some(Fences { speed, fastest })
     }
 }
+
+#[cfg(test)]
+mod tests;
