@@ -373,7 +373,8 @@ mod tests {
         assert!(!picture.contains('⣿'));
         // The wide character covers two cells; with the next it is three, reversed.
         assert!(picture.contains("textLength=\"24\""), "{picture}");
-        assert!(picture.contains(&format!("width=\"24\" height=\"16\" fill=\"{}\"")), "{picture}");
+        let ground = format!("width=\"24\" height=\"16\" fill=\"{}\"", Paper::DARK.ink);
+        assert!(picture.contains(&ground), "{picture}");
         assert!(picture.contains("width=\"96\" height=\"48\""));
     }
 
