@@ -88,7 +88,7 @@ fn linear(motion: &Trajectory) -> Option<Fate> {
     let moves = start.q != 0.0 || start.v != 0.0;
     let end = if d > 0.0 { End::Decays } else { End::Grows };
     let alone = [d2, d3, r] == [0.0; 3] && d != 0.0 && moves;
-    alone.then_some(Fate { end, place: Place::Anywhere })
+    alone.then_some(Fate { end, place: Side::Anywhere })
 }
 
 /// The first turning point of a motion, and whether it is where the motion starts. Where turning points
