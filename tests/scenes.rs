@@ -238,7 +238,7 @@ const CLAIMS: [Claim; 24] = [
     ("so the swings grow", |stage| !stage.rests_in_the_end()),
     ("From here it comes to rest", Stage::rests_in_the_end),
     ("From here it swings up", |stage| !stage.rests_in_the_end()),
-    ("The motion gains", |stage| !stage.rests_in_the_end()),
+    ("What the motion gains", |stage| !stage.rests_in_the_end()),
     ("The motion climbs", |stage| !stage.rests_in_the_end()),
     ("is the unstable cycle that borders", |stage| stage.edge() == Edge::Cycle),
     ("the unstable cycle is its border", |stage| stage.edge() == Edge::Cycle),
@@ -252,10 +252,10 @@ const CLAIMS: [Claim; 24] = [
     ("Here no cycle exists", |stage| stage.edge() == Edge::Separatrix),
     ("Here the cycle has gone to infinity", |stage| stage.edge() == Edge::Separatrix),
     ("A cycle sticks to the belt", |stage| sticking(stage).0 > 0),
-    ("Once the mass sticks", |stage| sticking(stage).0 > 0),
-    ("has grown into the belt's line", |stage| sticking(stage).0 > 0),
+    ("Once stuck", |stage| sticking(stage).0 > 0),
+    ("has reached the belt's line", |stage| sticking(stage).0 > 0),
     ("Rest is stable too", |stage| stage.border() == Some("cycle")),
-    ("just touches the belt's line", |stage| stage.border() == Some("grazing")),
+    ("just touches the belt", |stage| stage.border() == Some("grazing")),
 ];
 
 impl Stage {

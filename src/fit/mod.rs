@@ -84,8 +84,8 @@ use std::cell::Cell;
 
 use levenberg_marquardt::Runs;
 
-/// After so many motions nothing more is tried: records of this oscillator take some hundred.
-const MOST_MOTIONS: u64 = 1500;
+/// After so many motions nothing more is tried: records of this oscillator take some hundred, with a drift beside it some thousand.
+const MOST_MOTIONS: u64 = 6000;
 
 /// Fits a record.
 ///

@@ -161,7 +161,7 @@ fn a_refused_value_says_why_where_it_is_typed() {
 
 #[test]
 fn the_layer_list_says_which_are_on() {
-    let screen = text(&draw(&settled("plain", 80, 64, "v"), letters()));
+    let screen = text(&draw(&settled("plain", 80, 70, "v"), letters()));
     for row in &LAYERS {
         let on = if find("plain").unwrap().layers.contains(&row.layer) { "[x]" } else { "[ ]" };
         assert!(screen.contains(&format!("{on} {}", row.name)), "{screen}");
