@@ -253,7 +253,7 @@ fn a_copied_command_line_gives_the_numbers_on_the_screen() {
     assert_eq!(program, "hopfscope");
     let ran = Command::new(PROGRAM).args(words.split(' ')).output().unwrap();
     let answer = String::from_utf8(ran.stdout).unwrap();
-    assert!(answer.contains("captured at q = -0.116"), "{line}\n{answer}");
+    assert!(answer.contains("comes to rest at q = -0.116"), "{line}\n{answer}");
     terminal.types("\x1by");
     terminal.quiet(QUIET);
     assert!(clipboard(&terminal).contains(TITLE));

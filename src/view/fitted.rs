@@ -58,8 +58,8 @@ fn stands_for(symbol: Symbol) -> &'static str {
     }
 }
 
-/// The frequency of a record, and where the smallest displacement that is not survived lies with 95 %; with numbers
-/// held, how much worse the fit is.
+/// Where the smallest displacement that is not survived lies with 95 %, or with numbers held how much worse the fit is;
+/// and the frequency of a record.
 pub fn spread(session: &Session, look: &Look) -> Vec<String> {
     let Some(Fitted { fit, rise, .. }) = session.fitted() else { return Vec::new() };
     let estimate = &fit.estimate;
@@ -82,5 +82,6 @@ pub fn spread(session: &Session, look: &Look) -> Vec<String> {
         Some(_) => format!("95 %: q {} .. {}", end(spread.lower), end(spread.upper)),
     };
     let frequency = estimate.free[OMEGA0].then_some(frequency);
-    frequency.into_iter().chain([margin]).collect()
+    // The margin first: a low pane has no room for what follows.
+    [margin].into_iter().chain(frequency).collect()
 }

@@ -12,7 +12,7 @@ pub fn sentence(motion: &Trajectory) -> String {
             format!("at rest at q = {} from the start", three(q))
         }
         Outcome::Captured { tau, q } => {
-            format!("captured at q = {}{swings}, tau = {}", three(q), three(tau))
+            format!("comes to rest at q = {}{swings}, tau = {}", three(q), three(tau))
         }
         Outcome::Moving { tau, q, v } => {
             format!("moving at tau = {}{swings}: q = {}, v = {}", three(tau), three(q), three(v))

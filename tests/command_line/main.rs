@@ -303,7 +303,7 @@ fn tables_are_made_to_be_read() {
     let ran = run(&["trajectory", "--until", "50", "--set", "r=0.5", "--set", "q0=2"]);
     assert_eq!((ran.code, ran.err.as_str()), (0, ""));
     assert!(
-        ran.out.contains("captured at q = -0.116 after 3 half swings, tau = 9.47"),
+        ran.out.contains("comes to rest at q = -0.116 after 3 half swings, tau = 9.47"),
         "{}",
         ran.out
     );
