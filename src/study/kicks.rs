@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use super::basin::{Basin, Fate};
 use super::stability::{Share, TOLERANCE, support};
-use crate::numerics::elementary::{cos, exp, sin};
+use crate::numerics::elementary::{asin, cos, exp, sin};
 use crate::numerics::quadrature::integrate;
 
 /// How a random number is spread.
@@ -23,6 +23,9 @@ pub enum Distribution {
     /// Evenly within the spread on either side.
     Uniform,
 }
+
+/// As far as kicks may reach: basins are still known well there.
+const FARTHEST: f64 = 1e8;
 
 /// A random kick.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -74,6 +77,9 @@ impl FromStr for Kicks {
                 "v" => &mut kicks.v,
                 _ => return Err(form()),
             } = (mean, spread);
+        }
+        if kicks.reach() > FARTHEST {
+            return Err(format!("{text:?} reaches too far; kicks stay within {FARTHEST:e}"));
         }
         Ok(kicks)
     }
@@ -173,9 +179,28 @@ impl Kicks {
             let q = middle + half * sin(angle);
             law.density(q - mean, spread) * lost_at(q) * half * cos(angle)
         };
-        let inside = integrate(&lost, (-FRAC_PI_2, FRAC_PI_2), TOLERANCE);
-        Share { part: (beyond + inside.value).clamp(0.0, 1.0), error: inside.error }
+        // Far beyond the sticking set the integrand varies as slowly as it varies fast next to it: each piece is
+        // some times as wide as all before it, so that none is overlooked.
+        let angles = scales(left, right).map(|q| asin(((q - middle) / half).clamp(-1.0, 1.0)));
+        let mut ends: Vec<f64> = angles.chain([-FRAC_PI_2, FRAC_PI_2]).collect();
+        ends.sort_by(f64::total_cmp);
+        let (mut part, mut error) = (beyond, 0.0);
+        for piece in ends.windows(2).filter(|piece| piece[0] < piece[1]) {
+            let inside = integrate(&lost, (piece[0], piece[1]), TOLERANCE);
+            part += inside.value;
+            error += inside.error;
+        }
+        Share { part: part.clamp(0.0, 1.0), error }
     }
+}
+
+/// Places between two others at which the scale of displacements changes.
+fn scales(left: f64, right: f64) -> impl Iterator<Item = f64> {
+    const NEAREST: f64 = 10.0;
+    const WIDER: f64 = 30.0;
+    let outwards = std::iter::successors(Some(NEAREST), |q| Some(WIDER * q));
+    let all = outwards.take_while(move |q| *q < right.max(-left));
+    all.flat_map(|q| [-q, q]).filter(move |q| *q > left && *q < right)
 }
 
 /// The complementary error function, to some 1e-13 of itself.
@@ -270,6 +295,23 @@ mod tests {
         let counted = f64::from(out) / f64::from(draws);
         assert!(lost.part > 0.02 && lost.part < 0.5 && lost.error < 1e-8, "{lost:?}");
         assert!((counted - lost.part).abs() < 1e-3, "{lost:?} {counted}");
+    }
+
+    #[test]
+    fn kicks_spread_far_beyond_the_sticking_set_are_not_overlooked_next_to_it() {
+        // From far on one side of a separatrix every kick is lost, from far on the other none: what is not half
+        // comes from next to the sticking set and falls as the spread grows.
+        let parameters = Parameters { d: -0.05, d2: 0.5, d3: 0.0, r: 0.2 };
+        let short_of_half = |spread: f64| {
+            let kicks = Kicks { law: Distribution::Normal, q: (0.0, spread), v: (0.0, 1.0) };
+            let found = basin(&parameters, kicks.reach(), &Limits::PATIENT).unwrap();
+            0.5 - kicks.lost(&found).part
+        };
+        let at_thousand = 1e3 * short_of_half(1e3);
+        for spread in [1e4, 1e6] {
+            let short = short_of_half(spread);
+            assert!((short - at_thousand / spread).abs() < 1e-8, "{spread:e}: {short:e}");
+        }
     }
 
     #[test]

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use crate::oscillator::Symbol;
 use crate::scene::machine::library::machines;
 use crate::scene::{
     ABSCISSAE, Axes, LAYERS, ORDINATES, Ordinate, ScaledMachine, Span, Unit, VIEWS, View, Window,
@@ -179,8 +178,6 @@ pub fn harmonics(session: &mut Session, rest: &str) -> Done {
 /// Shows random kicks over the basin.
 pub fn kicks(session: &mut Session, rest: &str) -> Done {
     let kicks: Kicks = rest.parse()?;
-    // The border is followed as far as kicks reach.
-    Symbol::Q0.spec().check(kicks.reach()).map_err(|why| format!("kicks reach too far: {why}"))?;
     if session.draws_whole() {
         return Err(
             "kicks are counted by the cubic expansion alone: switch the layer whole off".to_owned()
