@@ -221,7 +221,8 @@ fn look(plot: &Plot) -> SavedPlot {
 
 fn change(before: &Before) -> Change {
     match before {
-        Before::Setup(Setup { problem, others, setting, doubt }) => {
+        Before::Setup(setup) => {
+            let Setup { problem, others, setting, doubt } = &**setup;
             let motion = *problem;
             match (others.all(), setting) {
                 ([], None) if doubt.is_none() => Change::Motion(motion),
@@ -433,11 +434,14 @@ fn steps(name: char, keys: &str) -> Result<Vec<Step>, String> {
 
 fn before(change: Change) -> Result<Before, String> {
     Ok(match change {
-        Change::Motion(problem) => Before::Setup(checked(problem, &[], None)?),
-        Change::MotionOnBelt { motion, belt } => Before::Setup(checked(motion, &[], Some(belt))?),
-        Change::Motions { motion, beside, belt, doubt } => {
-            Before::Setup(Setup { doubt: doubt.checked()?, ..checked(motion, &beside, belt)? })
+        Change::Motion(problem) => Before::Setup(Box::new(checked(problem, &[], None)?)),
+        Change::MotionOnBelt { motion, belt } => {
+            Before::Setup(Box::new(checked(motion, &[], Some(belt))?))
         }
+        Change::Motions { motion, beside, belt, doubt } => Before::Setup(Box::new(Setup {
+            doubt: doubt.checked()?,
+            ..checked(motion, &beside, belt)?
+        })),
         Change::Plots { arrangement, plots } => Before::ScreenSetup(ScreenSetup {
             plots: checked_plots(plots, |plot| plot)?,
             arrangement,

@@ -3,6 +3,7 @@
 
 use super::super::swing::swing_past_peak;
 use super::*;
+use crate::numerics::elementary::exp;
 
 /// The swing from rest that is followed to its fall, and between the fences from there on.
 fn between_fences(field: &Field, start: Interval) -> Swing {
@@ -34,7 +35,7 @@ fn a_swing_with_a_first_integral_is_held() {
             let u = (f64::from(piece) + 0.5) / f64::from(PIECES);
             let y = way * u * u * (3.0 - 2.0 * u);
             let left = way * (1.0 - u) * (1.0 - u) * (1.0 + 2.0 * u);
-            let v = ((left - way * (-2.0 * b * y).exp()) / b).sqrt();
+            let v = ((left - way * exp(-2.0 * b * y)) / b).sqrt();
             let dy = 6.0 * way * u * (1.0 - u) / f64::from(PIECES);
             (time, below) = (time + dy / v, below + dy * v);
         }

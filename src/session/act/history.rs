@@ -51,7 +51,7 @@ pub fn redo(session: &mut Session) -> Vec<Effect> {
 /// The present state, as far as `other` reaches.
 fn present(session: &Session, other: &Before) -> Before {
     match other {
-        Before::Setup(_) => Before::Setup(session.setup()),
+        Before::Setup(_) => Before::Setup(Box::new(session.setup())),
         Before::ScreenSetup(_) => Before::ScreenSetup(session.screen_setup()),
         Before::Scene(_) => Before::Scene(Box::new(snapshot(session))),
     }

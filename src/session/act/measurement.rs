@@ -52,7 +52,7 @@ fn said(words: &str) -> Result<Said, String> {
                 said.inertia = Some(Inertia::Stiffness(positive(&value, (1, 0, -2), "N/m")?));
             }
             "unit" => said.unit = Some(value),
-            "columns" => said.reading = columns(&value, said.reading)?,
+            "columns" => (said.reading.time, said.reading.displacement) = columns(&value)?,
             "peaks" => said.reading.peaks = true,
             _ => return Err(unknown(name)),
         }
@@ -70,7 +70,7 @@ fn positive(text: &str, (kg, m, s): (i8, i8, i8), unit: &str) -> Result<f64, Str
 }
 
 /// Times and displacements, by number from 1 or by name.
-fn columns(text: &str, reading: Reading) -> Result<Reading, String> {
+fn columns(text: &str) -> Result<(Option<Column>, Option<Column>), String> {
     let (time, displacement) =
         text.split_once(',').ok_or_else(|| format!("{text:?} is no columns=1,3"))?;
     let column = |name: &str| match name.trim().parse() {
@@ -78,7 +78,7 @@ fn columns(text: &str, reading: Reading) -> Result<Reading, String> {
         Ok(number) => Ok(Some(Column::Number(number))),
         Err(_) => Ok(Some(Column::Name(name.trim().to_owned()))),
     };
-    Ok(Reading { time: column(time)?, displacement: column(displacement)?, ..reading })
+    Ok((column(time)?, column(displacement)?))
 }
 
 /// Reads the record.

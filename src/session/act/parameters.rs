@@ -33,7 +33,7 @@ pub(in crate::session) fn put(session: &mut Session, setup: &Setup) -> bool {
     let differs = setup != before;
     if differs {
         let was_on = session.is_on_the_belt() == Some(true);
-        session.history.record(Before::Setup(before));
+        session.history.record(Before::Setup(Box::new(before)));
         session.set_setup(&setup);
         if was_on && session.is_on_the_belt() == Some(false) {
             inform(session, "off the belt: no speed has these numbers; the row belt leads back");

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use crate::flow::Problem;
 use crate::numerics::elementary::{exp2, hypot, log2};
 use crate::oscillator::belt::Quantity;
-use crate::oscillator::{Belt, Symbol};
+use crate::oscillator::{Belt, Parameters, Symbol};
 use crate::proof::Proof;
 use crate::question;
 use crate::question::{Failure, Motion};
@@ -79,7 +79,7 @@ impl Session {
         let all = self
             .refit_request()
             .into_iter()
-            .chain(claims.then_some(Request::Claims(question::claims::Asked)).into_iter())
+            .chain(claims.then_some(Request::Claims(question::claims::Asked)))
             .chain(each.map(|each| each.1));
         let mut asked = Vec::new();
         let proof = || self.request(Topic::Proof, self.plot);
@@ -192,12 +192,10 @@ impl Session {
             }
             Topic::Trade => Request::Trade(question::trade::Asked(motion())),
             Topic::Reference => Request::Reference(question::reference::Asked(motion())),
-            // Of the whole model of a machine nothing is proved.
-            Topic::Proof if self.draws_whole() => return None,
+            // Of the whole model of a machine nothing is proved, and its basin is no graph to integrate over.
+            Topic::Proof | Topic::Kicks if self.draws_whole() => return None,
             Topic::Proof => Request::Proof(question::proof::Asked { parameters }),
             Topic::Zones => self.zones_request(&parameters)?,
-            // The basin of the whole model of a machine is no graph to integrate over.
-            Topic::Kicks if self.draws_whole() => return None,
             Topic::Kicks => {
                 Request::Kicks(question::kicks::Asked { parameters, kicks: self.kicks })
             }
@@ -240,30 +238,28 @@ impl Session {
                     range: (range.from(), range.to()),
                 })
             }
-            Topic::Regimes => {
-                let plot = own(View::Regimes)?;
-                let Axes { abscissa, against, .. } = plot.axes;
-                let within = |symbol: Symbol, span: Span| {
-                    let spec = symbol.spec();
-                    span.within(spec.min, spec.max).map(|span| (span.from(), span.to()))
-                };
-                let plane = Plane {
-                    right: abscissa,
-                    up: against,
-                    right_range: within(abscissa, plot.window.x)?,
-                    up_range: within(against, plot.window.y)?,
-                };
-                let mut others = parameters;
-                for symbol in [abscissa, against] {
-                    symbol.set(&mut others, &mut { self.problem.initial }, 0.0);
-                }
-                Request::Regimes(question::regimes::Asked {
-                    parameters: others,
-                    plane,
-                    rough: false,
-                })
-            }
+            Topic::Regimes => self.regimes_request(plot, parameters)?,
         })
+    }
+
+    fn regimes_request(&self, plot: usize, parameters: Parameters) -> Option<Request> {
+        let plot = self.plots.get(plot).filter(|plot| plot.view == View::Regimes)?;
+        let Axes { abscissa, against, .. } = plot.axes;
+        let within = |symbol: Symbol, span: Span| {
+            let spec = symbol.spec();
+            span.within(spec.min, spec.max).map(|span| (span.from(), span.to()))
+        };
+        let plane = Plane {
+            right: abscissa,
+            up: against,
+            right_range: within(abscissa, plot.window.x)?,
+            up_range: within(against, plot.window.y)?,
+        };
+        let mut others = parameters;
+        for symbol in [abscissa, against] {
+            symbol.set(&mut others, &mut { self.problem.initial }, 0.0);
+        }
+        Some(Request::Regimes(question::regimes::Asked { parameters: others, plane, rough: false }))
     }
 
     /// How far the answer about this topic is for the present problem, as a plot asks it.

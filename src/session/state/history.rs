@@ -12,7 +12,7 @@ use crate::session::state::setup::Setup;
 #[derive(Clone, Debug, PartialEq)]
 pub enum Before {
     /// A number was changed. Undoing it leaves zoom and layers alone.
-    Setup(Setup),
+    Setup(Box<Setup>),
     /// A plot was added, removed or moved, or shows another view.
     ScreenSetup(ScreenSetup),
     /// A scene was opened or reset, and everything that a scene sets with it.

@@ -1,20 +1,20 @@
 //! A recorded motion: opened, fitted, with numbers held, and stopped.
 
 use super::Trial;
+use crate::numerics::elementary::{cos, exp, sin};
 use crate::oscillator::Symbol;
 use crate::scene::{Topic, View};
 use crate::session::{Code, Effect, Key, Msg, Purpose, save, update};
 
 /// A decay with D = 0.02 and r = 0.05 at 10/s, without noise but for rounding to three places.
 fn record() -> String {
-    let (decay, mut text) = ((-std::f64::consts::PI * 0.02 / 0.9998).exp(), String::new());
+    let (decay, mut text) = (exp(-std::f64::consts::PI * 0.02 / 0.9998), String::new());
     let (mut from, mut side, mut t) = (3.0_f64, 1.0, 0.0);
     let root = (1.0_f64 - 0.02 * 0.02).sqrt();
     while from > 0.05 {
         for step in 0..20 {
             let tau = std::f64::consts::PI / root * f64::from(step) / 20.0;
-            let swing =
-                (-0.02 * tau).exp() * ((root * tau).cos() + 0.02 / root * (root * tau).sin());
+            let swing = exp(-0.02 * tau) * (cos(root * tau) + 0.02 / root * sin(root * tau));
             let x = side * ((from - 0.05) * swing + 0.05);
             text += &format!("{:.5},{x:.3}\n", (t + tau) / 10.0);
         }
