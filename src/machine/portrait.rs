@@ -306,16 +306,22 @@ impl Portrait {
         gap.map_or(Fate::Rest, |gap| if x == gap.to { gap.end } else { gap.fate })
     }
 
-    /// The part of a window, in m and m/s, from which the mass comes to rest.
+    /// The part of a window, in m and m/s, from which the mass comes to rest; `None` where motions from the window
+    /// lead beyond what is known.
     #[must_use]
-    pub fn rest_share(&self, x: (f64, f64), v: (f64, f64)) -> f64 {
+    pub fn rest_share(&self, x: (f64, f64), v: (f64, f64)) -> Option<f64> {
         let y = (self.model.scaled_velocity(v.0), self.model.scaled_velocity(v.1));
         let window = Rectangle { x, y };
         match &self.border {
-            Border::None => 1.0,
-            Border::NoBasin => 0.0,
+            // Motions do not cross, and along an edge they are the farther out the nearer a corner is.
+            Border::None => {
+                let rests = |x: f64, v: f64| self.fate(x, v) == Ok(Fate::Rest);
+                let all = || [x.0, x.1].iter().all(|x| [v.0, v.1].iter().all(|v| rests(*x, *v)));
+                (self.margin.is_none() || all()).then_some(1.0)
+            }
+            Border::NoBasin => Some(0.0),
             Border::Cycle(_, curve) | Border::Grazing(curve) => {
-                curve.area_within(&window, self.model.speed) / window.area()
+                Some(curve.area_within(&window, self.model.speed) / window.area())
             }
         }
     }

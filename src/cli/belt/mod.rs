@@ -219,6 +219,7 @@ impl Belt {
             Ok((survey, share, self.designed(&subject, tolerances)?, certain))
         });
         let (survey, rest_share, design, certain) = found.map_err(troubled)?;
+        self.tell_unknown(rest_share);
         let incomplete = survey.course.portrait.incomplete();
         let answer =
             Answer { machine: &machine, survey: &survey, rest_share, design, certain, seconds };
@@ -267,6 +268,7 @@ impl Belt {
         });
         let (course, design) = found.map_err(troubled)?;
         let rest_share = self.share(&course.portrait);
+        self.tell_unknown(rest_share);
         let incomplete = course.portrait.incomplete();
         let answer = ModeAnswer { mode: &mode, course: &course, rest_share, design, seconds };
         self.output.print(&match self.output.format {
@@ -319,11 +321,20 @@ impl Belt {
         })
     }
 
-    /// The part of the window from which the mass comes to rest, if asked for.
+    /// The part of the window from which the mass comes to rest, if asked for and known.
     fn share(&self, portrait: &Portrait) -> Option<f64> {
         let Window { x: (from, to), v } = self.window?;
         let steady = if self.elongation { portrait.model.pull } else { 0.0 };
-        Some(portrait.rest_share((from - steady, to - steady), v))
+        portrait.rest_share((from - steady, to - steady), v)
+    }
+
+    fn tell_unknown(&self, rest_share: Option<f64>) {
+        if self.window.is_some() && rest_share.is_none() {
+            eprintln!(
+                "hopfscope: of the window it is not known what comes to rest: from its corners motions lead beyond \
+                 what is known"
+            );
+        }
     }
 
     /// The friction for the margin, if asked for.
