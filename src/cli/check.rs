@@ -8,6 +8,7 @@ use super::failure::Failure;
 use super::output::print;
 use crate::check::check;
 use crate::report::certified::certificate_table;
+use crate::runtime::bounded;
 
 /// Checks a certificate that `cycles --certificate` wrote, step by step
 #[derive(Debug, Args)]
@@ -20,8 +21,7 @@ pub struct Check {
 impl Check {
     /// Checks and prints what is certain.
     pub fn run(&self) -> Result<(), Failure> {
-        let text = std::fs::read_to_string(&self.file)
-            .map_err(|error| Failure::file(&self.file, &error))?;
+        let text = bounded::text(&self.file).map_err(|error| Failure::file(&self.file, &error))?;
         let refused = |why| Failure::Unanswered(format!("{}: refused, {why}", self.file.display()));
         print(&certificate_table(&check(&text).map_err(refused)?))
     }

@@ -6,6 +6,7 @@ use clap::Args;
 
 use super::failure::Failure;
 use super::places;
+use crate::runtime::bounded;
 use crate::session::config::{Config, parse};
 
 /// Which settings file is read.
@@ -31,7 +32,7 @@ impl Settings {
                 None => return Ok(Config::default()),
             },
         };
-        match std::fs::read_to_string(&path) {
+        match bounded::text(&path) {
             Ok(text) => parse(&path.display().to_string(), &text)
                 .map_err(|misread| Failure::Usage(misread.to_string())),
             Err(error) if error.kind() == std::io::ErrorKind::NotFound && !named => {

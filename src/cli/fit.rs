@@ -23,7 +23,7 @@ use crate::fit::{
 use crate::flow::Limits;
 use crate::oscillator::belt::Dimension;
 use crate::report::fit as forms;
-use crate::runtime::provenance_file;
+use crate::runtime::{bounded, provenance_file};
 use crate::scene::machine::unit::measured;
 
 /// Estimates omega0, offset, D, D2, D3 and r of a recorded motion, with errors, and the margin that follows
@@ -198,7 +198,8 @@ impl Fit {
 
     fn fitted(&self) -> Result<Fitted, Failure> {
         let name = self.file.display().to_string();
-        let bytes = std::fs::read(&self.file).map_err(|error| Failure::file(&self.file, &error))?;
+        let bytes =
+            bounded::bytes(&self.file).map_err(|error| Failure::file(&self.file, &error))?;
         let (time, displacement) = self.columns.clone().unwrap_or_default();
         let reading = Reading { time, displacement, peaks: self.peaks };
         let bad = |problem: &dyn std::fmt::Display| Failure::Usage(format!("{name}: {problem}"));

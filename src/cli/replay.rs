@@ -10,7 +10,7 @@ use super::input;
 use super::look::Looks;
 use super::output::print;
 use super::start::Start;
-use crate::runtime::replay;
+use crate::runtime::{bounded, replay};
 use crate::session::config::Config;
 use crate::session::replay::{Script, parse};
 use crate::session::settings::Theme;
@@ -102,7 +102,7 @@ fn anywhere() -> Environment {
 
 /// A keystroke file, read and understood before anything runs.
 pub fn script(file: &Path) -> Result<Script, Failure> {
-    let text = std::fs::read_to_string(file).map_err(|error| Failure::file(file, &error))?;
+    let text = bounded::text(file).map_err(|error| Failure::file(file, &error))?;
     parse(&text).map_err(|error| Failure::Usage(format!("{}: {error}", file.display())))
 }
 

@@ -313,7 +313,9 @@ impl Portrait {
         let y = (self.model.scaled_velocity(v.0), self.model.scaled_velocity(v.1));
         let window = Rectangle { x, y };
         match &self.border {
-            // Motions do not cross, and along an edge they are the farther out the nearer a corner is.
+            // Above v = 0 motions do not cross, and go farther out from the upper end of a vertical edge than
+            // from below. Along a horizontal one dv/dt changes sign once, as the spring is linear: motions that
+            // rise through it fall through it farther right, so the outermost pass a corner. Below v = 0 the same.
             Border::None => {
                 let rests = |x: f64, v: f64| self.fate(x, v) == Ok(Fate::Rest);
                 let all = || [x.0, x.1].iter().all(|x| [v.0, v.1].iter().all(|v| rests(*x, *v)));

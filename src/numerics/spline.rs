@@ -69,7 +69,7 @@ impl fmt::Display for PointsError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             PointsError::TooFew { count } => {
-                write!(out, "{count} points; a table needs {FEWEST} or more")
+                write!(out, "a table needs {FEWEST} points or more, not {count}")
             }
             PointsError::Point { index } => {
                 write!(out, "point {}: numbers must be finite, velocities must increase", index + 1)

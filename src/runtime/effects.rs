@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use crossterm::Command;
 use crossterm::clipboard::CopyToClipboard;
 
+use super::bounded;
 use crate::fit::record::decoded;
 use crate::session::Notice;
 
@@ -73,12 +74,11 @@ impl Files {
     pub fn read(path: &Path) -> Result<String, String> {
         let path = at_home(path);
         let told = |why: &dyn std::fmt::Display| format!("{}: {why}", path.display());
-        // A device or a pipe could go on for ever.
-        let length = std::fs::metadata(&path).map_err(|why| told(&why))?;
-        if !length.is_file() || length.len() > LONGEST {
-            return Err(told(&format!("no file of at most {} MB", LONGEST >> 20)));
+        // A pipe into which nobody writes would hold up the loop.
+        if !std::fs::metadata(&path).map_err(|why| told(&why))?.is_file() {
+            return Err(told(&"no file"));
         }
-        std::fs::read(&path).map(|bytes| decoded(&bytes)).map_err(|why| told(&why))
+        bounded::bytes(&path).map(|bytes| decoded(&bytes)).map_err(|why| told(&why))
     }
 
     /// Puts a kept session aside: it is not offered again, but not lost before the next one is.
@@ -86,9 +86,6 @@ impl Files {
         drop(std::fs::rename(path, path.with_file_name("last.toml")));
     }
 }
-
-/// Longest file that is read, in bytes.
-const LONGEST: u64 = 16 << 20;
 
 /// A path in which a leading `~/` is the user's home, as in the shell.
 pub(super) fn at_home(path: &Path) -> PathBuf {

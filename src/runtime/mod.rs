@@ -6,6 +6,7 @@
 //! worker what the session then wants, and draws.
 
 pub mod application;
+pub mod bounded;
 pub mod effects;
 pub mod event;
 pub mod explorer;

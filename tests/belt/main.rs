@@ -288,6 +288,23 @@ fn the_study_of_the_open_benchmark_is_one_sweep() {
 }
 
 #[test]
+fn a_share_that_is_not_known_leaves_no_column_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("short.toml");
+    // Beyond a slip of 0.4086 m/s friction is not known.
+    let text = "m = 0.415\nc = 1.735\nd1 = 0.25665\nd3 = 0.233634\nF = 0.1876\nR = 0.008091\nv0 = 0.1379\n\
+                friction.polynomial.coefficients = [0.62, -1.11435, -0.98584]\n";
+    fs::write(&path, text).unwrap();
+    let name = path.to_str().unwrap();
+    let sweep = ["belt", name, "--sweep", "v0=0.1:0.2:2", "--window=-0.1:0.1,-0.18:0.18"];
+    let table = run(&sweep).out;
+    let rows = ["rest share", "come to rest  1", "come to rest  not known"];
+    assert!(rows.iter().all(|row| table.lines().any(|line| line.ends_with(row))), "{table}");
+    let point = |index: usize| belt(&sweep[1..])["points"][index]["rest_share"].clone();
+    assert_eq!((number(&point(0)), point(1)), (1.0, serde_json::Value::Null));
+}
+
+#[test]
 fn a_mode_is_set_swept_followed_and_designed_as_a_belt_is() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mode.toml");

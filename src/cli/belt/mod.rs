@@ -25,7 +25,8 @@ use crate::machine::survey::{Course, Trouble, survey};
 use crate::machine::{Body, Portrait, Subject, Tolerances};
 use crate::report::belt::branch::{Borders, Branched};
 use crate::report::belt::mode::ModeAnswer;
-use crate::report::belt::{self, Answer, Designed, Head, Sweep, SweepPoint};
+use crate::report::belt::{self, Answer, Designed, Head, RestShare, Sweep, SweepPoint};
+use crate::runtime::bounded;
 use crate::scene::machine::file::parse;
 use crate::scene::machine::library::{TEXTBOOK, find, machines};
 use crate::scene::machine::mode::{self, Mode, is_mode};
@@ -95,13 +96,20 @@ fn long_about() -> String {
     )
 }
 
-/// The machine of a file, or of the program.
-pub fn machine(name: &str) -> Result<Machine, Failure> {
+/// What a name on the command line stands for.
+enum Named {
+    Belt(Machine),
+    Mode(Mode),
+}
+
+/// The machine or mode of a file, or the machine of the program.
+fn named(name: &str) -> Result<Named, Failure> {
     let path = Path::new(name);
-    let text = match std::fs::read_to_string(path) {
+    // Read once: it may be a pipe.
+    let text = match bounded::text(path) {
         Ok(text) => text,
         Err(error) => {
-            return find(name).cloned().ok_or_else(|| {
+            return find(name).cloned().map(Named::Belt).ok_or_else(|| {
                 let known: Vec<&str> =
                     machines().iter().map(|machine| machine.name.as_str()).collect();
                 Failure::Usage(format!(
@@ -112,38 +120,31 @@ pub fn machine(name: &str) -> Result<Machine, Failure> {
         }
     };
     let title = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
+    let told = |error: &dyn std::fmt::Display| Failure::Usage(error.to_string());
+    if is_mode(&text) {
+        return mode::parse(&title, name, &text).map(Named::Mode).map_err(|error| told(&error));
+    }
     let fetch = |table: &str| {
         let beside = path.with_file_name(table);
-        std::fs::read_to_string(&beside).map_err(|error| format!("{}: {error}", beside.display()))
+        bounded::text(&beside).map_err(|error| format!("{}: {error}", beside.display()))
     };
-    parse(&title, name, &text, fetch).map_err(|error| Failure::Usage(error.to_string()))
-}
-
-/// The mode of a file, if that is what it holds.
-fn mode(name: &str) -> Result<Option<Mode>, Failure> {
-    let path = Path::new(name);
-    let Ok(text) = std::fs::read_to_string(path) else { return Ok(None) };
-    if !is_mode(&text) {
-        return Ok(None);
-    }
-    let title = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
-    mode::parse(&title, name, &text).map(Some).map_err(|error| Failure::Usage(error.to_string()))
+    parse(&title, name, &text, fetch).map(Named::Belt).map_err(|error| told(&error))
 }
 
 /// The machine of a file, or of the program, to be looked at.
 pub fn scene(name: &str) -> Result<Arc<Scene>, Failure> {
-    if mode(name)?.is_some() {
-        return Err(Failure::Usage(format!("{name}: {}", mode::NO_BELT)));
-    }
-    let scaled = ScaledMachine::new(machine(name)?)
-        .map_err(|error| Failure::Usage(format!("{name}: {error}")))?;
+    let told = |error: &dyn std::fmt::Display| Failure::Usage(format!("{name}: {error}"));
+    let machine = match named(name)? {
+        Named::Belt(machine) => machine,
+        Named::Mode(_) => return Err(told(&mode::NO_BELT)),
+    };
+    let scaled = ScaledMachine::new(machine).map_err(|error| told(&error))?;
     Ok(Arc::new(scaled.scene()))
 }
 
 impl Belt {
     /// The machine with what was set on the command line.
-    fn machine(&self) -> Result<Machine, Failure> {
-        let mut machine = machine(&self.machine)?;
+    fn adjusted(&self, mut machine: Machine) -> Result<Machine, Failure> {
         for &(name, Toleranced { middle, half_width }) in &self.set {
             match name {
                 Name::Number(varied) => {
@@ -194,10 +195,10 @@ impl Belt {
     /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
         let second = self.second()?;
-        if let Some(mode) = mode(&self.machine)? {
-            return self.of_mode(mode, second);
-        }
-        let machine = self.machine()?;
+        let machine = match named(&self.machine)? {
+            Named::Mode(mode) => return self.of_mode(mode, second),
+            Named::Belt(machine) => self.adjusted(machine)?,
+        };
         let subject = Subject {
             tolerance: self.own(second),
             ..Body::Belt(Box::new(machine.belt.clone())).into()
@@ -219,7 +220,6 @@ impl Belt {
             Ok((survey, share, self.designed(&subject, tolerances)?, certain))
         });
         let (survey, rest_share, design, certain) = found.map_err(troubled)?;
-        self.tell_unknown(rest_share);
         let incomplete = survey.course.portrait.incomplete();
         let answer =
             Answer { machine: &machine, survey: &survey, rest_share, design, certain, seconds };
@@ -268,7 +268,6 @@ impl Belt {
         });
         let (course, design) = found.map_err(troubled)?;
         let rest_share = self.share(&course.portrait);
-        self.tell_unknown(rest_share);
         let incomplete = course.portrait.incomplete();
         let answer = ModeAnswer { mode: &mode, course: &course, rest_share, design, seconds };
         self.output.print(&match self.output.format {
@@ -321,20 +320,11 @@ impl Belt {
         })
     }
 
-    /// The part of the window from which the mass comes to rest, if asked for and known.
-    fn share(&self, portrait: &Portrait) -> Option<f64> {
-        let Window { x: (from, to), v } = self.window?;
+    fn share(&self, portrait: &Portrait) -> RestShare {
+        let Some(Window { x: (from, to), v }) = self.window else { return RestShare::NotAsked };
         let steady = if self.elongation { portrait.model.pull } else { 0.0 };
-        portrait.rest_share((from - steady, to - steady), v)
-    }
-
-    fn tell_unknown(&self, rest_share: Option<f64>) {
-        if self.window.is_some() && rest_share.is_none() {
-            eprintln!(
-                "hopfscope: of the window it is not known what comes to rest: from its corners motions lead beyond \
-                 what is known"
-            );
-        }
+        let known = portrait.rest_share((from - steady, to - steady), v);
+        known.map_or(RestShare::Unknown, RestShare::Is)
     }
 
     /// The friction for the margin, if asked for.
@@ -359,7 +349,11 @@ impl Belt {
             let value = spaced(ends, index, count);
             let here = subject.with(varied, value).map_err(Failure::Usage)?;
             let found = here.portrait().map_err(|trouble| trouble.to_string());
-            let rest_share = found.as_ref().ok().and_then(|found| self.share(found));
+            let rest_share = match &found {
+                Ok(found) => self.share(found),
+                Err(_) if self.window.is_some() => RestShare::Unknown,
+                Err(_) => RestShare::NotAsked,
+            };
             let design = match &found {
                 Ok(_) => self.designed(&here, known).map_err(troubled)?,
                 Err(_) => None,

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::expansion::Expansion;
-use super::{Answer, Designed, finite, margins};
+use super::{Answer, Designed, RestShare, finite, margins};
 use crate::machine::guarantee::{Kicks, Uncertain};
 use crate::machine::motion::{Outcome, State};
 use crate::machine::survey::{Course, Second};
@@ -31,8 +31,8 @@ struct Document<'a> {
     motion: MotionOf,
     #[serde(skip_serializing_if = "Option::is_none")]
     guaranteed: Option<GuaranteedOf>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    rest_share: Option<f64>,
+    #[serde(skip_serializing_if = "RestShare::is_not_asked")]
+    rest_share: RestShare,
     #[serde(skip_serializing_if = "Option::is_none")]
     design: Option<DesignOf>,
     expansion: Expansion<'a>,

@@ -11,6 +11,8 @@ pub use document::json;
 pub use sweep::{Sweep, SweepPoint, csv as sweep_csv, json as sweep_json, table as sweep_table};
 pub use table::{csv, table};
 
+use serde::Serialize;
+
 use crate::machine::guarantee::{Kicks, Uncertain};
 use crate::machine::survey::Survey;
 use crate::machine::varied::Varied;
@@ -23,12 +25,57 @@ use crate::study::design::{Kick, Needed};
 use crate::words::number::significant;
 use crate::words::quantity::with_unit;
 
+/// The part of a window from which the mass comes to rest.
+#[derive(Clone, Copy, Serialize)]
+#[serde(untagged)]
+pub enum RestShare {
+    NotAsked,
+    /// Motions from the window lead beyond what is known.
+    Unknown,
+    Is(f64),
+}
+
+impl RestShare {
+    /// Whether documents leave it out.
+    #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands a reference")]
+    fn is_not_asked(&self) -> bool {
+        matches!(self, RestShare::NotAsked)
+    }
+
+    fn known(self) -> Option<f64> {
+        if let RestShare::Is(share) = self { Some(share) } else { None }
+    }
+
+    /// The cell of a table; none if it was not asked for.
+    fn cell(self) -> Option<String> {
+        match self {
+            RestShare::NotAsked => None,
+            RestShare::Unknown => Some("not known".to_owned()),
+            RestShare::Is(share) => Some(significant(share, 10)),
+        }
+    }
+
+    /// A line to read; empty if it was not asked for.
+    fn line(self) -> String {
+        match self {
+            RestShare::NotAsked => String::new(),
+            RestShare::Unknown => {
+                "of the window, it is not known what comes to rest: from its corners motions lead \
+                                   beyond what is known\n"
+                    .to_owned()
+            }
+            RestShare::Is(share) => {
+                format!("of the window, {} comes to rest\n", significant(share, 10))
+            }
+        }
+    }
+}
+
 /// Everything that is said about a machine.
 pub struct Answer<'a> {
     pub machine: &'a Machine,
     pub survey: &'a Survey,
-    /// The part of a window from which it comes to rest, if asked for.
-    pub rest_share: Option<f64>,
+    pub rest_share: RestShare,
     /// The friction for a margin, if asked for.
     pub design: Option<Designed>,
     /// The kicks that are survived for certain, or why none is; `None` if not asked for.

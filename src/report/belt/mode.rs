@@ -4,19 +4,18 @@ use serde::Serialize;
 
 use super::document::{Cost, DesignOf, MotionOf, Whole};
 use super::table::{border, csv_rows, cycles, fate, gaps, sheet};
-use super::{Designed, Head, PLACES, margins};
+use super::{Designed, Head, PLACES, RestShare, margins};
 use crate::machine::survey::Course;
 use crate::report::json::text;
 use crate::scene::machine::mode::Mode;
-use crate::words::number::{duration, significant};
+use crate::words::number::duration;
 use crate::words::quantity::with_unit;
 
 /// Everything that is said about a mode.
 pub struct ModeAnswer<'a> {
     pub mode: &'a Mode,
     pub course: &'a Course,
-    /// The part of a window from which it comes to rest, if asked for.
-    pub rest_share: Option<f64>,
+    pub rest_share: RestShare,
     /// The friction for a margin, if asked for.
     pub design: Option<Designed>,
     pub seconds: f64,
@@ -29,8 +28,8 @@ struct Document<'a> {
     #[serde(flatten)]
     whole: Whole,
     motion: MotionOf,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    rest_share: Option<f64>,
+    #[serde(skip_serializing_if = "RestShare::is_not_asked")]
+    rest_share: RestShare,
     #[serde(skip_serializing_if = "Option::is_none")]
     design: Option<DesignOf>,
     cost: Cost,
@@ -63,9 +62,7 @@ pub fn table(answer: &ModeAnswer) -> String {
     out += &format!("{}\n\n{}", border(&course.portrait), cycles(&course.portrait.cycles));
     out += &gaps(&course.portrait);
     out += &format!("{}\n", fate(mode.start, course));
-    if let Some(share) = answer.rest_share {
-        out += &format!("of the window, {} comes to rest\n", significant(share, 10));
-    }
+    out += &answer.rest_share.line();
     if let Some(designed) = &answer.design {
         out += &format!("{}\n", designed.sentence());
     }

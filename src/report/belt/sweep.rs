@@ -3,13 +3,13 @@
 use serde::Serialize;
 
 use super::document::{Cost, DesignOf, Whole};
-use super::{Designed, Head, PLACES, margins};
+use super::{Designed, Head, PLACES, RestShare, margins};
 use crate::machine::varied::Varied;
 use crate::machine::{Border, Portrait};
 use crate::report::csv::Sheet;
 use crate::report::json::text;
 use crate::report::table::Table;
-use crate::words::number::{duration, significant};
+use crate::words::number::duration;
 use crate::words::quantity::with_unit;
 
 pub struct SweepPoint {
@@ -17,8 +17,7 @@ pub struct SweepPoint {
     pub value: f64,
     /// What the machine does there, or why it does not exist.
     pub found: Result<Portrait, String>,
-    /// The part of a window from which it comes to rest, if asked for.
-    pub rest_share: Option<f64>,
+    pub rest_share: RestShare,
     /// The friction for a margin, if asked for.
     pub design: Option<Designed>,
 }
@@ -50,8 +49,8 @@ struct Point<'a> {
     reason: Option<&'a String>,
     #[serde(flatten)]
     whole: Option<Whole>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    rest_share: Option<f64>,
+    #[serde(skip_serializing_if = "RestShare::is_not_asked")]
+    rest_share: RestShare,
     #[serde(skip_serializing_if = "Option::is_none")]
     design: Option<DesignOf>,
 }
@@ -86,6 +85,7 @@ fn regime(found: &Portrait) -> String {
     let rest = match found.border {
         Border::NoBasin => "no basin",
         _ if found.neutral => "periodic",
+        Border::None if found.margin.is_some() => "all that are known come to rest",
         Border::None => "all come to rest",
         Border::Cycle(..) => "basin within a cycle",
         Border::Grazing(_) if found.border.touches() => "basin up to the belt",
@@ -107,7 +107,7 @@ pub fn table(sweep: &Sweep) -> String {
     let (name, unit) = (sweep.varied.name(), sweep.varied.unit());
     let designs = sweep.points.iter().any(|point| point.design.is_some());
     let mut titles = vec![name, "margin", "impulse", "cycles up to", "on the belt", "regime"];
-    let shares = sweep.points.iter().any(|point| point.rest_share.is_some());
+    let shares = sweep.points.iter().any(|point| !point.rest_share.is_not_asked());
     if shares {
         titles.push("rest share");
     }
@@ -130,7 +130,7 @@ pub fn table(sweep: &Sweep) -> String {
                 cells.push(sizes.collect::<Vec<_>>().join(", "));
                 cells.push(ride.unwrap_or_default());
                 cells.push(regime(found));
-                cells.extend(point.rest_share.map(|share| significant(share, 10)));
+                cells.extend(point.rest_share.cell());
                 if let Some(designed) = &point.design {
                     let force = designed.force().map(|force| with_unit(force, PLACES, "N"));
                     cells.push(force.unwrap_or_else(|| "any".to_owned()));
@@ -193,7 +193,7 @@ pub fn csv(sweep: &Sweep) -> String {
             neutral: Some(found.neutral),
             x_margin,
             impulse_margin,
-            rest_share: point.rest_share,
+            rest_share: point.rest_share.known(),
             needed: point.design.as_ref().and_then(Designed::force),
         });
     }

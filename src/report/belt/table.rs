@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::document::kind;
 use super::expansion::Expansion;
-use super::{Answer, PLACES, finite, line, margins, numbers};
+use super::{Answer, PLACES, RestShare, finite, line, margins, numbers};
 use crate::machine::guarantee::{Kicks, Uncertain};
 use crate::machine::motion::{Outcome, State};
 use crate::machine::stepped::Stepped;
@@ -82,9 +82,7 @@ pub fn table(answer: &Answer) -> String {
     out += &gaps(&survey.course.portrait);
     let start = (machine.displacement, machine.velocity);
     out += &format!("{}\n", fate(start, &survey.course));
-    if let Some(share) = answer.rest_share {
-        out += &format!("of the window, {} comes to rest\n", significant(share, DIGITS));
-    }
+    out += &answer.rest_share.line();
     out += &format!("{}\n", expansion(answer));
     if let Some(designed) = &answer.design {
         out += &format!("{}\n", designed.sentence());
@@ -320,7 +318,7 @@ fn put(
 }
 
 /// Adds a row for each number of each cycle, and the share.
-pub(super) fn csv_rows(out: &mut Sheet, portrait: &Portrait, rest_share: Option<f64>) {
+pub(super) fn csv_rows(out: &mut Sheet, portrait: &Portrait, rest_share: RestShare) {
     for (index, cycle) in portrait.cycles.iter().enumerate() {
         let lead = format!("{} {} cycle {index}", stability(cycle.stable), kind(cycle));
         for (name, value, unit) in [
@@ -335,7 +333,7 @@ pub(super) fn csv_rows(out: &mut Sheet, portrait: &Portrait, rest_share: Option<
             put(out, &format!("{lead}: {name}"), None, Some(value), unit);
         }
     }
-    if let Some(share) = rest_share {
-        put(out, "rest share of the window", Some(share), None, "");
+    if !rest_share.is_not_asked() {
+        put(out, "rest share of the window", rest_share.known(), None, "");
     }
 }

@@ -67,9 +67,9 @@ fn a_table_may_stand_in_a_file_of_its_own() {
         ("0,0.4,5\n", "mu.csv:1: \"0,0.4,5\" is not a velocity and a coefficient"),
         ("0,0.4\n1 kg,0.3\n", "mu.csv:2: has another dimension; it takes a unit such as m/s"),
         ("0,0.4\n1,x\n", "mu.csv:2: \"x\" does not begin with a number"),
-        ("0,0.4\n", "1 points; a table needs 4 or more"),
+        ("0,0.4\n", "a table needs 4 points or more, not 1"),
         ("0,1\n1,1\n1,1\n2,1\n", "point 3: numbers must be finite, velocities must increase"),
-        ("", "0 points"),
+        ("", "4 points or more, not 0"),
     ] {
         let error = parse("test", "test.toml", &text, |_| Ok(bad.to_owned())).unwrap_err();
         let line = error.to_string();
