@@ -2,8 +2,9 @@
 
 use serde::Serialize;
 
+use super::gaps::Fate;
 use super::model::Model;
-use super::portrait::{Border, Fate, Portrait};
+use super::portrait::{Border, Portrait};
 
 /// The model along a number: `None` where there is none.
 pub type Family<'a> = &'a dyn Fn(f64) -> Option<Model>;

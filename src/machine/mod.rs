@@ -32,6 +32,7 @@ pub(crate) mod curve;
 pub(crate) mod cycles;
 pub(crate) mod design;
 mod force;
+mod gaps;
 #[doc(hidden)]
 pub mod guarantee;
 #[doc(hidden)]
@@ -64,11 +65,12 @@ pub mod varied;
 
 pub use arc::{Flow, Stop};
 pub use cycles::Cycle;
+pub use gaps::Fate;
 pub use ledger::Ledger;
 pub use modal::Modal;
 pub use model::{Lines, Model, Phase, Unfit};
 pub use motion::Motion;
-pub use portrait::{Border, Fate, Margin, Portrait};
+pub use portrait::{Border, Margin, Portrait};
 pub use series::ORDER;
 pub use subject::{Body, Subject};
 pub use tolerance::Tolerances;

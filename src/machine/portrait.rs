@@ -7,26 +7,12 @@
 use super::arc::{Flow, Stop};
 use super::curve::{Curve, Piece, Rectangle};
 use super::cycles::Cycle;
+use super::gaps::{Divide, Fate, Gap, Tendency, gaps, jumps, ways};
 use super::landmarks::Landmarks;
 use super::model::{Model, Phase};
 use super::return_map::Return;
 use super::turn::Place;
 use crate::numerics::root::bisect;
-
-/// What a motion ends as.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Fate {
-    /// At rest.
-    Rest,
-    /// On the cycle of this index, or on it from the start.
-    Cycle(usize),
-    /// Periodic, one of a family.
-    Neutral,
-    /// It grows without bound.
-    Escaped,
-    /// It leaves what is known of the machine.
-    Unknown(Stop),
-}
 
 /// What borders the basin of rest.
 #[derive(Clone, Debug)]
@@ -95,16 +81,6 @@ impl Margin {
     }
 }
 
-/// A gap between right turning points.
-#[derive(Clone, Copy, Debug)]
-struct Gap {
-    /// Its upper end.
-    to: f64,
-    fate: Fate,
-    /// What becomes of a motion that turns at the upper end itself.
-    end: Fate,
-}
-
 /// What a machine does.
 #[derive(Clone, Debug)]
 pub struct Portrait {
@@ -131,15 +107,6 @@ pub struct Portrait {
     /// Steps that it took.
     pub steps: u64,
     gaps: Vec<Gap>,
-}
-
-/// A place on the line of right turning points where something changes.
-#[derive(Clone, Copy, Debug)]
-enum Divide {
-    Cycle(usize),
-    Jump,
-    /// Up to here the guide catches the mass; motions from beyond grow.
-    Capture,
 }
 
 impl Portrait {
@@ -327,98 +294,6 @@ impl Portrait {
             }
         }
     }
-}
-
-/// Where the return map jumps: where a touch becomes a ride, and where the mirror band ends.
-fn jumps(model: &Model, landmarks: Option<&Landmarks>) -> Vec<f64> {
-    let Some(marks) = landmarks else { return Vec::new() };
-    let mut found: Vec<f64> = marks.grazing.right.into_iter().collect();
-    if marks.lines.release > marks.lines.fold {
-        found.extend(marks.beyond.filter(|beyond| Some(*beyond) != marks.grazing.right));
-    }
-    found.retain(|x| *x > model.guide_static);
-    found
-}
-
-/// Where motions go in a gap.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Tendency {
-    Outward,
-    Inward,
-    /// They are periodic.
-    Nowhere,
-    /// They leave what is known.
-    Lost(Stop),
-}
-
-/// Where motions go in each gap.
-fn ways(flow: &mut Flow, marks: &[(f64, Divide)], end: f64) -> Result<Vec<Tendency>, Stop> {
-    let mut ways = Vec::with_capacity(marks.len() + 1);
-    let held = flow.model.guide_static;
-    let mut low = held;
-    for mark in marks.iter().map(Some).chain([None]) {
-        if let Some((x, Divide::Capture)) = mark {
-            ways.push(Tendency::Inward);
-            low = *x;
-            continue;
-        }
-        let high = mark.map(|(x, _)| *x);
-        let high = high.unwrap_or(if end > low { end } else { 2.0 * low });
-        let x = low + 0.5 * (high - low);
-        ways.push(match flow.returned(x) {
-            Ok(Return::Turns(image)) => way(image.x, x),
-            Ok(Return::Rests(_)) | Err(Stop::Settled) => Tendency::Inward,
-            Err(Stop::Escaped) => Tendency::Outward,
-            Err(stop @ Stop::OutsideLaw { .. }) => Tendency::Lost(stop),
-            Err(Stop::Steps) => return Err(Stop::Steps),
-        });
-        low = high;
-    }
-    Ok(ways)
-}
-
-fn way(image: f64, x: f64) -> Tendency {
-    let change = (image - x) / x;
-    if change.abs() < super::search::NOTHING {
-        Tendency::Nowhere
-    } else if change > 0.0 {
-        Tendency::Outward
-    } else {
-        Tendency::Inward
-    }
-}
-
-/// The fate of each gap.
-fn gaps(marks: &[(f64, Divide)], ways: &[Tendency], stop: Option<Stop>) -> Vec<Gap> {
-    let fate = |gap: usize| {
-        let mut here = gap;
-        loop {
-            let (mark, next) = match ways[here] {
-                Tendency::Lost(stop) => return Fate::Unknown(stop),
-                Tendency::Nowhere => return Fate::Neutral,
-                Tendency::Outward => (marks.get(here), here + 1),
-                Tendency::Inward if here == 0 => return Fate::Rest,
-                Tendency::Inward => (marks.get(here - 1), here - 1),
-            };
-            match mark {
-                None => return stop.map_or(Fate::Escaped, Fate::Unknown),
-                Some((_, Divide::Cycle(index))) => return Fate::Cycle(*index),
-                // Motions go on across a jump; the map rises there, so it never sends them back.
-                Some((_, Divide::Jump | Divide::Capture)) => here = next,
-            }
-        }
-    };
-    let gap = |(gap, mark): (usize, Option<&(f64, Divide)>)| {
-        let (to, mark) = mark.map_or((f64::INFINITY, Divide::Capture), |(x, mark)| (*x, *mark));
-        let end = match mark {
-            Divide::Cycle(index) => Fate::Cycle(index),
-            // What touches the belt sticks to it.
-            Divide::Jump => fate(gap + 1),
-            Divide::Capture => fate(gap),
-        };
-        Gap { to, fate: fate(gap), end }
-    };
-    marks.iter().map(Some).chain([None]).enumerate().map(gap).collect()
 }
 
 impl Flow<'_> {

@@ -4,9 +4,10 @@
 use std::fmt;
 
 use super::arc::{Flow, Stop};
+use super::gaps::Fate;
 use super::model::{Model, Unfit};
 use super::motion::Motion;
-use super::portrait::{Fate, Portrait};
+use super::portrait::Portrait;
 use super::stepped::{Stepped, SteppedMethod, stepped};
 use crate::flow::{Limits, Reason};
 use crate::oscillator::Belt;
