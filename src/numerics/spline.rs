@@ -63,6 +63,11 @@ pub enum PointsError {
         /// Which point.
         index: usize,
     },
+    /// Numbers overflow on the way; of the points the two closest are these, `index` and the next.
+    Uneven {
+        /// The first of the two, from 0.
+        index: usize,
+    },
 }
 
 impl fmt::Display for PointsError {
@@ -73,6 +78,13 @@ impl fmt::Display for PointsError {
             }
             PointsError::Point { index } => {
                 write!(out, "point {}: numbers must be finite, velocities must increase", index + 1)
+            }
+            PointsError::Uneven { index } => {
+                let (one, next) = (index + 1, index + 2);
+                write!(
+                    out,
+                    "points {one} and {next} are too close together beside the others for a smooth curve"
+                )
             }
         }
     }
@@ -98,7 +110,8 @@ impl SmoothingSpline {
     /// The smoothest curve that misses `points` by `scatter` (at most) in the quadratic mean.
     ///
     /// # Errors
-    /// [`PointsError`] for fewer than four points, numbers that are none, or abscissae that do not increase.
+    /// [`PointsError`] for fewer than four points, numbers that are not finite, abscissae that do not increase or
+    /// are so uneven that numbers overflow.
     pub fn new(points: &[(f64, f64)], scatter: f64) -> Result<Self, PointsError> {
         if points.len() < FEWEST {
             return Err(PointsError::TooFew { count: points.len() });
@@ -117,6 +130,12 @@ impl SmoothingSpline {
         let missed = quadratic_mean(&y, &g);
         let third = third_derivatives(&x, &c);
         let slopes = slopes(&x, &g, &third);
+        let all = third.iter().flatten().chain(&g).copied();
+        if !all.chain(slopes.iter().flat_map(|pair| [pair.0, pair.1])).all(f64::is_finite) {
+            let gap = |index: &usize| x[index + 1] - x[*index];
+            let closest = (0..x.len() - 1).min_by(|one, other| gap(one).total_cmp(&gap(other)));
+            return Err(PointsError::Uneven { index: closest.unwrap_or(0) });
+        }
         let given = Points { points: points.to_vec(), scatter };
         Ok(SmoothingSpline { given, x, g, slopes, third, missed })
     }

@@ -84,6 +84,8 @@ fn what_is_no_table_is_refused() {
     assert_eq!(refused(&[(0.0, 1.0); 3]), PointsError::TooFew { count: 3 });
     let twice = [(0.0, 1.0), (1.0, 1.0), (1.0, 2.0), (2.0, 1.0)];
     assert_eq!(refused(&twice), PointsError::Point { index: 2 });
+    let uneven = [(0.0, 0.4), (1.0, 0.3), (1.0 + 1e-15, 0.25), (1e300, 0.2)];
+    assert_eq!(refused(&uneven), PointsError::Uneven { index: 1 });
     let missing = [(0.0, 1.0), (1.0, f64::NAN), (2.0, 2.0), (3.0, 1.0)];
     assert_eq!(refused(&missing), PointsError::Point { index: 1 });
 }
