@@ -16,7 +16,7 @@ use super::replay::script;
 use super::start::Start;
 use crate::runtime::effects::Files;
 use crate::runtime::{Options, Record, explore};
-use crate::scene::library::PLAIN;
+use crate::scene::library::{PLAIN, find, names};
 use crate::session::opening::opening;
 use crate::session::replay::{Recorder, Script, Step};
 use crate::session::{Kept, Key, Notice, Session, Size, save};
@@ -62,7 +62,11 @@ impl Explore {
         let name = named.map_or(PLAIN, String::as_str);
         let scene = match &self.belt {
             Some(file) => self.start.applied(belt::scene(file)?),
-            None => self.start.scene_named(name).map_err(|missing| or_command(name, missing))?,
+            None if self.named.is_some() => {
+                find(name).map_err(|_| neither_scene_nor_command(name))?;
+                self.start.scene_named(name)?
+            }
+            None => self.start.scene_named(name)?,
         };
         let play = self.play.as_deref().map(played).transpose()?.unwrap_or_default();
         // The terminal says its size before the first picture.
@@ -174,18 +178,25 @@ fn started() -> String {
     std::iter::once("hopfscope".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
 }
 
-/// Adds to the complaint about a scene the command that was meant, if one looks like it.
-fn or_command(name: &str, missing: Failure) -> Failure {
-    /// How much two names must have in common (0: nothing, 1: equal).
-    const ALIKE: f64 = 0.8;
-    let likeness = |command: &String| strsim::jaro(name, command);
+/// The complaint about a first word that is neither a scene nor a command, with what it may have meant.
+fn neither_scene_nor_command(name: &str) -> Failure {
+    /// How much two names must have in common (0: nothing, 1: equal), and how much less than the best may do.
+    const ALIKE: (f64, f64) = (0.7, 0.1);
+    let scenes = names().map(|scene| (strsim::jaro(name, scene), scene.to_owned()));
     let commands = super::command_names().into_iter();
-    match commands.max_by(|a, b| likeness(a).total_cmp(&likeness(b))) {
-        Some(command) if likeness(&command) >= ALIKE => {
-            Failure::Usage(format!("{missing}; or the command {command}"))
-        }
-        _ => missing,
-    }
+    let commands =
+        commands.map(|command| (strsim::jaro(name, &command), format!("the command {command}")));
+    let mut rated: Vec<_> = scenes.chain(commands).collect();
+    rated.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let least = (rated[0].0 - ALIKE.1).max(ALIKE.0);
+    let meant = rated.into_iter().take(3).take_while(|(likeness, _)| *likeness >= least);
+    let meant = meant.map(|(_, name)| name).collect::<Vec<_>>().join(" or ");
+    let line = format!("there is no scene and no command {name:?}");
+    Failure::Usage(if meant.is_empty() {
+        format!("{line}; hopfscope scenes lists the scenes, hopfscope --help the commands")
+    } else {
+        format!("{line}; did you mean {meant}?")
+    })
 }
 
 #[cfg(test)]
@@ -193,9 +204,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_mistyped_command_is_recognised() {
-        let complaint = |name| or_command(name, Failure::Usage("no scene".to_owned())).to_string();
-        assert_eq!(complaint("trajectry"), "no scene; or the command trajectory");
-        assert_eq!(complaint("foo"), "no scene");
+    fn a_word_that_names_nothing_is_answered_by_what_may_be_meant() {
+        let complaint = |name| neither_scene_nor_command(name).to_string();
+        for (name, said) in [
+            ("trajectry", "did you mean the command trajectory?"),
+            ("supercitical", "did you mean supercritical or subcritical?"),
+            ("xyz", "hopfscope scenes lists the scenes, hopfscope --help the commands"),
+        ] {
+            let line = format!("there is no scene and no command {name:?}; {said}");
+            assert_eq!(complaint(name), line);
+        }
     }
 }

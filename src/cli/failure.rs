@@ -50,6 +50,8 @@ fn first_paragraphs(text: &str) -> String {
     let lines = text.lines().map(str::trim).take_while(|line| {
         !line.starts_with("Usage:") && !line.starts_with("For more information")
     });
+    // How to pass a word that looks like an option is of no use to one who mistyped an option.
+    let lines = lines.filter(|line| !line.starts_with("tip: to pass "));
     let mut sentence = String::new();
     for line in lines.filter(|line| !line.is_empty()) {
         if !sentence.is_empty() {
@@ -57,7 +59,10 @@ fn first_paragraphs(text: &str) -> String {
         }
         sentence.push_str(line);
     }
-    sentence
+    if sentence.starts_with("unexpected argument") && !sentence.contains("tip:") {
+        sentence.push_str("; --help lists what there is");
+    }
+    sentence.replace("tip: a similar argument exists:", "did you mean")
 }
 
 #[cfg(test)]
@@ -68,7 +73,11 @@ mod tests {
     fn messages_of_the_parser_become_one_line() {
         let text = "error: unexpected argument '--sett' found\n\n  tip: a similar argument exists: \
                     '--set'\n\nUsage: hopfscope\n\nFor more information, try '--help'.\n";
-        let line = "unexpected argument '--sett' found; tip: a similar argument exists: '--set'";
+        let line = "unexpected argument '--sett' found; did you mean '--set'";
+        assert_eq!(first_paragraphs(text), line);
+        let text = "error: unexpected argument '--xyz' found\n\n  tip: to pass '--xyz' as a value, use \
+                    '-- --xyz'\n\nUsage: hopfscope\n";
+        let line = "unexpected argument '--xyz' found; --help lists what there is";
         assert_eq!(first_paragraphs(text), line);
         let text = "error: these were not provided:\n  --over <RANGE>\n\nUsage: hopfscope\n";
         assert_eq!(first_paragraphs(text), "these were not provided: --over <RANGE>");

@@ -47,6 +47,15 @@ use clap::{Parser, Subcommand};
 
 use failure::Failure;
 
+/// What most begin with.
+const EXAMPLES: &str = "\
+Examples:
+  hopfscope                            the explorer: ? lists the keys, q leaves
+  hopfscope supercritical              the same, with a lesson; `hopfscope scenes` lists all
+  hopfscope tour                       a tour of the explorer
+  hopfscope cycles --set D=-0.3        the limit cycles and the basin at these numbers, as text
+  hopfscope figure fig17 --output fig17.svg";
+
 /// The command line.
 #[derive(Debug, Parser)]
 #[command(
@@ -57,6 +66,7 @@ use failure::Failure;
                   how dry friction turns a Hopf bifurcation into a set of equilibria with a basin that one \
                   must know.\n\nWithout a command: the explorer in this terminal. With one: an answer on \
                   standard output.",
+    after_help = EXAMPLES,
     args_conflicts_with_subcommands = true
 )]
 struct Cli {

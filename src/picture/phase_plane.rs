@@ -268,7 +268,7 @@ fn basin(picture: &mut Picture, found: &Cycles, variant: &Variant, with_cycles: 
     if with_cycles && found.edge == Edge::Cycle {
         return;
     }
-    let line = Line::new("edge of the basin", Role::Unstable, Dash::Dashed);
+    let line = Line::new("border of the basin", Role::Unstable, Dash::Dashed);
     picture.curve(line.of(variant), edge);
 }
 

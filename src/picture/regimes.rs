@@ -45,11 +45,11 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
                 picture.curve(line.clone(), run.into_iter().map(|(x, y)| Point { x, y }));
             }
         };
-        if shows(Layer::Borders) {
+        if shows(Layer::Boundaries) {
             boundary(BoundaryKind::Fold, Line::new("fold", Role::Special, Dash::Solid));
             boundary(BoundaryKind::Escape, Line::new("escape", Role::Danger, Dash::Solid));
         }
-        if shows(Layer::HarmonicBorder) {
+        if shows(Layer::HarmonicFold) {
             let line = Line::new("fold of the first harmonic", Role::Harmonic, Dash::Dotted);
             boundary(BoundaryKind::Harmonic, line.briefly("fold of one harmonic"));
         }

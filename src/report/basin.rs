@@ -56,9 +56,9 @@ pub fn csv(found: &SurveyedBasin, certified: Option<&Kicks>) -> String {
 /// What borders the basin of the sticking set.
 pub(super) fn edge(edge: Edge) -> &'static str {
     match edge {
-        Edge::None => "edge of the basin of the sticking set: none\n",
-        Edge::Cycle => "edge of the basin of the sticking set: the smallest cycle\n",
-        Edge::Separatrix => "edge of the basin of the sticking set: a separatrix\n",
+        Edge::None => "border of the basin of the sticking set: none\n",
+        Edge::Cycle => "border of the basin of the sticking set: the smallest cycle\n",
+        Edge::Separatrix => "border of the basin of the sticking set: a separatrix\n",
     }
 }
 

@@ -152,7 +152,7 @@ pub fn survived(kicks: &Kicks) -> Survived {
 pub fn kicks_lines(kicks: &Kicks) -> String {
     let edge = match kicks.edge {
         Some(Edge::None) => "proved: every start is captured\n".to_owned(),
-        Some(edge) => format!("proved: the edge of the basin is a {}\n", name(edge)),
+        Some(edge) => format!("proved: the border of the basin is a {}\n", name(edge)),
         None => "open: what borders the basin\n".to_owned(),
     };
     let line = |(what, bounds): (&str, Option<Interval>)| {

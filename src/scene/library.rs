@@ -117,12 +117,12 @@ pub struct NoScene {
 
 impl fmt::Display for NoScene {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (lead, names) = if self.nearest.is_empty() {
-            ("there are ", names().collect())
+        write!(out, "no scene {:?}; ", self.name)?;
+        if self.nearest.is_empty() {
+            write!(out, "there are {}", names().collect::<Vec<_>>().join(", "))
         } else {
-            ("did you mean ", self.nearest.clone())
-        };
-        write!(out, "no scene {:?}; {lead}{}", self.name, names.join(", "))
+            write!(out, "did you mean {}?", self.nearest.join(" or "))
+        }
     }
 }
 
@@ -178,7 +178,7 @@ mod tests {
                     &["phase plane", "cycle", "motion", "start", "basin", "sticking set", "spiral"],
                 ),
                 (View::Diagram, &["over D", "amplitude", "displacement", "branch"]),
-                (View::Regimes, &["border", "chart"]),
+                (View::Regimes, &["boundary", "chart"]),
                 (View::TimeSeries, &["time"]),
                 (View::EnergyRate, &["V'"]),
                 (View::Eigenvalues, &["eigenvalue"]),

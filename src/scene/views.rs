@@ -4,6 +4,8 @@
 //! one over different axes. Layers belong to a view, not to a plot. [`LAYERS`] says which view shows a layer and
 //! which question must be answered for it: a layer that is off asks nothing, and several may share one answer.
 
+use serde::de::IntoDeserializer;
+use serde::de::value::StrDeserializer;
 use serde::{Deserialize, Serialize};
 
 use super::window::{Span, Window};
@@ -132,8 +134,10 @@ pub enum Layer {
     Cobweb,
     FixedPoints,
     Regimes,
-    Borders,
-    HarmonicBorder,
+    #[serde(alias = "borders")]
+    Boundaries,
+    #[serde(alias = "harmonic-border")]
+    HarmonicFold,
     Rows,
     Front,
     Extents,
@@ -201,8 +205,8 @@ pub const LAYERS: [LayerSpec; 46] = [
     layer(Layer::Cobweb, "cobweb", View::ReturnMap, Some(Topic::Trajectory), true, "the turning points of the motion, step by step"),
     layer(Layer::FixedPoints, "fixed-points", View::ReturnMap, Some(Topic::Cycles), true, "limit cycles, stable and unstable"),
     layer(Layer::Regimes, "regimes", View::Regimes, Some(Topic::Regimes), true, "what becomes of kicks"),
-    layer(Layer::Borders, "borders", View::Regimes, Some(Topic::Regimes), true, "computed fold and escape point"),
-    layer(Layer::HarmonicBorder, "harmonic-border", View::Regimes, Some(Topic::Regimes), false, "the fold by one harmonic (48)"),
+    layer(Layer::Boundaries, "boundaries", View::Regimes, Some(Topic::Regimes), true, "computed fold and escape point"),
+    layer(Layer::HarmonicFold, "harmonic-fold", View::Regimes, Some(Topic::Regimes), false, "the fold by one harmonic (48)"),
     layer(Layer::Rows, "rows", View::Trade, Some(Topic::Trade), true, "every method over its tolerances, steps or widths"),
     layer(Layer::Front, "front", View::Trade, Some(Topic::Trade), true, "the best choices: nothing else is better for less"),
     layer(Layer::Extents, "extents", View::Diagram, Some(Topic::Branch), false, "largest velocity of the cycles, beside the ordinate"),
@@ -238,6 +242,12 @@ impl Layer {
     /// The row of [`LAYERS`] that describes this layer.
     pub fn spec(self) -> &'static LayerSpec {
         &LAYERS[self as usize]
+    }
+
+    /// The layer with this name, or with one that it once had.
+    pub fn named(name: &str) -> Option<Self> {
+        let name: StrDeserializer<'_, serde::de::value::Error> = name.into_deserializer();
+        Layer::deserialize(name).ok()
     }
 }
 
@@ -284,6 +294,7 @@ mod tests {
         for row in &LAYERS {
             assert_eq!(row.layer.spec().name, row.name);
             assert_eq!(serde_json::to_value(row.layer).unwrap(), row.name);
+            assert_eq!(Layer::named(row.name), Some(row.layer));
             assert!(row.meaning.len() <= 52, "{} is cut at 80 columns", row.name);
         }
     }

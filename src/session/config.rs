@@ -17,7 +17,7 @@ use toml::Spanned;
 use crate::scene::library::names;
 use crate::scene::misread::{self, Complaint, Misread};
 use crate::session::message::key::Key;
-use crate::session::state::command::Command;
+use crate::session::state::command::{Command, full_name};
 use crate::session::state::context::{Context, contexts};
 use crate::session::state::keymap::Keymap;
 use crate::session::state::settings::{COLORS, Colors, GLYPHS, Glyphs, THEMES, Theme, named};
@@ -123,7 +123,7 @@ fn keymap(read: &BTreeMap<Spanned<String>, Keys>) -> Result<Keymap, Complaint> {
             .ok_or_else(|| unknown(context, "context", names()))?;
         for (name, keys) in commands {
             let found = keymap
-                .named(name.get_ref())
+                .named(full_name(name.get_ref()))
                 .ok_or_else(|| unknown(name, "command", keymap.commands().map(|row| row.name)))?;
             if !found.keys.iter().any(|(context, _)| *context == known) {
                 let places: Vec<_> = found.keys.iter().map(|(context, _)| context.name()).collect();

@@ -336,14 +336,14 @@ fn basin(session: &Session, found: &Cycles, width: usize, look: &Look) -> Vec<St
     let kinds = session.kinds().filter(|_| session.draws_whole());
     let edge = match found.edge {
         _ if kinds.is_some_and(|kinds| kinds.border == "no-basin") => "rest repels",
-        Edge::Separatrix if kinds.is_some_and(|kinds| kinds.touches) => "edge: touches the belt",
-        Edge::Separatrix if kinds.is_some() => "edge: where the guide holds",
+        Edge::Separatrix if kinds.is_some_and(|kinds| kinds.touches) => "border: touches the belt",
+        Edge::Separatrix if kinds.is_some() => "border: where the guide holds",
         Edge::None if kinds.is_some_and(|kinds| kinds.neutral) => "all motions periodic",
         Edge::None if kinds.is_some() => "all motions come to rest",
         Edge::None if found.parameters.r == 0.0 => "no sticking set",
         Edge::None => "all motions captured",
-        Edge::Cycle => "edge: unstable cycle",
-        Edge::Separatrix => "edge: separatrix",
+        Edge::Cycle => "border: unstable cycle",
+        Edge::Separatrix => "border: separatrix",
     };
     // Without friction there is no set of rests that could survive anything.
     let rests = found.picture.as_ref().filter(|_| found.parameters.r > 0.0);

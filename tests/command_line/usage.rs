@@ -9,8 +9,8 @@ use crate::program::{command, run};
 
 /// A wrong command line, and what the complaint about it must name.
 const WRONG: [(&str, &[&str]); 34] = [
-    ("--sett D=1", &["--sett", "--set"]),
-    ("nowhere", &["nowhere", "plain", "supercritical"]),
+    ("--sett D=1", &["--sett", "did you mean '--set'"]),
+    ("nowhere", &["nowhere", "hopfscope scenes", "hopfscope --help"]),
     ("supercritcal", &["supercritcal", "did you mean supercritical"]),
     ("trajectry", &["trajectry", "the command trajectory"]),
     ("trajectory --scene captur", &["captur", "did you mean capture"]),

@@ -87,12 +87,13 @@ fn phase(fitted: &Fitted) -> Option<Picture<'static>> {
     let drawn = fitted.margins.draws.iter().step_by(every);
     let mut curves: Vec<Curve> = drawn
         .filter_map(|draw| {
-            border(&edge_of(draw)?, "edges of twenty drawn basins", Role::Ghost, Dash::Dotted)
+            border(&edge_of(draw)?, "borders of twenty drawn basins", Role::Ghost, Dash::Dotted)
         })
         .collect();
     let own = edge_of(&parameters(p));
-    curves
-        .extend(own.and_then(|own| border(&own, "edge of the basin", Role::Unstable, Dash::Solid)));
+    curves.extend(
+        own.and_then(|own| border(&own, "border of the basin", Role::Unstable, Dash::Solid)),
+    );
     if let Some(seen) = &fitted.curves.sampled {
         let mut motion = seen.motion.iter().peekable();
         let mut data = Vec::new();

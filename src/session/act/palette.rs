@@ -31,6 +31,9 @@ pub fn choose(session: &mut Session) -> Option<Chosen> {
         PaletteRow::Scene(scene) => return Some(Chosen::Line(format!("scene {}", scene.name))),
         PaletteRow::View(view) => return Some(Chosen::Line(format!("view {}", view.name))),
         PaletteRow::Layer(layer) => return Some(Chosen::Line(format!("layer {}", layer.name))),
+        PaletteRow::Machine(machine) => {
+            return Some(Chosen::Line(format!("belt {}", machine.name)));
+        }
         PaletteRow::Claim(claim) => lists::show_claim(session, claim),
     }
     None

@@ -85,7 +85,7 @@ fn beside(session: &Session, factor: f64) -> Result<f64, String> {
     }
     let edge = session.cycles().and_then(edge);
     let (clearance, side) =
-        edge.ok_or("there is no edge to start beside: neither cycle nor separatrix")?;
+        edge.ok_or("there is no border to start beside: neither cycle nor separatrix")?;
     let r = session.problem.parameters.r;
     let outside = factor > 1.0;
     let keeps_side = |q: &f64| if outside { q - r > clearance } else { q - r < clearance };

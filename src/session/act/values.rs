@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use crate::scene::machine::library::machines;
 use crate::scene::{
-    ABSCISSAE, Axes, LAYERS, ORDINATES, Ordinate, ScaledMachine, Span, Unit, VIEWS, View, Window,
-    find,
+    ABSCISSAE, Axes, LAYERS, Layer, ORDINATES, Ordinate, ScaledMachine, Span, Unit, VIEWS, View,
+    Window, find,
 };
 use crate::session::act::notice::inform;
 use crate::session::act::{
@@ -98,18 +98,17 @@ pub fn view(session: &mut Session, name: &str) -> Done {
 /// Switches a layer on, off, or to what it is not.
 pub fn layer(session: &mut Session, rest: &str) -> Done {
     let (name, state) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
-    let row = LAYERS.iter().find(|row| row.name == name);
-    let row = row.ok_or_else(|| {
+    let layer = Layer::named(name).ok_or_else(|| {
         format!("no layer {name:?}; there are {}", listed(LAYERS.iter().map(|row| row.name)))
     })?;
-    let is_on = session.layers.contains(&row.layer);
+    let is_on = session.layers.contains(&layer);
     let wanted = match state.trim() {
         "" => !is_on,
         "on" => true,
         "off" => false,
         other => return Err(format!("{name} can be on or off, not {other:?}")),
     };
-    Ok(if wanted == is_on { Vec::new() } else { general::toggle(session, row.layer) })
+    Ok(if wanted == is_on { Vec::new() } else { general::toggle(session, layer) })
 }
 
 /// Shows a part of the world in the plot in use.

@@ -4,10 +4,19 @@ use std::sync::Arc;
 
 use crate::scene::library::Group;
 use crate::scene::{LAYERS, LayerSpec, Scene, VIEWS, View, ViewSpec, library};
+use crate::session::read::search;
 use crate::session::state::kept::Kept;
 use crate::session::state::overlay::{List, Listed, Overlay};
 use crate::session::state::session::Session;
 use crate::study::claims::{Claim, Examined, Verdict, claims};
+
+impl List {
+    /// How far down a row stands that is called so and means this: what is searched for first.
+    fn rank(&self, names: &[impl AsRef<str>], meaning: &str) -> usize {
+        let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
+        if self.search.is_empty() { 0 } else { search::rank(&self.search, &names, meaning) }
+    }
+}
 
 impl Session {
     /// The scenes that the picker lists, in groups.
@@ -16,7 +25,8 @@ impl Session {
             list.matches(&[&scene.name, scene.also.as_deref().unwrap_or_default(), &scene.title])
         });
         let mut rows: Vec<_> = found.collect();
-        rows.sort_by_key(|scene| Group::of(scene));
+        let names = |scene: &Scene| [scene.name.clone(), scene.also.clone().unwrap_or_default()];
+        rows.sort_by_cached_key(|scene| (list.rank(&names(scene), &scene.title), Group::of(scene)));
         rows
     }
 
@@ -24,7 +34,9 @@ impl Session {
     pub fn layer_rows(&self, list: &List) -> Vec<&'static LayerSpec> {
         let found = LAYERS.iter().filter(|row| list.matches(&[row.name, row.meaning]));
         let mut rows: Vec<_> = found.collect();
-        rows.sort_by_key(|row| (row.view != self.view_in_use(), row.view));
+        rows.sort_by_key(|row| {
+            (list.rank(&[row.name], row.meaning), row.view != self.view_in_use(), row.view)
+        });
         rows
     }
 
@@ -35,7 +47,10 @@ impl Session {
 
     /// The views that the picker lists.
     pub fn view_rows(&self, list: &List) -> Vec<&'static ViewSpec> {
-        VIEWS.iter().filter(|row| list.matches(&[row.name, row.title, row.meaning])).collect()
+        let found = VIEWS.iter().filter(|row| list.matches(&[row.name, row.title, row.meaning]));
+        let mut rows: Vec<_> = found.collect();
+        rows.sort_by_key(|row| list.rank(&[row.name, row.title], row.meaning));
+        rows
     }
 
     /// The claims that the page of the paper lists, each with what became of it, if that is known.

@@ -18,6 +18,7 @@ pub mod playback;
 pub mod plots;
 pub mod requirement;
 pub mod scan;
+pub(in crate::session) mod search;
 pub mod trade;
 pub mod variants;
 pub mod waiting;

@@ -2,8 +2,11 @@
 
 use std::sync::Arc;
 
+use crate::scene::machine::Machine;
+use crate::scene::machine::library::machines;
 use crate::scene::{LAYERS, LayerSpec, Scene, VIEWS, ViewSpec, library};
 use crate::session::message::key::Key;
+use crate::session::read::search;
 use crate::session::state::command::{Command, LineCommand};
 use crate::session::state::context::{Context, contexts};
 use crate::session::state::overlay::List;
@@ -23,46 +26,11 @@ pub enum PaletteRow {
     View(&'static ViewSpec),
     /// A layer, to be switched.
     Layer(&'static LayerSpec),
+    /// A machine of the program, to be opened.
+    Machine(&'static Machine),
     /// A claim of the paper, to be shown by its scene.
     Claim(&'static Claim),
 }
-
-/// Other words for what stands in the palette, by the name that it has there.
-pub(in crate::session) const ALIASES: &[(&str, &str)] = &[
-    ("walk-to-next", "fold special point limit jump"),
-    ("walk", "branch continuation follow"),
-    ("save-figure", "export picture svg png print"),
-    ("figure", "export picture svg png print data"),
-    ("save-scan", "export data csv"),
-    ("scan-form", "sweep grid batch"),
-    ("scan", "sweep grid batch"),
-    ("play-motion", "animate animation movie time"),
-    ("start-inside", "kick stable capture"),
-    ("start-outside", "kick unstable escape"),
-    ("edit", "change value number"),
-    ("undo", "back revert"),
-    ("tol", "tolerance accuracy precision"),
-    ("coarser", "accuracy fast draft"),
-    ("finer", "accuracy precise exact"),
-    ("next-method", "integrator solver"),
-    ("method", "integrator solver"),
-    ("costs", "performance time evaluations telemetry"),
-    ("views", "window plot kind"),
-    ("add-plot", "split window"),
-    ("remove-plot", "close window"),
-    ("enlarge", "zoom maximize full"),
-    ("equal", "aspect circle square isometric"),
-    ("copy-number", "yank clipboard value"),
-    ("copy-row", "yank clipboard values"),
-    ("theme", "colour dark light contrast"),
-    ("color", "colour depth"),
-    ("glyphs", "braille ascii characters"),
-    ("write", "save session"),
-    ("open", "load session restore"),
-    ("quit", "exit leave close"),
-    ("diagram", "branch continuation amplitude"),
-    ("cycles", "orbit"),
-];
 
 impl PaletteRow {
     pub fn name(self) -> &'static str {
@@ -72,6 +40,7 @@ impl PaletteRow {
             PaletteRow::Scene(scene) => &scene.name,
             PaletteRow::View(view) => view.name,
             PaletteRow::Layer(layer) => layer.name,
+            PaletteRow::Machine(machine) => &machine.name,
             PaletteRow::Claim(claim) => claim.equation,
         }
     }
@@ -84,19 +53,24 @@ impl PaletteRow {
             PaletteRow::Scene(scene) => &scene.title,
             PaletteRow::View(view) => view.meaning,
             PaletteRow::Layer(layer) => layer.meaning,
+            PaletteRow::Machine(machine) => &machine.title,
             PaletteRow::Claim(claim) => claim.statement,
         }
     }
 
-    /// Other words by which it is found.
-    fn aliases(self) -> &'static str {
-        let other = ALIASES.iter().find(|(name, _)| *name == self.name());
-        match self {
+    /// All that it is called.
+    fn names(self) -> Vec<&'static str> {
+        let own = match self {
             PaletteRow::View(view) => view.title,
             PaletteRow::Claim(claim) => claim.section,
             PaletteRow::Scene(scene) => scene.also.as_deref().unwrap_or_default(),
-            _ => other.map_or("", |(_, words)| words),
-        }
+            PaletteRow::Command(_)
+            | PaletteRow::Line(_)
+            | PaletteRow::Layer(_)
+            | PaletteRow::Machine(_) => "",
+        };
+        let other = search::aliases(self.name()).iter().copied();
+        [self.name(), own].into_iter().filter(|name| !name.is_empty()).chain(other).collect()
     }
 }
 
@@ -111,13 +85,16 @@ impl Session {
         let views = VIEWS.iter().map(PaletteRow::View);
         let layers = LAYERS.iter().map(PaletteRow::Layer);
         let claims = claims().map(PaletteRow::Claim);
-        let all = commands.chain(lines).chain(scenes).chain(views).chain(layers).chain(claims);
+        let machines = machines().iter().map(PaletteRow::Machine);
+        let all = commands.chain(lines).chain(scenes).chain(views).chain(layers);
+        let all = all.chain(machines).chain(claims);
         let mut rows: Vec<_> = all.filter(|row| list.matches(&self.words(*row))).collect();
-        let search = list.search.trim().to_lowercase();
-        if search.is_empty() {
+        if list.search.trim().is_empty() {
             rows.sort_by_key(|row| self.distance(*row));
         } else {
-            rows.sort_by_key(|row| rank(*row, &search));
+            let is_key = |row: &PaletteRow| self.keys(*row).contains(&list.search);
+            let rank = |row: &PaletteRow| search::rank(&list.search, &row.names(), row.meaning());
+            rows.sort_by_cached_key(|row| if is_key(row) { 0 } else { rank(row) });
         }
         rows
     }
@@ -130,6 +107,7 @@ impl Session {
             PaletteRow::Scene(_) => "Scenes",
             PaletteRow::View(_) => "Views of a plot",
             PaletteRow::Layer(_) => "Layers",
+            PaletteRow::Machine(_) => "Machines",
             PaletteRow::Claim(_) => "Claims of the paper",
         }
     }
@@ -150,15 +128,17 @@ impl Session {
         here.find(has_keys).copied().or(home(command))
     }
 
-    /// The words by which a row is found: its name, what it does, its keys.
+    /// The words by which a row is found: its names, what it does, its keys.
     fn words(&self, row: PaletteRow) -> Vec<String> {
-        let keys = match row {
-            PaletteRow::Command(command) => self.keymap.places(command),
-            _ => Vec::new(),
-        };
-        let keys = keys.iter().flat_map(|(_, keys)| keys).map(ToString::to_string);
-        let texts = [row.name(), row.meaning(), row.aliases()].map(str::to_owned);
-        texts.into_iter().chain(keys).collect()
+        let texts = row.names().into_iter().chain([row.meaning()]).map(str::to_owned);
+        texts.chain(self.keys(row)).collect()
+    }
+
+    /// The keys that run a row.
+    fn keys(&self, row: PaletteRow) -> Vec<String> {
+        let PaletteRow::Command(command) = row else { return Vec::new() };
+        let places = self.keymap.places(command);
+        places.iter().flat_map(|(_, keys)| keys).map(ToString::to_string).collect()
     }
 }
 
@@ -167,20 +147,6 @@ impl Session {
 fn home(command: &Command) -> Option<Context> {
     let outside = |(context, keys): &&(Context, &[&str])| !context.is_overlay() && !keys.is_empty();
     command.keys.iter().find(outside).map(|(context, _)| *context)
-}
-
-/// How far down a row stands that has the searched words: those come first that are called so.
-fn rank(row: PaletteRow, search: &str) -> usize {
-    let name = row.name();
-    let as_name = [search.replace(' ', "-"), search.replace(' ', "")];
-    let tests = [
-        as_name.iter().any(|search| name == search),
-        as_name.iter().any(|search| name.starts_with(search)),
-        as_name.iter().any(|search| name.contains(search)),
-        row.aliases().contains(search),
-        row.meaning().to_lowercase().contains(search),
-    ];
-    tests.iter().position(|test| *test).unwrap_or(tests.len())
 }
 
 /// The pane in which a command belongs, where that is not the one in focus; or what is not here.

@@ -25,10 +25,10 @@ impl PartialEq for Command {
     }
 }
 
-/// Short names that other programs have for commands, and what those are called here.
+/// Other names of commands, and what those are called here: short ones that other programs have, and former ones.
 ///
 /// Leaving keeps the session, so that `wq` has nothing else to write.
-const SHORT: [(&str, &str); 7] = [
+const OTHER_NAMES: [(&str, &str); 9] = [
     ("q", "quit"),
     ("q!", "quit"),
     ("wq", "quit"),
@@ -36,11 +36,13 @@ const SHORT: [(&str, &str); 7] = [
     ("w", "write"),
     ("w!", "write!"),
     ("e", "open"),
+    ("toggle-borders", "toggle-boundaries"),
+    ("toggle-harmonic-border", "toggle-harmonic-fold"),
 ];
 
-/// The name of the command that a word stands for: itself, unless it is a short one.
+/// The name of the command that a word stands for: itself, unless it is another one.
 pub fn full_name(word: &str) -> &str {
-    SHORT.iter().find(|(short, _)| *short == word).map_or(word, |(_, name)| name)
+    OTHER_NAMES.iter().find(|(other, _)| *other == word).map_or(word, |(_, name)| name)
 }
 
 /// A command that takes words.

@@ -229,29 +229,56 @@ fn found(words: &str) -> Vec<(&'static str, &'static str)> {
     rows.iter().map(|row| (trial.session.heading(*row), row.name())).collect()
 }
 
+/// What a person types, and the row that is meant.
+#[rustfmt::skip]
+const MEANT: [(&str, &str); 60] = [
+    ("fold", "walk-to-next"), ("export", "save-figure"), ("stable", "cycles"), ("animate", "play-motion"),
+    ("fig 16", "fig16"), ("fig16b", "supercritical"), ("time series", "time-series"), ("damping", "damping"),
+    ("save", "write"), ("zoom", "zoom-in"), ("undo", "undo"), ("amplitude", "diagram"), ("basin", "basin"),
+    ("hopf", "hopf"), ("period", "axes"), ("quit", "quit"), ("exit", "quit"), ("copy", "copy-number"),
+    ("theme", "theme"), ("help", "help"), ("keys", "help"), ("color", "color"), ("bifurcation", "diagram"),
+    ("phase plane", "phase"), ("friction", "friction"), ("sweep", "scan-form"), ("scan", "scan-form"),
+    ("kick", "start-inside"), ("tolerance", "tol"), ("method", "next-method"), ("mouse", "mouse"),
+    ("record", "record"), ("macro", "macro"), ("mark", "set-mark"), ("import", "fit"), ("load", "open"),
+    ("open", "open"), ("print", "save-figure"), ("csv", "save-scan"), ("eigenvalue", "eigenvalues"),
+    ("poincare", "return-map"), ("return map", "return-map"), ("lyapunov", "lyapunov"), ("restart", "reset-scene"),
+    ("reset", "reset-value"), ("squeal", "groan"), ("tour", "tour"), ("window", "window"), ("axis", "axes"),
+    ("new plot", "add-plot"), ("split", "add-plot"), ("redo", "redo"), ("screenshot", "copy-screen"),
+    ("play", "play-motion"), ("uncertainty", "wider"), ("border", "boundaries"), ("clutch", "clutch"),
+    ("48", "(48)"), ("search", "palette"), ("resume", "restore"),
+];
+
 #[test]
-fn the_palette_knows_other_words_for_the_same() {
-    for (words, heading, name) in [
-        ("fold", "Walking along the branch", "walk-to-next"),
-        ("export", "Everywhere", "save-figure"),
-        ("stable", "Layers", "cycles"),
-        ("animate", "Everywhere", "play-motion"),
-        ("fig 16", "Scenes", "fig16"),
-        ("time series", "Views of a plot", "time-series"),
-        ("48", "Claims of the paper", "(48)"),
-        ("sweep", "Everywhere", "scan-form"),
-    ] {
-        let rows = found(words);
-        assert!(rows.contains(&(heading, name)), "{words}: {rows:?}");
+fn what_a_person_types_finds_first_what_is_meant() {
+    let first = |words: &str| found(words).first().map(|(_, name)| *name);
+    let wrong: Vec<_> = MEANT.iter().filter(|(words, name)| first(words) != Some(name)).collect();
+    let found: Vec<_> = wrong.iter().map(|(words, _)| (words, first(words))).collect();
+    assert!(wrong.is_empty(), "{found:?}");
+}
+
+#[test]
+fn a_key_that_is_searched_for_comes_before_all_that_has_its_letter() {
+    for (key, name) in [("i", "start-inside"), ("%", "scan-form"), ("W", "add-plot")] {
+        assert_eq!(found(key)[0].1, name, "{key}");
     }
-    assert_eq!(found("fig 16")[0].1, "fig16");
-    assert_eq!(found("time series")[0].1, "time-series");
+}
+
+#[test]
+fn a_picker_lists_first_what_is_called_so() {
+    for (keys, view) in [("V/damping<enter>", View::Damping), ("V/phase<enter>", View::Phase)] {
+        let mut trial = Trial::open("energy");
+        trial.press(keys);
+        assert_eq!(trial.session.view_in_use(), view, "{keys}");
+    }
+    let mut trial = Trial::open("plain");
+    trial.press("s/escape<enter>");
+    assert_eq!(trial.session.scene.name, "escape");
 }
 
 #[test]
 fn every_other_word_is_of_something_that_is_listed() {
     let all: Vec<&str> = found("").into_iter().map(|(_, name)| name).collect();
-    for (name, _) in crate::session::read::palette::ALIASES {
+    for (name, _) in crate::session::read::search::ALIASES {
         assert!(all.contains(name), "{name}");
     }
 }
@@ -277,6 +304,8 @@ fn scenes_views_layers_and_claims_are_run_from_the_palette() {
     assert!(trial.session.layers.contains(&crate::scene::Layer::Lyapunov), "{}", trial.notice());
     trial.press("<space>fig16b<enter>");
     assert_eq!(trial.session.scene.name, "supercritical");
+    trial.press("<space>clutch<enter>");
+    assert!(trial.session.scene.machine.is_some(), "{}", trial.notice());
 }
 
 #[test]

@@ -175,7 +175,7 @@ fn a_map_labels_decades_and_is_the_stronger_the_more_dangerous_in_one_hue() {
 
 #[test]
 fn what_is_drawn_in_red_and_green_is_a_cycle_or_the_edge_of_a_basin() {
-    let names = ["stable", "cycle", "edge of the basin", "rest", "fixed point", "stick-slip"];
+    let names = ["stable", "cycle", "border of the basin", "rest", "fixed point", "stick-slip"];
     let mut looked = 0;
     for scene in library() {
         let mut session = settled(&scene.name, 120, 40, "");

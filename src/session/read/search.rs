@@ -1,0 +1,108 @@
+//! Which row of a list is meant by the words searched for: other words for the same, and the order of what is found.
+
+/// Other words for what has a name, by that name: a command, a line, a scene, a view or a layer.
+pub(in crate::session) const ALIASES: &[(&str, &[&str])] = &[
+    ("walk-to-next", &["fold", "special point", "limit point", "jump"]),
+    ("walk", &["continuation", "follow"]),
+    ("save-figure", &["export", "picture", "svg", "png", "pdf", "print"]),
+    ("figure", &["export", "picture", "svg", "png", "pdf", "print", "data"]),
+    ("save-scan", &["export", "data", "csv"]),
+    ("scan-form", &["scan", "sweep", "grid", "batch"]),
+    ("scan", &["sweep", "grid", "batch"]),
+    ("play-motion", &["play", "animate", "animation", "movie", "pause", "time"]),
+    ("motion-pace", &["speed of playing", "faster", "slower"]),
+    ("start-inside", &["kick", "capture"]),
+    ("start-outside", &["kick", "escape"]),
+    ("start-here", &["initial condition", "simulate"]),
+    ("drop-motion", &["delete", "remove"]),
+    ("drop-other-motions", &["clear", "delete", "remove"]),
+    ("edit", &["change", "value", "number"]),
+    ("undo", &["back", "revert", "history"]),
+    ("reset-scene", &["restart", "restore"]),
+    ("tol", &["tolerance", "accuracy", "precision"]),
+    ("coarser", &["accuracy", "fast", "draft"]),
+    ("finer", &["accuracy", "precise", "exact"]),
+    ("next-method", &["method", "integrator", "solver"]),
+    ("method", &["integrator", "solver"]),
+    ("costs", &["performance", "time", "evaluations", "telemetry"]),
+    ("views", &["plot type", "kind"]),
+    ("add-plot", &["new plot", "split"]),
+    ("remove-plot", &["close plot"]),
+    ("enlarge", &["maximize", "full screen"]),
+    ("equal", &["aspect", "circle", "square", "isometric"]),
+    ("axes", &["axis", "period", "property"]),
+    ("copy-number", &["copy", "yank", "clipboard", "value"]),
+    ("copy-row", &["yank", "clipboard", "values"]),
+    ("copy-screen", &["screenshot"]),
+    ("theme", &["colour", "dark", "light", "contrast"]),
+    ("color", &["colour", "depth"]),
+    ("glyphs", &["braille", "ascii", "characters"]),
+    ("write", &["save", "session"]),
+    ("open", &["load", "session", "restore"]),
+    ("restore", &["resume", "recover"]),
+    ("quit", &["exit", "leave", "close"]),
+    ("set-mark", &["mark", "bookmark", "compare"]),
+    ("ghost", &["compare"]),
+    ("fit", &["import", "data", "csv", "measurement"]),
+    ("kicks", &["noise", "random"]),
+    ("wider", &["uncertainty", "half width", "interval"]),
+    ("safe", &["robust", "guaranteed"]),
+    ("lyapunov", &["proof", "energy"]),
+    ("explain", &["what is this", "about"]),
+    ("help", &["keys", "shortcuts", "bindings", "manual"]),
+    ("palette", &["search", "find"]),
+    ("paper", &["equations", "theorems", "claims"]),
+    ("tour", &["tutorial", "introduction", "demo"]),
+    ("drop-cursor", &["cancel", "abort"]),
+    ("diagram", &["branch", "continuation", "amplitude"]),
+    ("regimes", &["stability chart", "two parameters"]),
+    ("boundaries", &["border", "borders"]),
+    ("harmonic-fold", &["harmonic-border"]),
+    ("return-map", &["poincare", "cobweb"]),
+    ("cycles", &["stable", "unstable", "orbit"]),
+    ("groan", &["brake", "squeal", "chatter"]),
+];
+
+/// The other words for what has this name.
+pub(in crate::session) fn aliases(name: &str) -> &'static [&'static str] {
+    ALIASES.iter().find(|(known, _)| *known == name).map_or(&[], |(_, words)| words)
+}
+
+/// How far down a row stands among what is found, given what it is called and what it means: first those that are
+/// called what is searched for, then those with words that begin so, names before meanings. Where nothing
+/// is searched for, all stand where they did.
+pub(in crate::session) fn rank(search: &str, names: &[&str], meaning: &str) -> usize {
+    let search = Plain::new(search);
+    let names: Vec<Plain> = names.iter().map(|name| Plain::new(name)).collect();
+    let meaning = Plain::new(meaning);
+    let any = |test: &dyn Fn(&Plain) -> bool| names.iter().any(test);
+    let ranks = [
+        any(&|name| name.joined() == search.joined()),
+        any(&|name| name.joined().starts_with(&search.joined())),
+        any(&|name| name.has_at_a_word(&search)),
+        meaning.has_at_a_word(&search),
+        any(&|name| name.0.contains(search.0.trim())),
+        meaning.0.contains(search.0.trim()),
+    ];
+    ranks.iter().position(|holds| *holds).unwrap_or(ranks.len())
+}
+
+/// A text in small letters, each word of letters and digits after a blank.
+struct Plain(String);
+
+impl Plain {
+    fn new(text: &str) -> Self {
+        let words =
+            text.split(|char: char| !char.is_alphanumeric()).filter(|word| !word.is_empty());
+        Plain(words.map(|word| format!(" {}", word.to_lowercase())).collect())
+    }
+
+    /// Without the blanks: `fig 16` is `fig16`.
+    fn joined(&self) -> String {
+        self.0.replace(' ', "")
+    }
+
+    fn has_at_a_word(&self, search: &Plain) -> bool {
+        self.0.contains(&search.0)
+    }
+}
