@@ -1,0 +1,99 @@
+//! What a reader sees: panels, legends, dashes, labels, proportions.
+
+use super::*;
+
+#[test]
+fn figures_have_no_two_panels_alike_and_no_circles_that_belong_to_nothing() {
+    for scene in names().filter(|scene| scene.starts_with("fig")) {
+        let drawn = figure(scene, Fineness::SCREEN);
+        for (index, panel) in drawn.panels.iter().enumerate() {
+            let alike = |other: &&hopfscope::figure::Panel| {
+                !panel.curves.is_empty() && other.curves == panel.curves && other.x == panel.x
+            };
+            assert!(drawn.panels[..index].iter().find(alike).is_none(), "{scene}: panel {index}");
+            for start in panel.marks.iter().filter(|mark| mark.name == "start") {
+                let begins = |curve: &Curve| curve.points.first() == Some(&[start.x, start.y]);
+                let on = |curve: &&Curve| begins(curve) || curve.role == "energy";
+                assert!(panel.curves.iter().any(|it| on(&it)), "{scene}: {start:?} starts nothing");
+            }
+        }
+    }
+}
+
+#[test]
+fn legends_name_what_is_drawn_once_and_as_it_is_called() {
+    let legend = |scene: &str| -> Vec<String> {
+        let svg = text(&figure(scene, Fineness::SCREEN), Form::Svg);
+        let picture = Document::parse(&svg).unwrap();
+        let entry = |node: &roxmltree::Node| {
+            node.has_tag_name("text") && node.attribute("font-size") == Some("11")
+        };
+        let entries = picture.descendants().filter(entry);
+        entries.filter_map(|node| node.text().map(str::to_owned)).collect()
+    };
+    for scene in scenes() {
+        let names = legend(scene);
+        for (index, name) in names.iter().enumerate() {
+            let plural = |other: &String| *other == format!("{name}s") || *other == *name;
+            assert!(!names[..index].iter().any(plural), "{scene}: {names:?}");
+            assert!(!names.contains(&format!("{name}s")), "{scene}: {names:?}");
+        }
+    }
+    let names = legend("fig14");
+    assert!(names.iter().any(|name| name == "asymptote A01"), "{names:?}");
+    assert!(names.iter().all(|name| name != "asymptote A1" && name != "asymptote A2"), "{names:?}");
+}
+
+#[test]
+fn the_dashes_of_the_constructed_cycle_lie_over_its_half_turns() {
+    let drawn = figure("fig06", Fineness::SCREEN);
+    let order: Vec<&str> = drawn.panels[0].curves.iter().map(|curve| curve.name.as_str()).collect();
+    let place = |name: &str| order.iter().position(|it| it.starts_with(name)).unwrap();
+    assert!(place("unstable cycle") > place("half turn about the left end"), "{order:?}");
+    assert!(place("unstable cycle") > place("half turn about the right end"), "{order:?}");
+}
+
+#[test]
+fn the_name_of_a_fold_covers_no_branch() {
+    let drawn = figure("fig11", Fineness::SCREEN);
+    let svg = text(&drawn, Form::Svg);
+    let picture = Document::parse(&svg).unwrap();
+    let number = |node: &roxmltree::Node, name: &str| -> f64 {
+        node.attribute(name).and_then(|text| text.parse().ok()).unwrap()
+    };
+    // The second panel begins 460 pixels to the right of the first.
+    let (x0, y0) = (460.0 + 64.0, 34.0 + 30.0);
+    let branches =
+        curves(&drawn, 1, "stable cycle").into_iter().chain(curves(&drawn, 1, "unstable"));
+    let spots: Vec<(f64, f64)> = branches
+        .flat_map(|curve| on_paper(&drawn, 1, curve))
+        .map(|(x, y)| (x0 + x, y0 + PANEL.1 - y))
+        .collect();
+    let mut folds = 0;
+    for node in picture.descendants().filter(|node| {
+        node.attribute("font-size") == Some("10.5")
+            && node.attribute("fill") != Some("none")
+            && node.text().is_some_and(|text| text.starts_with('F'))
+    }) {
+        let letters = f64::from(u32::try_from(node.text().unwrap().len()).unwrap());
+        let (left, line) = (number(&node, "x"), number(&node, "y"));
+        let covered = |(x, y): &&(f64, f64)| {
+            (left..left + 5.0 * letters).contains(x) && (line - 8.0..line).contains(y)
+        };
+        assert_eq!(spots.iter().find(covered), None, "{:?}", node.text());
+        folds += 1;
+    }
+    assert_eq!(folds, 3);
+}
+
+#[test]
+fn a_circle_looks_like_one_in_every_phase_plane() {
+    let units = |stretched: bool| {
+        let mut session = Session::new(find("linear").unwrap(), Size { width: 100, height: 30 });
+        session.look.stretched = stretched;
+        let Window { x, y } = Figure::of(&session, [0]).panels[0].window;
+        (x.width() / 380.0) / (y.width() / 300.0)
+    };
+    assert!((units(false) - 1.0).abs() < 1e-12);
+    assert!((units(true) - 1.0).abs() > 0.1, "the scene's window fills the panel");
+}

@@ -1,0 +1,119 @@
+//! What intervals, noise and left-out samples say of records made from a known truth.
+
+use super::*;
+
+/// How many of the estimates hold the truth of each number in their intervals of 95 %.
+fn covered(estimates: &[Estimate], p: &Unknowns) -> Vec<usize> {
+    let holds = |estimate: &Estimate, place: usize| {
+        let interval = estimate.intervals[place];
+        interval.lower.is_none_or(|lower| lower <= p[place])
+            && interval.upper.is_none_or(|upper| p[place] <= upper)
+    };
+    let count = |place: usize| estimates.iter().filter(|estimate| holds(estimate, place)).count();
+    NAMES.iter().map(|row| count(row.place)).collect()
+}
+
+#[test]
+fn intervals_of_95_percent_hold_the_truth_in_93_to_97_of_100_noisy_decays() {
+    let decay = Simulated {
+        p: DECAY,
+        start: Start::Release,
+        seconds: 6.0,
+        samples: 200,
+        noise: 0.05,
+        memory: 0.0,
+    };
+    let estimates: Vec<Estimate> =
+        (1..=200_u64).into_par_iter().map(|seed| decay.fitted(seed)).collect();
+    let covered = covered(&estimates, &DECAY);
+    assert!(covered.iter().all(|count| (186..=194).contains(count)), "of 200: {covered:?}");
+}
+
+#[test]
+fn correlated_noise_is_told_and_paid_for() {
+    let decay = Simulated {
+        p: DECAY,
+        start: Start::Release,
+        seconds: 6.0,
+        samples: 400,
+        noise: 0.05,
+        memory: 0.8,
+    };
+    let estimates: Vec<Estimate> =
+        (1..=16_u64).into_par_iter().map(|seed| decay.fitted(seed)).collect();
+    for estimate in &estimates {
+        assert!(!estimate.whiteness.white && !estimate.whiteness.systematic);
+        assert!(
+            (estimate.whiteness.correlation - 0.8).abs() < 0.2,
+            "{:?}",
+            estimate.whiteness.correlation
+        );
+        // (1 + rho)/(1 - rho) = 9 in variance for unknowns that change slowly.
+        let inflation = estimate.covariance.inflation(named("r").unwrap().place);
+        assert!((4.0..13.0).contains(&inflation), "{inflation}");
+    }
+    let covered = covered(&estimates, &DECAY);
+    assert!(covered.iter().all(|count| *count >= 13), "of 16: {covered:?}");
+}
+
+#[test]
+fn impossible_samples_are_left_out_and_the_rest_is_fitted_as_if_they_had_not_been() {
+    let decay = Simulated {
+        p: DECAY,
+        start: Start::Release,
+        seconds: 6.0,
+        samples: 1200,
+        noise: 0.05,
+        memory: 0.0,
+    };
+    let clean = decay.record(5);
+    let mut dirty = clean.clone();
+    let mut chance = Random::new(77);
+    let mut spoiled = 0;
+    for x in &mut dirty.x {
+        if chance.even() < 0.02 {
+            *x += 8.0 * (chance.even() - 0.5).signum() * (0.3 + chance.even());
+            spoiled += 1;
+        }
+    }
+    let question = Question::default();
+    let clean = estimate(&clean, &question, &|| false).unwrap();
+    let dirty = estimate(&dirty, &question, &|| false).unwrap();
+    assert_eq!((clean.outliers(), dirty.outliers()), (0, spoiled));
+    for row in &NAMES {
+        let (one, other) = (clean.p[row.place], dirty.p[row.place]);
+        let error = clean.covariance.error(row.place);
+        assert!((one - other).abs() < 0.5 * error, "{}: {one} {other} +- {error}", row.name);
+        assert!(dirty.covariance.error(row.place) < 1.1 * error, "{}", row.name);
+    }
+}
+
+#[test]
+fn readings_at_rest_of_a_coarse_converter_do_not_count_as_if_their_errors_were_independent() {
+    // Steps of five times the noise: every reading at rest is off by the same part of a step.
+    let p = [31.4, 0.0, 0.01, 0.0, 0.0, 0.15, 8.0, 0.35];
+    let (r, mut covered) = (named("r").unwrap().place, 0);
+    for seed in 1..=8_u64 {
+        let offset = 0.05 * (f64::from(u8::try_from(seed).unwrap()) / 8.0);
+        let mut at = p;
+        at[1] = offset;
+        let coarse = Simulated {
+            p: at,
+            start: Start::Release,
+            seconds: 4.0,
+            samples: 2000,
+            noise: 0.01,
+            memory: 0.0,
+        };
+        let mut record = coarse.record(seed);
+        record.x.iter_mut().for_each(|x| *x = (*x / 0.05).round() * 0.05);
+        let found = estimate(&record, &Question::default(), &|| false).unwrap();
+        let interval = found.intervals[r];
+        covered += usize::from(interval.lower.unwrap() <= p[r] && p[r] <= interval.upper.unwrap());
+        assert!(found.alike > 500 && found.outliers() == 0, "{} {}", found.alike, found.outliers());
+        // The bound with one common error of the rest and one of the hold is 1.7 times that of independent errors.
+        let error = found.covariance.error(r);
+        assert!((3e-4..7e-4).contains(&error), "{error}");
+    }
+    assert!(covered >= 7, "{covered} of 8");
+}

@@ -1,0 +1,165 @@
+//! Random machines: what must hold of every one of them.
+
+use super::*;
+
+/// A sequence of numbers in 0 .. 1.
+struct Dice(u64);
+
+impl Dice {
+    fn next(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        f64::from(u32::try_from(self.0 >> 32).unwrap()) / f64::from(u32::MAX)
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.next()
+    }
+
+    /// Any machine: every law, feeding and damping, with and without static friction.
+    fn machine(&mut self) -> Belt {
+        let law = match self.0 % 4 {
+            0 => FrictionLaw::Constant { mu: self.between(0.1, 0.6) },
+            1 => FrictionLaw::Polynomial {
+                coefficients: vec![
+                    self.between(0.3, 0.8),
+                    self.between(-0.4, 0.1),
+                    self.between(0.05, 0.4),
+                ],
+            },
+            exponent => FrictionLaw::Stribeck {
+                rest: self.between(0.5, 1.0),
+                kinetic: self.between(0.1, 0.5),
+                velocity: self.between(0.05, 1.0),
+                exponent: if exponent == 2 { 1.0 } else { 2.0 },
+                viscous: 0.0,
+            },
+        };
+        let guide = if self.next() < 0.4 { 0.0 } else { self.between(0.003, 0.2) };
+        let held = law.mu(0.0).unwrap() * self.between(1.0, 1.5);
+        Belt {
+            mass: 1.0,
+            stiffness: 1.0,
+            damping: self.between(-0.2, 0.4),
+            cubic_damping: if self.next() < 0.5 { 0.0 } else { self.between(0.0, 0.2) },
+            normal_force: self.between(0.3, 3.0),
+            friction: guide,
+            belt_speed: self.between(0.1, 2.0),
+            law,
+            static_coefficient: (self.next() < 0.5).then_some(held),
+            static_guide: None,
+        }
+    }
+}
+
+#[test]
+fn the_return_map_of_any_machine_never_decreases() {
+    let mut dice = Dice(0x9e37_79b9_7f4a_7c15);
+    let mut compared = 0;
+    for _ in 0..60 {
+        let Ok(model) = Model::new(&dice.machine()) else { continue };
+        let mut flow = Flow::new(&model);
+        let mut last = f64::NEG_INFINITY;
+        for step in 1..60 {
+            let x = model.guide_static + 0.05 * f64::from(step) * model.speed.max(model.pull);
+            let image = match flow.returned(x) {
+                Ok(Return::Turns(image)) => image.x,
+                Ok(Return::Rests(_)) => model.guide_static,
+                Err(_) => break,
+            };
+            assert!(image >= last - 1e-13 * image.abs(), "{model:?} at {x}: {image} after {last}");
+            (last, compared) = (image, compared + 1);
+        }
+    }
+    assert!(compared > 1000, "{compared}");
+}
+
+#[test]
+fn any_start_ends_where_its_motion_goes() {
+    let mut dice = Dice(88_172_645_463_325_252);
+    let mut followed = 0;
+    for _ in 0..40 {
+        let belt = dice.machine();
+        let Ok(model) = Model::new(&belt) else { continue };
+        let Ok(found) = Portrait::new(&model) else { continue };
+        for _ in 0..3 {
+            let (x, v) = (dice.between(-3.0, 3.0), dice.between(-2.0, 2.0));
+            let Ok(fate) = found.fate(x, v) else { continue };
+            let motion = Motion::new(&model, x, v, 400.0);
+            assert!(motion.ledger.residual().abs() < 1e-11, "{belt:?}: {:?}", motion.ledger);
+            let late = motion.samples(0).into_iter().filter(|state| state.t > 380.0);
+            let size = late.map(|state| state.x).fold(0.0, f64::max);
+            match (fate, motion.outcome) {
+                (Fate::Cycle(index), Outcome::Moves) if found.cycles[index].sticks => {
+                    let cycle = &found.cycles[index];
+                    assert!(
+                        close(size, cycle.x.1, 1e-9),
+                        "{belt:?} from {x}, {v}: {size} {cycle:?}"
+                    );
+                    followed += 1;
+                }
+                (Fate::Cycle(_), outcome) => assert_eq!(outcome, Outcome::Moves, "{belt:?}"),
+                (Fate::Rest, outcome) => {
+                    assert!(outcome == Outcome::Rests || belt.friction == 0.0, "{belt:?}");
+                }
+                _ => {}
+            }
+        }
+    }
+    assert!(followed > 10, "{followed}");
+}
+
+#[test]
+fn no_contact_is_too_shallow_to_be_seen() {
+    // Between rest and the belt constant friction leaves a circle: it reaches v0 iff its radius does.
+    for (guide, speed) in [(0.0, 0.2), (0.2, 0.2), (0.7, 0.05)] {
+        let belt = coulomb(guide, speed);
+        let model = Model::new(&belt).unwrap();
+        let (rho, radius) = (guide / belt.stiffness, model.speed);
+        for power in 3..14 {
+            for sign in [-1.0, 1.0] {
+                let excess = sign * powi(10.0, -power);
+                let left = -(rho + radius * (1.0 + excess));
+                let motion = Motion::new(&model, left, 0.0, 0.9 * PI / model.omega_0);
+                let stuck = motion.legs.iter().any(|leg| leg.place == Place::Sticks);
+                assert_eq!(stuck, excess > 0.0, "{guide} {speed} {excess:e}");
+            }
+        }
+    }
+    // And where the law is curved, on both sides of the orbit that touches.
+    for name in ["bstab-1.5", "guide-only", "graze-slip"] {
+        let model = Model::new(&machine(name)).unwrap();
+        let mut flow = Flow::new(&model);
+        let touch = flow.landmarks().unwrap().unwrap().grazing.right.unwrap();
+        for power in 3..13 {
+            for sign in [-1.0, 1.0] {
+                let x = touch * (1.0 + sign * powi(10.0, -power));
+                let Ok(Return::Turns(image)) = flow.returned(x) else { panic!("{name}") };
+                assert_eq!(image.sticks_from.is_some(), sign > 0.0, "{name} at {x}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_comes_to_ride_on_the_belt_leaves_it_as_one() {
+    let mut dice = Dice(0x0dd_ba11_5eed_cafe);
+    let mut merged = 0;
+    for _ in 0..40 {
+        let Ok(model) = Model::new(&dice.machine()) else { continue };
+        let mut flow = Flow::new(&model);
+        let Ok(Some(marks)) = flow.landmarks() else { continue };
+        let (Some(touch), Some(released)) = (marks.grazing.right, marks.released) else { continue };
+        let end = marks.beyond.unwrap_or(3.0 * touch).min(3.0 * touch);
+        for part in [1e-9, 0.1, 0.5, 0.999] {
+            let x = touch + part * (end - touch);
+            let Ok(Return::Turns(image)) = flow.returned(x) else { continue };
+            let from = image.sticks_from.unwrap_or_else(|| panic!("{model:?} at {x}: {image:?}"));
+            assert_eq!((image.x, image.log_slope), (released, f64::NEG_INFINITY), "{model:?}");
+            assert!(from <= marks.lines.release && from >= marks.lines.low, "{model:?}");
+            merged += 1;
+        }
+    }
+    assert!(merged > 60, "{merged}");
+}
