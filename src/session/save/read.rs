@@ -1,256 +1,27 @@
-//! Saved sessions: everything that a session is, as a TOML file, and back.
-//!
-//! What is saved is what the user made: scene, motion, steps, plots, layers, marks, registers, typed lines
-//! and the history. Answers are not: they follow from the rest. How the screen looks belongs to the
-//! terminal, and which key means what to the settings. A field of [`Session`] that should survive the
-//! program has its place here.
+//! A file into a session.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
+use super::file::{Change, Named, SavedPlot, SavedSession, Show, VERSION};
 use crate::flow::Problem;
 use crate::flow::method::{EPSILON_RANGE, STEP_RANGE};
 use crate::oscillator::{PARAMETERS, State, Symbol};
 use crate::scene::file::{TOLERANCE_RANGE, UNTIL_RANGE};
-use crate::scene::{
-    Arrangement, Axes, Layer, MOST_PLOTS, PlotSetup, Point, Scene, Setting, View, Window, find,
-};
+use crate::scene::{MOST_PLOTS, PlotSetup, Scene, Setting, find};
 use crate::session::read::numbers::difference;
 use crate::session::replay;
 use crate::session::replay::script::Step;
 use crate::session::state::doubt::Doubt;
 use crate::session::state::history::{Before, History, ScreenSetup, Snapshot};
 use crate::session::state::marks::{Bookmark, Marks};
-use crate::session::state::overlay::Overlay;
-use crate::session::state::plot::{Framing, Pane, Plot};
-use crate::session::state::rows::{ROWS, Row, Steps};
+use crate::session::state::plot::{Pane, Plot};
+use crate::session::state::rows::{ROWS, Row};
 use crate::session::state::session::{MOST_HARMONICS, Session};
 use crate::session::state::setup::Setup;
 use crate::session::state::starts::{MOST_MOTIONS, Starts};
-use crate::study::kicks::Kicks;
-
-/// The format that this program writes; it reads this one and all before.
-const VERSION: u32 = 1;
-
-/// A session as it stands on disk.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct SavedSession {
-    hopfscope: u32,
-    /// The selected row of the parameter pane, by its name.
-    selected: String,
-    /// The pane in focus: 0 for the parameters, then the plots.
-    focus: usize,
-    /// The plot in use, from 1.
-    plot: usize,
-    enlarged: bool,
-    unfolded: bool,
-    harmonics: usize,
-    #[serde(default)]
-    kicks: Kicks,
-    /// Lines typed on the command line, the newest last.
-    lines: Vec<String>,
-    present: Show,
-    plots: Vec<SavedPlot>,
-    #[serde(default)]
-    marks: BTreeMap<char, Problem>,
-    /// What the machine is set to at marks.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    belts: BTreeMap<char, Setting>,
-    /// Where the motions start beside those of marks.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    beside: BTreeMap<char, Vec<State>>,
-    /// What is not known exactly at marks.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    doubts: BTreeMap<char, Doubt>,
-    /// The point left last for a mark.
-    left: Option<Problem>,
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    left_beside: Vec<State>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    left_belt: Option<Setting>,
-    #[serde(default, skip_serializing_if = "Doubt::is_none")]
-    left_doubt: Doubt,
-    /// Recorded keys, as keystroke files.
-    #[serde(default)]
-    registers: BTreeMap<char, String>,
-    #[serde(default)]
-    past: Vec<Change>,
-    #[serde(default)]
-    future: Vec<Change>,
-}
-
-/// A scene, by its name if it comes with the program, else in full.
-#[derive(Serialize, Deserialize)]
-#[serde(untagged)]
-enum Named {
-    Library(String),
-    Whole(Box<Scene>),
-}
-
-/// What a scene sets, as it is or was.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Show {
-    arrangement: Arrangement,
-    layers: BTreeSet<Layer>,
-    steps: Steps,
-    motion: Problem,
-    /// Where the motions beside it start.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    beside: Vec<State>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    belt: Option<Setting>,
-    #[serde(default, skip_serializing_if = "Doubt::is_none")]
-    doubt: Doubt,
-    scene: Named,
-}
-
-/// A plot and where one looks in it.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct SavedPlot {
-    view: View,
-    framing: Framing,
-    axes: Axes,
-    window: Window,
-    cursor: Option<Point>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    family: Option<usize>,
-}
-
-/// A change that can be undone or redone: the state on its other side.
-#[derive(Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum Change {
-    Motion(Problem),
-    MotionOnBelt {
-        motion: Problem,
-        belt: Setting,
-    },
-    Motions {
-        motion: Problem,
-        beside: Vec<State>,
-        belt: Option<Setting>,
-        #[serde(default, skip_serializing_if = "Doubt::is_none")]
-        doubt: Doubt,
-    },
-    Plots {
-        arrangement: Arrangement,
-        plots: Vec<PlotSetup>,
-    },
-    Scene {
-        plots: Vec<PlotSetup>,
-        show: Box<Show>,
-    },
-}
-
-/// The session as the text of a file.
-///
-/// # Errors
-/// One line, if the text cannot be made; no session is known for which that is so.
-pub fn text(session: &Session) -> Result<String, String> {
-    let (past, future) = session.history.parts();
-    let left = session.marks.left.as_ref().map(|mark| &mark.setup);
-    let file = SavedSession {
-        hopfscope: VERSION,
-        selected: session.selected.name().to_owned(),
-        focus: match session.focus {
-            Pane::Parameters => 0,
-            Pane::Plot(index) => index + 1,
-        },
-        plot: session.plot + 1,
-        enlarged: session.enlarged,
-        unfolded: session.unfolded,
-        harmonics: session.harmonics,
-        kicks: session.kicks,
-        lines: session.lines.clone(),
-        present: Show {
-            arrangement: session.arrangement,
-            layers: session.layers.clone(),
-            steps: session.steps,
-            motion: session.problem,
-            beside: session.others.all().to_vec(),
-            belt: session.setting,
-            doubt: session.doubt,
-            scene: named(&session.scene),
-        },
-        plots: session.plots.iter().map(look).collect(),
-        marks: of_marks(session, |setup| Some(setup.problem)),
-        belts: of_marks(session, |setup| setup.setting),
-        beside: of_marks(session, |setup| {
-            Some(setup.others.all().to_vec()).filter(|beside| !beside.is_empty())
-        }),
-        doubts: of_marks(session, |setup| Some(setup.doubt).filter(|doubt| !doubt.is_none())),
-        left: left.map(|setup| setup.problem),
-        left_beside: left.map_or_else(Vec::new, |setup| setup.others.all().to_vec()),
-        left_belt: left.and_then(|setup| setup.setting),
-        left_doubt: left.map_or_else(Doubt::default, |setup| setup.doubt),
-        registers: session
-            .macros
-            .registers
-            .iter()
-            .map(|(name, steps)| (*name, replay::text("", steps)))
-            .collect(),
-        past: past.iter().map(change).collect(),
-        future: future.iter().map(change).collect(),
-    };
-    let body = toml::to_string(&file).map_err(|error| format!("not saved: {error}"))?;
-    Ok(format!("# A session of hopfscope; `hopfscope --open FILE` resumes it.\n{body}"))
-}
-
-/// What is so of the marks, as far as it is.
-fn of_marks<T>(session: &Session, of: impl Fn(&Setup) -> Option<T>) -> BTreeMap<char, T> {
-    let marks = session.marks.places.iter();
-    marks.filter_map(|(name, mark)| Some((*name, of(&mark.setup)?))).collect()
-}
-
-fn named(scene: &Arc<Scene>) -> Named {
-    match find(&scene.name) {
-        Ok(known) if known == *scene => Named::Library(scene.name.clone()),
-        _ => Named::Whole(Box::new(Scene::clone(scene))),
-    }
-}
-
-fn look(plot: &Plot) -> SavedPlot {
-    let Plot { view, axes, window, framing, cursor, family, .. } = *plot;
-    SavedPlot { view, framing, axes, window, cursor, family }
-}
-
-fn change(before: &Before) -> Change {
-    match before {
-        Before::Setup(setup) => {
-            let Setup { problem, others, setting, doubt } = &**setup;
-            let motion = *problem;
-            match (others.all(), setting) {
-                ([], None) if doubt.is_none() => Change::Motion(motion),
-                ([], Some(belt)) if doubt.is_none() => Change::MotionOnBelt { motion, belt: *belt },
-                (others, belt) => {
-                    let (beside, doubt) = (others.to_vec(), *doubt);
-                    Change::Motions { motion, beside, belt: *belt, doubt }
-                }
-            }
-        }
-        Before::ScreenSetup(ScreenSetup { plots, arrangement }) => {
-            Change::Plots { arrangement: *arrangement, plots: plots.clone() }
-        }
-        Before::Scene(snapshot) => Change::Scene {
-            plots: snapshot.screen_setup.plots.clone(),
-            show: Box::new(Show {
-                arrangement: snapshot.screen_setup.arrangement,
-                layers: snapshot.layers.clone(),
-                steps: snapshot.steps,
-                motion: snapshot.setup.problem,
-                beside: snapshot.setup.others.all().to_vec(),
-                belt: snapshot.setup.setting,
-                doubt: snapshot.setup.doubt,
-                scene: named(&snapshot.scene),
-            }),
-        },
-    }
-}
 
 /// Makes a session what a file says. Look, keys and size stay, and so do answers, as far as they fit.
 ///
@@ -460,15 +231,4 @@ fn before(change: Change) -> Result<Before, String> {
             }))
         }
     })
-}
-
-impl Session {
-    /// Whether the user did something that would be missed: a change, a mark, a register.
-    pub fn is_worth_keeping(&self) -> bool {
-        let (past, future) = self.history.depth();
-        past + future > 0
-            || !self.marks.places.is_empty()
-            || !self.macros.registers.is_empty()
-            || matches!(self.overlay, Some(Overlay::Entry(_)))
-    }
 }

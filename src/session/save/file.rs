@@ -1,0 +1,129 @@
+//! A session as it stands on disk.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde::{Deserialize, Serialize};
+
+use crate::flow::Problem;
+use crate::oscillator::State;
+use crate::scene::{Arrangement, Axes, Layer, PlotSetup, Point, Scene, Setting, View, Window};
+use crate::session::state::doubt::Doubt;
+use crate::session::state::plot::Framing;
+use crate::session::state::rows::Steps;
+use crate::study::kicks::Kicks;
+
+/// The format that this program writes; it reads this one and all before.
+pub const VERSION: u32 = 1;
+
+/// A session as it stands on disk.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SavedSession {
+    pub hopfscope: u32,
+    /// The selected row of the parameter pane, by its name.
+    pub selected: String,
+    /// The pane in focus: 0 for the parameters, then the plots.
+    pub focus: usize,
+    /// The plot in use, from 1.
+    pub plot: usize,
+    pub enlarged: bool,
+    pub unfolded: bool,
+    pub harmonics: usize,
+    #[serde(default)]
+    pub kicks: Kicks,
+    /// Lines typed on the command line, the newest last.
+    pub lines: Vec<String>,
+    pub present: Show,
+    pub plots: Vec<SavedPlot>,
+    #[serde(default)]
+    pub marks: BTreeMap<char, Problem>,
+    /// What the machine is set to at marks.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub belts: BTreeMap<char, Setting>,
+    /// Where the motions start beside those of marks.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub beside: BTreeMap<char, Vec<State>>,
+    /// What is not known exactly at marks.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub doubts: BTreeMap<char, Doubt>,
+    /// The point left last for a mark.
+    pub left: Option<Problem>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub left_beside: Vec<State>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub left_belt: Option<Setting>,
+    #[serde(default, skip_serializing_if = "Doubt::is_none")]
+    pub left_doubt: Doubt,
+    /// Recorded keys, as keystroke files.
+    #[serde(default)]
+    pub registers: BTreeMap<char, String>,
+    #[serde(default)]
+    pub past: Vec<Change>,
+    #[serde(default)]
+    pub future: Vec<Change>,
+}
+
+/// A scene, by its name if it comes with the program, else in full.
+#[derive(Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Named {
+    Library(String),
+    Whole(Box<Scene>),
+}
+
+/// What a scene sets, as it is or was.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Show {
+    pub arrangement: Arrangement,
+    pub layers: BTreeSet<Layer>,
+    pub steps: Steps,
+    pub motion: Problem,
+    /// Where the motions beside it start.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub beside: Vec<State>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub belt: Option<Setting>,
+    #[serde(default, skip_serializing_if = "Doubt::is_none")]
+    pub doubt: Doubt,
+    pub scene: Named,
+}
+
+/// A plot and where one looks in it.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SavedPlot {
+    pub view: View,
+    pub framing: Framing,
+    pub axes: Axes,
+    pub window: Window,
+    pub cursor: Option<Point>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub family: Option<usize>,
+}
+
+/// A change that can be undone or redone: the state on its other side.
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Change {
+    Motion(Problem),
+    MotionOnBelt {
+        motion: Problem,
+        belt: Setting,
+    },
+    Motions {
+        motion: Problem,
+        beside: Vec<State>,
+        belt: Option<Setting>,
+        #[serde(default, skip_serializing_if = "Doubt::is_none")]
+        doubt: Doubt,
+    },
+    Plots {
+        arrangement: Arrangement,
+        plots: Vec<PlotSetup>,
+    },
+    Scene {
+        plots: Vec<PlotSetup>,
+        show: Box<Show>,
+    },
+}

@@ -1,0 +1,130 @@
+//! A session into its file.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::file::{Change, Named, SavedPlot, SavedSession, Show, VERSION};
+use crate::scene::{Scene, find};
+use crate::session::replay;
+use crate::session::state::doubt::Doubt;
+use crate::session::state::history::{Before, ScreenSetup};
+use crate::session::state::overlay::Overlay;
+use crate::session::state::plot::{Pane, Plot};
+use crate::session::state::session::Session;
+use crate::session::state::setup::Setup;
+
+/// The session as the text of a file.
+///
+/// # Errors
+/// One line, if the text cannot be made; no session is known for which that is so.
+pub fn text(session: &Session) -> Result<String, String> {
+    let (past, future) = session.history.parts();
+    let left = session.marks.left.as_ref().map(|mark| &mark.setup);
+    let file = SavedSession {
+        hopfscope: VERSION,
+        selected: session.selected.name().to_owned(),
+        focus: match session.focus {
+            Pane::Parameters => 0,
+            Pane::Plot(index) => index + 1,
+        },
+        plot: session.plot + 1,
+        enlarged: session.enlarged,
+        unfolded: session.unfolded,
+        harmonics: session.harmonics,
+        kicks: session.kicks,
+        lines: session.lines.clone(),
+        present: Show {
+            arrangement: session.arrangement,
+            layers: session.layers.clone(),
+            steps: session.steps,
+            motion: session.problem,
+            beside: session.others.all().to_vec(),
+            belt: session.setting,
+            doubt: session.doubt,
+            scene: named(&session.scene),
+        },
+        plots: session.plots.iter().map(look).collect(),
+        marks: of_marks(session, |setup| Some(setup.problem)),
+        belts: of_marks(session, |setup| setup.setting),
+        beside: of_marks(session, |setup| {
+            Some(setup.others.all().to_vec()).filter(|beside| !beside.is_empty())
+        }),
+        doubts: of_marks(session, |setup| Some(setup.doubt).filter(|doubt| !doubt.is_none())),
+        left: left.map(|setup| setup.problem),
+        left_beside: left.map_or_else(Vec::new, |setup| setup.others.all().to_vec()),
+        left_belt: left.and_then(|setup| setup.setting),
+        left_doubt: left.map_or_else(Doubt::default, |setup| setup.doubt),
+        registers: session
+            .macros
+            .registers
+            .iter()
+            .map(|(name, steps)| (*name, replay::text("", steps)))
+            .collect(),
+        past: past.iter().map(change).collect(),
+        future: future.iter().map(change).collect(),
+    };
+    let body = toml::to_string(&file).map_err(|error| format!("not saved: {error}"))?;
+    Ok(format!("# A session of hopfscope; `hopfscope --open FILE` resumes it.\n{body}"))
+}
+
+/// What is so of the marks, as far as it is.
+fn of_marks<T>(session: &Session, of: impl Fn(&Setup) -> Option<T>) -> BTreeMap<char, T> {
+    let marks = session.marks.places.iter();
+    marks.filter_map(|(name, mark)| Some((*name, of(&mark.setup)?))).collect()
+}
+
+fn named(scene: &Arc<Scene>) -> Named {
+    match find(&scene.name) {
+        Ok(known) if known == *scene => Named::Library(scene.name.clone()),
+        _ => Named::Whole(Box::new(Scene::clone(scene))),
+    }
+}
+
+fn look(plot: &Plot) -> SavedPlot {
+    let Plot { view, axes, window, framing, cursor, family, .. } = *plot;
+    SavedPlot { view, framing, axes, window, cursor, family }
+}
+
+fn change(before: &Before) -> Change {
+    match before {
+        Before::Setup(setup) => {
+            let Setup { problem, others, setting, doubt } = &**setup;
+            let motion = *problem;
+            match (others.all(), setting) {
+                ([], None) if doubt.is_none() => Change::Motion(motion),
+                ([], Some(belt)) if doubt.is_none() => Change::MotionOnBelt { motion, belt: *belt },
+                (others, belt) => {
+                    let (beside, doubt) = (others.to_vec(), *doubt);
+                    Change::Motions { motion, beside, belt: *belt, doubt }
+                }
+            }
+        }
+        Before::ScreenSetup(ScreenSetup { plots, arrangement }) => {
+            Change::Plots { arrangement: *arrangement, plots: plots.clone() }
+        }
+        Before::Scene(snapshot) => Change::Scene {
+            plots: snapshot.screen_setup.plots.clone(),
+            show: Box::new(Show {
+                arrangement: snapshot.screen_setup.arrangement,
+                layers: snapshot.layers.clone(),
+                steps: snapshot.steps,
+                motion: snapshot.setup.problem,
+                beside: snapshot.setup.others.all().to_vec(),
+                belt: snapshot.setup.setting,
+                doubt: snapshot.setup.doubt,
+                scene: named(&snapshot.scene),
+            }),
+        },
+    }
+}
+
+impl Session {
+    /// Whether the user did something that would be missed: a change, a mark, a register.
+    pub fn is_worth_keeping(&self) -> bool {
+        let (past, future) = self.history.depth();
+        past + future > 0
+            || !self.marks.places.is_empty()
+            || !self.macros.registers.is_empty()
+            || matches!(self.overlay, Some(Overlay::Entry(_)))
+    }
+}
