@@ -27,11 +27,4 @@ impl Modal {
         let at_rest = self.static_guide.unwrap_or(self.friction);
         Model::of_mode(omega_0, self.mass, &self.damping_ratio, self.friction, at_rest)
     }
-
-    /// Stiffness, in N/m.
-    #[must_use]
-    pub fn stiffness(&self) -> f64 {
-        let omega_0 = std::f64::consts::TAU * self.frequency;
-        self.mass * omega_0 * omega_0
-    }
 }

@@ -7,7 +7,6 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use ratatui::Frame;
-use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 
 use super::application::Application;
@@ -167,12 +166,4 @@ pub fn replay(
     size: Size,
 ) -> io::Result<Played<Explorer>> {
     headless::play(Explorer::new(session, environment), answer, script, size)
-}
-
-/// The picture of a session at this size, computed to its end.
-///
-/// # Errors
-/// If the system gives no thread for the worker.
-pub fn picture(session: Session, environment: Environment, size: Size) -> io::Result<Buffer> {
-    Ok(replay(session, environment, Script::default(), size)?.screen)
 }
