@@ -2,7 +2,7 @@
 
 use super::Trial;
 use crate::oscillator::Symbol;
-use crate::scene::{Layer, ORDINATES, Ordinate, Topic, Unit};
+use crate::scene::{Layer, ORDINATES, Ordinate, Topic};
 use crate::session::Framing;
 
 #[test]
@@ -33,10 +33,9 @@ fn every_parameter_comes_below_the_diagram_and_the_scene_s_own_comes_back() {
 }
 
 #[test]
-fn the_window_follows_a_value_of_today_that_is_out_of_the_ordinary() {
+fn the_window_follows_a_present_value_that_is_out_of_the_ordinary() {
     let mut trial = Trial::alone("supercritical");
-    trial.press("<down>7<enter><tab><tab>X X");
-    assert_eq!(trial.session.plots[1].axes.abscissa, Symbol::D3);
+    trial.goes(&[("<down>7<enter><tab><tab>X X", "abscissa D3")]);
     assert!(trial.session.plots[1].window.x.contains(7.0));
 }
 
@@ -61,22 +60,16 @@ fn every_ordinate_is_fitted_to_the_cycles_that_are_there() {
 #[test]
 fn home_brings_the_axes_of_the_scene_back() {
     let mut trial = Trial::alone("supercritical");
-    trial.press("<tab><tab>Y X");
-    assert_eq!(trial.press("<home>"), [], "known still");
-    assert_eq!(
-        (trial.session.plots[1].axes.abscissa, trial.session.plots[1].axes.ordinate),
-        (Symbol::D, Ordinate::QMax)
-    );
+    // Known still.
+    trial.goes(&[("<tab><tab>Y X", ""), ("<home>", "asked | abscissa D | ordinate q_max")]);
     assert_eq!(trial.session.plots[1].window, trial.session.scene.plots[1].opening());
 }
 
 #[test]
 fn the_harmonic_answer_has_no_multiplier() {
     let mut trial = Trial::alone("supercritical");
-    trial.press("<tab><tab>");
     assert_eq!(trial.session.not_drawn(Layer::Harmonic), None);
-    trial.press("Y Y Y Y Y Y");
-    assert_eq!(trial.session.plots[1].axes.ordinate, Ordinate::Multiplier);
+    trial.goes(&[("<tab><tab>Y Y Y Y Y Y", "ordinate multiplier")]);
     assert!(trial.session.not_drawn(Layer::Harmonic).is_some());
     assert_eq!(trial.session.not_drawn(Layer::Branch), None);
 }
@@ -84,35 +77,28 @@ fn the_harmonic_answer_has_no_multiplier() {
 #[test]
 fn ratios_to_r_are_another_look_at_the_same_branch() {
     let mut trial = Trial::open("linear");
-    trial.press(":axes<space>D<space>q_max/r<enter>");
+    trial.goes(&[
+        (": axes D q_max/r", "label A_q/r"),
+        ("N", "asked | label q_max"),
+        ("N", "notice A_q/r: right turning point of the cycles, in units of r"),
+    ]);
     let plot = trial.session.plot;
-    let axes = trial.session.plots[plot].axes;
-    assert_eq!((axes.unit, axes.label()), (Unit::Friction, "A_q/r"));
-    assert_eq!(trial.press("N"), [], "the branch is the same");
-    assert_eq!(trial.session.plots[plot].axes.label(), "q_max");
-    trial.press("N");
-    assert_eq!(trial.notice(), "A_q/r: right turning point of the cycles, in units of r");
-    let r = trial.session.problem.parameters.r;
-    let height = trial.session.height(plot, 0);
-    let point = trial.branch(plot).pieces[0][1];
-    assert_eq!(height.of(point.value, &point.cycle), point.cycle.q_max / r);
     // Over r each point has its own.
-    trial.press("X X X");
-    assert_eq!(trial.session.plots[plot].axes.abscissa, Symbol::R);
-    let point = trial.branch(plot).pieces[0][1];
-    let height = trial.session.height(plot, 0);
-    assert_eq!(height.of(point.value, &point.cycle), point.cycle.q_max / point.value);
-    trial.press("Y Y Y Y Y N");
-    assert_eq!(trial.notice(), "period is no length, and has no unit");
-    for (line, words) in [
-        (
-            "axes<space>D<space>period/r",
-            "no property \"period/r\"; there are q_max, q_max/r, q_min",
-        ),
-        ("axes<space>D<space>size", "no property \"size\"; there are q_max"),
-    ] {
-        trial.press(&format!("<esc>:{line}<enter>"));
-        let refused = trial.refused();
-        assert!(refused.contains(words), "{refused}");
+    for (keys, own) in [("", false), ("X X X", true)] {
+        trial.press(keys);
+        let point = trial.branch(plot).pieces[0][1];
+        let height = trial.session.height(plot, 0);
+        let r = if own { point.value } else { trial.session.problem.parameters.r };
+        assert_eq!(height.of(point.value, &point.cycle), point.cycle.q_max / r);
     }
+    trial.goes(&[
+        ("", "abscissa r"),
+        ("Y Y Y Y Y N", "notice period is no length, and has no unit"),
+        (
+            ": axes D period/r",
+            "refused ..no property \"period/r\"; there are q_max, q_max/r, q_min..",
+        ),
+        ("<esc>", ""),
+        (": axes D size", "refused ..no property \"size\"; there are q_max.."),
+    ]);
 }

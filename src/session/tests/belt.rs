@@ -1,6 +1,7 @@
 //! The speed of the belt as a number among the others: it moves D, D2, D3 and r along the machine's path.
 
 use super::Trial;
+use super::facts::refuses;
 use crate::oscillator::Symbol;
 use crate::oscillator::belt::{Quantity, Reduced};
 use crate::scene::{Layer, ScaledMachine};
@@ -95,30 +96,21 @@ fn speeds_are_typed_with_units_or_in_metres_per_second() {
 #[test]
 fn speeds_that_are_none_are_refused_in_one_line() {
     for (typed, words) in [
-        ("0", "v0 = 0 m/s is outside its range"),
-        ("-0.3", "v0 = -0.3 m/s is outside its range"),
-        ("nan", "\"nan\" does not begin with a number"),
-        ("1e999", "\"1e999\" is not a finite number"),
-        ("3 N", "has another dimension; it takes a unit such as m/s"),
-        ("fast", "\"fast\" does not begin with a number"),
+        ("0", "..v0 = 0 m/s is outside its range"),
+        ("-0.3", "..v0 = -0.3 m/s is outside its range"),
+        ("nan", "..\"nan\" does not begin with a number"),
+        ("1e999", "..\"1e999\" is not a finite number"),
+        ("3 N", "..has another dimension; it takes a unit such as m/s"),
+        ("fast", "..\"fast\" does not begin with a number"),
     ] {
-        let mut trial = Trial::open("fig01");
-        trial.press(&format!("<up><enter><C-u><paste {typed:?}><enter>"));
-        let refused = trial.refused();
-        assert!(refused.contains(words) && !refused.contains('\n'), "{typed}: {refused}");
-        trial.press("<esc>");
-        runs_at(&trial, 0.3);
+        refuses("fig01", &[(&format!("<up><enter><C-u><paste {typed:?}><enter>"), words)]);
     }
+    refuses("plain", &[(": set belt=0.3", "set: no value \"belt\"; there are D, D2")]);
+    assert!(!Trial::open("plain").session.rows().contains(&Row::BELT));
     // Steps down end above zero, with the reason.
     let mut trial = Trial::open("fig01");
-    trial.press("<up> *40<left>");
+    trial.goes(&[("<up> *40<left>", "notice v0 = 0 m/s is outside its range..")]);
     runs_at(&trial, 0.01);
-    assert!(trial.notice().starts_with("v0 = 0 m/s is outside its range"), "{}", trial.notice());
-    let mut trial = Trial::open("plain");
-    trial.press(":set<space>belt=0.3<enter>");
-    let refused = trial.refused();
-    assert!(refused.starts_with("set: no value \"belt\"; there are D, D2"), "{refused}");
-    assert!(!trial.session.rows().contains(&Row::BELT));
 }
 
 #[test]
@@ -179,16 +171,11 @@ fn the_path_over_the_speed_asks_nothing() {
 fn a_machine_of_the_program_opens_by_its_name_which_can_be_completed() {
     let mut trial = Trial::open("plain");
     trial.press(":belt<space>cl<tab><enter>");
-    let running = trial.session.running().unwrap();
-    assert_eq!(running.machine.name, "clutch");
+    assert_eq!(trial.session.running().unwrap().machine.name, "clutch");
     assert!(trial.session.draws_whole());
-    trial.press(":belt<space>tractor<enter>");
-    assert_eq!(
-        trial.refused(),
-        "belt: no machine \"tractor\"; there are textbook, clutch, slideway, straight, bstab, groan"
-    );
-    trial.press("<esc> u");
-    assert_eq!(trial.session.scene.name, "plain");
+    let known = "there are textbook, clutch, slideway, straight, bstab, groan";
+    let refused = format!("refused belt: no machine \"tractor\"; {known}");
+    trial.goes(&[(": belt tractor", &refused), ("<esc> u", "scene plain")]);
 }
 
 #[test]
@@ -279,16 +266,14 @@ fn tolerance_and_disturbance_of_a_machine_are_typed_in_newtons() {
     // A number typed without a tolerance is exact, as everywhere.
     trial.press(":set<space>R=2<space>N<enter>");
     assert_eq!(trial.session.doubt.half_width(Symbol::R), 0.0);
-    for (typed, words) in [
-        ("m=2<space>N", "a unit such as kg"),
-        ("m=0", "m = 0 kg is outside its range"),
-        ("F=10<space>N<space>+-<space>1<space>N", "F has no tolerance here"),
-        ("w=1<space>mm", "a unit such as N"),
-        ("R=-1", "R = -1 N is outside its range"),
-    ] {
-        let mut trial = Trial::open("fig01");
-        trial.press(&format!(":set<space>{typed}<enter>"));
-        let refused = trial.refused();
-        assert!(refused.contains(words) && !refused.contains('\n'), "{typed}: {refused}");
-    }
+    refuses(
+        "fig01",
+        &[
+            (": set m=2 N", "..a unit such as kg"),
+            (": set m=0", "..m = 0 kg is outside its range"),
+            (": set F=10 N +- 1 N", "..F has no tolerance here"),
+            (": set w=1 mm", "..a unit such as N"),
+            (": set R=-1", "..R = -1 N is outside its range"),
+        ],
+    );
 }

@@ -10,51 +10,31 @@ use crate::session::read::wants::Unmeasured;
 use crate::session::{Msg, Row, Session, Standing, update};
 use crate::study::accuracy::Reference;
 
-/// The number behind the dial and the name of its stop.
-fn dial(trial: &Trial) -> (f64, &'static str) {
-    let problem = &trial.session.problem;
-    (problem.setting(), problem.quality().map_or("-", |quality| quality.name))
-}
-
 #[test]
 fn the_dial_goes_through_its_stops_and_ends() {
-    let mut trial = Trial::alone("supercritical");
-    assert_eq!(dial(&trial), (1e-10, "normal"));
-    trial.press("}");
-    assert_eq!(dial(&trial), (1e-13, "fine"));
-    assert_eq!(trial.notice(), "fine: tolerance 1e-13; thirteen digits");
-    trial.press("} }");
-    assert_eq!(dial(&trial), (1e-15, "reference"));
-    assert_eq!(trial.notice(), "the dial ends at reference");
-    trial.press("{ { {");
-    assert_eq!(dial(&trial), (1e-4, "draft"));
-    trial.press("u u");
-    assert_eq!(dial(&trial), (1e-13, "fine"), "each turn is undone");
-    // From a typed number to the stops beside it; a stop can be typed by its name.
-    trial.press("<down*7>3e-7<enter>");
-    assert_eq!(dial(&trial), (3e-7, "-"));
-    trial.press("{");
-    assert_eq!(dial(&trial), (1e-4, "draft"));
-    trial.press("<enter><C-u>fine<enter>");
-    assert_eq!(dial(&trial), (1e-13, "fine"));
+    Trial::alone("supercritical").goes(&[
+        ("", "dial 1e-10 normal"),
+        ("}", "dial 1e-13 fine | notice fine: tolerance 1e-13; thirteen digits"),
+        ("} }", "dial 1e-15 reference | notice the dial ends at reference"),
+        ("{ { {", "dial 0.0001 draft"),
+        // Each turn is undone.
+        ("u u", "dial 1e-13 fine"),
+        // From a typed number to the stops beside it; a stop can be typed by its name.
+        ("<down*7>3e-7<enter>", "dial 3e-7 -"),
+        ("{", "dial 0.0001 draft"),
+        ("<enter><C-u>fine<enter>", "dial 1e-13 fine"),
+    ]);
 }
 
 #[test]
 fn the_dial_is_the_same_whatever_its_number_is_called() {
-    let mut trial = Trial::alone("supercritical");
-    trial.press("} <down*6><enter><C-u>rk4<enter>");
-    assert_eq!(dial(&trial), (1e-3, "fine"), "a step as fine as the tolerance was");
-    trial.press("{");
-    assert_eq!(
-        trial.notice(),
-        "normal: step 0.01; ten digits, at a few percent of the cost of drawing them"
-    );
-    assert_eq!(trial.session.problem.tolerance, 1e-10);
-    trial.press("<down>0.05<enter>");
-    assert_eq!((dial(&trial), trial.session.problem.tolerance), ((0.05, "-"), 1e-10));
-    trial.press("<enter><C-u>7<enter>");
-    let said = trial.session.overlay.as_ref().map(|overlay| format!("{overlay:?}"));
-    assert!(said.unwrap().contains("step = 7 is out of range; step takes 1e-7 to 1"));
+    Trial::alone("supercritical").goes(&[
+        // A step as fine as the tolerance was.
+        ("} <down*6><enter><C-u>rk4<enter>", "dial 0.001 fine"),
+        ("{", "tolerance 1e-10 | notice normal: step 0.01; ten digits, at a few percent of the .."),
+        ("<down>0.05<enter>", "dial 0.05 - | tolerance 1e-10"),
+        ("<enter><C-u>7<enter>", "refused step = 7 is out of range; step takes 1e-7 to 1"),
+    ]);
 }
 
 /// The answer to a question as if it had cost this much.
@@ -305,10 +285,4 @@ fn what_a_scene_does_not_need_costs_nothing() {
     let linear = cost("", "capture");
     assert_eq!(linear.method, Method::Exact);
     assert_eq!(linear.cost.evaluations, linear.crossings.len() as u64, "one for each half swing");
-
-    let mut trial = Trial::alone("supercritical");
-    trial.press("<run \"layer trajectory\"><run \"layer cycles\"><run \"layer basin\"><run \"layer branch\"><run \"layer special\">");
-    assert_eq!(trial.session.wants(), [], "all layers that ask are hidden");
-    assert_eq!(trial.session.requirements(), []);
-    assert_eq!(trial.press("<right> <down><right> } <down*7>"), []);
 }

@@ -1,12 +1,13 @@
 //! Half widths of the parameters and the disturbance: typed, stepped, undone, saved, asked for.
 
 use super::Trial;
+use super::facts::refuses;
 use crate::machine::Tolerances;
 use crate::oscillator::{Interval, Symbol};
 use crate::question;
 use crate::question::answer;
 use crate::scene::{Answer, Request, Topic};
-use crate::session::{Doubt, Row, run_line, save};
+use crate::session::{Doubt, Row, save};
 
 fn certainty(trial: &Trial) -> Option<Request> {
     trial.session.wants().into_iter().find(|request| request.topic() == Topic::Zones)
@@ -45,22 +46,19 @@ fn a_half_width_is_typed_stepped_undone_and_saved() {
 #[test]
 fn an_interval_is_taken_by_its_middle_and_a_bare_value_is_exact() {
     let mut trial = Trial::open("plain");
-    trial.press(":set<space>D=-0.3..-0.25<enter>");
-    assert_eq!(trial.session.value(Symbol::D), -0.275);
+    trial.goes(&[(": set D=-0.3..-0.25", "D -0.275")]);
     assert!((trial.session.doubt.half_width(Symbol::D) - 0.025).abs() < 1e-16);
-    trial.press(":set<space>D=-0.3<enter>");
+    trial.goes(&[(": set D=-0.3", "D -0.3")]);
     assert_eq!(trial.session.doubt, Doubt::default());
-    for (line, words) in [
-        ("r=0.1+--1", "half width -1.0 is negative"),
-        ("r=0.1+-0.2", "r = -0.1"),
-        ("q0=1+-0.1", "only D, D2, D3, r have intervals"),
-        ("w=-1", "w takes 0 or more"),
-    ] {
-        let before = trial.session.setup();
-        let refused = run_line(&mut trial.session, &format!("set {line}")).unwrap_err();
-        assert!(refused.contains(words), "{line}: {refused}");
-        assert_eq!(trial.session.setup(), before, "{line}");
-    }
+    refuses(
+        "plain",
+        &[
+            (": set r=0.1+--1", "..half width -1.0 is negative"),
+            (": set r=0.1+-0.2", "..r = -0.1"),
+            (": set q0=1+-0.1", "..only D, D2, D3, r have intervals"),
+            (": set w=-1", "..w takes 0 or more"),
+        ],
+    );
 }
 
 /// The reference of the issue: D = -0.3, D2 = 0.2, D3 = 0.5, r = 0.1.

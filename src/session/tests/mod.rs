@@ -10,6 +10,7 @@ mod screen_setup;
 
 mod drafts;
 mod entries;
+mod facts;
 mod fitting;
 mod kicks;
 mod language;
@@ -155,6 +156,7 @@ impl Trial {
         let refused = match &self.session.overlay {
             Some(Overlay::Entry(entry)) => &entry.refused,
             Some(Overlay::Prompt(prompt)) => &prompt.refused,
+            Some(Overlay::Scan(form)) => &form.refused,
             other => panic!("it is taken: {other:?}"),
         };
         refused.clone().unwrap_or_default()

@@ -1,25 +1,10 @@
 //! Commands by their names: the palette and the command line.
 
 use super::Trial;
-use crate::flow::Method;
-use crate::scene::{Layer, Ordinate, Topic, View};
+use super::facts::refuses;
+use crate::scene::View;
 use crate::session::read::completion::completion;
-use crate::session::{
-    Effect, Listed, Msg, Overlay, Pane, Prompt, commands, lines, run_line, update,
-};
-
-fn run(trial: &mut Trial, line: &str) -> Vec<Topic> {
-    trial.press(":");
-    trial.give(Msg::Paste(line.to_owned()));
-    trial.press("<enter>")
-}
-
-fn prompt(trial: &Trial) -> &Prompt {
-    match &trial.session.overlay {
-        Some(Overlay::Prompt(prompt)) => prompt,
-        other => panic!("no line is open but {other:?}"),
-    }
-}
+use crate::session::{Effect, Overlay, commands, lines, run_line};
 
 #[test]
 fn every_command_is_reached_from_the_palette_without_a_key_of_its_own() {
@@ -38,133 +23,102 @@ fn every_command_is_reached_from_the_palette_without_a_key_of_its_own() {
 
 #[test]
 fn the_palette_runs_a_command_in_the_pane_that_it_belongs_to() {
-    let mut trial = Trial::open("plain");
-    trial.press("<space>next-abs<enter>");
-    let focused = trial.session.focused().expect("the diagram has the focus");
-    assert_eq!((focused.view, focused.axes.abscissa.spec().name), (View::Diagram, "D2"));
-    trial.press("<space>step-size-larger<enter>");
-    assert_eq!(trial.session.focus, Pane::Parameters);
-    trial.press("<space>walk-on<enter>");
-    assert_eq!(trial.notice(), "walk-on needs a branch: w on a diagram takes hold of one");
-    trial.press("<space>no<space>such<space>thing<enter>");
-    assert!(matches!(trial.session.overlay, Some(Overlay::List(Listed::Palette, _))));
-    trial.press("<esc>");
-    assert_eq!(trial.session.overlay, None);
-}
-
-#[test]
-fn what_takes_words_gets_a_line_from_the_palette() {
-    let mut trial = Trial::open("plain");
-    trial.press("<space>open<space>a<space>sc<enter>supercritical<enter>");
-    assert_eq!(trial.session.scene.name, "supercritical");
+    Trial::open("plain").goes(&[
+        ("<space>next-abs<enter>", "focus 1 diagram | abscissa D2"),
+        ("<space>step-size-larger<enter>", "focus parameters"),
+        (
+            "<space>walk-on<enter>",
+            "notice walk-on needs a branch: w on a diagram takes hold of one",
+        ),
+        ("<space>no<space>such<space>thing<enter>", "open Palette"),
+        ("<esc>", "open none"),
+        // What takes words gets a line.
+        ("<space>open<space>a<space>sc<enter>supercritical<enter>", "scene supercritical"),
+    ]);
 }
 
 #[test]
 fn values_are_set_by_name_as_one_change() {
     let mut trial = Trial::open("plain");
-    let asked = run(&mut trial, "set D=-0.3 D3=0.5 until=100 method=taylor");
-    assert!(asked.contains(&Topic::Trajectory));
-    let problem = trial.session.problem;
-    assert_eq!((problem.parameters.d, problem.parameters.d3), (-0.3, 0.5));
-    assert_eq!((problem.until, problem.method), (100.0, Method::Taylor));
-    run(&mut trial, "tol 1e-9");
-    assert_eq!(trial.session.problem.tolerance, 1e-9);
-    trial.press("u u");
+    trial.goes(&[
+        (
+            ": set D=-0.3 D3=0.5 until=100 method=taylor",
+            "asked Trajectory.. | D -0.3 | D3 0.5 | until 100 | method taylor",
+        ),
+        (": tol 1e-9", "tolerance 1e-9"),
+        ("u u", "changes 0 2"),
+    ]);
     assert_eq!(trial.session.problem, trial.session.scene.problem);
 }
 
 #[test]
 fn scenes_views_layers_windows_and_axes_have_names() {
     let mut trial = Trial::open("plain");
-    run(&mut trial, "scene linear");
-    assert_eq!(trial.session.scene.name, "linear");
-    let on = trial.session.layers.contains(&Layer::Basin);
-    run(&mut trial, "layer basin");
-    assert_ne!(trial.session.layers.contains(&Layer::Basin), on);
-    run(&mut trial, "layer basin on");
-    run(&mut trial, "layer basin on");
-    assert!(trial.session.layers.contains(&Layer::Basin));
-    run(&mut trial, "window -3:3,-1:1.5");
+    trial.goes(&[
+        (": scene linear", "scene linear | +basin"),
+        (": layer basin", "-basin"),
+        (": layer basin on", "+basin"),
+        (": layer basin on", "+basin"),
+        (": window -3:3,-1:1.5", ""),
+    ]);
     let window = trial.session.plots[0].window;
     assert_eq!((window.x.from(), window.y.to()), (-3.0, 1.5));
-    run(&mut trial, "axes r period");
-    let plot = trial.session.focused().expect("the diagram");
-    assert_eq!(plot.axes.ordinate, Ordinate::Period);
-    run(&mut trial, "view phase");
+    trial.goes(&[(": axes r period", "ordinate period"), (": view phase", "")]);
     assert!(trial.session.plots.iter().all(|plot| plot.view == View::Phase));
-    run(&mut trial, "axes D");
-    assert_eq!(
-        prompt(&trial).refused.as_deref(),
-        Some("axes: no plot shows a diagram; view diagram makes one")
-    );
+    let why = "refused axes: no plot shows a diagram; view diagram makes one";
+    trial.goes(&[(": axes D", why)]);
 }
 
 #[test]
 fn every_command_of_the_keys_is_a_line_too() {
     let mut trial = Trial::open("plain");
-    let on = trial.session.layers.contains(&Layer::Field);
-    run(&mut trial, "toggle-field");
-    assert_ne!(trial.session.layers.contains(&Layer::Field), on);
-    run(&mut trial, "theme light");
-    run(&mut trial, "theme");
-    assert_eq!(trial.notice(), "theme: dark");
-    run(&mut trial, "quit");
-    assert!(trial.session.quit && trial.effects.contains(&Effect::Quit));
+    trial.goes(&[
+        (": toggle-field", "-field"),
+        (": theme light", ""),
+        (": theme", "notice theme: dark"),
+        (": quit", "quit true"),
+    ]);
+    assert!(trial.effects.contains(&Effect::Quit));
 }
 
 #[test]
 fn what_is_wrong_stays_in_the_line_with_what_is_allowed() {
-    for (line, said) in [
-        ("sett D=1", "no command \"sett\"; did you mean set?"),
-        ("xyzzy", "no command \"xyzzy\"; Tab lists them"),
-        ("set", "set needs NAME=VALUE ..: Give values"),
-        ("set D", "set: \"D\" is no NAME=VALUE, such as D=-0.3"),
-        ("set E=1", "set: no value \"E\"; there are D, D2"),
-        ("set D=-0.3 r=-1", "set: r = -1 is out of range; r takes 0 to 1e300"),
-        ("set D=nan", "set: nan is no finite number; D takes -1000000 to 1000000"),
-        ("method euler", "method: no method \"euler\"; there are auto"),
-        ("tol 1", "tol: tolerance = 1 is out of range; tolerance takes 1e-15 to 0.01"),
-        ("scene linaer", "scene: no scene \"linaer\"; did you mean linear"),
-        ("layer basin maybe", "layer: basin can be on or off, not \"maybe\""),
-        ("window 1:1,0:1", "window: [1.0, 1.0] is no interval"),
-        ("window 1", "window: \"1\" is no X0:X1,Y0:Y1"),
-        ("harmonics 0", "harmonics: \"0\" is not a number of harmonics from 1 to 63"),
-        ("glyphs runes", "glyphs: no \"runes\"; there are auto, braille"),
-        ("undo twice", "undo takes no words, but there are \"twice\""),
-        ("axes q0", "axes: no diagram over \"q0\"; there are D, D2, D3, r"),
-    ] {
-        let mut trial = Trial::open("plain");
-        let before = trial.session.problem;
-        run(&mut trial, line);
-        let refused = prompt(&trial).refused.clone().unwrap_or_default();
-        assert!(refused.starts_with(said) && !refused.contains('\n'), "{line}: {refused}");
-        assert_eq!(trial.session.problem, before, "{line}: all of it or nothing");
-        trial.press("<backspace>");
-        assert_eq!(prompt(&trial).refused, None);
-        trial.press("<esc>");
-        assert_eq!(trial.session.overlay, None);
-    }
+    refuses(
+        "plain",
+        &[
+            (": sett D=1", "no command \"sett\"; did you mean set?"),
+            (": xyzzy", "no command \"xyzzy\"; Tab lists them"),
+            (": set", "set needs NAME=VALUE ..: Give values"),
+            (": set D", "set: \"D\" is no NAME=VALUE, such as D=-0.3"),
+            (": set E=1", "set: no value \"E\"; there are D, D2"),
+            (": set D=-0.3 r=-1", "set: r = -1 is out of range; r takes 0 to 1e300"),
+            (": set D=nan", "set: nan is no finite number; D takes -1000000 to 1000000"),
+            (": method euler", "method: no method \"euler\"; there are auto"),
+            (": tol 1", "tol: tolerance = 1 is out of range; tolerance takes 1e-15 to 0.01"),
+            (": scene linaer", "scene: no scene \"linaer\"; did you mean linear"),
+            (": layer basin maybe", "layer: basin can be on or off, not \"maybe\""),
+            (": window 1:1,0:1", "window: [1.0, 1.0] is no interval"),
+            (": window 1", "window: \"1\" is no X0:X1,Y0:Y1"),
+            (": harmonics 0", "harmonics: \"0\" is not a number of harmonics from 1 to 63"),
+            (": glyphs runes", "glyphs: no \"runes\"; there are auto, braille"),
+            (": undo twice", "undo takes no words, but there are \"twice\""),
+            (": axes q0", "axes: no diagram over \"q0\"; there are D, D2, D3, r"),
+        ],
+    );
 }
 
 #[test]
 fn tab_completes_and_goes_through_what_is_possible() {
-    let mut trial = Trial::open("plain");
-    trial.press(":sce<tab>");
-    assert_eq!(prompt(&trial).input.text(), "scene");
-    trial.press("<tab>");
-    assert_eq!(prompt(&trial).input.text(), "scenes");
-    trial.press("<S-tab><space>sup<tab>");
-    assert_eq!(prompt(&trial).input.text(), "scene supercritical ");
-    trial.press("<C-u>set<space>D3<tab>");
-    assert_eq!(prompt(&trial).input.text(), "set D3=");
-    trial.press("<tab>");
-    assert_eq!(prompt(&trial).input.text(), "set D3=0 ");
-    trial.press("<tab>");
-    assert_eq!(prompt(&trial).input.text(), "set D3=0 D=");
-    trial.press("<C-u>layer<space>zz<tab>");
-    assert_eq!(prompt(&trial).refused.as_deref(), Some("nothing to complete here"));
-    trial.press("<C-u>layer<space>fi<space>on<left*3><tab>");
-    assert_eq!(prompt(&trial).input.text(), "layer field on");
+    Trial::open("plain").goes(&[
+        (":sce<tab>", "typed scene"),
+        ("<tab>", "typed scenes"),
+        ("<S-tab><space>sup<tab>", "typed scene supercritical "),
+        ("<C-u>set<space>D3<tab>", "typed set D3="),
+        ("<tab>", "typed set D3=0 "),
+        ("<tab>", "typed set D3=0 D="),
+        ("<C-u>layer<space>zz<tab>", "refused nothing to complete here"),
+        ("<C-u>layer<space>fi<space>on<left*3><tab>", "typed layer field on"),
+    ]);
 }
 
 #[test]
@@ -185,36 +139,24 @@ fn every_line_completes_its_words_to_ones_that_it_accepts() {
 #[test]
 fn old_lines_come_back_and_the_new_one_is_not_lost() {
     let mut trial = Trial::open("plain");
-    run(&mut trial, "set D=-0.2");
-    run(&mut trial, "toggle-field");
-    run(&mut trial, "set D=-0.2");
+    trial.goes(&[(": set D=-0.2", ""), (": toggle-field", ""), (": set D=-0.2", "")]);
     assert_eq!(trial.session.lines, ["toggle-field", "set D=-0.2"]);
-    trial.press(":un<up>");
-    assert_eq!(prompt(&trial).input.text(), "set D=-0.2");
-    trial.press("<up*5>");
-    assert_eq!(prompt(&trial).input.text(), "toggle-field");
-    trial.press("<down*5>");
-    assert_eq!(prompt(&trial).input.text(), "un");
-    trial.press("<up><enter>");
-    assert_eq!(trial.session.overlay, None);
-}
-
-#[test]
-fn an_empty_line_does_nothing() {
-    let mut trial = Trial::open("plain");
-    let before = trial.session.clone();
-    trial.press(":<enter>:<space><enter>");
-    assert_eq!((trial.session.problem, &trial.session.lines), (before.problem, &before.lines));
-    let _ = update(&mut trial.session, Msg::Idle);
+    trial.goes(&[
+        (":un<up>", "typed set D=-0.2"),
+        ("<up*5>", "typed toggle-field"),
+        ("<down*5>", "typed un"),
+        ("<up><enter>", "open none"),
+        // An empty line does nothing.
+        (":<enter>:<space><enter>", "D -0.2 | open none"),
+    ]);
+    assert_eq!(trial.session.lines, ["toggle-field", "set D=-0.2"]);
 }
 
 #[test]
 fn the_palette_finds_what_has_all_the_words() {
     let mut trial = Trial::open("plain");
     trial.press("<space>mark<space>go");
-    let Some(Overlay::List(Listed::Palette, list)) = &trial.session.overlay else {
-        panic!("the palette")
-    };
+    let list = trial.session.overlay.as_ref().and_then(Overlay::list).expect("the palette");
     let rows = trial.session.palette_rows(list);
     let names: Vec<_> = rows.iter().map(|row| row.name()).collect();
     assert_eq!(names[0], "go-to-mark");
@@ -297,70 +239,48 @@ fn the_list_begins_with_what_belongs_to_the_pane_in_focus() {
 #[test]
 fn scenes_views_layers_and_claims_are_run_from_the_palette() {
     let mut trial = Trial::open("plain");
-    trial.press("<space>eigenvalues<enter>");
-    let shown = trial.session.plots.iter().any(|plot| plot.view == View::Eigenvalues);
-    assert!(shown, "{}", trial.notice());
-    trial.press("<space>lyapunov<enter>");
-    assert!(trial.session.layers.contains(&crate::scene::Layer::Lyapunov), "{}", trial.notice());
-    trial.press("<space>fig16b<enter>");
-    assert_eq!(trial.session.scene.name, "supercritical");
-    trial.press("<space>clutch<enter>");
+    trial.goes(&[("<space>eigenvalues<enter>", ""), ("<space>lyapunov<enter>", "+lyapunov")]);
+    assert!(trial.session.plots.iter().any(|plot| plot.view == View::Eigenvalues));
+    trial.goes(&[
+        ("<space>fig16b<enter>", "scene supercritical"),
+        // From groups, by any of their names.
+        ("s<enter>", "scene supercritical"),
+        ("s/fig16a<enter>", "scene marginal"),
+        (": scene fig07", "scene linear"),
+        ("s<end><enter>", ""),
+    ]);
+    assert!(trial.session.scene.machine.is_some());
+    trial.goes(&[(": scene plain", ""), ("<space>clutch<enter>", "")]);
     assert!(trial.session.scene.machine.is_some(), "{}", trial.notice());
 }
 
 #[test]
 fn words_that_are_no_command_are_looked_for_in_the_list_of_everything() {
     let mut trial = Trial::open("supercritical");
-    run(&mut trial, "animate");
-    assert!(
-        matches!(&trial.session.overlay, Some(Overlay::List(Listed::Palette, list)) if list.search == "animate")
-    );
-    trial.press("<enter>");
-    assert!(
-        trial.session.overlay.is_none() && trial.session.playback.playing,
-        "{}",
-        trial.notice()
-    );
-    run(&mut trial, "fig 16");
-    assert!(matches!(trial.session.overlay, Some(Overlay::List(Listed::Palette, _))));
-}
-
-#[test]
-fn scenes_are_picked_from_groups_by_any_of_their_names() {
-    let mut trial = Trial::open("fig16b");
-    trial.press("s<enter>");
-    assert_eq!(trial.session.scene.name, "supercritical");
-    trial.press("s/fig16a<enter>");
-    assert_eq!(trial.session.scene.name, "marginal");
-    run(&mut trial, "scene fig07");
-    assert_eq!(trial.session.scene.name, "linear");
-    trial.press("s<end><enter>");
-    assert!(trial.session.scene.machine.is_some());
+    trial.goes(&[(": animate", "open Palette")]);
+    let list = trial.session.overlay.as_ref().and_then(Overlay::list);
+    assert_eq!(list.unwrap().search, "animate");
+    trial.goes(&[("<enter>", "open none")]);
+    assert!(trial.session.playback.playing, "{}", trial.notice());
+    trial.goes(&[(": fig 16", "open Palette")]);
 }
 
 #[test]
 fn a_key_of_another_plot_on_show_goes_there() {
     let mut trial = Trial::open("plain");
-    trial.press("<tab> N");
-    assert_eq!(trial.session.focused().map(|plot| plot.view), Some(View::Diagram));
+    trial.goes(&[("<tab> N", "focus 1 diagram")]);
     assert_ne!(trial.session.focused().map(|plot| plot.axes.unit), Some(crate::scene::Unit::One));
-    let mut trial = Trial::open("energy");
-    trial.press("t");
-    assert!(trial.notice().contains("needs the scan"), "{}", trial.notice());
+    Trial::open("energy").goes(&[("t", "notice ..needs the scan..")]);
 }
 
 #[test]
 fn short_names_of_other_programs_are_known() {
-    let mut trial = Trial::open("plain");
-    run(&mut trial, "w");
-    assert!(
-        prompt(&trial).refused.as_deref().is_some_and(|why| why.starts_with("write needs FILE"))
-    );
-    trial.press("<esc>");
-    run(&mut trial, "set tol=1e-8");
-    assert_eq!(trial.session.problem.tolerance, 1e-8);
-    run(&mut trial, "q");
-    assert!(trial.session.quit);
+    Trial::open("plain").goes(&[
+        (": w", "refused write needs FILE.."),
+        ("<esc>", "open none"),
+        (": set tol=1e-8", "tolerance 1e-8"),
+        (": q", "quit true"),
+    ]);
 }
 
 #[test]

@@ -3,23 +3,19 @@
 use super::Trial;
 use crate::oscillator::State;
 use crate::scene::{Answer, Point, Span, Topic, Window};
-use crate::session::{Framing, Pane};
+use crate::session::Framing;
 use crate::study::{Cycles, Edge, Margin, Picture};
 
 #[test]
 fn the_cursor_moves_on_round_numbers_and_sets_the_start() {
-    let mut trial = Trial::open("plain");
-    trial.press("<tab><right>");
-    // A 64th of the width 4 is near 0.05.
-    assert_eq!(trial.session.plots[0].cursor, Some(Point { x: 1.05, y: 0.0 }));
-    trial.press("k k h <C-left>");
-    assert_eq!(trial.session.plots[0].cursor, Some(Point { x: 0.6, y: 0.1 }));
-    trial.press("<enter>");
-    assert_eq!(trial.session.problem.initial, State { q: 0.6, v: 0.1 });
-    trial.press("<esc>");
-    assert_eq!((trial.session.plots[0].cursor, trial.session.quit), (None, false));
-    trial.press("<enter>");
-    assert_eq!(trial.notice(), "no cursor yet: <left>, <up> and so on show it");
+    Trial::open("plain").goes(&[
+        // A 64th of the width 4 is near 0.05.
+        ("<tab><right>", "cursor 1.05 0"),
+        ("k k h <C-left>", "cursor 0.6 0.1"),
+        ("<enter>", "q0 0.6 | v0 0.1"),
+        ("<esc>", "cursor none | quit false"),
+        ("<enter>", "notice no cursor yet: <left>, <up> and so on show it"),
+    ]);
 }
 
 #[test]
@@ -36,13 +32,10 @@ fn the_cursor_stays_inside_its_window() {
 #[test]
 fn the_diagram_is_jumped_to_and_knows_its_limits() {
     let mut trial = Trial::open("plain");
-    trial.press("<tab><tab><left*3><enter>");
-    assert_eq!(trial.session.focus, Pane::Plot(1));
-    assert_eq!(trial.session.problem.parameters.d, -0.13);
+    trial.goes(&[("<tab><tab><left*3><enter>", "focus 1 diagram | D -0.13")]);
     trial.session.plots[1].axes.abscissa = crate::oscillator::Symbol::R;
     trial.session.plots[1].cursor = Some(Point { x: -0.2, y: 1.0 });
-    trial.press("<enter>");
-    assert!(trial.notice().starts_with("r = -0.2 is outside its range"), "{}", trial.notice());
+    trial.goes(&[("<enter>", "notice r = -0.2 is outside its range..")]);
 }
 
 #[test]
@@ -142,16 +135,15 @@ fn fit_waits_for_what_is_being_computed() {
 #[test]
 fn the_motion_starts_on_either_side_of_the_unstable_cycle() {
     // By hand the unstable cycle has clearance 1.
-    let mut trial = Trial::open("supercritical");
-    assert_eq!(trial.session.problem.parameters.r, 0.1);
-    trial.press("<tab><up><enter> i");
-    assert_eq!(trial.session.problem.initial, State { q: 1.05, v: 0.0 });
-    trial.press("o");
-    assert_eq!(trial.session.problem.initial, State { q: 1.15, v: 0.0 });
-    trial.press("u");
-    assert_eq!(trial.session.problem.initial, State { q: 1.05, v: 0.0 });
-    trial.press("<run \"layer cycles\"><run \"layer basin\"> <S-tab><right> i");
-    assert_eq!(trial.notice(), "the cycles are not computed: v lists the layers");
+    Trial::open("supercritical").goes(&[
+        ("<tab><up><enter> i", "r 0.1 | q0 1.05 | v0 0"),
+        ("o", "q0 1.15 | v0 0"),
+        ("u", "q0 1.05 | v0 0"),
+        (
+            "<run \"layer cycles\"><run \"layer basin\"> <S-tab><right> i",
+            "notice the cycles are not computed: v lists the layers",
+        ),
+    ]);
 }
 
 /// The cycles that were answered.

@@ -57,32 +57,39 @@ fn a_key_recomputes_exactly_what_depends_on_it() {
 #[test]
 fn a_hidden_layer_asks_nothing() {
     let mut trial = Trial::alone("supercritical");
-    trial.press("<run \"layer trajectory\">");
-    assert_eq!(trial.press("<right>"), [Topic::Cycles]);
-    // Cycles and basin share an answer: it is needed as long as one of them is on.
-    trial.press("<run \"layer cycles\">");
-    assert_eq!(trial.press("<right>"), [Topic::Cycles]);
-    trial.press("<run \"layer basin\">");
-    assert_eq!(trial.press("<right>"), []);
-    trial.press("<run \"layer branch\"><run \"layer special\">");
+    trial.goes(&[
+        ("<run \"layer trajectory\">", "-trajectory"),
+        ("<right>", "asked Cycles"),
+        // Cycles and basin share an answer: it is needed as long as one of them is on.
+        ("<run \"layer cycles\">", "-cycles"),
+        ("<right>", "asked Cycles"),
+        ("<run \"layer basin\">", "-basin"),
+        ("<right>", "asked"),
+        ("<run \"layer branch\"><run \"layer special\">", "-branch | -special"),
+    ]);
     assert_eq!(trial.session.wants(), []);
-    assert_eq!(trial.press("<down><right> <run \"layer branch\">"), BRANCH);
+    assert_eq!(trial.session.requirements(), []);
+    trial.goes(&[
+        ("<right> <down><right> } <down*7>", "asked"),
+        ("<home><down><right> <run \"layer branch\">", "asked Branch"),
+    ]);
 }
 
 #[test]
-fn a_plot_that_the_other_has_replaced_asks_nothing() {
-    let mut trial = Trial::alone("supercritical");
-    trial.press("<tab> z <S-tab>");
-    assert_eq!(trial.press("<down><right>"), POINT);
-    assert_eq!(trial.press("<tab><tab>"), BRANCH, "the diagram comes to the front, up to date");
-}
-
-#[test]
-fn what_was_answered_is_not_asked_again() {
-    let mut trial = Trial::alone("supercritical");
-    assert_eq!(trial.press("<run \"layer trajectory\"><run \"layer trajectory\"><run \"layer cycles\"><run \"layer cycles\"><run \"layer branch\"><run \"layer branch\">"), []);
-    assert_eq!(trial.press("<down*3>"), []);
-    assert_eq!(trial.press("<right>u"), [Topic::Trajectory], "the way back is known");
+fn what_was_answered_or_is_replaced_by_another_plot_is_not_asked() {
+    let twice = "<run \"layer trajectory\"><run \"layer cycles\"><run \"layer branch\">".repeat(2);
+    Trial::alone("supercritical").goes(&[
+        (&twice, "asked"),
+        ("<down*3>", "asked"),
+        // The way back is known.
+        ("<right>u", "asked Trajectory"),
+    ]);
+    Trial::alone("supercritical").goes(&[
+        ("<tab> z <S-tab>", ""),
+        ("<down><right>", "asked Trajectory Cycles"),
+        // The diagram comes to the front, up to date.
+        ("<tab><tab>", "asked Branch"),
+    ]);
 }
 
 #[test]
@@ -117,21 +124,13 @@ fn terms_that_a_scene_does_not_declare_are_zero_until_the_user_unfolds_them() {
         };
         assert!(parameters.is_piecewise_linear());
     }
-    let names = |trial: &Trial| {
-        trial.session.rows().iter().map(|row| row.name()).collect::<Vec<_>>().join(" ")
-    };
-    assert_eq!(names(&trial), "D r q0 v0 until method tolerance");
-    trial.press("x");
-    assert_eq!(names(&trial), "D D2 D3 r w q0 v0 until method tolerance");
-    trial.press("<down*2><right>x");
-    assert_eq!(
-        names(&trial),
-        "D D3 r q0 v0 until method tolerance",
-        "a term in effect is not hidden"
-    );
-    trial.press("<left>");
-    assert_eq!(names(&trial), "D r q0 v0 until method tolerance");
-    assert_eq!(trial.session.selected.name(), "r");
+    trial.goes(&[
+        ("", "rows D r q0 v0 until method tolerance"),
+        ("x", "rows D D2 D3 r w q0 v0 until method tolerance"),
+        // A term in effect is not hidden.
+        ("<down*2><right>x", "rows D D3 r q0 v0 until method tolerance"),
+        ("<left>", "rows D r q0 v0 until method tolerance | selected r"),
+    ]);
 }
 
 #[test]

@@ -5,12 +5,11 @@ use std::sync::Arc;
 
 use super::Trial;
 use crate::flow::Cost;
-use crate::oscillator::Symbol;
 use crate::question;
 use crate::question::Rows;
 use crate::scene::{Answer, Answered, Request, Topic, View};
 use crate::session::scan::Progress;
-use crate::session::{Effect, Msg, Overlay, Pane, Scanned, Session, update};
+use crate::session::{Effect, Msg, Pane, Scanned, Session, update};
 use crate::study::measure::Value;
 use crate::study::scan::{Row, Scan};
 
@@ -83,12 +82,8 @@ fn the_form_starts_a_scan_with_keys_alone_and_shows_it() {
 #[test]
 fn a_form_that_makes_no_sense_stays_open_and_says_why_until_it_changes() {
     let mut trial = Trial::open("plain");
-    let refusal = |trial: &Trial| match &trial.session.overlay {
-        Some(Overlay::Scan(form)) => form.refused.clone(),
-        other => panic!("{other:?}"),
-    };
     trial.press("%");
-    for (keys, text, expected) in [
+    for (keys, text, said) in [
         ("", "x", "there is no parameter \"x\""),
         ("", "q0", "margin does not depend on q0"),
         ("", "D", ""),
@@ -102,15 +97,14 @@ fn a_form_that_makes_no_sense_stays_open_and_says_why_until_it_changes() {
     ] {
         trial.press(keys);
         field(&mut trial, text);
-        assert_eq!(refusal(&trial), None);
-        if !expected.is_empty() {
-            trial.press("<enter>");
-            let why = refusal(&trial).expect("a refusal");
-            assert!(why.contains(expected) && !why.contains('\n'), "{text}: {why}");
+        trial.goes(&[("", "refused | open scan")]);
+        if !said.is_empty() {
+            trial.goes(&[("<enter>", &format!("refused ..{said}.."))]);
+            assert!(!trial.refused().contains('\n'));
         }
     }
-    trial.press("<esc>");
-    assert!(trial.session.overlay.is_none() && trial.session.scanned.is_none());
+    trial.goes(&[("<esc>", "open none")]);
+    assert_eq!(trial.session.scanned, None);
 }
 
 #[test]
@@ -162,44 +156,29 @@ fn a_scan_goes_on_while_something_else_is_on_show_and_asks_nothing_when_it_is_do
 }
 
 #[test]
-fn enter_takes_the_point_into_the_phase_plane_and_undo_gives_it_back() {
+fn points_are_walked_over_as_they_stand_and_enter_takes_one_into_the_phase_plane() {
     let mut trial = Trial::open("plain");
-    trial.press(": s c a n <space>");
-    for char in "D=-0.6:-0.1:6 r=0.1:0.3:3 area".chars() {
-        trial.press(&if char == ' ' { "<space>".to_owned() } else { char.to_string() });
-    }
-    trial.press("<enter>");
     let before = trial.session.problem;
-    trial.press("<right*2> <up> <enter>");
-    let session = &trial.session;
-    assert_eq!(scanned(session).at, 7);
-    assert_eq!((session.value(Symbol::D), session.value(Symbol::R)), (-0.4, 0.2));
-    trial.press("u");
+    trial.goes(&[
+        (": scan D=-0.6:-0.1:6 r=0.1:0.3:3 area", "scanned 0"),
+        ("<right*2> <up> <enter>", "scanned 7 | D -0.4 | r 0.2"),
+        ("u", "changes 1 1"),
+    ]);
     assert_eq!(trial.session.problem, before);
-}
-
-#[test]
-fn points_are_walked_over_as_they_stand() {
-    let mut session = Trial::open("plain").session;
-    crate::session::run_line(&mut session, "scan D=-0.6:-0.1:6 r=0.1:0.3:3 area").unwrap();
-    let mut trial = Trial { session, asked: Vec::new(), effects: Vec::new() };
-    trial.settle();
-    for (keys, at) in [
-        ("<up>", 1),
-        ("<right>", 4),
-        ("<up*5>", 5),
-        ("<left*9>", 2),
-        ("<end>", 17),
-        ("<home>", 2),
+    trial.goes(&[
+        (": scan D=-0.6:-0.1:6 r=0.1:0.3:3 area", "scanned 0"),
+        ("<up>", "scanned 1"),
+        ("<right>", "scanned 4"),
+        ("<up*5>", "scanned 5"),
+        ("<left*9>", "scanned 2"),
+        ("<end>", "scanned 17"),
+        ("<home>", "scanned 2"),
         // In the table the arrows go from row to row.
-        ("t <down*2>", 4),
-        ("<up> <pgdn>", 13),
-        ("<end>", 17),
-        ("<home>", 0),
-    ] {
-        trial.press(keys);
-        assert_eq!(scanned(&trial.session).at, at, "{keys}");
-    }
+        ("t <down*2>", "scanned 4"),
+        ("<up> <pgdn>", "scanned 13"),
+        ("<end>", "scanned 17"),
+        ("<home>", "scanned 0"),
+    ]);
 }
 
 #[test]

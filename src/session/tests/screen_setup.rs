@@ -40,12 +40,10 @@ fn plots_are_added_removed_moved_and_each_change_is_undone() {
 
 #[test]
 fn there_are_one_to_four_plots() {
-    let mut trial = Trial::alone("supercritical");
-    trial.press("W W W");
-    assert_eq!(trial.session.plots.len(), 4);
-    assert_eq!(trial.notice(), "there are 4 plots, and no more fit");
-    trial.press("Q Q Q Q");
-    assert_eq!((trial.session.plots.len(), trial.notice()), (1, "the last plot stays"));
+    Trial::alone("supercritical").goes(&[
+        ("W W W", "plots 4 | notice there are 4 plots, and no more fit"),
+        ("Q Q Q Q", "plots 1 | notice the last plot stays"),
+    ]);
 }
 
 #[test]
@@ -68,16 +66,13 @@ fn equal_questions_of_two_plots_are_one() {
 #[test]
 fn two_diagrams_over_different_axes_stand_side_by_side() {
     let mut trial = Trial::alone("supercritical");
-    trial.press("<tab>;");
-    assert_eq!(trial.press("X"), [Topic::Branch]);
-    let over = |trial: &Trial, plot: usize| {
-        (trial.session.plots[plot].axes.abscissa, trial.branch(plot).parameter)
-    };
-    assert_eq!(over(&trial, 0), (Symbol::D2, Symbol::D2));
-    assert_eq!(over(&trial, 1), (Symbol::D, Symbol::D));
+    trial.goes(&[("<tab>;", ""), ("X", "asked Branch")]);
+    for (plot, over) in [(0, Symbol::D2), (1, Symbol::D)] {
+        assert_eq!(trial.session.plots[plot].axes.abscissa, over);
+        assert_eq!(trial.branch(plot).parameter, over);
+    }
     // D lies on the axis of one and goes into the branch of the other.
-    assert_eq!(trial.press("<S-tab><right>"), [Topic::Branch]);
-    assert_eq!(trial.press("<down><right>"), [Topic::Branch; 2]);
+    trial.goes(&[("<S-tab><right>", "asked Branch"), ("<down><right>", "asked Branch Branch")]);
 }
 
 #[test]

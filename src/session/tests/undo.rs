@@ -1,8 +1,7 @@
 //! Undo, redo, reset, and scenes.
 
 use super::Trial;
-use crate::scene::{Layer, Request, Topic};
-use crate::session::{Listed, Overlay};
+use crate::scene::{Request, Topic};
 
 /// What is asked for the picture; what its error is measured against belongs to the dial.
 fn asked(trial: &Trial) -> Vec<Request> {
@@ -41,34 +40,21 @@ fn undo_says_what_it_brought_back_and_leaves_the_zoom_alone() {
     let mut trial = Trial::open("plain");
     trial.press("<right> <tab>++ <run \"layer basin\">");
     let (window, layers) = (trial.session.plots[0].window, trial.session.layers.clone());
-    trial.press("u");
-    assert_eq!(trial.notice(), "undo: D = -0.1");
+    trial.goes(&[("u", "notice undo: D = -0.1")]);
     assert_eq!((trial.session.plots[0].window, &trial.session.layers), (window, &layers));
 }
 
 #[test]
-fn a_change_after_an_undo_ends_the_future() {
+fn a_change_after_an_undo_ends_the_future_and_a_repeated_reset_is_one_change() {
+    Trial::open("plain").goes(&[("<right*3> u u <left> U", "notice nothing to redo | D -0.1")]);
     let mut trial = Trial::open("plain");
-    trial.press("<right*3> u u <left> U");
-    assert_eq!(trial.notice(), "nothing to redo");
-    assert_eq!(trial.session.problem.parameters.d, -0.1);
-}
-
-#[test]
-fn a_repeated_reset_is_one_change() {
-    let mut trial = Trial::open("plain");
-    trial.press("<right*3>");
-    assert_eq!(trial.session.history.depth(), (3, 0));
-    trial.press("r r r");
+    trial.goes(&[("<right*3>", "changes 3 0"), ("r r r", "changes 4 0")]);
     assert_eq!(trial.session.problem, trial.session.scene.problem);
-    assert_eq!(trial.session.history.depth(), (4, 0));
-    trial.press("R R");
-    assert_eq!(trial.session.history.depth(), (4, 0), "nothing was left to reset");
-    trial.press("<run \"layer basin\"> R R u");
-    assert!(
-        !trial.session.layers.contains(&Layer::Basin),
-        "a reset of the scene brings layers back"
-    );
+    trial.goes(&[
+        // Nothing was left to reset; a reset of the scene brings layers back.
+        ("R R", "changes 4 0"),
+        ("<run \"layer basin\"> R R u", "-basin"),
+    ]);
 }
 
 #[test]
@@ -101,18 +87,12 @@ fn scenes_are_picked_from_a_list_and_undone_as_a_whole() {
 
 #[test]
 fn lists_move_search_and_close() {
-    let mut trial = Trial::open("plain");
-    trial.press("s<down*99><up><enter>");
-    assert_eq!(trial.session.scene.name, "groan", "the last but one of the machines");
-    trial.press("s/no such scene<enter>");
-    assert!(
-        matches!(trial.session.overlay, Some(Overlay::List(Listed::Scenes, _))),
-        "nothing to open"
-    );
-    trial.press("q");
-    assert_eq!((&trial.session.overlay, trial.session.quit), (&None, false));
-    trial.press("v/basin<enter><space>");
-    assert!(!trial.session.layers.contains(&Layer::Basin));
-    trial.press("<space> v ? G gg ? q");
-    assert!(trial.session.layers.contains(&Layer::Basin) && trial.session.quit);
+    Trial::open("plain").goes(&[
+        // The last but one of the machines.
+        ("s<down*99><up><enter>", "scene groan"),
+        ("s/no such scene<enter>", "open Scenes"),
+        ("q", "open none | quit false"),
+        ("v/basin<enter><space>", "-basin"),
+        ("<space> v ? G gg ? q", "+basin | quit true"),
+    ]);
 }

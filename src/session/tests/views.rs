@@ -1,7 +1,6 @@
 //! What each view asks, and what can be taken from it into the phase plane.
 
 use super::Trial;
-use crate::flow::Method;
 use crate::oscillator::{State, Symbol};
 use crate::scene::{LAYERS, Request, Topic, VIEWS, View};
 use crate::session::{Context, Pane};
@@ -39,17 +38,21 @@ fn a_view_asks_what_its_layers_need_and_a_step_asks_that_again() {
 #[test]
 fn the_parameters_of_a_chart_move_its_point_and_nothing_else() {
     let mut trial = turned_to("regimes");
-    trial.press("<S-tab>");
-    assert_eq!(trial.press("<right*3>"), [], "D");
-    assert_eq!(trial.press("<down><right>"), [], "D3");
-    assert_eq!(trial.press("<down><right>"), [Topic::Regimes], "r");
-    assert_eq!(trial.press("<tab>Y"), [Topic::Regimes], "D over r");
-    let axes = trial.session.plots[0].axes;
-    assert_eq!((axes.abscissa, axes.against), (Symbol::D, Symbol::R));
-    assert_eq!(trial.press("X"), [Topic::Regimes]);
-    assert_eq!(trial.session.plots[0].axes.abscissa, Symbol::D2, "r stands upwards already");
-    assert_eq!(trial.press("<run \"layer regimes\"><run \"layer borders\">"), []);
-    assert_eq!(trial.press("L"), [], "a chart that is not shown is not computed");
+    trial.goes(&[
+        ("<S-tab>", ""),
+        ("<right*3>", "asked"),                   // D
+        ("<down><right>", "asked"),               // D3
+        ("<down><right>", "asked Regimes"),       // r
+        ("<tab>Y", "asked Regimes | abscissa D"), // D over r
+    ]);
+    assert_eq!(trial.session.plots[0].axes.against, Symbol::R);
+    trial.goes(&[
+        // r stands upwards already.
+        ("X", "asked Regimes | abscissa D2"),
+        ("<run \"layer regimes\"><run \"layer borders\">", "asked"),
+        // A chart that is not shown is not computed.
+        ("L", "asked"),
+    ]);
 }
 
 #[test]
@@ -67,18 +70,18 @@ fn enter_on_a_chart_takes_both_parameters_as_one_change() {
 
 #[test]
 fn views_of_the_same_answers_cost_nothing() {
-    let mut trial = Trial::alone("supercritical");
-    assert_eq!(trial.press("<tab>V/energy<enter>"), [], "the cycles have their works");
-    assert_eq!(trial.press("V/time<enter>"), []);
-    assert_eq!(trial.press("v f n e p t <esc>"), []);
-    assert_eq!(
-        trial.press("V/return<enter>"),
-        [Topic::ReturnMap],
-        "once, when its window is known"
-    );
-    assert_eq!(trial.press("<run \"layer map\">"), []);
-    assert_eq!(trial.press("L"), [], "a map that is not shown is not computed");
-    assert_eq!(trial.press("<run \"layer map\">"), [Topic::ReturnMap]);
+    Trial::alone("supercritical").goes(&[
+        // The cycles have their works.
+        ("<tab>V/energy<enter>", "asked"),
+        ("V/time<enter>", "asked"),
+        ("v f n e p t <esc>", "asked"),
+        // Once, when its window is known.
+        ("V/return<enter>", "asked ReturnMap"),
+        ("<run \"layer map\">", "asked"),
+        // A map that is not shown is not computed.
+        ("L", "asked"),
+        ("<run \"layer map\">", "asked ReturnMap"),
+    ]);
 }
 
 #[test]
@@ -137,28 +140,26 @@ fn a_view_that_the_scene_does_not_know_opens_with_its_usual_layers() {
 fn the_trade_is_asked_for_the_motion_and_not_for_the_method_that_computes_it() {
     let mut trial = turned_to("trade");
     assert_eq!(trial.session.needs(0).into_iter().collect::<Vec<_>>(), [Topic::Trade]);
-    // The dial and the method are no inputs; every number of the motion is.
-    assert_eq!(trial.press("} m {"), []);
-    assert_eq!(trial.press("<S-tab><down*3><right>"), [Topic::Trade]);
-    // Enter takes the method and the accuracy of the nearest row.
-    trial.press("<tab><enter>");
-    assert_eq!(trial.notice(), "no cursor yet: <left>, <up> and so on show it");
-    trial.press("<right*200> <down*200> <enter>");
-    let problem = trial.session.problem;
-    assert_eq!((problem.method, problem.tolerance), (Method::Dop853, 1e-12));
-    trial.press("<left*200> <up*200> <enter>");
-    let problem = trial.session.problem;
-    assert_eq!((problem.method, problem.tolerance), (Method::Taylor, 1e-4));
+    trial.goes(&[
+        // The dial and the method are no inputs; every number of the motion is.
+        ("} m {", "asked"),
+        ("<S-tab><down*3><right>", "asked Trade"),
+        // Enter takes the method and the accuracy of the nearest row.
+        ("<tab><enter>", "notice no cursor yet: <left>, <up> and so on show it"),
+        ("<right*200> <down*200> <enter>", "method dop853 | tolerance 1e-12"),
+        ("<left*200> <up*200> <enter>", "method taylor | tolerance 0.0001"),
+    ]);
 }
 
 #[test]
 fn the_claims_of_the_paper_are_examined_once_when_they_are_first_looked_at() {
-    let mut trial = Trial::open("plain");
-    assert_eq!(trial.press("<f10>"), [Topic::Claims]);
-    assert_eq!(trial.press("<esc><f10>"), [], "they do not change");
-    trial.press("/(33)<enter><enter>");
-    assert_eq!(trial.session.overlay, None);
     let claim = claims().find(|claim| claim.equation == "(33)").unwrap();
-    assert_eq!(Some(trial.session.scene.name.as_str()), claim.scene);
-    assert!(!trial.press("<right>").contains(&Topic::Claims), "hidden they cost nothing");
+    let scene = format!("open none | scene {}", claim.scene.unwrap());
+    Trial::open("plain").goes(&[
+        ("<f10>", "asked Claims"),
+        // They do not change, and hidden they cost nothing.
+        ("<esc><f10>", "asked"),
+        ("/(33)<enter><enter>", &scene),
+        ("<right>", "asked"),
+    ]);
 }

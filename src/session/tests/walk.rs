@@ -4,46 +4,32 @@ use super::Trial;
 use crate::oscillator::State;
 use crate::scene::View;
 use crate::session::{Context, Stop};
-use crate::study::SpecialKind;
 
 fn held(trial: &Trial) -> Stop {
     trial.session.held.expect("a point is held")
 }
 
-fn q_max(trial: &Trial) -> f64 {
-    held(trial).cycle.unwrap().q_max
-}
-
 #[test]
-fn the_arrows_walk_along_the_branch_and_esc_lets_go() {
+fn the_arrows_walk_along_the_branch_tab_jumps_and_esc_lets_go() {
     let mut trial = Trial::alone("supercritical");
-    trial.press("<tab><tab>w<home>");
-    assert_eq!((q_max(&trial), trial.session.contexts()[0]), (1.1, Context::Walk));
-    let walk = [("<right>", 1.5), ("l", 3.1), ("<right>", 3.1), ("<down>", 1.5), ("<home>", 1.1)];
-    for (keys, size) in walk {
-        trial.press(keys);
-        assert_eq!(q_max(&trial), size, "{keys}");
-    }
-    trial.press("<S-right>");
-    assert_eq!(q_max(&trial), 3.1);
-    trial.press("<right>");
-    assert!(trial.notice().starts_with("the branch ends here"));
-    trial.press("<esc>");
-    assert_eq!((trial.session.held, trial.session.quit), (None, false));
+    trial.goes(&[("<tab><tab>w<home>", "held 1.1")]);
+    assert_eq!(trial.session.contexts()[0], Context::Walk);
+    trial.goes(&[
+        ("<right>", "held 1.5"),
+        ("l", "held 3.1"),
+        ("<right>", "held 3.1"),
+        ("<down>", "held 1.5"),
+        ("<home>", "held 1.1"),
+        ("<S-right>", "held 3.1"),
+        ("<right>", "notice the branch ends here.."),
+        // Special points and ends, and around.
+        ("<home><tab>", "special Fold"),
+        ("<tab>", "held 3.1"),
+        ("<tab>", "held 1.1"),
+        ("<S-tab><S-tab>", "special Fold"),
+        ("<esc>", "held none | quit false"),
+    ]);
     assert_eq!(trial.session.contexts()[0], Context::View(View::Diagram));
-}
-
-#[test]
-fn tab_jumps_to_special_points_and_ends_and_around() {
-    let mut trial = Trial::alone("supercritical");
-    trial.press("<tab><tab>w<home><tab>");
-    assert_eq!(held(&trial).special, Some(SpecialKind::Fold));
-    trial.press("<tab>");
-    assert_eq!(q_max(&trial), 3.1);
-    trial.press("<tab>");
-    assert_eq!(q_max(&trial), 1.1);
-    trial.press("<S-tab><S-tab>");
-    assert_eq!(held(&trial).special, Some(SpecialKind::Fold));
 }
 
 #[test]
@@ -65,8 +51,7 @@ fn the_cursor_says_where_to_take_hold() {
     let mut trial = Trial::alone("supercritical");
     trial.press("<tab><tab><right>");
     trial.session.plots[1].cursor.as_mut().unwrap().y = 3.0;
-    trial.press("<C-left*9> w");
-    assert_eq!(q_max(&trial), 3.1);
+    trial.goes(&[("<C-left*9> w", "held 3.1")]);
 }
 
 #[test]
@@ -101,7 +86,7 @@ fn of_variants_the_present_one_is_walked_first_and_each_brings_its_values() {
     trial.press("<enter>");
     let taken = trial.session.problem;
     assert_eq!((taken.parameters.r, taken.parameters.d), (0.3, held(&trial).value));
-    assert_eq!(taken.initial.q, q_max(&trial));
+    assert_eq!(taken.initial.q, held(&trial).cycle.unwrap().q_max);
     assert!(trial.notice().contains(", r = 0.3, and the motion starts on its cycle"));
     assert_eq!(trial.session.history.depth(), (1, 0));
 }
@@ -109,8 +94,6 @@ fn of_variants_the_present_one_is_walked_first_and_each_brings_its_values() {
 #[test]
 fn another_scene_takes_the_hold_away() {
     let mut trial = Trial::alone("supercritical");
-    trial.press("s/basin<enter> <tab><tab>w");
-    assert!(trial.session.held.is_some());
-    trial.press("u");
-    assert_eq!(trial.session.held, None, "undo opened the scene before");
+    // Undo opens the scene before.
+    trial.goes(&[("s/basin<enter> <tab><tab>w<home>", "held 2"), ("u", "held none")]);
 }
