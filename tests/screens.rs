@@ -45,10 +45,10 @@ impl Explorer {
             session: Session::new(scene.clone(), Size { width, height }),
             terminal: Terminal::new(Painter::new(line.clone(), size)).unwrap(),
             line,
-            look: Look::new(settings::Look {
+            look: Look::new(settings::Wishes {
                 glyphs: Glyphs::Braille,
                 colors: Colors::Sixteen,
-                ..settings::Look::default()
+                ..settings::Wishes::default()
             }),
         }
     }

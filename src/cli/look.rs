@@ -3,7 +3,7 @@
 use clap::Args;
 
 use crate::session::config::Config;
-use crate::session::settings::{COLORS, Colors, GLYPHS, Glyphs, Look, THEMES, Theme, named};
+use crate::session::settings::{COLORS, Colors, GLYPHS, Glyphs, THEMES, Theme, Wishes, named};
 
 /// How the screen looks.
 #[derive(Clone, Copy, Debug, Args)]
@@ -27,8 +27,8 @@ pub struct Looks {
 
 impl Looks {
     /// What the user wishes: the flags, else the settings file, else the defaults.
-    pub fn wishes(self, config: &Config) -> Look {
-        Look {
+    pub fn wishes(self, config: &Config) -> Wishes {
+        Wishes {
             glyphs: self.glyphs.or(config.glyphs).unwrap_or_default(),
             colors: self.color.or(config.colors).unwrap_or_default(),
             fine: Colors::Auto,

@@ -32,7 +32,7 @@ pub struct Explorer {
     session: Session,
     environment: Environment,
     /// The user's wishes that `look` was made from.
-    wishes: settings::Look,
+    wishes: settings::Wishes,
     look: Look,
 }
 

@@ -11,7 +11,7 @@ use crate::scene::{Scene, find};
 use crate::session::replay::script::Step;
 use crate::session::save;
 use crate::session::state::session::Session;
-use crate::session::state::settings::{COLORS, GLYPHS, Look, THEMES};
+use crate::session::state::settings::{COLORS, GLYPHS, THEMES, Wishes};
 
 /// The name under which a file carries a session.
 const CARRIED: &str = "start.toml";
@@ -38,7 +38,7 @@ pub fn opening(session: &Session) -> Result<Vec<Step>, String> {
 }
 
 /// What the user wishes of the screen, where it is not the usual.
-fn looks(look: Look) -> Vec<Step> {
+fn looks(look: Wishes) -> Vec<Step> {
     fn line<T: Copy + PartialEq + Default>(
         name: &str,
         table: &[(T, &str)],

@@ -5,7 +5,7 @@
 
 use std::fmt;
 
-use crate::session::settings::{Colors, Glyphs, Look, Theme};
+use crate::session::settings::{Colors, Glyphs, Theme, Wishes};
 
 /// The environment variables that say something about the terminal; an empty one counts as unset.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -92,7 +92,7 @@ impl Environment {
     }
 
     /// The user's wishes with every `Auto` decided by the terminal at hand.
-    pub fn fit(&self, wish: Look) -> Look {
+    pub fn fit(&self, wish: Wishes) -> Wishes {
         let glyphs = match wish.glyphs {
             Glyphs::Auto => self.glyphs(),
             wanted => wanted,
@@ -106,12 +106,12 @@ impl Environment {
             (Theme::Auto, _) => Theme::Dark,
             (wanted, _) => wanted,
         };
-        Look { glyphs, colors, fine, theme, ..wish }
+        Wishes { glyphs, colors, fine, theme, ..wish }
     }
 
     /// Whether to ask the terminal for the colour of its background: for these wishes it matters, it is not
     /// known, and the terminal is of a kind that passes over what it does not understand.
-    pub fn asks_for_background(&self, wish: Look) -> bool {
+    pub fn asks_for_background(&self, wish: Wishes) -> bool {
         let passes = self.term.as_deref().is_some_and(|term| term != "linux");
         let coloured = self.fit(wish).colors != Colors::Never;
         wish.theme == Theme::Auto && self.is_light.is_none() && passes && coloured
@@ -221,15 +221,15 @@ mod tests {
     #[test]
     fn a_wish_beats_what_the_terminal_says() {
         let environment = environment(&[("LANG", "C"), ("NO_COLOR", "1")]);
-        let wish = Look {
+        let wish = Wishes {
             glyphs: Glyphs::Braille,
             colors: Colors::True,
             fine: Colors::True,
             theme: Theme::Contrast,
-            ..Look::default()
+            ..Wishes::default()
         };
         assert_eq!(environment.fit(wish), wish);
-        let fitted = environment.fit(Look::default());
+        let fitted = environment.fit(Wishes::default());
         assert_eq!((fitted.glyphs, fitted.colors), (Glyphs::Ascii, Colors::Never));
     }
 
@@ -245,7 +245,7 @@ mod tests {
             (&[("TERM", "xterm")], Colors::Indexed, Colors::Indexed),
         ];
         for (variables, colors, fine) in cases {
-            let fitted = environment(variables).fit(Look { colors, ..Look::default() });
+            let fitted = environment(variables).fit(Wishes { colors, ..Wishes::default() });
             assert_eq!(fitted.fine, fine, "{variables:?} {colors:?}");
         }
     }
@@ -254,7 +254,7 @@ mod tests {
     fn the_theme_follows_the_background_where_it_is_known_and_not_chosen() {
         let terminal = environment(&[("TERM", "xterm")]);
         let [auto, chosen] =
-            [Theme::Auto, Theme::Contrast].map(|theme| Look { theme, ..Look::default() });
+            [Theme::Auto, Theme::Contrast].map(|theme| Wishes { theme, ..Wishes::default() });
         assert!(terminal.asks_for_background(auto) && !terminal.asks_for_background(chosen));
         for unasked in [&[("TERM", "linux")][..], &[("TERM", "xterm"), ("NO_COLOR", "1")], &[]] {
             assert!(!environment(unasked).asks_for_background(auto), "{unasked:?}");

@@ -46,9 +46,9 @@ mod tests {
 
     #[test]
     fn keys_have_short_names() {
-        let rich = Look::new(settings::Look::default());
+        let rich = Look::new(settings::Wishes::default());
         let letters =
-            Look::new(settings::Look { glyphs: Glyphs::Ascii, ..settings::Look::default() });
+            Look::new(settings::Wishes { glyphs: Glyphs::Ascii, ..settings::Wishes::default() });
         let cases = [
             ("<left>", "←", "left"),
             ("<S-up>", "S-↑", "S-up"),

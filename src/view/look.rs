@@ -134,8 +134,8 @@ const FINE: [Role; 3] = [Role::Ghost, Role::GhostStable, Role::GhostUnstable];
 
 impl Look {
     /// The look that these settings ask for; what they leave open becomes braille in 16 colours.
-    pub fn new(settings: settings::Look) -> Self {
-        let settings::Look { glyphs, colors, fine, theme, .. } = settings;
+    pub fn new(settings: settings::Wishes) -> Self {
+        let settings::Wishes { glyphs, colors, fine, theme, .. } = settings;
         // A test reads every theme, so the plain look never serves.
         Look::from_text(text_of(theme), glyphs, [colors, fine]).unwrap_or(Look {
             glyphs,
@@ -225,7 +225,7 @@ mod tests {
     use crate::view::colour::{Rgb, hue};
 
     fn look(theme: Theme, glyphs: Glyphs, colors: Colors) -> Look {
-        Look::new(settings::Look { glyphs, colors, theme, ..settings::Look::default() })
+        Look::new(settings::Wishes { glyphs, colors, theme, ..settings::Wishes::default() })
     }
 
     #[test]
@@ -310,8 +310,8 @@ mod tests {
     #[test]
     fn grounds_of_maps_are_of_one_hue_and_the_stronger_the_more_dangerous() {
         for (theme, name) in THEMES.into_iter().filter(|(theme, _)| *theme != Theme::Mono) {
-            let settings = settings::Look { theme, ..settings::Look::default() };
-            let look = |colors, fine| Look::new(settings::Look { colors, fine, ..settings });
+            let settings = settings::Wishes { theme, ..settings::Wishes::default() };
+            let look = |colors, fine| Look::new(settings::Wishes { colors, fine, ..settings });
             let ground = |look: &Look, step: u8| look.danger(f64::from(step) / 16.0).bg;
             let strengths =
                 (0..STEPS).map(|step| match ground(&look(Colors::Sixteen, Colors::True), step) {

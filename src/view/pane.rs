@@ -213,7 +213,7 @@ mod tests {
 
     #[test]
     fn a_cut_text_has_a_mark_and_no_part_of_a_number() {
-        let look = Look::new(settings::Look::default());
+        let look = Look::new(settings::Wishes::default());
         let text = "margin 0.0100305 of D = -0.25";
         for (width, expected) in [
             (29, text),

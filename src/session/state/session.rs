@@ -27,7 +27,7 @@ use crate::session::state::plot::{Pane, Plot};
 use crate::session::state::rows::{ROWS, Row, Steps};
 use crate::session::state::scan::Scanned;
 use crate::session::state::scan_form::Form;
-use crate::session::state::settings::Look;
+use crate::session::state::settings::Wishes;
 use crate::session::state::setup::Setup;
 use crate::session::state::starts::Starts;
 use crate::session::state::stop::Stop;
@@ -155,7 +155,7 @@ pub struct Session {
     /// Which key means which command.
     pub keymap: Arc<Keymap>,
     /// What the user wishes of the screen.
-    pub look: Look,
+    pub look: Wishes,
     /// The size of the screen.
     pub size: Size,
     /// Whether the user has left.
@@ -202,7 +202,7 @@ impl Session {
             measuring: false,
             notice: None,
             keymap,
-            look: Look::default(),
+            look: Wishes::default(),
             size,
             quit: false,
             scene,

@@ -74,7 +74,7 @@ pub const THEMES: [(Theme, &str); 5] = [
 
 /// Everything about the looks that the user can choose.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Look {
+pub struct Wishes {
     /// How points are made of characters.
     pub glyphs: Glyphs,
     /// How many colours to use.
