@@ -28,7 +28,7 @@ use crate::runtime::signals::exit_code;
 use crate::study::basin::Window;
 use crate::study::kicks::Kicks;
 use crate::study::measure::{Conditions, MEASURES, Measure};
-use crate::study::scan::{Row, Scan, Sweep};
+use crate::study::scan::{Scan, ScanRow, Sweep};
 
 /// Measures at every point of a line or grid of parameters, on all cores, one row a point
 #[derive(Debug, Args)]
@@ -150,7 +150,7 @@ impl Sink {
         }
     }
 
-    fn add(&mut self, scan: &Scan, index: usize, row: &Row) -> io::Result<()> {
+    fn add(&mut self, scan: &Scan, index: usize, row: &ScanRow) -> io::Result<()> {
         match self {
             Sink::Standard(form) => {
                 io::stdout().write_all(form.line(scan, index, row).as_bytes())?;
@@ -183,13 +183,13 @@ impl Taker for Writer<'_> {
         matches!(&self.sink, Sink::File(file) if file.has(index))
     }
 
-    fn keep(&mut self, index: usize, row: &Row) -> ControlFlow<()> {
+    fn keep(&mut self, index: usize, row: &ScanRow) -> ControlFlow<()> {
         let Sink::File(file) = &mut self.sink else { return ControlFlow::Continue(()) };
         let kept = file.keep(self.scan, index, row);
         self.goes_on(kept)
     }
 
-    fn take(&mut self, index: usize, row: Row) -> ControlFlow<()> {
+    fn take(&mut self, index: usize, row: ScanRow) -> ControlFlow<()> {
         let added = self.sink.add(self.scan, index, &row);
         if added.is_ok() {
             self.tally.rows += 1;

@@ -1,14 +1,14 @@
 //! What a question is answered with.
 
 use crate::flow::{Cost, Limits, Reason};
-use crate::study::scan::{Row, Scan};
+use crate::study::scan::{Scan, ScanRow};
 
 /// Rows of a scan that follow each other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rows {
     /// Number of the first one's point.
     pub first: usize,
-    pub rows: Vec<Row>,
+    pub rows: Vec<ScanRow>,
 }
 
 impl Rows {

@@ -6,7 +6,7 @@
 
 use super::csv;
 use crate::study::measure::Value;
-use crate::study::scan::{Row, Scan};
+use crate::study::scan::{Scan, ScanRow};
 use crate::words::measured::{exact, rounded};
 
 /// The form of the rows.
@@ -68,7 +68,7 @@ impl Form {
     }
 
     /// The row of point number `index`.
-    pub fn line(self, scan: &Scan, index: usize, row: &Row) -> String {
+    pub fn line(self, scan: &Scan, index: usize, row: &ScanRow) -> String {
         let mut line = self.beginning(scan, index);
         let values = row.values.iter().copied();
         match self {

@@ -18,7 +18,7 @@ use super::provenance_file;
 use crate::flow::{Limits, Reason};
 use crate::report::scan::Form;
 use crate::session::Notice;
-use crate::study::scan::{Row, Scan};
+use crate::study::scan::{Scan, ScanRow};
 
 /// A file that takes rows.
 #[derive(Debug)]
@@ -103,7 +103,7 @@ impl ScanFile {
     ///
     /// # Errors
     /// If the journal cannot be written.
-    pub fn keep(&mut self, scan: &Scan, index: usize, row: &Row) -> io::Result<()> {
+    pub fn keep(&mut self, scan: &Scan, index: usize, row: &ScanRow) -> io::Result<()> {
         self.noted.insert(index);
         self.journal.note(scan, self.form, (index, &self.form.line(scan, index, row)))
     }
@@ -112,7 +112,7 @@ impl ScanFile {
     ///
     /// # Errors
     /// If the file cannot be written.
-    pub fn add(&mut self, scan: &Scan, index: usize, row: &Row) -> io::Result<()> {
+    pub fn add(&mut self, scan: &Scan, index: usize, row: &ScanRow) -> io::Result<()> {
         self.file.write_all(self.form.line(scan, index, row).as_bytes())?;
         self.points.start = index + 1;
         self.noted.remove(&index);
@@ -219,7 +219,7 @@ fn opened(path: &Path) -> Result<File, Refusal> {
 /// Writes rows that are known to a file, in the form that its name ends with, and says how that ended.
 ///
 /// A file that holds the beginning of the same scan is gone on with, one of anything else left alone.
-pub fn save(path: &Path, scan: &Scan, rows: &[Row]) -> Notice {
+pub fn save(path: &Path, scan: &Scan, rows: &[ScanRow]) -> Notice {
     let form = Form::of_file(path);
     let points = 0..scan.points();
     let opened = ScanFile::resume(path, scan, form, true, points, &Limits::PATIENT);

@@ -16,7 +16,7 @@ use super::worker::Tell;
 use crate::flow::{Limits, Reason};
 use crate::question::Rows;
 use crate::scene::Answer;
-use crate::study::scan::{Row, Scan};
+use crate::study::scan::{Scan, ScanRow};
 
 /// Rows that each thread may be ahead of the first one that is not done yet: enough that one slow row
 /// does not hold the others up, few enough that they are held in memory.
@@ -44,15 +44,15 @@ pub trait Taker {
     }
 
     /// A row that is known before its turn; it comes again when that is there.
-    fn keep(&mut self, _index: usize, _row: &Row) -> ControlFlow<()> {
+    fn keep(&mut self, _index: usize, _row: &ScanRow) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
 
-    fn take(&mut self, index: usize, row: Row) -> ControlFlow<()>;
+    fn take(&mut self, index: usize, row: ScanRow) -> ControlFlow<()>;
 }
 
-impl<F: FnMut(usize, Row) -> ControlFlow<()>> Taker for F {
-    fn take(&mut self, index: usize, row: Row) -> ControlFlow<()> {
+impl<F: FnMut(usize, ScanRow) -> ControlFlow<()>> Taker for F {
+    fn take(&mut self, index: usize, row: ScanRow) -> ControlFlow<()> {
         self(index, row)
     }
 }
@@ -81,7 +81,7 @@ pub fn rows(
     let stopped = AtomicBool::new(false);
     let is_over = || stopped.load(Ordering::Relaxed) || interrupted();
     let (ticket, tickets) = unbounded::<usize>();
-    let (done, found) = unbounded::<(usize, Row)>();
+    let (done, found) = unbounded::<(usize, ScanRow)>();
     pool.in_place_scope(|scope| {
         for _ in 0..jobs {
             let (tickets, done, is_over) = (tickets.clone(), done.clone(), &is_over);
@@ -155,7 +155,7 @@ pub fn answer(scan: &Scan, from: usize, limits: &Limits, tell: &Tell) -> Result<
 }
 
 /// A row, or nothing if the scan is over.
-fn computed(scan: &Scan, index: usize, limits: &Limits) -> Option<Row> {
+fn computed(scan: &Scan, index: usize, limits: &Limits) -> Option<ScanRow> {
     if (limits.interrupted)() {
         return None;
     }

@@ -60,6 +60,6 @@ pub enum Effect {
         path: std::path::PathBuf,
         scan: std::sync::Arc<crate::study::scan::Scan>,
         /// Its rows, from the first point on.
-        rows: Vec<crate::study::scan::Row>,
+        rows: Vec<crate::study::scan::ScanRow>,
     },
 }

@@ -1,6 +1,6 @@
 //! A scan: the same measures at every point of a line or grid of parameters.
 //!
-//! A [`Scan`] is a list of numbered points, and a [`Row`] is what was measured at one of them. Rows do
+//! A [`Scan`] is a list of numbered points, and a [`ScanRow`] is what was measured at one of them. Rows do
 //! not depend on each other: any of them can be computed anywhere, at any time, and is the same to the
 //! last bit. So a scan can be shared between cores and machines, stopped, and gone on with.
 
@@ -156,7 +156,7 @@ const ENDS: [[&str; 2]; 4] =
 
 /// What was measured at a point.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct ScanRow {
     /// The cells, one for each column of [`Scan::measured`].
     pub values: Vec<Value>,
     /// What could not be computed, and why.
@@ -246,7 +246,7 @@ impl Scan {
     ///
     /// # Errors
     /// [`Reason::Interrupted`], and no other.
-    pub fn row(&self, index: usize, limits: &Limits) -> Result<Row, Reason> {
+    pub fn row(&self, index: usize, limits: &Limits) -> Result<ScanRow, Reason> {
         let problem = self.problem(index);
         let (values, point) = measure(&problem, &self.measures, &self.conditions, limits)?;
         let reasons =
@@ -254,14 +254,14 @@ impl Scan {
         let uncertain = point.uncertain.iter().map(|why| format!("guaranteed: {why}"));
         let reasons: Vec<_> = reasons.chain(uncertain).collect();
         let reason = (!reasons.is_empty()).then(|| reasons.join("; "));
-        Ok(Row { values, reason, cost: point.cost })
+        Ok(ScanRow { values, reason, cost: point.cost })
     }
 
     /// A row that could not be measured at all.
     #[must_use]
-    pub fn failed(&self, reason: String) -> Row {
+    pub fn failed(&self, reason: String) -> ScanRow {
         let values = vec![Value::Nothing; self.measured().len()];
-        Row { values, reason: Some(reason), cost: Cost::default() }
+        ScanRow { values, reason: Some(reason), cost: Cost::default() }
     }
 
     /// The columns that are measured, in their order.

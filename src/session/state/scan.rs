@@ -8,7 +8,7 @@ use crate::numerics::elementary::log10;
 use crate::question;
 use crate::scene::{Point, Request, Span, View, Window};
 use crate::study::measure::Value;
-use crate::study::scan::{Row, Scan, Spacing, Sweep};
+use crate::study::scan::{Scan, ScanRow, Spacing, Sweep};
 
 /// Words of measures, each with the number at which it is plotted.
 pub const WORDS: [&str; 4] = ["captured", "moving", "escaped", "gave-up"];
@@ -34,7 +34,7 @@ pub enum Progress {
 pub struct Scanned {
     pub scan: Arc<Scan>,
     /// The rows so far, in order from the first point on.
-    pub rows: Vec<Row>,
+    pub rows: Vec<ScanRow>,
     pub progress: Progress,
     /// Seconds that this run has taken.
     pub seconds: f64,
@@ -138,7 +138,7 @@ impl Scanned {
 }
 
 /// A cell as a number, a word by its place among [`WORDS`].
-fn number(row: &Row, column: usize) -> Option<f64> {
+fn number(row: &ScanRow, column: usize) -> Option<f64> {
     match *row.values.get(column)? {
         Value::Word(word) => {
             let place = WORDS.iter().position(|known| *known == word)?;

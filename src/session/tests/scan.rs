@@ -11,11 +11,11 @@ use crate::scene::{Answer, Answered, Request, Topic, View};
 use crate::session::scan::Progress;
 use crate::session::{Effect, Msg, Pane, Scanned, Session, update};
 use crate::study::measure::Value;
-use crate::study::scan::{Row, Scan};
+use crate::study::scan::{Scan, ScanRow};
 
 /// Rows by hand: the number of the point in each column.
-pub fn rows(scan: &Scan, points: Range<usize>) -> Vec<Row> {
-    let row = |index: usize| Row {
+pub fn rows(scan: &Scan, points: Range<usize>) -> Vec<ScanRow> {
+    let row = |index: usize| ScanRow {
         values: vec![Value::Count(index); scan.measured().len()],
         reason: None,
         cost: Cost::default(),

@@ -16,7 +16,7 @@ use crate::study::chart::{Band, Chart, Line, Plane};
 use crate::study::harmonic_error::HarmonicBalance;
 use crate::study::measure::Value;
 use crate::study::regime::Regime;
-use crate::study::scan::Row;
+use crate::study::scan::ScanRow;
 use crate::study::stability::Share;
 use crate::study::trade::Trade;
 use crate::study::{
@@ -86,7 +86,7 @@ pub(super) fn by_hand(request: &Request) -> Answer {
         }
         Request::Scan(question::scan::Asked { scan, from }) => {
             let measured = scan.measured().len();
-            let row = |index: usize| Row {
+            let row = |index: usize| ScanRow {
                 // A slope with a hole in it.
                 values: (0..measured)
                     .map(|column| match index % 7 {
