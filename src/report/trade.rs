@@ -80,7 +80,7 @@ struct Reasoned<'a> {
 }
 
 /// What sets the accuracy of a row: tolerance, step and epsilon, those that do.
-fn dials(row: &trade::Row) -> [Option<f64>; 3] {
+fn dials(row: &trade::Tried) -> [Option<f64>; 3] {
     let problem = &row.problem;
     let dial = problem.method.spec().dial;
     let number = |wanted: Dial, value: f64| (dial == wanted).then_some(value);
@@ -154,7 +154,7 @@ pub fn reference(trade: &Trade) -> String {
     };
     let closed = trade.rows.iter().find(|row| row.problem.method == Method::Exact);
     let closed = closed.filter(|_| reference.source == Source::TwicePrecision);
-    let closed = closed.and_then(trade::Row::error).map_or_else(String::new, |error| {
+    let closed = closed.and_then(trade::Tried::error).map_or_else(String::new, |error| {
         format!(", the closed form in doubles by {}", significant(error, 1))
     });
     format!("{first}; {second} {differs}{closed}")

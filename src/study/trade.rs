@@ -28,7 +28,7 @@ const MOST: u64 = 20_000_000;
 
 /// One method at one accuracy.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct Tried {
     /// The question, with method, tolerance, step and epsilon.
     pub problem: Problem,
     /// The method that answered; another than asked for only with `auto`.
@@ -51,7 +51,7 @@ pub struct Trade {
     /// What the errors are measured against.
     pub reference: Reference,
     /// The rows, by method and from coarse to fine.
-    pub rows: Vec<Row>,
+    pub rows: Vec<Tried>,
 }
 
 /// The problem by a method at an accuracy.
@@ -83,11 +83,11 @@ fn ladder(problem: &Problem, method: Method) -> Vec<Problem> {
     rungs
 }
 
-impl Row {
+impl Tried {
     /// Judges a computed motion.
     #[must_use]
     pub fn new(found: &Trajectory, reference: &Reference) -> Self {
-        Row {
+        Tried {
             problem: found.problem,
             method: found.method,
             outcome: found.outcome,
@@ -132,7 +132,7 @@ impl Trade {
         let bounded = Limits { evaluations: limits.evaluations.min(MOST), ..*limits };
         for spec in METHODS {
             for rung in ladder(problem, spec.method) {
-                let row = Row::new(&trajectory(&rung, Detail::default(), &bounded), &reference);
+                let row = Tried::new(&trajectory(&rung, Detail::default(), &bounded), &reference);
                 let reason = match row.deviation {
                     Err(NoComparison::GaveUp(reason)) => Some(reason),
                     _ => None,
@@ -150,14 +150,14 @@ impl Trade {
 
     /// Which rows stand for the method and tolerance of the problem.
     #[must_use]
-    pub fn is_own(&self, row: &Row) -> bool {
+    pub fn is_own(&self, row: &Tried) -> bool {
         row.problem.method == self.problem.method && row.problem.setting() == self.problem.setting()
     }
 
     /// The row of a problem's method whose accuracy is nearest to the problem's.
     #[must_use]
-    pub fn nearest_to(&self, problem: &Problem) -> Option<&Row> {
-        let far = |row: &&Row| ln(row.problem.setting() / problem.setting()).abs();
+    pub fn nearest_to(&self, problem: &Problem) -> Option<&Tried> {
+        let far = |row: &&Tried| ln(row.problem.setting() / problem.setting()).abs();
         let rows = self.rows.iter().filter(|row| row.problem.method == problem.method);
         rows.filter(|row| row.error().is_some())
             .min_by(|one, other| far(one).total_cmp(&far(other)))
@@ -219,7 +219,7 @@ mod tests {
         Trade::of(&problem, &Limits::PATIENT).unwrap()
     }
 
-    fn rows(trade: &Trade, method: Method) -> Vec<&Row> {
+    fn rows(trade: &Trade, method: Method) -> Vec<&Tried> {
         trade.rows.iter().filter(|row| row.problem.method == method).collect()
     }
 
@@ -243,7 +243,7 @@ mod tests {
                 assert!(error < 400.0 * tolerance + 1e-13, "{method} {tolerance:e}: {error:e}");
             }
         }
-        let cost = |row: &Row| row.cost.evaluations;
+        let cost = |row: &Tried| row.cost.evaluations;
         let taylor = rows(&trade, Method::Taylor);
         assert!(cost(taylor[13]) < 7 * cost(taylor[0]), "13 digits for 6 times the first");
         // Auto is never dearer than the series by a tenth at the same tolerance from three digits on.
@@ -290,7 +290,7 @@ mod tests {
         let trade = trade([-0.1, 0.0, 0.0, 0.5], 2.0, 50.0);
         let costs = trade.evaluations();
         let front = trade.front(&costs);
-        let chosen: Vec<&Row> = trade
+        let chosen: Vec<&Tried> = trade
             .rows
             .iter()
             .zip(&front)
@@ -319,7 +319,7 @@ mod tests {
             ..Problem::default()
         };
         let trade = Trade::of(&problem, &Limits::PATIENT).unwrap();
-        let own: Vec<&Row> = trade.rows.iter().filter(|row| trade.is_own(row)).collect();
+        let own: Vec<&Tried> = trade.rows.iter().filter(|row| trade.is_own(row)).collect();
         assert_eq!(own.len(), 1);
         assert_eq!(own[0].problem.tolerance, 3e-7);
         let dopri5 = rows(&trade, Method::Dopri5);

@@ -11,7 +11,7 @@ use crate::scene::{Answer, Axes, Layer, Point, Request, Span, Topic, View, Windo
 use crate::session::state::plot::Framing;
 use crate::session::state::scan::Scanned;
 use crate::session::state::session::Session;
-use crate::study::trade::Row;
+use crate::study::trade::Tried;
 
 /// Room around what is fitted, as a factor of its width.
 const ROOM: f64 = 1.1;
@@ -102,7 +102,7 @@ fn speeds(session: &Session, plot: usize) -> Option<Window> {
 
 /// Every row of the trade.
 fn trade(session: &Session) -> Option<Window> {
-    let places: Vec<_> = session.trade()?.rows.iter().filter_map(Row::place).collect();
+    let places: Vec<_> = session.trade()?.rows.iter().filter_map(Tried::place).collect();
     let x = Span::covering(places.iter().map(|place| place.0))?;
     let y = Span::covering(places.iter().map(|place| place.1))?;
     Some(Window { x: x.scaled(x.center(), ROOM), y: y.scaled(y.center(), ROOM) })

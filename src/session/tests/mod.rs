@@ -46,7 +46,7 @@ use crate::study::accuracy::{Deviation, Ending, Reference, Source};
 use crate::study::chart::Chart;
 use crate::study::harmonic_error::HarmonicBalance;
 use crate::study::stability::Share;
-use crate::study::trade::{Row, Trade};
+use crate::study::trade::{Trade, Tried};
 use crate::study::{
     Branch, BranchPoint, Cycle, Cycles, Edge, Margin, Picture, ReturnMap, Special, SpecialKind,
 };
@@ -191,7 +191,7 @@ fn cycle(stable: bool, r: f64) -> Cycle {
 /// Two methods, the second better and dearer.
 fn trade(cost: Cost) -> Trade {
     let problem = Problem::default();
-    let row = |method, tolerance, evaluations, error| Row {
+    let row = |method, tolerance, evaluations, error| Tried {
         problem: Problem { method, tolerance, ..problem },
         method,
         outcome: Outcome::Moving { tau: problem.until, q: 0.0, v: 0.0 },
