@@ -22,7 +22,7 @@ pub(super) enum Run {
 }
 
 #[derive(Debug)]
-pub(super) struct Row {
+pub(super) struct CommandRow {
     pub(super) command: Command,
     pub(super) run: Run,
 }
@@ -34,8 +34,8 @@ pub(super) const fn row(
     hint: &'static str,
     doc: &'static str,
     act: Act,
-) -> Row {
-    Row { command: Command { name, keys, hint, doc }, run: Run::Act(act) }
+) -> CommandRow {
+    CommandRow { command: Command { name, keys, hint, doc }, run: Run::Act(act) }
 }
 
 /// A row of the table, of a command that chooses another one.
@@ -45,6 +45,6 @@ pub(super) const fn chooses(
     hint: &'static str,
     doc: &'static str,
     choose: fn(&mut Session) -> Option<Chosen>,
-) -> Row {
-    Row { command: Command { name, keys, hint, doc }, run: Run::Choose(choose) }
+) -> CommandRow {
+    CommandRow { command: Command { name, keys, hint, doc }, run: Run::Choose(choose) }
 }

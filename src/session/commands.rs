@@ -13,7 +13,7 @@ use crate::session::act::{
     axes, copy, entry, files, focus, general, history, lists, macros, mouse, palette, parameters,
     pending, playback, plots, prompt, scan, screen_setup, starts, typing, walk,
 };
-use crate::session::command_row::{Row, Run, chooses, row};
+use crate::session::command_row::{CommandRow, Run, chooses, row};
 use crate::session::effect::Effect;
 use crate::session::lines::lines;
 use crate::session::state::command::Command;
@@ -43,7 +43,7 @@ const MORE_DIGITS: &[&str] = &["0", "1", "2", "3", "4", "5", "6", "7", "8", "9"]
 
 /// Every command, in the order in which the help lists them.
 #[rustfmt::skip]
-const COMMANDS: &[Row] = &[
+const COMMANDS: &[CommandRow] = &[
     row("select-previous", &[(Parameters, &["<up>", "k"])], "select",
         "Select the row above", |s, _| parameters::select(s, -1)),
     row("select-next", &[(Parameters, &["<down>", "j"])], "select",
@@ -402,8 +402,8 @@ const COMMANDS: &[Row] = &[
 
 /// A command for each layer. They have no keys but those that the user's settings give them; that of the
 /// whole model has one, because it changes what all views draw.
-fn toggles() -> &'static [Row] {
-    static TOGGLES: LazyLock<Vec<Row>> = LazyLock::new(|| {
+fn toggles() -> &'static [CommandRow] {
+    static TOGGLES: LazyLock<Vec<CommandRow>> = LazyLock::new(|| {
         let row = |spec: &LayerSpec| {
             // The names live as long as the program, as those of the other commands do.
             let name = Box::leak(format!("toggle-{}", spec.name).into_boxed_str());
@@ -414,14 +414,14 @@ fn toggles() -> &'static [Row] {
                 &[(Everywhere, &[])]
             };
             let command = Command { name, keys, hint: "", doc };
-            Row { command, run: Run::Toggle(spec.layer) }
+            CommandRow { command, run: Run::Toggle(spec.layer) }
         };
         LAYERS.iter().map(row).collect()
     });
     &TOGGLES
 }
 
-fn rows() -> impl Iterator<Item = &'static Row> {
+fn rows() -> impl Iterator<Item = &'static CommandRow> {
     COMMANDS.iter().chain(toggles())
 }
 

@@ -15,7 +15,7 @@ pub(super) type RunLine = fn(&mut Session, &str) -> Result<Vec<Effect>, String>;
 
 /// A command that takes words, and what it does.
 #[derive(Debug)]
-struct Row {
+struct LineRow {
     line: LineCommand,
     run: RunLine,
 }
@@ -27,13 +27,13 @@ const fn row(
     doc: &'static str,
     words: Words,
     run: RunLine,
-) -> Row {
-    Row { line: LineCommand { name, arguments, doc, words }, run }
+) -> LineRow {
+    LineRow { line: LineCommand { name, arguments, doc, words }, run }
 }
 
 /// Every command that takes words, in the order in which the help lists them.
 #[rustfmt::skip]
-const LINES: &[Row] = &[
+const LINES: &[LineRow] = &[
     row("set", "NAME=VALUE ..", "Give values, as one change: set D=-0.3 D3=0.5 until=100",
         Words::Assignments, values::set),
     row("method", "NAME", "Integrate by this method",
