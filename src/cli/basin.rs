@@ -5,7 +5,7 @@ use clap::Args;
 use super::failure::Failure;
 use super::input;
 use super::output::{Certify, Format, Output};
-use super::start::Start;
+use super::start::StartOptions;
 use crate::flow::Limits;
 use crate::proof::kicks::kicks;
 use crate::proof::{ParameterBox, prove};
@@ -16,7 +16,7 @@ use crate::study::basin::{SurveyedBasin, Window};
 #[derive(Debug, Args)]
 pub struct Basin {
     #[command(flatten)]
-    start: Start,
+    start: StartOptions,
     #[command(flatten)]
     output: Output,
     #[command(flatten)]

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::failure::Failure;
 use super::input::{self, Over};
 use super::output::{Certify, Format, Output};
-use super::start::Start;
+use super::start::StartOptions;
 use crate::flow::Limits;
 use crate::oscillator::{State, Symbol};
 use crate::proof::ParameterBox;
@@ -21,7 +21,7 @@ use crate::study::fold::{Boundary as Found, BoundaryPoint, border};
 #[derive(Debug, Args)]
 pub struct Border {
     #[command(flatten)]
-    start: Start,
+    start: StartOptions,
     #[command(flatten)]
     output: Output,
     #[command(flatten)]

@@ -5,7 +5,7 @@ use clap::Args;
 use super::failure::Failure;
 use super::input::{self, Over};
 use super::output::{Certify, Format, Output};
-use super::start::Start;
+use super::start::StartOptions;
 use crate::flow::Limits;
 use crate::oscillator::Symbol;
 use crate::proof::{self, ParameterBox};
@@ -16,7 +16,7 @@ use crate::study::branch::{Points, branch};
 #[derive(Debug, Args)]
 pub struct Branch {
     #[command(flatten)]
-    start: Start,
+    start: StartOptions,
     #[command(flatten)]
     output: Output,
     #[command(flatten)]

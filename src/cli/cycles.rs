@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::failure::Failure;
 use super::output::{Format, Output, write, write_source};
-use super::start::Start;
+use super::start::StartOptions;
 use super::timing::timed;
 use crate::check::check;
 use crate::closed_form::harmonics::MOST;
@@ -24,7 +24,7 @@ use crate::study::proved::proved;
 #[derive(Debug, Args)]
 pub struct Cycles {
     #[command(flatten)]
-    start: Start,
+    start: StartOptions,
     #[command(flatten)]
     output: Output,
     /// Shows the harmonic balance beside the cycles: 1, 3, 5, .. up to N harmonics, and their errors

@@ -13,7 +13,7 @@ use super::failure::Failure;
 use super::look::Looks;
 use super::places::Memory;
 use super::replay::script;
-use super::start::Start;
+use super::start::StartOptions;
 use crate::runtime::effects::Files;
 use crate::runtime::{Options, Record, explore};
 use crate::scene::library::{PLAIN, find, names};
@@ -32,7 +32,7 @@ pub struct Explore {
     #[arg(long, value_name = "FILE", conflicts_with_all = ["named", "scene"])]
     belt: Option<String>,
     #[command(flatten)]
-    start: Start,
+    start: StartOptions,
     #[command(flatten)]
     looks: Looks,
     #[command(flatten)]

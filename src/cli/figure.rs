@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 
 use super::failure::Failure;
 use super::output::{print, write};
-use super::start::Start;
+use super::start::StartOptions;
 use crate::figure::{self as forms, Form};
 use crate::flow::Limits;
 use crate::question::Fineness;
@@ -24,7 +24,7 @@ pub struct Figure {
     #[arg(value_name = "NAME", conflicts_with = "scene")]
     named: Option<String>,
     #[command(flatten)]
-    start: Start,
+    start: StartOptions,
     /// File to write; its ending says in which form: .svg, .png, .csv or .json
     #[arg(long, value_name = "FILE", value_parser = file)]
     output: Option<(PathBuf, Form)>,

@@ -4,7 +4,7 @@ use clap::Args;
 
 use super::failure::Failure;
 use super::output::{Format, Output};
-use super::start::Start;
+use super::start::StartOptions;
 use crate::flow::Limits;
 use crate::report::kicks;
 use crate::study::kicks::Kicks as Distribution;
@@ -14,7 +14,7 @@ use crate::study::repeated::repeated;
 #[derive(Debug, Args)]
 pub struct Kicks {
     #[command(flatten)]
-    start: Start,
+    start: StartOptions,
     #[command(flatten)]
     output: Output,
     /// Displacement and velocity of a kick, mean and standard deviation; with uniform: before them, mean and

@@ -9,7 +9,7 @@ use super::failure::Failure;
 use super::input;
 use super::look::Looks;
 use super::output::print;
-use super::start::Start;
+use super::start::StartOptions;
 use crate::runtime::{bounded, replay};
 use crate::session::config::Config;
 use crate::session::replay::{Script, parse};
@@ -34,7 +34,7 @@ pub struct Replay {
     #[arg(long, value_enum, default_value_t = ScreenFormat::Text, value_name = "FORM")]
     screen_format: ScreenFormat,
     #[command(flatten)]
-    start: Start,
+    start: StartOptions,
     #[command(flatten)]
     looks: Looks,
 }

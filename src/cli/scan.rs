@@ -17,7 +17,7 @@ use super::output::holds_something;
 use super::part::{Part, Shard};
 use super::plan::Plan;
 use super::progress::{Outlet, Progress};
-use super::start::Start;
+use super::start::StartOptions;
 use crate::flow::Limits;
 use crate::oscillator::Symbol;
 use crate::report::scan::Form;
@@ -35,7 +35,7 @@ use crate::study::scan::{Scan, ScanRow, Sweep};
 #[command(name = "scan")]
 pub struct ScanCommand {
     #[command(flatten)]
-    start: Start,
+    start: StartOptions,
     /// A parameter and its values, evenly spaced, or by equal ratios with log: before FROM; repeatable,
     /// the last one varies fastest
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", required = true, allow_hyphen_values = true)]

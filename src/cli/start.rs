@@ -16,7 +16,7 @@ use crate::scene::library::{PLAIN, find};
 
 /// Which motion is meant.
 #[derive(Clone, Debug, Args)]
-pub struct Start {
+pub struct StartOptions {
     /// Scene to start from
     #[arg(long = "scene", value_name = "NAME")]
     pub scene: Option<String>,
@@ -64,7 +64,7 @@ fn methods_help() -> String {
     format!("How to integrate: {}", names.join(", "))
 }
 
-impl Start {
+impl StartOptions {
     /// The scene with what was set on the command line; a parameter that is set belongs to it.
     pub fn scene(&self) -> Result<Arc<Scene>, Failure> {
         self.scene_named(self.scene.as_deref().unwrap_or(PLAIN))

@@ -5,7 +5,7 @@ use clap::Args;
 use super::failure::Failure;
 use super::input;
 use super::output::{Format, Output};
-use super::start::Start;
+use super::start::StartOptions;
 use super::timing::in_turn;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits};
@@ -20,7 +20,7 @@ pub struct Trade {
     #[arg(value_name = "SCENE", conflicts_with = "scene")]
     named: Option<String>,
     #[command(flatten)]
-    start: Start,
+    start: StartOptions,
     #[command(flatten)]
     output: Output,
     /// Time at which to stop, 0 .. 1e9 (default: that of the scene)

@@ -5,7 +5,7 @@ use clap::Args;
 use super::failure::Failure;
 use super::input;
 use super::output::{Certify, Format, Output};
-use super::start::Start;
+use super::start::StartOptions;
 use super::timing::timed;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits, Outcome, Problem};
@@ -19,7 +19,7 @@ use crate::report::{certified, trajectory as report};
 #[derive(Debug, Args)]
 pub struct Trajectory {
     #[command(flatten)]
-    start: Start,
+    start: StartOptions,
     #[command(flatten)]
     output: Output,
     #[command(flatten)]

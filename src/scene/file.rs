@@ -48,13 +48,13 @@ struct SceneFile {
     #[serde(default)]
     arrange: Arrangement,
     #[serde(default)]
-    plot: Vec<Spanned<Plot>>,
+    plot: Vec<Spanned<PlotTable>>,
 }
 
 /// A plot: what it shows, over which axes, and which part of that.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Plot {
+struct PlotTable {
     view: View,
     over: Option<Spanned<Symbol>>,
     ordinate: Option<Spanned<Ordinate>>,
@@ -165,10 +165,10 @@ fn of_machine(scaled: &ScaledMachine, read: &SceneFile) -> Result<Problem, Compl
 
 /// A plot of a scene: axes only where there is a choice, a window in both directions or in none.
 fn plot_setup(
-    read: &Spanned<Plot>,
+    read: &Spanned<PlotTable>,
     families: &mut Vec<Vec<Variant>>,
 ) -> Result<PlotSetup, Complaint> {
-    let Plot { view, over, ordinate, unit, against, with, x, y } = read.get_ref();
+    let PlotTable { view, over, ordinate, unit, against, with, x, y } = read.get_ref();
     let title = view.spec().title;
     let span = |given: &Option<Spanned<Symbol>>| given.as_ref().map(Spanned::span);
     for (given, views) in [

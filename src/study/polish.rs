@@ -56,12 +56,12 @@ fn polish_within(
 }
 
 /// A place to begin with, and whether the residual is so flat there that it is weighed as energy.
-type Start = (f64, bool);
+type Guess = (f64, bool);
 
 /// The same by Newton's method from `start`.
 fn polish_from(
     equation: &mut Equation,
-    start: Start,
+    start: Guess,
     bracket: Bracket,
     sharp: f64,
     limits: &Limits,
@@ -103,7 +103,7 @@ pub fn polish_near(
 /// Newton's method on the contracting route, inside the bracket.
 fn newton(
     equation: &mut Equation,
-    start: Start,
+    start: Guess,
     bracket: Bracket,
     limits: &Limits,
 ) -> Result<Closing, Reason> {
@@ -315,7 +315,7 @@ fn sharpen(
 
 /// A place near the root in a bracket, by Newton's method with integration steps that are coarser than those of the
 /// equation and cost half as much.
-fn near_root(equation: &mut Equation, bracket: &Bracket, limits: &Limits) -> Result<Start, Reason> {
+fn near_root(equation: &mut Equation, bracket: &Bracket, limits: &Limits) -> Result<Guess, Reason> {
     /// Tolerance of the coarse steps, how many of them, and the change of the unknown that is theirs.
     const COARSE: f64 = 1e-8;
     const STEPS: usize = 3;
