@@ -192,6 +192,38 @@ fn five_hundred_arrows_at_once_end_where_five_hundred_slow_ones_do() {
     leave(fast);
 }
 
+/// Keys that need an answer, after one that asks for a new one, each as a terminal sends it.
+const HASTY: [(&str, &[&str]); 10] = [
+    ("supercritical", &["\x1b[C", "i"]),
+    ("supercritical", &["\x1b[C", "o"]),
+    ("supercritical", &["\x1b[C", "w", "\x1b[C", "\t", "\r"]),
+    ("supercritical", &["\x1b[C", "\t", "0", "+", "H", "\x1b[D", "\r"]),
+    ("supercritical", &["\x1b[C", ":", "start-outside", "\r", "i"]),
+    ("regimes", &["\x1b[C", "\t", "\x1b[C", "\x1b[A", "\r"]),
+    ("energy", &["\x1b[C", "\t", "\x1b[A", "\r"]),
+    ("linear", &["\x1b[C", "\x1b[20~", "\x1b[20~", "\x1b[18~"]),
+    ("linear", &["\"", "a", "\x1b[C", "\x1b[C", "'", "a"]),
+    ("plain", &["\x1b[C", "\x1b[15~", "i", "o", "d"]),
+];
+
+#[test]
+fn keys_that_need_an_answer_end_on_the_same_screen_in_one_write_and_one_by_one() {
+    for (scene, keys) in HASTY {
+        let mut slow = explorer(&[scene], &[], (120, 40));
+        for key in keys {
+            slow.types(key);
+            slow.wait("the answers", |it| !it.text().contains("computing"));
+            slow.quiet(QUIET);
+        }
+        let expected = picture(&slow);
+        let mut fast = explorer(&[scene], &[], (120, 40));
+        fast.types(&keys.concat());
+        fast.wait("the same screen", |it| picture(it) == expected);
+        leave(slow);
+        leave(fast);
+    }
+}
+
 #[test]
 fn the_mouse_starts_a_motion_and_zooms_if_it_is_wanted() {
     let mut terminal = explorer(&["--mouse"], &[], (80, 24));

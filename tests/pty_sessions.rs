@@ -107,16 +107,26 @@ fn a_session_is_written_and_gone_on_with() {
 }
 
 #[test]
-fn the_tour_goes_on_by_any_key_and_is_left_by_escape() {
+fn the_tour_goes_on_by_any_key_but_those_it_names_and_is_left_by_escape() {
     let memory = tempfile::tempdir().unwrap();
     let mut terminal = explorer(&["tour"], memory.path());
-    terminal.wait_for("any key: on, esc: leave the tour");
+    terminal.wait_for("any key: on, backspace: back");
     terminal.wait_for("dry friction");
     terminal.types(" ");
     terminal.wait_for("takes a step");
+    // The caption names the key that steps: it does its work, and the tour goes on as if it had not.
+    terminal.types("\x1b[C");
+    terminal.wait_for("-0.35");
+    assert!(terminal.text().contains("takes a step"), "the caption stays");
+    terminal.types(" ");
+    terminal.wait_for("The shaded region");
+    terminal.wait_for("-0.6");
+    // An arrow that is not named goes back.
+    terminal.types("\x1b[D");
+    terminal.wait_for("takes a step");
     terminal.types("\x1b");
     terminal.wait_for("replay stopped");
-    assert!(!terminal.text().contains("leave the tour"));
+    assert!(!terminal.text().contains("esc: leave"));
     leave(terminal);
 }
 

@@ -9,7 +9,7 @@ use ratatui::layout::Size;
 use super::event::Stop;
 use super::figure_writer::Work;
 use crate::scene::Request;
-use crate::session::{Effect, Msg, Place};
+use crate::session::{Effect, Key, Msg, Place};
 
 /// A session and the way it is drawn; tests have simpler ones.
 pub trait Application {
@@ -25,6 +25,11 @@ pub trait Application {
 
     /// Whether a press waits for an answer: then everything that the user does has to wait.
     fn is_waiting(&self) -> bool {
+        false
+    }
+
+    /// Whether a key does its own work while a caption waits to be read, instead of going on.
+    fn tries(&self, _key: Key) -> bool {
         false
     }
 

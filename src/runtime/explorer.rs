@@ -21,7 +21,7 @@ use crate::flow::{Limits, Reason};
 use crate::question::{self, Fineness, Fit, Means, Recording};
 use crate::scene::{Answer, Request};
 use crate::session::replay::Script;
-use crate::session::{Effect, Msg, Place, Session, save, settings, update};
+use crate::session::{Effect, Key, Msg, Place, Session, save, settings, update};
 use crate::study::scan::Scan;
 use crate::terminal::Environment;
 use crate::view::{self, Look};
@@ -65,6 +65,10 @@ impl Application for Explorer {
 
     fn is_waiting(&self) -> bool {
         self.session.is_waiting()
+    }
+
+    fn tries(&self, key: Key) -> bool {
+        self.session.tries(key)
     }
 
     fn asked(&self) -> u32 {

@@ -22,7 +22,11 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let (heading, paragraphs) = match &session.caption {
         Caption::Tour(caption, place) => {
             let place = place.map_or(String::new(), |(step, of)| format!("{step} of {of}, "));
-            let heading = format!(" {place}any key: on, esc: leave the tour, backspace: back ");
+            let on = match caption.contains('{') {
+                true => "keys named here work, any other: on",
+                false => "any key: on",
+            };
+            let heading = format!(" {place}{on}, backspace: back, esc: leave ");
             (heading, vec![filled(caption)])
         }
         Caption::Scene => {

@@ -18,8 +18,10 @@ pub(super) struct Playing {
     pub(super) player: Player,
     /// What is played, to start over.
     script: Script,
-    /// Captions that are passed by, on the way back to the one before.
+    /// Captions that are passed by, on the way to the one that is wanted.
     pub(super) passed: usize,
+    /// Whether keys have done their own work since the caption that waits.
+    pub(super) tried: bool,
     /// A register: what the user does comes after it.
     pub(super) register: bool,
     /// Presses that asked for it, the last ones recorded.
@@ -37,6 +39,7 @@ impl Playing {
             player: Player::new(script.clone()),
             script,
             passed: 0,
+            tried: false,
             register,
             asked,
             given: Recorder::default(),
@@ -48,8 +51,20 @@ impl Playing {
     /// Goes back to the caption before this one: all is played again up to there.
     pub(super) fn go_back(&mut self) {
         if let Some(passed) = self.player.said().checked_sub(2) {
-            self.player = Player::new(self.script.clone());
-            (self.passed, self.pause) = (passed, Pause::Not);
+            self.play_again(passed);
         }
+    }
+
+    /// Goes on to the next caption, from what the file made of the session: what was tried out is past.
+    pub(super) fn go_on(&mut self) {
+        if self.tried {
+            self.play_again(self.player.said());
+        }
+        self.pause = Pause::Not;
+    }
+
+    fn play_again(&mut self, passed: usize) {
+        self.player = Player::new(self.script.clone());
+        (self.passed, self.pause, self.tried) = (passed, Pause::Not, false);
     }
 }

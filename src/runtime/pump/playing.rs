@@ -14,6 +14,9 @@ use crate::session::replay::{Action, Script};
 use crate::session::{Code, Key, Msg, Notice};
 use crate::view;
 
+/// Keys that go back to the caption before: also those of a presenter's remote control.
+const BACK: [Code; 3] = [Code::Backspace, Code::Left, Code::PageUp];
+
 /// Leaves whatever is open, and whatever keys the user has chosen.
 fn leaves(msg: &Msg) -> bool {
     matches!(msg, Msg::Key(Key { code: Code::Char('c'), control: true, .. }))
@@ -47,6 +50,11 @@ impl<M: Application, W: Write> Pump<M, W> {
             return Ok(stop);
         };
         let caption = playing.pause == Pause::Caption;
+        if matches!(msg, Msg::Key(key) if caption && self.application.tries(key)) {
+            (playing.tried, playing.timed) = (true, true);
+            playing.given.note(&msg);
+            return self.update(msg);
+        }
         if is_key(&msg, Code::Esc) {
             return self.played(false, "replay stopped".to_owned(), false);
         }
@@ -55,10 +63,10 @@ impl<M: Application, W: Write> Pump<M, W> {
         }
         if playing.register {
             self.held_back.push_back(Event::Session(msg));
-        } else if caption && is_key(&msg, Code::Backspace) {
+        } else if caption && BACK.iter().any(|code| is_key(&msg, *code)) {
             playing.go_back();
         } else if caption && matches!(msg, Msg::Key(_)) {
-            playing.pause = Pause::Not;
+            playing.go_on();
         } else if is_key(&msg, Code::Char('q')) {
             return Ok(Some(Stop::Quit));
         } else if is_key(&msg, Code::Char(' ')) {

@@ -58,6 +58,10 @@ impl Application for Counter {
         self.moving
     }
 
+    fn tries(&self, key: Key) -> bool {
+        self.notice.contains("try") && key.code == Code::Right
+    }
+
     fn figure(&self, _: &std::path::Path, _: Option<usize>) -> Result<Work, String> {
         let gate = self.gate.clone().ok_or("nothing to write")?;
         Ok(Box::new(move |_| {
@@ -271,6 +275,23 @@ fn a_tour_goes_back_to_the_caption_before() {
     let (_, pump) = running.join().unwrap();
     // Once to the first caption and on to the second, back to the first, on again and to the end.
     assert_eq!(pump.running().count, 2 + 3);
+}
+
+#[test]
+fn a_key_that_a_caption_lets_do_its_work_does_it_and_the_tour_goes_on_as_if_it_had_not() {
+    let Bench { pump, events, written } = bench();
+    let file = replay::parse("<right> <say \"try\"> <right> <say \"two\">").unwrap();
+    let mut pump = pump.playing(Some(file));
+    let running = std::thread::spawn(move || (pump.run().unwrap(), pump));
+    for (seen, pressed) in [("try", "<right>"), ("2", "<right>"), ("3", "n"), ("two", "n")] {
+        while !written.recv().unwrap().contains(seen) {}
+        events.send(key(pressed)).unwrap();
+    }
+    while !written.recv().unwrap().contains("done") {}
+    events.send(key("q")).unwrap();
+    let (_, pump) = running.join().unwrap();
+    // Up to the caption, two presses there, and the whole file again.
+    assert_eq!(pump.running().count, 1 + 2 + 2);
 }
 
 #[test]
