@@ -84,6 +84,18 @@ fn a_session_in_which_nothing_was_done_is_not_kept() {
 }
 
 #[test]
+fn a_session_that_cannot_be_kept_says_so_when_it_is_left() {
+    let memory = tempfile::tempdir().unwrap();
+    fs::create_dir_all(memory.path().join("hopfscope/last.toml")).unwrap();
+    let mut terminal = explorer(&["linear"], memory.path());
+    terminal.types("-0.345\r");
+    terminal.wait_for("-0.345");
+    terminal.types("q");
+    terminal.wait_for("hopfscope: the session is not kept: ");
+    assert_eq!(terminal.end(), 0);
+}
+
+#[test]
 fn a_session_is_written_and_gone_on_with() {
     let memory = tempfile::tempdir().unwrap();
     let file = memory.path().join("mine.toml");

@@ -142,7 +142,10 @@ pub fn go(
 /// An interrupted session, with what is in it.
 fn kept((ended, path): (SystemTime, PathBuf)) -> Kept {
     let what = Files::read(&path).and_then(|text| save::summary(&text));
-    let what = what.unwrap_or_else(|why| format!("cannot be continued: {why}"));
+    let what = what.unwrap_or_else(|why| {
+        let why = why.strip_prefix(&format!("{}: ", path.display())).unwrap_or(&why);
+        format!("cannot be continued: {why}")
+    });
     Kept { when: ago(ended.elapsed().unwrap_or_default().as_secs()), what, path }
 }
 

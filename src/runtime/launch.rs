@@ -81,7 +81,7 @@ pub fn launch(
     pump.close_record();
     let left = matches!(conducted, Ok(Ok(Stop::Quit)));
     let place = if left { &options.last } else { &options.keep };
-    keep(&pump, place.as_deref());
+    let kept = keep(&pump, place.as_deref());
     let ended = match conducted.unwrap_or_else(|panic| resume_unwind(panic)) {
         // A terminal that is gone refuses what is written to it, before its signal arrives.
         Err(error) if error.raw_os_error() == Some(Errno::IO.raw_os_error()) => Ok(Stop::Closed),
@@ -91,6 +91,9 @@ pub fn launch(
         pump.await_terminal();
     }
     guard.leave();
+    if let (Err(why), Ok(Stop::Quit | Stop::Ended { .. })) = (kept, &ended) {
+        eprintln!("hopfscope: the session is not kept: {why}");
+    }
     let code = match ended? {
         // A thread that listens has panicked; without it there was nothing to go on for.
         Stop::Closed if let Some(note) = notes.take() => return Err(io::Error::other(note)),
@@ -101,14 +104,20 @@ pub fn launch(
     Ok(code)
 }
 
-/// Keeps what would be missed of a session that was interrupted or left. It is the last thing that is done, and if it
-/// fails there is nobody to tell.
-fn keep<M: Application, W: io::Write>(pump: &Pump<M, W>, path: Option<&Path>) {
+/// Keeps what would be missed of a session that was interrupted or left.
+///
+/// # Errors
+/// One line that says why it is lost.
+fn keep<M: Application, W: io::Write>(
+    pump: &Pump<M, W>,
+    path: Option<&Path>,
+) -> Result<(), String> {
     // After a panic the state may be one that was never meant to be.
     let text = catch_unwind(AssertUnwindSafe(|| pump.running().what_to_keep())).ok().flatten();
-    if let Some((path, text)) = path.zip(text) {
-        drop(Files::write(path, &text, true));
-    }
+    let Some(text) = text else { return Ok(()) };
+    let path = path.ok_or("there is no folder for it; XDG_STATE_HOME names one")?;
+    let written = Files::write(path, &text, true);
+    if written.error { Err(written.text) } else { Ok(()) }
 }
 
 /// Runs the loop through all stops and continuations to its end.

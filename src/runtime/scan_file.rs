@@ -218,9 +218,11 @@ fn opened(path: &Path) -> Result<File, Refusal> {
 
 /// Writes rows that are known to a file, in the form that its name ends with, and says how that ended.
 ///
-/// A file that holds the beginning of the same scan is gone on with, one of anything else left alone.
+/// A file that holds the beginning of the same scan is gone on with, one of anything else left alone. A new one is
+/// there as a whole or not at all.
 pub fn save(path: &Path, scan: &Scan, rows: &[ScanRow]) -> Notice {
     let form = Form::of_file(path);
+    let is_new = !path.exists();
     let points = 0..scan.points();
     let opened = ScanFile::resume(path, scan, form, true, points, &Limits::PATIENT);
     let name = path.display();
@@ -237,7 +239,12 @@ pub fn save(path: &Path, scan: &Scan, rows: &[ScanRow]) -> Notice {
     });
     match written {
         Ok(count) => Notice { error: false, text: format!("{name} has {count} rows") },
-        Err(why) => Notice { error: true, text: format!("{name}: {why}") },
+        Err(why) => {
+            if is_new {
+                drop(std::fs::remove_file(path));
+            }
+            Notice { error: true, text: format!("{name}: {why}") }
+        }
     }
 }
 
