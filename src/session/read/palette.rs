@@ -76,9 +76,9 @@ impl PaletteRow {
 
 impl Session {
     /// Every row that has all the words searched for; without a search, what belongs to the pane in focus
-    /// comes first, and what works only inside a list or a line is left out.
+    /// comes first, and what works only inside a list or a line, or with a digit, is left out.
     pub fn palette_rows(&self, list: &List) -> Vec<PaletteRow> {
-        let outside = |command: &&Command| home(command).is_some();
+        let outside = |command: &&Command| home(command).is_some() && !takes_digit(command);
         let commands = self.keymap.commands().filter(outside).map(PaletteRow::Command);
         let lines = self.keymap.lines().map(PaletteRow::Line);
         let scenes = library().iter().map(PaletteRow::Scene);
@@ -140,6 +140,11 @@ impl Session {
         let places = self.keymap.places(command);
         places.iter().flat_map(|(_, keys)| keys).map(ToString::to_string).collect()
     }
+}
+
+/// Whether a command is nothing without the digit that runs it.
+fn takes_digit(command: &Command) -> bool {
+    command.keys.iter().any(|(_, keys)| keys.contains(&"1"))
 }
 
 /// The first context outside of lists and lines in which a command has keys of its own: the commands that

@@ -14,7 +14,9 @@ fn every_command_is_reached_from_the_palette_without_a_key_of_its_own() {
     for command in commands() {
         let inside = command.keys.iter().all(|(context, _)| context.is_overlay());
         let name = command.name.strip_prefix("toggle-").unwrap_or(command.name);
-        assert!(inside || listed.contains(&name), "{name}");
+        // A digit cannot be typed from a list.
+        let typed = command.keys.iter().any(|(_, keys)| keys.contains(&"1"));
+        assert!(inside || listed.contains(&name) != typed, "{name}");
     }
     for line in lines() {
         assert!(listed.contains(&line.name), "{}", line.name);
