@@ -6,12 +6,11 @@
 //!
 //! | step | statement | shown by |
 //! |---|---|---|
-//! | `rest` | from all z the motion comes to rest within a turn | it does from `to` |
-//! | `below` | `G(z) < z` | `G^-1(from) > to`, or the inverse never turns: `G^-1(z) > z` |
-//! | `above` | `G(z) > z` | `G(from) > to`, or the motion never turns: `G(z) > z` |
-//! | `damped` | `G(z) < z` | all images of G are below `from` |
-//! | `stable` | there is one cycle | G lies above the diagonal at `from` and below it at `to`; its derivative is below 1 |
-//! | `unstable` | there is one cycle | G lies below the diagonal at `from` and above it at `to`; that of `G^-1` is below 1 |
+//! | `within` | no cycle: images lie below `from` | `G(to) < from`, or the motion comes to rest within a turn |
+//! | `below` | no cycle: `G(z) < z` | `G^-1(from) > to`, or the inverse never turns |
+//! | `above` | no cycle: `G(z) > z` | `G(from) > to`, or the motion never turns |
+//! | `stable` | one cycle | G contracts, and takes the bounds of the clearance inwards |
+//! | `unstable` | one cycle | so does `G^-1` |
 //! | theorems | the number of cycles | their conditions |
 //!
 //! Nothing here is shared with the search for cycles or with the proofs that wrote the certificate, but the arithmetic
@@ -52,16 +51,18 @@ pub struct Step {
     /// Of a cycle: bounds of its clearance.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub clearance: Option<Bounds>,
+    /// Where half swings are stiff: the velocities of the fences of both, 0 for none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fences: Option<[f64; 2]>,
 }
 
 /// What a step shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {
-    Rest,
+    Within,
     Below,
     Above,
-    Damped,
     Stable,
     Unstable,
     /// None, by the theorem: `r + 2 D w + D3 w^3` has one sign for all `w >= 0`, so that a first integral of the motion
@@ -98,13 +99,12 @@ pub fn check(text: &str) -> Result<Certificate, String> {
     known(sensible, "these are no bounds of parameters")
         .map_err(|why| at_line("\"parameters\"", 0, why))?;
     let parameters = given.parameters.map(|[low, high]| Interval::new(low, high));
-    let map = Map::new(parameters);
-    // How far the steps have come, and whether G lies above the diagonal there.
-    let (mut at, mut above, mut cycles) = (0.0, None, 0);
+    // How far the steps have come.
+    let (mut at, mut cycles) = (0.0, 0);
     for (number, step) in given.steps.iter().enumerate() {
-        let shown = step.verify(&map, parameters, at, above);
+        let shown = step.verify(parameters, at);
         cycles += shown.map_err(|why| at_line("\"step\"", number, why))?;
-        (at, above) = (step.to.unwrap_or(f64::INFINITY), step.kind.above().map(|[_, end]| end));
+        at = step.to.unwrap_or(f64::INFINITY);
     }
     known(at == f64::INFINITY, &format!("nothing is said of clearances beyond {at:?}"))
         .map_err(|why| at_line("\"step\"", given.steps.len().saturating_sub(1), why))?;
@@ -114,17 +114,6 @@ pub fn check(text: &str) -> Result<Certificate, String> {
 }
 
 impl Kind {
-    /// Whether G lies above the diagonal at the beginning and at the end of a step; `None` of a theorem.
-    pub fn above(self) -> Option<[bool; 2]> {
-        match self {
-            Kind::Rest | Kind::Below | Kind::Damped => Some([false, false]),
-            Kind::Above => Some([true, true]),
-            Kind::Stable => Some([true, false]),
-            Kind::Unstable => Some([false, true]),
-            _ => None,
-        }
-    }
-
     /// How many cycles there are by a theorem; `None` if this is none, or its conditions are not met by all of these
     /// parameters.
     pub fn theorem(self, [d, d2, d3, r]: [Interval; 4]) -> Option<usize> {
@@ -155,56 +144,47 @@ impl Kind {
 }
 
 impl Step {
-    /// Checks a step that begins at a clearance; `above` is the side of the diagonal on which the step before it shows G to
-    /// lie there. Returns how many cycles it shows.
-    fn verify(
-        &self,
-        map: &Map,
-        parameters: [Interval; 4],
-        at: f64,
-        above: Option<bool>,
-    ) -> Result<usize, String> {
+    /// Checks a step that begins at a clearance. Returns how many cycles it shows.
+    fn verify(&self, parameters: [Interval; 4], at: f64) -> Result<usize, String> {
         let (from, to) = (self.from, self.to.unwrap_or(f64::INFINITY));
         let gap = format!("it begins at {from:?}, and the step before ends at {at:?}");
         known(from == at, &gap)?;
         known(from < to, "it does not end beyond its beginning")?;
-        let Some([begins_above, _]) = self.kind.above() else {
-            known(from == 0.0 && to == f64::INFINITY, "a theorem is the only step")?;
-            let cycles = self.kind.theorem(parameters);
-            return cycles.ok_or_else(|| "its conditions are not met".to_owned());
-        };
-        let fits = above.is_none_or(|above| above == begins_above);
-        known(fits, "the step before it shows G on the other side of the diagonal")?;
-        let beyond = |inverse: bool| {
-            let least = map.after(inverse, from).lower();
-            least > to || least == f64::INFINITY
-        };
+        let inverse = matches!(self.kind, Kind::Below | Kind::Unstable);
+        let map = Map::new(parameters, inverse, self.fences.unwrap_or_default());
         match self.kind {
-            Kind::Rest => {
-                let rests = from == 0.0 && map.after(false, to).upper() == f64::NEG_INFINITY;
-                known(rests, "from `to` it is not certain to come to rest")
+            Kind::Within => {
+                // Infinite clearances are those of all.
+                let of = Interval::new(if to < f64::INFINITY { to } else { 0.0 }, to);
+                known(map.images(of).upper() < from, "images of G may lie beyond `from`")?;
             }
-            Kind::Below => known(beyond(true), "the inverse does not lead beyond `to`"),
-            Kind::Above => known(beyond(false), "G does not lead beyond `to`"),
-            Kind::Damped => known(map.greatest_image() < from, "images of G may lie beyond `from`"),
-            _ => return self.verify_cycle(map, [from, to], above.is_some()).map(|()| 1),
-        }?;
+            Kind::Below | Kind::Above => {
+                let least = map.images(Interval::point(from)).lower();
+                let beyond = least > to || least == f64::INFINITY;
+                known(beyond, "the image of `from` may not lie beyond `to`")?;
+            }
+            Kind::Stable | Kind::Unstable => {
+                return self.verify_cycle(&map, [from, to]).map(|()| 1);
+            }
+            _ => {
+                known(from == 0.0 && to == f64::INFINITY, "a theorem is the only step")?;
+                let cycles = self.kind.theorem(parameters);
+                return cycles.ok_or_else(|| "its conditions are not met".to_owned());
+            }
+        }
         known(self.clearance.is_none(), "only a cycle has a clearance").map(|()| 0)
     }
 
     /// Checks that there is one cycle, and that its clearance lies between its bounds.
     ///
-    /// Of G, where the cycle attracts, or `G^-1`, the map K contracts: its derivative is below 1 throughout, so that it has
-    /// one fixed point at most. It has one because the neighbouring steps show it on different sides of the diagonal. As
-    /// `K(z) > z` at one bound and `K(z) < z` at the other, the fixed point is between them.
-    fn verify_cycle(&self, map: &Map, [from, to]: Bounds, follows: bool) -> Result<(), String> {
-        known(follows && to < f64::INFINITY, "a cycle has a step before it and one after it")?;
-        let inverse = self.kind == Kind::Unstable;
-        let slope = map.slope(inverse, Interval::new(from, to)).ok_or("a turn is not certain")?;
+    /// The map K, which is G where the cycle attracts and else its inverse, has a derivative below 1 throughout, so that
+    /// it has one fixed point at most. As `K(z) > z` at one bound and `K(z) < z` at the other, there is one between them.
+    fn verify_cycle(&self, map: &Map, [from, to]: Bounds) -> Result<(), String> {
+        let slope = map.slope(Interval::new(from, to)).ok_or("a turn is not certain")?;
         known(slope.upper() < 1.0, "the map that should contract may not")?;
         let [low, high] = self.clearance.ok_or("a cycle has a clearance")?;
         known(from <= low && low <= high && high <= to, "the clearance is not within the step")?;
-        let (above, below) = (map.after(inverse, low), map.after(inverse, high));
+        let [above, below] = [low, high].map(|z| map.images(Interval::point(z)));
         known(above.lower() > low, "the clearance may be below its bounds")?;
         known(below.upper() < high, "the clearance may be above its bounds")
     }

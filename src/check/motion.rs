@@ -17,42 +17,37 @@
 )]
 
 use crate::numerics::Interval;
-use crate::numerics::elementary::{cbrt, pow};
+use crate::numerics::elementary::{pow, powi};
 use crate::numerics::root::bisect;
 
-/// The coefficients a, b, c of a half plane.
+/// A half plane.
 #[derive(Clone, Copy, Debug)]
-pub struct Field(pub [Interval; 3]);
+pub struct Field {
+    /// a, b and c.
+    coefficients: [Interval; 3],
+    fence: Option<Fence>,
+}
 
 /// A half swing, of all starts and coefficients.
 #[derive(Clone, Copy, Debug)]
 pub struct Swing {
     /// Where it ends: `-inf` if no further out than the sticking set reaches, `+inf` if it never does.
     pub end: Interval,
-    /// How long it takes.
     pub time: Interval,
-    /// The area below it, the integral of `v^2` over time.
-    pub area: Interval,
     /// The integral of `f'` over time.
     pub damping: Interval,
 }
 
-impl Swing {
-    /// Of which only the end is known.
-    fn only(end: Interval) -> Self {
-        Swing { end, time: Interval::ALL, area: Interval::ALL, damping: Interval::ALL }
-    }
-}
-
+/// Degree of the remainder.
 const ORDER: usize = 22;
 
-/// Size of a remainder relative to the state.
+/// Size of a remainder relative to the state, above which steps become shorter.
 const SMALL: f64 = 2e-16;
 
 /// Steps after which a half swing is given up.
-const STEPS: usize = 2_500;
+const STEPS: usize = 1_000;
 
-/// Taylor coefficients: of x, of v, of the area, and of `v^2`.
+/// Taylor coefficients: of x, of v, of the integral of `f'`, and of `v^2`.
 type Series = [[Interval; 4]; ORDER + 1];
 
 /// A box or a point: position and velocity.
@@ -62,35 +57,50 @@ fn point(value: f64) -> Interval {
     Interval::point(value)
 }
 
+/// Of which nothing is known.
+const UNKNOWN: Swing = Swing { end: Interval::ALL, time: Interval::ALL, damping: Interval::ALL };
+
+/// A velocity e, and a short piece of the line `v = e` through which all motions fall that become faster.
+type Fence = [Interval; 2];
+
 impl Field {
-    /// The field of the motions run backward, in the frame `y = -x`.
-    pub fn reversed(&self) -> Self {
-        Field(self.0.map(|it| -it))
+    /// With a fence at this velocity, if there is one.
+    ///
+    /// Let `f'` be positive at e and not fall from there on. A motion can fall through `v = e` only where `-x - f <= 0`:
+    /// from `x = -f(e)` on. On the curve `Q = x + f - 2 v/f' = 0` it is `v' = -2 v/f'`, and
+    /// `Q' = v (-1 + 4 (f' - v f'')/f'^3) <= 0` if `4 (a - 3 c v^2) <= f'^3`, because `f' - v f'' = a - 3 c v^2`; that
+    /// holds from e on if it does there. So no motion from the left crosses this curve, which ends at
+    /// `x = -f(e) + 2 e/f'(e)`.
+    pub fn new(coefficients: [Interval; 3], velocity: f64) -> Self {
+        let (field, e) = (Field { coefficients, fence: None }, point(velocity));
+        let [a, b, c] = coefficients;
+        let slope = field.slope(e);
+        let grows = c.lower() >= 0.0 && (b + c * e * 3.0).lower() >= 0.0;
+        let excess = (a - c * e.square() * 3.0) * 4.0;
+        let shields = slope.lower() > 0.0 && excess.upper() <= (slope * slope.square()).lower();
+        let left = -field.force(e);
+        let piece = left.hull(left + e.twice() / slope);
+        let holds = velocity > 0.0 && grows && shields && piece.is_finite();
+        Field { fence: holds.then_some([e, piece]), ..field }
     }
 
     fn force(&self, v: Interval) -> Interval {
-        let [a, b, c] = self.0;
+        let [a, b, c] = self.coefficients;
         v * (a + v * (b + v * c))
     }
 
     fn slope(&self, v: Interval) -> Interval {
-        let [a, b, c] = self.0;
-        a + v * (b.twice() + v * c * point(3.0))
+        let [a, b, c] = self.coefficients;
+        a + v * (b.twice() + v * c * 3.0)
     }
 
     fn acceleration(&self, [x, v]: Place) -> Interval {
         -x - self.force(v)
     }
 
-    /// The integral of `f'` over a time in which x moves so far, above this area.
-    pub fn damping(&self, time: Interval, way: Interval, area: Interval) -> Interval {
-        let [a, b, c] = self.0;
-        a * time + b.twice() * way + c * area * point(3.0)
-    }
-
     /// The Taylor coefficients of all motions from a place.
     fn series(&self, [x, v]: Place) -> Series {
-        let [a, b, c] = self.0;
+        let [a, b, c] = self.coefficients;
         let mut found = [[point(0.0); 4]; ORDER + 1];
         (found[0][0], found[0][1]) = (x, v);
         let mut degree = 0.0;
@@ -101,10 +111,14 @@ impl Field {
             found[k][3] = if k == 0 { v.square() } else { product(&found, 1) };
             if k < ORDER {
                 degree += 1.0;
-                let force = a * found[k][1] + b * found[k][3] + c * product(&found, 3);
-                let rates = [found[k][1], -(found[k][0] + force), found[k][3]];
-                for (column, rate) in rates.into_iter().enumerate() {
-                    found[k + 1][column] = rate / point(degree);
+                let [position, velocity, _, square] = found[k];
+                let force = a * velocity + b * square + c * product(&found, 3);
+                let constant = if k == 0 { a } else { point(0.0) };
+                let damping = constant + b.twice() * velocity + c * square * 3.0;
+                for (column, rate) in
+                    [velocity, -(position + force), damping].into_iter().enumerate()
+                {
+                    found[k + 1][column] = rate / degree;
                 }
             }
         }
@@ -116,121 +130,70 @@ impl Field {
     /// On the line `v = x + m` through this corner, `m > 0`, motions cross upwards where
     /// `P(v) = m - (a + 2) v - b v^2 - c v^3 >= 0`, and above it `v' >= P(v) + v`. So it is enough that P is not
     /// negative from v on, which its coefficients there show.
-    fn never_returns(&self, x: f64, v: f64) -> bool {
-        let [a, b, c] = self.0;
-        let (at, two, three) = (point(v), point(2.0), point(3.0));
-        let m = at - point(x);
-        let p0 = m - at * (a + two + at * (b + at * c));
-        let p1 = -(a + two + at * (two * b + at * three * c));
-        let p2 = -(b + at * three * c);
-        let square = p2.lower() > 0.0 && (point(4.0) * p0 * p2 - p1.square()).lower() >= 0.0;
-        let linear = p1.lower() >= 0.0 && p2.lower() >= 0.0 && p0.lower() >= 0.0;
-        m.lower() > 0.0 && v >= 0.0 && c.upper() <= 0.0 && (linear || square)
+    fn never_returns(&self, [x, v]: Place) -> bool {
+        let [a, b, c] = self.coefficients;
+        let at = point(v.lower());
+        let m = at - x.upper();
+        let p0 = m - at * (a + 2.0 + at * (b + at * c));
+        let p1 = -(a + 2.0 + at * (b.twice() + at * c * 3.0));
+        let p2 = -(b + at * c * 3.0);
+        let square = p2.lower() > 0.0 && (p0 * p2 * 4.0 - p1.square()).lower() >= 0.0;
+        let linear = [p0, p1, p2].iter().all(|it| it.lower() >= 0.0);
+        m.lower() > 0.0 && v.lower() >= 0.0 && c.upper() <= 0.0 && (linear || square)
     }
 
     /// Whether the energy of what is at this place does not grow, and is too small to come further out than `reach`.
-    fn stays(&self, x: Interval, v: Interval, reach: f64) -> bool {
-        let [a, b, c] = self.0;
+    fn stays(&self, [x, v]: Place, reach: f64) -> bool {
+        let [a, b, c] = self.coefficients;
         let most = (x.square() + v.square()).sqrt().upper();
         let speeds = Interval::new(0.0, most);
         most <= reach && (a + speeds * (b + speeds * c)).lower() >= 0.0
     }
 
-    /// A velocity e through which all motions that begin slower and become faster fall within a short piece of the line `v = e`, and that
-    /// piece; for `c >= 0`. It spares the fast part of stiff motions.
+    /// The end of motions that are faster than the fence, by those from both ends of its piece; they became so after a
+    /// first part.
     ///
-    /// Let `f'` be positive at e and not fall from there on. A motion can fall through `v = e` only where `-x - f <= 0`:
-    /// from `x = -f(e)` on. On the curve `Q = x + f - 2 v/f' = 0` it is `v' = -2 v/f'`, and
-    /// `Q' = v (-1 + 4 (f' - v f'')/f'^3) <= 0` if `4 (a - 3 c v^2) <= f'^3`, because `f' - v f'' = a - 3 c v^2`; that
-    /// holds from e on if it does there. So no motion from the left crosses this curve, which ends at
-    /// `x = -f(e) + 2 e/f'(e)`.
-    pub fn fence(&self) -> Option<(Interval, Interval)> {
-        let [a, b, c] = self.0;
-        let (three, middles) = (point(3.0), self.0.map(Interval::middle));
-        let [linear, square, cube] = middles;
-        // Where the slope is as large as makes the motions meet; the conditions below decide.
-        let steep = 8.0_f64.max(4.0 * linear);
-        let steep =
-            if square < 0.0 { steep.max(6.0 * cbrt(square * square / cube)) } else { steep };
-        let root = (square * square + 3.0 * cube * (steep - linear)).sqrt();
-        let e = if square < 0.0 {
-            (root - square) / (3.0 * cube)
-        } else {
-            (steep - linear) / (square + root)
-        };
-        let e = point(e);
-        let slope = self.slope(e);
-        let grows = c.lower() >= 0.0 && (b + three * c * e).lower() >= 0.0;
-        let excess = point(4.0) * (a - three * c * e.square());
-        let holds = grows
-            && e.lower() > 0.0
-            && slope.lower() > 0.0
-            && excess.upper() <= (slope * slope.square()).lower();
-        let left = -self.force(e);
-        let right = left + e.twice() / slope;
-        let piece = Interval::new(left.lower(), right.upper());
-        (holds && piece.is_finite()).then_some((e, piece))
-    }
-
-    /// The end of motions that are faster than e, by those from both ends of the piece at which they come back to e;
-    /// they became so at `x`, after this time and with this integral of `f'`.
-    ///
-    /// On the way there `f'` is at least `rate v`. After it, the way in time of all is that of the two ends but for this: with
-    /// `w^2 = 3 X_R (X_R - X_L)`, and a drag of at most `d < X_R/2` below the velocity w, nothing is faster than w at
-    /// `X_L`, because it would need a longer way than `w^2/(3 X_R)` to come to rest; so it is there within `w/(X_L - d)`.
-    fn fall(
-        &self,
-        (e, piece): (Interval, Interval),
-        x: Interval,
-        time: Interval,
-        damping: Interval,
-    ) -> Option<Swing> {
-        let from = |x: f64| {
-            let swing = follow(self, ([x, e.middle()], 0.0), 0.0, None)?;
-            swing.end.is_finite().then_some(swing)
-        };
-        let [a, b, c] = self.0;
-        let way = piece - x;
-        let rate = point(a.lower().min(0.0)) / e + b.twice() + c * e * point(3.0);
-        let gained = point(rate.lower().max(0.0)) * point(way.lower().max(0.0));
-        let before = damping + gained;
+    /// On the way there `f'` is at least `rate v`, so that its integral is at least `rate` times the way. After it, the way
+    /// in time of all is that of the two ends but for this: with `w^2 = 3 X_R (X_R - X_L)`, and a drag of at most `d < X_R/2`
+    /// below the velocity w, nothing is faster than w at `X_L`, because it would need a longer way than `w^2/(3 X_R)` to come
+    /// to rest; so it is there within `w/(X_L - d)`. The areas below them differ by no more than that of the piece.
+    fn fall(&self, [e, piece]: Fence, first: Swing, reach: f64) -> Option<Swing> {
+        let [a, b, c] = self.coefficients;
+        let rate = point(a.lower().min(0.0)) / e + b.twice() + c * e * 3.0;
+        let gained = (rate * (piece - first.end)).lower().max(0.0);
+        let before = first.damping + gained;
+        let from = |x: f64| self.follow(Disc::new([point(x), e]), reach, None);
         let (Some(low), Some(high)) = (from(piece.lower()), from(piece.upper())) else {
-            return self.beyond_fold(e, piece, before.lower());
+            return self.beyond_fold([e, piece], before);
         };
         let end = Interval::new(low.end.lower(), high.end.upper());
-        let w = (point(3.0 * end.upper()) * point(end.width())).sqrt().upper();
-        let drag = point(self.force(Interval::new(0.0, w)).magnitude());
+        let w = (point(end.upper()) * end.width() * 3.0).sqrt().upper();
+        let drag = self.force(Interval::new(0.0, w)).magnitude();
         let rate = point(end.lower()) - drag;
-        if !(rate.lower() > 0.0 && drag.upper() <= 0.49 * end.upper()) {
-            return None;
+        if !(rate.lower() > 0.0 && drag <= 0.49 * end.upper()) {
+            return Some(Swing { end, ..UNKNOWN });
         }
-        let around = |it: Interval, off: Interval| it + Interval::new(-off.upper(), off.upper());
-        let late = point(w) / point(rate.lower());
-        let after = around(low.time.hull(high.time), late);
-        let area = around(low.area.hull(high.area), e * point(piece.width()));
-        let damping = before + self.damping(after, end - piece, area);
-        let fast = Interval::new(0.0, (point(way.upper().max(0.0)) / e).upper());
-        Some(Swing {
-            end,
-            time: time + fast + after,
-            area: Interval::ALL,
-            damping: Interval::new(damping.lower(), f64::INFINITY),
-        })
+        let late = (point(w) / rate).upper();
+        let time = low.time.hull(high.time).widened(late) - low.time;
+        let way = (end - piece) - (low.end - piece.lower());
+        let after = low.damping + a * time + b.twice() * way - c * e * piece.width() * 3.0;
+        let damping = Interval::new((before + after).lower(), f64::INFINITY);
+        Some(Swing { end, damping, ..UNKNOWN })
     }
 
     /// The half swing from all z of an interval so far out that nothing slows them down before they are faster than e: as
     /// long as `x <= -z/2`, v grows at least at the rate `z/2 - d`, d bounding the damping below e.
-    fn far(&self, z: Interval, (e, piece): (Interval, Interval)) -> Option<Swing> {
+    fn far(&self, z: Interval, [e, piece]: Fence, reach: f64) -> Option<Swing> {
         let slow = Interval::new(0.0, e.upper());
-        let half = point(z.lower()) / point(2.0);
-        let rate = point((half - point(self.force(slow).magnitude())).lower());
+        let half = point(z.lower()) / 2.0;
+        let rate = point((half - self.force(slow).magnitude()).lower());
         let time = e / rate;
         let way = e * time;
-        let least = point(self.slope(slow).lower().min(0.0)) * point(time.upper());
-        let x = Interval::new(-z.upper(), (way - point(z.lower())).upper());
+        let least = time * self.slope(slow).lower().min(0.0);
+        let end = (-z).hull(way - z.lower());
         let reaches = rate.lower() > 0.0 && way.upper() <= half.lower();
         let damping = Interval::new(least.lower(), f64::INFINITY);
-        reaches.then(|| self.fall((e, piece), x, Interval::new(0.0, time.upper()), damping))?
+        reaches.then(|| self.fall([e, piece], Swing { end, damping, ..UNKNOWN }, reach))?
     }
 
     /// The end of motions that fall through `v = e > 0` at positive x in a piece, for `b < 0 < c`, where that is at a fold of
@@ -240,60 +203,130 @@ impl Field {
     /// the larger of k and the piece, and e, on it is `v' <= -e`, and after a further e at most they end. `f'` is at least
     /// `a - b^2/(3 c)`. With `w = |b|/(3 c)`, motions need at most `(X - x)/w` while they are faster than w, and
     /// while they are slower w by the least of `x + f`.
-    fn beyond_fold(&self, e: Interval, piece: Interval, before: f64) -> Option<Swing> {
-        let [a, b, c] = self.0;
+    fn beyond_fold(&self, [e, piece]: Fence, before: Interval) -> Option<Swing> {
+        let [a, b, c] = self.coefficients;
         if !(b.upper() < 0.0 && c.lower() > 0.0 && piece.lower() > 0.0) {
             return None;
         }
-        let pull = point((-a.lower()).max(0.0)) * e;
-        let k = point(-4.0) * b * b.square() / (point(27.0) * c.square()) + pull;
-        let last = point(k.upper().max(piece.upper())) + e.twice();
+        let k = -b * b.square() * 4.0 / (c.square() * 27.0) + e * (-a.lower()).max(0.0);
+        let last = e.twice() + k.upper().max(piece.upper());
         let end = Interval::new(piece.lower(), last.upper());
-        let w = point((-b / (point(3.0) * c)).upper());
-        let rate =
-            point((point(piece.lower()) + self.force(Interval::new(0.0, w.upper()))).lower());
-        let time = point((end - piece).upper()) / w + w / rate;
-        let least = (a - b.square() / (point(3.0) * c)).lower().min(0.0);
-        let damping = (point(before) + point(least) * point(time.upper())).lower();
-        let damping = Interval::new(damping, f64::INFINITY);
-        (rate.lower() > 0.0).then(|| Swing { damping, ..Swing::only(end) })
+        let w = (-b / (c * 3.0)).upper();
+        let rate = point((self.force(Interval::new(0.0, w)) + piece.lower()).lower());
+        let time = point((end - piece).upper()) / point(w) + point(w) / rate;
+        let least = (a - b.square() / (c * 3.0)).lower().min(0.0);
+        let damping = Interval::new((time * least + before).lower(), f64::INFINITY);
+        (rate.lower() > 0.0).then_some(Swing { end, damping, ..UNKNOWN })
     }
 
-    /// A place below which no motion passes that starts at rest next to the centre, for `a <= -2`, where this is a node.
+    /// What bounds all ends from above, however far out a motion starts: where they fall through the fence, its right end.
+    pub fn greatest(&self) -> Interval {
+        let from = |[e, piece]: Fence| self.follow(Disc::new([point(piece.upper()), e]), 0.0, None);
+        self.fence.and_then(from).map_or(Interval::ALL, |it| it.end)
+    }
+
+    /// What bounds all ends from below, however near to the centre a motion starts, for `a <= -2`, where this is a node.
     ///
     /// On the parabola `v = x - k x^2`, `k = 2 |b| + 1`, as long as `x (2 k^2 + |c|) <= k - |b|`, motions cross upwards:
     /// `(v - x + k x^2)' >= -x + 2 v - b v^2 - c v^3 - v + 2 k x v >= x^2 (k - |b|) - x^3 (2 k^2 + |c|)`, with `v <= x`.
-    pub fn leaving(&self) -> Option<[f64; 2]> {
-        let [b, c] = [self.0[1], self.0[2]].map(|it| point(it.magnitude()));
-        let k = b.twice() + point(1.0);
-        let x = 1e-3 * ((k - b) / (k.square().twice() + c)).lower();
-        let v = (point(x) - k * point(x).square()).lower();
-        (self.0[0].upper() <= -2.0 && x > 0.0 && v > 0.0).then_some([x, v])
+    pub fn least(&self) -> Interval {
+        let [a, b, c] = self.coefficients;
+        let [b, c] = [b, c].map(|it| point(it.magnitude()));
+        let k = b.twice() + 1.0;
+        let x = point(1e-3 * ((k - b) / (k.square().twice() + c)).lower());
+        let v = point((x - k * x.square()).lower());
+        let leaves = a.upper() <= -2.0 && x.lower() > 0.0 && v.lower() > 0.0;
+        leaves
+            .then(|| self.run(Disc::new([x, v]), 0.0))
+            .flatten()
+            .map_or(Interval::ALL, |it| it.end)
+    }
+
+    /// The half swing from rest at `-z`, for all z of an interval; `reach` is how far the sticking set reaches.
+    pub fn swing(&self, z: Interval, reach: f64) -> Swing {
+        if !(z.lower() > 0.0) {
+            return UNKNOWN;
+        }
+        let near = self.run(Disc::new([-z, point(0.0)]), reach);
+        let far = || self.far(z, self.fence?, reach);
+        near.or_else(far).unwrap_or(UNKNOWN)
+    }
+
+    fn run(&self, disc: Disc, reach: f64) -> Option<Swing> {
+        let fence = self.fence.filter(|it| disc.centre[1] <= it[0].lower());
+        self.follow(disc, reach, fence)
+    }
+
+    /// The half swing of all motions from a disc, which are at rest if its centre is; `None` where it is not certain.
+    fn follow(&self, mut disc: Disc, reach: f64, fence: Option<Fence>) -> Option<Swing> {
+        for _ in 0..STEPS {
+            let series = self.series(disc.centre.map(point));
+            let last = series[ORDER][0].magnitude().max(series[ORDER][1].magnitude());
+            let longest = pow(1e-6 * SMALL * disc.size() / last, 1.0 / 22.0).min(0.4);
+            // The polynomial of the velocity tells when about it vanishes; no bound rests on it.
+            let velocity = |h: f64| {
+                let middles = series.iter().take(ORDER).rev().map(|row| row[1].middle());
+                middles.fold(0.0, |sum: f64, next| sum * h + next)
+            };
+            let arrives = disc.centre[1] > 0.0 && velocity(longest) <= 0.0;
+            let arrival = || bisect(0.0, longest, 60, |h| velocity(h) <= 0.0).1;
+            let h = if arrives { arrival() } else { longest };
+            let mut shorter = (0..90).map(|k| (k, h * powi(0.8, k)));
+            let (tried, next) =
+                shorter.find_map(|(k, h)| Some((k, disc.step(self, &series, h)?)))?;
+            disc = next;
+            if arrives && tried == 0 {
+                return disc.end(self);
+            }
+            let place = disc.square();
+            if !(place[1].lower() > 0.0) {
+                return None;
+            }
+            if self.never_returns(place) {
+                return Some(Swing { end: point(f64::INFINITY), ..UNKNOWN });
+            }
+            if self.stays(place, reach) {
+                return Some(Swing { end: point(f64::NEG_INFINITY), ..UNKNOWN });
+            }
+            if let Some(fence) = fence.filter(|[e, _]| place[1].lower() > e.upper()) {
+                return self.fall(fence, disc.swing(), reach);
+            }
+        }
+        None
     }
 }
 
 /// A disc of motions under way.
-struct Disc {
+pub struct Disc {
     centre: [f64; 2],
     radius: f64,
-    /// Time and area since the start, and where that was.
+    /// Since the start: time, and the integral of `f'`.
     time: Interval,
-    area: Interval,
-    from: Interval,
+    damping: Interval,
 }
 
 impl Disc {
-    fn new(centre: [f64; 2], radius: f64) -> Self {
-        let from = Interval::around(centre[0], radius);
-        Disc { centre, radius, time: point(0.0), area: point(0.0), from }
+    /// Around a box of which one side is a point.
+    fn new(place: Place) -> Self {
+        let radius = place[0].radius().max(place[1].radius());
+        Disc { centre: place.map(Interval::middle), radius, time: point(0.0), damping: point(0.0) }
     }
 
     fn square(&self) -> Place {
         self.centre.map(|middle| Interval::around(middle, self.radius))
     }
 
-    /// Carries the disc over a step; `None` if no box is found, or a return might be missed.
-    fn step(&mut self, field: &Field, series: &Series, h: f64) -> Option<()> {
+    /// What is known so far.
+    fn swing(&self) -> Swing {
+        Swing { end: self.square()[0], time: self.time, damping: self.damping }
+    }
+
+    fn size(&self) -> f64 {
+        self.centre[0].abs().max(self.centre[1].abs())
+    }
+
+    /// The disc after a step; `None` if no box is found, the remainder is large, or a return might be missed.
+    fn step(&self, field: &Field, series: &Series, h: f64) -> Option<Disc> {
         let (start, time) = (self.square(), Interval::new(0.0, h));
         let next =
             |[x, v]: Place| [start[0] + time * v, start[1] + time * field.acceleration([x, v])];
@@ -305,7 +338,7 @@ impl Disc {
             tries.next()?;
             place = [0, 1].map(|column| {
                 let both = place[column].hull(reached[column]);
-                Interval::around(both.middle(), 1.05 * both.radius())
+                both.widened(0.05 * both.radius())
             });
         }
         let place = next(place);
@@ -313,27 +346,23 @@ impl Disc {
         if !(place[1].lower() > 0.0 || falls.lower() > 0.0 || falls.upper() < 0.0) {
             return None;
         }
-        let step = point(h);
-        let last = field.series(place)[ORDER];
-        let power = (0..ORDER).fold(point(1.0), |power, _| power * step);
-        // A step is short enough when its remainder is a matter of rounding.
-        let size = self.centre[0].abs().max(self.centre[1].abs());
-        if last.iter().take(2).any(|it| !((*it * power).magnitude() <= SMALL * size)) {
+        let last = field.series(place)[ORDER].map(|it| (0..ORDER).fold(it, |it, _| it * h));
+        if !(last[0].magnitude().max(last[1].magnitude()) <= SMALL * self.size()) {
             return None;
         }
-        let [x, v, area] = [0, 1, 2].map(|column| {
-            let sum = (0..ORDER).rev().fold(point(0.0), |sum, k| sum * step + series[k][column]);
-            sum + last[column] * power
+        let [x, v, damping] = [0, 1, 2].map(|column| {
+            let sum = (0..ORDER).rev().fold(point(0.0), |sum, k| sum * h + series[k][column]);
+            sum + last[column]
         });
-        let growth = (point((-field.slope(place[1]).lower()).max(0.0)) * step).exp();
-        let spread = growth * point(self.radius);
-        let speed = point(place[1].magnitude());
-        let aside = (step * spread * (speed.twice() + spread)).upper();
-        self.time = self.time + step;
-        self.area = self.area + area + Interval::new(-aside, aside);
-        self.radius = (spread + point(x.radius()) + point(v.radius())).upper();
-        self.centre = [x, v].map(Interval::middle);
-        self.radius.is_finite().then_some(())
+        let [_, b, c] = field.coefficients;
+        let growth = (point((-field.slope(place[1]).lower()).max(0.0)) * h).exp();
+        let spread = growth * self.radius;
+        // How much `f'` may differ between two motions, from `f''`.
+        let unlike = spread * (b + c * place[1] * 3.0).magnitude() * 2.0;
+        let radius = (spread + x.radius() + v.radius()).upper();
+        let damping = self.damping + damping.widened((unlike * h).upper());
+        let (centre, time) = ([x, v].map(Interval::middle), self.time + h);
+        radius.is_finite().then_some(Disc { centre, radius, time, damping })
     }
 
     /// The end, with `abs(v) <= m` for all motions: as long as this is so, and x is within a tenth of itself, v falls at
@@ -341,83 +370,15 @@ impl Disc {
     fn end(&self, field: &Field) -> Option<Swing> {
         let [x, v] = self.square();
         let m = point(v.magnitude());
-        let rate = -field.acceleration([x * Interval::new(0.9, 1.1), m.hull(-m)]);
-        let lag = m / point(rate.lower());
+        let slow = m.hull(-m);
+        let rate = point(-field.acceleration([x * Interval::new(0.9, 1.1), slow]).upper());
+        let lag = m / rate;
         let way = (m * lag).upper();
         if !(rate.lower() > 0.0 && x.lower() > 0.0 && way < 0.05 * x.lower()) {
             return None;
         }
-        let around = |it: Interval, off: f64| it + Interval::new(-off, off);
-        let (end, time) = (around(x, way), around(self.time, lag.upper()));
-        let area = around(self.area, (m * point(way)).upper());
-        let damping = field.damping(time, end - self.from, area);
-        Some(Swing { end, time, area, damping })
+        let late = (lag * field.slope(slow).magnitude()).upper();
+        let time = self.time.widened(lag.upper());
+        Some(Swing { end: x.widened(way), time, damping: self.damping.widened(late) })
     }
-}
-
-/// Where the polynomial of the velocity vanishes, about; no bound rests on it.
-fn arrival(series: &Series, longest: f64) -> Option<f64> {
-    let velocity = |h: f64| {
-        let middles = series.iter().take(ORDER).rev().map(|row| row[1].middle());
-        middles.fold(0.0, |sum: f64, next| sum * h + next)
-    };
-    (velocity(longest) <= 0.0).then(|| bisect(0.0, longest, 60, |h| velocity(h) <= 0.0).1)
-}
-
-/// The half swing from rest at `-z`, for all z of an interval; `reach` is how far the sticking set reaches.
-pub fn swing(field: &Field, z: Interval, reach: f64) -> Swing {
-    if !(z.lower() > 0.0) {
-        return Swing::only(Interval::ALL);
-    }
-    let found = run(field, ([-z.middle(), 0.0], z.radius()), reach);
-    let far = || field.fence().and_then(|fence| field.far(z, fence));
-    if found.end == Interval::ALL { far().unwrap_or(found) } else { found }
-}
-
-/// The half swing of all motions within a radius of a point, which are at rest if the point is; stiff ones by the fence.
-pub fn run(field: &Field, from: ([f64; 2], f64), reach: f64) -> Swing {
-    let stiff = || follow(field, from, reach, field.fence().filter(|it| from.0[1] <= it.0.lower()));
-    follow(field, from, reach, None).or_else(stiff).unwrap_or(Swing::only(Interval::ALL))
-}
-
-/// `None` where it is not certain.
-fn follow(
-    field: &Field,
-    (centre, radius): ([f64; 2], f64),
-    reach: f64,
-    fence: Option<(Interval, Interval)>,
-) -> Option<Swing> {
-    let mut disc = Disc::new(centre, radius);
-    for _ in 0..STEPS {
-        let series = field.series(disc.centre.map(point));
-        let size = disc.centre[0].abs().max(disc.centre[1].abs());
-        let last = series[ORDER][0].magnitude().max(series[ORDER][1].magnitude());
-        let longest = pow(1e-6 * SMALL * size / last, 1.0 / 22.0).min(0.4);
-        let arrives = if disc.centre[1] > 0.0 { arrival(&series, longest) } else { None };
-        let mut h = arrives.unwrap_or(longest);
-        while disc.step(field, &series, h).is_none() {
-            h *= 0.8;
-            if !(h > 1e-9 * longest) {
-                return None;
-            }
-        }
-        if arrives == Some(h) {
-            return disc.end(field);
-        }
-        let [x, v] = disc.square();
-        if !(v.lower() > 0.0) {
-            return None;
-        }
-        if field.never_returns(x.upper(), v.lower()) {
-            return Some(Swing::only(point(f64::INFINITY)));
-        }
-        if field.stays(x, v, reach) {
-            return Some(Swing::only(point(f64::NEG_INFINITY)));
-        }
-        if let Some(fence) = fence.filter(|(e, _)| v.lower() > e.upper()) {
-            let damping = field.damping(disc.time, x - disc.from, disc.area);
-            return field.fall(fence, x, disc.time, damping);
-        }
-    }
-    None
 }

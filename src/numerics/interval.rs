@@ -91,6 +91,11 @@ impl Interval {
         if self.lower == self.upper { 0.0 } else { (self.upper - self.lower).next_up() }
     }
 
+    /// What is no further from a member than this.
+    pub fn widened(self, off: f64) -> Self {
+        Interval::outward(self.lower - off, self.upper + off)
+    }
+
     /// Whether a number is a member.
     pub fn contains(self, value: f64) -> bool {
         self.lower <= value && value <= self.upper
@@ -309,6 +314,21 @@ impl Div for Interval {
         ])
     }
 }
+
+/// With a double for the other operand, which stands for itself.
+macro_rules! with_a_double {
+    ($($operation:ident $method:ident),*) => {$(
+        impl $operation<f64> for Interval {
+            type Output = Interval;
+
+            fn $method(self, other: f64) -> Interval {
+                $operation::$method(self, Interval::point(other))
+            }
+        }
+    )*};
+}
+
+with_a_double!(Add add, Sub sub, Mul mul, Div div);
 
 /// The outward hull of four rounded results; `min` and `max` skip what is not a number, so that is
 /// looked for first.

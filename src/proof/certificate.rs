@@ -9,6 +9,7 @@ use super::theorems::Theorem;
 use crate::check::map::Map;
 use crate::check::{Bounds, Certificate, Kind, Step};
 use crate::numerics::Interval;
+use crate::numerics::elementary::cbrt;
 
 /// Makes the certificate of a proof.
 ///
@@ -27,10 +28,9 @@ pub fn certificate(proof: &Proof) -> Result<Certificate, String> {
             Theorem::Affine => Kind::Affine,
             Theorem::Frictionless => Kind::Frictionless,
         };
-        vec![Step { kind, from: 0.0, to: None, clearance: None }]
+        vec![Step { kind, from: 0.0, to: None, clearance: None, fences: None }]
     } else {
-        let map = Map::new(parameters);
-        let mut walk = Walk { map, at: 0.0, above: false, steps: Vec::new() };
+        let mut walk = Walk { parameters, at: 0.0, above: false, steps: Vec::new() };
         walk.begin(proof)?;
         for cycle in &proof.cycles {
             walk.pass(cycle)?;
@@ -56,7 +56,7 @@ pub fn text(of: &Certificate) -> Result<String, serde_json::Error> {
 
 /// On the way outwards.
 struct Walk {
-    map: Map,
+    parameters: [Interval; 4],
     at: f64,
     /// Whether G lies above the diagonal here.
     above: bool,
@@ -66,7 +66,19 @@ struct Walk {
 /// Steps after which a certificate is given up.
 const MOST: usize = 3_000;
 
+/// Velocities of fences, or none.
+type Fences = Option<[f64; 2]>;
+
 impl Walk {
+    /// G, or its inverse, without fences and with them.
+    fn maps(&self, inverse: bool) -> [(Fences, Map); 2] {
+        let [d, d2, d3, _] = self.parameters.map(Interval::middle);
+        let sign = if inverse { -1.0 } else { 1.0 };
+        let fences = [-d2, d2].map(|b| fence([2.0 * d * sign, b, d3 * sign]));
+        [None, Some(fences)]
+            .map(|fences| (fences, Map::new(self.parameters, inverse, fences.unwrap_or_default())))
+    }
+
     /// From where motions come to rest within a turn, or from next to a node that repels.
     fn begin(&mut self, proof: &Proof) -> Result<(), String> {
         let mut map = ReturnMap::new(&proof.parameters);
@@ -75,9 +87,11 @@ impl Walk {
         let known = first > 0.0 && first < f64::INFINITY;
         let mut to = if known { 0.95 * first } else { map.gap.upper() };
         for _ in 0..40 {
-            if self.map.after(false, to).upper() == f64::NEG_INFINITY {
-                self.take(Kind::Rest, Some(to), None);
-                return Ok(());
+            for (fences, map) in self.maps(false) {
+                if map.images(Interval::point(to)).upper() < 0.0 {
+                    self.take(Kind::Within, Some(to), None, fences);
+                    return Ok(());
+                }
             }
             to *= 0.5;
         }
@@ -87,10 +101,9 @@ impl Walk {
     }
 
     /// Goes a step.
-    fn take(&mut self, kind: Kind, to: Option<f64>, clearance: Option<Bounds>) {
-        self.steps.push(Step { kind, from: self.at, to, clearance });
+    fn take(&mut self, kind: Kind, to: Option<f64>, clearance: Option<Bounds>, fences: Fences) {
+        self.steps.push(Step { kind, from: self.at, to, clearance, fences });
         self.at = to.unwrap_or(f64::INFINITY);
-        self.above = kind.above().is_some_and(|[_, end]| end);
     }
 
     fn aside(&self) -> Kind {
@@ -98,20 +111,32 @@ impl Walk {
     }
 
     /// How far the image of the place allows to go; infinitely far if it never turns.
-    fn reach(&self) -> f64 {
-        self.map.after(!self.above, self.at).lower()
+    fn reach(&self) -> (f64, Fences) {
+        let at = Interval::point(self.at);
+        let reaches = self
+            .maps(!self.above)
+            .into_iter()
+            .map(|(fences, map)| (map.images(at).lower(), fences));
+        let mut found = (f64::NEG_INFINITY, None);
+        for (reach, fences) in reaches {
+            if reach > self.at {
+                return (reach, fences);
+            }
+            found = (reach, fences);
+        }
+        found
     }
 
     /// One step, to a place at most.
     fn step(&mut self, most: f64) -> Result<(), String> {
         /// A part of what the image allows, so that it is not a matter of rounding.
         const PART: f64 = 0.95;
-        let (from, reach) = (self.at, self.reach());
+        let (from, (reach, fences)) = (self.at, self.reach());
         let to = if reach < f64::INFINITY { most.min(from + PART * (reach - from)) } else { most };
         if !(to > from && to < f64::INFINITY && self.steps.len() < MOST) {
             return Err(format!("a turn from the clearance {from:?} is not certain"));
         }
-        self.take(self.aside(), Some(to), None);
+        self.take(self.aside(), Some(to), None, fences);
         Ok(())
     }
 
@@ -124,41 +149,62 @@ impl Walk {
             [1e-13, 1e-12, 1e-11, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 0.03, 0.1];
         let bounds = cycle.enclosure.map_or(cycle.within, |it| it.clearance);
         let ends = |part: f64| [bounds.lower() * (1.0 - part), bounds.upper() * (1.0 + part)];
-        let narrow = |&[from, to]: &Bounds| {
-            let slope = self.map.slope(!cycle.stable, Interval::new(from, to));
-            from > self.at && slope.is_some_and(|slope| slope.upper() < 1.0)
-        };
-        let close = "the derivative of the map at a cycle is too close to 1";
-        let [from, to] = WIDTHS.map(ends).into_iter().find(narrow).ok_or(close)?;
-        let image = |z: f64| self.map.after(!cycle.stable, z);
-        let certain =
-            |&[low, high]: &Bounds| image(low).lower() > low && image(high).upper() < high;
-        let clearance =
-            WIDER.map(ends).into_iter().find(certain).ok_or("a cycle cannot be bounded")?;
-        while self.at < from {
-            self.step(from)?;
+        let mut why = "the derivative of the map at a cycle is too close to 1";
+        for (fences, map) in self.maps(!cycle.stable) {
+            let narrow = |&[from, to]: &Bounds| {
+                let slope = map.slope(Interval::new(from, to));
+                from > self.at && slope.is_some_and(|slope| slope.upper() < 1.0)
+            };
+            let image = |z: f64| map.images(Interval::point(z));
+            if !image(bounds.middle()).is_finite() {
+                continue;
+            }
+            let certain =
+                |&[low, high]: &Bounds| image(low).lower() > low && image(high).upper() < high;
+            let Some([from, to]) = WIDTHS.map(ends).into_iter().find(narrow) else { continue };
+            let Some(clearance) = WIDER.map(ends).into_iter().find(certain) else {
+                why = "a cycle cannot be bounded";
+                continue;
+            };
+            while self.at < from {
+                self.step(from)?;
+            }
+            let kind = if cycle.stable { Kind::Stable } else { Kind::Unstable };
+            self.take(kind, Some(to), Some(clearance), fences);
+            self.above = !cycle.stable;
+            return Ok(());
         }
-        self.take(
-            if cycle.stable { Kind::Stable } else { Kind::Unstable },
-            Some(to),
-            Some(clearance),
-        );
-        Ok(())
+        Err(why.to_owned())
     }
 
     /// Beyond all cycles.
     fn leave(&mut self) -> Result<(), String> {
-        let greatest = self.map.greatest_image();
+        let all = Interval::new(0.0, f64::INFINITY);
+        let [_, (fences, map)] = self.maps(false);
+        let greatest = map.images(all).upper();
         loop {
             if !self.above && greatest < self.at {
-                self.take(Kind::Damped, None, None);
+                self.take(Kind::Within, None, None, fences);
                 return Ok(());
             }
-            if self.reach() == f64::INFINITY {
-                self.take(self.aside(), None, None);
+            if let (f64::INFINITY, fences) = self.reach() {
+                self.take(self.aside(), None, None, fences);
                 return Ok(());
             }
             self.step(f64::MAX)?;
         }
     }
+}
+
+/// The velocity of a fence for these coefficients: where the slope of the damping is as large as makes the motions meet.
+pub fn fence([linear, square, cube]: [f64; 3]) -> f64 {
+    let steep = 8.0_f64.max(4.0 * linear);
+    let steep = if square < 0.0 { steep.max(6.0 * cbrt(square * square / cube)) } else { steep };
+    let root = (square * square + 3.0 * cube * (steep - linear)).sqrt();
+    let e = if square < 0.0 {
+        (root - square) / (3.0 * cube)
+    } else {
+        (steep - linear) / (square + root)
+    };
+    if e.is_finite() && e > 0.0 { e } else { 0.0 }
 }

@@ -1,6 +1,6 @@
 //! Certificates of limit cycles: what is written is accepted, and nothing else.
 
-use hopfscope::check::motion::{Field, swing};
+use hopfscope::check::motion::Field;
 use hopfscope::check::{Certificate, Kind, Step, check};
 use hopfscope::numerics::Interval;
 use hopfscope::oscillator::Parameters;
@@ -63,6 +63,23 @@ fn places(value: &Value, path: &str, found: &mut Vec<String>) {
     }
 }
 
+/// A fence that is none does not bound anything: without it nothing is certain from far out.
+#[test]
+fn a_fence_is_verified() {
+    let text = written(-0.2, 0.2, 0.5, 0.1);
+    let whole = check(&text).unwrap();
+    let last = whole.steps.len() - 1;
+    assert!(whole.steps[last].to.is_none() && whole.steps[last].fences.is_some());
+    for fences in
+        [None, Some([0.0, 0.0]), Some([-2.5, -2.2]), Some([0.1, 0.1]), Some([1e200, 1e200])]
+    {
+        let mut changed = whole.clone();
+        changed.steps[last].fences = fences;
+        let refusal = check(&file(&changed).unwrap()).unwrap_err();
+        assert_eq!(line(&refusal), last + 5, "{fences:?}: {refusal}");
+    }
+}
+
 /// Every field perturbed in turn, by a part in a thousand: refused at its line, unless a bound of the clearance has
 /// become wider and is still true.
 #[test]
@@ -119,7 +136,8 @@ fn a_step_that_is_missing_or_out_of_place_is_refused_with_its_line() {
         let there = gone + 5;
         assert!((there - 1..=there).contains(&line(&refusal)), "without step {gone}: {refusal}");
     }
-    let steps = vec![Step { kind: Kind::OneWay, from: 0.0, to: None, clearance: None }];
+    let steps =
+        vec![Step { kind: Kind::OneWay, from: 0.0, to: None, clearance: None, fences: None }];
     let claimed = file(&Certificate { parameters: whole.parameters, cycles: 0, steps }).unwrap();
     assert_eq!(line(&check(&claimed).unwrap_err()), 5);
     assert_eq!(line(&check("{\n\"cycles\": x").unwrap_err()), 2);
@@ -141,9 +159,9 @@ fn intervals_of_parameters_are_certified_and_what_is_open_is_not() {
 /// From far out all motions fall onto one curve: the end of all starts is that of one of them, and they come closer.
 #[test]
 fn swings_from_far_out_end_together() {
-    let field = Field([0.2, 25.0, 0.03].map(Interval::point));
-    let all = swing(&field, Interval::new(2e6, 2.1e6), 0.0);
-    let one = swing(&field, Interval::point(2.05e6), 0.0);
+    let field = Field::new([0.2, 25.0, 0.03].map(Interval::point), 0.16);
+    let all = field.swing(Interval::new(2e6, 2.1e6), 0.0);
+    let one = field.swing(Interval::point(2.05e6), 0.0);
     assert!(
         all.end.is_finite() && all.end.intersection(one.end).is_some(),
         "{} {}",
