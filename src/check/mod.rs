@@ -46,13 +46,13 @@ pub struct Step {
     #[serde(rename = "step")]
     pub kind: Kind,
     pub from: f64,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub to: Option<f64>,
     /// Of a cycle: bounds of its clearance.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance: Option<Bounds>,
     /// Where half swings are stiff: the velocities of the fences of both, 0 for none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub fences: Option<[f64; 2]>,
 }
 

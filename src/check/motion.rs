@@ -10,6 +10,8 @@
 //! 3. *The others stay near it.* The symmetric part of the Jacobian `[0 1; -1 -f'(v)]` is `diag(0, -f'(v))`: in
 //!    B the distance of two motions grows at most as `exp(m h)` with `m = max(0, -f')`.
 //! 4. *No return is missed.* Within a step v is positive on all of B, or changes one way only there.
+//!
+//! Lemmas are those of `docs/proofs.md`.
 
 #![expect(
     clippy::neg_cmp_op_on_partial_ord,
@@ -64,13 +66,8 @@ const UNKNOWN: Swing = Swing { end: Interval::ALL, time: Interval::ALL, damping:
 type Fence = [Interval; 2];
 
 impl Field {
-    /// With a fence at this velocity, if there is one.
-    ///
-    /// Let `f'` be positive at e and not fall from there on. A motion can fall through `v = e` only where `-x - f <= 0`:
-    /// from `x = -f(e)` on. On the curve `Q = x + f - 2 v/f' = 0` it is `v' = -2 v/f'`, and
-    /// `Q' = v (-1 + 4 (f' - v f'')/f'^3) <= 0` if `4 (a - 3 c v^2) <= f'^3`, because `f' - v f'' = a - 3 c v^2`; that
-    /// holds from e on if it does there. So no motion from the left crosses this curve, which ends at
-    /// `x = -f(e) + 2 e/f'(e)`.
+    /// With a fence at this velocity e, if there is one (lemma 11): where `f'` is positive and does not fall from e on, and
+    /// `4 (a - 3 c v^2) <= f'^3`, motions fall through `v = e` between `x = -f(e)` and `x = -f(e) + 2 e/f'(e)`.
     pub fn new(coefficients: [Interval; 3], velocity: f64) -> Self {
         let (field, e) = (Field { coefficients, fence: None }, point(velocity));
         let [a, b, c] = coefficients;
@@ -125,11 +122,8 @@ impl Field {
         found
     }
 
-    /// Whether what is at most at `x` and has at least the velocity `v` never comes back to `v = 0`.
-    ///
-    /// On the line `v = x + m` through this corner, `m > 0`, motions cross upwards where
-    /// `P(v) = m - (a + 2) v - b v^2 - c v^3 >= 0`, and above it `v' >= P(v) + v`. So it is enough that P is not
-    /// negative from v on, which its coefficients there show.
+    /// Whether what is at most at `x` and has at least the velocity `v` never comes back to `v = 0` (lemma 7): on the line
+    /// through this corner motions cross upwards, because `P(v) = m - (a + 2) v - b v^2 - c v^3` is not negative from v on.
     fn never_returns(&self, [x, v]: Place) -> bool {
         let [a, b, c] = self.coefficients;
         let at = point(v.lower());
@@ -150,13 +144,8 @@ impl Field {
         most <= reach && (a + speeds * (b + speeds * c)).lower() >= 0.0
     }
 
-    /// The end of motions that are faster than the fence, by those from both ends of its piece; they became so after a
-    /// first part.
-    ///
-    /// On the way there `f'` is at least `rate v`, so that its integral is at least `rate` times the way. After it, the way
-    /// in time of all is that of the two ends but for this: with `w^2 = 3 X_R (X_R - X_L)`, and a drag of at most `d < X_R/2`
-    /// below the velocity w, nothing is faster than w at `X_L`, because it would need a longer way than `w^2/(3 X_R)` to come
-    /// to rest; so it is there within `w/(X_L - d)`. The areas below them differ by no more than that of the piece.
+    /// The end of motions that are faster than the fence, by those from both ends of its piece (lemma 12); they became so
+    /// after a first part. On the way `f'` is at least `rate v`, and what the ends leave open of time and area is small.
     fn fall(&self, [e, piece]: Fence, first: Swing, reach: f64) -> Option<Swing> {
         let [a, b, c] = self.coefficients;
         let rate = point(a.lower().min(0.0)) / e + b.twice() + c * e * 3.0;
@@ -182,7 +171,7 @@ impl Field {
     }
 
     /// The half swing from all z of an interval so far out that nothing slows them down before they are faster than e: as
-    /// long as `x <= -z/2`, v grows at least at the rate `z/2 - d`, d bounding the damping below e.
+    /// long as `x <= -z/2`, v grows at least at the rate `z/2 - d`, d bounding the damping below e (lemma 12).
     fn far(&self, z: Interval, [e, piece]: Fence, reach: f64) -> Option<Swing> {
         let slow = Interval::new(0.0, e.upper());
         let half = point(z.lower()) / 2.0;
@@ -197,12 +186,7 @@ impl Field {
     }
 
     /// The end of motions that fall through `v = e > 0` at positive x in a piece, for `b < 0 < c`, where that is at a fold of
-    /// `x = -f(v)`; `before` bounds the integral of `f'` until then from below.
-    ///
-    /// They fall until they end: where `v' = 0` it is `v'' = -v < 0`. Below e, `-f <= k = 4 |b|^3/(27 c^2) + max(-a, 0) e`; so from
-    /// the larger of k and the piece, and e, on it is `v' <= -e`, and after a further e at most they end. `f'` is at least
-    /// `a - b^2/(3 c)`. With `w = |b|/(3 c)`, motions need at most `(X - x)/w` while they are faster than w, and
-    /// while they are slower w by the least of `x + f`.
+    /// `x = -f(v)` (end of lemma 12); `before` bounds the integral of `f'` until then from below.
     fn beyond_fold(&self, [e, piece]: Fence, before: Interval) -> Option<Swing> {
         let [a, b, c] = self.coefficients;
         if !(b.upper() < 0.0 && c.lower() > 0.0 && piece.lower() > 0.0) {
@@ -225,10 +209,8 @@ impl Field {
         self.fence.and_then(from).map_or(Interval::ALL, |it| it.end)
     }
 
-    /// What bounds all ends from below, however near to the centre a motion starts, for `a <= -2`, where this is a node.
-    ///
-    /// On the parabola `v = x - k x^2`, `k = 2 |b| + 1`, as long as `x (2 k^2 + |c|) <= k - |b|`, motions cross upwards:
-    /// `(v - x + k x^2)' >= -x + 2 v - b v^2 - c v^3 - v + 2 k x v >= x^2 (k - |b|) - x^3 (2 k^2 + |c|)`, with `v <= x`.
+    /// What bounds all ends from below, however near to the centre a motion starts, for `a <= -2`, where this is a node: no
+    /// motion passes below the parabola `v = x - k x^2`, `k = 2 |b| + 1`, if `x (2 k^2 + |c|) <= k - |b|` (lemma 10).
     pub fn least(&self) -> Interval {
         let [a, b, c] = self.coefficients;
         let [b, c] = [b, c].map(|it| point(it.magnitude()));

@@ -319,6 +319,9 @@ pub fn box_table(proof: &Proof) -> String {
         let kind = stability(cycle.stable);
         let mut cells = vec![kind.to_owned()];
         let ends = |it: Interval| {
+            if !it.is_finite() {
+                return certain(it, PLACES);
+            }
             let [lower, upper] = outward(it);
             format!("{lower} .. {upper}")
         };
@@ -339,8 +342,12 @@ pub fn box_table(proof: &Proof) -> String {
             format!("{name} = {} .. {}", it.lower(), it.upper())
         }
     });
-    let text =
-        if proof.cycles.is_empty() { String::new() } else { format!("{}\n", table.aligned_left()) };
+    let table = table.aligned_left().to_string();
+    let text = if proof.cycles.is_empty() {
+        String::new()
+    } else {
+        format!("{table}\n{}", super::proof::uncertain(&table))
+    };
     let line = super::proof::sentence(proof.cycles.len(), proof);
     let line = line.replace("for the parameters as doubles", "for all of these parameters");
     format!("{}\n\n{text}{line}", heading.join(", "))

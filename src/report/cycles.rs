@@ -96,10 +96,7 @@ fn certain_cycle(cycle: &Cycle, bounds: &Enclosure, places: usize) -> Vec<String
     let Enclosure { q_min, q_max, v_min, v_max, period, multiplier, clearance } = *bounds;
     let numbers = [q_min, q_max, v_min, v_max, period, multiplier, clearance];
     for (cell, bounds) in cells.iter_mut().skip(1).zip(numbers) {
-        // What over- or underflows is told by its logarithm.
-        if !cell.starts_with("exp") {
-            *cell = certain(bounds, places);
-        }
+        *cell = certain(bounds, places);
     }
     cells
 }
@@ -120,7 +117,8 @@ pub fn table(found: &Cycles, proof: &Proof, seconds: f64) -> String {
                 cells
             });
         }
-        out += &format!("{table}\n");
+        let table = table.to_string();
+        out += &format!("{table}\n{}", proof::uncertain(&table));
     }
     out += &proof::sentence(found.cycles.len(), proof);
     out += "\nby one harmonic, for comparison: ";

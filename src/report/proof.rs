@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::numerics::Interval;
+use crate::numerics::elementary::log10;
 use crate::proof::cycles::{Open, Proof};
 use crate::proof::enclose::Enclosure;
 use crate::proof::field::ParameterBox;
@@ -130,11 +131,32 @@ pub(super) fn sentence(found: usize, proof: &Proof) -> String {
     out
 }
 
-/// The digits on which both ends of an enclosure agree, at most `most`; `?` if there are none.
+/// The digits on which both ends of an enclosure agree, at most `most`; if there are none, a power of ten that bounds what
+/// over- or underflows, else `?`.
 pub(super) fn certain(value: Interval, most: usize) -> String {
     let ends = |digits| [value.lower(), value.upper()].map(|end| significant(end, digits));
     let agreed = (1..=most).rev().map(ends).find(|[lower, upper]| lower == upper);
-    agreed.map_or_else(|| "?".to_owned(), |[digits, _]| digits)
+    agreed.map(|[digits, _]| digits).or_else(|| beyond(value)).unwrap_or_else(|| "?".to_owned())
+}
+
+/// That a value is beyond a power of ten, if this is beyond what anyone asks of such a number.
+fn beyond(value: Interval) -> Option<String> {
+    const HUGE: f64 = 1e100;
+    let power = |of: f64| log10(of).floor();
+    if value.lower() > HUGE && value.upper() == f64::INFINITY {
+        return Some(format!("> 1e{}", power(value.lower()) - 1.0));
+    }
+    let tiny = value.lower() == 0.0 && value.upper() < 1.0 / HUGE;
+    tiny.then(|| format!("< 1e{}", power(value.upper()) + 2.0))
+}
+
+/// What `?` means in a table, if it has any.
+pub(super) fn uncertain(table: &str) -> &'static str {
+    if table.contains('?') {
+        "?: no digit of it is certain; bounds of half swings as stiff as these say little of it\n"
+    } else {
+        ""
+    }
 }
 
 #[cfg(test)]
@@ -146,6 +168,9 @@ mod tests {
         assert_eq!(certain(Interval::new(0.123_449, 0.123_451), 10), "0.12345");
         assert_eq!(certain(Interval::new(0.123_44, 0.123_46), 10), "0.123");
         assert_eq!(certain(Interval::new(1.0, 3.0), 10), "?");
+        assert_eq!(certain(Interval::new(1.0, f64::INFINITY), 10), "?");
+        assert_eq!(certain(Interval::new(1.3e150, f64::INFINITY), 10), "> 1e149");
+        assert_eq!(certain(Interval::new(0.0, 5e-324), 10), "< 1e-322");
         assert_eq!(certain(Interval::point(0.1), 10), "0.1");
     }
 }
