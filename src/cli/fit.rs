@@ -14,8 +14,8 @@ use crate::figure::{self, Figure, Form};
 use crate::fit::contour::{RISES, contour};
 use crate::fit::curves::Curves;
 use crate::fit::levenberg_marquardt::Runs;
-use crate::fit::names::{Choice, NAMES, NameSpec, named};
-use crate::fit::observation::{D, OMEGA0, R};
+use crate::fit::names::{Choice, NameSpec, assigned, listed};
+use crate::fit::observation::{D, R};
 use crate::fit::{
     Column, DRAWS, Estimate, Fitted, Inertia, LENGTHS, LossName, Question, Reading, Unfit,
     estimate, length_in_metres, margins, parse,
@@ -42,7 +42,7 @@ pub struct Fit {
     #[arg(long, value_name = "NAMES", value_parser = names)]
     free: Option<Names>,
     /// Holds a number at a value, such as D3=0; repeatable
-    #[arg(long, value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
+    #[arg(long, value_name = "NAME=VALUE", value_parser = assigned, allow_hyphen_values = true)]
     set: Vec<(&'static NameSpec, f64)>,
     /// How residuals count
     #[arg(long, value_enum, default_value_t = Loss::Auto, value_name = "LOSS")]
@@ -99,32 +99,8 @@ impl From<Loss> for LossName {
 #[derive(Clone, Debug)]
 struct Names(Vec<&'static NameSpec>);
 
-fn name(text: &str) -> Result<&'static NameSpec, String> {
-    named(text.trim()).ok_or_else(|| {
-        format!("there is no {text:?}; there are {}", NAMES.map(|row| row.name).join(", "))
-    })
-}
-
 fn names(text: &str) -> Result<Names, String> {
-    text.split(',').map(name).collect::<Result<_, _>>().map(Names)
-}
-
-fn assignment(text: &str) -> Result<(&'static NameSpec, f64), String> {
-    let (key, value) = text.split_once('=').ok_or("expected NAME=VALUE, such as D3=0")?;
-    let row = name(key)?;
-    let value: f64 = value.trim().parse().map_err(|_| format!("{value:?} is not a number"))?;
-    let allowed = match row.place {
-        OMEGA0 => value > 0.0,
-        R => value >= 0.0,
-        _ => true,
-    };
-    if value.is_finite() && allowed {
-        Ok((row, value))
-    } else {
-        let least = if row.place == OMEGA0 { "more than 0" } else { "0 or more" };
-        let range = if matches!(row.place, OMEGA0 | R) { least } else { "any finite number" };
-        Err(format!("{text} is outside its range; allowed: {range}"))
-    }
+    listed(text).map(Names)
 }
 
 fn columns(text: &str) -> Result<(Option<Column>, Option<Column>), String> {

@@ -58,6 +58,8 @@ pub struct Estimate {
     pub noise: Noise,
     /// Samples flattened at full scale, left out.
     pub saturated: usize,
+    /// Samples at rest before the mass was struck, left out.
+    pub before: usize,
     /// Samples at rest that repeat the rounding error of others, left out.
     pub alike: usize,
     /// Motions computed with and without derivatives.
@@ -96,6 +98,9 @@ impl Estimate {
     }
 }
 
+/// Residuals so many times the noise of the record are no noise, however it was filtered.
+const ALIEN: f64 = 10.0;
+
 /// Judges a minimum: noise, covariance, intervals, rivals.
 ///
 /// # Errors
@@ -125,8 +130,21 @@ pub fn judged(
         (whiteness.white, whiteness.autocorrelation) = (true, Vec::new());
     }
     let left_over = |noise: &[f64], lags: usize| left_over(&task, best, noise, lags);
-    let whiteness = whiteness.restored(&kept, samples_per_period, left_over);
-    let covariance = Covariance::at(&task, best, &whiteness.autocorrelation).ok_or(Unfit::Blind)?;
+    let restored = whiteness.clone().restored(&kept, samples_per_period, left_over);
+    let covariance = |of: &Whiteness| {
+        Covariance::at(&task, best, &of.autocorrelation).filter(Covariance::is_possible)
+    };
+    let (mut whiteness, covariance) = match covariance(&restored) {
+        Some(covariance) => (restored, covariance),
+        // A memory that no noise has.
+        None => {
+            (whiteness.systematic, whiteness.autocorrelation) = (true, Vec::new());
+            let covariance = covariance(&whiteness).ok_or(Unfit::Blind)?;
+            (whiteness, covariance)
+        }
+    };
+    whiteness.systematic |= problem.noise > 0.0 && covariance.deviation > ALIEN * problem.noise;
+    whiteness.white &= !whiteness.systematic;
     // Correlated noise makes larger differences of the loss by chance.
     let unit = task.variance(&best.seen, covariance.freedom) * covariance.inflation(R);
     let rivals: Vec<Rival> = found
@@ -152,7 +170,12 @@ pub fn judged(
             if !problem.free[place] {
                 continue;
             }
-            let one = profile.interval(place, runs)?;
+            // Where the model leaves something out the likelihood is none, and its profile tells nothing.
+            let one = if whiteness.systematic {
+                profile.straight(place)
+            } else {
+                profile.interval(place, runs)?
+            };
             *interval = if rival.delta_chi2 == 0.0 { one } else { interval.joined(one) };
         }
     }
@@ -173,6 +196,7 @@ pub fn judged(
         extremes: Vec::new(),
         noise: Noise::default(),
         saturated: 0,
+        before: 0,
         alike: 0,
         motions: (runs.with_derivatives, runs.plain),
         reach: problem.reach,

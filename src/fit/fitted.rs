@@ -20,13 +20,14 @@ pub enum Inertia {
 }
 
 /// Units of length and how many metres they are.
-pub const LENGTHS: [(&str, f64); 7] = [
+pub const LENGTHS: [(&str, f64); 8] = [
     ("m", 1.0),
     ("mm", 1e-3),
     ("um", 1e-6),
     ("cm", 1e-2),
     ("nm", 1e-9),
     ("in", 0.0254),
+    ("inch", 0.0254),
     ("km", 1e3),
 ];
 

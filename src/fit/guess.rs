@@ -17,6 +17,8 @@ pub struct Guess {
     pub beginnings: Vec<Beginning>,
     /// The turning points.
     pub extremes: Vec<Extreme>,
+    /// The first sample in motion of a mass that seems to have been struck where it rested.
+    pub struck: Option<usize>,
 }
 
 /// Reads guesses off a record; `None` where fewer than three turning points, a hold and a rest included, can be
@@ -40,6 +42,8 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise) -> Option<Guess> {
     let begins = begins(t, &cleaned, noise, first, period);
     let begin = first.t - 0.5 * period;
     let hold = median(cleaned[..t.partition_point(|&t| t < begin).max(1)].to_vec());
+    let struck = Some(hold).filter(|_| begins == Begins::Held);
+    let struck = struck.and_then(|hold| struck_at(t, &cleaned, noise, hold, &extremes));
     if begins == Begins::Held {
         extremes.insert(0, Extreme { t: begin, x: hold });
     }
@@ -67,7 +71,7 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise) -> Option<Guess> {
         Begins::Unclear => vec![beginning(Start::Moving, false), beginning(Start::Release, false)],
         Begins::Moving => vec![beginning(Start::Moving, true)],
     };
-    (!regressions.is_empty()).then_some(Guess { beginnings, extremes })
+    (!regressions.is_empty()).then_some(Guess { beginnings, extremes, struck })
 }
 
 /// How many samples a stretch of time holds on average, at least one.
@@ -133,6 +137,27 @@ fn begins(t: &[f64], x: &[f64], noise: &Noise, first: Extreme, period: f64) -> B
         0.4.. => Begins::Unclear,
         _ => Begins::Moving,
     }
+}
+
+/// The first sample clearly off the hold, if that lies between the first two turning points: what is let go is held outside
+/// of them.
+fn struck_at(
+    t: &[f64],
+    x: &[f64],
+    noise: &Noise,
+    hold: f64,
+    extremes: &[Extreme],
+) -> Option<usize> {
+    /// Parts of the first swing between which the middle of a struck mass lies.
+    const BETWEEN: std::ops::Range<f64> = 0.25..0.75;
+    /// Deviations of the noise that are off the hold.
+    const OFF: f64 = 6.0;
+    let [first, second, ..] = extremes else { return None };
+    let part = (hold - first.x) / (second.x - first.x);
+    let moving = t.partition_point(|&t| t < first.t);
+    let near = |x: &f64| (x - hold).abs() <= OFF * noise.deviation.max(noise.step);
+    let from = x[..moving].iter().rposition(near)? + 2;
+    BETWEEN.contains(&part).then_some(from.min(moving))
 }
 
 /// Displacement and velocity at the first sample, from an undamped swing through the first third of a period.

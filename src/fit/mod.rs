@@ -77,7 +77,7 @@ pub use estimate::Estimate;
 pub use fitted::{Fitted, Inertia, LENGTHS, length_in_metres};
 pub use margin::{DRAWS, Margins, margins};
 pub use observation::parameters;
-pub use question::{LossName, Question, Unfit};
+pub use question::{LOSSES, LossName, Question, Unfit};
 pub use record::{BadRecord, Column, Reading, Record, parse};
 
 use std::cell::Cell;

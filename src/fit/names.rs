@@ -1,5 +1,7 @@
 //! The numbers that a fit estimates, by their names.
 
+use serde::{Deserialize, Serialize};
+
 use super::observation::{self, UNKNOWNS};
 
 /// One row of [`NAMES`].
@@ -13,6 +15,21 @@ pub struct NameSpec {
     pub length: i32,
     /// Power of a second in its unit.
     pub time: i32,
+}
+
+impl NameSpec {
+    /// Its unit: powers of the record's unit of length and of a second.
+    #[must_use]
+    pub fn unit(&self, length: &str) -> String {
+        let length = if length.is_empty() { "unit" } else { length };
+        let power = |name: &str, power: i32| match power {
+            0 => String::new(),
+            1 => name.to_owned(),
+            -1 => format!("1/{name}"),
+            _ => format!("1/{name}^{}", -power),
+        };
+        power(length, self.length) + &power("s", self.time)
+    }
 }
 
 /// The numbers that are estimated from a record, but for those of its start.
@@ -31,13 +48,75 @@ pub fn named(name: &str) -> Option<&'static NameSpec> {
     NAMES.iter().find(|row| row.name == name)
 }
 
+/// The rows with these names, between commas.
+///
+/// # Errors
+/// One line that lists the names there are.
+pub fn listed(text: &str) -> Result<Vec<&'static NameSpec>, String> {
+    text.split(',').map(known).collect()
+}
+
+fn known(text: &str) -> Result<&'static NameSpec, String> {
+    named(text.trim()).ok_or_else(|| {
+        format!("there is no {text:?}; there are {}", NAMES.map(|row| row.name).join(", "))
+    })
+}
+
+/// A number to hold, and its value, from `NAME=VALUE`.
+///
+/// # Errors
+/// One line that says what is allowed.
+pub fn assigned(text: &str) -> Result<(&'static NameSpec, f64), String> {
+    let (key, value) = text.split_once('=').ok_or("expected NAME=VALUE, such as D3=0")?;
+    let row = known(key)?;
+    let value: f64 = value.trim().parse().map_err(|_| format!("{value:?} is not a number"))?;
+    let (allowed, range) = match row.place {
+        observation::OMEGA0 => (value > 0.0, "more than 0"),
+        observation::R => (value >= 0.0, "0 or more"),
+        _ => (true, "any finite number"),
+    };
+    if value.is_finite() && allowed {
+        Ok((row, value))
+    } else {
+        Err(format!("{text} is outside its range; allowed: {range}"))
+    }
+}
+
 /// What a fit estimates, and what it holds.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Named", into = "Named")]
 pub struct Choice {
     /// Names to estimate; none: all that are not held.
     pub free: Option<Vec<&'static NameSpec>>,
     /// Values to hold.
     pub held: Vec<(&'static NameSpec, f64)>,
+}
+
+/// The same by names, as it is saved.
+#[derive(Serialize, Deserialize)]
+struct Named {
+    free: Option<Vec<String>>,
+    held: Vec<(String, f64)>,
+}
+
+impl From<Choice> for Named {
+    fn from(Choice { free, held }: Choice) -> Self {
+        let name = |row: &NameSpec| row.name.to_owned();
+        Named {
+            free: free.map(|rows| rows.into_iter().map(name).collect()),
+            held: held.into_iter().map(|(row, value)| (name(row), value)).collect(),
+        }
+    }
+}
+
+impl TryFrom<Named> for Choice {
+    type Error = String;
+
+    fn try_from(Named { free, held }: Named) -> Result<Self, String> {
+        let free = free.map(|names| names.iter().map(|name| known(name)).collect()).transpose()?;
+        let held = held.iter().map(|(name, value)| assigned(&format!("{name}={value}")));
+        Ok(Choice { free, held: held.collect::<Result<_, _>>()? })
+    }
 }
 
 impl PartialEq for NameSpec {

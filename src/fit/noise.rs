@@ -64,8 +64,8 @@ impl Noise {
         let jumps = sorted.iter().filter(|value| **value > impossible).count();
         #[expect(clippy::cast_precision_loss, reason = "counts of samples")]
         let has_outliers = impossible > 0.0 && jumps as f64 > SHARE * sorted.len() as f64;
-        let deviation = if deviation > 0.0 { deviation } else { quantised };
-        Noise { deviation, has_outliers, step }
+        // Where most differences vanish there is the rounding of the converter, and that of decimals.
+        Noise { deviation: deviation.max(quantised), has_outliers, step }
     }
 
     /// How many readings of a mass at rest tell as much as all of them, where residuals have this variance: the
@@ -182,6 +182,13 @@ mod tests {
             swing(4000).iter().step_by(16).map(|x| x + 0.02 * chance.normal()).collect();
         let found = Noise::of(&few, 3.9);
         assert!((found.deviation / 0.02 - 1.0).abs() < 0.2 && !found.has_outliers, "{found:?}");
+    }
+
+    #[test]
+    fn steps_wider_than_the_noise_are_noise_of_their_own() {
+        let coarse: Vec<f64> = swing(3000).iter().map(|x| (x / 0.1).round() * 0.1).collect();
+        let found = Noise::of(&coarse, 63.0);
+        assert!((found.deviation / (0.1 / 12.0_f64.sqrt()) - 1.0).abs() < 1e-6, "{found:?}");
     }
 
     #[test]

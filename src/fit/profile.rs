@@ -80,6 +80,16 @@ impl Profile<'_> {
         Ok(Interval { lower: ends[0], upper: ends[1], quadratic })
     }
 
+    /// The interval by the standard error alone.
+    #[must_use]
+    pub fn straight(&self, unknown: usize) -> Interval {
+        let z = deviation_of_95_percent(self.covariance.independent(unknown));
+        let (center, reach) = (self.optimum.p[unknown], z * self.covariance.error(unknown));
+        let least = if unknown == R { 0.0 } else { f64::NEG_INFINITY };
+        let lower = Some((center - reach).max(least));
+        Interval { lower, upper: Some(center + reach), quadratic: true }
+    }
+
     fn shifted(&self, from: &Unknowns, unknown: usize, by: f64) -> Unknowns {
         let along = self.covariance.along(unknown);
         std::array::from_fn(|place| from[place] + by * along[place])

@@ -2,12 +2,15 @@
 
 use std::fmt;
 
+use serde::{Deserialize, Serialize};
+
 use super::levenberg_marquardt::NoFit;
 use super::names::Choice;
 use super::observation::{UNKNOWNS, Unknowns};
 
 /// How residuals count, as the user says it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum LossName {
     /// Squared; samples that cannot belong to the motion are left out.
     #[default]
@@ -19,6 +22,14 @@ pub enum LossName {
     /// Large ones hardly.
     Cauchy,
 }
+
+/// The losses by the names that users give them.
+pub const LOSSES: [(&str, LossName); 4] = [
+    ("auto", LossName::Auto),
+    ("linear", LossName::Linear),
+    ("soft-l1", LossName::SoftL1),
+    ("cauchy", LossName::Cauchy),
+];
 
 /// What is asked of a fit.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -76,11 +87,13 @@ impl fmt::Display for Unfit {
             }
             Unfit::NoSwings => write!(
                 out,
-                "fewer than three turning points stand out from the noise: this is no recorded oscillation"
+                "fewer than three turning points, a hold and a rest included, stand out from the noise: of a single \
+                 swing friction and offset cannot be told apart"
             ),
             Unfit::NotAlternating { peak } => write!(
                 out,
-                "peaks {peak} to {} do not alternate: successive turning points lie on opposite sides",
+                "peaks {peak} to {} do not alternate: successive turning points lie on opposite sides, and of \
+                 magnitudes those on one side need their minus sign",
                 peak + 2
             ),
             Unfit::NoMotion => write!(out, "no motion of the model comes near the record"),

@@ -2,10 +2,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::estimate::Estimate;
+use super::estimate::{Estimate, Rival};
 use super::levenberg_marquardt::{NoFit, Optimum, Runs, Task};
 use super::loss::Loss;
 use super::observation::{D2, D3, Observation, R, UNKNOWNS, Unknowns};
+use super::profile::Interval;
 use super::question::Unfit;
 use super::uncertainty::Covariance;
 
@@ -87,15 +88,17 @@ pub fn held(
     let task = refit.task();
     let autocorrelation = &estimate.whiteness.autocorrelation;
     let covariance = Covariance::at(&task, &optimum, autocorrelation).ok_or(Unfit::Blind)?;
+    let half_swings = optimum.seen.turns.len();
     Ok(Estimate {
         p: optimum.p,
         free: refit.free,
         covariance,
-        intervals: Default::default(),
+        // Ends are not sought; whether the likelihood is quadratic will not have changed.
+        intervals: estimate.intervals.map(|it| Interval { lower: None, upper: None, ..it }),
         residuals: optimum.seen.residuals.iter().map(|residual| residual.value).collect(),
-        half_swings: optimum.seen.turns.len(),
+        half_swings,
         rests: optimum.seen.rests,
-        rivals: Vec::new(),
+        rivals: vec![Rival { half_swings, delta_chi2: 0.0, p: optimum.p }],
         ..estimate.clone()
     })
 }

@@ -35,7 +35,16 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
         return Err(Unfit::TooFew { measured: x.len(), unknowns });
     }
     let noise = Noise::of(&x, per_period);
-    let Guess { mut beginnings, extremes } = guess(&t, &x, &noise).ok_or(Unfit::NoSwings)?;
+    let Guess { mut beginnings, extremes, struck } =
+        guess(&t, &x, &noise).ok_or(Unfit::NoSwings)?;
+    if let Some(from) = struck {
+        let moving =
+            Record { t: Some(t[from..].to_vec()), x: x[from..].to_vec(), ..Record::default() };
+        let found = samples(&moving, question, runs).ok();
+        if let Some(found) = found.filter(|found| !found.whiteness.systematic) {
+            return Ok(Estimate { before: from, saturated: all.len() - x.len(), ..found });
+        }
+    }
     for guess in beginnings.iter_mut().flat_map(|beginning| &mut beginning.guesses) {
         *guess = placed(&held, *guess);
     }
@@ -55,7 +64,10 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
     if question.loss == LossName::Auto {
         problem.loss = Loss::Linear;
         used = refined(&problem, loss.is_robust(), &mut found, runs)?;
-        alike = telling(&problem, &noise, &mut used, &mut found, runs)?;
+        // Where the motion is not understood nothing is known to rest.
+        if (Problem { used: &used, ..problem }).explains(&found.valleys[0].optimum) {
+            alike = telling(&problem, &noise, &mut used, &mut found, runs)?;
+        }
     }
     let count = |flags: &[bool]| flags.iter().filter(|flag| !**flag).count();
     let mut estimate = judged(&problem, &used, &found, runs)?;

@@ -19,6 +19,8 @@ pub struct Covariance {
     pub deviation: f64,
     /// Degrees of freedom: residuals less what the unknowns have absorbed of their noise.
     pub freedom: f64,
+    /// As many residuals' worth of noise the unknowns have absorbed.
+    absorbed: f64,
     /// Kinds of residuals, of each of which the size is estimated for itself.
     kinds: f64,
 }
@@ -76,8 +78,16 @@ impl Covariance {
             white: bread * variance,
             deviation: (sum / freedom).sqrt(),
             freedom,
+            absorbed,
             kinds,
         })
+    }
+
+    /// Whether the autocorrelations were those of a noise: then no variance is negative, and the unknowns absorb some
+    /// of it.
+    #[must_use]
+    pub fn is_possible(&self) -> bool {
+        self.absorbed > 0.0 && self.matrix.diagonal().iter().all(|variance| *variance > 0.0)
     }
 
     fn place(&self, unknown: usize) -> Option<usize> {

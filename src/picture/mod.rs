@@ -81,8 +81,9 @@ pub fn of(session: &Session, index: usize) -> Picture<'_> {
         View::Residuals => of_fit(session, index, fit::residuals),
         View::Spread => of_fit(session, index, fit::margin),
     };
-    // With numbers held there are no draws of their own: the distribution stays that of the whole fit.
-    if session.plots[index].view == View::Spread && session.doubt.holds_any() {
+    // Until the draws with what is held are there, the distribution stays that of the whole fit.
+    let drawn = session.fitted().is_none_or(|found| found.drawn);
+    if session.plots[index].view == View::Spread && session.doubt.holds_any() && !drawn {
         picture.title = format!("{}, all numbers free", picture.title).into();
     }
     if session.draws_whole() && EXPANDED.contains(&session.plots[index].view) {

@@ -8,11 +8,12 @@ use serde::{Deserialize, Serialize};
 use super::means::Means;
 use crate::fit::curves::Curves;
 use crate::fit::levenberg_marquardt::Runs;
+use crate::fit::names::Choice;
 use crate::fit::observation::{D, D2, D3, Data, LAST, OFFSET, OMEGA0, Observation, Q0, R, Start};
 use crate::fit::{self, refit};
 use crate::fit::{
-    Estimate, Inertia, Margins, Question, Record, Unfit, estimate, length_in_metres, margins,
-    parameters,
+    Estimate, Inertia, LossName, Margins, Question, Record, Unfit, estimate, length_in_metres,
+    margins, parameters,
 };
 use crate::flow::{Limits, Problem, Reason};
 use crate::oscillator::{State, Symbol};
@@ -33,6 +34,12 @@ pub struct Opened {
     /// Whether the rows are successive turning points.
     #[serde(default)]
     pub peaks: bool,
+    /// What is estimated and what is held.
+    #[serde(default)]
+    pub choice: Choice,
+    /// How residuals count.
+    #[serde(default)]
+    pub loss: LossName,
 }
 
 /// A record that was opened. Copies share it, and are equal at once.
@@ -101,6 +108,8 @@ pub struct Fitted {
     pub points: Vec<Measured>,
     /// By how much chi-squared is larger than without what is held.
     pub rise: f64,
+    /// Whether the distribution of the margin is that with what is held.
+    pub drawn: bool,
 }
 
 /// A fitted record, or why it could not be fitted; the same fit is equal at once.
@@ -132,7 +141,7 @@ impl Fit {
             (limits.interrupted)()
         };
         let peaks = recording.peaks || recording.record.t.is_none();
-        let question = Question { peaks, ..Question::default() };
+        let question = Question { peaks, choice: recording.choice.clone(), loss: recording.loss };
         let estimate = match estimate(&recording.record, &question, &interrupted) {
             Ok(estimate) => estimate,
             Err(Unfit::Interrupted) => return Err(Reason::Interrupted),
@@ -140,14 +149,20 @@ impl Fit {
         };
         let margins = margins(&estimate, DRAWN, limits)?;
         let named = (recording.name.clone(), &recording.record);
-        Ok(Fit::with(named, estimate, margins, metric(recording), 0.0))
+        Ok(Fit::with(named, estimate, (margins, true), metric(recording), 0.0))
     }
 
-    /// The same with D, D2, D3 and r held where they have values; the distribution of the margin stays that without.
+    /// The same with D, D2, D3 and r held where they have values; unless it is to be `drawn`, too, the distribution of
+    /// the margin stays that without.
     ///
     /// # Errors
     /// [`Reason::Interrupted`].
-    pub fn held(&self, values: [Option<f64>; 4], limits: &Limits) -> Result<Self, Reason> {
+    pub fn held(
+        &self,
+        values: [Option<f64>; 4],
+        drawn: bool,
+        limits: &Limits,
+    ) -> Result<Self, Reason> {
         let Ok(Fitted { fit, .. }) = self.found() else { return Ok(self.clone()) };
         let named = [D, D2, D3, R].into_iter().zip(values);
         let numbers: Vec<_> = named.filter_map(|(place, value)| Some((place, value?))).collect();
@@ -159,8 +174,12 @@ impl Fit {
                 let deviation = fit.estimate.covariance.deviation;
                 let unit = deviation * deviation;
                 let rise = (cost(&estimate) - cost(&fit.estimate)) / unit;
-                let (named, margins) = ((fit.name.clone(), &fit.record), fit.margins.clone());
-                Ok(Fit::with(named, estimate, margins, fit.inertia, rise))
+                let margins = match drawn {
+                    true => margins(&estimate, DRAWN, limits)?,
+                    false => fit.margins.clone(),
+                };
+                let named = (fit.name.clone(), &fit.record);
+                Ok(Fit::with(named, estimate, (margins, drawn), fit.inertia, rise))
             }
             Err(Unfit::Interrupted) => Err(Reason::Interrupted),
             Err(unfit) => Ok(unfit.into()),
@@ -170,7 +189,7 @@ impl Fit {
     fn with(
         (name, record): (String, &Record),
         estimate: Estimate,
-        margins: Margins,
+        (margins, drawn): (Margins, bool),
         inertia: Option<(Inertia, f64)>,
         rise: f64,
     ) -> Self {
@@ -178,7 +197,7 @@ impl Fit {
         let (record, contours, seconds) = (record.clone(), Vec::new(), 0.0);
         let fit =
             fit::Fitted { name, record, estimate, margins, curves, contours, inertia, seconds };
-        Fit(Arc::new(Ok(Fitted { fit, points, rise })))
+        Fit(Arc::new(Ok(Fitted { fit, points, rise, drawn })))
     }
 
     /// What was found, or why there is nothing.
@@ -254,6 +273,12 @@ impl Fitted {
             until: if last > 0.0 { last } else { before.until },
             ..before
         }
+    }
+
+    /// Whether a number is held, by hand or since the record was opened.
+    #[must_use]
+    pub fn holds(&self, symbol: Symbol) -> bool {
+        place(symbol).is_some_and(|place| !self.fit.estimate.free[place])
     }
 
     /// The unknown that a number is, with its standard error; `None` where it was not estimated.

@@ -12,13 +12,15 @@ pub struct Asked {
     pub fit: Fit,
     /// Values at which D, D2, D3 and r are held.
     pub held: [Option<f64>; 4],
+    /// Whether the distribution of the margin is asked for, too: that takes longer than a frame.
+    pub drawn: bool,
 }
 
 impl Question for Asked {
     type Found = Fit;
 
     fn answer(&self, means: &Means) -> Result<Fit, Reason> {
-        self.fit.held(self.held, means.limits)
+        self.fit.held(self.held, self.drawn, means.limits)
     }
 
     fn numbers(&self) -> [f64; 8] {

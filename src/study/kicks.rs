@@ -4,16 +4,16 @@
 //! and normal or uniform. What is lost is an integral of their density over the exact basin, whose border is a
 //! graph over the displacement ([`super::arc`]): no start is drawn or followed.
 
-use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
+use std::f64::consts::{PI, SQRT_2};
 use std::fmt;
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
 use super::basin::{Basin, Fate};
-use super::stability::{Share, TOLERANCE, support};
-use crate::numerics::elementary::{asin, cos, exp, sin};
-use crate::numerics::quadrature::integrate;
+use super::stability::{Share, over_scales, support};
+use crate::numerics::elementary::exp;
+use crate::numerics::quadrature::Integral;
 
 /// How a random number is spread.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -174,33 +174,10 @@ impl Kicks {
         let far = law.reach() * spread;
         let Some((left, right)) = support(edge, (mean - far, mean + far)) else { return all(1.0) };
         let beyond = law.above(right - mean, spread) + law.above(mean - left, spread);
-        let (middle, half) = (0.5 * (left + right), 0.5 * (right - left));
-        let lost = |angle: f64| {
-            let q = middle + half * sin(angle);
-            law.density(q - mean, spread) * lost_at(q) * half * cos(angle)
-        };
-        // Far beyond the sticking set the integrand varies as slowly as it varies fast next to it: each piece is
-        // some times as wide as all before it, so that none is overlooked.
-        let angles = scales(left, right).map(|q| asin(((q - middle) / half).clamp(-1.0, 1.0)));
-        let mut ends: Vec<f64> = angles.chain([-FRAC_PI_2, FRAC_PI_2]).collect();
-        ends.sort_by(f64::total_cmp);
-        let (mut part, mut error) = (beyond, 0.0);
-        for piece in ends.windows(2).filter(|piece| piece[0] < piece[1]) {
-            let inside = integrate(&lost, (piece[0], piece[1]), TOLERANCE);
-            part += inside.value;
-            error += inside.error;
-        }
-        Share { part: part.clamp(0.0, 1.0), error }
+        let lost = |q: f64| law.density(q - mean, spread) * lost_at(q);
+        let Integral { value, error } = over_scales(lost, left, right);
+        Share { part: (beyond + value).clamp(0.0, 1.0), error }
     }
-}
-
-/// Places between two others at which the scale of displacements changes.
-fn scales(left: f64, right: f64) -> impl Iterator<Item = f64> {
-    const NEAREST: f64 = 10.0;
-    const WIDER: f64 = 30.0;
-    let outwards = std::iter::successors(Some(NEAREST), |q| Some(WIDER * q));
-    let all = outwards.take_while(move |q| *q < right.max(-left));
-    all.flat_map(|q| [-q, q]).filter(move |q| *q > left && *q < right)
 }
 
 /// The complementary error function, to some 1e-13 of itself.

@@ -4,9 +4,11 @@
 //! integral, and no start has to be followed: at each displacement, how much of the window's velocities
 //! lies between the lower and the upper arc.
 
+use std::f64::consts::FRAC_PI_2;
+
 use super::basin::{Basin, Fate, Window};
 use super::border::Border;
-use crate::numerics::elementary::{cos, sin};
+use crate::numerics::elementary::{asin, cos, powi, sin};
 use crate::numerics::quadrature::{Integral, integrate};
 use crate::numerics::root::{TO_ROUNDING, bisect};
 
@@ -20,7 +22,7 @@ pub struct Share {
 }
 
 /// Absolute error to which each interval is integrated.
-pub(super) const TOLERANCE: f64 = 1e-10;
+const TOLERANCE: f64 = 1e-12;
 
 impl Share {
     fn of(Integral { value, error }: Integral) -> Self {
@@ -31,8 +33,7 @@ impl Share {
 impl Basin {
     /// The part of a window's area that belongs to the basin of the sticking set.
     ///
-    /// Adaptive Gauss-Kronrod quadrature over the displacements inside the edge, in the angle of a
-    /// circle over them, in which the turning points of the edge are smooth. The error is the sum of the
+    /// Adaptive Gauss-Kronrod quadrature over the displacements inside the edge. The error is the sum of the
     /// differences between its two rules.
     #[must_use]
     pub fn captured_share(&self, window: &Window) -> Share {
@@ -43,15 +44,37 @@ impl Basin {
         let Some(edge) = self.borders.first() else { return whole(1.0) };
         let Some((left, right)) = support(edge, window.q) else { return whole(0.0) };
         let (width, height) = (window.q.1 - window.q.0, window.v.1 - window.v.0);
-        let (middle, half) = (0.5 * (left + right), 0.5 * (right - left));
-        let density = |angle: f64| {
-            let (low, high) = edge.span_at(middle + half * sin(angle)).unwrap_or((0.0, 0.0));
-            let inside = (high.min(window.v.1) - low.max(window.v.0)).max(0.0);
-            inside / height * half / width * cos(angle)
+        let density = |q: f64| {
+            let (low, high) = edge.span_at(q).unwrap_or((0.0, 0.0));
+            (high.min(window.v.1) - low.max(window.v.0)).max(0.0) / height / width
         };
-        let quarter = std::f64::consts::FRAC_PI_2;
-        Share::of(integrate(&density, (-quarter, quarter), TOLERANCE))
+        Share::of(over_scales(density, left, right))
     }
+}
+
+/// Integrates over displacements inside an edge, in the angle of a circle over them, in which the turning points of
+/// the edge are smooth.
+///
+/// Next to the ends and to the sticking set the integrand may vary fast, and slowly far from them: each piece is
+/// some times as wide as all between it and the nearest of these, so that none is overlooked.
+pub(super) fn over_scales(density: impl Fn(f64) -> f64, left: f64, right: f64) -> Integral {
+    const SCALES: i32 = 8;
+    const WIDER: f64 = 30.0;
+    let (middle, half) = (0.5 * (left + right), 0.5 * (right - left));
+    let lengths = (1..=SCALES).map(|power| (right - left) * powi(WIDER, -power));
+    let places = lengths.flat_map(|length| [left + length, -length, length, right - length]);
+    let angles = places
+        .filter(|q| (left..right).contains(q))
+        .map(|q| asin(((q - middle) / half).clamp(-1.0, 1.0)));
+    let mut ends: Vec<f64> = angles.chain([-FRAC_PI_2, FRAC_PI_2]).collect();
+    ends.sort_by(f64::total_cmp);
+    let over = |angle: f64| density(middle + half * sin(angle)) * half * cos(angle);
+    let mut sum = Integral { value: 0.0, error: 0.0 };
+    for piece in ends.windows(2).filter(|piece| piece[0] < piece[1]) {
+        let Integral { value, error } = integrate(&over, (piece[0], piece[1]), TOLERANCE);
+        sum = Integral { value: sum.value + value, error: sum.error + error };
+    }
+    sum
 }
 
 /// The displacements of a range at which some start lies inside the border: around the sticking set.
@@ -119,6 +142,31 @@ mod tests {
         }
         assert!(whole.part > 0.5 && whole.part < 0.99, "{whole:?}");
         assert!((whole.part - sum.part).abs() <= whole.error + sum.error + 1e-13);
+    }
+
+    #[test]
+    fn a_window_far_wider_than_the_scale_of_the_edge_is_the_sum_of_its_parts() {
+        for (d, d2, d3, r) in [(0.1, 0.5, 0.0, 0.1), (0.02, -0.5, 0.0, 0.1), (0.1, 50.0, 0.0, 1e-4)]
+        {
+            let parameters = Parameters { d, d2, d3, r };
+            for half in [1e3, 1e5, 1e7] {
+                let v = (-0.5, 0.4);
+                let found = basin(&parameters, half, &Limits::PATIENT).unwrap();
+                let whole = found.captured_share(&Window { q: (-half, half), v });
+                let ends = [-half, -300.0, -10.0, -3.0, -1.0, 0.0, 1.0, 3.0, 10.0, 300.0, half];
+                let (mut sum, mut error) = (0.0, whole.error);
+                for q in ends.windows(2) {
+                    let share = found.captured_share(&Window { q: (q[0], q[1]), v });
+                    let weight = (q[1] - q[0]) / (2.0 * half);
+                    (sum, error) = (sum + weight * share.part, error + weight * share.error);
+                }
+                let off = (whole.part - sum).abs();
+                assert!(
+                    off <= error + 1e-13,
+                    "{parameters:?} {half}: off by {off:e}, not {error:e}"
+                );
+            }
+        }
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! What a fitted record says in the pane: numbers with their errors, in physical units where these are known.
 
 use super::look::Look;
+use crate::fit::names::named;
 use crate::fit::observation::OMEGA0;
 use crate::fit::physical::rows;
 use crate::oscillator::Symbol;
@@ -15,8 +16,11 @@ pub fn fitted(session: &Session, row: Row, look: &Look) -> Vec<String> {
     let sign = look.symbols().plus_minus;
     let error = found.error(symbol);
     let told = match error {
-        Some(error) => format!("{sign}{}", significant(error, 2)),
-        None if session.doubt.holds(symbol) => "held".to_owned(),
+        Some(error) => {
+            let bare = format!("{sign}{}", significant(error, 2));
+            vec![format!("{bare} {}", unit(symbol, found.fit.unit())).trim_end().to_owned(), bare]
+        }
+        None if found.holds(symbol) => vec!["held".to_owned()],
         None => return Vec::new(),
     };
     let physical = rows(&found.fit).into_iter().find(|row| row.name == stands_for(symbol));
@@ -44,7 +48,16 @@ pub fn fitted(session: &Session, row: Row, look: &Look) -> Vec<String> {
         _ => None,
     };
     let held = if error.is_none() { " held" } else { "" };
-    physical.map(|text| text + held).into_iter().chain([told]).collect()
+    physical.map(|text| text + held).into_iter().chain(told).collect()
+}
+
+/// The unit in which a number of the record stands; nothing where the record names no unit of length.
+fn unit(symbol: Symbol, length: &str) -> String {
+    let row = match symbol {
+        Symbol::D | Symbol::D2 | Symbol::D3 => named(symbol.spec().name),
+        Symbol::R | Symbol::Q0 | Symbol::V0 => return length.to_owned(),
+    };
+    row.filter(|_| !length.is_empty()).map_or_else(String::new, |row| row.unit(length))
 }
 
 /// The number of a mass on a spring that a parameter is a measure of.
@@ -58,16 +71,16 @@ fn stands_for(symbol: Symbol) -> &'static str {
     }
 }
 
-/// Where the smallest displacement that is not survived lies with 95 %, or with numbers held how much worse the fit is;
-/// and the frequency of a record.
+/// Where the smallest displacement that is not survived lies with 95 %, with numbers held how much worse the fit is, and
+/// the frequency of a record.
 pub fn spread(session: &Session, look: &Look) -> Vec<String> {
-    let Some(Fitted { fit, rise, .. }) = session.fitted() else { return Vec::new() };
+    let Some(Fitted { fit, rise, drawn, .. }) = session.fitted() else { return Vec::new() };
     let estimate = &fit.estimate;
     let hertz = |value: f64| value / std::f64::consts::TAU;
     let error = hertz(estimate.covariance.error(OMEGA0));
     let frequency = with_unit(hertz(estimate.p[OMEGA0]), 4, "Hz");
     let frequency =
-        format!("f0 {frequency} {}{}", look.symbols().plus_minus, significant(error, 2));
+        format!("f0 {frequency} {}{}", look.symbols().plus_minus, with_unit(error, 2, "Hz"));
     let spread = fit.margins.displacement;
     let scale = fit.units().map(|units| units.displacement);
     let end = |end: Option<f64>| match (end, scale) {
@@ -76,12 +89,13 @@ pub fn spread(session: &Session, look: &Look) -> Vec<String> {
         (Some(end), None) => significant(end, 3),
     };
     let held = session.doubt.holds_any();
+    let rise = held.then(|| format!("held: chi^2 +{}", significant(*rise, 3)));
     let margin = match spread.lower {
-        _ if held => format!("held: chi^2 +{}", significant(*rise, 3)),
         None => "95 %: every kick".to_owned(),
         Some(_) => format!("95 %: q {} .. {}", end(spread.lower), end(spread.upper)),
     };
     let frequency = estimate.free[OMEGA0].then_some(frequency);
     // The margin first: a low pane has no room for what follows.
-    [margin].into_iter().chain(frequency).collect()
+    let margin = (*drawn || !held).then_some(margin);
+    margin.into_iter().chain(rise).chain(frequency).collect()
 }

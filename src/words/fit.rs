@@ -33,6 +33,7 @@ fn left_out(fitted: &Fitted) -> Vec<String> {
     let counts = [
         (fitted.record.missing, "row", "without a number"),
         (fitted.record.repeated, "row", "repeating another one"),
+        (fitted.estimate.before, "sample", "at rest before the mass was struck"),
         (fitted.estimate.saturated, "sample", "flattened at full scale"),
         (fitted.estimate.alike, "sample", "at rest that the steps of the converter round alike"),
         (

@@ -214,6 +214,9 @@ fn start(fitted: &Fitted) -> BTreeMap<&'static str, serde_json::Value> {
     if estimate.free[LAST] {
         start.insert(last, value(LAST));
     }
+    if estimate.before > 0 {
+        start.insert("struck_after", estimate.before.into());
+    }
     start
 }
 

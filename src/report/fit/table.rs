@@ -9,18 +9,6 @@ use crate::report::table::Table;
 use crate::words::fit::sentences;
 use crate::words::number::{duration, resolved, significant};
 
-/// The unit of a number: powers of the record's unit of length and of a second.
-fn unit(row: &NameSpec, length: &str) -> String {
-    let length = if length.is_empty() { "unit" } else { length };
-    let power = |name: &str, power: i32| match power {
-        0 => String::new(),
-        1 => name.to_owned(),
-        -1 => format!("1/{name}"),
-        _ => format!("1/{name}^{}", -power),
-    };
-    power(length, row.length) + &power("s", row.time)
-}
-
 /// Everything that is said about a fit.
 pub fn table(fitted: &Fitted) -> String {
     let estimate = &fitted.estimate;
@@ -39,7 +27,7 @@ pub fn table(fitted: &Fitted) -> String {
             significant(error, 2),
             end(interval.lower),
             end(interval.upper),
-            unit(row, fitted.unit()),
+            row.unit(fitted.unit()),
         ]);
     }
     out += &format!("{numbers}standard errors; 95 % lie from .. to\n\n");
@@ -64,6 +52,7 @@ fn subject(fitted: &Fitted) -> String {
             let span = t.last().zip(t.first()).map_or(0.0, |(last, first)| last - first);
             let begin = match estimate.start {
                 Start::Release => "released within it",
+                Start::Moving if estimate.before > 0 => "since the mass was struck",
                 Start::Moving => "in motion from its beginning",
             };
             format!("{} samples over {} s, {begin}", t.len(), significant(span, 4))

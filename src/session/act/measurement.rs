@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::fit::{Column, Inertia, LENGTHS, Reading, length_in_metres, parse};
+use crate::fit::names::{Choice, NAMES, assigned, listed, named};
+use crate::fit::{Column, Inertia, LENGTHS, LOSSES, LossName, Reading, length_in_metres, parse};
 use crate::oscillator::belt::Dimension;
 use crate::question::Opened;
 use crate::scene::machine::unit::measured;
@@ -10,7 +11,7 @@ use crate::session::effect::Effect;
 use crate::session::message::Purpose;
 
 /// What may stand behind the name of the file.
-const WORDS: [&str; 5] = ["mass", "stiffness", "unit", "columns", "peaks"];
+const WORDS: [&str; 7] = ["mass", "stiffness", "unit", "columns", "peaks", "loss", "free"];
 
 /// What the file does not say.
 #[derive(Debug, Default)]
@@ -18,13 +19,16 @@ struct Said {
     inertia: Option<Inertia>,
     unit: Option<String>,
     reading: Reading,
+    choice: Choice,
+    loss: LossName,
 }
 
 /// Asks for the file that a line names; `FILE mass=2 kg columns=1,3 peaks`.
 pub fn ask(rest: &str) -> Result<Vec<Effect>, String> {
     let begins = |word: &str| {
         let name = word.split_once('=').map_or(word, |(name, _)| name);
-        WORDS.contains(&name) && (word.contains('=') || name == "peaks")
+        let known = WORDS.contains(&name) || named(name).is_some();
+        known && (word.contains('=') || name == "peaks")
     };
     let mut blanks = rest.match_indices(' ').map(|(at, _)| at);
     let end = blanks.find(|at| begins(rest[at + 1..].split(' ').next().unwrap_or_default()));
@@ -54,6 +58,11 @@ fn said(words: &str) -> Result<Said, String> {
             "unit" => said.unit = Some(value),
             "columns" => (said.reading.time, said.reading.displacement) = columns(&value)?,
             "peaks" => said.reading.peaks = true,
+            "loss" => said.loss = loss(&value)?,
+            "free" => said.choice.free = Some(listed(&value)?),
+            _ if named(name).is_some() => {
+                said.choice.held.push(assigned(&format!("{name}={value}"))?)
+            }
             _ => return Err(unknown(name)),
         }
     }
@@ -61,7 +70,14 @@ fn said(words: &str) -> Result<Said, String> {
 }
 
 fn unknown(word: &str) -> String {
-    format!("behind the file may stand {}, not {word:?}", WORDS.join(", "))
+    let numbers = NAMES.map(|row| row.name).join(", ");
+    format!("behind the file may stand {}, or a value of {numbers}, not {word:?}", WORDS.join(", "))
+}
+
+fn loss(text: &str) -> Result<LossName, String> {
+    let found = LOSSES.iter().find(|(name, _)| *name == text).map(|(_, loss)| *loss);
+    let names = LOSSES.map(|(name, _)| name).join(", ");
+    found.ok_or_else(|| format!("loss={text}; allowed are {names}"))
 }
 
 fn positive(text: &str, (kg, m, s): (i8, i8, i8), unit: &str) -> Result<f64, String> {
@@ -86,7 +102,7 @@ fn columns(text: &str) -> Result<(Option<Column>, Option<Column>), String> {
 /// # Errors
 /// One line: what is wrong, where, and what is allowed.
 pub(in crate::session) fn opened(path: &Path, words: &str, text: &str) -> Result<Opened, String> {
-    let Said { inertia, unit, reading } = said(words)?;
+    let Said { inertia, unit, reading, choice, loss } = said(words)?;
     let mut record = parse(text.as_bytes(), &reading).map_err(|error| error.to_string())?;
     record.unit = unit.or(record.unit);
     let known = record.unit.as_deref().is_some_and(|unit| length_in_metres(unit).is_some());
@@ -95,5 +111,5 @@ pub(in crate::session) fn opened(path: &Path, words: &str, text: &str) -> Result
         return Err(format!("the file names no known unit of length; unit= one of {lengths}"));
     }
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-    Ok(Opened { name, record, inertia, peaks: reading.peaks })
+    Ok(Opened { name, record, inertia, peaks: reading.peaks, choice, loss })
 }

@@ -5,23 +5,28 @@ use crate::oscillator::belt::Units;
 use crate::question;
 use crate::question::{Fit, Fitted};
 use crate::scene::{Answer, Request, Topic};
+use crate::session::state::answers::Standing;
 use crate::session::state::session::Session;
 
 impl Session {
     /// The fit of the record on show with what is held; until that is there, the one that comes closest to it.
     pub fn fitted(&self) -> Option<&Fitted> {
-        let held = self.refit_request().and_then(|request| {
-            match self.answers.standing(&request).answer()? {
-                Answer::Refit(fit) => fit.found().ok(),
-                _ => None,
-            }
+        // With the distribution of its margin once that is there.
+        let drawn = self.refit_request(true).map(|request| self.answers.standing(&request));
+        let held = drawn
+            .filter(|standing| standing.is_fresh())
+            .or_else(|| self.refit_request(false).map(|request| self.answers.standing(&request)));
+        let held = held.and_then(Standing::answer).and_then(|answer| match answer {
+            Answer::Refit(fit) => fit.found().ok(),
+            _ => None,
         });
         held.or_else(|| self.fit_of_all()?.found().ok())
     }
 
     /// The same only if it is what is asked for at present.
     pub(in crate::session) fn followed(&self) -> Option<&Fitted> {
-        let pending = self.refit_request().is_some_and(|it| !self.answers.standing(&it).is_fresh());
+        let pending =
+            self.refit_request(false).is_some_and(|it| !self.answers.standing(&it).is_fresh());
         if pending { None } else { self.fitted() }
     }
 
@@ -34,12 +39,12 @@ impl Session {
         }
     }
 
-    /// The question for the fit with what is held; `None` where nothing is.
-    pub(in crate::session) fn refit_request(&self) -> Option<Request> {
+    /// The question for the fit with what is held, if so with the distribution of its margin; `None` where nothing is.
+    pub(in crate::session) fn refit_request(&self, drawn: bool) -> Option<Request> {
         let held = [Symbol::D, Symbol::D2, Symbol::D3, Symbol::R]
             .map(|symbol| self.doubt.holds(symbol).then(|| self.value(symbol)));
         let fit = self.fit_of_all().filter(|_| held.iter().any(Option::is_some))?.clone();
-        Some(Request::Refit(question::refit::Asked { fit, held }))
+        Some(Request::Refit(question::refit::Asked { fit, held, drawn }))
     }
 
     /// Whether the record on show is being fitted.

@@ -77,14 +77,16 @@ impl Session {
         let each = needed.iter().flat_map(|(topic, plot)| self.requests(*topic, *plot));
         let last = self.measures().then(|| self.request(Topic::Reference, self.plot)).flatten();
         let all = self
-            .refit_request()
+            .refit_request(false)
             .into_iter()
             .chain(claims.then_some(Request::Claims(question::claims::Asked)))
             .chain(each.map(|each| each.1));
         let mut asked = Vec::new();
         let proof = || self.request(Topic::Proof, self.plot);
         let proof = needed.iter().any(|(topic, _)| *topic == Topic::Cycles).then(proof).flatten();
-        for request in all.chain(last).chain(proof).chain(self.scan_request()) {
+        let spread = self.on_show().any(|plot| self.plots[plot].view == View::Spread);
+        let drawn = spread.then(|| self.refit_request(true)).flatten();
+        for request in all.chain(last).chain(proof).chain(drawn).chain(self.scan_request()) {
             if !asked.contains(&request) {
                 asked.push(request);
             }
@@ -167,7 +169,7 @@ impl Session {
             Topic::Fit => {
                 Request::Fit(question::fit::Asked { recording: self.scene.recording.clone()? })
             }
-            Topic::Refit => self.refit_request()?,
+            Topic::Refit => self.refit_request(false)?,
             Topic::Trajectory => match self.machine().filter(|_| self.draws_whole()) {
                 Some(belt) => {
                     Request::Machine(question::machine::Asked { belt: Arc::new(belt), problem })

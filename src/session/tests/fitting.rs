@@ -57,11 +57,32 @@ fn a_record_opens_with_its_pictures_and_a_number_stepped_is_held_while_the_other
     let held = trial.session.problem.parameters;
     assert!(trial.session.doubt.holds(Symbol::R) && held.r == 0.06);
     let margin = crate::picture::of(&trial.session, 3).title;
-    assert_eq!(margin, "distribution of the margin, all numbers free");
+    assert_eq!(margin, "distribution of the margin");
+    // Once its draws are there the distribution is that with r held: less friction, smaller margins.
+    let told = trial.session.fitted().unwrap();
+    assert!(told.drawn && told.fit.margins.draws.iter().all(|draw| draw.r == 0.06));
     assert!(held.d < best.parameters.d, "more friction leaves less damping: {held:?}");
     trial.press("u");
     assert_eq!(trial.session.problem, best);
     assert!(!trial.session.doubt.holds(Symbol::R));
+}
+
+#[test]
+fn what_is_free_held_and_how_residuals_count_may_stand_behind_the_file() {
+    let mut trial = Trial::open("plain");
+    let words = "loss=cauchy free=D,r r=0.05 mass=2 kg";
+    trial.give(Msg::Run(format!("fit decay.csv {words}")));
+    let purpose = Purpose::Fit(words.to_owned());
+    trial.give(Msg::Read { path: "decay.csv".into(), purpose, result: Ok(record()) });
+    let found = trial.session.fitted().unwrap();
+    assert!(found.holds(Symbol::R) && found.holds(Symbol::D2) && !found.holds(Symbol::D));
+    assert_eq!(trial.session.problem.parameters.r, 0.05);
+    let recording = trial.session.scene.recording.clone().unwrap();
+    assert_eq!(recording.loss, crate::fit::LossName::Cauchy);
+    // A saved session asks the same again.
+    let mut other = Trial::open("plain");
+    save::open(&mut other.session, &save::text(&trial.session).unwrap()).unwrap();
+    assert_eq!(other.session.scene.recording, Some(recording));
 }
 
 #[test]
@@ -99,6 +120,9 @@ fn what_stands_behind_the_file_is_checked_before_it_is_read() {
     for (line, why) in [
         ("fit a.csv mass=-2 kg", "\"-2 kg\" is not positive"),
         ("fit a.csv columns=0,1", "columns are counted from 1"),
+        ("fit a.csv loss=huber", "loss=huber; allowed are auto, linear, soft-l1, cauchy"),
+        ("fit a.csv r=-1", "allowed: 0 or more"),
+        ("fit a.csv free=D,q", "there is no \"q\""),
         ("fit a.csv mass=2 m", "is a length"),
     ] {
         let mut trial = Trial::open("plain");

@@ -297,8 +297,8 @@ fn answered(request: Request) -> Answered {
         Request::Fit(question::fit::Asked { recording }) => {
             Answer::Fit(Fit::of(recording, &Limits::PATIENT, &|_| ()).expect("nobody interrupts"))
         }
-        Request::Refit(question::refit::Asked { fit, held }) => {
-            Answer::Refit(fit.held(*held, &Limits::PATIENT).expect("nobody interrupts"))
+        Request::Refit(question::refit::Asked { fit, held, drawn }) => {
+            Answer::Refit(fit.held(*held, *drawn, &Limits::PATIENT).expect("nobody interrupts"))
         }
         Request::Speeds(_) => {
             Answer::Speeds(Speeds { points: Vec::new(), special: Vec::new(), cost })

@@ -155,8 +155,8 @@ pub(super) fn by_hand(request: &Request) -> Answer {
         Request::Fit(question::fit::Asked { recording }) => {
             Answer::Fit(Fit::of(recording, &Limits::PATIENT, &|_| ()).expect("nobody interrupts"))
         }
-        Request::Refit(question::refit::Asked { fit, held }) => {
-            Answer::Refit(fit.held(*held, &Limits::PATIENT).expect("nobody interrupts"))
+        Request::Refit(question::refit::Asked { fit, held, drawn }) => {
+            Answer::Refit(fit.held(*held, *drawn, &Limits::PATIENT).expect("nobody interrupts"))
         }
         Request::Speeds(_) => Answer::Speeds(crate::question::speeds::Speeds {
             points: Vec::new(),
