@@ -160,7 +160,7 @@ fn a_key_writes_the_plot_in_use_as_a_figure_and_replaces_none() {
     let panels = picture.descendants().filter(|node| node.has_tag_name("clipPath")).count();
     assert_eq!(panels, 1, "the pane in use, not all");
     press(&mut terminal);
-    terminal.wait_for("is there already; with ! behind the command it is replaced");
+    terminal.wait_for("is there already; ! behind the command replaces it");
     assert_eq!(fs::read_to_string(&file).unwrap(), written);
     leave(terminal);
 }
@@ -230,7 +230,7 @@ fn a_recording_is_there_whatever_ends_the_program_and_replaces_no_other_file() {
             [env!("CARGO_BIN_EXE_hopfscope")].iter().chain(arguments).copied().collect();
         let mut terminal = Terminal::start(&program, &[], (100, 30), Answers::AtOnce);
         assert_eq!(terminal.end(), 2);
-        assert!(terminal.text().contains("is no recording; --force replaces it"));
+        assert!(terminal.text().contains("is not a recording; --force replaces it"));
     };
     refused(&["supercritical", "--record", path]);
     assert_eq!(fs::read_to_string(&file).unwrap(), "data\n");

@@ -38,7 +38,7 @@ impl Border {
         let parameters = self.start.problem()?.parameters;
         let Over { symbol, range, count } = self.over;
         let follow = || border(&parameters, symbol, range, count, &Limits::PATIENT);
-        let (found, seconds) = self.output.timed("the border could not be completed", follow)?;
+        let (found, seconds) = self.output.timed("the boundary could not be completed", follow)?;
         let certified = self.certify.ask(|| enclosed(&found));
         let lines = certified.as_ref().map(|it| certified::border_lines(it, symbol));
         self.output.print(&match self.output.format {

@@ -37,7 +37,7 @@ pub struct Explore {
     looks: Looks,
     #[command(flatten)]
     settings: Settings,
-    /// Goes on with a saved session
+    /// Resumes a saved session
     #[arg(long, value_name = "FILE", conflicts_with_all = ["named", "scene", "set", "method", "tol", "step", "epsilon"])]
     open: Option<PathBuf>,
     /// Resumes the session that was left last
@@ -49,7 +49,7 @@ pub struct Explore {
     /// Writes what is pressed to a keystroke file
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
-    /// Lets --record replace a file that is no recording
+    /// Lets --record replace a file that is not a recording
     #[arg(long, requires = "record")]
     force: bool,
 }
@@ -87,7 +87,9 @@ impl Explore {
 fn last() -> Result<PathBuf, Failure> {
     let path = Memory::open().map(|memory| memory.last()).filter(|path| path.exists());
     path.ok_or_else(|| {
-        Failure::Usage("no session has been left yet in which something was done".to_owned())
+        Failure::Usage(
+            "there is no last session: one in which nothing was done is not kept".to_owned(),
+        )
     })
 }
 
@@ -144,7 +146,7 @@ fn kept((ended, path): (SystemTime, PathBuf)) -> Kept {
     let what = Files::read(&path).and_then(|text| save::summary(&text));
     let what = what.unwrap_or_else(|why| {
         let why = why.strip_prefix(&format!("{}: ", path.display())).unwrap_or(&why);
-        format!("cannot be continued: {why}")
+        format!("cannot be resumed: {why}")
     });
     Kept { when: ago(ended.elapsed().unwrap_or_default().as_secs()), what, path }
 }

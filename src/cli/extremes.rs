@@ -13,7 +13,7 @@ use crate::scene::file::TOLERANCE_RANGE;
 use crate::study::extremes::verdict::TOLERANCE;
 use crate::study::extremes::{Case, cases, judge, judge_set, named, sets};
 
-/// Follows motions at the extremes of all parameters by every method, and says how well
+/// Follows motions at the extremes of all parameters by every method, and says how accurately
 ///
 /// With --cycles, finds the limit cycles there instead.
 #[derive(Debug, Args)]
@@ -27,7 +27,7 @@ pub struct Extremes {
     /// The limit cycles at these parameters: how many, how well they close, or why the search gave up
     #[arg(long, conflicts_with = "tol")]
     cycles: bool,
-    /// Relative error of a step, 1e-15 .. 0.01
+    /// Relative error per step, 1e-15 .. 0.01
     #[arg(long, value_name = "X", value_parser = tolerance, default_value_t = TOLERANCE)]
     tol: f64,
 }

@@ -62,7 +62,14 @@ fn first_paragraphs(text: &str) -> String {
     if sentence.starts_with("unexpected argument") && !sentence.contains("tip:") {
         sentence.push_str("; --help lists what there is");
     }
-    sentence.replace("tip: a similar argument exists:", "did you mean")
+    if let Some(word) =
+        sentence.strip_prefix("the subcommand ").filter(|_| sentence.ends_with("'[SCENE]'"))
+    {
+        let word = word.split(' ').next().unwrap_or_default();
+        return format!("{word} cannot follow a scene; a command stands first and takes --scene");
+    }
+    let similar = ["tip: a similar argument exists:", "tip: a similar value exists:"];
+    similar.into_iter().fold(sentence, |sentence, tip| sentence.replace(tip, "did you mean"))
 }
 
 #[cfg(test)]
@@ -78,6 +85,10 @@ mod tests {
         let text = "error: unexpected argument '--xyz' found\n\n  tip: to pass '--xyz' as a value, use \
                     '-- --xyz'\n\nUsage: hopfscope\n";
         let line = "unexpected argument '--xyz' found; --help lists what there is";
+        assert_eq!(first_paragraphs(text), line);
+        let text =
+            "error: the subcommand 'extra' cannot be used with '[SCENE]'\n\nUsage: hopfscope\n";
+        let line = "'extra' cannot follow a scene; a command stands first and takes --scene";
         assert_eq!(first_paragraphs(text), line);
         let text = "error: these were not provided:\n  --over <RANGE>\n\nUsage: hopfscope\n";
         assert_eq!(first_paragraphs(text), "these were not provided: --over <RANGE>");

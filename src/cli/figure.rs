@@ -44,7 +44,7 @@ pub enum Printed {
     Text,
     /// One JSON document, all digits.
     Json,
-    /// One row a point, all digits.
+    /// One row per point, all digits.
     Csv,
     /// A vector picture.
     Svg,

@@ -140,7 +140,7 @@ fn stiffness(text: &str) -> Result<f64, String> {
 
 fn length(text: &str) -> Result<String, String> {
     let known = || {
-        format!("{text:?} is no unit of length; there are {}", LENGTHS.map(|it| it.0).join(", "))
+        format!("{text:?} is not a unit of length; there are {}", LENGTHS.map(|it| it.0).join(", "))
     };
     length_in_metres(text).map(|_| text.to_owned()).ok_or_else(known)
 }
@@ -224,8 +224,9 @@ impl Fit {
         let known = LENGTHS.map(|it| it.0).join(", ");
         let unit =
             unit.ok_or_else(|| format!("the file names no unit of length; --unit one of {known}"))?;
-        let metres = length_in_metres(unit)
-            .ok_or_else(|| format!("{unit:?} is no known unit of length; --unit one of {known}"))?;
+        let metres = length_in_metres(unit).ok_or_else(|| {
+            format!("{unit:?} is not a known unit of length; --unit one of {known}")
+        })?;
         Ok(Some((inertia, metres)))
     }
 }

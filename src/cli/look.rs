@@ -20,7 +20,7 @@ pub struct Looks {
           value_parser = |name: &str| one_of(&THEMES, name), help = help("Which colours", &THEMES))]
     theme: Option<Theme>,
 
-    /// Lets the mouse start motions and zoom, in place of selecting text
+    /// Lets the mouse start motions and zoom instead of selecting text
     #[arg(long)]
     mouse: bool,
 }

@@ -30,7 +30,7 @@ use crate::study::kicks::Kicks;
 use crate::study::measure::{Conditions, MEASURES, Measure};
 use crate::study::scan::{Scan, ScanRow, Sweep};
 
-/// Measures at every point of a line or grid of parameters, on all cores, one row a point
+/// Measures at every point of a line or grid of parameters, on all cores, one row per point
 #[derive(Debug, Args)]
 #[command(name = "scan")]
 pub struct ScanCommand {
@@ -73,16 +73,16 @@ pub struct ScanCommand {
     /// Threads (default: as many as there are cores)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
-    /// Form of the rows; json writes one object a line (default: csv, or what FILE ends with)
+    /// Form of the rows; json writes one object per line (default: csv, or what FILE ends with)
     #[arg(long, value_enum, value_name = "FORM")]
     format: Option<Rows>,
     /// Writes the rows to FILE instead of standard output
     #[arg(long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Goes on where an earlier scan to the same FILE has ended
+    /// Continues an earlier scan to the same FILE where it ended
     #[arg(long, requires = "output")]
     resume: bool,
-    /// Starts over where FILE holds something
+    /// Starts over if FILE holds something
     #[arg(long, requires = "output", conflicts_with = "resume")]
     force: bool,
     #[command(flatten)]
@@ -108,10 +108,10 @@ enum Header {
 enum Rows {
     /// Aligned columns, to read.
     Table,
-    /// One object a line, all digits.
+    /// One object per line, all digits.
     #[value(alias = "jsonl")]
     Json,
-    /// One row a line after a line of names, all digits.
+    /// One row per line after a line of names, all digits.
     Csv,
 }
 

@@ -14,7 +14,7 @@ pub struct Scenes {
     /// Form of the list
     #[arg(long, value_enum, default_value_t = Format::Table, value_name = "FORM")]
     format: Format,
-    /// Shows what each scene asks, what that costs, and what a step of each number asks again
+    /// Shows what each scene computes, what that costs, and what a step of each number recomputes
     #[arg(long)]
     cost: bool,
 }

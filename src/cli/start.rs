@@ -28,7 +28,7 @@ pub struct StartOptions {
     #[arg(long, value_name = "NAME", value_parser = input::method, help = methods_help())]
     method: Option<Method>,
 
-    /// Relative error of a step, 1e-15 .. 0.01
+    /// Relative error per step, 1e-15 .. 0.01
     #[arg(long, value_name = "X", value_parser = tolerance, allow_hyphen_values = true)]
     tol: Option<f64>,
 

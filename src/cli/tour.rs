@@ -13,7 +13,7 @@ use crate::scene::plain;
 use crate::session::replay::Step;
 use crate::session::{Session, Size};
 
-/// Shows around in the explorer: keys that a caption names work, any other goes on, Esc leaves the tour
+/// Gives a tour of the explorer: keys that a caption names work, any other goes on, Esc leaves the tour
 #[derive(Debug, Args)]
 pub struct Tour {
     #[command(flatten)]

@@ -40,7 +40,7 @@ pub enum Form {
     Svg,
     /// The same picture as dots, 288 to the inch.
     Png,
-    /// One row a point, all digits.
+    /// One row per point, all digits.
     Csv,
     /// One JSON document, all digits.
     Json,

@@ -50,7 +50,7 @@ impl Files {
             return Ok(());
         }
         let name = path.display();
-        Err(format!("{name} is there already; with ! behind the command it is replaced"))
+        Err(format!("{name} is there already; ! behind the command replaces it"))
     }
 
     /// Writes a file, and says how that ended. Whatever happens, the file is there as a whole or as it
@@ -76,7 +76,7 @@ impl Files {
         let told = |why: &dyn std::fmt::Display| format!("{}: {why}", path.display());
         // A pipe into which nobody writes would hold up the loop.
         if !std::fs::metadata(&path).map_err(|why| told(&why))?.is_file() {
-            return Err(told(&"no file"));
+            return Err(told(&"not a file"));
         }
         bounded::bytes(&path).map(|bytes| decoded(&bytes)).map_err(|why| told(&why))
     }

@@ -261,8 +261,7 @@ impl<M: Application, W: Write> Pump<M, W> {
 
     /// Writes what was recorded to a file, without the presses that asked for that.
     fn write_record(&self, path: &Path, forget: u32, replace: bool) -> Notice {
-        if let Err(text) = Record::admit(path, replace, "with ! behind the command it is replaced")
-        {
+        if let Err(text) = Record::admit(path, replace, "! behind the command replaces it") {
             return Notice { error: true, text };
         }
         let mut recorder = self.recorder.clone();

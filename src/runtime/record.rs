@@ -64,7 +64,7 @@ impl Record {
         if read.is_ok() && head == HEADER {
             return Ok(());
         }
-        Err(format!("{name} is there already and is no recording; {how}"))
+        Err(format!("{name} is there already and is not a recording; {how}"))
     }
 
     /// Writes what has changed since the last time.
@@ -146,7 +146,7 @@ mod tests {
         }
         std::fs::write(&path, [0xff; 64]).unwrap();
         let refused = Record::admit(&path, false, "--force replaces it").unwrap_err();
-        assert!(refused.ends_with("is no recording; --force replaces it"), "{refused}");
+        assert!(refused.ends_with("is not a recording; --force replaces it"), "{refused}");
         assert!(Record::admit(folder.path(), true, "no").is_err(), "a folder is no file");
     }
 }

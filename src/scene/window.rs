@@ -38,7 +38,7 @@ impl fmt::Display for NoSpan {
         let Self { from, to } = self;
         write!(
             out,
-            "[{from:?}, {to:?}] is no interval: two finite numbers up to {FARTHEST:?} are needed, \
+            "[{from:?}, {to:?}] is not an interval: two finite numbers up to {FARTHEST:?} are needed, \
              the second larger"
         )
     }

@@ -121,7 +121,7 @@ fn paste(session: &mut Session, text: &str) -> Vec<Effect> {
     if !text.contains('<') && !text.trim_start().starts_with('#') {
         return refuse(
             session,
-            "the pasted text names no key, as <right>: it is no keystroke file",
+            "the pasted text names no key such as <right>: it is not a keystroke file",
         );
     }
     match parse(text) {
@@ -130,7 +130,7 @@ fn paste(session: &mut Session, text: &str) -> Vec<Effect> {
             Vec::new()
         }
         Ok(_) => inform(session, "the pasted text presses no key"),
-        Err(error) => refuse(session, format!("the pasted text is no keystroke file: {error}")),
+        Err(error) => refuse(session, format!("the pasted text is not a keystroke file: {error}")),
     }
 }
 

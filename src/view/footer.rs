@@ -87,7 +87,7 @@ fn waiting(session: &Session, look: &Look) -> Vec<Span<'static>> {
 /// What the next key is waited for.
 fn pending(pending: Option<Pending>, look: &Look) -> Span<'static> {
     let text = match pending {
-        Some(Pending::Count(0)) => " how often? a number, then a key".to_owned(),
+        Some(Pending::Count(0)) => " how many times? a number, then a key".to_owned(),
         Some(Pending::Count(count)) => format!(" {count} times: which key?"),
         Some(Pending::Letter { what, .. }) => format!(" {}", what.question()),
         None => String::new(),

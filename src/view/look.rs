@@ -110,7 +110,7 @@ impl fmt::Display for ThemeError {
             ThemeError::Missing(role) => write!(out, "theme: {role} has no style"),
             ThemeError::Word { role, word } => write!(
                 out,
-                "theme: {role}: {word:?} is no colour (red, light-red, #ff8800, default), \
+                "theme: {role}: {word:?} is not a colour (red, light-red, #ff8800, default), \
                  and not bold, dim, italic, underlined or reversed"
             ),
         }

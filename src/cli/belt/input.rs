@@ -95,7 +95,7 @@ pub fn start(text: &str) -> Result<Start, String> {
             (Name::Displacement, x) => start.x = Some(x.middle.value),
             (Name::Velocity, v) => start.v = Some(v.middle.value),
             (Name::Number(_), _) => {
-                return Err(format!("{part:?} is no start; expected x=.. and v=.."));
+                return Err(format!("{part:?} is not a start; expected x=.. and v=.."));
             }
         }
     }
@@ -105,7 +105,7 @@ pub fn start(text: &str) -> Result<Start, String> {
 /// `XMIN:XMAX,VMIN:VMAX`.
 pub fn window(text: &str) -> Result<Window, String> {
     let form =
-        || format!("{text:?} is no window; expected XMIN:XMAX,VMIN:VMAX, such as -2mm:2mm,0:1");
+        || format!("{text:?} is not a window; expected XMIN:XMAX,VMIN:VMAX, such as -2mm:2mm,0:1");
     let pair = |part: &str, dimension, unit| {
         let (from, to) = part.split_once(':').ok_or_else(form)?;
         let read = |text| measured(text).and_then(|read| read.as_a(dimension, unit));
@@ -147,7 +147,7 @@ pub fn margin(text: &str) -> Result<(Kick, f64), String> {
         Some(Dimension::IMPULSE) => Kick::Impulse,
         _ => {
             return Err(format!(
-                "{text:?} is no margin; expected a displacement, such as \"2 mm\", or an impulse, such as \
+                "{text:?} is not a margin; expected a displacement, such as \"2 mm\", or an impulse, such as \
                  \"0.1 N s\""
             ));
         }

@@ -68,7 +68,7 @@ pub fn next_unit(session: &mut Session) -> Vec<Effect> {
     let Some(plot) = session.focused() else { return Vec::new() };
     let (spec, unit) = (plot.axes.ordinate.spec(), plot.axes.unit);
     if spec.ratio.is_none() {
-        return refuse(session, format!("{} is no length, and has no unit", spec.label));
+        return refuse(session, format!("{} is not a length and has no unit", spec.label));
     }
     let unit = if unit == Unit::One { Unit::Friction } else { Unit::One };
     let axes = Axes { unit, ..plot.axes };

@@ -95,7 +95,7 @@ fn built(
 
 /// What stands there with the typed bound on the disturbance: in the unit of r, or with a unit of force.
 fn disturbed(session: &Session, setup: &Setup, text: &str) -> Result<Setup, String> {
-    let refused = || format!("{text:?} is no disturbance; w takes 0 or more");
+    let refused = || format!("{text:?} is not a disturbance; w takes 0 or more");
     let read = measured(&plain_minus(text)).map_err(|_| refused())?;
     let unit = match read.dimension {
         None => 1.0,
@@ -158,7 +158,7 @@ fn read_number(problem: Problem, row: Row, text: &str) -> Result<Problem, String
     let value: f64 =
         plain_minus(text).parse().map_err(|_| format!("{text:?} is not a number; {takes}"))?;
     if !value.is_finite() {
-        return Err(format!("{text} is no finite number; {takes}"));
+        return Err(format!("{text} is not a finite number; {takes}"));
     }
     if !(min..=max).contains(&value) {
         return Err(format!("{name} = {text} is out of range; {takes}"));

@@ -73,7 +73,7 @@ pub fn offer_figure(session: &mut Session) -> Vec<Effect> {
 fn register(rest: &str) -> Result<(char, &str), String> {
     let (name, path) = rest
         .split_once(char::is_whitespace)
-        .ok_or_else(|| format!("{rest:?} is no letter and file, such as: a walk.keys"))?;
+        .ok_or_else(|| format!("{rest:?} is not a letter and a file, such as: a walk.keys"))?;
     Ok((letter(name)?, path.trim()))
 }
 

@@ -77,7 +77,7 @@ pub fn theme(session: &mut Session) -> Vec<Effect> {
 pub fn equal(session: &mut Session) -> Vec<Effect> {
     session.look.stretched = !session.look.stretched;
     let text = if session.look.stretched {
-        "phase planes fill their place: a circle need not look like one"
+        "phase planes fill their panes: a circle need not look like one"
     } else {
         "equal units: a circle looks like one"
     };

@@ -35,7 +35,10 @@ pub fn open_layers(session: &mut Session) -> Vec<Effect> {
 pub fn toggle_letter(session: &mut Session, key: Key) -> Vec<Effect> {
     let view = session.view_in_use();
     let Some((_, layer)) = letters(view).find(|(letter, _)| key.typed() == Some(*letter)) else {
-        return refuse(session, format!("{} is no layer of the {}", key.said(), view.spec().title));
+        return refuse(
+            session,
+            format!("{} is not a layer of the {}", key.said(), view.spec().title),
+        );
     };
     if let Some(Overlay::List(Listed::Layers, list)) = &session.overlay {
         let place = session.layer_rows(list).iter().position(|row| row.layer == layer);

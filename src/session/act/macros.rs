@@ -51,7 +51,8 @@ pub fn record_or_end(session: &mut Session) -> Vec<Effect> {
             let presses = Script::repeated(&steps, 1).keys();
             session.macros.registers.insert(register, steps);
             session.macros.last = Some(register);
-            inform(session, format!("register {register} has {presses} keys"));
+            let keys = if presses == 1 { "key" } else { "keys" };
+            inform(session, format!("register {register} has {presses} {keys}"));
         }
     }
     Vec::new()

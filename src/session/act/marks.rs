@@ -31,7 +31,7 @@ pub(in crate::session) fn go_to(session: &mut Session, name: char) -> Vec<Effect
 pub(in crate::session) fn go_back(session: &mut Session) -> Vec<Effect> {
     match session.marks.left.clone() {
         Some(mark) => go(session, &mark),
-        None => refuse(session, "no mark has been gone to yet"),
+        None => refuse(session, "no mark has been visited yet"),
     }
 }
 

@@ -88,7 +88,7 @@ fn positive(text: &str, (kg, m, s): (i8, i8, i8), unit: &str) -> Result<f64, Str
 /// Times and displacements, by number from 1 or by name.
 fn columns(text: &str) -> Result<(Option<Column>, Option<Column>), String> {
     let (time, displacement) =
-        text.split_once(',').ok_or_else(|| format!("{text:?} is no columns=1,3"))?;
+        text.split_once(',').ok_or_else(|| format!("{text:?} is not columns=1,3"))?;
     let column = |name: &str| match name.trim().parse() {
         Ok(0) => Err("columns are counted from 1".to_owned()),
         Ok(number) => Ok(Some(Column::Number(number))),

@@ -6,7 +6,7 @@ use crate::flow::Problem;
 use crate::numerics::decimal::shortest;
 use crate::scene::View;
 use crate::session::act::focus::focus_on;
-use crate::session::act::notice::{inform, refuse};
+use crate::session::act::notice::{inform, refuse, told};
 use crate::session::act::parameters::change;
 use crate::session::act::screen_setup::{add, show};
 use crate::session::effect::Effect;
@@ -142,7 +142,9 @@ pub fn stop(session: &mut Session) -> Vec<Effect> {
     if scanned.request().is_some() {
         scanned.progress = Progress::Stopped;
         let (rows, points) = (scanned.rows.len(), scanned.scan.points());
-        inform(session, format!("stopped: {rows} of {points} rows; P goes on"));
+        let text = format!("stopped: {rows} of {points} rows; {{scan-pause}} goes on");
+        let text = told(session, &text);
+        inform(session, text);
     }
     Vec::new()
 }

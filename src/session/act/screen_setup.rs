@@ -83,7 +83,7 @@ pub fn next_view(session: &mut Session, by: isize) -> Vec<Effect> {
 /// Adds a plot beside the one in use: the first view that is not on show, else another of the same.
 pub fn add(session: &mut Session) -> Vec<Effect> {
     if session.plots.len() >= MOST_PLOTS {
-        return refuse(session, format!("there are {MOST_PLOTS} plots, and no more fit"));
+        return refuse(session, format!("there are {MOST_PLOTS} plots already; no more fit"));
     }
     let index = session.plot;
     let absent = |view: &View| session.plots.iter().all(|plot| plot.view != *view);

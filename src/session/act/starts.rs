@@ -39,7 +39,7 @@ pub(in crate::session) fn start(session: &mut Session, initial: State) {
 /// Takes the newest motion away; the one before is then the present one.
 pub fn drop_newest(session: &mut Session) -> Vec<Effect> {
     let Some(initial) = session.others.all().last().copied() else {
-        return refuse(session, "one motion is on show, and stays");
+        return refuse(session, "only one motion is on show; it stays");
     };
     let problem = Problem { initial, ..session.problem };
     put(session, &Setup { problem, others: session.others.without(initial), ..session.setup() });
@@ -51,7 +51,7 @@ pub fn drop_newest(session: &mut Session) -> Vec<Effect> {
 /// Takes all motions away but the newest.
 pub fn drop_others(session: &mut Session) -> Vec<Effect> {
     if !put(session, &Setup { others: Starts::default(), ..session.setup() }) {
-        refuse(session, "one motion is on show, and stays");
+        refuse(session, "only one motion is on show; it stays");
     }
     Vec::new()
 }

@@ -52,7 +52,7 @@ pub fn set(session: &mut Session, rest: &str) -> Done {
             (None, Some((name, value))) if takes_unit(session, name) => {
                 *value = format!("{value} {word}");
             }
-            (None, _) => return Err(format!("{word:?} is no NAME=VALUE, such as D=-0.3")),
+            (None, _) => return Err(format!("{word:?} is not NAME=VALUE, such as D=-0.3")),
         }
     }
     let mut setup = session.setup();
@@ -113,7 +113,7 @@ pub fn layer(session: &mut Session, rest: &str) -> Done {
 
 /// Shows a part of the world in the plot in use.
 pub fn window(session: &mut Session, rest: &str) -> Done {
-    let form = || format!("{rest:?} is no X0:X1,Y0:Y1, such as -2:2,-1:1");
+    let form = || format!("{rest:?} is not X0:X1,Y0:Y1, such as -2:2,-1:1");
     let (x, y) = rest.split_once(',').ok_or_else(form)?;
     let span = |text: &str| {
         let (from, to) = text.split_once(':').ok_or_else(form)?;
@@ -192,7 +192,7 @@ pub fn letter(text: &str) -> Result<char, String> {
     let mut chars = text.chars();
     match (chars.next(), chars.next()) {
         (Some(letter @ 'a'..='z'), None) => Ok(letter),
-        _ => Err(format!("{text:?} is no letter from a to z")),
+        _ => Err(format!("{text:?} is not a letter from a to z")),
     }
 }
 

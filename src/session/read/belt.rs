@@ -119,7 +119,7 @@ impl Session {
     /// What 1 of r and w stands for, in newtons.
     ///
     /// # Errors
-    /// One line, where the scene is of no machine.
+    /// One line, where the scene has no machine.
     pub(in crate::session) fn unit_of_force(&self, setup: &Setup) -> Result<f64, String> {
         let fitted = self.fitted().and_then(|fitted| fitted.fit.units());
         if let Some(units) = fitted {
@@ -134,7 +134,7 @@ impl Session {
 
     /// The machine of the scene as it is set.
     fn set_machine(&self, setup: &Setup) -> Result<Machine, String> {
-        let scaled = self.scene.machine.as_ref().ok_or("the scene is of no machine")?;
+        let scaled = self.scene.machine.as_ref().ok_or("the scene has no machine")?;
         Ok(setup
             .setting
             .map_or_else(|| scaled.machine.clone(), |setting| setting.on(&scaled.machine)))

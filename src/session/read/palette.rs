@@ -103,7 +103,7 @@ impl Session {
     pub fn heading(&self, row: PaletteRow) -> &'static str {
         match row {
             PaletteRow::Command(command) => self.place_of(command).map_or("", Context::title),
-            PaletteRow::Line(_) => "Behind a colon",
+            PaletteRow::Line(_) => "Typed after a colon",
             PaletteRow::Scene(_) => "Scenes",
             PaletteRow::View(_) => "Views of a plot",
             PaletteRow::Layer(_) => "Layers",

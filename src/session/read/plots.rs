@@ -50,13 +50,13 @@ impl Session {
     /// Why a layer that is on shows nothing, where that lies in the axes of every diagram on show.
     pub fn not_drawn(&self, layer: Layer) -> Option<&'static str> {
         if layer == Layer::Ghost {
-            return self.marks.left.is_none().then_some("not drawn: no mark has been gone to yet");
+            return self.marks.left.is_none().then_some("not drawn: no mark has been visited yet");
         }
         if matches!(layer, Layer::Record | Layer::Recorded) {
             return self.scene.recording.is_none().then_some("not drawn: no record is open");
         }
         if matches!(layer, Layer::Belt | Layer::BeltPath | Layer::Whole) {
-            return self.scene.machine.is_none().then_some("not drawn: the scene is of no machine");
+            return self.scene.machine.is_none().then_some("not drawn: the scene has no machine");
         }
         let harmonic = matches!(layer, Layer::Harmonic | Layer::Asymptotes);
         let drawn = |index: usize| {

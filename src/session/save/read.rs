@@ -130,7 +130,7 @@ fn read(text: &str) -> Result<SavedSession, String> {
     };
     let head: Head = toml::from_str(text).map_err(refused)?;
     match head.hopfscope {
-        None => Err("no saved session: it does not say hopfscope = 1".to_owned()),
+        None => Err("not a saved session: it does not say hopfscope = 1".to_owned()),
         Some(version @ (0 | VERSION..)) if version != VERSION => {
             Err(format!("a session of format {version}; this program reads up to {VERSION}"))
         }

@@ -93,7 +93,7 @@ fn ratios_to_r_are_another_look_at_the_same_branch() {
     }
     trial.goes(&[
         ("", "abscissa r"),
-        ("Y Y Y Y Y N", "notice period is no length, and has no unit"),
+        ("Y Y Y Y Y N", "notice period is not a length and has no unit"),
         (
             ": axes D period/r",
             "refused ..no property \"period/r\"; there are q_max, q_max/r, q_min..",

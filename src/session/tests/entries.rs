@@ -25,8 +25,8 @@ fn a_value_is_typed_from_its_first_digit_or_edited_after_enter() {
 fn what_cannot_be_a_value_is_refused_with_the_range() {
     let [r, until, method, tolerance] = [3, 6, 7, 8];
     for (row, typed, said) in [
-        (r, "nan", "nan is no finite number; r takes 0 to 1e300"),
-        (r, "1e400", "1e400 is no finite number; r takes 0 to 1e300"),
+        (r, "nan", "nan is not a finite number; r takes 0 to 1e300"),
+        (r, "1e400", "1e400 is not a finite number; r takes 0 to 1e300"),
         (r, "-1", "r = -1 is out of range; r takes 0 to 1e300"),
         (r, "zero", "\"zero\" is not a number; r takes 0 to 1e300"),
         (r, "0,1", "\"0,1\" is not a number; r takes 0 to 1e300"),
@@ -67,7 +67,7 @@ fn pasted_keystrokes_are_offered_and_played_only_after_a_yes() {
 #[test]
 fn pasted_text_that_is_nothing_gets_one_line() {
     const WRONG: &str =
-        "notice the pasted text is no keystroke file: line 2, column 3: unknown key <wrold>; ..";
+        "notice the pasted text is not a keystroke file: line 2, column 3: unknown key <wrold>; ..";
     Trial::open("plain").goes(&[
         ("<paste \"hello\\n  <wrold>\">", WRONG),
         ("<paste \"hello\">", "notice the pasted text names no key.."),

@@ -104,7 +104,7 @@ fn between_two_marks_nothing_is_computed_twice_and_the_other_one_is_a_ghost() {
 fn a_mark_without_a_letter_or_a_point_is_refused() {
     Trial::open("plain").goes(&[
         ("'x", "notice there is no mark x"),
-        ("''", "notice no mark has been gone to yet"),
+        ("''", "notice no mark has been visited yet"),
         ("\"7", "notice 7 is not a letter from a to z"),
         ("@@", "notice no register has been played yet"),
         ("\"<C-c>", "quit true"),

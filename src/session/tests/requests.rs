@@ -106,7 +106,7 @@ fn terms_that_a_scene_does_not_declare_are_zero_until_the_user_unfolds_them() {
             Request::Machine(_)
             | Request::Portrait(_)
             | Request::MachineZones(_)
-            | Request::Speeds(_) => unreachable!("the scene is of no machine"),
+            | Request::Speeds(_) => unreachable!("the scene has no machine"),
             Request::Zones(question::zones::Asked { known, .. }) => known.middle(),
             Request::Cycles(question::cycles::Asked { parameters })
             | Request::Proof(question::proof::Asked { parameters })

@@ -177,7 +177,7 @@ fn what_is_no_session_is_refused_in_one_line_and_changes_nothing() {
     let good = save::text(&used().session).unwrap();
     for (from, to, said) in [
         ("hopfscope = 1", "hopfscope = 2", "a session of format 2; this program reads up to 1"),
-        ("hopfscope = 1\n", "", "no saved session: it does not say hopfscope = 1"),
+        ("hopfscope = 1\n", "", "not a saved session: it does not say hopfscope = 1"),
         ("hopfscope = 1", "hopfscope = ", "line 2: "),
         ("harmonics = ", "harmonics = 1000 # ", "harmonics = 1000, not 1 to 63"),
         ("harmonics", "harmony", "unknown field `harmony`"),

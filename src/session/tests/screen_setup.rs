@@ -41,7 +41,7 @@ fn plots_are_added_removed_moved_and_each_change_is_undone() {
 #[test]
 fn there_are_one_to_four_plots() {
     Trial::alone("supercritical").goes(&[
-        ("W W W", "plots 4 | notice there are 4 plots, and no more fit"),
+        ("W W W", "plots 4 | notice there are 4 plots already; no more fit"),
         ("Q Q Q Q", "plots 1 | notice the last plot stays"),
     ]);
 }

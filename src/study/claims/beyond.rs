@@ -130,7 +130,7 @@ pub const CLAIMS: &[Claim] = &[
     Claim {
         equation: "escape",
         section: UNSAID,
-        statement: "with D3 < 0 every motion outside of the unstable cycle runs away in finite time",
+        statement: "with D3 < 0 every motion outside the unstable cycle runs away in finite time",
         scene: Some("subcritical"),
         check: |limits| {
             let mut cases = Vec::new();
