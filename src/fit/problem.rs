@@ -61,15 +61,7 @@ impl Problem<'_> {
     #[must_use]
     pub fn verdict(&self, optimum: &Optimum) -> Verdict {
         let Data::Samples { t, .. } = self.data else { return Verdict::Unexplained };
-        let used = |index: usize| self.used.get(index).copied().unwrap_or(true);
-        let residuals: Vec<f64> = optimum
-            .seen
-            .residuals
-            .iter()
-            .enumerate()
-            .filter(|(index, _)| used(*index))
-            .map(|(_, residual)| residual.value)
-            .collect();
+        let residuals: Vec<f64> = self.residuals(optimum).collect();
         let deviation = robust_deviation(residuals.iter().copied());
         // What a robust loss forgives must not look like a swing.
         let within: Vec<f64> = residuals
@@ -79,13 +71,33 @@ impl Problem<'_> {
         #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
         let rate = t.len() as f64 / (t[t.len() - 1] - t[0]);
         let found = whiteness(&within, rate * std::f64::consts::TAU / optimum.p[OMEGA0]);
-        if found.systematic || deviation > HIDDEN * self.noise {
+        if found.systematic || !self.is_small(deviation) {
             Verdict::Unexplained
         } else if found.white {
             Verdict::Noise
         } else {
             Verdict::Correlated
         }
+    }
+
+    fn is_small(&self, deviation: f64) -> bool {
+        deviation <= HIDDEN * self.noise
+    }
+
+    /// Whether the residuals are no larger than noise may be, whatever they look like: those of a coarse converter
+    /// are alike where the mass rests.
+    #[must_use]
+    pub fn comes_near(&self, optimum: &Optimum) -> bool {
+        let squares = self.residuals(optimum).map(|it| it * it);
+        let (sum, count) = squares.fold((0.0, 0.0), |(sum, count), it| (sum + it, count + 1.0));
+        self.is_small((sum / count).sqrt())
+    }
+
+    /// The residuals that count.
+    fn residuals(&self, optimum: &Optimum) -> impl Iterator<Item = f64> {
+        let used = |index: &usize| self.used.get(*index).copied().unwrap_or(true);
+        let each = optimum.seen.residuals.iter().enumerate();
+        each.filter(move |(index, _)| used(index)).map(|(_, residual)| residual.value)
     }
 
     /// Whether the residuals may be noise.

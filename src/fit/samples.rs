@@ -65,7 +65,7 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
         problem.loss = Loss::Linear;
         used = refined(&problem, loss.is_robust(), &mut found, runs)?;
         // Where the motion is not understood nothing is known to rest.
-        if (Problem { used: &used, ..problem }).explains(&found.valleys[0].optimum) {
+        if (Problem { used: &used, ..problem }).comes_near(&found.valleys[0].optimum) {
             alike = telling(&problem, &noise, &mut used, &mut found, runs)?;
         }
     }
