@@ -28,6 +28,9 @@ use crate::session::{Code, Gesture, Key, Msg};
 /// slow line `ESC` and `[A` can arrive apart (crossterm#993). After that it was the key.
 const ESCAPE_TIME: Duration = Duration::from_millis(50);
 
+/// What Ctrl-C sends, read alone as a hand types it.
+const INTERRUPT: &[u8] = b"\x03";
+
 /// Bytes read at once.
 const BUFFER: usize = 4096;
 
@@ -67,7 +70,13 @@ fn read(terminal: &impl AsFd, mut send: impl FnMut(Event)) {
             Err(_) => return,
         };
         parser.parse(bytes, true);
-        drain(&mut parser, &mut send);
+        let parsed = drain(&mut parser, &mut send);
+        if bytes == INTERRUPT && !parsed {
+            // The parser waits for the end of a sequence that was broken off: no key would ever end it.
+            parser = Parser::default();
+            parser.parse(bytes, true);
+            drain(&mut parser, &mut send);
+        }
         if bytes.last() == Some(&b'\x1b') && !more(terminal, Some(ESCAPE_TIME)) {
             parser.parse(&[], false);
             drain(&mut parser, &mut send);
@@ -82,12 +91,16 @@ fn more(terminal: &impl AsFd, time: Option<Duration>) -> bool {
     poll(&mut waiting, time.as_ref()).is_ok_and(|ready| ready > 0)
 }
 
-fn drain(parser: &mut Parser, send: &mut impl FnMut(Event)) {
+/// Sends what has been understood; returns whether that was anything.
+fn drain(parser: &mut Parser, send: &mut impl FnMut(Event)) -> bool {
+    let mut any = false;
     while let Some(parsed) = parser.pop() {
+        any = true;
         if let Some(event) = event(parsed) {
             send(event);
         }
     }
+    any
 }
 
 /// What a parsed sequence means here; releases of keys, and all that was not asked for, mean nothing.
@@ -206,6 +219,23 @@ mod tests {
             }
             Event::Session(Msg::Paste(text)) => format!("paste {text:?}"),
             other => format!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn ctrl_c_is_heard_behind_whatever_was_broken_off() {
+        let broken: [&[u8]; 6] =
+            [b"\x1b]11;rgb:", b"\x1bPq", b"\x1b_x", b"\x1b[200~text", b"\x1b[12;", b"\xf0\x9f"];
+        for bytes in broken {
+            let mut keyboard = keyboard();
+            keyboard.types(bytes);
+            // A hand is slower than the reader.
+            thread::sleep(2 * ESCAPE_TIME);
+            keyboard.types(INTERRUPT);
+            let second = Duration::from_secs(1);
+            let heard = std::iter::from_fn(|| keyboard.events.recv_timeout(second).ok());
+            let heard: Vec<String> = heard.map(|event| name(&event)).collect();
+            assert_eq!(heard.last().map(String::as_str), Some("C-Char('c')"), "{bytes:?}");
         }
     }
 
