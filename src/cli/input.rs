@@ -99,42 +99,59 @@ pub struct Over {
     pub count: usize,
 }
 
-/// Fewest and most values of an [`Over`].
-const COUNTS: std::ops::RangeInclusive<usize> = 2..=1_000_000;
-
 /// `NAME=FROM:TO:COUNT`.
 pub fn over(text: &str) -> Result<Over, String> {
-    let form = || "expected NAME=FROM:TO:COUNT, such as D=-0.95:0:400";
-    let (name, range) = text.split_once('=').ok_or_else(form)?;
+    let form = "expected NAME=FROM:TO:COUNT, such as D=-0.95:0:400";
+    let (name, range) = text.split_once('=').ok_or(form)?;
     let symbol = symbol(name.trim())?;
-    let [from, to, count] = range.split(':').collect::<Vec<_>>()[..] else {
-        return Err(form().to_owned());
+    let value = |text: &str| value_of(symbol, text);
+    let ((from, to), count) =
+        stepped(range, form, 1_000_000, |from, to| Ok((value(from)?, value(to)?)))?;
+    Ok(Over { symbol, range: (from.min(to), from.max(to)), count })
+}
+
+/// `FROM:TO:COUNT`: two different ends, as they are read together, and 2 values or more.
+pub fn stepped(
+    text: &str,
+    form: &str,
+    most: usize,
+    ends: impl Fn(&str, &str) -> Result<(f64, f64), String>,
+) -> Result<((f64, f64), usize), String> {
+    let [from, to, count] = text.split(':').collect::<Vec<_>>()[..] else {
+        return Err(form.to_owned());
     };
-    let (from, to) = (value_of(symbol, from)?, value_of(symbol, to)?);
-    let count = usize::from_str(count.trim())
-        .ok()
-        .filter(|count| COUNTS.contains(count))
-        .ok_or_else(|| format!("COUNT = {count} is not a whole number in 2 .. 1000000"))?;
+    let (from, to) = ends(from, to)?;
+    let parsed = count.trim().parse().ok().filter(|count| (2..=most).contains(count));
+    let count =
+        parsed.ok_or_else(|| format!("COUNT = {count} is not a whole number in 2 .. {most}"))?;
     if from == to {
         return Err(format!("FROM and TO are both {from:?}"));
     }
-    Ok(Over { symbol, range: (from.min(to), from.max(to)), count })
+    Ok(((from, to), count))
+}
+
+/// `LOW:HIGH,LOW:HIGH`, the first side and the second each with what reads its numbers.
+pub fn sides(
+    text: &str,
+    form: &str,
+    read: [&dyn Fn(&str) -> Result<f64, String>; 2],
+) -> Result<[(f64, f64); 2], String> {
+    let (first, second) = text.split_once(',').ok_or(form)?;
+    let side = |part: &str, read: &dyn Fn(&str) -> Result<f64, String>| {
+        let (low, high) = part.split_once(':').ok_or(form)?;
+        let (low, high) = (read(low)?, read(high)?);
+        let above = || format!("{part:?}: {low:?} is not below {high:?}");
+        (low < high).then_some((low, high)).ok_or_else(above)
+    };
+    Ok([side(first, read[0])?, side(second, read[1])?])
 }
 
 /// `QMIN:QMAX,VMIN:VMAX`.
 pub fn window(text: &str) -> Result<Window, String> {
-    let form = || "expected QMIN:QMAX,VMIN:VMAX, such as -6:6,-6:6";
-    let (q, v) = text.split_once(',').ok_or_else(form)?;
-    let span = |text: &str, symbol| {
-        let (low, high) = text.split_once(':').ok_or_else(form)?;
-        let (low, high) = (value_of(symbol, low)?, value_of(symbol, high)?);
-        if low < high {
-            Ok((low, high))
-        } else {
-            Err(format!("{text}: {low:?} is not below {high:?}"))
-        }
-    };
-    Ok(Window { q: span(q, Symbol::Q0)?, v: span(v, Symbol::V0)? })
+    let form = "expected QMIN:QMAX,VMIN:VMAX, such as -6:6,-6:6";
+    let read = |symbol| move |text: &str| value_of(symbol, text);
+    let [q, v] = sides(text, form, [&read(Symbol::Q0), &read(Symbol::V0)])?;
+    Ok(Window { q, v })
 }
 
 /// `WxH` starts.

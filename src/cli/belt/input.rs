@@ -1,5 +1,6 @@
 //! Reading the options of `hopfscope belt`: values with units, ranges, windows.
 
+use crate::cli::input::{sides, stepped};
 use crate::machine::varied::Varied;
 use crate::oscillator::belt::Dimension;
 use crate::scene::machine::file::FARTHEST_START;
@@ -105,38 +106,31 @@ pub fn start(text: &str) -> Result<Start, String> {
 /// `XMIN:XMAX,VMIN:VMAX`.
 pub fn window(text: &str) -> Result<Window, String> {
     let form =
-        || format!("{text:?} is not a window; expected XMIN:XMAX,VMIN:VMAX, such as -2mm:2mm,0:1");
-    let pair = |part: &str, dimension, unit| {
-        let (from, to) = part.split_once(':').ok_or_else(form)?;
-        let read = |text| measured(text).and_then(|read| read.as_a(dimension, unit));
-        let (from, to) = (read(from)?, read(to)?);
-        if from < to { Ok((from, to)) } else { Err(format!("{part:?}: {from} is not below {to}")) }
+        format!("{text:?} is not a window; expected XMIN:XMAX,VMIN:VMAX, such as -2mm:2mm,0:1");
+    let read = |dimension, unit| {
+        move |text: &str| measured(text).and_then(|read| read.as_a(dimension, unit))
     };
-    let (x, v) = text.split_once(',').ok_or_else(form)?;
-    Ok(Window { x: pair(x, Dimension::LENGTH, "m")?, v: pair(v, Dimension::VELOCITY, "m/s")? })
+    let [x, v] =
+        sides(text, &form, [&read(Dimension::LENGTH, "m"), &read(Dimension::VELOCITY, "m/s")])?;
+    Ok(Window { x, v })
 }
 
 /// `NAME=FROM:TO:COUNT`.
 pub fn range(text: &str) -> Result<Range, String> {
     /// Most points of a sweep.
     const MOST: usize = 100_000;
-    let form = || "expected NAME=FROM:TO:COUNT, such as \"v0=0.1 m/s:0.5 m/s:21\"".to_owned();
-    let (name, range) = text.split_once('=').ok_or_else(form)?;
+    let form = "expected NAME=FROM:TO:COUNT, such as \"v0=0.1 m/s:0.5 m/s:21\"";
+    let (name, range) = text.split_once('=').ok_or(form)?;
     let unknown = || format!("there is no quantity {name:?}; there are {}", Varied::names());
     let varied = Varied::named(name.trim()).ok_or_else(unknown)?;
-    let [from, to, count] = range.split(':').collect::<Vec<_>>()[..] else { return Err(form()) };
-    let (from, to) = (measured(from)?, measured(to)?);
-    if from.dimension.is_some() != to.dimension.is_some() {
-        return Err(format!("{range:?}: FROM and TO both take a unit, or none (SI units)"));
-    }
-    let (from, to) = (value_of(varied, &from)?, value_of(varied, &to)?);
-    let parsed = count.trim().parse().ok().filter(|count| (2..=MOST).contains(count));
-    let count =
-        parsed.ok_or_else(|| format!("COUNT = {count} is not a whole number in 2 .. {MOST}"))?;
-    if from == to {
-        return Err(format!("FROM and TO are both {from:?}"));
-    }
-    Ok(Range { varied, ends: (from, to), count })
+    let (ends, count) = stepped(range, form, MOST, |from, to| {
+        let (from, to) = (measured(from)?, measured(to)?);
+        if from.dimension.is_some() != to.dimension.is_some() {
+            return Err(format!("{range:?}: FROM and TO both take a unit, or none (SI units)"));
+        }
+        Ok((value_of(varied, &from)?, value_of(varied, &to)?))
+    })?;
+    Ok(Range { varied, ends, count })
 }
 
 /// A margin: a displacement or an impulse, told apart by the unit.
