@@ -10,6 +10,7 @@ use crate::flow::Problem;
 use crate::flow::method::{EPSILON_RANGE, STEP_RANGE};
 use crate::oscillator::{PARAMETERS, State, Symbol};
 use crate::scene::file::{TOLERANCE_RANGE, UNTIL_RANGE};
+use crate::scene::misread::{self, Misread};
 use crate::scene::{MOST_PLOTS, PlotSetup, Scene, Setting, find};
 use crate::session::read::numbers::difference;
 use crate::session::replay;
@@ -122,19 +123,14 @@ fn read(text: &str) -> Result<SavedSession, String> {
     struct Head {
         hopfscope: Option<u32>,
     }
-    let refused = |error: toml::de::Error| {
-        let line =
-            error.span().map_or(0, |span| text[..span.start.min(text.len())].matches('\n').count());
-        let message = error.message().lines().next().unwrap_or_default();
-        format!("line {}: {message}", line + 1)
-    };
-    let head: Head = toml::from_str(text).map_err(refused)?;
+    let refused = |misread: Misread| format!("line {}: {}", misread.line, misread.message);
+    let head: Head = misread::toml("", text).map_err(refused)?;
     match head.hopfscope {
         None => Err("not a saved session: it does not say hopfscope = 1".to_owned()),
         Some(version @ (0 | VERSION..)) if version != VERSION => {
             Err(format!("a session of format {version}; this program reads up to {VERSION}"))
         }
-        Some(_) => toml::from_str(text).map_err(refused),
+        Some(_) => misread::toml("", text).map_err(refused),
     }
 }
 
