@@ -25,7 +25,7 @@ pub mod replay;
 pub mod save;
 pub mod state;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 pub mod update;
 
 pub use commands::commands;

@@ -1,6 +1,6 @@
 //! Answers made by hand, so that pictures of them are always the same, and sessions that have them.
 
-use crate::flow::{Cost, Crossing, Limits, Outcome, Problem, Reason, Sample, Trajectory};
+use crate::flow::{Cost, Crossing, Limits, Outcome, Problem, Sample, Trajectory};
 use crate::numerics::Interval;
 use crate::numerics::elementary::{cos, ln, sin, sin_cos};
 use crate::oscillator::{Ledger, Parameters, State, Symbol};
@@ -10,14 +10,12 @@ use crate::question;
 use crate::question::zones::{Extent, Zones};
 use crate::question::{Borders, Rows};
 use crate::scene::library::find;
-use crate::scene::{Answer, Answered, Fit, Layer, Request};
+use crate::scene::{Answer, Answered, Layer, Request};
 use crate::session::{Key, Msg, Session, Size, update};
 use crate::study::chart::{Band, Chart, Line, Plane};
-use crate::study::harmonic_error::HarmonicBalance;
 use crate::study::measure::Value;
 use crate::study::regime::Regime;
 use crate::study::scan::ScanRow;
-use crate::study::stability::Share;
 use crate::study::trade::Trade;
 use crate::study::{
     Branch, BranchPoint, Cycle, Cycles, Edge, Margin, Picture, Return, ReturnMap, Special,
@@ -110,23 +108,10 @@ pub(super) fn by_hand(request: &Request) -> Answer {
             guaranteed: Ok(Margin { displacement: Some(0.4), impulse: Some(0.4) }),
             cost: Cost { evaluations: 400, steps: 20, rejected: 0 },
         }),
-        Request::Kicks(_) => Answer::Kicks(question::kicks::Lost {
-            share: Share { part: 0.125, error: 1e-11 },
-            cost: Cost { evaluations: 400, steps: 20, rejected: 0 },
-        }),
         Request::Capture(_) => Answer::Capture(Borders {
             curves: vec![circle(0.2), circle(0.35)],
             cost: Cost { evaluations: 800, steps: 40, rejected: 0 },
         }),
-        Request::Balance(question::balance::Asked { parameters, harmonics }) => {
-            Answer::Balance(HarmonicBalance {
-                parameters: *parameters,
-                harmonics: *harmonics,
-                balanced: Vec::new(),
-                unknown: None,
-                cost: Cost { evaluations: 200, steps: 10, rejected: 0 },
-            })
-        }
         Request::Branch(question::branch::Asked { parameter, .. }) => {
             Answer::Branch(folded(*parameter))
         }
@@ -135,7 +120,6 @@ pub(super) fn by_hand(request: &Request) -> Answer {
         }
         Request::Regimes(question::regimes::Asked { plane, .. }) => Answer::Regimes(parted(*plane)),
         Request::Trade(_) => Answer::Trade(compared()),
-        Request::Reference(_) => Answer::Reference(Err(Reason::OutOfRange)),
         // Of the cycles made up above.
         Request::Proof(question::proof::Asked { parameters }) => {
             let known = |low, high, stable| ProvedCycle {
@@ -151,18 +135,8 @@ pub(super) fn by_hand(request: &Request) -> Answer {
                 swings: 0,
             })
         }
-        Request::Claims(question::claims::Asked) => Answer::Claims(Vec::new()),
-        Request::Fit(question::fit::Asked { recording }) => {
-            Answer::Fit(Fit::of(recording, &Limits::PATIENT, &|_| ()).expect("nobody interrupts"))
-        }
-        Request::Refit(question::refit::Asked { fit, held, drawn }) => {
-            Answer::Refit(fit.held(*held, *drawn, &Limits::PATIENT).expect("nobody interrupts"))
-        }
-        Request::Speeds(_) => Answer::Speeds(crate::question::speeds::Speeds {
-            points: Vec::new(),
-            special: Vec::new(),
-            cost: Cost::default(),
-        }),
+        // Of the rest the pictures show no more than that it was answered.
+        _ => crate::session::tests::by_hand(request),
     }
 }
 
