@@ -45,7 +45,9 @@ pub fn drop_newest(session: &mut Session) -> Vec<Effect> {
     put(session, &Setup { problem, others: session.others.without(initial), ..session.setup() });
     let State { q, v } = initial;
     let count = session.problems().len();
-    inform(session, format!("{count} on show; q0 = {}, v0 = {}", shortest(q), shortest(v)))
+    let motions = if count == 1 { "motion" } else { "motions" };
+    let place = format!("q0 = {}, v0 = {}", shortest(q), shortest(v));
+    inform(session, format!("{count} {motions} on show; {place}"))
 }
 
 /// Takes all motions away but the newest.
