@@ -117,3 +117,24 @@ fn readings_at_rest_of_a_coarse_converter_do_not_count_as_if_their_errors_were_i
     }
     assert!(covered >= 7, "{covered} of 8");
 }
+
+#[test]
+fn a_rest_that_two_numbers_of_half_swings_explain_is_told_with_both() {
+    // Weak friction and much noise: the last turning point may lie on either side of the rim.
+    let unclear = Simulated {
+        p: [14.0, 0.1, 0.002, 0.0, 0.01, 0.02, 5.0, 0.4],
+        start: Start::Moving,
+        seconds: 20.0,
+        samples: 1000,
+        noise: 0.06,
+        memory: 0.0,
+    };
+    let found = unclear.fitted(2);
+    let rivals: Vec<usize> = found.contenders().map(|rival| rival.half_swings).collect();
+    assert!(rivals.len() >= 2, "{:?}", found.rivals);
+    let r = named("r").unwrap().place;
+    for rival in found.contenders() {
+        let interval = found.intervals[r];
+        assert!(interval.lower.unwrap() <= rival.p[r] && rival.p[r] <= interval.upper.unwrap());
+    }
+}
