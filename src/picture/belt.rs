@@ -122,7 +122,9 @@ fn arrow(picture: &mut Picture, session: &Session, from: f64, width: f64, v: f64
     let points = [(from, y), (tip, y), (barb, y + 0.5 * HALF), (tip, y), (barb, y - 0.5 * HALF)];
     picture.curve(part("friction of the belt", Role::Special), points.map(|(x, y)| Point { x, y }));
     let text = with_unit(pull * running.reduced.units.force, 3, "N");
-    picture.caption(Point { x: tip, y }, format!(" {text}"), Role::Special);
+    // Above the mass, where it covers nothing even at the edge of the window.
+    let above = Point { x: from - 0.5 * WIDTH * width, y: MASS.1 + HALF };
+    picture.caption(above, text, Role::Special);
 }
 
 /// A part of the machine, which anybody recognizes without a legend.
