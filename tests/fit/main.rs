@@ -4,13 +4,14 @@
 mod noise;
 #[path = "../program/mod.rs"]
 mod program;
+mod strange;
 
 use std::fs;
 
 use hopfscope::fit::names::{Choice, NAMES, named};
 use hopfscope::fit::observation::{Data, Observation, Start, Unknowns};
 use hopfscope::fit::{Estimate, Question, Record, estimate};
-use hopfscope::numerics::elementary::{cos, exp, powi, sin};
+use hopfscope::numerics::elementary::powi;
 use hopfscope::numerics::random::Random;
 use program::{json, run};
 use rayon::prelude::*;
@@ -185,60 +186,6 @@ fn a_drift_that_the_model_does_not_know_is_told() {
         "{:?}",
         found.whiteness.correlation
     );
-}
-
-#[test]
-fn a_mass_that_is_struck_where_it_rests_is_fitted_from_the_stroke_on() {
-    // A stroke: at rest for 0.4 s, then under way through the same place.
-    let struck = Simulated {
-        p: [16.0, 0.2, 0.015, 0.0, 0.0, 0.1, 0.0, 5.0],
-        start: Start::Moving,
-        seconds: 4.0,
-        samples: 1000,
-        noise: 0.03,
-        memory: 0.0,
-    };
-    for seed in 1..=4 {
-        let moving = struck.record(seed);
-        let mut chance = Random::new(seed + 100);
-        let before = (0..100).map(|_| struck.p[1] + struck.noise * chance.normal());
-        let x: Vec<f64> = before.chain(moving.x).collect();
-        let t = (0..1100_u32).map(|index| 0.004 * f64::from(index)).collect();
-        let record = Record { t: Some(t), x, ..Record::default() };
-        let found = estimate(&record, &Question::default(), &|| false).unwrap();
-        assert!((100..106).contains(&found.before), "{}", found.before);
-        assert!(found.start == Start::Moving && found.rests && found.whiteness.white);
-        for row in &NAMES {
-            let off =
-                (found.p[row.place] - struck.p[row.place]) / found.covariance.error(row.place);
-            assert!(off.abs() < 4.0, "{}: {off}", row.name);
-        }
-    }
-}
-
-#[test]
-fn what_is_no_motion_of_this_oscillator_is_told_and_costs_little() {
-    let oscillation = |phase: fn(f64) -> f64, size: fn(f64) -> f64, drift: fn(f64) -> f64| {
-        let mut chance = Random::new(9);
-        let t: Vec<f64> = (0..500_u32).map(|index| 0.04 * f64::from(index)).collect();
-        let x = t
-            .iter()
-            .map(|&t| 3.0 * size(t) * cos(10.0 * t + phase(t)) + drift(t) + 0.02 * chance.normal());
-        Record { x: x.collect(), t: Some(t), ..Record::default() }
-    };
-    for (what, record) in [
-        ("frequency", oscillation(|t| 1.5 * sin(0.8 * t), |_| 1.0, |_| 0.0)),
-        ("amplitude", oscillation(|_| 0.0, |t| 1.0 + 0.5 * cos(0.9 * t), |_| 0.0)),
-        ("level", oscillation(|_| 0.0, |t| exp(-0.1 * t), |t| 0.5 * exp(-0.2 * t))),
-    ] {
-        let found = estimate(&record, &Question::default(), &|| false).unwrap();
-        assert!(found.whiteness.systematic && !found.whiteness.white, "{what}");
-        for row in found.wanted() {
-            assert!(found.covariance.error(row.place) > 0.0, "{what}: {}", row.name);
-        }
-        let (with, without) = found.motions;
-        assert!(with + without < 3000, "{what}: {with} and {without} motions");
-    }
 }
 
 #[test]
