@@ -8,7 +8,8 @@ use hopfscope::oscillator::{Interval, ParameterBox, Parameters, State};
 use hopfscope::study::basin::basin;
 use hopfscope::study::guarantee::{Sided, guarantee, zones};
 
-fn between(random: &mut Random, Interval { low, high }: Interval) -> f64 {
+fn between(random: &mut Random, interval: Interval) -> f64 {
+    let (low, high) = (interval.lower(), interval.upper());
     low + random.even() * (high - low)
 }
 
@@ -125,7 +126,7 @@ fn extent(
 
 /// A box of parameters and a disturbance.
 fn case(d: [f64; 2], d2: [f64; 2], d3: [f64; 2], r: [f64; 2], w: f64) -> (ParameterBox, f64) {
-    let [d, d2, d3, r] = [d, d2, d3, r].map(|[low, high]| Interval { low, high });
+    let [d, d2, d3, r] = [d, d2, d3, r].map(|[low, high]| Interval::new(low, high));
     (ParameterBox { d, d2, d3, r }, w)
 }
 
@@ -153,8 +154,8 @@ fn leaving(known: &ParameterBox, w: f64, motions: u32, random: &mut Random) -> u
     let [left, right] = [-turning(-1.0), turning(1.0)];
     let (displacement, impulse) = (margin.displacement.unwrap(), margin.impulse.unwrap());
     let corner = |random: &mut Random, interval: Interval| match random.even() {
-        part if part < 0.3 => interval.low,
-        part if part < 0.6 => interval.high,
+        part if part < 0.3 => interval.lower(),
+        part if part < 0.6 => interval.upper(),
         _ => between(random, interval),
     };
     let mut left_behind = 0;

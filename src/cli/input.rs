@@ -67,7 +67,7 @@ pub fn interval(text: &str) -> Result<(Symbol, Interval), String> {
     let symbol = symbol(name.trim())?;
     let interval: Interval =
         interval.parse().map_err(|refused| format!("{}: {refused}", symbol.spec().name))?;
-    for end in [interval.low, interval.high] {
+    for end in [interval.lower(), interval.upper()] {
         symbol.spec().check(end).map_err(|refused| refused.to_string())?;
     }
     Ok((symbol, interval))
@@ -203,7 +203,7 @@ mod tests {
 
     #[test]
     fn intervals_are_read_and_refused_with_the_range() {
-        assert_eq!(interval("D=-0.3..-0.28"), Ok((Symbol::D, Interval { low: -0.3, high: -0.28 })));
+        assert_eq!(interval("D=-0.3..-0.28"), Ok((Symbol::D, Interval::new(-0.3, -0.28))));
         for (text, expected) in [
             ("r", "NAME=VALUE+-HALFWIDTH"),
             ("r=0.1+-0.2", "outside its range 0.0 .. 1e300"),

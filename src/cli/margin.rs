@@ -32,7 +32,7 @@ impl Margin {
     /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
         let scene = find(&self.scene).map_err(|missing| Failure::Usage(missing.to_string()))?;
-        let mut known = ParameterBox::from(scene.problem.parameters);
+        let mut known = ParameterBox::from(&scene.problem.parameters);
         for &(symbol, interval) in &self.set {
             known.set(symbol, interval).map_err(Failure::Usage)?;
         }

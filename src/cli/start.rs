@@ -9,8 +9,7 @@ use super::input;
 use crate::flow::method::{EPSILON_RANGE, STEP_RANGE};
 use crate::flow::quality::TOLERANCE_RANGE;
 use crate::flow::{METHODS, Method, Problem};
-use crate::oscillator::{Interval, PARAMETERS, ParameterBox as Known, Symbol};
-use crate::proof::ParameterBox;
+use crate::oscillator::{Interval, PARAMETERS, ParameterBox, Symbol};
 use crate::scene::Scene;
 use crate::scene::library::{PLAIN, find};
 
@@ -106,13 +105,13 @@ impl StartOptions {
     pub fn known(&self) -> Result<ParameterBox, Failure> {
         let name = self.scene.as_deref().unwrap_or(PLAIN);
         let scene = find(name).map_err(|missing| Failure::Usage(missing.to_string()))?;
-        let mut known = Known::from(scene.problem.parameters);
+        let mut known = ParameterBox::from(&scene.problem.parameters);
         for &(symbol, interval) in &self.set {
             if !matches!(symbol, Symbol::Q0 | Symbol::V0) {
                 known.set(symbol, interval).map_err(Failure::Usage)?;
             }
         }
-        Ok(ParameterBox::from(&known))
+        Ok(known)
     }
 
     /// The motion of the scene with what was set on the command line.

@@ -50,7 +50,7 @@ impl Tolerances {
             if !MONOTONE.contains(&varied) {
                 return None;
             }
-            set(&mut best, varied, interval.high);
+            set(&mut best, varied, interval.upper());
         }
         if self.disturbance > 0.0 {
             let stronger = |force: f64| (force + self.disturbance).next_up();
@@ -120,7 +120,7 @@ impl Corners {
         let (monotone, others): (Vec<_>, Vec<_>) =
             known.intervals(belt).into_iter().partition(|(varied, _)| MONOTONE.contains(varied));
         for (varied, interval) in monotone {
-            set(&mut worst, varied, interval.low);
+            set(&mut worst, varied, interval.lower());
         }
         if others.len() > MOST {
             return Ok(Err(TooMany));
@@ -133,7 +133,7 @@ impl Corners {
                     belt
                 })
             };
-            belts = [interval.low, interval.middle(), interval.high]
+            belts = [interval.lower(), interval.middle(), interval.upper()]
                 .into_iter()
                 .flat_map(with)
                 .collect();

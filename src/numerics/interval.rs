@@ -51,6 +51,9 @@ impl Interval {
 
     /// The numbers within `radius` of `middle`.
     pub fn around(middle: f64, radius: f64) -> Self {
+        if radius == 0.0 {
+            return Interval::point(middle);
+        }
         Interval::outward(middle - radius, middle + radius)
     }
 

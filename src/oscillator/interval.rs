@@ -5,53 +5,10 @@
 
 use std::str::FromStr;
 
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
 use super::parameters::{Parameters, Symbol};
-
-/// The numbers from `low` to `high`, both included.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Interval {
-    /// Smallest.
-    pub low: f64,
-    /// Largest.
-    pub high: f64,
-}
-
-impl Interval {
-    /// Exactly this number.
-    #[must_use]
-    pub fn point(value: f64) -> Self {
-        Interval { low: value, high: value }
-    }
-
-    /// Whether it holds a single number.
-    #[must_use]
-    pub fn is_point(self) -> bool {
-        self.low == self.high
-    }
-
-    /// The number halfway.
-    #[must_use]
-    pub fn middle(self) -> f64 {
-        if self.is_point() { self.low } else { 0.5 * self.low + 0.5 * self.high }
-    }
-
-    /// Half the distance between both ends.
-    #[must_use]
-    pub fn half_width(self) -> f64 {
-        0.5 * self.high - 0.5 * self.low
-    }
-
-    /// All numbers within `half_width` of `value`; the ends are rounded outwards.
-    #[must_use]
-    pub fn around(value: f64, half_width: f64) -> Self {
-        if half_width == 0.0 {
-            return Self::point(value);
-        }
-        Interval { low: (value - half_width).next_down(), high: (value + half_width).next_up() }
-    }
-}
+pub use crate::numerics::Interval;
 
 impl FromStr for Interval {
     type Err = String;
@@ -75,16 +32,9 @@ impl FromStr for Interval {
             if low > high {
                 return Err(format!("{low:?} is above {high:?}"));
             }
-            return Ok(Interval { low, high });
+            return Ok(Interval::new(low, high));
         }
         number(text).map(Self::point)
-    }
-}
-
-impl Serialize for Interval {
-    /// As `[low, high]`.
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        [self.low, self.high].serialize(serializer)
     }
 }
 
@@ -104,8 +54,10 @@ pub struct ParameterBox {
     pub r: Interval,
 }
 
-impl From<Parameters> for ParameterBox {
-    fn from(Parameters { d, d2, d3, r }: Parameters) -> Self {
+impl From<&Parameters> for ParameterBox {
+    /// The parameters as the doubles that they are.
+    fn from(parameters: &Parameters) -> Self {
+        let Parameters { d, d2, d3, r } = *parameters;
         let [d, d2, d3, r] = [d, d2, d3, r].map(Interval::point);
         ParameterBox { d, d2, d3, r }
     }
@@ -117,7 +69,7 @@ impl ParameterBox {
     /// # Errors
     /// What is wrong: an end outside the range of the parameter, or a number that is no parameter.
     pub fn set(&mut self, symbol: Symbol, interval: Interval) -> Result<(), String> {
-        for end in [interval.low, interval.high] {
+        for end in [interval.lower(), interval.upper()] {
             symbol.spec().check(end).map_err(|refused| refused.to_string())?;
         }
         *match symbol {
@@ -150,9 +102,9 @@ mod tests {
     fn intervals_are_read_with_their_ends_outwards() {
         let read = |text: &str| text.parse::<Interval>().unwrap();
         let r = read("0.10+-0.01");
-        assert_eq!(r.low, 0.09);
-        assert!(r.high >= 0.11 && r.high < 0.110_000_000_000_001);
-        assert_eq!(read("-0.3..-0.28"), Interval { low: -0.3, high: -0.28 });
+        assert_eq!(r.lower(), 0.09);
+        assert!(r.upper() >= 0.11 && r.upper() < 0.110_000_000_000_001);
+        assert_eq!(read("-0.3..-0.28"), Interval::new(-0.3, -0.28));
         assert_eq!(read("1e-3"), Interval::point(1e-3));
         assert_eq!(read("2+-0"), Interval::point(2.0));
         assert_eq!(read("-1+-1e-3").middle(), -1.0);
@@ -171,10 +123,10 @@ mod tests {
             let refused = text.parse::<Interval>().unwrap_err();
             assert!(refused.contains(words), "{text}: {refused}");
         }
-        let mut known = ParameterBox::from(Parameters::default());
+        let mut known = ParameterBox::from(&Parameters::default());
         let refused = known.set(Symbol::R, Interval::around(0.1, 0.2)).unwrap_err();
         assert!(refused.contains("r = -0.1") && refused.contains("0.0 .."), "{refused}");
         assert!(known.set(Symbol::Q0, Interval::point(1.0)).is_err());
-        assert_eq!(known, ParameterBox::from(Parameters::default()));
+        assert_eq!(known, ParameterBox::from(&Parameters::default()));
     }
 }

@@ -2,29 +2,8 @@
 
 use crate::numerics::Interval;
 use crate::numerics::scaling::times_power;
-use crate::oscillator::{Parameters, Side, Symbol};
-
-/// The parameters of the oscillator, each an interval: what is proved holds for every value in it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ParameterBox {
-    /// Effective linear damping D.
-    pub d: Interval,
-    /// Asymmetric damping D2.
-    pub d2: Interval,
-    /// Cubic damping D3.
-    pub d3: Interval,
-    /// Intensity r of the dry friction, not negative.
-    pub r: Interval,
-}
-
-impl From<&Parameters> for ParameterBox {
-    /// The parameters as the doubles that they are.
-    fn from(parameters: &Parameters) -> Self {
-        let Parameters { d, d2, d3, r } = *parameters;
-        let [d, d2, d3, r] = [d, d2, d3, r].map(Interval::point);
-        ParameterBox { d, d2, d3, r }
-    }
-}
+pub use crate::oscillator::ParameterBox;
+use crate::oscillator::{Side, Symbol};
 
 impl ParameterBox {
     /// The same with lengths measured in units of `2^k`.

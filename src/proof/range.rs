@@ -5,7 +5,7 @@ use super::cycles::prove;
 use super::field::ParameterBox;
 use crate::numerics::Interval;
 use crate::numerics::elementary::powi;
-use crate::oscillator::{self, Symbol};
+use crate::oscillator::Symbol;
 
 /// Part of a range with what is proved for all values in it.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,14 +14,6 @@ pub struct Piece {
     pub over: Interval,
     /// Whether each cycle attracts, smallest first; `None` where their number is open.
     pub cycles: Option<Vec<bool>>,
-}
-
-impl From<&oscillator::ParameterBox> for ParameterBox {
-    fn from(known: &oscillator::ParameterBox) -> Self {
-        let oscillator::ParameterBox { d, d2, d3, r } = *known;
-        let [d, d2, d3, r] = [d, d2, d3, r].map(|it| Interval::new(it.low, it.high));
-        ParameterBox { d, d2, d3, r }
-    }
 }
 
 /// Whether each cycle attracts, at all values; `None` where that is not proved.

@@ -78,7 +78,7 @@ fn of_oscillator(
     points: u16,
     limits: &Limits,
 ) -> Result<Zones, Reason> {
-    let d2 = known.d2.low.abs().min(known.d2.high.abs());
+    let d2 = known.d2.lower().abs().min(known.d2.upper().abs());
     let found = guarantee(known, disturbance, limits)?;
     let drawn = zones(known, disturbance, PICTURE_REACH / d2.max(f64::MIN_POSITIVE), limits)?;
     let guaranteed = match uncertain(known, disturbance) {

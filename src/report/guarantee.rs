@@ -78,8 +78,12 @@ pub fn table(found: &Guarantee, seconds: f64) -> String {
 
 fn interval(name: &str, interval: Interval) -> String {
     if interval.is_point() {
-        format!("{name} = {}", significant(interval.low, 12))
+        format!("{name} = {}", significant(interval.lower(), 12))
     } else {
-        format!("{name} in {} .. {}", significant(interval.low, 12), significant(interval.high, 12))
+        format!(
+            "{name} in {} .. {}",
+            significant(interval.lower(), 12),
+            significant(interval.upper(), 12)
+        )
     }
 }

@@ -4,9 +4,9 @@ use serde::Serialize;
 
 use crate::numerics::Interval;
 use crate::numerics::elementary::log10;
+use crate::oscillator::ParameterBox;
 use crate::proof::cycles::{Open, Proof};
 use crate::proof::enclose::Enclosure;
-use crate::proof::field::ParameterBox;
 use crate::study::Cycle;
 use crate::study::proved::matching;
 use crate::words::cycles;
@@ -77,19 +77,7 @@ pub(super) struct Count<'a> {
     /// Clearances about which nothing is known.
     open: &'a [Open],
     /// The parameters for which this holds: the doubles nearest to the decimal numbers given.
-    parameters: Bounds,
-}
-
-/// Bounds of the parameters.
-#[derive(Serialize)]
-struct Bounds {
-    #[serde(rename = "D")]
-    d: Interval,
-    #[serde(rename = "D2")]
-    d2: Interval,
-    #[serde(rename = "D3")]
-    d3: Interval,
-    r: Interval,
+    parameters: ParameterBox,
 }
 
 /// The rows of a document.
@@ -107,8 +95,7 @@ pub(super) fn enclosure(proof: &Proof, cycle: &Cycle) -> Option<Enclosure> {
 
 /// The count of a document.
 pub(super) fn count(proof: &Proof) -> Count<'_> {
-    let ParameterBox { d, d2, d3, r } = proof.parameters;
-    Count { proved: proof.is_complete(), open: &proof.open, parameters: Bounds { d, d2, d3, r } }
+    Count { proved: proof.is_complete(), open: &proof.open, parameters: proof.parameters }
 }
 
 /// `2 cycles, proved`, or what is open.

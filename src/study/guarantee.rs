@@ -25,7 +25,7 @@ use super::search::Bracket;
 use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::{Cost, Limits, Reason};
 use crate::numerics::root::{Change, illinois};
-use crate::oscillator::{HalfPlane, Interval, ParameterBox, Parameters, Side};
+use crate::oscillator::{HalfPlane, ParameterBox, Parameters, Side};
 
 /// An oscillator with parameters of its own on each side of `v = 0`, the friction being the same.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,18 +42,18 @@ impl Sided {
     #[must_use]
     pub fn worst(known: &ParameterBox, disturbance: f64) -> Self {
         let ParameterBox { d, d2, d3, r } = *known;
-        let r = if disturbance > 0.0 { (r.low - disturbance).next_down() } else { r.low };
-        let upper = Parameters { d: d.low, d2: d2.low, d3: d3.low, r };
-        Sided { upper, lower: Parameters { d2: d2.high, ..upper } }
+        let r = if disturbance > 0.0 { (r.lower() - disturbance).next_down() } else { r.lower() };
+        let upper = Parameters { d: d.lower(), d2: d2.lower(), d3: d3.lower(), r };
+        Sided { upper, lower: Parameters { d2: d2.upper(), ..upper } }
     }
 
     /// The system that keeps the largest basin.
     #[must_use]
     pub fn best(known: &ParameterBox, disturbance: f64) -> Self {
         let ParameterBox { d, d2, d3, r } = *known;
-        let r = if disturbance > 0.0 { (r.high + disturbance).next_up() } else { r.high };
-        let upper = Parameters { d: d.high, d2: d2.high, d3: d3.high, r };
-        Sided { upper, lower: Parameters { d2: d2.low, ..upper } }
+        let r = if disturbance > 0.0 { (r.upper() + disturbance).next_up() } else { r.upper() };
+        let upper = Parameters { d: d.upper(), d2: d2.upper(), d3: d3.upper(), r };
+        Sided { upper, lower: Parameters { d2: d2.lower(), ..upper } }
     }
 
     fn on(&self, side: Side) -> &Parameters {
@@ -232,7 +232,7 @@ pub struct Guarantee {
 /// Why nothing is certain, if so.
 #[must_use]
 pub fn uncertain(known: &ParameterBox, disturbance: f64) -> Option<Uncertain> {
-    let ParameterBox { d: Interval { low: d, .. }, r: Interval { low: r, .. }, .. } = *known;
+    let (d, r) = (known.d.lower(), known.r.lower());
     let worst = Sided::worst(known, disturbance).upper;
     if disturbance > 0.0 && worst.r <= 0.0 {
         Some(Uncertain::Disturbance { w: disturbance, r })

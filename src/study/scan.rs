@@ -13,7 +13,7 @@ use super::measure::{Conditions, Measure, Need, Value, measure, needs_of};
 use crate::flow::method::Dial;
 use crate::flow::{Cost, Limits, Problem, Reason};
 use crate::numerics::elementary::{log10, pow};
-use crate::oscillator::{Interval, ParameterBox, Parameters, State, Symbol};
+use crate::oscillator::{ParameterBox, Parameters, State, Symbol};
 
 /// How the values of a [`Sweep`] are spaced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -305,8 +305,8 @@ impl Scan {
         if self.measures.contains(&Measure::Guaranteed) {
             inputs.push(("w", self.conditions.disturbance.into()));
             let ParameterBox { d, d2, d3, r } = self.conditions.around(&parameters);
-            for ([from, to], Interval { low, high }) in ENDS.into_iter().zip([d, d2, d3, r]) {
-                inputs.extend([(from, low.into()), (to, high.into())]);
+            for ([from, to], it) in ENDS.into_iter().zip([d, d2, d3, r]) {
+                inputs.extend([(from, it.lower().into()), (to, it.upper().into())]);
             }
         }
         if [Measure::Lost, Measure::Repeated].iter().any(|one| self.measures.contains(one)) {

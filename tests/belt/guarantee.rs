@@ -59,7 +59,8 @@ fn no_draw_is_below(draws: u32) {
         for draw in 0..draws {
             let mut drawn = belt.clone();
             for (number, (varied, interval)) in known.intervals(&belt).into_iter().enumerate() {
-                let value = interval.middle() + part(draw, number) * interval.half_width();
+                let value = interval.middle()
+                    + part(draw, number) * 0.5 * (interval.upper() - interval.lower());
                 varied.set(&mut drawn, value).unwrap();
             }
             // The worst disturbance is friction taken away.

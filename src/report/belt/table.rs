@@ -136,8 +136,13 @@ pub(super) fn border(portrait: &Portrait) -> &'static str {
 fn guaranteed(answer: &Answer, certain: &Result<Kicks, Uncertain>) -> String {
     let tolerances = &answer.machine.tolerances;
     let unit = |varied: Varied, value| with_unit(value, 12, varied.unit());
-    let number = |(varied, Interval { low, high }): (Varied, Interval)| {
-        format!("{} in {} .. {}", varied.name(), unit(varied, low), unit(varied, high))
+    let number = |(varied, interval): (Varied, Interval)| {
+        format!(
+            "{} in {} .. {}",
+            varied.name(),
+            unit(varied, interval.lower()),
+            unit(varied, interval.upper())
+        )
     };
     let disturbance = Some(tolerances.disturbance).filter(|force| *force > 0.0);
     let disturbance = disturbance.map(|force| format!("disturbance {}", with_unit(force, 12, "N")));

@@ -117,12 +117,12 @@ fn within(setup: &Setup, symbol: Symbol, text: &str) -> Result<Setup, String> {
         return Ok(Setup { problem, doubt, ..*setup });
     }
     let known: Interval = typed.parse()?;
-    let mut within = ParameterBox::from(setup.problem.parameters);
+    let mut within = ParameterBox::from(&setup.problem.parameters);
     within.set(symbol, known)?;
     // The numbers that were typed, and not those rounded outwards that enclose them.
     let (value, half) = match typed.split_once("+-") {
         Some((value, half)) => (number_in(value)?, number_in(half)?),
-        None => (known.middle(), known.half_width()),
+        None => (known.middle(), 0.5 * known.upper() - 0.5 * known.lower()),
     };
     let problem = with_number(setup.problem, row, value + 0.0);
     Ok(Setup { problem, doubt: setup.doubt.with_half_width(symbol, half)?, ..*setup })

@@ -89,12 +89,13 @@ impl Doubt {
 
     /// Where the parameters lie, as far as their ranges reach.
     pub fn known(&self, parameters: &Parameters) -> ParameterBox {
-        let mut known = ParameterBox::from(*parameters);
+        let mut known = ParameterBox::from(parameters);
         for symbol in UNSURE {
             let spec = symbol.spec();
             let value = symbol.get(parameters, &crate::oscillator::State { q: 0.0, v: 0.0 });
-            let Interval { low, high } = Interval::around(value, self.half_width(symbol));
-            let interval = Interval { low: low.max(spec.min), high: high.min(spec.max) };
+            let around = Interval::around(value, self.half_width(symbol));
+            let interval =
+                Interval::new(around.lower().max(spec.min), around.upper().min(spec.max));
             // Both ends are within the range of the parameter.
             let _ = known.set(symbol, interval);
         }

@@ -28,7 +28,7 @@ impl Conditions {
     /// The box of parameters around these; friction is never negative.
     #[must_use]
     pub fn around(&self, parameters: &Parameters) -> ParameterBox {
-        let mut known = ParameterBox::from(*parameters);
+        let mut known = ParameterBox::from(parameters);
         for &(symbol, half_width) in &self.half_widths {
             let around = |value: f64| Interval::around(value, half_width);
             match symbol {
@@ -36,8 +36,8 @@ impl Conditions {
                 Symbol::D2 => known.d2 = around(parameters.d2),
                 Symbol::D3 => known.d3 = around(parameters.d3),
                 Symbol::R => {
-                    let Interval { low, high } = around(parameters.r);
-                    known.r = Interval { low: low.max(0.0), high };
+                    let r = around(parameters.r);
+                    known.r = Interval::new(r.lower().max(0.0), r.upper());
                 }
                 Symbol::Q0 | Symbol::V0 => {}
             }
