@@ -227,6 +227,13 @@ impl Sums {
             integral: dot(&squares, &NEXT),
         }
     }
+
+    /// Lemma 3: terms of degree [`ORDER`] and more of the defect, times h to their degree.
+    fn truncation(&self, [a, b, c]: [f64; 3]) -> f64 {
+        let Sums { v, last_x, last_v, high_squares, .. } = *self;
+        let cube_tail = self.high_cubes + 90.0 * UNIT * v * v * self.after_third + high_squares * v;
+        last_v + (last_x + a * last_v) + b * high_squares + c * cube_tail
+    }
 }
 
 /// `1/(k + 1)`.
@@ -253,11 +260,8 @@ impl Prepared {
     ) -> Option<Reached> {
         let sums = Sums::of(series, h);
         let [a, b, c] = self.most;
-        let Sums { x, v, x_degree, v_degree, last_x, last_v, .. } = sums;
-        // Lemma 3: terms of degree ORDER and more of w^2 and w^3, times h to their degree.
-        let square_tail = sums.high_squares;
-        let cube_tail = sums.high_cubes + 90.0 * UNIT * v * v * sums.after_third + square_tail * v;
-        let truncation = last_v + (last_x + a * last_v) + b * square_tail + c * cube_tail;
+        let Sums { x, v, x_degree, v_degree, .. } = sums;
+        let (square_tail, truncation) = (sums.high_squares, sums.truncation(self.most));
         let magnitudes = [x, v, x_degree, v_degree];
         let rounding = UNIT * roundings(&ROUNDINGS, self.most, magnitudes);
         let [spread_a, spread_b, spread_c] = self.spread;

@@ -3,7 +3,7 @@
 use std::ops::{Add, Mul, Neg, Sub};
 
 use super::*;
-use crate::numerics::elementary::sin_cos;
+use crate::numerics::elementary::{exp, sin_cos};
 use crate::numerics::twofold::Twofold;
 use crate::proof::series::Scalar;
 
@@ -316,8 +316,75 @@ fn no_step_is_longer_than_a_turn() {
             "{h}"
         );
     }
+    // Damping turns the angle faster, by half of its slope at most.
+    let damped = Prepared::new(&Field { a: point(1.0), b: point(0.0), c: point(0.0) });
+    series.expand(damped.middles(), -0.9, 0.2);
+    for (h, held) in [(2.05, true), (2.12, false)] {
+        let found = damped.carry(Norm::fitting(1.0), &series, (h, series.at(h)), 1e-12);
+        assert_eq!(found.is_some(), held, "{h}");
+    }
     // Where the velocity is certainly positive throughout, the bound of the angle does not matter.
     let fast = Prepared::new(&Field { a: point(0.0), b: point(-50.0), c: point(0.0) });
     series.expand(fast.middles(), 0.0, 1.0);
     assert!(fast.carry(Norm::new(0.0), &series, (1e-3, series.at(1e-3)), 1e-12).is_some());
+}
+
+/// Of a series whose terms are all positive the bound of what is cut off is what is cut off.
+#[test]
+fn truncation_is_bounded_by_all_terms_that_are_cut_off() {
+    let (h, mut series) = (0.5, Series::<f64>::EMPTY);
+    let terms: [f64; ORDER + 1] = std::array::from_fn(|k| 1.0 + INVERSE[k + 1]);
+    let mut power = 1.0;
+    for k in 0..=ORDER {
+        series.v[k] = terms[k] / power;
+        power *= h;
+    }
+    let (mut squares, mut cubes) = (0.0, 0.0);
+    for i in 0..=ORDER {
+        for j in 0..=ORDER {
+            if i + j < ORDER {
+                series.square[i + j] += series.v[i] * series.v[j];
+            } else {
+                squares += terms[i] * terms[j];
+            }
+            let rest = (0..=ORDER).filter(|k| i + j + k >= ORDER).map(|k| terms[k]);
+            cubes += terms[i] * terms[j] * rest.sum::<f64>();
+        }
+    }
+    let sums = Sums::of(&series, h);
+    let (last, position) = (terms[ORDER], h * terms[ORDER - 1] * INVERSE[ORDER]);
+    for ([a, b, c], cut) in [
+        ([0.0; 3], last + position),
+        ([1.0, 0.0, 0.0], 2.0 * last + position),
+        ([0.0, 1.0, 0.0], last + position + squares),
+        ([0.0, 0.0, 1.0], last + position + cubes),
+    ] {
+        let ratio = sums.truncation([a, b, c]) / cut;
+        assert!((ratio - 1.0).abs() < 1e-10, "{a} {b} {c}: {ratio}");
+    }
+}
+
+/// A spiral of which a step cuts off more than it rounds, against its closed form, and its area with a ball around it.
+#[test]
+fn a_step_holds_what_its_polynomial_leaves_out() {
+    let point = Interval::point;
+    let local = Prepared::new(&Field { a: point(10.0), b: point(0.0), c: point(0.0) });
+    let (h, root) = (0.5, 24.0_f64.sqrt());
+    let mut series = Series::<f64>::EMPTY;
+    series.expand(local.middles(), -1.0, 0.0);
+    let norm = Norm::fitting(10.0);
+    let end = local.carry(norm, &series, (h, series.at(h)), 0.0).unwrap();
+    let powers = [(root - 5.0) * h, (-root - 5.0) * h].map(exp);
+    let velocity = (powers[0] - powers[1]) / (2.0 * root);
+    let off = (end.v - velocity).abs();
+    assert!(off > 1e-13 && off <= norm.stretch * end.radius, "{off:e} {:e}", end.radius);
+    // Without damping, and displaced in velocity by the radius of the ball.
+    let local = Prepared::new(&Field { a: point(0.0), b: point(0.0), c: point(0.0) });
+    let (h, ball) = (0.1, 1e-3);
+    series.expand(local.middles(), 0.0, 1.0);
+    let end = local.carry(Norm::new(0.0), &series, (h, series.at(h)), ball).unwrap();
+    let (sine, _) = sin_cos(2.0 * h);
+    let area = (0.5 * h + 0.25 * sine) * (1.0 + ball) * (1.0 + ball);
+    let off = (end.square - area).abs();
+    assert!(off <= end.square_error && off > 0.9 * end.square_error, "{off:e}");
 }
