@@ -3,6 +3,7 @@
 use hopfscope::check::motion::Field;
 use hopfscope::check::{Certificate, Kind, Step, check};
 use hopfscope::numerics::Interval;
+use hopfscope::numerics::elementary::cbrt;
 use hopfscope::oscillator::Parameters;
 use hopfscope::proof::certificate::{certificate, text as file};
 use hopfscope::proof::{ParameterBox, prove};
@@ -154,6 +155,107 @@ fn intervals_of_parameters_are_certified_and_what_is_open_is_not() {
     assert_eq!(check(&text).unwrap().parameters[3], [0.099_99, 0.100_01]);
     wide.d = Interval::new(-0.18, -0.17);
     assert!(certificate(&prove(&wide, &[])).is_err());
+}
+
+/// Pi, between neighbouring doubles.
+const PI: Interval = Interval::new(std::f64::consts::PI, 3.141_592_653_589_793_6);
+
+/// The half swing of a linear spiral in closed form, computed in intervals: end, time, and the integral of its damping.
+#[test]
+fn swings_hold_their_closed_form() {
+    for d in [-0.6, -0.2, 0.0, 0.1, 0.5] {
+        let [damping, zero, one] = [d, 0.0, 1.0].map(Interval::point);
+        let time = PI / ((one + damping) * (one - damping)).sqrt();
+        let lost = damping.twice() * time;
+        for z in [1e-3, 0.7, 31.0] {
+            let found =
+                Field::new([damping.twice(), zero, zero], 0.0).swing(Interval::point(z), 0.0);
+            let end = (-lost / 2.0).exp() * z;
+            for (what, found, exact) in [
+                ("end", found.end, end),
+                ("time", found.time, time),
+                ("damping", found.damping, lost),
+            ] {
+                assert!(exact.intersection(found).is_some(), "{d} {z} {what}: {found} {exact}");
+                assert!(found.width() < 1e-12 * z.max(1.0), "{d} {z} {what}: {found}");
+            }
+        }
+    }
+}
+
+/// A swing from an interval holds that of every start in it, also where motions part.
+#[test]
+fn a_swing_from_an_interval_holds_all_of_them() {
+    for coefficients in [[-0.8, 0.3, 0.2], [0.3, -0.5, 0.4], [-0.5, -0.3, 0.3], [0.2, 0.6, -0.1]] {
+        let field = Field::new(coefficients.map(Interval::point), 0.0);
+        let all = field.swing(Interval::new(0.99, 1.01), 0.0);
+        assert!(all.end.is_finite() && all.end.width() < 0.2, "{coefficients:?}: {}", all.end);
+        for start in [0.99, 0.994, 1.0, 1.004, 1.01] {
+            let one = field.swing(Interval::point(start), 0.0);
+            let pairs = [(one.end, all.end), (one.time, all.time), (one.damping, all.damping)];
+            assert!(pairs.iter().all(|(one, all)| one.is_within(*all)), "{coefficients:?} {start}");
+        }
+    }
+}
+
+/// The statements of a step are refused where they are wrong by little: the bounds of a clearance that miss it, a
+/// step of a cycle so wide that the map no longer contracts, a theorem next to its condition.
+#[test]
+fn what_is_nearly_true_is_refused() {
+    let whole = check(&written(-0.2, 0.2, 0.5, 0.1)).unwrap();
+    let at = whole.steps.iter().position(|step| step.kind == Kind::Stable).unwrap();
+    let [low, high] = whole.steps[at].clearance.unwrap();
+    let refused = |change: &dyn Fn(&mut Certificate)| {
+        let mut changed = whole.clone();
+        change(&mut changed);
+        check(&file(&changed).unwrap()).unwrap_err()
+    };
+    let off = 1e-11;
+    for (wrong, words) in [([low + off, high + off], "below"), ([low - off, high - off], "above")] {
+        let why = refused(&|it| it.steps[at].clearance = Some(wrong));
+        assert!(why.contains(words), "{why}");
+    }
+    // From within the unstable cycle on there are two.
+    let first = whole.steps.iter().position(|step| step.kind == Kind::Unstable).unwrap();
+    let why = refused(&|it| {
+        it.steps.drain(first..at);
+        it.steps[first].from = it.steps[first - 1].to.unwrap();
+    });
+    assert!(why.contains("contract") || why.contains("certain"), "{why}");
+    // 32 |D|^3 < 27 r^2 D3 decides.
+    let steps =
+        vec![Step { kind: Kind::OneWay, from: 0.0, to: None, clearance: None, fences: None }];
+    let limit = cbrt(27.0 * 0.01 * 0.5 / 32.0);
+    for (d, holds) in [(-limit * (1.0 - 1e-9), true), (-limit * (1.0 + 1e-9), false)] {
+        let parameters = [[d; 2], [0.2; 2], [0.5; 2], [0.1; 2]];
+        let text = file(&Certificate { parameters, cycles: 0, steps: steps.clone() }).unwrap();
+        assert_eq!(check(&text).is_ok(), holds, "{d}");
+    }
+}
+
+/// A fence is one where the damping is steep enough, and its piece holds every motion that falls through it.
+#[test]
+fn fences_hold_the_motions_that_pass_them() {
+    let coefficients = [-0.5, 12.0, 0.5].map(Interval::point);
+    let (plain, fenced) = (Field::new(coefficients, 0.0), Field::new(coefficients, 0.4));
+    let greatest = fenced.greatest();
+    assert!(greatest.upper() < f64::INFINITY && plain.greatest() == Interval::ALL);
+    for z in [3.0, 6.0, 10.0] {
+        let (one, other) =
+            (plain.swing(Interval::point(z), 0.0), fenced.swing(Interval::point(z), 0.0));
+        assert!(
+            one.end.is_finite() && one.end.intersection(other.end).is_some(),
+            "{z}: {} {}",
+            one.end,
+            other.end
+        );
+        assert!(
+            other.damping.lower() <= one.damping.upper() && one.end.lower() <= greatest.upper()
+        );
+    }
+    // Where `4 (a - 3 c v^2) <= f'^3` fails there is none: at a slope of 1.9 for a = 1.9.
+    let flat = |e: f64| Field::new([1.9, 1.0, 0.0].map(Interval::point), e).greatest();
+    assert!(flat(1e-3) == Interval::ALL && flat(0.5).is_finite());
 }
 
 /// From far out all motions fall onto one curve: the end of all starts is that of one of them, and they come closer.
