@@ -12,7 +12,6 @@ use crate::flow::Limits;
 use crate::question::Fineness;
 use crate::runtime::print::{complete, figure};
 use crate::runtime::provenance_file;
-use crate::scene::library::names;
 use crate::session::{Session, Size};
 use crate::view::screen;
 use crate::view::{self, Look};
@@ -63,8 +62,9 @@ impl Figure {
     /// Computes and writes.
     pub fn run(&self) -> Result<(), Failure> {
         let Some(name) = self.named.as_deref().or(self.start.scene.as_deref()) else {
-            let names: Vec<_> = names().collect();
-            return Err(Failure::Usage(format!("which figure? There are {}", names.join(", "))));
+            let line =
+                "which figure? Every scene has one, such as fig17; hopfscope scenes lists them";
+            return Err(Failure::Usage(line.to_owned()));
         };
         let scene = self.start.scene_named(name)?;
         let mut session = Session::new(scene, Size { width: PANEL.0, height: PANEL.1 });

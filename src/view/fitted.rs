@@ -92,10 +92,20 @@ pub fn spread(session: &Session, look: &Look) -> Vec<String> {
     let rise = held.then(|| format!("held: chi^2 +{}", significant(*rise, 3)));
     let margin = match spread.lower {
         None => "95 %: every kick".to_owned(),
-        Some(_) => format!("95 %: q {} .. {}", end(spread.lower), end(spread.upper)),
+        Some(_) => format!("95 %: q {}", between(end(spread.lower), &end(spread.upper))),
     };
     let frequency = estimate.free[OMEGA0].then_some(frequency);
-    // The margin first: a low pane has no room for what follows.
+    // What matters most first: a low pane has no room for what follows.
     let margin = (*drawn || !held).then_some(margin);
-    margin.into_iter().chain(rise).chain(frequency).collect()
+    rise.into_iter().chain(margin).chain(frequency).collect()
+}
+
+/// Two numbers, with one unit where both have the same.
+fn between(low: String, high: &str) -> String {
+    let unit = |text: &str| text.split_once(' ').map(|(_, unit)| unit.to_owned());
+    let low = match unit(high).and_then(|unit| low.strip_suffix(&unit)) {
+        Some(number) => number.trim_end().to_owned(),
+        None => low,
+    };
+    format!("{low} .. {high}")
 }

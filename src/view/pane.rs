@@ -113,7 +113,10 @@ pub fn title(
     let names_first = heading.reading.is_none() && names.len() > title.len();
     let order = if names_first { [names, title, held] } else { [title, held, names] };
     let shown = order.into_iter().find(|text| whole(text) && !text.is_empty());
-    let shown = shown.filter(|_| !both).unwrap_or(title);
+    // Of a title that has room for a few letters only, nothing is better than a stump beside a reading.
+    let stump = heading.reading.is_some() && 2 * room < title.chars().count();
+    let otherwise = if stump { "" } else { title };
+    let shown = shown.filter(|_| !both).unwrap_or(otherwise);
     let mut left = vec![Span::styled(format!("{pointer}{shown}"), look.style(role))];
     if both {
         left.push(Span::styled(format!("  {names}"), look.style(Role::Quiet)));

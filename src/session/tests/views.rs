@@ -156,7 +156,7 @@ fn the_claims_of_the_paper_are_examined_once_when_they_are_first_looked_at() {
     let claim = claims().find(|claim| claim.equation == "(33)").unwrap();
     let scene = format!("open none | scene {}", claim.scene.unwrap());
     Trial::open("plain").goes(&[
-        ("<f10>", "asked Claims"),
+        ("<A-p>", "asked Claims"),
         // They do not change, and hidden they cost nothing.
         ("<esc><f10>", "asked"),
         ("/(33)<enter><enter>", &scene),
