@@ -130,14 +130,13 @@ pub fn stepped(
     Ok(((from, to), count))
 }
 
+/// Reads a number, or says in one line why it is none.
+type ReadNumber<'a> = &'a dyn Fn(&str) -> Result<f64, String>;
+
 /// `LOW:HIGH,LOW:HIGH`, the first side and the second each with what reads its numbers.
-pub fn sides(
-    text: &str,
-    form: &str,
-    read: [&dyn Fn(&str) -> Result<f64, String>; 2],
-) -> Result<[(f64, f64); 2], String> {
+pub fn sides(text: &str, form: &str, read: [ReadNumber; 2]) -> Result<[(f64, f64); 2], String> {
     let (first, second) = text.split_once(',').ok_or(form)?;
-    let side = |part: &str, read: &dyn Fn(&str) -> Result<f64, String>| {
+    let side = |part: &str, read: ReadNumber| {
         let (low, high) = part.split_once(':').ok_or(form)?;
         let (low, high) = (read(low)?, read(high)?);
         let above = || format!("{part:?}: {low:?} is not below {high:?}");

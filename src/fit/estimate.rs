@@ -134,14 +134,13 @@ pub fn judged(
     let covariance = |of: &Whiteness| {
         Covariance::at(&task, best, &of.autocorrelation).filter(Covariance::is_possible)
     };
-    let (mut whiteness, covariance) = match covariance(&restored) {
-        Some(covariance) => (restored, covariance),
+    let (mut whiteness, covariance) = if let Some(covariance) = covariance(&restored) {
+        (restored, covariance)
+    } else {
         // A memory that no noise has.
-        None => {
-            (whiteness.systematic, whiteness.autocorrelation) = (true, Vec::new());
-            let covariance = covariance(&whiteness).ok_or(Unfit::Blind)?;
-            (whiteness, covariance)
-        }
+        (whiteness.systematic, whiteness.autocorrelation) = (true, Vec::new());
+        let covariance = covariance(&whiteness).ok_or(Unfit::Blind)?;
+        (whiteness, covariance)
     };
     whiteness.systematic |= problem.noise > 0.0 && covariance.deviation > ALIEN * problem.noise;
     whiteness.white &= !whiteness.systematic;

@@ -174,10 +174,8 @@ impl Fit {
                 let deviation = fit.estimate.covariance.deviation;
                 let unit = deviation * deviation;
                 let rise = (cost(&estimate) - cost(&fit.estimate)) / unit;
-                let margins = match drawn {
-                    true => margins(&estimate, DRAWN, limits)?,
-                    false => fit.margins.clone(),
-                };
+                let margins =
+                    if drawn { margins(&estimate, DRAWN, limits)? } else { fit.margins.clone() };
                 let named = (fit.name.clone(), &fit.record);
                 Ok(Fit::with(named, estimate, (margins, drawn), fit.inertia, rise))
             }

@@ -342,7 +342,7 @@ pub fn box_table(proof: &Proof) -> String {
             format!("{name} = {} .. {}", it.lower(), it.upper())
         }
     });
-    let table = table.aligned_left().to_string();
+    let table = table.aligned_left();
     let text = if proof.cycles.is_empty() {
         String::new()
     } else {

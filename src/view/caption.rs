@@ -22,10 +22,8 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let (heading, paragraphs) = match &session.caption {
         Caption::Tour(caption, place) => {
             let place = place.map_or(String::new(), |(step, of)| format!("{step} of {of}, "));
-            let on = match caption.contains('{') {
-                true => "keys named here work, any other: on",
-                false => "any key: on",
-            };
+            let named = caption.contains('{');
+            let on = if named { "keys named here work, any other: on" } else { "any key: on" };
             let heading = format!(" {place}{on}, backspace: back, esc: leave ");
             (heading, vec![filled(caption)])
         }

@@ -335,8 +335,8 @@ fn truncation_is_bounded_by_all_terms_that_are_cut_off() {
     let (h, mut series) = (0.5, Series::<f64>::EMPTY);
     let terms: [f64; ORDER + 1] = std::array::from_fn(|k| 1.0 + INVERSE[k + 1]);
     let mut power = 1.0;
-    for k in 0..=ORDER {
-        series.v[k] = terms[k] / power;
+    for (coefficient, term) in series.v.iter_mut().zip(terms) {
+        *coefficient = term / power;
         power *= h;
     }
     let (mut squares, mut cubes) = (0.0, 0.0);

@@ -37,7 +37,6 @@ pub enum RestShare {
 
 impl RestShare {
     /// Whether documents leave it out.
-    #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands a reference")]
     fn is_not_asked(&self) -> bool {
         matches!(self, RestShare::NotAsked)
     }

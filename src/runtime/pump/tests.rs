@@ -285,7 +285,9 @@ fn a_key_that_a_caption_lets_do_its_work_does_it_and_the_tour_goes_on_as_if_it_h
     let running = std::thread::spawn(move || (pump.run().unwrap(), pump));
     for (seen, pressed) in [("try", &["<right>", "<right>", "n"][..]), ("second", &["n"])] {
         while !written.recv().unwrap().contains(seen) {}
-        pressed.iter().for_each(|name| events.send(key(name)).unwrap());
+        for name in pressed {
+            events.send(key(name)).unwrap();
+        }
     }
     while !written.recv().unwrap().contains("done") {}
     events.send(key("q")).unwrap();

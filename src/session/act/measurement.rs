@@ -61,7 +61,7 @@ fn said(words: &str) -> Result<Said, String> {
             "loss" => said.loss = loss(&value)?,
             "free" => said.choice.free = Some(listed(&value)?),
             _ if named(name).is_some() => {
-                said.choice.held.push(assigned(&format!("{name}={value}"))?)
+                said.choice.held.push(assigned(&format!("{name}={value}"))?);
             }
             _ => return Err(unknown(name)),
         }

@@ -92,9 +92,9 @@ struct Plain(String);
 
 impl Plain {
     fn new(text: &str) -> Self {
-        let words =
-            text.split(|char: char| !char.is_alphanumeric()).filter(|word| !word.is_empty());
-        Plain(words.map(|word| format!(" {}", word.to_lowercase())).collect())
+        let words = text.split(|char: char| !char.is_alphanumeric());
+        let words = words.filter(|word| !word.is_empty());
+        Plain(words.flat_map(|word| [" ".to_owned(), word.to_lowercase()]).collect())
     }
 
     /// Without the blanks: `fig 16` is `fig16`.
