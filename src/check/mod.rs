@@ -189,3 +189,6 @@ impl Step {
         known(below.upper() < high, "the clearance may be above its bounds")
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -364,3 +364,6 @@ impl Disc {
         Some(Swing { end: x.widened(way), time, damping: self.damping.widened(late) })
     }
 }
+
+#[cfg(test)]
+mod tests;

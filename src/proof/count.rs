@@ -137,3 +137,29 @@ fn clear_middle(map: &mut ReturnMap, gap: Interval) -> Option<Edge> {
         Some((at, sign))
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::proof::ParameterBox;
+
+    /// Next to a fold the derivative of G differs from 1 by little, and there are two cycles, at 0.415062 and 0.416022.
+    #[test]
+    fn cycles_next_to_a_fold_are_told_apart() {
+        let [d, d2, d3, r] = [-0.172_784_28, 0.2, 0.5, 0.1].map(Interval::point);
+        let mut map = ReturnMap::new(&ParameterBox { d, d2, d3, r });
+        let mut count = Count::default();
+        count.decide(&mut map, (0.414, Sign::Below), (0.417, Sign::Below), 40);
+        let cycles = [(0.415_062_415_659, false), (0.416_021_602_729, true)];
+        assert!(count.open.is_empty() && count.unique.len() == 2, "{count:?}");
+        // Between them the derivative passes 1, which it is 0.0022 away from at both: it decides nothing.
+        let both = Interval::new(0.415_06, 0.416_03);
+        for direction in [Direction::Forward, Direction::Backward] {
+            let mut settled = Count::default();
+            assert!(!settled.settle_along(&mut map, direction, both, Sign::Below, Sign::Below));
+        }
+        for ((within, attracts), (clearance, stable)) in count.unique.iter().zip(cycles) {
+            assert!(within.contains(clearance) && *attracts == stable, "{count:?}");
+        }
+    }
+}

@@ -174,3 +174,43 @@ fn describe(map: &mut ReturnMap, clearance: Interval, direction: Direction) -> O
         clearance,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numerics::interval::PI;
+
+    fn map(parameters: [f64; 4]) -> ReturnMap {
+        let [d, d2, d3, r] = parameters.map(Interval::point);
+        ReturnMap::new(&ParameterBox { d, d2, d3, r })
+    }
+
+    /// Linear half swings multiply by `m = exp(-pi D/sqrt(1 - D^2))`: the cycle is at `2 r/(m - 1)`, its multiplier `m^2`.
+    #[test]
+    fn the_cycle_of_linear_swings_is_held() {
+        let one = Interval::point(1.0);
+        for (d, r) in [(-0.2, 0.1), (-0.01, 3.0), (-0.6, 1e-3)] {
+            let damping = Interval::point(d);
+            let m = (-PI * damping / ((one + damping) * (one - damping)).sqrt()).exp();
+            let exact = Interval::point(2.0 * r) / (m - one);
+            let (at, mut map) = (exact.middle(), map([d, 0.0, 0.0, r]));
+            // Of an affine map a step of Newton's method leads there from anywhere.
+            let aside = Interval::new(1.02 * at, 1.03 * at);
+            for direction in [Direction::Forward, Direction::Backward] {
+                let found = newton(&mut map, aside, direction).unwrap();
+                assert!(found.intersection(exact).is_some(), "{d} {r}: {found} {exact}");
+            }
+            let found = enclose(&mut map, at, Interval::new(0.9 * at, 1.1 * at), false).unwrap();
+            assert!(found.multiplier.intersection(m.square()).is_some(), "{}", found.multiplier);
+            assert!(found.multiplier.width() < 1e-9 && found.stable() == Some(false));
+        }
+    }
+
+    /// A guess far off does no harm: Newton's method leads out of its surroundings, and is not believed there.
+    #[test]
+    fn what_lies_outside_of_the_interval_is_not_believed() {
+        let within = Interval::new(0.6, 0.65);
+        let found = enclose(&mut map([-0.2, 0.2, 0.5, 0.1]), 6.2, within, true).unwrap();
+        assert!(found.clearance.contains(0.622_333_333_030_272_5), "{}", found.clearance);
+    }
+}

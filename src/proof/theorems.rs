@@ -48,3 +48,18 @@ fn one_way(d: Interval, d3: Interval, r: Interval) -> bool {
         && (Interval::point(27.0) * r * r * d3 - cube).lower() > 0.0;
     loses || gains || loses_yet
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `r + 2 D w + D3 w^3` for `D = -3/8`, `D3 = 1/4` has its least value at `w = 1`: `r - 1/2`.
+    #[test]
+    fn the_first_integral_falls_where_its_rate_has_one_sign() {
+        let [d, d2, d3] = [-0.375, 0.2, 0.25].map(Interval::point);
+        for (off, decided) in [(1e-12, Some(Theorem::OneWay)), (-1e-12, None)] {
+            let r = Interval::point(0.5 * (1.0 + off));
+            assert_eq!(theorem(&ParameterBox { d, d2, d3, r }), decided, "{off}");
+        }
+    }
+}

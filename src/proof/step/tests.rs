@@ -388,3 +388,58 @@ fn a_step_holds_what_its_polynomial_leaves_out() {
     let off = (end.square - area).abs();
     assert!(off <= end.square_error && off > 0.9 * end.square_error, "{off:e}");
 }
+
+/// `v = t - t^2` is furthest from its chord in the middle of a unit of time, and `v = 1 + t` from its start at the end.
+#[test]
+fn velocities_within_a_step_are_held() {
+    let bounds = |terms: [f64; 3], v1: f64, off: f64| {
+        let mut series = Series::<f64>::EMPTY;
+        series.v[..3].copy_from_slice(&terms);
+        velocities(&Sums::of(&series, 1.0), terms[0], v1, off)
+    };
+    let arch = bounds([0.0, 1.0, -1.0], 0.0, 0.0);
+    assert!(arch.contains(0.25) && arch.upper() < 0.25 + 1e-9, "{arch}");
+    let rising = bounds([1.0, 1.0, 0.0], 2.0, 0.0);
+    assert!(rising.contains(2.0) && rising.upper() < 2.0 + 1e-9, "{rising}");
+    // The motion is within a distance of these.
+    let around = bounds([1.0, 1.0, 0.0], 2.0, 0.1);
+    assert!(around.contains(2.1) && around.contains(0.9) && around.upper() < 2.1 + 1e-9);
+}
+
+/// Motions with the coefficients at both ends of an interval are held; where `v = 1` they part by `h` times its radius.
+#[test]
+fn a_step_holds_the_motions_of_all_coefficients() {
+    let (h, spread) = (0.01, 0.1);
+    for wide in 0..3 {
+        let mut coefficients = [Interval::point(0.0); 3];
+        coefficients[wide] = Interval::around(0.0, spread);
+        let [a, b, c] = coefficients;
+        let local = Prepared::new(&Field { a, b, c });
+        let mut series = Series::<f64>::EMPTY;
+        series.expand(local.middles(), 0.0, 1.0);
+        let end = local.carry(Norm::new(0.0), &series, (h, series.at(h)), 0.0).unwrap();
+        // `v' = -c_k v^k` from v = 1, but for x, which adds less than `h^3`.
+        let velocity =
+            [exp(-spread * h), 1.0 / (1.0 + spread * h), 1.0 / (1.0 + 2.0 * spread * h).sqrt()];
+        let off = 1.0 - velocity[wide];
+        assert!(
+            end.radius >= off - h * h * h && end.radius < 1.04 * off,
+            "{wide}: {:e} {off:e}",
+            end.radius
+        );
+    }
+}
+
+/// How much longer a vector is in another norm is attained on a diagonal.
+#[test]
+fn a_change_of_norm_holds_every_direction() {
+    for (from, to) in [(0.0, 1.0), (0.0, -1.5), (1.9, -1.9), (-0.5, 0.7), (1.0, 1.5)] {
+        let lengths = (0..=180).map(|degrees| {
+            let (y, x) = sin_cos(f64::from(degrees) * std::f64::consts::PI / 180.0);
+            ((1.0 + to * x * y) / (1.0 + from * x * y)).sqrt()
+        });
+        let most = lengths.fold(0.0, f64::max);
+        let bound = Norm::new(from).into(Norm::new(to));
+        assert!(bound >= most && bound < most * (1.0 + 1e-9), "{from} {to}: {bound} {most}");
+    }
+}
