@@ -15,6 +15,7 @@ mod text;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
+use ratatui::style::{Color, Modifier};
 
 use geometry::{Geometry, centred, column};
 pub use geometry::{point_at, rows, shown};
@@ -124,7 +125,9 @@ impl<'a> Plot<'a> {
 
     /// Labels over the edge of the picture, where there is no room beside it.
     fn labels_inside(&self, rightward: &Ticks, upward: &Ticks, buffer: &mut Buffer) {
-        let style = self.look.style(Role::Axis);
+        let axis = self.look.style(Role::Axis);
+        // The colour of a curve below says something of the curve, not of the number.
+        let style = axis.fg(axis.fg.unwrap_or(Color::Reset)).remove_modifier(Modifier::BOLD);
         let Rect { x, y, width, height } = self.inner;
         let Some(last) = height.checked_sub(1) else { return };
         let fits = |tick: &&Tick| tick.label.len() < usize::from(width);

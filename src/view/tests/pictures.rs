@@ -273,3 +273,20 @@ fn the_ledger_has_room_for_the_works_of_each_motion() {
     }
     assert!(lines[0] < lines[1] && lines[1] > lines[2] && lines[2] > lines[4], "{lines:?}");
 }
+
+#[test]
+fn a_label_within_a_picture_takes_no_colour_from_the_curve_below() {
+    // So low a diagram has its labels on the band of rest, which is yellow.
+    let session = settled("linear", 80, 24, "");
+    let buffer = draw(&session, braille());
+    let row = |y: u16| (0..80).map(|x| buffer[(x, y)].symbol()).collect::<Vec<_>>();
+    let label = ["1", ".", "0"];
+    let found: Vec<(u16, u16)> = (2..20)
+        .flat_map(|y| (50..77).map(move |x| (x, y)))
+        .filter(|&(x, y)| row(y)[usize::from(x)..][..3] == label)
+        .collect();
+    assert!(!found.is_empty(), "{}", text(&buffer));
+    for (x, y) in found {
+        assert_eq!(buffer[(x, y)].fg, ratatui::style::Color::Reset, "column {x}, row {y}");
+    }
+}
