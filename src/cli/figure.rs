@@ -7,6 +7,7 @@ use clap::{Args, ValueEnum};
 use super::failure::Failure;
 use super::output::{print, write};
 use super::start::StartOptions;
+use super::wrapped::columns;
 use crate::figure::{self as forms, Form};
 use crate::flow::Limits;
 use crate::question::Fineness;
@@ -55,8 +56,11 @@ fn file(text: &str) -> Result<(PathBuf, Form), String> {
     Form::of_file(&path).map(|form| (path, form))
 }
 
-/// The size of a panel that is drawn with characters.
+/// The size of a panel that is drawn with characters, where no terminal says how wide.
 const PANEL: (u16, u16) = (100, 30);
+
+/// Fewest columns in which a panel reads.
+const NARROWEST: u16 = 40;
 
 impl Figure {
     /// Computes and writes.
@@ -67,7 +71,8 @@ impl Figure {
             return Err(Failure::Usage(line.to_owned()));
         };
         let scene = self.start.scene_named(name)?;
-        let mut session = Session::new(scene, Size { width: PANEL.0, height: PANEL.1 });
+        let width = columns().unwrap_or(PANEL.0).clamp(NARROWEST, PANEL.0);
+        let mut session = Session::new(scene, Size { width, height: PANEL.1 });
         complete(&mut session, Fineness::PRINT, &Limits::PATIENT).map_err(|(topic, reason)| {
             Failure::Unanswered(format!("{} not computed: {reason}", topic.name()))
         })?;
@@ -90,7 +95,8 @@ impl Figure {
 /// Every plot, one above the other.
 fn in_letters(session: &Session) -> String {
     let look = Look::new(session.look);
-    let panels = view::panels(session, PANEL, &look);
+    let Size { width, height } = session.size;
+    let panels = view::panels(session, (width, height), &look);
     let parts: Vec<String> = panels.iter().map(screen::text).collect();
     format!("{}: {}\n\n{}", session.scene.name, session.scene.title, parts.join("\n"))
 }

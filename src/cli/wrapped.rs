@@ -8,8 +8,12 @@ const INDENT: usize = 4;
 
 /// A list as a terminal shows it; as it is where it goes to a file or a pipe.
 pub fn on_terminal(list: &str) -> String {
-    rustix::termios::tcgetwinsize(rustix::stdio::stdout())
-        .map_or_else(|_| list.to_owned(), |size| wrapped(list, usize::from(size.ws_col)))
+    columns().map_or_else(|| list.to_owned(), |width| wrapped(list, usize::from(width)))
+}
+
+/// The columns of the terminal to which the output goes; `None` if it goes elsewhere.
+pub fn columns() -> Option<u16> {
+    rustix::termios::tcgetwinsize(rustix::stdio::stdout()).map(|size| size.ws_col).ok()
 }
 
 /// The list with the last column of rows that are longer than `width` broken between words; the first line names the

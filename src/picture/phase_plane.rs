@@ -112,7 +112,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         for (variant, shown) in variants(&shown) {
             let r = shown.problem.parameters.r;
             let [from, to] = [-r, r].map(|x| Point { x, y: 0.0 });
-            picture.bar(sticking_set().of(&variant), from, to);
+            picture.bar(sticking_set(r).of(&variant), from, to);
         }
     }
     if shows(Layer::Belt) {
@@ -242,7 +242,10 @@ pub(super) fn motion(session: &Session, place: usize) -> Line {
 }
 
 /// The segment where the mass rests.
-pub(super) fn sticking_set() -> Line {
+pub(super) fn sticking_set(r: f64) -> Line {
+    if r == 0.0 {
+        return Line::new("equilibrium", Role::Sticking, Dash::Solid);
+    }
     Line::new("sticking set", Role::Sticking, Dash::Solid).briefly("sticking set (at rest)")
 }
 

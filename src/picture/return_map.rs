@@ -39,7 +39,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         // A mass at rest there stays there.
         let held = found.parameters.r;
         let [from, to] = [-held, held].map(|q| Point { x: q, y: q });
-        picture.bar(sticking_set(), from, to);
+        picture.bar(sticking_set(held), from, to);
     }
     if shows(Layer::Cobweb) {
         cobweb(&mut picture, session);

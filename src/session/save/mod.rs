@@ -2,7 +2,7 @@
 //!
 //! What is saved is what the user made: scene, motion, steps, plots, layers, marks, registers, typed lines
 //! and the history. Answers are not: they follow from the rest. How the screen looks belongs to the
-//! terminal, and which key means what to the settings. A field of [`Session`] that should survive the
+//! terminal, and which key means what to the settings. A field of `Session` that should survive the
 //! program has its place here.
 
 mod file;
