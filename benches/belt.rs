@@ -6,7 +6,7 @@
 
 use divan::Bencher;
 use divan::black_box;
-use hopfscope::machine::{Model, Motion, Portrait};
+use hopfscope::machine::{MachineMotion, Model, Portrait};
 use hopfscope::numerics::elementary::exp;
 use hopfscope::oscillator::Belt;
 use hopfscope::oscillator::belt::FrictionLaw;
@@ -63,7 +63,7 @@ fn share_of_a_window(bencher: Bencher) {
 #[divan::bench]
 fn motion_of_a_hundred_time_units(bencher: Bencher) {
     let model = portrait().model;
-    bencher.bench_local(|| Motion::new(&model, black_box(1.4), black_box(0.0), 100.0).end);
+    bencher.bench_local(|| MachineMotion::new(&model, black_box(1.4), black_box(0.0), 100.0).end);
 }
 
 /// The same motion with a fixed step of 1e-3 of classical Runge and Kutta.

@@ -5,7 +5,7 @@
 
 use divan::{Bencher, black_box};
 use hopfscope::fit::levenberg_marquardt::Runs;
-use hopfscope::fit::observation::{Data, Observation, R, Start, Unknowns};
+use hopfscope::fit::observation::{Data, Observation, R, StartKind, Unknowns};
 use hopfscope::fit::refit::refitted;
 use hopfscope::fit::{Question, Record, estimate};
 use hopfscope::numerics::random::Random;
@@ -15,19 +15,19 @@ fn main() {
 }
 
 /// omega0, offset, D, D2, D3, r, q0 and the time of release or the velocity: a decay to rest, and a long ringing.
-const DECAY: (Unknowns, Start, f64) =
-    ([10.0, 0.5, 0.02, 0.005, 0.0005, 0.15, 6.0, 0.3], Start::Release, 6.0);
-const RINGING: (Unknowns, Start, f64) =
-    ([31.4, 0.0, 0.0008, 0.0, 2e-5, 0.001, 6.0, 0.5], Start::Moving, 30.0);
+const DECAY: (Unknowns, StartKind, f64) =
+    ([10.0, 0.5, 0.02, 0.005, 0.0005, 0.15, 6.0, 0.3], StartKind::Release, 6.0);
+const RINGING: (Unknowns, StartKind, f64) =
+    ([31.4, 0.0, 0.0008, 0.0, 2e-5, 0.001, 6.0, 0.5], StartKind::Moving, 30.0);
 
-fn observation((_, start, seconds): (Unknowns, Start, f64), samples: u32) -> Observation {
+fn observation((_, start, seconds): (Unknowns, StartKind, f64), samples: u32) -> Observation {
     let at = |index: u32| seconds * f64::from(index) / f64::from(samples);
     let t: Vec<f64> = (0..samples).map(at).collect();
     let x = vec![0.0; t.len()];
     Observation { data: Data::Samples { t, x }, start, linear: false, reach: 1e9 }
 }
 
-fn record(motion: (Unknowns, Start, f64), samples: u32) -> Record {
+fn record(motion: (Unknowns, StartKind, f64), samples: u32) -> Record {
     let observation = observation(motion, samples);
     let Data::Samples { t, .. } = observation.data.clone() else { return Record::default() };
     let mut chance = Random::new(1);
@@ -37,13 +37,16 @@ fn record(motion: (Unknowns, Start, f64), samples: u32) -> Record {
 }
 
 #[divan::bench(args = [("decay", DECAY), ("ringing", RINGING)])]
-fn gradient_by_sensitivities(bencher: Bencher, (_, motion): &(&str, (Unknowns, Start, f64))) {
+fn gradient_by_sensitivities(bencher: Bencher, (_, motion): &(&str, (Unknowns, StartKind, f64))) {
     let observation = observation(*motion, 10_000);
     bencher.bench(|| observation.compare(black_box(&motion.0), true));
 }
 
 #[divan::bench(args = [("decay", DECAY), ("ringing", RINGING)])]
-fn gradient_by_forward_differences(bencher: Bencher, (_, motion): &(&str, (Unknowns, Start, f64))) {
+fn gradient_by_forward_differences(
+    bencher: Bencher,
+    (_, motion): &(&str, (Unknowns, StartKind, f64)),
+) {
     let observation = observation(*motion, 10_000);
     bencher.bench(|| {
         let mut moved = motion.0;
@@ -62,7 +65,7 @@ fn gradient_by_forward_differences(bencher: Bencher, (_, motion): &(&str, (Unkno
 }
 
 #[divan::bench(args = [("decay", DECAY, 500), ("decay", DECAY, 10_000), ("ringing", RINGING, 10_000)])]
-fn whole_fit(bencher: Bencher, (_, motion, samples): &(&str, (Unknowns, Start, f64), u32)) {
+fn whole_fit(bencher: Bencher, (_, motion, samples): &(&str, (Unknowns, StartKind, f64), u32)) {
     let record = record(*motion, *samples);
     bencher.bench(|| estimate(black_box(&record), &Question::default(), &|| false));
 }
@@ -70,7 +73,7 @@ fn whole_fit(bencher: Bencher, (_, motion, samples): &(&str, (Unknowns, Start, f
 #[divan::bench(args = [("decay", DECAY, 2_000), ("decay", DECAY, 10_000)])]
 fn step_of_a_held_number(
     bencher: Bencher,
-    (_, motion, samples): &(&str, (Unknowns, Start, f64), u32),
+    (_, motion, samples): &(&str, (Unknowns, StartKind, f64), u32),
 ) {
     let found = estimate(&record(*motion, *samples), &Question::default(), &|| false)
         .expect("a decay is understood");

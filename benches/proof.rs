@@ -11,8 +11,8 @@ use hopfscope::proof::derivatives::derivatives;
 use hopfscope::proof::enclose::enclose;
 use hopfscope::proof::field::{Field, ParameterBox};
 use hopfscope::proof::fold::enclose_fold;
-use hopfscope::proof::map::ReturnMap;
-use hopfscope::proof::swing::{Start, swing};
+use hopfscope::proof::map::ProvedMap;
+use hopfscope::proof::swing::{StartBox, swing};
 use hopfscope::study::closings::STEP;
 use hopfscope::study::cycle::cycles;
 use hopfscope::study::half_map::{HalfMap, Length};
@@ -53,7 +53,7 @@ fn half_swing_plain(bencher: Bencher, case: usize) {
 fn half_swing_certified(bencher: Bencher, case: usize) {
     let [a, b, c, z] = SWINGS[case].map(Interval::point);
     let field = Field { a: a.twice(), b, c };
-    bencher.bench_local(|| swing(&field, &Start::at_rest(black_box(z)), false));
+    bencher.bench_local(|| swing(&field, &StartBox::at_rest(black_box(z)), false));
 }
 
 /// Existence, uniqueness, all bounds and the multiplier of the inner cycle, from a guess of ten digits.
@@ -63,7 +63,7 @@ fn one_cycle_enclosed(bencher: Bencher, case: usize) {
     let guess = inner.clearance * (1.0 + 1e-10);
     let parameters = ParameterBox::from(&CASES[case]);
     bencher.bench_local(|| {
-        let mut map = ReturnMap::new(&parameters);
+        let mut map = ProvedMap::new(&parameters);
         enclose(&mut map, black_box(guess), Interval::around(guess, 0.01 * guess), false)
     });
 }

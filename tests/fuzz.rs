@@ -194,7 +194,7 @@ fn pasted_text_wherever_text_can_be_typed() {
         for place in &places {
             let mut session = session();
             for step in &place.steps {
-                if let replay::Step::Key { key, .. } = step.step {
+                if let replay::Instruction::Key { key, .. } = step.step {
                     update(&mut session, Msg::Key(key));
                 }
             }

@@ -2,7 +2,7 @@
 
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, Method, Outcome, Reason};
-use hopfscope::machine::Fate;
+use hopfscope::machine::MachineFate;
 use hopfscope::numerics::elementary::hypot;
 use hopfscope::oscillator::Symbol;
 use hopfscope::question::answer;
@@ -273,7 +273,7 @@ impl Stage {
     /// Whether the motion comes to rest, however long it takes: by the whole model where that is drawn.
     fn rests_in_the_end(&self) -> bool {
         if let Some(course) = self.0.course() {
-            return course.fate == Fate::Rest;
+            return course.fate == MachineFate::Rest;
         }
         let problem = hopfscope::flow::Problem { until: 1e4, ..self.0.problem };
         let motion = trajectory(&problem, Detail::default(), &Limits::PATIENT);
@@ -348,13 +348,13 @@ fn benchmark_rest_and_stick_slip_are_parted_by_a_cycle_until_the_belt_is_fast() 
     assert_eq!((kinds.border, sticking(&stage)), ("cycle", (1, 1)));
     let [whole, cubic] = kinds.margins.map(|margin| margin.unwrap().displacement.unwrap());
     assert!(cubic > 1.1 * whole, "{cubic} {whole}");
-    assert_eq!(stage.0.course().unwrap().fate, Fate::Cycle(1));
+    assert_eq!(stage.0.course().unwrap().fate, MachineFate::Cycle(1));
     assert!(stage.0.course().unwrap().rides.len() > 3);
     let end = Stage::open("benchmark").press(":set<space>belt=1.836<enter>");
     assert_eq!(sticking(&end), (1, 1));
     let beyond = Stage::open("benchmark").press(":set<space>belt=1.837<enter>");
     assert_eq!((beyond.0.kinds().unwrap().border, sticking(&beyond)), ("none", (0, 0)));
-    assert_eq!(beyond.0.course().unwrap().fate, Fate::Rest);
+    assert_eq!(beyond.0.course().unwrap().fate, MachineFate::Rest);
     // One key, and the expansion is drawn: the question is another one, and so is the answer.
     let cubic = Stage::open("benchmark").press("|");
     assert!(cubic.0.course().is_none() && !cubic.0.draws_whole());
@@ -366,7 +366,7 @@ fn groan_needs_no_cycle_to_be_parted_from_rest() {
     let stage = Stage::open("groan");
     let kinds = stage.0.kinds().unwrap();
     assert_eq!((kinds.border, sticking(&stage)), ("grazing", (1, 0)));
-    assert_eq!(stage.0.course().unwrap().fate, Fate::Cycle(0));
+    assert_eq!(stage.0.course().unwrap().fate, MachineFate::Cycle(0));
     assert_eq!(kinds.margins[1].and_then(|margin| margin.displacement), None);
     assert!(Stage::open("groan").press("i").is_captured());
     let fast = Stage::open("groan").press(":set<space>belt=0.5<enter>");

@@ -36,13 +36,13 @@ pub struct Certificate {
     /// How many limit cycles there are.
     pub cycles: usize,
     /// The steps, in order.
-    pub steps: Vec<Step>,
+    pub steps: Vec<CertificateStep>,
 }
 
 /// A step.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Step {
+pub struct CertificateStep {
     #[serde(rename = "step")]
     pub kind: Kind,
     pub from: f64,
@@ -143,7 +143,7 @@ impl Kind {
     }
 }
 
-impl Step {
+impl CertificateStep {
     /// Checks a step that begins at a clearance. Returns how many cycles it shows.
     fn verify(&self, parameters: [Interval; 4], at: f64) -> Result<usize, String> {
         let (from, to) = (self.from, self.to.unwrap_or(f64::INFINITY));

@@ -14,7 +14,8 @@ fn shown(
     [from, to]: Bounds,
     clearance: Bounds,
 ) -> Result<usize, String> {
-    let step = Step { kind, from, to: Some(to), clearance: Some(clearance), fences: None };
+    let step =
+        CertificateStep { kind, from, to: Some(to), clearance: Some(clearance), fences: None };
     step.verify(parameters.map(point), from)
 }
 

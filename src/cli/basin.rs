@@ -14,7 +14,7 @@ use crate::study::basin::{SurveyedBasin, Window};
 
 /// Says where the starts of a window end, and the margins of the sticking set
 #[derive(Debug, Args)]
-pub struct Basin {
+pub struct Arguments {
     #[command(flatten)]
     start: StartOptions,
     #[command(flatten)]
@@ -30,7 +30,7 @@ pub struct Basin {
     grid: (usize, usize),
 }
 
-impl Basin {
+impl Arguments {
     /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
         self.start.note_own_method();

@@ -19,7 +19,7 @@ use crate::study::fold::{Boundary as Found, BoundaryPoint, border};
 
 /// Continues the fold `D_F` and the escape point `D_c` in a second parameter
 #[derive(Debug, Args)]
-pub struct Border {
+pub struct Arguments {
     #[command(flatten)]
     start: StartOptions,
     #[command(flatten)]
@@ -31,7 +31,7 @@ pub struct Border {
     over: Over,
 }
 
-impl Border {
+impl Arguments {
     /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
         self.start.note_own_method();

@@ -14,7 +14,7 @@ use crate::study::branch::{Points, branch};
 
 /// Follows the limit cycles along a parameter, with folds and other special points
 #[derive(Debug, Args)]
-pub struct Branch {
+pub struct Arguments {
     #[command(flatten)]
     start: StartOptions,
     #[command(flatten)]
@@ -35,7 +35,7 @@ fn parameter(text: &str) -> Result<Over, String> {
     Ok(over)
 }
 
-impl Branch {
+impl Arguments {
     /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
         self.start.note_own_method();

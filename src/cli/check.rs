@@ -12,13 +12,13 @@ use crate::runtime::bounded;
 
 /// Checks a certificate that `cycles --certificate` wrote, step by step
 #[derive(Debug, Args)]
-pub struct Check {
+pub struct Arguments {
     /// The certificate
     #[arg(value_name = "FILE")]
     file: PathBuf,
 }
 
-impl Check {
+impl Arguments {
     /// Checks and prints what is certain.
     pub fn run(&self) -> Result<(), Failure> {
         let text = bounded::text(&self.file).map_err(|error| Failure::file(&self.file, &error))?;

@@ -22,7 +22,7 @@ use crate::study::proved::proved;
 
 /// Finds every limit cycle and proves that there are no others; says what borders the basin
 #[derive(Debug, Args)]
-pub struct Cycles {
+pub struct Arguments {
     #[command(flatten)]
     start: StartOptions,
     #[command(flatten)]
@@ -44,7 +44,7 @@ fn harmonics(text: &str) -> Result<usize, String> {
     number.ok_or_else(|| format!("{text:?} is not a whole number in 1 .. {MOST}"))
 }
 
-impl Cycles {
+impl Arguments {
     /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
         self.start.note_own_method();
@@ -54,7 +54,7 @@ impl Cycles {
         }
         let problem = self.start.problem()?;
         let (found, seconds) = timed(self.output.repeat, || self.find(&problem.parameters));
-        let Answer { found, proof, rungs } = found?;
+        let CyclesAnswer { found, proof, rungs } = found?;
         self.certify(&proof)?;
         let rungs = rungs.as_deref();
         self.output.print(&match self.output.format {
@@ -94,19 +94,19 @@ impl Cycles {
     }
 
     /// The cycles, their proof, and the harmonic balance if asked for.
-    fn find(&self, parameters: &Parameters) -> Result<Answer, Failure> {
+    fn find(&self, parameters: &Parameters) -> Result<CyclesAnswer, Failure> {
         let limits = &Limits::PATIENT;
         let gave_up = |reason: Reason| Failure::Unanswered(format!("the search gave up: {reason}"));
         let found = cycles(parameters, false, limits).map_err(gave_up)?;
         let proof = proved(&found).map_err(|wrong| Failure::Unanswered(wrong.to_string()))?;
         let compare = |most| convergence(parameters, &found.cycles, most, limits);
         let rungs = self.harmonics.map(compare).transpose().map_err(gave_up)?;
-        Ok(Answer { found, proof, rungs })
+        Ok(CyclesAnswer { found, proof, rungs })
     }
 }
 
 /// What the command answers.
-struct Answer {
+struct CyclesAnswer {
     found: study::Cycles,
     proof: Proof,
     rungs: Option<Vec<HarmonicBalance>>,

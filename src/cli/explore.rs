@@ -18,7 +18,7 @@ use crate::runtime::effects::Files;
 use crate::runtime::{Options, Record, explore};
 use crate::scene::library::{PLAIN, find, names};
 use crate::session::opening::opening;
-use crate::session::replay::{Recorder, Script, Step};
+use crate::session::replay::{Instruction, Recorder, Script};
 use crate::session::{Kept, Key, Notice, Session, Size, save};
 use crate::terminal::Environment;
 
@@ -94,12 +94,12 @@ fn last() -> Result<PathBuf, Failure> {
 }
 
 /// The steps that play a file, which is understood before anything runs.
-fn played(path: &Path) -> Result<Vec<Step>, Failure> {
+fn played(path: &Path) -> Result<Vec<Instruction>, Failure> {
     script(path)?;
     let text = Files::read(path).map_err(Failure::Usage)?;
     let name = path.display().to_string();
-    let run = Step::Run(format!("play {name}"));
-    Ok(vec![Step::File { name, text }, run])
+    let run = Instruction::Run(format!("play {name}"));
+    Ok(vec![Instruction::File { name, text }, run])
 }
 
 /// Makes a session the saved one of a file.
@@ -113,7 +113,7 @@ pub fn open(session: &mut Session, path: &Path) -> Result<(), Failure> {
 /// kept of what is done, if one is, and whether it may replace any other.
 pub fn go(
     mut session: Session,
-    play: &[Step],
+    play: &[Instruction],
     record: Option<(&Path, bool)>,
 ) -> Result<ExitCode, Failure> {
     let environment = Environment::of_process();

@@ -17,7 +17,7 @@ use crate::study::extremes::{Case, cases, judge, judge_set, named, sets};
 ///
 /// With --cycles, finds the limit cycles there instead.
 #[derive(Debug, Args)]
-pub struct Extremes {
+pub struct Arguments {
     /// Form of the answer
     #[arg(long, value_enum, default_value_t = Format::Table, value_name = "FORM")]
     format: Format,
@@ -36,7 +36,7 @@ fn tolerance(text: &str) -> Result<f64, String> {
     input::within("tolerance", TOLERANCE_RANGE, text)
 }
 
-impl Extremes {
+impl Arguments {
     /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
         if self.cycles {

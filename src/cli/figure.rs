@@ -19,7 +19,7 @@ use crate::view::{self, Look};
 
 /// Writes what a scene shows as SVG, PNG, CSV or JSON, or draws it here
 #[derive(Debug, Args)]
-pub struct Figure {
+pub struct Arguments {
     /// Scene to show; a scene with several plots gives as many panels
     #[arg(value_name = "NAME", conflicts_with = "scene")]
     named: Option<String>,
@@ -62,7 +62,7 @@ const PANEL: (u16, u16) = (100, 30);
 /// Fewest columns in which a panel reads.
 const NARROWEST: u16 = 40;
 
-impl Figure {
+impl Arguments {
     /// Computes and writes.
     pub fn run(&self) -> Result<(), Failure> {
         let Some(name) = self.named.as_deref().or(self.start.scene.as_deref()) else {

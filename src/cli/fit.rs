@@ -28,7 +28,7 @@ use crate::scene::machine::unit::measured;
 
 /// Estimates omega0, offset, D, D2, D3 and r of a recorded motion, with errors, and the margin that follows
 #[derive(Debug, Args)]
-pub struct Fit {
+pub struct Arguments {
     /// Record: a column of times and one of displacements, as instruments write them
     #[arg(value_name = "FILE")]
     file: PathBuf,
@@ -156,7 +156,7 @@ fn draws(text: &str) -> Result<usize, String> {
     number.ok_or_else(|| format!("{text:?} is not a whole number in 40 .. 1000000"))
 }
 
-impl Fit {
+impl Arguments {
     /// Reads, fits and prints.
     pub fn run(&self) -> Result<(), Failure> {
         let fitted = self.fitted()?;

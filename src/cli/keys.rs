@@ -14,7 +14,7 @@ use crate::session::state::context::{ContextSpec, contexts};
 
 /// Lists the keys of the explorer, with the changes of the settings file
 #[derive(Debug, Args)]
-pub struct Keys {
+pub struct Arguments {
     #[command(flatten)]
     settings: Settings,
     /// Form of the list
@@ -24,21 +24,21 @@ pub struct Keys {
 
 /// A command in a context.
 #[derive(Default, Serialize)]
-struct Row<K> {
+struct KeyRow<K> {
     context: &'static str,
     command: &'static str,
     keys: K,
     meaning: &'static str,
 }
 
-impl Keys {
+impl Arguments {
     /// Prints the list.
     pub fn run(&self) -> Result<(), Failure> {
         let keymap = self.settings.read()?.keymap;
         let mut rows = Vec::new();
         for ContextSpec { context, name, .. } in contexts() {
             let here = commands().filter(|row| row.keys.iter().any(|(at, _)| *at == context));
-            rows.extend(here.map(|command| Row {
+            rows.extend(here.map(|command| KeyRow {
                 context: name,
                 command: command.name,
                 keys: keymap.keys_in(context, command).map(|key| key.to_string()).collect(),
@@ -50,7 +50,7 @@ impl Keys {
                 let table = Table::of(
                     &rows,
                     &[
-                        ("context", &|row: &Row<Vec<String>>| row.context.to_owned()),
+                        ("context", &|row: &KeyRow<Vec<String>>| row.context.to_owned()),
                         ("command", &|row| row.command.to_owned()),
                         ("keys", &|row| row.keys.join(" ")),
                         ("meaning", &|row| row.meaning.to_owned()),
@@ -61,10 +61,10 @@ impl Keys {
             Format::Json => json::text(&rows),
             Format::Csv => {
                 let joined = rows.into_iter().map(|row| {
-                    let Row { context, command, keys, meaning } = row;
-                    Row { context, command, keys: keys.join(" "), meaning }
+                    let KeyRow { context, command, keys, meaning } = row;
+                    KeyRow { context, command, keys: keys.join(" "), meaning }
                 });
-                csv::sheet(&Row::<String>::default(), joined)
+                csv::sheet(&KeyRow::<String>::default(), joined)
             }
         })?;
         if let (Some(path), Format::Table) = (self.settings.path(), self.format) {

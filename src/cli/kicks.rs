@@ -7,12 +7,12 @@ use super::output::{Format, Output};
 use super::start::StartOptions;
 use crate::flow::Limits;
 use crate::report::kicks;
-use crate::study::kicks::Kicks as Distribution;
+use crate::study::kicks::RandomKick as Distribution;
 use crate::study::repeated::repeated;
 
 /// Says which part of random kicks is lost, and how many in a row are survived
 #[derive(Debug, Args)]
-pub struct Kicks {
+pub struct Arguments {
     #[command(flatten)]
     start: StartOptions,
     #[command(flatten)]
@@ -27,7 +27,7 @@ pub struct Kicks {
     law: Distribution,
 }
 
-impl Kicks {
+impl Arguments {
     /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
         self.start.note_own_method();

@@ -13,7 +13,7 @@ use crate::study;
 
 /// Says how large a kick is survived whatever a bounded disturbance does, at all parameters of a box
 #[derive(Debug, Args)]
-pub struct Margin {
+pub struct Arguments {
     /// Scene to start from
     #[arg(long, value_name = "NAME", default_value = PLAIN)]
     scene: String,
@@ -28,7 +28,7 @@ pub struct Margin {
     output: Output,
 }
 
-impl Margin {
+impl Arguments {
     /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
         let scene = find(&self.scene).map_err(|missing| Failure::Usage(missing.to_string()))?;

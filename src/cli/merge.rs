@@ -11,7 +11,7 @@ use clap::Args;
 use super::failure::Failure;
 use super::output::{holds_something, without};
 use super::part::Shard;
-use super::scan::{Asked, ScanCommand};
+use super::scan::{ScanCommand, ScanRequest};
 use crate::flow::Limits;
 use crate::report::scan::Form;
 use crate::runtime::merging::{Conflict, Part, merge};
@@ -20,7 +20,7 @@ use crate::words::provenance::Provenance;
 
 /// Puts the parts of a scan together, or says which rows are missing and how to compute them
 #[derive(Debug, Args)]
-pub struct Merge {
+pub struct Arguments {
     /// Files that scan --output has written, each with its .provenance beside it, or folders of them
     #[arg(required = true, value_name = "PART")]
     parts: Vec<PathBuf>,
@@ -50,10 +50,10 @@ struct Source {
     path: PathBuf,
     provenance: Provenance,
     arguments: Vec<String>,
-    asked: Asked,
+    asked: ScanRequest,
 }
 
-impl Merge {
+impl Arguments {
     /// Merges; exit code 1 if rows are missing.
     pub fn run(&self) -> Result<ExitCode, Failure> {
         let (sources, absent) = self.sources()?;
@@ -62,7 +62,7 @@ impl Merge {
             other.must_belong_with(first)?;
         }
         let parts: Vec<Part> = sources.iter().map(Source::part).collect();
-        let Asked { scan, form, .. } = &first.asked;
+        let ScanRequest { scan, form, .. } = &first.asked;
         let recheck = self.check.then_some(&Limits::PATIENT);
         let mut output = self.output.as_deref().map(Output::begin).transpose()?;
         let mut write = |line: &[u8]| output.as_mut().map_or(Ok(()), |output| output.write(line));
@@ -135,7 +135,7 @@ impl Source {
     }
 
     fn part(&self) -> Part {
-        let Asked { points, headed, .. } = &self.asked;
+        let ScanRequest { points, headed, .. } = &self.asked;
         Part { path: self.path.clone(), points: points.clone(), headed: *headed }
     }
 

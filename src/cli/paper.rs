@@ -11,12 +11,12 @@ use crate::study::claims::examine_all;
 
 /// Puts every equation and claim of the paper that can be tested to the test
 #[derive(Debug, Args)]
-pub struct Paper {
+pub struct Arguments {
     #[command(flatten)]
     output: Output,
 }
 
-impl Paper {
+impl Arguments {
     /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
         let (examined, seconds) = timed(self.output.repeat, || examine_all(&Limits::PATIENT));

@@ -20,7 +20,7 @@ use crate::view::screen::{self, Paper};
 
 /// Runs a keystroke file without a terminal and prints the last screen
 #[derive(Debug, Args)]
-pub struct Replay {
+pub struct Arguments {
     /// Keystroke file
     #[arg(value_name = "FILE")]
     file: PathBuf,
@@ -64,7 +64,7 @@ impl ScreenFormat {
     }
 }
 
-impl Replay {
+impl Arguments {
     /// Runs the file.
     pub fn run(&self) -> Result<(), Failure> {
         let script = script(&self.file)?;

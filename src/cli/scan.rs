@@ -26,7 +26,7 @@ use crate::runtime::scan_file::{Refusal, ScanFile};
 use crate::runtime::scanning::{Processors, Taker, rows};
 use crate::runtime::signals::exit_code;
 use crate::study::basin::Window;
-use crate::study::kicks::Kicks;
+use crate::study::kicks::RandomKick;
 use crate::study::measure::{Conditions, MEASURES, Measure};
 use crate::study::scan::{Scan, ScanRow, Sweep};
 
@@ -65,7 +65,7 @@ pub struct ScanCommand {
         default_value = "q=0+-1,v=0+-1",
         allow_hyphen_values = true
     )]
-    kicks: Kicks,
+    kicks: RandomKick,
     /// Time at which the motions of `outcome`, `rest`, `settling` and `finite-time` stop (default: that of the
     /// scene)
     #[arg(long, value_name = "T", value_parser = input::until, allow_hyphen_values = true)]
@@ -122,7 +122,7 @@ fn measures_help() -> String {
 
 /// What a command line asks for.
 #[derive(Clone, Debug)]
-pub struct Asked {
+pub struct ScanRequest {
     /// The whole scan.
     pub scan: Scan,
     /// The form of its rows.
@@ -220,10 +220,10 @@ impl ScanCommand {
                 self.force,
             );
         }
-        let stop = Stop::listen()?;
+        let stop = StopSignal::listen()?;
         let interrupted = || stop.signal().is_some();
         let (sink, done) = self.sink(&asked, &interrupted)?;
-        let Asked { scan, mut points, .. } = asked;
+        let ScanRequest { scan, mut points, .. } = asked;
         points.start += done;
         let ahead = sink.ahead();
 
@@ -264,7 +264,7 @@ impl ScanCommand {
     }
 
     /// What is to be computed, checked.
-    pub fn asked(&self) -> Result<Asked, Failure> {
+    pub fn asked(&self) -> Result<ScanRequest, Failure> {
         let mut base = self.start.problem()?;
         base.until = self.until.unwrap_or(base.until);
         let conditions = Conditions {
@@ -282,16 +282,16 @@ impl ScanCommand {
         let points = self.part.points(scan.points())?;
         // Without further wishes the parts are made to be put together by cat.
         let headed = points.start == 0 || self.header == Header::Always;
-        Ok(Asked { scan, form: self.form()?, points, headed, shard: self.part.shard() })
+        Ok(ScanRequest { scan, form: self.form()?, points, headed, shard: self.part.shard() })
     }
 
     /// Where the rows go, and how many of them are there already.
     fn sink(
         &self,
-        asked: &Asked,
+        asked: &ScanRequest,
         interrupted: &(dyn Fn() -> bool + Sync),
     ) -> Result<(Sink, usize), Failure> {
-        let &Asked { ref scan, form, ref points, headed, .. } = asked;
+        let &ScanRequest { ref scan, form, ref points, headed, .. } = asked;
         let Some(path) = &self.output else {
             super::output::print(&if headed { form.heading(scan) } else { String::new() })?;
             return Ok((Sink::Standard(form), 0));
@@ -372,9 +372,9 @@ impl std::fmt::Display for Tally {
 }
 
 /// The signal that asks to stop, once it has come; a second one ends the process at once.
-struct Stop(Arc<AtomicUsize>);
+struct StopSignal(Arc<AtomicUsize>);
 
-impl Stop {
+impl StopSignal {
     fn listen() -> Result<Self, Failure> {
         let came = Arc::new(AtomicUsize::new(0));
         let again = Arc::new(AtomicBool::new(false));
@@ -389,7 +389,7 @@ impl Stop {
                 Failure::Unanswered(format!("signals cannot be heard: {error}"))
             })?;
         }
-        Ok(Stop(came))
+        Ok(StopSignal(came))
     }
 
     fn signal(&self) -> Option<i32> {

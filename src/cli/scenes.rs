@@ -10,7 +10,7 @@ use crate::scene::{Scene, library};
 
 /// Lists the scenes
 #[derive(Debug, Args)]
-pub struct Scenes {
+pub struct Arguments {
     /// Form of the list
     #[arg(long, value_enum, default_value_t = Format::Table, value_name = "FORM")]
     format: Format,
@@ -19,7 +19,7 @@ pub struct Scenes {
     cost: bool,
 }
 
-impl Scenes {
+impl Arguments {
     /// Prints the list.
     pub fn run(&self) -> Result<(), Failure> {
         if self.cost {

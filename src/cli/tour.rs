@@ -10,25 +10,25 @@ use super::explore::go;
 use super::failure::Failure;
 use super::look::Looks;
 use crate::scene::plain;
-use crate::session::replay::Step;
+use crate::session::replay::Instruction;
 use crate::session::{Session, Size};
 
 /// Gives a tour of the explorer: keys that a caption names work, any other goes on, Esc leaves the tour
 #[derive(Debug, Args)]
-pub struct Tour {
+pub struct Arguments {
     #[command(flatten)]
     looks: Looks,
     #[command(flatten)]
     settings: Settings,
 }
 
-impl Tour {
+impl Arguments {
     /// Runs the explorer until it is left.
     pub fn run(&self) -> Result<ExitCode, Failure> {
         let config = self.settings.read()?;
         let mut session = Session::new(plain(), Size { width: 80, height: 24 });
         session.look = self.looks.wishes(&config);
         session.keymap = Arc::new(config.keymap);
-        go(session, &[Step::Run("tour".to_owned())], None)
+        go(session, &[Instruction::Run("tour".to_owned())], None)
     }
 }

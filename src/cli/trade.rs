@@ -15,7 +15,7 @@ use crate::view::trade_plot::in_letters;
 
 /// Shows what accuracy costs: every method over its tolerances on the same motion
 #[derive(Debug, Args)]
-pub struct Trade {
+pub struct Arguments {
     /// Scene whose motion is followed
     #[arg(value_name = "SCENE", conflicts_with = "scene")]
     named: Option<String>,
@@ -28,7 +28,7 @@ pub struct Trade {
     until: Option<f64>,
 }
 
-impl Trade {
+impl Arguments {
     /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
         let scene = match &self.named {

@@ -12,12 +12,12 @@ use crate::flow::{Detail, Limits, Outcome, Problem};
 use crate::numerics::Interval;
 use crate::oscillator::State;
 use crate::proof::ParameterBox;
-use crate::proof::motion::{Motion, follow as enclosed};
+use crate::proof::motion::{ProvedMotion, follow as enclosed};
 use crate::report::{certified, trajectory as report};
 
 /// Follows one motion: its turning points, how it ends, where the energy went
 #[derive(Debug, Args)]
-pub struct Trajectory {
+pub struct Arguments {
     #[command(flatten)]
     start: StartOptions,
     #[command(flatten)]
@@ -29,7 +29,7 @@ pub struct Trajectory {
     until: Option<f64>,
 }
 
-impl Trajectory {
+impl Arguments {
     /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
         let mut problem = self.start.problem()?;
@@ -49,7 +49,7 @@ impl Trajectory {
             enclosed(&ParameterBox::from(&problem.parameters), start, problem.until)
         };
         let certified = self.certify.ask(enclose);
-        let line = |it: &Motion| certified::motion_line(it, problem.until);
+        let line = |it: &ProvedMotion| certified::motion_line(it, problem.until);
         self.output.print(&match self.output.format {
             Format::Table => {
                 report::table(&motion, seconds) + &certified.as_ref().map(line).unwrap_or_default()

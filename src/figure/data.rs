@@ -18,24 +18,30 @@ pub fn csv(figure: &Figure) -> String {
     for remark in remarks(figure) {
         out += &format!("# {remark}\n");
     }
-    let mut sheet = Sheet::like(&Row::default(), &[]);
+    let mut sheet = Sheet::like(&PointRow::default(), &[]);
     for (panel, shown) in (1..).zip(&figure.panels) {
-        let mut add = |row: Row, points: &[[f64; 2]]| {
+        let mut add = |row: PointRow, points: &[[f64; 2]]| {
             for [x, y] in points {
-                sheet.row(&Row { panel, x: *x, y: *y, ..row });
+                sheet.row(&PointRow { panel, x: *x, y: *y, ..row });
             }
         };
         for (number, curve) in (1..).zip(&shown.curves) {
             let Curve { name, role, style, points, .. } = curve;
-            add(Row { kind: "curve", number, name, role, style, ..Row::default() }, points);
+            add(
+                PointRow { kind: "curve", number, name, role, style, ..PointRow::default() },
+                points,
+            );
         }
         for (number, area) in (1..).zip(&shown.areas) {
             let Area { name, role, edge, .. } = area;
-            add(Row { kind: "area", number, name, role, ..Row::default() }, edge);
+            add(PointRow { kind: "area", number, name, role, ..PointRow::default() }, edge);
         }
         for (number, mark) in (1..).zip(&shown.marks) {
             let (name, role) = (&mark.name, mark.pen.name());
-            add(Row { kind: "mark", number, name, role, ..Row::default() }, &[[mark.x, mark.y]]);
+            add(
+                PointRow { kind: "mark", number, name, role, ..PointRow::default() },
+                &[[mark.x, mark.y]],
+            );
         }
     }
     out + &sheet.into_text()
@@ -43,7 +49,7 @@ pub fn csv(figure: &Figure) -> String {
 
 /// A point of a curve, of the edge of an area, or a mark.
 #[derive(Clone, Copy, Default, Serialize)]
-struct Row<'a> {
+struct PointRow<'a> {
     panel: u32,
     kind: &'static str,
     number: u32,

@@ -2,7 +2,7 @@
 
 use super::content::{Figure, Panel};
 use crate::fit::Fitted;
-use crate::fit::observation::{Data, LAST, OMEGA0, Q0, Start, parameters};
+use crate::fit::observation::{Data, LAST, OMEGA0, Q0, StartKind, parameters};
 use crate::oscillator::State;
 use crate::picture::fit::pictures;
 
@@ -11,7 +11,7 @@ impl Figure {
     pub fn of_fit(fitted: &Fitted) -> Self {
         let estimate = &fitted.estimate;
         let p = &estimate.p;
-        let velocity = if estimate.start == Start::Moving { p[LAST] } else { 0.0 };
+        let velocity = if estimate.start == StartKind::Moving { p[LAST] } else { 0.0 };
         Figure {
             figure: "fit".into(),
             title: format!("{}: fitted motion", fitted.name),

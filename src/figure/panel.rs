@@ -6,7 +6,7 @@ use super::content::{Area, Axis, Caption, Curve, MarkedPoint, Panel};
 use super::filled;
 use super::sample;
 use crate::oscillator::{State, Symbol};
-use crate::picture::items::{Item, Line, Marks, Picture, Variant};
+use crate::picture::items::{Item, LineStyle, Marks, Picture, Variant};
 use crate::picture::role::Dash;
 use crate::picture::ticks::Scale;
 use crate::scene::{Point, Span, Window};
@@ -51,7 +51,7 @@ impl Panel {
 
     fn add(&mut self, picture: &Picture, item: &Item) {
         let window @ Window { x, y } = self.window;
-        let mut add = |line: &Line, points: &[Point]| {
+        let mut add = |line: &LineStyle, points: &[Point]| {
             if line.name.is_empty() {
                 // A line without a name is no data.
                 self.guides.push(points.to_vec());
@@ -82,7 +82,11 @@ impl Panel {
             }
             Item::Texture(at) => {
                 for (fill, corners) in filled::polygons(at, self.window) {
-                    self.area(picture, &Line::new(fill.name, fill.role, Dash::Solid), &corners);
+                    self.area(
+                        picture,
+                        &LineStyle::new(fill.name, fill.role, Dash::Solid),
+                        &corners,
+                    );
                 }
             }
             Item::Arrows(_, flow) => {
@@ -116,7 +120,7 @@ impl Panel {
     }
 
     /// Adds an area in the same way.
-    fn area(&mut self, picture: &Picture, line: &Line, edge: &[Point]) {
+    fn area(&mut self, picture: &Picture, line: &LineStyle, edge: &[Point]) {
         let area = Area {
             name: line.full_name().into_owned(),
             role: line.role.name(),
@@ -160,7 +164,7 @@ fn beyond(edge: &[Point], window: Window) -> Vec<Point> {
 }
 
 /// A line as data. One point is no line: a motion at rest has its mark.
-fn curve(line: &Line, points: &[Point], parameters: Held) -> Option<Curve> {
+fn curve(line: &LineStyle, points: &[Point], parameters: Held) -> Option<Curve> {
     let finite = points.iter().filter(|point| point.x.is_finite() && point.y.is_finite());
     let style = match line.dash {
         Dash::Solid => "solid",

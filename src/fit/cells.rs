@@ -21,7 +21,7 @@ pub enum Cell {
 
 /// A line that holds something, with its number.
 #[derive(Clone, Copy)]
-pub struct Line<'a> {
+pub struct NumberedLine<'a> {
     /// From 1.
     pub number: usize,
     /// Without blanks around it.
@@ -29,7 +29,7 @@ pub struct Line<'a> {
 }
 
 /// The lines of a text but for empty ones and comments.
-pub fn lines(text: &str) -> Vec<Line<'_>> {
+pub fn lines(text: &str) -> Vec<NumberedLine<'_>> {
     let mut found = Vec::new();
     let parts = text.split('\n').flat_map(|part| {
         // A carriage return alone ends a line too; before a newline it belongs to it.
@@ -39,7 +39,7 @@ pub fn lines(text: &str) -> Vec<Line<'_>> {
         let text = text.trim_matches(|char| char == ' ' || char == '\0');
         let blank = text.trim().is_empty() || text.chars().all(|char| ";,\t ".contains(char));
         if !(blank || text.starts_with(['#', '%'])) {
-            found.push(Line { number: index + 1, text });
+            found.push(NumberedLine { number: index + 1, text });
         }
     }
     found
@@ -56,7 +56,7 @@ pub enum Separator {
 
 impl Separator {
     /// The separator of the last rows, which are data in any file.
-    pub fn of(lines: &[Line]) -> Self {
+    pub fn of(lines: &[NumberedLine]) -> Self {
         /// So many rows decide.
         const ROWS: usize = 20;
         let last = &lines[lines.len().saturating_sub(ROWS)..];

@@ -3,12 +3,12 @@
 use super::levenberg_marquardt::Runs;
 use super::names::{Choice, NAMES, NameSpec};
 use super::noise::Noise;
-use super::observation::{Data, OMEGA0, R, Start, UNKNOWNS, Unknowns};
-use super::problem::Problem;
-use super::profile::{Interval, Profile};
+use super::observation::{Data, OMEGA0, R, StartKind, UNKNOWNS, Unknowns};
+use super::problem::LeastSquares;
+use super::profile::{Profile, ProfileInterval};
 use super::question::Unfit;
 use super::residuals::{Whiteness, whiteness};
-use super::search::Found;
+use super::search::Minima;
 use super::turning_points::Extreme;
 use super::uncertainty::{Covariance, left_over};
 
@@ -31,7 +31,7 @@ pub struct Estimate {
     /// What was measured and used.
     pub data: Data,
     /// How the motion begins.
-    pub start: Start,
+    pub start: StartKind,
     /// The unknowns.
     pub p: Unknowns,
     /// Which of them are free.
@@ -39,7 +39,7 @@ pub struct Estimate {
     /// How well they are known.
     pub covariance: Covariance,
     /// Intervals of 95 %, by the place of the unknown.
-    pub intervals: [Interval; UNKNOWNS],
+    pub intervals: [ProfileInterval; UNKNOWNS],
     /// Measured less computed, one for each measured number; times of peaks in displacement units.
     pub residuals: Vec<f64>,
     /// Which of them count.
@@ -106,12 +106,12 @@ const ALIEN: f64 = 10.0;
 /// # Errors
 /// [`Unfit::Blind`] where an unknown has no influence; [`Unfit::Interrupted`].
 pub fn judged(
-    problem: &Problem,
+    problem: &LeastSquares,
     used: &[bool],
-    found: &Found,
+    found: &Minima,
     runs: &mut Runs,
 ) -> Result<Estimate, Unfit> {
-    let problem = &Problem { used, ..*problem };
+    let problem = &LeastSquares { used, ..*problem };
     let observation = problem.observation(found.start);
     let task = problem.task(&observation);
     let best = &found.valleys[0].optimum;
@@ -155,7 +155,7 @@ pub fn judged(
             p: valley.optimum.p,
         })
         .collect();
-    let mut intervals = [Interval::default(); UNKNOWNS];
+    let mut intervals = [ProfileInterval::default(); UNKNOWNS];
     for (valley, rival) in found.valleys.iter().zip(&rivals) {
         if rival.delta_chi2 >= 4.0 {
             continue;

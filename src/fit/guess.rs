@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::decrements::{Averaged, regressions};
 use super::noise::{Noise, median, robust_deviation};
-use super::observation::{D, D2, D3, LAST, OFFSET, OMEGA0, Q0, R, Start, Unknowns};
+use super::observation::{D, D2, D3, LAST, OFFSET, OMEGA0, Q0, R, StartKind, Unknowns};
 use super::search::Beginning;
 use super::spectrum::dominant_frequency;
 use super::turning_points::{Extreme, smoothed, turning_points, without_jumps};
@@ -51,25 +51,29 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise) -> Option<Guess> {
         (6.0 * noise.deviation / samples_within(t, period / 12.0).sqrt()).max(0.02 * (high - low));
     extremes.extend(rest(t, &cleaned, &extremes, period, tail));
     let regressions = regressions(&extremes);
-    let guess = |start: Start, averaged: &Averaged| {
+    let guess = |start: StartKind, averaged: &Averaged| {
         let mut p: Unknowns = [0.0; 8];
         (p[OMEGA0], p[OFFSET]) = (2.0 * PI / period, averaged.offset);
         (p[D], p[D2], p[D3], p[R]) = (averaged.d, averaged.d2, averaged.d3, averaged.r);
         (p[Q0], p[LAST]) = match start {
-            Start::Release => (hold - averaged.offset, begin),
-            Start::Moving => first_state(t, &cleaned, &p, period)?,
+            StartKind::Release => (hold - averaged.offset, begin),
+            StartKind::Moving => first_state(t, &cleaned, &p, period)?,
         };
         Some(p)
     };
-    let beginning = |start: Start, certain: bool| Beginning {
+    let beginning = |start: StartKind, certain: bool| Beginning {
         start,
         certain,
         guesses: regressions.iter().filter_map(|averaged| guess(start, averaged)).collect(),
     };
     let beginnings = match begins {
-        Begins::Held => vec![beginning(Start::Release, true), beginning(Start::Moving, false)],
-        Begins::Unclear => vec![beginning(Start::Moving, false), beginning(Start::Release, false)],
-        Begins::Moving => vec![beginning(Start::Moving, true)],
+        Begins::Held => {
+            vec![beginning(StartKind::Release, true), beginning(StartKind::Moving, false)]
+        }
+        Begins::Unclear => {
+            vec![beginning(StartKind::Moving, false), beginning(StartKind::Release, false)]
+        }
+        Begins::Moving => vec![beginning(StartKind::Moving, true)],
     };
     (!regressions.is_empty()).then_some(Guess { beginnings, extremes, struck })
 }

@@ -67,12 +67,12 @@ pub fn margins(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Mar
     let (smallest, largest) = estimate.amplitudes();
     let ask = |parameters: &Parameters| answer(parameters, largest, limits);
     let Drawn { draws: drawn, effective } = drawn(estimate, draws, limits)?;
-    let computed: Vec<Result<Answer, Reason>> = drawn.par_iter().map(ask).collect();
+    let computed: Vec<Result<MarginOfDraw, Reason>> = drawn.par_iter().map(ask).collect();
     if (limits.interrupted)() {
         return Err(Reason::Interrupted);
     }
-    let known: Vec<Answer> = computed.into_iter().filter_map(Result::ok).collect();
-    let sorted = |pick: fn(&Answer) -> Option<f64>| {
+    let known: Vec<MarginOfDraw> = computed.into_iter().filter_map(Result::ok).collect();
+    let sorted = |pick: fn(&MarginOfDraw) -> Option<f64>| {
         let mut values: Vec<f64> =
             known.iter().map(|it| pick(it).unwrap_or(f64::INFINITY)).collect();
         values.sort_by(f64::total_cmp);
@@ -95,7 +95,7 @@ pub fn margins(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Mar
 }
 
 /// What follows from one set of parameters.
-struct Answer {
+struct MarginOfDraw {
     margin: Margin,
     /// Right turning point of the smallest stable cycle.
     cycle: Option<f64>,
@@ -103,11 +103,11 @@ struct Answer {
     fold: Option<f64>,
 }
 
-fn answer(parameters: &Parameters, reach: f64, limits: &Limits) -> Result<Answer, Reason> {
+fn answer(parameters: &Parameters, reach: f64, limits: &Limits) -> Result<MarginOfDraw, Reason> {
     let mut equation = Equation::new(parameters, f64::EPSILON);
     let found = all_closings(&mut equation, limits)?;
     let stable = found.iter().find(|closing| closing.log_multiplier(parameters) < 0.0);
-    Ok(Answer {
+    Ok(MarginOfDraw {
         margin: Basin::around(parameters, &found, reach, limits)?.margin(),
         cycle: stable.map(|closing| closing.describe(parameters, equation.side).q_max),
         fold: fold(parameters, limits)?.0.map(|fold| fold.d),

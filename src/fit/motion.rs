@@ -51,7 +51,7 @@ pub struct Turn {
 
 /// A motion as far as it was followed.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Followed {
+pub struct FollowedMotion {
     /// Every arrival at `v = 0` within the time, the last one included where it rests.
     pub turns: Vec<Turn>,
     /// Whether the last turn is a capture.
@@ -77,7 +77,7 @@ pub struct Lost;
 
 /// Derivatives of the start of a half swing.
 #[derive(Clone, Copy, Default)]
-struct Start {
+struct StartGradient {
     x: Gradient,
     v: Gradient,
     tau: Gradient,
@@ -93,9 +93,9 @@ pub fn follow(
     times: &[f64],
     way: Way,
     mut see: impl FnMut(usize, Point),
-) -> Result<Followed, Lost> {
+) -> Result<FollowedMotion, Lost> {
     let r = parameters.r;
-    let mut followed = Followed::default();
+    let mut followed = FollowedMotion::default();
     let mut next = 0;
     let Some(mut side) = Side::entered_from(start, r) else {
         let by = [0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
@@ -106,7 +106,7 @@ pub fn follow(
     let sign = side.sign();
     // A velocity of -0 would be one that has just arrived.
     let (mut x, mut v) = (sign * start.q + r, start.v.abs());
-    let mut chain = Start::default();
+    let mut chain = StartGradient::default();
     chain.x[R] = 1.0;
     chain.x[4] = sign;
     chain.v[5] = sign;
@@ -149,11 +149,16 @@ struct HalfSwing<'a> {
     along: Gradient,
     /// The start's shift across the flow, for each number.
     across: Gradient,
-    chain: &'a Start,
+    chain: &'a StartGradient,
 }
 
 impl<'a> HalfSwing<'a> {
-    fn new(parameters: &'a Parameters, side: Side, (x, v): (f64, f64), chain: &'a Start) -> Self {
+    fn new(
+        parameters: &'a Parameters,
+        side: Side,
+        (x, v): (f64, f64),
+        chain: &'a StartGradient,
+    ) -> Self {
         let field = HalfPlane::new(parameters, side);
         let (fx, fv) = (v, field.acceleration(x, v));
         let norm = hypot(fx, fv);

@@ -33,7 +33,7 @@ pub type Unknowns = [f64; UNKNOWNS];
 
 /// How the recorded motion begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Start {
+pub enum StartKind {
     /// Held at rest until it is let go.
     Release,
     /// In motion at the first sample.
@@ -118,7 +118,7 @@ pub struct Observation {
     /// What was measured.
     pub data: Data,
     /// How the motion begins.
-    pub start: Start,
+    pub start: StartKind,
     /// Whether D2 and D3 are held at zero.
     pub linear: bool,
     /// A motion larger than this has escaped.
@@ -148,8 +148,8 @@ impl Observation {
 
     fn samples(&self, p: &Unknowns, t: &[f64], x: &[f64], way: Way) -> Result<Seen, Lost> {
         let (held, origin, velocity) = match self.start {
-            Start::Release => (t.partition_point(|&t| t < p[LAST]), p[LAST], 0.0),
-            Start::Moving => (0, t.first().copied().unwrap_or(0.0), p[LAST]),
+            StartKind::Release => (t.partition_point(|&t| t < p[LAST]), p[LAST], 0.0),
+            StartKind::Moving => (0, t.first().copied().unwrap_or(0.0), p[LAST]),
         };
         let mut residuals = Vec::with_capacity(x.len());
         for &x in &x[..held] {
@@ -159,7 +159,7 @@ impl Observation {
         }
         let times: Vec<f64> = t[held..].iter().map(|t| p[OMEGA0] * (t - origin)).collect();
         let start = State { q: p[Q0], v: velocity };
-        let moving = self.start == Start::Moving;
+        let moving = self.start == StartKind::Moving;
         let followed = follow(&parameters(p), start, &times, way, |index, point| {
             let mut by = unknowns(&point.by);
             by[OMEGA0] = point.v * (t[held + index] - origin);

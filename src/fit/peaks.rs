@@ -5,8 +5,10 @@ use super::estimate::{Estimate, judged};
 use super::guess::period_of;
 use super::levenberg_marquardt::{Optimum, Runs, Task};
 use super::loss::Loss;
-use super::observation::{D, D2, D3, Data, LAST, OFFSET, OMEGA0, Q0, R, Start, UNKNOWNS, Unknowns};
-use super::problem::Problem;
+use super::observation::{
+    D, D2, D3, Data, LAST, OFFSET, OMEGA0, Q0, R, StartKind, UNKNOWNS, Unknowns,
+};
+use super::problem::LeastSquares;
 use super::question::{Question, Unfit, placed, reach};
 use super::record::Record;
 use super::search::Beginning;
@@ -53,7 +55,7 @@ pub fn peaks(record: &Record, question: &Question, runs: &mut Runs) -> Result<Es
             guesses.push(placed(&held, p));
         }
     }
-    let starts = [Beginning { start: Start::Release, certain: true, guesses }];
+    let starts = [Beginning { start: StartKind::Release, certain: true, guesses }];
     let amplitude = 0.5 * (x[1] - x[0]).abs();
     let mut ratio = 1.0 / (omega0 * amplitude);
     if measured <= unknowns {
@@ -82,9 +84,9 @@ pub fn peaks(record: &Record, question: &Question, runs: &mut Runs) -> Result<Es
 }
 
 /// Squared residuals, all of them; how large they are is not known beforehand.
-fn asked(data: &Data, free: [bool; UNKNOWNS]) -> Problem<'_> {
+fn asked(data: &Data, free: [bool; UNKNOWNS]) -> LeastSquares<'_> {
     let reach = reach(data.displacements());
-    Problem { data, free, loss: Loss::Linear, used: &[], noise: 0.0, reach }
+    LeastSquares { data, free, loss: Loss::Linear, used: &[], noise: 0.0, reach }
 }
 
 /// How much larger the errors of the times are than those of the displacements, in the present unit: each from

@@ -6,7 +6,7 @@ use crate::numerics::elementary::powi;
 
 /// A physical number.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct EstimatedNumber {
     /// What it is.
     pub name: &'static str,
     /// Its value.
@@ -40,12 +40,12 @@ const LAWS: [Law; 6] = [
 
 /// The physical numbers, with errors from the covariance of the fit.
 #[must_use]
-pub fn rows(fitted: &Fitted) -> Vec<Row> {
+pub fn rows(fitted: &Fitted) -> Vec<EstimatedNumber> {
     let Some((inertia, metres)) = fitted.inertia else { return Vec::new() };
     LAWS.iter().map(|law| row(fitted, law, inertia, metres)).collect()
 }
 
-fn row(fitted: &Fitted, law: &Law, inertia: Inertia, metres: f64) -> Row {
+fn row(fitted: &Fitted, law: &Law, inertia: Inertia, metres: f64) -> EstimatedNumber {
     let estimate = &fitted.estimate;
     let omega0 = estimate.p[OMEGA0];
     // With the stiffness given the mass is c/omega0^2.
@@ -65,7 +65,7 @@ fn row(fitted: &Fitted, law: &Law, inertia: Inertia, metres: f64) -> Row {
         .map(|(i, j)| gradient[i] * gradient[j] * estimate.covariance.of(i, j))
         .sum();
     let standard_error = variance.max(0.0).sqrt();
-    Row { name: law.name, value: constant * number, standard_error, unit: law.unit }
+    EstimatedNumber { name: law.name, value: constant * number, standard_error, unit: law.unit }
 }
 
 /// Factors that turn a displacement of the record into metres and a velocity over `omega0` into an impulse.

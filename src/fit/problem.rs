@@ -3,12 +3,12 @@
 use super::levenberg_marquardt::{Optimum, Task};
 use super::loss::Loss;
 use super::noise::robust_deviation;
-use super::observation::{D2, D3, Data, OMEGA0, Observation, Start, UNKNOWNS};
+use super::observation::{D2, D3, Data, OMEGA0, Observation, StartKind, UNKNOWNS};
 use super::residuals::whiteness;
 
 /// What the search is told.
 #[derive(Clone, Copy, Debug)]
-pub struct Problem<'a> {
+pub struct LeastSquares<'a> {
     /// What was measured.
     pub data: &'a Data,
     /// Which unknowns are free.
@@ -37,10 +37,10 @@ pub enum Verdict {
 /// Residuals this many times the noise may still be noise: filtered noise hides from second differences.
 const HIDDEN: f64 = 4.0;
 
-impl Problem<'_> {
+impl LeastSquares<'_> {
     /// Record and model.
     #[must_use]
-    pub fn observation(&self, start: Start) -> Observation {
+    pub fn observation(&self, start: StartKind) -> Observation {
         let free = |place: usize| self.free[place];
         Observation {
             data: self.data.clone(),
@@ -53,7 +53,7 @@ impl Problem<'_> {
     /// What is estimated, and how residuals count.
     #[must_use]
     pub fn task<'a>(&'a self, observation: &'a Observation) -> Task<'a> {
-        let Problem { free, loss, used, .. } = *self;
+        let LeastSquares { free, loss, used, .. } = *self;
         Task { observation, free, loss, used, horizon: usize::MAX }
     }
 

@@ -10,7 +10,7 @@ use super::uncertainty::{Covariance, deviation_of_95_percent};
 
 /// An interval of 95 %.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Interval {
+pub struct ProfileInterval {
     /// Its lower end; `None` where the data set no bound.
     pub lower: Option<f64>,
     /// Its upper end; `None` where the data set no bound.
@@ -19,14 +19,14 @@ pub struct Interval {
     pub quadratic: bool,
 }
 
-impl Interval {
+impl ProfileInterval {
     /// The smallest interval that holds both.
     #[must_use]
-    pub fn joined(self, other: Interval) -> Self {
+    pub fn joined(self, other: ProfileInterval) -> Self {
         let both = |one: Option<f64>, two: Option<f64>, pick: fn(f64, f64) -> f64| {
             one.zip(two).map(|(one, two)| pick(one, two))
         };
-        Interval {
+        ProfileInterval {
             lower: both(self.lower, other.lower, f64::min),
             upper: both(self.upper, other.upper, f64::max),
             quadratic: false,
@@ -58,7 +58,7 @@ impl Profile<'_> {
     ///
     /// # Errors
     /// [`NoFit::Interrupted`].
-    pub fn interval(&self, unknown: usize, runs: &mut Runs) -> Result<Interval, NoFit> {
+    pub fn interval(&self, unknown: usize, runs: &mut Runs) -> Result<ProfileInterval, NoFit> {
         let z = deviation_of_95_percent(self.covariance.independent(unknown));
         let reach = z * self.covariance.error(unknown);
         let white = self.covariance.inflation(unknown);
@@ -77,17 +77,17 @@ impl Profile<'_> {
             quadratic = false;
             *end = self.sought(unknown, sign, reach, rise, runs)?;
         }
-        Ok(Interval { lower: ends[0], upper: ends[1], quadratic })
+        Ok(ProfileInterval { lower: ends[0], upper: ends[1], quadratic })
     }
 
     /// The interval by the standard error alone.
     #[must_use]
-    pub fn straight(&self, unknown: usize) -> Interval {
+    pub fn straight(&self, unknown: usize) -> ProfileInterval {
         let z = deviation_of_95_percent(self.covariance.independent(unknown));
         let (center, reach) = (self.optimum.p[unknown], z * self.covariance.error(unknown));
         let least = if unknown == R { 0.0 } else { f64::NEG_INFINITY };
         let lower = Some((center - reach).max(least));
-        Interval { lower, upper: Some(center + reach), quadratic: true }
+        ProfileInterval { lower, upper: Some(center + reach), quadratic: true }
     }
 
     fn shifted(&self, from: &Unknowns, unknown: usize, by: f64) -> Unknowns {
@@ -168,9 +168,9 @@ mod tests {
 
     #[test]
     fn joined_intervals_hold_both_and_stay_open_where_one_is() {
-        let one = Interval { lower: Some(1.0), upper: Some(2.0), quadratic: true };
-        let other = Interval { lower: Some(0.5), upper: None, quadratic: true };
+        let one = ProfileInterval { lower: Some(1.0), upper: Some(2.0), quadratic: true };
+        let other = ProfileInterval { lower: Some(0.5), upper: None, quadratic: true };
         let both = one.joined(other);
-        assert_eq!(both, Interval { lower: Some(0.5), upper: None, quadratic: false });
+        assert_eq!(both, ProfileInterval { lower: Some(0.5), upper: None, quadratic: false });
     }
 }

@@ -7,7 +7,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::cells::{Cell, Line, Separator, lines, read};
+use super::cells::{Cell, NumberedLine, Separator, lines, read};
 use super::clock;
 use super::header::{self, Header};
 
@@ -113,7 +113,7 @@ pub fn parse(bytes: &[u8], reading: &Reading) -> Result<Record, BadRecord> {
             && kinds.iter().filter(|cell| **cell == Cell::Text).count() * 2 < kinds.len()
     };
     let Some(first) = cells.iter().position(numeric) else {
-        let Line { number, .. } = lines[0];
+        let NumberedLine { number, .. } = lines[0];
         return Err(BadRecord {
             line: number,
             column: 1,

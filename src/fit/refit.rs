@@ -6,7 +6,7 @@ use super::estimate::{Estimate, Rival};
 use super::levenberg_marquardt::{NoFit, Optimum, Runs, Task};
 use super::loss::Loss;
 use super::observation::{D2, D3, Observation, R, UNKNOWNS, Unknowns};
-use super::profile::Interval;
+use super::profile::ProfileInterval;
 use super::question::Unfit;
 use super::uncertainty::Covariance;
 
@@ -94,7 +94,7 @@ pub fn held(
         free: refit.free,
         covariance,
         // Ends are not sought; whether the likelihood is quadratic will not have changed.
-        intervals: estimate.intervals.map(|it| Interval { lower: None, upper: None, ..it }),
+        intervals: estimate.intervals.map(|it| ProfileInterval { lower: None, upper: None, ..it }),
         residuals: optimum.seen.residuals.iter().map(|residual| residual.value).collect(),
         half_swings,
         rests: optimum.seen.rests,

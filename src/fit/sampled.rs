@@ -2,7 +2,7 @@
 
 use super::estimate::Estimate;
 use super::motion::{Way, follow};
-use super::observation::{Data, LAST, OMEGA0, Q0, Start, parameters};
+use super::observation::{Data, LAST, OMEGA0, Q0, StartKind, parameters};
 use crate::oscillator::State;
 
 /// Most points of a record that are drawn; of longer ones every second, third, .. is.
@@ -60,8 +60,8 @@ fn motion(estimate: &Estimate, t: &[f64]) -> Vec<[f64; 3]> {
     let p = &estimate.p;
     let (first, last) = (t[0], t[t.len() - 1]);
     let (origin, velocity) = match estimate.start {
-        Start::Release => (p[LAST], 0.0),
-        Start::Moving => (first, p[LAST]),
+        StartKind::Release => (p[LAST], 0.0),
+        StartKind::Moving => (first, p[LAST]),
     };
     let count = (FINE * (estimate.half_swings + 2)).min(4 * POINTS);
     #[expect(clippy::cast_precision_loss, reason = "counts of points")]

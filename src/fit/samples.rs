@@ -5,11 +5,11 @@ use super::guess::{Guess, guess};
 use super::levenberg_marquardt::{NoFit, Runs};
 use super::loss::Loss;
 use super::noise::{Noise, robust_deviation, within_scale};
-use super::observation::{Data, LAST, OMEGA0, Start};
-use super::problem::Problem;
+use super::observation::{Data, LAST, OMEGA0, StartKind};
+use super::problem::LeastSquares;
 use super::question::{LossName, Question, Unfit, placed, reach};
 use super::record::Record;
-use super::search::Found;
+use super::search::Minima;
 use super::spectrum::dominant_frequency;
 use crate::numerics::elementary::powi;
 
@@ -57,7 +57,8 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
     };
     let reach = reach(&x);
     let data = Data::Samples { t, x };
-    let mut problem = Problem { data: &data, free, loss, used: &[], noise: noise.deviation, reach };
+    let mut problem =
+        LeastSquares { data: &data, free, loss, used: &[], noise: noise.deviation, reach };
     let mut found = problem.search(&beginnings, runs)?;
     let mut used = vec![true; data.residuals()];
     let mut alike = used.clone();
@@ -65,7 +66,7 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
         problem.loss = Loss::Linear;
         used = refined(&problem, loss.is_robust(), &mut found, runs)?;
         // Where the motion is not understood nothing is known to rest.
-        if (Problem { used: &used, ..problem }).comes_near(&found.valleys[0].optimum) {
+        if (LeastSquares { used: &used, ..problem }).comes_near(&found.valleys[0].optimum) {
             alike = telling(&problem, &noise, &mut used, &mut found, runs)?;
         }
     }
@@ -80,10 +81,10 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
 /// Leaves out readings of a mass at rest that repeat the rounding error of others, and fits again; those that tell
 /// something.
 fn telling(
-    problem: &Problem,
+    problem: &LeastSquares,
     noise: &Noise,
     used: &mut [bool],
-    found: &mut Found,
+    found: &mut Minima,
     runs: &mut Runs,
 ) -> Result<Vec<bool>, NoFit> {
     /// The fit that a common error of the rest had misled shows too much noise.
@@ -104,7 +105,7 @@ fn telling(
         for ((used, possible), telling) in used.iter_mut().zip(&possible).zip(&telling) {
             *used = *possible && *telling;
         }
-        let problem = Problem { used, ..*problem };
+        let problem = LeastSquares { used, ..*problem };
         let observation = problem.observation(found.start);
         let task = problem.task(&observation);
         let optimum = task.solve(best.p, runs)?;
@@ -114,13 +115,13 @@ fn telling(
 }
 
 /// All samples in motion, and of those held and those at rest so many, evenly spread; at least two.
-fn some_at_rest(problem: &Problem, found: &Found, enough: f64) -> Vec<bool> {
+fn some_at_rest(problem: &LeastSquares, found: &Minima, enough: f64) -> Vec<bool> {
     const FEWEST: usize = 2;
     let Data::Samples { t, .. } = problem.data else { return vec![true; problem.data.residuals()] };
     let best = &found.valleys[0].optimum;
     let release = match found.start {
-        Start::Release => best.p[LAST],
-        Start::Moving => t[0],
+        StartKind::Release => best.p[LAST],
+        StartKind::Moving => t[0],
     };
     let held = t.partition_point(|&t| t < release);
     let end = best.seen.turns.last().filter(|_| best.seen.rests);
@@ -143,9 +144,9 @@ fn some_at_rest(problem: &Problem, found: &Found, enough: f64) -> Vec<bool> {
 
 /// Leaves out what cannot belong to the motion and fits again, until nothing changes.
 fn refined(
-    problem: &Problem,
+    problem: &LeastSquares,
     robust: bool,
-    found: &mut Found,
+    found: &mut Minima,
     runs: &mut Runs,
 ) -> Result<Vec<bool>, NoFit> {
     /// A model that leaves out more than this part of the record does not describe it.
@@ -166,7 +167,7 @@ fn refined(
             break;
         }
         (used, settled) = (now, true);
-        Problem { used: &used, ..*problem }.polish(found, runs)?;
+        LeastSquares { used: &used, ..*problem }.polish(found, runs)?;
     }
     Ok(used)
 }

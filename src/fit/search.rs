@@ -2,15 +2,15 @@
 
 use super::levenberg_marquardt::{NoFit, Optimum, Runs, Task, interrupted};
 use super::loss::Loss;
-use super::observation::{D2, D3, Data, LAST, OMEGA0, R, Start, Unknowns};
-use super::problem::Problem;
+use super::observation::{D2, D3, Data, LAST, OMEGA0, R, StartKind, Unknowns};
+use super::problem::LeastSquares;
 use super::valley::Valley;
 
 /// A way in which a record may begin, with guesses of the unknowns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Beginning {
     /// How the motion begins.
-    pub start: Start,
+    pub start: StartKind,
     /// Whether the record leaves no doubt of that.
     pub certain: bool,
     /// Guesses of the unknowns.
@@ -19,9 +19,9 @@ pub struct Beginning {
 
 /// Everything that was found.
 #[derive(Clone, Debug)]
-pub struct Found {
+pub struct Minima {
     /// How the motion begins.
-    pub start: Start,
+    pub start: StartKind,
     /// The minima by their cost; the first is the answer.
     pub valleys: Vec<Valley>,
 }
@@ -36,14 +36,14 @@ const ENOUGH: u64 = 250;
 /// Fewest half swings of a horizon.
 const FEWEST: usize = 4;
 
-impl Problem<'_> {
+impl LeastSquares<'_> {
     /// Follows the guesses down, those of each way of beginning in the order in which they resemble the record,
     /// until one explains it; else the best of all.
     ///
     /// # Errors
     /// [`NoFit`] where no guess leads anywhere.
-    pub fn search(&self, guesses: &[Beginning], runs: &mut Runs) -> Result<Found, NoFit> {
-        let mut best: Option<(Start, Optimum)> = None;
+    pub fn search(&self, guesses: &[Beginning], runs: &mut Runs) -> Result<Minima, NoFit> {
+        let mut best: Option<(StartKind, Optimum)> = None;
         let mut failure = NoFit::Lost;
         let mut starts = self.ranked(guesses, runs)?;
         for (round, way) in WAYS.into_iter().enumerate() {
@@ -82,7 +82,7 @@ impl Problem<'_> {
         let (start, optimum) = best.ok_or(failure)?;
         let observation = self.observation(start);
         let valleys = self.valleys(&self.task(&observation), optimum, runs)?;
-        Ok(Found { start, valleys })
+        Ok(Minima { start, valleys })
     }
 
     /// The root mean square of the residuals at a cost.
@@ -96,7 +96,7 @@ impl Problem<'_> {
     ///
     /// # Errors
     /// [`NoFit`] when interrupted, or the motion is lost.
-    pub fn polish(&self, found: &mut Found, runs: &mut Runs) -> Result<(), NoFit> {
+    pub fn polish(&self, found: &mut Minima, runs: &mut Runs) -> Result<(), NoFit> {
         let observation = self.observation(found.start);
         let task = self.task(&observation);
         for valley in &mut found.valleys {
@@ -110,10 +110,10 @@ impl Problem<'_> {
 
     /// Whether a minimum is better than the best one so far. A release that explains no more than a motion under
     /// way is none: nothing was seen of the hold.
-    fn is_better(&self, found: &Optimum, start: Start, best: &Optimum) -> bool {
+    fn is_better(&self, found: &Optimum, start: StartKind, best: &Optimum) -> bool {
         #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
         let unit = best.cost / self.data.residuals().max(1) as f64;
-        let needed = if start == Start::Release { 4.0 * unit } else { -4.0 * unit };
+        let needed = if start == StartKind::Release { 4.0 * unit } else { -4.0 * unit };
         let needed = if self.data.has_peaks() { 0.0 } else { needed };
         found.cost < best.cost - needed
     }
@@ -123,7 +123,7 @@ impl Problem<'_> {
         &self,
         guesses: &[Beginning],
         runs: &mut Runs,
-    ) -> Result<Vec<(Start, Unknowns, bool)>, NoFit> {
+    ) -> Result<Vec<(StartKind, Unknowns, bool)>, NoFit> {
         let mut starts = Vec::new();
         for beginning in guesses {
             let observation = self.observation(beginning.start);
@@ -144,7 +144,7 @@ impl Problem<'_> {
 }
 
 /// A way from a guess to a minimum.
-type Descent = fn(&Problem, &Task, Unknowns, &mut Runs) -> Result<Optimum, NoFit>;
+type Descent = fn(&LeastSquares, &Task, Unknowns, &mut Runs) -> Result<Optimum, NoFit>;
 
 /// The ways in the order in which they are tried.
 const WAYS: [Descent; 4] = [
@@ -154,7 +154,7 @@ const WAYS: [Descent; 4] = [
     |problem, task, guess, runs| growing(problem, task, without(guess, &[R], problem), runs),
 ];
 
-fn without(mut guess: Unknowns, places: &[usize], problem: &Problem) -> Unknowns {
+fn without(mut guess: Unknowns, places: &[usize], problem: &LeastSquares) -> Unknowns {
     for &place in places {
         if problem.free[place] {
             guess[place] = 0.0;
@@ -165,7 +165,7 @@ fn without(mut guess: Unknowns, places: &[usize], problem: &Problem) -> Unknowns
 
 /// Descends on a growing part of the record, with a loss that forgives what is still far off.
 fn growing(
-    problem: &Problem,
+    problem: &LeastSquares,
     task: &Task,
     guess: Unknowns,
     runs: &mut Runs,
@@ -177,8 +177,8 @@ fn growing(
     #[expect(clippy::cast_precision_loss, reason = "a few half swings")]
     let shortest = FEWEST as f64 * half_swing;
     let begin = match task.observation.start {
-        Start::Release => p[LAST].max(first),
-        Start::Moving => first,
+        StartKind::Release => p[LAST].max(first),
+        StartKind::Moving => first,
     };
     let loss = Loss::SoftL1 { scale: 3.0 * problem.noise.max(f64::MIN_POSITIVE) };
     for part in HORIZONS {

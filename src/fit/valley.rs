@@ -6,7 +6,7 @@
 
 use super::levenberg_marquardt::{NoFit, Optimum, Runs, Task, interrupted};
 use super::observation::{Data, R, UNKNOWNS, Unknowns};
-use super::problem::{Problem, Verdict};
+use super::problem::{LeastSquares, Verdict};
 
 /// A local minimum with its number of half swings.
 #[derive(Clone, Debug)]
@@ -17,7 +17,7 @@ pub struct Valley {
     pub optimum: Optimum,
 }
 
-impl Problem<'_> {
+impl LeastSquares<'_> {
     /// The minimum, and those of neighbouring numbers of half swings, the lowest first.
     ///
     /// From the lowest one known, one half swing more and one less are tried, and what comes closest to the record

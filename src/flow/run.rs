@@ -6,7 +6,7 @@ use super::limits::{Limits, Reason};
 use super::method::Method;
 use super::motion::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory};
 use super::step::{Field, Point, Powers, Step, Stepper};
-use super::stop::Stop;
+use super::stop::ComingToRest;
 use super::swing::{End, Failed, Swing, glide, swing};
 use crate::numerics::scaling::times_power;
 use crate::numerics::sum::Sum;
@@ -132,8 +132,8 @@ impl Run {
                 return Outcome::Moving { tau: until, q: last.q, v: last.v };
             }
             let field = HalfPlane::new(&parameters, side);
-            let stop = Stop::of(&field, point).filter(|stop| stop.duration < remaining);
-            let result = if let Some(Stop { duration, .. }) = stop {
+            let stop = ComingToRest::of(&field, point).filter(|stop| stop.duration < remaining);
+            let result = if let Some(ComingToRest { duration, .. }) = stop {
                 Ok(Swing { end: End::Crossing { x: point.x }, duration, steps: 0 })
             } else {
                 let watch = self.watcher(side, field);

@@ -12,7 +12,7 @@ use crate::oscillator::HalfPlane;
 
 /// How far a motion still moves, and for how long.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stop {
+pub struct ComingToRest {
     /// Distance to the place where it stops, in units of `2^unit`; 0 where it has stopped already.
     pub distance: f64,
     /// Exponent of that unit.
@@ -21,7 +21,7 @@ pub struct Stop {
     pub duration: f64,
 }
 
-impl Stop {
+impl ComingToRest {
     /// The stop of a motion through `point` if its way is next to nothing beside its position; else `None`.
     ///
     /// With x constant `v' = -(x + force)`, so the way is the integral of `v/(x + force)` over v, by
@@ -47,7 +47,7 @@ impl Stop {
             nodes.fold((0.0, 0.0), |(way, time), (v, rate)| (way + v * rate, time + rate));
         let size = exponent(point.x);
         let mantissa = times_power(point.x, -size);
-        Some(Stop {
+        Some(ComingToRest {
             distance: top * way / mantissa,
             unit: 2 * unit - size,
             duration: times_power(top * time / mantissa, unit - size),
@@ -78,22 +78,22 @@ mod tests {
     fn undamped_motions_stop_on_their_circle() {
         let field = HalfPlane { d: 0.0, d2: 0.0, d3: 0.0 };
         for (x, v) in [(2.0, 1e-9), (3e-5, 1e-18), (1e200, 1e-100)] {
-            let stop = Stop::of(&field, Point { x, v }).unwrap();
+            let stop = ComingToRest::of(&field, Point { x, v }).unwrap();
             // In units of 2^-600 the last of these ways is a number.
             let way = times_power(stop.distance, stop.unit + 600);
             let expected = 0.5 * times_power(v, 300) * (times_power(v, 300) / x);
             assert!((way / expected - 1.0).abs() < 1e-15, "{stop:?}");
             assert!((stop.duration / (v / x) - 1.0).abs() < 1e-15);
         }
-        assert_eq!(Stop::of(&field, Point { x: 2.0, v: 1e-5 }), None);
-        assert_eq!(Stop::of(&field, Point { x: -2.0, v: 1e-30 }), None);
+        assert_eq!(ComingToRest::of(&field, Point { x: 2.0, v: 1e-5 }), None);
+        assert_eq!(ComingToRest::of(&field, Point { x: -2.0, v: 1e-30 }), None);
     }
 
     /// The way is quadratic in the velocity: it exists where its square underflows.
     #[test]
     fn ways_below_the_range_of_numbers_keep_their_digits() {
         let field = HalfPlane { d: -1.5, d2: 3.0, d3: 1e3 };
-        let stop = Stop::of(&field, Point { x: 2.0, v: 3e-300 }).unwrap();
+        let stop = ComingToRest::of(&field, Point { x: 2.0, v: 3e-300 }).unwrap();
         let log = ln(stop.distance) + f64::from(stop.unit) * std::f64::consts::LN_2;
         let expected = 2.0 * ln(3e-300) - ln(4.0);
         assert!((log / expected - 1.0).abs() < 1e-15, "{stop:?}");
@@ -104,7 +104,8 @@ mod tests {
     fn damping_shortens_the_way() {
         let (x, v) = (1.0, 1e-9);
         let stop = |d: f64| {
-            let stop = Stop::of(&HalfPlane { d, d2: 0.0, d3: 0.0 }, Point { x, v }).unwrap();
+            let stop =
+                ComingToRest::of(&HalfPlane { d, d2: 0.0, d3: 0.0 }, Point { x, v }).unwrap();
             stop.way()
         };
         // The integral of v/(1 + k v), as a series in k v.

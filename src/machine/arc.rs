@@ -7,7 +7,7 @@
 
 use std::fmt;
 
-use super::force::Side;
+use super::force::ForceBranch;
 use super::model::{Model, Phase};
 use super::series::{FINEST, Series};
 use crate::numerics::elementary::ln;
@@ -16,7 +16,7 @@ use crate::numerics::root::{Bracket, Change, newton};
 
 /// Why a motion was not followed to the end of its phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Stop {
+pub enum Unfollowed {
     /// The slip left the velocities for which the friction law is known and positive.
     OutsideLaw {
         /// The slip, in m/s.
@@ -30,17 +30,17 @@ pub enum Stop {
     Steps,
 }
 
-impl fmt::Display for Stop {
+impl fmt::Display for Unfollowed {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Stop::OutsideLaw { slip } => write!(
+            Unfollowed::OutsideLaw { slip } => write!(
                 out,
                 "motions of this machine slip by more than {slip:.6} m/s, where the friction law ends or its \
                  coefficient falls below 0; it must be known and not negative there"
             ),
-            Stop::Escaped => write!(out, "the motion runs away"),
-            Stop::Settled => write!(out, "the motion turns no more"),
-            Stop::Steps => write!(
+            Unfollowed::Escaped => write!(out, "the motion runs away"),
+            Unfollowed::Settled => write!(out, "the motion turns no more"),
+            Unfollowed::Steps => write!(
                 out,
                 "the motion takes more than {STEPS} steps to turn: at the velocities that it reaches its damping is \
                  many times the critical one; less damping, or a smaller start, can be followed"
@@ -49,10 +49,10 @@ impl fmt::Display for Stop {
     }
 }
 
-impl std::error::Error for Stop {}
+impl std::error::Error for Unfollowed {}
 
 /// One step of a motion, as its series.
-pub struct Step<'a> {
+pub struct SeriesStep<'a> {
     /// The phase.
     pub phase: Phase,
     /// The series, of which `duration` belongs to the step.
@@ -66,7 +66,7 @@ pub struct Step<'a> {
 /// What looks at a motion while it is computed.
 pub trait Watch {
     /// A step in slip.
-    fn step(&mut self, model: &Model, step: &Step);
+    fn step(&mut self, model: &Model, step: &SeriesStep);
     /// A piece during which the mass rides on the belt.
     fn stick(&mut self, _model: &Model, _from: f64, _to: f64) {}
     /// Whether a motion that turns no more is to be followed to its end nevertheless.
@@ -80,11 +80,11 @@ pub trait Watch {
 }
 
 impl Watch for () {
-    fn step(&mut self, _: &Model, _: &Step) {}
+    fn step(&mut self, _: &Model, _: &SeriesStep) {}
 }
 
 impl<A: Watch, B: Watch> Watch for (&mut A, &mut B) {
-    fn step(&mut self, model: &Model, step: &Step) {
+    fn step(&mut self, model: &Model, step: &SeriesStep) {
         self.0.step(model, step);
         self.1.step(model, step);
     }
@@ -154,14 +154,14 @@ impl<'a> Flow<'a> {
     /// Follows a motion from `(x, y)` to the end of its phase, forward in time or backward.
     ///
     /// # Errors
-    /// [`Stop`] where it does not get there.
+    /// [`Unfollowed`] where it does not get there.
     pub fn arc(
         &mut self,
         phase: Phase,
         (x, y): (f64, f64),
         backward: bool,
         watch: &mut impl Watch,
-    ) -> Result<ArcEnd, Stop> {
+    ) -> Result<ArcEnd, Unfollowed> {
         let model = self.model;
         let (side, offset) = (model.side(phase), model.offset(phase));
         let (least, most) = model.range(phase);
@@ -169,7 +169,7 @@ impl<'a> Flow<'a> {
         let (mut x, mut y) = (x + offset, y);
         let started = x.abs().max(y.abs());
         if started < LEAST {
-            return Err(Stop::Settled);
+            return Err(Unfollowed::Settled);
         }
         // On the belt's line at the fold the acceleration vanishes exactly.
         let touching = phase == Phase::Between
@@ -190,13 +190,17 @@ impl<'a> Flow<'a> {
             let length = if model.tolerance > FINEST { length.min(LONGEST) } else { length };
             if !(length > 0.0 && length.is_finite()) {
                 // Without terms nothing moves; with terms that overflow it moves beyond all bounds.
-                return Err(if length == f64::INFINITY { Stop::Settled } else { Stop::Escaped });
+                return Err(if length == f64::INFINITY {
+                    Unfollowed::Settled
+                } else {
+                    Unfollowed::Escaped
+                });
             }
             let (low, high) = (piece.low.max(least), piece.high.min(most));
             let found = crossing(series, phase, length, (low, high));
             let (duration, level) = found.hit.map_or((length, None), |(t, at)| (t, Some(at)));
             let peak = found.peak.filter(|peak| *peak <= duration);
-            watch.step(model, &Step { phase, series, duration, peak });
+            watch.step(model, &SeriesStep { phase, series, duration, peak });
             x = value(&series.x, duration);
             let (velocity, slope) = series.velocity(duration);
             y = level.unwrap_or(velocity);
@@ -216,13 +220,13 @@ impl<'a> Flow<'a> {
             let end = if watch.follows() { NEAR * started } else { f64::INFINITY };
             let turns = size > end || !creeps(phase, side, (x, y), forward);
             if size < SETTLED * started || !turns || watch.is_done() {
-                return Err(Stop::Settled);
+                return Err(Unfollowed::Settled);
             }
             if size.is_nan() || size > ESCAPED * started {
-                return Err(Stop::Escaped);
+                return Err(Unfollowed::Escaped);
             }
         }
-        Err(Stop::Steps)
+        Err(Unfollowed::Steps)
     }
 
     /// Whether the velocity rises, along the direction of integration.
@@ -232,8 +236,8 @@ impl<'a> Flow<'a> {
         if rate == 0.0 { phase == Phase::Below } else { rate > 0.0 }
     }
 
-    fn outside(&self, y: f64) -> Stop {
-        Stop::OutsideLaw { slip: (self.model.speed - y).abs() * self.model.omega_0 }
+    fn outside(&self, y: f64) -> Unfollowed {
+        Unfollowed::OutsideLaw { slip: (self.model.speed - y).abs() * self.model.omega_0 }
     }
 }
 
@@ -241,7 +245,7 @@ impl<'a> Flow<'a> {
 ///
 /// Where every velocity up to `x` decays at least twice as fast as `x` pulls, no motion leaves the wedge
 /// `y = 0 .. -x`: on its edge `y = -x` the sum `x + y` moves inwards.
-fn creeps(phase: Phase, side: &Side, (x, y): (f64, f64), forward: f64) -> bool {
+fn creeps(phase: Phase, side: &ForceBranch, (x, y): (f64, f64), forward: f64) -> bool {
     const OVERDAMPED: f64 = 2.0;
     phase != Phase::Above
         && x * y * forward <= 0.0

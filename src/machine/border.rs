@@ -1,8 +1,8 @@
 //! The border of the basin of rest where it is no cycle: followed backward in time from where the return map
 //! jumps.
 
-use super::arc::{ArcEnd, Flow, Stop};
-use super::curve::{Curve, Piece};
+use super::arc::{ArcEnd, Flow, Unfollowed};
+use super::curve::{MachineCurve, Piece};
 use super::landmarks::Landmarks;
 use super::model::Phase;
 
@@ -13,14 +13,14 @@ impl Flow<'_> {
         &mut self,
         x: f64,
         landmarks: Option<&Landmarks>,
-        curve: &mut Curve,
-    ) -> Result<f64, Stop> {
+        curve: &mut MachineCurve,
+    ) -> Result<f64, Unfollowed> {
         let speed = self.model.speed;
-        let Some(marks) = landmarks else { return Err(Stop::Steps) };
+        let Some(marks) = landmarks else { return Err(Unfollowed::Steps) };
         // Where static friction holds what the orbit comes from, its way to the line is not on the border.
         match self.arc(Phase::Between, (x, 0.0), true, &mut ()) {
             Ok(ArcEnd { on_belt: true, .. }) => {}
-            Ok(_) | Err(Stop::Settled) => return self.capture_border(x, landmarks, curve),
+            Ok(_) | Err(Unfollowed::Settled) => return self.capture_border(x, landmarks, curve),
             Err(stop) => return Err(stop),
         }
         let corner =
@@ -42,11 +42,11 @@ impl Flow<'_> {
         &mut self,
         x: f64,
         landmarks: Option<&Landmarks>,
-        curve: &mut Curve,
-    ) -> Result<f64, Stop> {
+        curve: &mut MachineCurve,
+    ) -> Result<f64, Unfollowed> {
         let (guide, speed) = (self.model.guide, self.model.speed);
         let mut left = match self.arc(Phase::Between, (x, 0.0), true, curve) {
-            Err(Stop::Settled) => -guide,
+            Err(Unfollowed::Settled) => -guide,
             end => {
                 let end = end?;
                 let lines = landmarks.map(|marks| marks.lines).filter(|_| end.on_belt);
@@ -58,7 +58,7 @@ impl Flow<'_> {
         };
         left = left.min(-self.model.guide_static);
         match self.arc(Phase::Below, (left, 0.0), true, curve) {
-            Ok(_) | Err(Stop::Settled) => Ok(left),
+            Ok(_) | Err(Unfollowed::Settled) => Ok(left),
             Err(stop) => Err(stop),
         }
     }

@@ -1,14 +1,14 @@
 //! The cycles of a machine along one of its numbers, and the places where they change.
 
 use super::portrait::Portrait;
-use super::special::{Special, between};
+use super::special::{MachineSpecial, between};
 use super::subject::Subject;
 use super::survey::Trouble;
 use super::varied::Varied;
 
 /// A point of a branch.
 #[derive(Clone, Debug)]
-pub struct BranchPoint {
+pub struct MachineBranchPoint {
     /// Value of the number that varies, in SI units.
     pub value: f64,
     /// What the machine does there, or why there is no answer.
@@ -17,11 +17,11 @@ pub struct BranchPoint {
 
 /// The cycles along a number.
 #[derive(Clone, Debug)]
-pub struct Branch {
+pub struct MachineBranch {
     /// Its points.
-    pub points: Vec<BranchPoint>,
+    pub points: Vec<MachineBranchPoint>,
     /// Where the portrait changes, in the order of the points.
-    pub special: Vec<Special>,
+    pub special: Vec<MachineSpecial>,
 }
 
 /// Value number `index` of `count` evenly spaced ones, both ends included to the last bit.
@@ -44,7 +44,7 @@ pub fn branch(
     varied: Varied,
     range: (f64, f64),
     count: usize,
-) -> Result<Branch, String> {
+) -> Result<MachineBranch, String> {
     branch_while(&subject.into(), varied, range, count, &|| true)
 }
 
@@ -58,7 +58,7 @@ pub fn branch_while(
     range: (f64, f64),
     count: usize,
     wanted: &dyn Fn() -> bool,
-) -> Result<Branch, String> {
+) -> Result<MachineBranch, String> {
     // Where it is not wanted any more there is no machine, and the search for a change ends at once.
     let family = |value: f64| subject.with(varied, value).ok().filter(|_| wanted())?.model().ok();
     let values = (0..count).map(|index| spaced(range, index, count));
@@ -69,7 +69,7 @@ pub fn branch_while(
             special.extend(between(&family, (pair[0].value, one), (pair[1].value, other)));
         }
     }
-    Ok(Branch { points, special })
+    Ok(MachineBranch { points, special })
 }
 
 /// What a machine does at values of one of its numbers, as long as that is wanted.
@@ -81,8 +81,9 @@ pub fn points_while(
     varied: Varied,
     values: impl Iterator<Item = f64>,
     wanted: &dyn Fn() -> bool,
-) -> Result<Vec<BranchPoint>, String> {
-    let point = |value| Ok(BranchPoint { value, found: subject.with(varied, value)?.portrait() });
+) -> Result<Vec<MachineBranchPoint>, String> {
+    let point =
+        |value| Ok(MachineBranchPoint { value, found: subject.with(varied, value)?.portrait() });
     values.take_while(|_| wanted()).map(point).collect()
 }
 
@@ -94,7 +95,7 @@ pub fn borders(
     subject: &Subject,
     (along, range, count): (Varied, (f64, f64), usize),
     (against, values, rows): (Varied, (f64, f64), usize),
-) -> Result<Vec<(f64, Vec<Special>)>, String> {
+) -> Result<Vec<(f64, Vec<MachineSpecial>)>, String> {
     let row = |index| {
         let value = spaced(values, index, rows);
         let here = subject.with(against, value)?;

@@ -1,6 +1,6 @@
 //! A piece of a motion kept as a curve: the series of its steps, and the rides on the belt between them.
 
-use super::arc::{Step, Watch};
+use super::arc::{SeriesStep, Watch};
 use super::model::{Model, Phase};
 use super::series::Terms;
 use crate::numerics::elementary::powi;
@@ -133,17 +133,17 @@ impl Rectangle {
 
 /// A motion, or the border of a basin, as a curve in the phase plane.
 #[derive(Clone, Debug, Default)]
-pub struct Curve {
+pub struct MachineCurve {
     /// Its pieces, in the order in which they were computed, forward or backward in time.
     pub pieces: Vec<Piece>,
 }
 
-impl Watch for Curve {
+impl Watch for MachineCurve {
     fn follows(&self) -> bool {
         true
     }
 
-    fn step(&mut self, model: &Model, step: &Step) {
+    fn step(&mut self, model: &Model, step: &SeriesStep) {
         self.pieces.push(Piece::Slip(Slip {
             phase: step.phase,
             duration: step.duration,
@@ -159,7 +159,7 @@ impl Watch for Curve {
     }
 }
 
-impl Curve {
+impl MachineCurve {
     /// The velocities at which it passes a displacement, at `y > 0` and at `y < 0`; `speed` is that of the
     /// belt.
     #[must_use]

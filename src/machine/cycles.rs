@@ -1,9 +1,9 @@
 //! The limit cycles: the fixed points of the return map, each found and described.
 
-use super::arc::{Flow, Step, Stop, Watch};
+use super::arc::{Flow, SeriesStep, Unfollowed, Watch};
 use super::landmarks::Landmarks;
 use super::model::{Model, Phase};
-use super::return_map::{Image, Return};
+use super::return_map::{Image, MachineReturn};
 use super::search::{NOTHING, Sample, zeros};
 use super::turn::Place;
 use crate::numerics::elementary::{exp, ln, pow};
@@ -12,7 +12,7 @@ use crate::numerics::scaling::{exponent, times_power};
 
 /// A limit cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cycle {
+pub struct MachineCycle {
     /// Whether it rides on the belt for a while.
     pub sticks: bool,
     /// Whether it overtakes the belt.
@@ -35,7 +35,7 @@ pub struct Cycle {
     pub ride: Option<(f64, f64)>,
 }
 
-impl Cycle {
+impl MachineCycle {
     /// Whether it is followed backward in time, where it attracts.
     #[must_use]
     pub fn is_followed_backward(&self) -> bool {
@@ -57,7 +57,7 @@ pub struct Extremes {
 }
 
 impl Watch for Extremes {
-    fn step(&mut self, _: &Model, step: &Step) {
+    fn step(&mut self, _: &Model, step: &SeriesStep) {
         self.duration += step.duration;
         if let Some(peak) = step.peak {
             let y = step.series.velocity(peak).0;
@@ -84,7 +84,7 @@ pub struct FixedPoints {
     /// Up to where they were looked for, and what ended the search.
     pub end: f64,
     /// See [`Self::end`].
-    pub stop: Option<Stop>,
+    pub stop: Option<Unfollowed>,
     /// Intervals in which the search did not settle.
     pub unresolved: Vec<(f64, f64)>,
     /// Right turning point up to which the guide catches the mass within a return, where beyond it motions
@@ -100,16 +100,16 @@ const FAR: f64 = 1e3;
 
 impl Flow<'_> {
     /// `ln(image/x)` of the return map over `u = ln(x/unit)`.
-    pub(super) fn growth(&mut self, u: f64, unit: f64) -> Result<Sample, Stop> {
+    pub(super) fn growth(&mut self, u: f64, unit: f64) -> Result<Sample, Unfollowed> {
         let x = unit * exp(u);
         let lost = |f| Ok(Sample { u, f, slope: 0.0 });
         match self.returned(x) {
-            Ok(Return::Turns(image)) => {
+            Ok(MachineReturn::Turns(image)) => {
                 let slope = exp(image.log_slope) * x / image.x - 1.0;
                 Ok(Sample { u, f: ln(image.x / x), slope })
             }
-            Ok(Return::Rests(_)) => lost(-FAR),
-            Err(Stop::Escaped) => lost(FAR),
+            Ok(MachineReturn::Rests(_)) => lost(-FAR),
+            Err(Unfollowed::Escaped) => lost(FAR),
             Err(stop) => Err(stop),
         }
     }
@@ -117,15 +117,15 @@ impl Flow<'_> {
     /// All fixed points of the return map.
     ///
     /// # Errors
-    /// [`Stop`] where even the motions next to rest cannot be followed.
-    pub fn fixed_points(&mut self, marks: Option<&Landmarks>) -> Result<FixedPoints, Stop> {
+    /// [`Unfollowed`] where even the motions next to rest cannot be followed.
+    pub fn fixed_points(&mut self, marks: Option<&Landmarks>) -> Result<FixedPoints, Unfollowed> {
         let mut found = FixedPoints::default();
         let touch = marks.and_then(|marks| marks.grazing.right);
         let scale = self.scale(marks);
         let at = |x: f64| ln(x / scale);
         let caught = match self.smallest(scale) {
             // What comes to rest does so at once, or leaves the law.
-            Err(stop @ Stop::OutsideLaw { .. }) => {
+            Err(stop @ Unfollowed::OutsideLaw { .. }) => {
                 let held = Sample { u: at(self.model.guide_static), f: -FAR, slope: 0.0 };
                 found.stop = Some(stop);
                 found.end = scale * exp(self.edge(held, at(scale), scale).u);
@@ -173,11 +173,13 @@ impl Flow<'_> {
         if let Some(marks) = marks {
             let released = marks.released.filter(|x| touch.is_some_and(|touch| *x >= touch));
             match released.map(|released| (released, self.returned(released))) {
-                Some((released, Ok(Return::Turns(image)))) if image.sticks_from.is_some() => {
+                Some((released, Ok(MachineReturn::Turns(image))))
+                    if image.sticks_from.is_some() =>
+                {
                     found.points.push((released, image));
                 }
                 // What runs away is known.
-                Some((_, Err(stop))) if stop != Stop::Escaped => found.stop = Some(stop),
+                Some((_, Err(stop))) if stop != Unfollowed::Escaped => found.stop = Some(stop),
                 _ => {}
             }
             if let Some(beyond) = marks.beyond {
@@ -222,7 +224,7 @@ impl Flow<'_> {
 
     /// The right turning point below which every motion comes to rest; without friction of the guide, one
     /// below which the map is linear.
-    fn smallest(&mut self, scale: f64) -> Result<f64, Stop> {
+    fn smallest(&mut self, scale: f64) -> Result<f64, Unfollowed> {
         /// Growth below this is on its way to be lost in rounding.
         const WEAK: f64 = 1e-9;
         let held = self.model.guide_static;
@@ -251,7 +253,7 @@ impl Flow<'_> {
         last: Sample,
         scale: f64,
         found: &mut FixedPoints,
-    ) -> Result<Vec<f64>, Stop> {
+    ) -> Result<Vec<f64>, Unfollowed> {
         let zeros = zeros((first, last), &mut |u| self.growth(u, scale))?;
         let turn = |u: f64| scale * exp(u);
         found.unresolved.extend(zeros.unresolved.iter().map(|(from, to)| (turn(*from), turn(*to))));
@@ -260,7 +262,7 @@ impl Flow<'_> {
 
     /// The innermost cycle, where it repels so strongly that a few turns backward lead to it from rest and
     /// the map itself cannot tell it from what it repels.
-    fn innermost(&mut self, smallest: f64) -> Result<Option<(f64, Image)>, Stop> {
+    fn innermost(&mut self, smallest: f64) -> Result<Option<(f64, Image)>, Unfollowed> {
         /// Turns at most.
         const TURNS: usize = 8;
         /// A cycle that repels beyond all digits turns where the guide lets go, to rounding.
@@ -289,8 +291,8 @@ impl Flow<'_> {
     }
 
     /// The fixed point near `x` with its image; where it repels strongly, by the map backward.
-    fn sharpened(&mut self, x: f64) -> Result<Option<(f64, Image)>, Stop> {
-        let Return::Turns(image) = self.returned(x)? else { return Ok(None) };
+    fn sharpened(&mut self, x: f64) -> Result<Option<(f64, Image)>, Unfollowed> {
+        let MachineReturn::Turns(image) = self.returned(x)? else { return Ok(None) };
         let slips = image.sticks_from.is_none() && image.overtakes_from.is_none();
         if !slips || image.log_slope < STRONG {
             return Ok(Some((x, image)));
@@ -301,7 +303,12 @@ impl Flow<'_> {
     }
 
     /// A right turning point far beyond `scale`, or as far as motions can be followed.
-    fn farthest(&mut self, from: f64, scale: f64, found: &mut FixedPoints) -> Result<Sample, Stop> {
+    fn farthest(
+        &mut self,
+        from: f64,
+        scale: f64,
+        found: &mut FixedPoints,
+    ) -> Result<Sample, Unfollowed> {
         /// How far beyond.
         const DOUBLINGS: u32 = 10;
         /// Doublings after which it counts how motions shrink.
@@ -318,7 +325,7 @@ impl Flow<'_> {
                 Err(stop) => {
                     found.stop = Some(stop);
                     // Motions of too many steps are too dear to find the first of them.
-                    let dear = stop == Stop::Steps;
+                    let dear = stop == Unfollowed::Steps;
                     return Ok(if dear { last } else { self.edge(last, at(x), scale) });
                 }
             }
@@ -339,7 +346,7 @@ impl Flow<'_> {
     }
 
     /// Whether all motions in between are periodic.
-    fn is_neutral(&mut self, first: Sample, last: Sample, unit: f64) -> Result<bool, Stop> {
+    fn is_neutral(&mut self, first: Sample, last: Sample, unit: f64) -> Result<bool, Unfollowed> {
         let middle = self.growth(0.5 * (first.u + last.u), unit)?;
         let other = self.growth(0.3 * first.u + 0.7 * last.u, unit)?;
         Ok([first, middle, other, last].iter().all(|sample| sample.f.abs() < NOTHING))
@@ -348,15 +355,20 @@ impl Flow<'_> {
     /// Everything about the cycle through a right turning point.
     ///
     /// # Errors
-    /// [`Stop`], where rounding carries the motion off.
-    pub fn describe(&mut self, x: f64, image: &Image, stable: bool) -> Result<Cycle, Stop> {
+    /// [`Unfollowed`], where rounding carries the motion off.
+    pub fn describe(
+        &mut self,
+        x: f64,
+        image: &Image,
+        stable: bool,
+    ) -> Result<MachineCycle, Unfollowed> {
         let model = self.model;
         let sticks = image.sticks_from.is_some();
         let overtakes = image.overtakes_from.is_some();
         let mut extremes = Extremes::default();
         self.around(x, !stable && !sticks && !overtakes, &mut extremes)?;
         let speed = model.omega_0;
-        Ok(Cycle {
+        Ok(MachineCycle {
             sticks,
             overtakes,
             stable,
@@ -373,8 +385,13 @@ impl Flow<'_> {
     /// Follows a motion once around from a right turning point; backward in time where that attracts.
     ///
     /// # Errors
-    /// [`Stop`], where rounding carries the motion off.
-    pub fn around(&mut self, x: f64, backward: bool, watch: &mut impl Watch) -> Result<f64, Stop> {
+    /// [`Unfollowed`], where rounding carries the motion off.
+    pub fn around(
+        &mut self,
+        x: f64,
+        backward: bool,
+        watch: &mut impl Watch,
+    ) -> Result<f64, Unfollowed> {
         if backward {
             let left = self.arc(Phase::Between, (x, 0.0), true, watch)?.x;
             self.arc(Phase::Below, (left, 0.0), true, watch)?;

@@ -4,7 +4,7 @@
 //! inwards wherever the mass moves, so that the basin of rest grows with it.
 
 use super::guarantee::guaranteed;
-use super::portrait::{Border, Portrait};
+use super::portrait::{MachineBorder, Portrait};
 use super::subject::{Body, Subject};
 use super::survey::Trouble;
 use super::tolerance::Tolerances;
@@ -62,7 +62,7 @@ pub fn friction_for(
         }
         let found = machine.portrait()?;
         Ok(match found.border {
-            Border::NoBasin => f64::MIN,
+            MachineBorder::NoBasin => f64::MIN,
             _ => ln(margin(&found, kick) / wanted).max(f64::MIN),
         })
     };

@@ -100,14 +100,14 @@ impl Fall {
 
 /// The force on one side of the belt's speed.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Side {
+pub struct ForceBranch {
     /// Pieces that follow one another in y.
     pub pieces: Vec<ForcePiece>,
     /// The exponential part.
     pub fall: Option<Fall>,
 }
 
-impl Side {
+impl ForceBranch {
     /// The piece for a motion at `y` towards larger or smaller velocities; `None` beyond the law.
     pub fn piece(&self, y: f64, rising: bool) -> Option<&ForcePiece> {
         self.pieces.iter().find(|piece| {

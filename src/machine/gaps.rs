@@ -1,15 +1,15 @@
 //! The gaps between the places on the line of right turning points where something changes, and what becomes of
 //! the motions in each.
 
-use super::arc::{Flow, Stop};
+use super::arc::{Flow, Unfollowed};
 use super::landmarks::Landmarks;
 use super::model::Model;
-use super::return_map::Return;
+use super::return_map::MachineReturn;
 use super::search::NOTHING;
 
 /// What a motion ends as.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Fate {
+pub enum MachineFate {
     /// At rest.
     Rest,
     /// On the cycle of this index, or on it from the start.
@@ -19,7 +19,7 @@ pub enum Fate {
     /// It grows without bound.
     Escaped,
     /// It leaves what is known of the machine.
-    Unknown(Stop),
+    Unknown(Unfollowed),
 }
 
 /// A gap between right turning points.
@@ -27,9 +27,9 @@ pub enum Fate {
 pub(super) struct Gap {
     /// Its upper end.
     pub to: f64,
-    pub fate: Fate,
+    pub fate: MachineFate,
     /// What becomes of a motion that turns at the upper end itself.
-    pub end: Fate,
+    pub end: MachineFate,
 }
 
 /// A place on the line of right turning points where something changes.
@@ -60,7 +60,7 @@ pub(super) enum Tendency {
     /// They are periodic.
     Nowhere,
     /// They leave what is known.
-    Lost(Stop),
+    Lost(Unfollowed),
 }
 
 /// Where motions go in each gap.
@@ -68,7 +68,7 @@ pub(super) fn ways(
     flow: &mut Flow,
     marks: &[(f64, Divide)],
     end: f64,
-) -> Result<Vec<Tendency>, Stop> {
+) -> Result<Vec<Tendency>, Unfollowed> {
     let mut ways = Vec::with_capacity(marks.len() + 1);
     let held = flow.model.guide_static;
     let mut low = held;
@@ -82,11 +82,11 @@ pub(super) fn ways(
         let high = high.unwrap_or(if end > low { end } else { 2.0 * low });
         let x = low + 0.5 * (high - low);
         ways.push(match flow.returned(x) {
-            Ok(Return::Turns(image)) => way(image.x, x),
-            Ok(Return::Rests(_)) | Err(Stop::Settled) => Tendency::Inward,
-            Err(Stop::Escaped) => Tendency::Outward,
-            Err(stop @ Stop::OutsideLaw { .. }) => Tendency::Lost(stop),
-            Err(Stop::Steps) => return Err(Stop::Steps),
+            Ok(MachineReturn::Turns(image)) => way(image.x, x),
+            Ok(MachineReturn::Rests(_)) | Err(Unfollowed::Settled) => Tendency::Inward,
+            Err(Unfollowed::Escaped) => Tendency::Outward,
+            Err(stop @ Unfollowed::OutsideLaw { .. }) => Tendency::Lost(stop),
+            Err(Unfollowed::Steps) => return Err(Unfollowed::Steps),
         });
         low = high;
     }
@@ -105,20 +105,24 @@ fn way(image: f64, x: f64) -> Tendency {
 }
 
 /// The fate of each gap.
-pub(super) fn gaps(marks: &[(f64, Divide)], ways: &[Tendency], stop: Option<Stop>) -> Vec<Gap> {
+pub(super) fn gaps(
+    marks: &[(f64, Divide)],
+    ways: &[Tendency],
+    stop: Option<Unfollowed>,
+) -> Vec<Gap> {
     let fate = |gap: usize| {
         let mut here = gap;
         loop {
             let (mark, next) = match ways[here] {
-                Tendency::Lost(stop) => return Fate::Unknown(stop),
-                Tendency::Nowhere => return Fate::Neutral,
+                Tendency::Lost(stop) => return MachineFate::Unknown(stop),
+                Tendency::Nowhere => return MachineFate::Neutral,
                 Tendency::Outward => (marks.get(here), here + 1),
-                Tendency::Inward if here == 0 => return Fate::Rest,
+                Tendency::Inward if here == 0 => return MachineFate::Rest,
                 Tendency::Inward => (marks.get(here - 1), here - 1),
             };
             match mark {
-                None => return stop.map_or(Fate::Escaped, Fate::Unknown),
-                Some((_, Divide::Cycle(index))) => return Fate::Cycle(*index),
+                None => return stop.map_or(MachineFate::Escaped, MachineFate::Unknown),
+                Some((_, Divide::Cycle(index))) => return MachineFate::Cycle(*index),
                 // Motions go on across a jump; the map rises there, so it never sends them back.
                 Some((_, Divide::Jump | Divide::Capture)) => here = next,
             }
@@ -127,7 +131,7 @@ pub(super) fn gaps(marks: &[(f64, Divide)], ways: &[Tendency], stop: Option<Stop
     let gap = |(gap, mark): (usize, Option<&(f64, Divide)>)| {
         let (to, mark) = mark.map_or((f64::INFINITY, Divide::Capture), |(x, mark)| (*x, *mark));
         let end = match mark {
-            Divide::Cycle(index) => Fate::Cycle(index),
+            Divide::Cycle(index) => MachineFate::Cycle(index),
             // What touches the belt sticks to it.
             Divide::Jump => fate(gap + 1),
             Divide::Capture => fate(gap),

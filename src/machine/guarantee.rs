@@ -11,7 +11,7 @@
 
 use std::fmt;
 
-use super::portrait::{Border, Portrait};
+use super::portrait::{MachineBorder, Portrait};
 use super::survey::{Trouble, portrait};
 use super::tolerance::{Corners, MOST, Tolerances, TooMany};
 use crate::numerics::root::try_bisect;
@@ -19,7 +19,7 @@ use crate::oscillator::Belt;
 
 /// Kicks that are survived for certain; infinite where every one is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Kicks {
+pub struct GuaranteedKicks {
     /// Displacement, in m.
     pub displacement: f64,
     /// Impulse, in N s.
@@ -75,7 +75,10 @@ impl fmt::Display for Uncertain {
 ///
 /// # Errors
 /// [`Trouble`] where a machine within the tolerances has no model, or one that bounds them has no portrait.
-pub fn guaranteed(belt: &Belt, known: &Tolerances) -> Result<Result<Kicks, Uncertain>, Trouble> {
+pub fn guaranteed(
+    belt: &Belt,
+    known: &Tolerances,
+) -> Result<Result<GuaranteedKicks, Uncertain>, Trouble> {
     Ok(worst(belt, known)?.map(|(corners, portrait)| kicks(&corners, &portrait)))
 }
 
@@ -115,9 +118,9 @@ pub fn best(belt: &Belt, known: &Tolerances) -> Result<Option<Portrait>, Trouble
 
 /// The kicks within the basin of a machine that bounds those of all others.
 #[must_use]
-pub fn kicks(corners: &Corners, portrait: &Portrait) -> Kicks {
-    let infinite = Kicks { displacement: f64::INFINITY, impulse: f64::INFINITY };
-    portrait.margin.map_or(infinite, |margin| Kicks {
+pub fn kicks(corners: &Corners, portrait: &Portrait) -> GuaranteedKicks {
+    let infinite = GuaranteedKicks { displacement: f64::INFINITY, impulse: f64::INFINITY };
+    portrait.margin.map_or(infinite, |margin| GuaranteedKicks {
         displacement: margin.least_displacement(),
         impulse: margin.least_velocity() / portrait.model.omega_0 * corners.lightest(),
     })
@@ -132,7 +135,7 @@ struct Bordered {
 
 /// The velocities along the border of the basin, if it is a cycle of slip; divided by the natural frequency.
 fn slip_border(portrait: &Portrait) -> Option<(f64, f64)> {
-    let Border::Cycle(index, _) = &portrait.border else { return None };
+    let MachineBorder::Cycle(index, _) = &portrait.border else { return None };
     let cycle = &portrait.cycles[*index];
     let omega_0 = portrait.model.omega_0;
     (!cycle.sticks && !cycle.overtakes).then_some((cycle.v.0 / omega_0, cycle.v.1 / omega_0))

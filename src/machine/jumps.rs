@@ -2,9 +2,9 @@
 
 use serde::Serialize;
 
-use super::gaps::Fate;
+use super::gaps::MachineFate;
 use super::model::Model;
-use super::portrait::{Border, Portrait};
+use super::portrait::{MachineBorder, Portrait};
 
 /// The model along a number: `None` where there is none.
 pub type Family<'a> = &'a dyn Fn(f64) -> Option<Model>;
@@ -86,15 +86,15 @@ fn jump(from: &Portrait, to: &Portrait) -> Option<Jump> {
     const KICK: f64 = 1e-9;
     let cycles = from.cycles.iter().chain(&to.cycles).map(|cycle| cycle.x.1);
     let size = cycles.fold(0.0, f64::max);
-    let rests = !from.neutral && !matches!(from.border, Border::NoBasin);
+    let rests = !from.neutral && !matches!(from.border, MachineBorder::NoBasin);
     let stable = from.cycles.iter().filter(|cycle| cycle.stable).map(|cycle| cycle.x.1);
     rests.then_some(0.0).into_iter().chain(stable).find_map(|state| {
         let to = match to.fate(state.max(KICK * size), 0.0) {
-            Ok(Fate::Rest) => Landing::Rest,
-            Ok(Fate::Cycle(index)) => Landing::Cycle { x_max: to.cycles[index].x.1 },
-            Ok(Fate::Neutral) => return None,
-            Ok(Fate::Escaped) => Landing::Escaped,
-            Ok(Fate::Unknown(_)) | Err(_) => Landing::Unknown,
+            Ok(MachineFate::Rest) => Landing::Rest,
+            Ok(MachineFate::Cycle(index)) => Landing::Cycle { x_max: to.cycles[index].x.1 },
+            Ok(MachineFate::Neutral) => return None,
+            Ok(MachineFate::Escaped) => Landing::Escaped,
+            Ok(MachineFate::Unknown(_)) | Err(_) => Landing::Unknown,
         };
         Some(Jump { from: state, to }).filter(|jump| jump.size() > MOVED * size)
     })

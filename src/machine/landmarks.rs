@@ -1,6 +1,6 @@
 //! The motions that the belt's line singles out: what touches it, what it releases, what overtakes it.
 
-use super::arc::{Flow, Stop};
+use super::arc::{Flow, Unfollowed};
 use super::model::{Lines, Phase};
 use super::return_map::Divergence;
 use super::turn::Place;
@@ -38,14 +38,14 @@ impl Flow<'_> {
     /// The landmarks; `None` without a belt, or without a law for small slips.
     ///
     /// # Errors
-    /// [`Stop`] where the friction law ends before they are reached.
-    pub fn landmarks(&mut self) -> Result<Option<Landmarks>, Stop> {
+    /// [`Unfollowed`] where the friction law ends before they are reached.
+    pub fn landmarks(&mut self) -> Result<Option<Landmarks>, Unfollowed> {
         let model = self.model;
         let Some(lines) = model.lines else { return Ok(None) };
         let grazing = self.grazing(&lines)?;
         let released = match self.turn(Place::Sticks, (lines.release, model.speed), &mut ()) {
             Ok(turn) => (!turn.rests).then_some(turn.x),
-            Err(Stop::Settled) => None,
+            Err(Unfollowed::Settled) => None,
             Err(stop) => return Err(stop),
         };
         let low_left = self.left_before(lines.low, model.speed, &mut ())?;
@@ -53,19 +53,19 @@ impl Flow<'_> {
         Ok(Some(Landmarks { lines, grazing, released, low_left, beyond }))
     }
 
-    fn grazing(&mut self, lines: &Lines) -> Result<Grazing, Stop> {
+    fn grazing(&mut self, lines: &Lines) -> Result<Grazing, Unfollowed> {
         let (guide, speed) = (self.model.guide, self.model.speed);
         let mut divergence = Divergence::default();
         let left = self.left_before(lines.fold, speed, &mut divergence)?;
         // Overdamped, it comes to rest without another turn.
         let after = match self.arc(Phase::Between, (lines.fold, speed), false, &mut divergence) {
             Ok(end) => end.x,
-            Err(Stop::Settled) => -guide,
+            Err(Unfollowed::Settled) => -guide,
             Err(stop) => return Err(stop),
         };
         let left = left.min(-self.model.guide_static);
         let before = match self.right_before(left, &mut divergence) {
-            Err(Stop::OutsideLaw { .. }) => None,
+            Err(Unfollowed::OutsideLaw { .. }) => None,
             before => before?,
         };
         let (right, ratio) = before.map_or((None, 0.0), |(right, ratio)| (Some(right), ratio));
@@ -79,12 +79,12 @@ impl Flow<'_> {
     }
 
     /// The right turning point beyond which motions overtake the belt and do not come to ride on it.
-    fn beyond(&mut self, lines: &Lines, low_left: f64) -> Result<Option<f64>, Stop> {
+    fn beyond(&mut self, lines: &Lines, low_left: f64) -> Result<Option<f64>, Unfollowed> {
         let speed = self.model.speed;
         // The last motion that comes down on the band, followed back to where it rose above the line.
         let back = |stop| match stop {
-            Stop::Escaped | Stop::Settled | Stop::OutsideLaw { .. } => Ok(None),
-            Stop::Steps => Err(Stop::Steps),
+            Unfollowed::Escaped | Unfollowed::Settled | Unfollowed::OutsideLaw { .. } => Ok(None),
+            Unfollowed::Steps => Err(Unfollowed::Steps),
         };
         let rose = match self.arc(Phase::Above, (lines.release, speed), true, &mut ()) {
             Ok(end) => end.x,

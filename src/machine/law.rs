@@ -1,6 +1,6 @@
 //! The friction law as forces on the mass: on either side of the belt's speed, with the damper's.
 
-use super::force::{Fall, ForcePiece, Side, shifted};
+use super::force::{Fall, ForceBranch, ForcePiece, shifted};
 use crate::numerics::elementary::{pow, powi};
 use crate::oscillator::belt::FrictionLaw;
 
@@ -74,7 +74,13 @@ fn added(mut one: Vec<f64>, other: impl Iterator<Item = f64>) -> Vec<f64> {
 }
 
 /// The force at velocities up to the belt's: `T - x0` less the damper's.
-pub(super) fn slower(law: &Scaled, damper: &[f64], speed: f64, pull: f64, reach: f64) -> Side {
+pub(super) fn slower(
+    law: &Scaled,
+    damper: &[f64],
+    speed: f64,
+    pull: f64,
+    reach: f64,
+) -> ForceBranch {
     let alternating = |(k, number): (usize, f64)| if k % 2 == 0 { number } else { 0.0 - number };
     let piece = |(from, to, coefficients): &Stretch| {
         let to = to.min(reach);
@@ -98,11 +104,11 @@ pub(super) fn slower(law: &Scaled, damper: &[f64], speed: f64, pull: f64, reach:
     let mut pieces: Vec<ForcePiece> = law.pieces.iter().filter_map(piece).collect();
     pieces.reverse();
     let fall = |(drop, velocity, exponent)| Fall { drop, velocity, exponent, speed, above: false };
-    Side { pieces, fall: law.fall.map(fall) }
+    ForceBranch { pieces, fall: law.fall.map(fall) }
 }
 
 /// The force at velocities above the belt's: `-T` less the damper's.
-pub(super) fn faster(law: &Scaled, damper: &[f64], speed: f64, reach: f64) -> Side {
+pub(super) fn faster(law: &Scaled, damper: &[f64], speed: f64, reach: f64) -> ForceBranch {
     let piece = |(from, to, coefficients): &Stretch| {
         let to = to.min(reach);
         let center = speed + from;
@@ -118,5 +124,5 @@ pub(super) fn faster(law: &Scaled, damper: &[f64], speed: f64, reach: f64) -> Si
         })
     };
     let fall = |(drop, velocity, exponent)| Fall { drop, velocity, exponent, speed, above: true };
-    Side { pieces: law.pieces.iter().filter_map(piece).collect(), fall: law.fall.map(fall) }
+    ForceBranch { pieces: law.pieces.iter().filter_map(piece).collect(), fall: law.fall.map(fall) }
 }

@@ -1,14 +1,14 @@
 //! Where the energy of a motion comes from and goes: the belt's work against the damper's and the guide's.
 
-use super::arc::{Flow, Step, Stop, Watch};
-use super::cycles::Cycle;
+use super::arc::{Flow, SeriesStep, Unfollowed, Watch};
+use super::cycles::MachineCycle;
 use super::model::{Model, Phase};
 use crate::numerics::polynomial::value;
 use crate::numerics::quadrature::GAUSS;
 
 /// Works along a motion, in J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Ledger {
+pub struct MachineLedger {
     /// Energy of the mass and the spring at the start.
     pub start: f64,
     /// The same at the end.
@@ -21,11 +21,11 @@ pub struct Ledger {
     pub guide: f64,
 }
 
-impl Ledger {
+impl MachineLedger {
     /// What does not add up, as a part of all that was exchanged; by rounding alone some 1e-15.
     #[must_use]
     pub fn residual(&self) -> f64 {
-        let Ledger { start, end, belt, damper, guide } = *self;
+        let MachineLedger { start, end, belt, damper, guide } = *self;
         let sum = (end - start) - (belt - damper - guide);
         let size = start.abs() + end.abs() + belt.abs() + damper.abs() + guide.abs();
         if size > 0.0 { sum / size } else { 0.0 }
@@ -42,7 +42,7 @@ pub(super) struct Works {
 
 impl Works {
     /// Counts a step in slip up to `duration`.
-    pub fn slip(&mut self, model: &Model, step: &Step, duration: f64) {
+    pub fn slip(&mut self, model: &Model, step: &SeriesStep, duration: f64) {
         let mut belt = 0.0;
         let mut damper = 0.0;
         for (node, weight) in GAUSS {
@@ -67,11 +67,11 @@ impl Works {
     }
 
     /// The whole ledger of a motion between two states.
-    pub fn ledger(&self, model: &Model, start: (f64, f64), end: (f64, f64)) -> Ledger {
+    pub fn ledger(&self, model: &Model, start: (f64, f64), end: (f64, f64)) -> MachineLedger {
         let energy = |(x, y): (f64, f64)| {
             0.5 * model.stiffness * ((x + model.pull) * (x + model.pull) + y * y)
         };
-        Ledger {
+        MachineLedger {
             start: energy(start),
             end: energy(end),
             belt: self.belt * model.stiffness,
@@ -82,7 +82,7 @@ impl Works {
 }
 
 impl Watch for Works {
-    fn step(&mut self, model: &Model, step: &Step) {
+    fn step(&mut self, model: &Model, step: &SeriesStep) {
         self.slip(model, step, step.duration);
     }
 
@@ -95,8 +95,8 @@ impl Flow<'_> {
     /// The ledger of one turn of a cycle.
     ///
     /// # Errors
-    /// [`Stop`], where rounding carries the motion off.
-    pub fn works_around(&mut self, cycle: &Cycle) -> Result<Ledger, Stop> {
+    /// [`Unfollowed`], where rounding carries the motion off.
+    pub fn works_around(&mut self, cycle: &MachineCycle) -> Result<MachineLedger, Unfollowed> {
         let mut works = Works::default();
         let start = (cycle.x.1, 0.0);
         self.around(cycle.x.1, cycle.is_followed_backward(), &mut works)?;

@@ -63,14 +63,14 @@ pub mod turn;
 #[doc(hidden)]
 pub mod varied;
 
-pub use arc::{Flow, Stop};
-pub use cycles::Cycle;
-pub use gaps::Fate;
-pub use ledger::Ledger;
+pub use arc::{Flow, Unfollowed};
+pub use cycles::MachineCycle;
+pub use gaps::MachineFate;
+pub use ledger::MachineLedger;
 pub use modal::Modal;
 pub use model::{Lines, Model, Phase, Unfit};
-pub use motion::Motion;
-pub use portrait::{Border, Margin, Portrait};
+pub use motion::MachineMotion;
+pub use portrait::{MachineBorder, MachineMargin, Portrait};
 pub use series::ORDER;
 pub use subject::{Body, Subject};
 pub use tolerance::Tolerances;

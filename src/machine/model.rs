@@ -12,7 +12,7 @@
 
 use std::fmt;
 
-use super::force::{ForcePiece, Side};
+use super::force::{ForceBranch, ForcePiece};
 use super::law::{Scaled, faster, slower};
 use super::reach::first_below_zero;
 use super::series::FINEST;
@@ -72,8 +72,8 @@ pub struct Model {
     pub damping: f64,
     /// Size of the last terms of each Taylor step, relative to the state.
     pub tolerance: f64,
-    pub(super) slower: Side,
-    pub(super) faster: Side,
+    pub(super) slower: ForceBranch,
+    pub(super) faster: ForceBranch,
     /// The damper alone: coefficients of 1, y, y^2, ..
     damper: Vec<f64>,
 }
@@ -236,11 +236,11 @@ impl Model {
             lines: None,
             damping: damper.get(1).copied().unwrap_or(0.0),
             tolerance: FINEST,
-            slower: Side {
+            slower: ForceBranch {
                 pieces: vec![ForcePiece { low, high, center: 0.0, coefficients, falls: false }],
                 fall: None,
             },
-            faster: Side::default(),
+            faster: ForceBranch::default(),
             damper,
         };
         let finite = model.damper.iter().all(|number| number.is_finite());
@@ -257,7 +257,7 @@ impl Model {
         self.side(phase).at(y)
     }
 
-    pub(super) fn side(&self, phase: Phase) -> &Side {
+    pub(super) fn side(&self, phase: Phase) -> &ForceBranch {
         if phase == Phase::Above { &self.faster } else { &self.slower }
     }
 

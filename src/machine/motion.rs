@@ -1,20 +1,20 @@
 //! A motion in time: its legs, the curve that it draws, and its ledger.
 
-use super::arc::{Flow, Step, Stop, Watch};
-use super::curve::{Curve, Piece};
-use super::ledger::{Ledger, Works};
+use super::arc::{Flow, SeriesStep, Unfollowed, Watch};
+use super::curve::{MachineCurve, Piece};
+use super::ledger::{MachineLedger, Works};
 use super::model::{Model, Phase};
 use super::turn::Place;
 
 /// How a motion ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Outcome {
+pub enum MachineOutcome {
     /// The guide holds the mass since then.
     Rests,
     /// It still moves when time is up.
     Moves,
     /// It could not be followed further.
-    Stops(Stop),
+    Stops(Unfollowed),
 }
 
 /// A stretch of a motion in one phase, on the belt, or at rest.
@@ -30,7 +30,7 @@ pub struct Leg {
 
 /// A state in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct State {
+pub struct MachineState {
     /// Time, in s.
     pub t: f64,
     /// Displacement, in m.
@@ -41,27 +41,27 @@ pub struct State {
 
 /// A motion from a start, in SI units.
 #[derive(Clone, Debug)]
-pub struct Motion {
+pub struct MachineMotion {
     /// Its legs in their order.
     pub legs: Vec<Leg>,
     /// All of it as a curve, whose pieces follow one another in time.
-    pub curve: Curve,
+    pub curve: MachineCurve,
     /// Where it ends, or how far it was followed.
-    pub end: State,
+    pub end: MachineState,
     /// How it ends.
-    pub outcome: Outcome,
+    pub outcome: MachineOutcome,
     /// Smallest and largest displacement, in m.
     pub x: (f64, f64),
     /// Smallest and largest velocity, in m/s.
     pub v: (f64, f64),
     /// Where the energy comes from and goes.
-    pub ledger: Ledger,
+    pub ledger: MachineLedger,
     model: Model,
 }
 
 /// Collects a motion until its time is up.
 struct Recorder {
-    curve: Curve,
+    curve: MachineCurve,
     works: Works,
     left: f64,
     state: (f64, f64),
@@ -85,15 +85,17 @@ impl Watch for Recorder {
         self.left <= 0.0
     }
 
-    fn step(&mut self, model: &Model, step: &Step) {
+    fn step(&mut self, model: &Model, step: &SeriesStep) {
         if self.left <= 0.0 {
             return;
         }
         let duration = step.duration.min(self.left);
         self.left -= step.duration;
         self.works.slip(model, step, duration);
-        self.curve
-            .step(model, &Step { duration, peak: step.peak.filter(|t| *t < duration), ..*step });
+        self.curve.step(
+            model,
+            &SeriesStep { duration, peak: step.peak.filter(|t| *t < duration), ..*step },
+        );
         if let Some(Piece::Slip(slip)) = self.curve.pieces.last() {
             let ends = [slip.peak.map(|peak| slip.at(peak)), Some(slip.at(duration))];
             for (x, y) in ends.into_iter().flatten() {
@@ -120,7 +122,7 @@ impl Watch for Recorder {
 /// Most pieces that are kept of a motion.
 const MOST_PIECES: usize = 200_000;
 
-impl Motion {
+impl MachineMotion {
     /// Follows a motion from displacement `x` (m) and velocity `v` (m/s) for `until` seconds.
     #[must_use]
     pub fn new(model: &Model, x: f64, v: f64, until: f64) -> Self {
@@ -129,7 +131,7 @@ impl Motion {
         let (mut x, mut y) = start;
         let whole = until * omega_0;
         let mut recorder = Recorder {
-            curve: Curve::default(),
+            curve: MachineCurve::default(),
             works: Works::default(),
             left: whole,
             state: start,
@@ -141,25 +143,25 @@ impl Motion {
         let mut place = model.place(x, y);
         let outcome = loop {
             if recorder.left <= 0.0 {
-                break Outcome::Moves;
+                break MachineOutcome::Moves;
             }
             if recorder.curve.pieces.len() > MOST_PIECES {
-                break Outcome::Stops(Stop::Steps);
+                break MachineOutcome::Stops(Unfollowed::Steps);
             }
             legs.push(Leg { place, t: (whole - recorder.left) / omega_0, x });
             match flow.leg(place, (x, y), &mut recorder) {
                 Ok(Some(next)) => (place, x, y) = next,
-                _ if recorder.left <= 0.0 => break Outcome::Moves,
-                Ok(None) | Err(Stop::Settled) => break Outcome::Rests,
-                Err(stop) => break Outcome::Stops(stop),
+                _ if recorder.left <= 0.0 => break MachineOutcome::Moves,
+                Ok(None) | Err(Unfollowed::Settled) => break MachineOutcome::Rests,
+                Err(stop) => break MachineOutcome::Stops(stop),
             }
         };
         let Recorder { curve, works, left, state: (x, y), .. } = recorder;
         let t = (whole - left.max(0.0)) / omega_0;
         let scaled = |(low, high): (f64, f64)| (low * omega_0, high * omega_0);
-        Motion {
+        MachineMotion {
             legs,
-            end: State { t, x, v: y * omega_0 },
+            end: MachineState { t, x, v: y * omega_0 },
             outcome,
             x: recorder.x,
             v: scaled(recorder.y),
@@ -171,7 +173,7 @@ impl Motion {
 
     /// The states at the ends of its steps and at so many places evenly between them.
     #[must_use]
-    pub fn samples(&self, between: u32) -> Vec<State> {
+    pub fn samples(&self, between: u32) -> Vec<MachineState> {
         let Model { omega_0, speed, .. } = self.model;
         let parts = f64::from(between + 1);
         let mut begin = 0.0;
@@ -188,7 +190,7 @@ impl Motion {
                     Piece::Slip(slip) => slip.at(t),
                     Piece::Line { from, .. } => (from + t * speed, speed),
                 };
-                found.push(State { t: (begin + t) / omega_0, x, v: y * omega_0 });
+                found.push(MachineState { t: (begin + t) / omega_0, x, v: y * omega_0 });
             }
             begin += duration;
         }
@@ -203,7 +205,7 @@ impl Flow<'_> {
         place: Place,
         (x, y): (f64, f64),
         watch: &mut impl Watch,
-    ) -> Result<Option<(Place, f64, f64)>, Stop> {
+    ) -> Result<Option<(Place, f64, f64)>, Unfollowed> {
         let phase = match place {
             Place::Rests => return Ok(None),
             Place::Sticks => {
@@ -221,8 +223,8 @@ impl Flow<'_> {
     /// Where a motion from `(x, y)` that comes to rest does so, in m.
     ///
     /// # Errors
-    /// [`Stop`] where it does not.
-    pub fn rest_of(&mut self, mut x: f64, mut y: f64) -> Result<f64, Stop> {
+    /// [`Unfollowed`] where it does not.
+    pub fn rest_of(&mut self, mut x: f64, mut y: f64) -> Result<f64, Unfollowed> {
         /// Turns that a motion may take.
         const TURNS: usize = 200_000;
         if self.model.guide_static == 0.0 {
@@ -233,13 +235,13 @@ impl Flow<'_> {
             match self.turn(place, (x, y), &mut ()) {
                 Ok(turn) if turn.rests => return Ok(turn.x),
                 Ok(turn) => (x, y) = (turn.x, 0.0),
-                Err(Stop::Settled) if place == Place::Slips(Phase::Below) => {
+                Err(Unfollowed::Settled) if place == Place::Slips(Phase::Below) => {
                     return Ok(self.model.guide);
                 }
-                Err(Stop::Settled) => return Ok(-self.model.guide),
+                Err(Unfollowed::Settled) => return Ok(-self.model.guide),
                 Err(stop) => return Err(stop),
             }
         }
-        Err(Stop::Steps)
+        Err(Unfollowed::Steps)
     }
 }

@@ -4,39 +4,39 @@
 //! motions go one way, to the next cycle on that side; so one look into each gap settles the fate of every
 //! start, which needs no more than the way to its next right turning point.
 
-use super::arc::{Flow, Stop};
-use super::curve::{Curve, Piece, Rectangle};
-use super::cycles::Cycle;
-use super::gaps::{Divide, Fate, Gap, Tendency, gaps, jumps, ways};
+use super::arc::{Flow, Unfollowed};
+use super::curve::{MachineCurve, Piece, Rectangle};
+use super::cycles::MachineCycle;
+use super::gaps::{Divide, Gap, MachineFate, Tendency, gaps, jumps, ways};
 use super::landmarks::Landmarks;
 use super::model::{Model, Phase};
-use super::return_map::Return;
+use super::return_map::MachineReturn;
 use super::turn::Place;
 use crate::numerics::root::bisect;
 
 /// What borders the basin of rest.
 #[derive(Clone, Debug)]
-pub enum Border {
+pub enum MachineBorder {
     /// The unstable cycle of this index.
-    Cycle(usize, Curve),
+    Cycle(usize, MachineCurve),
     /// An orbit that touches the belt's line, and a piece of that line; or one that just comes to the end of
     /// what the guide holds.
-    Grazing(Curve),
+    Grazing(MachineCurve),
     /// Nothing: everything comes to rest.
     None,
     /// Rest itself repels.
     NoBasin,
 }
 
-impl Border {
+impl MachineBorder {
     /// The name of its kind.
     #[must_use]
     pub fn kind(&self) -> &'static str {
         match self {
-            Border::Cycle(..) => "cycle",
-            Border::Grazing(_) => "grazing",
-            Border::None => "none",
-            Border::NoBasin => "no-basin",
+            MachineBorder::Cycle(..) => "cycle",
+            MachineBorder::Grazing(_) => "grazing",
+            MachineBorder::None => "none",
+            MachineBorder::NoBasin => "no-basin",
         }
     }
 
@@ -45,29 +45,29 @@ impl Border {
     #[must_use]
     pub fn touches(&self) -> bool {
         let line = |piece: &Piece| matches!(piece, Piece::Line { .. });
-        matches!(self, Border::Grazing(curve) if curve.pieces.iter().any(line))
+        matches!(self, MachineBorder::Grazing(curve) if curve.pieces.iter().any(line))
     }
 
     /// The closed curve, where there is one.
     #[must_use]
-    pub fn curve(&self) -> Option<&Curve> {
+    pub fn curve(&self) -> Option<&MachineCurve> {
         match self {
-            Border::Cycle(_, curve) | Border::Grazing(curve) => Some(curve),
-            Border::None | Border::NoBasin => None,
+            MachineBorder::Cycle(_, curve) | MachineBorder::Grazing(curve) => Some(curve),
+            MachineBorder::None | MachineBorder::NoBasin => None,
         }
     }
 }
 
 /// Kicks out of the steady position up to which the mass comes back to rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Margin {
+pub struct MachineMargin {
     /// Displacements to the right and to the left, in m.
     pub displacement: (f64, f64),
     /// Velocities with and against the belt, in m/s.
     pub velocity: (f64, f64),
 }
 
-impl Margin {
+impl MachineMargin {
     /// The smaller displacement, in m.
     #[must_use]
     pub fn least_displacement(&self) -> f64 {
@@ -87,18 +87,18 @@ pub struct Portrait {
     /// Its model.
     pub model: Model,
     /// The cycles, by amplitude.
-    pub cycles: Vec<Cycle>,
+    pub cycles: Vec<MachineCycle>,
     /// Whether there is a family of periodic orbits.
     pub neutral: bool,
     /// The border of the basin of rest; of a neutral family where rest is one of it.
-    pub border: Border,
+    pub border: MachineBorder,
     /// The kicks that are survived; `None` where every one is. Where all motions that the law covers come
     /// to rest, the kicks that it covers.
-    pub margin: Option<Margin>,
+    pub margin: Option<MachineMargin>,
     /// Where the line of the belt is met.
     pub landmarks: Option<Landmarks>,
     /// Why motions that turn beyond [`Self::known`] are not known; `None` where all are.
-    pub stop: Option<Stop>,
+    pub stop: Option<Unfollowed>,
     /// Right turning point up to which the return map was looked at.
     pub known: f64,
     /// Intervals of right turning points in which the search for cycles did not settle: pairs of cycles may
@@ -113,8 +113,8 @@ impl Portrait {
     /// Computes what a machine does.
     ///
     /// # Errors
-    /// [`Stop`] where the motions near rest, or those that the belt releases, cannot be followed.
-    pub fn new(model: &Model) -> Result<Self, Stop> {
+    /// [`Unfollowed`] where the motions near rest, or those that the belt releases, cannot be followed.
+    pub fn new(model: &Model) -> Result<Self, Unfollowed> {
         let mut flow = Flow::new(model);
         let landmarks = flow.landmarks()?;
         let found = flow.fixed_points(landmarks.as_ref())?;
@@ -142,7 +142,7 @@ impl Portrait {
             model: model.clone(),
             cycles,
             neutral: found.neutral,
-            border: Border::None,
+            border: MachineBorder::None,
             margin: None,
             landmarks,
             stop: found.stop,
@@ -156,42 +156,47 @@ impl Portrait {
         Ok(portrait)
     }
 
-    fn settle_border(&mut self, flow: &mut Flow, marks: &[(f64, Divide)]) -> Result<(), Stop> {
+    fn settle_border(
+        &mut self,
+        flow: &mut Flow,
+        marks: &[(f64, Divide)],
+    ) -> Result<(), Unfollowed> {
         let model = &self.model;
         let Some(first) = self.gaps.first() else { return Ok(()) };
-        let inner = if self.neutral { Fate::Neutral } else { Fate::Rest };
-        if let Fate::Unknown(stop) = first.fate {
+        let inner = if self.neutral { MachineFate::Neutral } else { MachineFate::Rest };
+        if let MachineFate::Unknown(stop) = first.fate {
             return Err(stop);
         }
         if first.fate != inner {
-            self.border = Border::NoBasin;
-            self.margin = Some(Margin { displacement: (0.0, 0.0), velocity: (0.0, 0.0) });
+            self.border = MachineBorder::NoBasin;
+            self.margin = Some(MachineMargin { displacement: (0.0, 0.0), velocity: (0.0, 0.0) });
             return Ok(());
         }
         let last = self.gaps.iter().take_while(|gap| gap.fate == inner).count();
         let Some((x, mark)) = marks.get(last - 1).filter(|_| last < self.gaps.len()) else {
             let ends = model.law_ends();
-            if ends || matches!(self.stop, Some(Stop::OutsideLaw { .. } | Stop::Steps)) {
+            if ends || matches!(self.stop, Some(Unfollowed::OutsideLaw { .. } | Unfollowed::Steps))
+            {
                 self.margin = Some(self.covered(ends));
             }
             return Ok(());
         };
-        let mut curve = Curve::default();
+        let mut curve = MachineCurve::default();
         let left = match mark {
             Divide::Cycle(index) => {
                 let cycle = &self.cycles[*index];
                 let left = flow.around(*x, !cycle.sticks && !cycle.overtakes, &mut curve)?;
-                self.border = Border::Cycle(*index, curve.clone());
+                self.border = MachineBorder::Cycle(*index, curve.clone());
                 left
             }
             Divide::Jump => {
                 let left = flow.jump_border(*x, self.landmarks.as_ref(), &mut curve)?;
-                self.border = Border::Grazing(curve.clone());
+                self.border = MachineBorder::Grazing(curve.clone());
                 left
             }
             Divide::Capture => {
                 let left = flow.capture_border(*x, self.landmarks.as_ref(), &mut curve)?;
-                self.border = Border::Grazing(curve.clone());
+                self.border = MachineBorder::Grazing(curve.clone());
                 left
             }
         };
@@ -199,18 +204,18 @@ impl Portrait {
         // A border that does not pass there begins at the steady position itself, a node that repels.
         let speed = |y: Option<f64>| y.map_or(0.0, |y| (y * model.omega_0).abs());
         self.margin =
-            Some(Margin { displacement: (*x, -left), velocity: (speed(up), speed(down)) });
+            Some(MachineMargin { displacement: (*x, -left), velocity: (speed(up), speed(down)) });
         Ok(())
     }
 
     /// The kicks that come to rest for certain, where motions that slip faster than the law covers are not
     /// known, or those that could not be followed; motions do not cross, so in each direction these are the kicks up
     /// to one. Only where the law ends is it sought beyond [`Self::known`].
-    fn covered(&self, ends: bool) -> Margin {
+    fn covered(&self, ends: bool) -> MachineMargin {
         /// To rounding.
         const HALVINGS: u32 = 60;
         let model = &self.model;
-        let rests = |x: f64, y: f64| self.fate(x, y * model.omega_0) == Ok(Fate::Rest);
+        let rests = |x: f64, y: f64| self.fate(x, y * model.omega_0) == Ok(MachineFate::Rest);
         let most = |far: f64, rests: &dyn Fn(f64) -> bool| {
             if rests(far) { far } else { bisect(0.0, far, HALVINGS, |kick| !rests(kick)).0 }
         };
@@ -219,7 +224,7 @@ impl Portrait {
         } else {
             (self.known, self.known)
         };
-        Margin {
+        MachineMargin {
             displacement: (
                 most(self.known, &|kick| rests(kick, 0.0)),
                 most(x, &|kick| rests(-kick, 0.0)),
@@ -234,24 +239,24 @@ impl Portrait {
     /// What becomes of a motion that starts at displacement `x` (m) with velocity `v` (m/s).
     ///
     /// # Errors
-    /// [`Stop`] where it does not get to its next right turning point.
-    pub fn fate(&self, x: f64, v: f64) -> Result<Fate, Stop> {
+    /// [`Unfollowed`] where it does not get to its next right turning point.
+    pub fn fate(&self, x: f64, v: f64) -> Result<MachineFate, Unfollowed> {
         let y = self.model.scaled_velocity(v);
         let mut flow = Flow::new(&self.model);
         let turn = match flow.to_the_right(x, y) {
             Ok(turn) => turn,
-            Err(Stop::Settled) => return Ok(Fate::Rest),
-            Err(Stop::Escaped) => return Ok(Fate::Escaped),
+            Err(Unfollowed::Settled) => return Ok(MachineFate::Rest),
+            Err(Unfollowed::Escaped) => return Ok(MachineFate::Escaped),
             Err(stop) => return Err(stop),
         };
-        let Some(mut x) = turn else { return Ok(Fate::Rest) };
+        let Some(mut x) = turn else { return Ok(MachineFate::Rest) };
         // Far out every swing is looked at: it may leave what is known.
         while x > self.known {
             match flow.returned(x) {
-                Ok(Return::Turns(image)) if image.x < x => x = image.x,
-                Ok(Return::Turns(_)) => break,
-                Ok(Return::Rests(_)) => return Ok(Fate::Rest),
-                Err(Stop::Escaped) => return Ok(Fate::Escaped),
+                Ok(MachineReturn::Turns(image)) if image.x < x => x = image.x,
+                Ok(MachineReturn::Turns(_)) => break,
+                Ok(MachineReturn::Rests(_)) => return Ok(MachineFate::Rest),
+                Err(Unfollowed::Escaped) => return Ok(MachineFate::Escaped),
                 Err(stop) => return Err(stop),
             }
         }
@@ -260,17 +265,17 @@ impl Portrait {
 
     /// Why this is not the whole answer: the friction law ends before all motions are known.
     #[must_use]
-    pub fn incomplete(&self) -> Option<Stop> {
+    pub fn incomplete(&self) -> Option<Unfollowed> {
         let outermost = self.gaps.last().map(|gap| gap.fate);
-        let open = matches!(outermost, Some(Fate::Unknown(_)));
-        let stop = self.stop.filter(|stop| matches!(stop, Stop::OutsideLaw { .. }));
-        stop.filter(|_| open || matches!(self.border, Border::None))
+        let open = matches!(outermost, Some(MachineFate::Unknown(_)));
+        let stop = self.stop.filter(|stop| matches!(stop, Unfollowed::OutsideLaw { .. }));
+        stop.filter(|_| open || matches!(self.border, MachineBorder::None))
     }
 
     /// What becomes of a motion that turns on the right at `x`.
-    fn fate_of_turn(&self, x: f64) -> Fate {
+    fn fate_of_turn(&self, x: f64) -> MachineFate {
         let gap = self.gaps.iter().find(|gap| x <= gap.to).or(self.gaps.last());
-        gap.map_or(Fate::Rest, |gap| if x == gap.to { gap.end } else { gap.fate })
+        gap.map_or(MachineFate::Rest, |gap| if x == gap.to { gap.end } else { gap.fate })
     }
 
     /// The part of a window, in m and m/s, from which the mass comes to rest; `None` where motions from the window
@@ -283,13 +288,13 @@ impl Portrait {
             // Above v = 0 motions do not cross, and go farther out from the upper end of a vertical edge than
             // from below. Along a horizontal one dv/dt changes sign once, as the spring is linear: motions that
             // rise through it fall through it farther right, so the outermost pass a corner. Below v = 0 the same.
-            Border::None => {
-                let rests = |x: f64, v: f64| self.fate(x, v) == Ok(Fate::Rest);
+            MachineBorder::None => {
+                let rests = |x: f64, v: f64| self.fate(x, v) == Ok(MachineFate::Rest);
                 let all = || [x.0, x.1].iter().all(|x| [v.0, v.1].iter().all(|v| rests(*x, *v)));
                 (self.margin.is_none() || all()).then_some(1.0)
             }
-            Border::NoBasin => Some(0.0),
-            Border::Cycle(_, curve) | Border::Grazing(curve) => {
+            MachineBorder::NoBasin => Some(0.0),
+            MachineBorder::Cycle(_, curve) | MachineBorder::Grazing(curve) => {
                 Some(curve.area_within(&window, self.model.speed) / window.area())
             }
         }
@@ -300,8 +305,8 @@ impl Flow<'_> {
     /// The next right turning point of any start; `None` where it comes to rest before.
     ///
     /// # Errors
-    /// [`Stop`] where it does not get there.
-    pub fn to_the_right(&mut self, mut x: f64, mut y: f64) -> Result<Option<f64>, Stop> {
+    /// [`Unfollowed`] where it does not get there.
+    pub fn to_the_right(&mut self, mut x: f64, mut y: f64) -> Result<Option<f64>, Unfollowed> {
         if y == 0.0 && x > self.model.guide_static {
             return Ok(Some(x));
         }

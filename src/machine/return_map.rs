@@ -4,7 +4,7 @@
 //! all that comes to ride on the belt leaves it at the same place. So at most one cycle sticks to the belt,
 //! with multiplier exactly 0, and the fixed points put everything else in order.
 
-use super::arc::{Flow, Step, Stop, Watch};
+use super::arc::{Flow, SeriesStep, Unfollowed, Watch};
 use super::model::{Model, Phase};
 use super::turn::{Place, Turn};
 use crate::numerics::polynomial::value;
@@ -15,7 +15,7 @@ use crate::numerics::quadrature::gauss;
 pub struct Divergence(pub f64);
 
 impl Watch for Divergence {
-    fn step(&mut self, model: &Model, step: &Step) {
+    fn step(&mut self, model: &Model, step: &SeriesStep) {
         let slope =
             |node: f64| model.force(step.phase, value(&step.series.y, node * step.duration)).1;
         self.0 += gauss(slope) * step.duration;
@@ -39,7 +39,7 @@ pub struct Image {
 
 /// What becomes of a motion within one return.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Return {
+pub enum MachineReturn {
     /// It turns on the right again.
     Turns(Image),
     /// It comes to rest at this displacement.
@@ -50,25 +50,25 @@ impl Flow<'_> {
     /// The next right turning point after the one at `x`, outside of what the guide holds.
     ///
     /// # Errors
-    /// [`Stop`] where the motion does not turn; a motion that settles at a balance comes to rest instead.
-    pub fn returned(&mut self, x: f64) -> Result<Return, Stop> {
+    /// [`Unfollowed`] where the motion does not turn; a motion that settles at a balance comes to rest instead.
+    pub fn returned(&mut self, x: f64) -> Result<MachineReturn, Unfollowed> {
         let mut divergence = Divergence::default();
         let left = match self.turn(Place::Slips(Phase::Below), (x, 0.0), &mut divergence) {
-            Ok(Turn { x, rests: true, .. }) => return Ok(Return::Rests(x)),
+            Ok(Turn { x, rests: true, .. }) => return Ok(MachineReturn::Rests(x)),
             Ok(turn) => turn,
-            Err(Stop::Settled) => return Ok(Return::Rests(self.model.guide)),
+            Err(Unfollowed::Settled) => return Ok(MachineReturn::Rests(self.model.guide)),
             Err(stop) => return Err(stop),
         };
         match self.turn(Place::Slips(Phase::Between), (left.x, 0.0), &mut divergence) {
-            Ok(Turn { x, rests: true, .. }) => Ok(Return::Rests(x)),
-            Ok(Turn { x, way, .. }) => Ok(Return::Turns(Image {
+            Ok(Turn { x, rests: true, .. }) => Ok(MachineReturn::Rests(x)),
+            Ok(Turn { x, way, .. }) => Ok(MachineReturn::Turns(Image {
                 x,
                 left: left.x,
                 log_slope: left.way.log_ratio + way.log_ratio + divergence.0,
                 sticks_from: way.sticks_from,
                 overtakes_from: way.overtakes_from,
             })),
-            Err(Stop::Settled) => Ok(Return::Rests(-self.model.guide)),
+            Err(Unfollowed::Settled) => Ok(MachineReturn::Rests(-self.model.guide)),
             Err(stop) => Err(stop),
         }
     }
@@ -77,17 +77,17 @@ impl Flow<'_> {
     /// arc's end / after its start); `None` where no motion comes from one.
     ///
     /// # Errors
-    /// [`Stop`] where the friction law ends, or steps do.
+    /// [`Unfollowed`] where the friction law ends, or steps do.
     pub(super) fn right_before(
         &mut self,
         left: f64,
         watch: &mut impl Watch,
-    ) -> Result<Option<(f64, f64)>, Stop> {
+    ) -> Result<Option<(f64, f64)>, Unfollowed> {
         let left = left.min(-self.model.guide_static);
         match self.arc(Phase::Below, (left, 0.0), true, watch) {
             Ok(end) => Ok(Some((end.x, end.log_ratio()))),
-            Err(Stop::Escaped) => Ok(None),
-            Err(Stop::Settled) => Ok(Some((self.model.guide, f64::NEG_INFINITY))),
+            Err(Unfollowed::Escaped) => Ok(None),
+            Err(Unfollowed::Settled) => Ok(Some((self.model.guide, f64::NEG_INFINITY))),
             Err(stop) => Err(stop),
         }
     }
@@ -97,15 +97,15 @@ impl Flow<'_> {
     /// `None` where no such motion leads to `x`.
     ///
     /// # Errors
-    /// [`Stop`] where the friction law ends, or steps do.
-    pub fn preimage(&mut self, x: f64) -> Result<Option<Image>, Stop> {
+    /// [`Unfollowed`] where the friction law ends, or steps do.
+    pub fn preimage(&mut self, x: f64) -> Result<Option<Image>, Unfollowed> {
         let mut divergence = Divergence::default();
         let (left, entered) = match self.arc(Phase::Between, (x, 0.0), true, &mut divergence) {
             Ok(end) if end.on_belt => return Ok(None),
             Ok(end) => (end.x, end.log_ratio()),
-            Err(Stop::Settled) => (-self.model.guide, f64::NEG_INFINITY),
+            Err(Unfollowed::Settled) => (-self.model.guide, f64::NEG_INFINITY),
             // Backward in time damping feeds: from however far away, a motion turns before `x`.
-            Err(Stop::Escaped) => return Ok(None),
+            Err(Unfollowed::Escaped) => return Ok(None),
             Err(stop) => return Err(stop),
         };
         let before = self.right_before(left, &mut divergence)?;
@@ -122,11 +122,16 @@ impl Flow<'_> {
     /// there is none, the edge of what the guide holds.
     ///
     /// # Errors
-    /// [`Stop`] where the friction law ends, or steps do.
-    pub fn left_before(&mut self, x: f64, y: f64, watch: &mut impl Watch) -> Result<f64, Stop> {
+    /// [`Unfollowed`] where the friction law ends, or steps do.
+    pub fn left_before(
+        &mut self,
+        x: f64,
+        y: f64,
+        watch: &mut impl Watch,
+    ) -> Result<f64, Unfollowed> {
         match self.arc(Phase::Between, (x, y), true, watch) {
             Ok(end) => Ok(end.x),
-            Err(Stop::Settled) => Ok(-self.model.guide),
+            Err(Unfollowed::Settled) => Ok(-self.model.guide),
             Err(stop) => Err(stop),
         }
     }

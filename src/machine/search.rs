@@ -6,7 +6,7 @@
 //! of sign, or two of them as an extremum beyond zero. What a cubic foretells to a few percent of its
 //! distance from zero cannot hide a pair of zeros.
 
-use super::arc::Stop;
+use super::arc::Unfollowed;
 use crate::numerics::hermite::Hermite;
 use crate::numerics::root::{Bracket, Change, illinois, try_newton};
 
@@ -45,11 +45,11 @@ pub struct Zeros {
 /// The zeros of a function between two samples.
 ///
 /// # Errors
-/// The [`Stop`] of an evaluation.
+/// The [`Unfollowed`] of an evaluation.
 pub fn zeros(
     ends: (Sample, Sample),
-    evaluate: &mut impl FnMut(f64) -> Result<Sample, Stop>,
-) -> Result<Zeros, Stop> {
+    evaluate: &mut impl FnMut(f64) -> Result<Sample, Unfollowed>,
+) -> Result<Zeros, Unfollowed> {
     /// Intervals to begin with.
     const FIRST: i32 = 8;
     let mut found = Zeros::default();
@@ -67,9 +67,9 @@ fn within(
     left: Sample,
     right: Sample,
     depth: u32,
-    evaluate: &mut impl FnMut(f64) -> Result<Sample, Stop>,
+    evaluate: &mut impl FnMut(f64) -> Result<Sample, Unfollowed>,
     found: &mut Zeros,
-) -> Result<(), Stop> {
+) -> Result<(), Unfollowed> {
     let h = right.u - left.u;
     if left.f > h || right.f < -h {
         return Ok(());
@@ -97,9 +97,9 @@ fn within(
 fn leaf(
     left: Sample,
     right: Sample,
-    evaluate: &mut impl FnMut(f64) -> Result<Sample, Stop>,
+    evaluate: &mut impl FnMut(f64) -> Result<Sample, Unfollowed>,
     found: &mut Vec<f64>,
-) -> Result<(), Stop> {
+) -> Result<(), Unfollowed> {
     // Where all motions are periodic to rounding no zero can be told.
     if left.f.abs() < ROUNDING || right.f.abs() < ROUNDING {
         return Ok(());
@@ -122,12 +122,12 @@ fn leaf(
 /// The zero between two samples of different sign: Newton's method inside a bracket.
 ///
 /// # Errors
-/// The [`Stop`] of an evaluation.
+/// The [`Unfollowed`] of an evaluation.
 pub fn zero(
     left: Sample,
     right: Sample,
-    evaluate: &mut impl FnMut(f64) -> Result<Sample, Stop>,
-) -> Result<f64, Stop> {
+    evaluate: &mut impl FnMut(f64) -> Result<Sample, Unfollowed>,
+) -> Result<f64, Unfollowed> {
     let best = if left.f.abs() < right.f.abs() { left } else { right };
     if best.f == 0.0 {
         return Ok(best.u);
@@ -146,12 +146,12 @@ pub fn zero(
 /// the function has another sign than at both.
 ///
 /// # Errors
-/// The [`Stop`] of an evaluation.
+/// The [`Unfollowed`] of an evaluation.
 fn extremum(
     left: Sample,
     right: Sample,
-    evaluate: &mut impl FnMut(f64) -> Result<Sample, Stop>,
-) -> Result<Sample, Stop> {
+    evaluate: &mut impl FnMut(f64) -> Result<Sample, Unfollowed>,
+) -> Result<Sample, Unfollowed> {
     const WIDTH: Change = Change::Absolute(1e-9);
     let mut best = if left.f.abs() < right.f.abs() { left } else { right };
     // What ends the search early stands where an error would.

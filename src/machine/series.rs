@@ -4,7 +4,7 @@
 //! series by Horner's scheme, plus an exponential with a recurrence of its own. The step is the one that
 //! keeps the last terms below rounding (Jorba and Zou, Experimental Mathematics 14, 2005).
 
-use super::force::{Fall, ForcePiece, Side};
+use super::force::{Fall, ForceBranch, ForcePiece};
 use crate::numerics::elementary::{exp2, log2, pow};
 use crate::numerics::polynomial::{reciprocals, value_and_slope};
 
@@ -56,7 +56,7 @@ impl Series {
     /// time reversed. `acceleration` replaces the first derivative where it is known exactly.
     pub fn expand(
         &mut self,
-        (side, piece): (&Side, &ForcePiece),
+        (side, piece): (&ForceBranch, &ForcePiece),
         (x, y): (f64, f64),
         forward: f64,
         acceleration: Option<f64>,

@@ -6,11 +6,11 @@
 
 use serde::Serialize;
 
-use super::arc::{Flow, Stop};
+use super::arc::{Flow, Unfollowed};
 use super::jumps::{Family, Jumps};
 use super::landmarks::Landmarks;
 use super::model::{Model, Phase};
-use super::portrait::{Border, Portrait};
+use super::portrait::{MachineBorder, Portrait};
 use super::search::Sample;
 use super::turn::Place;
 use crate::numerics::elementary::{exp, ln};
@@ -36,7 +36,7 @@ pub enum Kind {
 
 /// A place where the portrait changes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Special {
+pub struct MachineSpecial {
     /// What happens.
     pub kind: Kind,
     /// Value of the number that varies, in SI units.
@@ -73,8 +73,8 @@ impl Signs {
     /// Computes them.
     ///
     /// # Errors
-    /// [`Stop`] where the friction law ends before.
-    pub fn new(model: &Model) -> Result<Self, Stop> {
+    /// [`Unfollowed`] where the friction law ends before.
+    pub fn new(model: &Model) -> Result<Self, Unfollowed> {
         let mut flow = Flow::new(model);
         let signs =
             Signs { damping: model.damping, held: model.guide_static > 0.0, ..Self::default() };
@@ -119,7 +119,7 @@ impl Signs {
     }
 
     /// The change at a zero; a touch of an unstable cycle is where the stick-slip cycle ends.
-    fn special(&self, kind: Kind, value: f64) -> Special {
+    fn special(&self, kind: Kind, value: f64) -> MachineSpecial {
         let ends = kind == Kind::Grazing && !self.jumps && self.log_slope > 0.0;
         let x_max = match kind {
             Kind::Hopf => None,
@@ -127,7 +127,7 @@ impl Signs {
             _ => self.turns.1,
         };
         let kind = if ends { Kind::Annihilation } else { kind };
-        Special { kind, value, x_max, jumps: Jumps::default() }
+        MachineSpecial { kind, value, x_max, jumps: Jumps::default() }
     }
 }
 
@@ -140,14 +140,18 @@ fn signs_at(family: Family, value: f64) -> Option<Signs> {
 
 /// All special values between two neighbouring ones, with the portraits there.
 #[must_use]
-pub fn between(family: Family, left: (f64, &Portrait), right: (f64, &Portrait)) -> Vec<Special> {
+pub fn between(
+    family: Family,
+    left: (f64, &Portrait),
+    right: (f64, &Portrait),
+) -> Vec<MachineSpecial> {
     /// Kinds that are zeros of [`Signs`].
     const KINDS: [Kind; 5] =
         [Kind::Hopf, Kind::Grazing, Kind::Annihilation, Kind::Overtaking, Kind::Unsticking];
     let (Some(from), Some(to)) = (signs_at(family, left.0), signs_at(family, right.0)) else {
         return Vec::new();
     };
-    let mut found: Vec<Special> = KINDS
+    let mut found: Vec<MachineSpecial> = KINDS
         .into_iter()
         .filter_map(|kind| {
             let ends = (from.of(kind)?, to.of(kind)?);
@@ -195,11 +199,11 @@ fn zero(function: &dyn Fn(f64) -> Option<f64>, left: (f64, f64), right: (f64, f6
 /// How many cycles there are, of each kind; a fold takes one of each stability.
 fn count(portrait: &Portrait) -> (usize, usize, bool) {
     let stable = portrait.cycles.iter().filter(|cycle| cycle.stable).count();
-    (stable, portrait.cycles.len() - stable, matches!(portrait.border, Border::NoBasin))
+    (stable, portrait.cycles.len() - stable, matches!(portrait.border, MachineBorder::NoBasin))
 }
 
 /// The fold between two places where the numbers of stable and of unstable cycles both differ by one.
-fn fold(family: Family, left: (f64, Portrait), right: (f64, Portrait)) -> Option<Special> {
+fn fold(family: Family, left: (f64, Portrait), right: (f64, Portrait)) -> Option<MachineSpecial> {
     /// Halvings that bring the portraits near the fold.
     const NEAR: u32 = 12;
     if count(&left.1) == count(&right.1) {
@@ -221,7 +225,7 @@ fn fold(family: Family, left: (f64, Portrait), right: (f64, Portrait)) -> Option
         .cycles
         .windows(2)
         .filter(|pair| pair[0].stable != pair[1].stable && !pair.iter().any(|cycle| cycle.sticks));
-    let gap = |pair: &&[super::Cycle]| pair[1].x.1 / pair[0].x.1;
+    let gap = |pair: &&[super::MachineCycle]| pair[1].x.1 / pair[0].x.1;
     let pair = pairs.min_by(|one, other| gap(one).total_cmp(&gap(other)))?;
     let (low, high) = (pair[0].x.1, pair[1].x.1);
     let extremum = |value: f64| -> Option<Sample> {
@@ -230,7 +234,7 @@ fn fold(family: Family, left: (f64, Portrait), right: (f64, Portrait)) -> Option
     let ends = (extremum(with)?, extremum(without)?);
     let value = zero(&|value| Some(extremum(value)?.f), (with, ends.0.f), (without, ends.1.f))?;
     let x = exp(extremum(value)?.u);
-    Some(Special { kind: Kind::Fold, value, x_max: Some(x), jumps: Jumps::default() })
+    Some(MachineSpecial { kind: Kind::Fold, value, x_max: Some(x), jumps: Jumps::default() })
 }
 
 /// The extremum of the growth `ln(image/x)` over `u = ln x` near a place, by secants on its exact slope.

@@ -1,9 +1,9 @@
 //! A motion by an explicit Runge-Kutta method in place of Taylor series: a second opinion that shares with the
 //! first the model and what happens at its lines, but neither the steps nor the search for the lines.
 
-use super::arc::Stop;
+use super::arc::Unfollowed;
 use super::model::{Model, Phase};
-use super::motion::{Leg, Outcome, State};
+use super::motion::{Leg, MachineOutcome, MachineState};
 use super::turn::Place;
 use crate::flow::Method;
 use crate::flow::explicit::{Dop853, Dopri5};
@@ -60,9 +60,9 @@ impl SteppedMethod {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stepped {
     /// Where it ends, or how far it was followed.
-    pub end: State,
+    pub end: MachineState,
     /// How it ends.
-    pub outcome: Outcome,
+    pub outcome: MachineOutcome,
     /// Evaluations of the force.
     pub evaluations: u64,
 }
@@ -103,9 +103,9 @@ pub struct Traced {
     /// Its legs in their order.
     pub legs: Vec<Leg>,
     /// The states between its steps.
-    pub samples: Vec<State>,
+    pub samples: Vec<MachineState>,
     /// How it ends.
-    pub outcome: Outcome,
+    pub outcome: MachineOutcome,
     /// Evaluations of the force.
     pub evaluations: u64,
     /// Steps taken.
@@ -116,19 +116,19 @@ pub struct Traced {
 /// estimated relative error below `tolerance`.
 ///
 /// # Errors
-/// [`Stop`] where it leaves the law, runs away, or needs too many steps.
+/// [`Unfollowed`] where it leaves the law, runs away, or needs too many steps.
 pub fn stepped(
     model: &Model,
     way: SteppedMethod,
     tolerance: f64,
     start: (f64, f64),
     until: f64,
-) -> Result<Stepped, Stop> {
+) -> Result<Stepped, Unfollowed> {
     let Traced { samples, outcome, evaluations, .. } = traced(model, way, tolerance, start, until);
     match (outcome, samples.last()) {
-        (Outcome::Stops(stop), _) => Err(stop),
+        (MachineOutcome::Stops(stop), _) => Err(stop),
         (_, Some(end)) => Ok(Stepped { end: *end, outcome, evaluations }),
-        (_, None) => Err(Stop::Steps),
+        (_, None) => Err(Unfollowed::Steps),
     }
 }
 
@@ -155,7 +155,7 @@ struct Trace<'a> {
     whole: f64,
     left: f64,
     steps: u64,
-    samples: Vec<State>,
+    samples: Vec<MachineState>,
 }
 
 impl Trace<'_> {
@@ -164,7 +164,7 @@ impl Trace<'_> {
     }
 
     fn comes(&mut self, x: f64, y: f64) {
-        let state = State { t: self.t(), x, v: y * self.model.omega_0 };
+        let state = MachineState { t: self.t(), x, v: y * self.model.omega_0 };
         self.samples.push(state);
     }
 }
@@ -182,11 +182,11 @@ fn follow<'a>(
     let mut place = model.place(x, y);
     let outcome = loop {
         if trace.left <= 0.0 {
-            break Outcome::Moves;
+            break MachineOutcome::Moves;
         }
         legs.push(Leg { place, t: trace.t(), x });
         let phase = match place {
-            Place::Rests => break Outcome::Rests,
+            Place::Rests => break MachineOutcome::Rests,
             Place::Slips(phase) => phase,
             Place::Sticks => {
                 let release = model.lines.map_or(x, |lines| lines.release);
@@ -201,7 +201,7 @@ fn follow<'a>(
         };
         match arc(&mut stepper, Slope { model, phase }, (x, y), &mut trace) {
             Ok(end) => (x, y) = end,
-            Err(stop) => break Outcome::Stops(stop),
+            Err(stop) => break MachineOutcome::Stops(stop),
         }
         place = model.place(x, y);
     };
@@ -215,7 +215,7 @@ fn arc<'a>(
     field: Slope<'a>,
     (x, y): (f64, f64),
     trace: &mut Trace,
-) -> Result<(f64, f64), Stop> {
+) -> Result<(f64, f64), Unfollowed> {
     let Slope { model, phase } = field;
     let offset = model.offset(phase);
     let mut from = Point { x: x + offset, v: y };
@@ -229,14 +229,14 @@ fn arc<'a>(
     while trace.left > 0.0 {
         trace.steps += 1;
         if trace.steps > STEPS {
-            return Err(Stop::Steps);
+            return Err(Unfollowed::Steps);
         }
-        let step = stepper.pass(from, LONGEST.min(trace.left)).map_err(|_| Stop::Escaped)?;
+        let step = stepper.pass(from, LONGEST.min(trace.left)).map_err(|_| Unfollowed::Escaped)?;
         let outer = if leaves { f64::INFINITY } else { most };
         let hit = hit(stepper, field, (from, &step), (least, outer));
         leaves = false;
         if let Some((time, level)) = hit {
-            let last = stepper.pass(from, time).map_err(|_| Stop::Escaped)?;
+            let last = stepper.pass(from, time).map_err(|_| Unfollowed::Escaped)?;
             trace.left -= last.duration;
             if last.duration >= time {
                 let end = (last.end.x - offset, level);
@@ -253,7 +253,7 @@ fn arc<'a>(
         trace.comes(from.x - offset, from.v);
         if !(low..=high).contains(&from.v) {
             let end = if from.v < low { low } else { high };
-            return Err(Stop::OutsideLaw { slip: (model.speed - end).abs() * model.omega_0 });
+            return Err(Unfollowed::OutsideLaw { slip: (model.speed - end).abs() * model.omega_0 });
         }
     }
     Ok((from.x - offset, from.v))

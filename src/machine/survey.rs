@@ -3,10 +3,10 @@
 
 use std::fmt;
 
-use super::arc::{Flow, Stop};
-use super::gaps::Fate;
+use super::arc::{Flow, Unfollowed};
+use super::gaps::MachineFate;
 use super::model::{Model, Unfit};
-use super::motion::Motion;
+use super::motion::MachineMotion;
 use super::portrait::Portrait;
 use super::stepped::{Stepped, SteppedMethod, stepped};
 use crate::flow::{Limits, Reason};
@@ -33,9 +33,9 @@ pub struct Course {
     /// All motions.
     pub portrait: Portrait,
     /// The one that was asked for.
-    pub motion: Motion,
+    pub motion: MachineMotion,
     /// What it ends as.
-    pub fate: Fate,
+    pub fate: MachineFate,
     /// Where it comes to rest, in m.
     pub rest: Option<f64>,
     /// The same motion by another method, if asked for.
@@ -50,7 +50,7 @@ pub struct Second {
     /// Its tolerance.
     pub tolerance: f64,
     /// What it found.
-    pub found: Result<Stepped, Stop>,
+    pub found: Result<Stepped, Unfollowed>,
 }
 
 impl Course {
@@ -62,12 +62,12 @@ impl Course {
         let portrait = Portrait::new(model)?;
         let (x, v) = start;
         let fate = match portrait.fate(x, v) {
-            Err(stop @ Stop::OutsideLaw { .. }) => Fate::Unknown(stop),
+            Err(stop @ Unfollowed::OutsideLaw { .. }) => MachineFate::Unknown(stop),
             fate => fate?,
         };
-        let rest =
-            (fate == Fate::Rest).then(|| Flow::new(model).rest_of(x, model.scaled_velocity(v)));
-        let motion = Motion::new(model, x, v, until);
+        let rest = (fate == MachineFate::Rest)
+            .then(|| Flow::new(model).rest_of(x, model.scaled_velocity(v)));
+        let motion = MachineMotion::new(model, x, v, until);
         Ok(Course { motion, fate, rest: rest.transpose()?, portrait, second: None })
     }
 }
@@ -88,14 +88,17 @@ pub enum Trouble {
     /// It has no whole model.
     Unfit(Unfit),
     /// Its motions cannot be followed.
-    Stop(Stop),
+    Stop(Unfollowed),
 }
 
 impl Trouble {
     /// Whether the machine itself is at fault, and not what it takes to compute it.
     #[must_use]
     pub fn is_of_the_machine(&self) -> bool {
-        !matches!(self, Trouble::Stop(Stop::Steps | Stop::Settled | Stop::Escaped))
+        !matches!(
+            self,
+            Trouble::Stop(Unfollowed::Steps | Unfollowed::Settled | Unfollowed::Escaped)
+        )
     }
 }
 
@@ -123,8 +126,8 @@ impl From<Unfit> for Trouble {
     }
 }
 
-impl From<Stop> for Trouble {
-    fn from(stop: Stop) -> Self {
+impl From<Unfollowed> for Trouble {
+    fn from(stop: Unfollowed) -> Self {
         Trouble::Stop(stop)
     }
 }

@@ -3,7 +3,7 @@
 //! Where the inclusion leaves a choice the mass is held: by the belt wherever static friction suffices, by
 //! the guide likewise. An orbit that touches the belt's line tangentially sticks.
 
-use super::arc::{ArcEnd, Flow, Stop, Watch};
+use super::arc::{ArcEnd, Flow, Unfollowed, Watch};
 use super::model::{Model, Phase};
 
 /// What the mass does at a place of the phase plane.
@@ -25,12 +25,12 @@ pub struct Turn {
     /// Whether the mass comes to rest.
     pub rests: bool,
     /// What the way was like.
-    pub way: Way,
+    pub way: WayToTurn,
 }
 
 /// The way to a turning point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Way {
+pub struct WayToTurn {
     /// Logarithm of the product of (acceleration in/acceleration out) over the arcs; with the integral of
     /// the divergence, of the derivative of the map. Minus infinity after sticking.
     pub log_ratio: f64,
@@ -72,17 +72,17 @@ impl Flow<'_> {
     /// otherwise.
     ///
     /// # Errors
-    /// [`Stop`] where it does not turn.
+    /// [`Unfollowed`] where it does not turn.
     pub fn turn(
         &mut self,
         place: Place,
         (mut x, mut y): (f64, f64),
         watch: &mut impl Watch,
-    ) -> Result<Turn, Stop> {
+    ) -> Result<Turn, Unfollowed> {
         /// Contacts with the belt's line: three at most, one more by rounding.
         const CONTACTS: usize = 8;
         let model = self.model;
-        let mut way = Way::default();
+        let mut way = WayToTurn::default();
         let mut place = place;
         for _ in 0..CONTACTS {
             let phase = match place {
@@ -108,7 +108,7 @@ impl Flow<'_> {
                 way.overtakes_from = Some(x);
             }
         }
-        Err(Stop::Steps)
+        Err(Unfollowed::Steps)
     }
 
     /// What follows an arc, and where; no motion arrives where its own side pushes away, but by rounding.

@@ -3,7 +3,7 @@
 //! Along the horizontal axis everything is in the units of the motion: the mass stands at its displacement
 //! from the static one, the marks of the belt move with its speed. Heights mean nothing.
 
-use super::items::{Line, Picture};
+use super::items::{LineStyle, Picture};
 use super::role::{Dash, Role};
 use crate::flow::Sample;
 use crate::scene::{Layer, Point, Span, View};
@@ -128,8 +128,8 @@ fn arrow(picture: &mut Picture, session: &Session, from: f64, width: f64, v: f64
 }
 
 /// A part of the machine, which anybody recognizes without a legend.
-fn part(name: &'static str, role: Role) -> Line {
-    Line::new(name, role, Dash::Solid).captioned()
+fn part(name: &'static str, role: Role) -> LineStyle {
+    LineStyle::new(name, role, Dash::Solid).captioned()
 }
 
 /// The belt, its marks moved by `way` to the right above and to the left below.

@@ -3,7 +3,7 @@
 //! The speed of the belt moves all four parameters; a chart shows two of them. What else the chart draws
 //! holds at the present values of the other two: where the path runs far from the present point, borders move.
 
-use super::items::{Item, Line, Marks, Picture};
+use super::items::{Item, LineStyle, Marks, Picture};
 use super::role::{Dash, Mark, Role};
 use crate::oscillator::{Parameters, State, Symbol};
 use crate::scene::machine::path::Station;
@@ -29,7 +29,7 @@ pub fn draw(picture: &mut Picture, session: &Session, right: Symbol, up: Symbol)
     };
     let nowhere = Point { x: f64::NAN, y: f64::NAN };
     let place = |(_, parameters): Station| parameters.as_ref().map_or(nowhere, at);
-    let line = Line::new("over the speed of the belt", PEN, Dash::Solid);
+    let line = LineStyle::new("over the speed of the belt", PEN, Dash::Solid);
     let line = line.briefly("over the belt's speed");
     picture.items.push(Item::Path(line, running.path().into_iter().map(place).collect()));
     let here = at(&session.problem.parameters);

@@ -1,6 +1,6 @@
 //! Formulas drawn into the phase plane: levels of the energy, and the spirals that make the cycle.
 
-use super::items::{Item, Line, Picture};
+use super::items::{Item, LineStyle, Picture};
 use super::role::{Dash, Mark, Role};
 use crate::closed_form::linear::linear_flow;
 use crate::closed_form::lyapunov::energy_rate;
@@ -17,7 +17,7 @@ pub(super) fn levels(picture: &mut Picture, parameters: &Parameters) {
     const CORNERS: u16 = 240;
     let y = picture.window.y;
     for (from, to) in falling(parameters, y) {
-        let line = Line::new("energy falls", Role::Basin, Dash::Solid);
+        let line = LineStyle::new("energy falls", Role::Basin, Dash::Solid);
         picture.items.push(Item::Rows(line, from, to));
     }
     for level in 1..=LEVELS {
@@ -26,7 +26,7 @@ pub(super) fn levels(picture: &mut Picture, parameters: &Parameters) {
             let angle = std::f64::consts::TAU * f64::from(corner) / f64::from(CORNERS);
             Point { x: radius * cos(angle), y: radius * sin(angle) }
         });
-        picture.curve(Line::new("level of the energy", Role::Field, Dash::Sparse), circle);
+        picture.curve(LineStyle::new("level of the energy", Role::Field, Dash::Sparse), circle);
     }
 }
 
@@ -80,10 +80,10 @@ pub(super) fn spirals(picture: &mut Picture, parameters: &Parameters) {
         (-1.0, "half turn about the right end", "the same spiral before and after"),
     ] {
         for (from, to) in [(-2.0, 0.0), (1.0, 2.0)] {
-            let line = Line::new(on, Role::Asymptote, Dash::Dotted).briefly("how they go on");
+            let line = LineStyle::new(on, Role::Asymptote, Dash::Dotted).briefly("how they go on");
             picture.curve(line, turn(from, to, side));
         }
-        let line = Line::new(name, Role::Trajectory, Dash::Solid).briefly("half turns");
+        let line = LineStyle::new(name, Role::Trajectory, Dash::Solid).briefly("half turns");
         picture.curve(line, turn(0.0, 1.0, side));
         picture.mark(Mark::Head, Point { x: -side * r, y: 0.0 }, Role::Special);
         let end = Point { x: side * (r + cycle.clearance), y: 0.0 };

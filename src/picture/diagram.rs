@@ -6,7 +6,7 @@
 //! cross.
 
 use super::equilibria::{self, at};
-use super::items::{Item, Line, Picture, Text, Variant};
+use super::items::{Item, LineStyle, Picture, Text, Variant};
 use super::phase_plane::{stability, variants};
 use super::reading::reading;
 use super::role::{Dash, Mark, Role};
@@ -39,13 +39,18 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     let shows = |layer| session.layers.contains(&layer);
     let current = session.value(abscissa);
     let all = session.shown(index);
-    let found: Vec<Found> = session
+    let found: Vec<ComputedBranch> = session
         .branches(index)
         .into_iter()
         .filter_map(|(variant, branch)| {
             let height = session.height(index, variant);
             let Shown { label, present, .. } = all.get(variant)?.clone();
-            Some(Found { variant: Variant { index: variant, label }, branch, height, present })
+            Some(ComputedBranch {
+                variant: Variant { index: variant, label },
+                branch,
+                height,
+                present,
+            })
         })
         .collect();
 
@@ -53,11 +58,11 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         let height = diagram.axes.height(shown.problem.parameters.r);
         equilibria::draw(&mut picture, shown, &variant, abscissa, height);
     }
-    picture.upright(Line::guide(), 0.0);
+    picture.upright(LineStyle::guide(), 0.0);
     if window.y.from() < 0.0 && window.y.to() > 0.0 {
-        picture.level(Line::guide(), 0.0);
+        picture.level(LineStyle::guide(), 0.0);
     }
-    picture.upright(Line::new("present value", Role::Current, Dash::Sparse), current);
+    picture.upright(LineStyle::new("present value", Role::Current, Dash::Sparse), current);
     if ordinate.spec().harmonic.is_some() {
         for (variant, shown) in variants(&all) {
             let height = diagram.axes.height(shown.problem.parameters.r);
@@ -95,7 +100,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     }
     if shows(Layer::Special) {
         let mut named: Vec<&Special> = Vec::new();
-        for Found { branch, height, .. } in &found {
+        for ComputedBranch { branch, height, .. } in &found {
             for special in &branch.special {
                 // Several variants may have one in common.
                 if !named.contains(&special) {
@@ -110,7 +115,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
 }
 
 /// A branch that was computed: whose it is, and how high its cycles stand.
-struct Found<'a> {
+struct ComputedBranch<'a> {
     variant: Variant,
     branch: &'a Branch,
     height: Height,
@@ -145,7 +150,7 @@ fn asymptotes(
     };
     let asymptotes = [small_asymptote as fn(&Parameters) -> Option<f64>, large_asymptote];
     for (name, asymptote) in names.into_iter().zip(asymptotes) {
-        let line = Line::new(name, Role::Asymptote, Dash::Sparse).of(variant);
+        let line = LineStyle::new(name, Role::Asymptote, Dash::Sparse).of(variant);
         let shown = shown.clone();
         picture.graph(line, move |value| {
             let parameters = at(&shown, abscissa, value);
@@ -169,7 +174,7 @@ fn harmonic(
     /// Samples along the amplitude: more than any screen has dots.
     const SAMPLES: u16 = 1000;
     let Some(size) = height.ordinate.spec().harmonic else { return };
-    let line = Line::new("first harmonic", Role::Harmonic, Dash::Dotted).of(variant);
+    let line = LineStyle::new("first harmonic", Role::Harmonic, Dash::Dotted).of(variant);
     let Parameters { d2, d3, r, .. } = shown.problem.parameters;
     if abscissa == Symbol::D {
         let points = (1..=SAMPLES).map(|sample| {
@@ -193,7 +198,7 @@ fn harmonic(
 /// Twice the largest amplitude that can be on show: beyond it the harmonic curve need not be followed.
 ///
 /// Where the ordinate is no length, that is twice the largest amplitude of the computed branches.
-fn largest_amplitude(diagram: &session::Plot, height: Height, found: &[Found]) -> f64 {
+fn largest_amplitude(diagram: &session::Plot, height: Height, found: &[ComputedBranch]) -> f64 {
     let y = diagram.window.y;
     let unit = height.friction.filter(|_| height.is_ratio()).unwrap_or(1.0);
     match diagram.axes.ordinate {
@@ -209,8 +214,8 @@ fn largest_amplitude(diagram: &session::Plot, height: Height, found: &[Found]) -
 
 /// Adds a piece, run by run of equal stability; neighbouring runs meet at the fold between them. One of
 /// several branches has its label where it is highest in the window.
-fn branch(picture: &mut Picture, piece: &[BranchPoint], found: &Found) {
-    let Found { variant, branch: Branch { special, .. }, height, present } = found;
+fn branch(picture: &mut Picture, piece: &[BranchPoint], found: &ComputedBranch) {
+    let ComputedBranch { variant, branch: Branch { special, .. }, height, present } = found;
     let place =
         |point: &BranchPoint| Point { x: point.value, y: height.of(point.value, &point.cycle) };
     let mut start = None;
@@ -221,7 +226,7 @@ fn branch(picture: &mut Picture, piece: &[BranchPoint], found: &Found) {
             next.map(|next| fold_between(last, next, special, *height).unwrap_or(place(next)));
         let (role, dash) = stability(first.cycle.stable);
         let name = if first.cycle.stable { "stable cycle" } else { "unstable cycle" };
-        let line = Line::new(name, role, dash).of(variant);
+        let line = LineStyle::new(name, role, dash).of(variant);
         if *present {
             let points: Vec<Point> = run.iter().map(place).collect();
             picture.label_curve(
@@ -255,11 +260,11 @@ fn fold_between(
 }
 
 /// The largest velocities of a piece.
-fn extents(picture: &mut Picture, piece: &[BranchPoint], found: &Found) {
+fn extents(picture: &mut Picture, piece: &[BranchPoint], found: &ComputedBranch) {
     let height = Height { ordinate: Ordinate::VMax, ..found.height };
     let points =
         piece.iter().map(|point| Point { x: point.value, y: height.of(point.value, &point.cycle) });
-    let line = Line::new("largest velocity A_v", Role::Velocity, Dash::Dashed);
+    let line = LineStyle::new("largest velocity A_v", Role::Velocity, Dash::Dashed);
     picture.curve(line.of(&found.variant).briefly("largest velocity"), points);
 }
 
@@ -313,7 +318,7 @@ fn caption(picture: &mut Picture, special: &Special, height: Height, top: f64) {
     };
     // A cycle that has gone to infinity is named at the top, where its branch leaves.
     if special.cycle.is_none() {
-        let line = Line::new("escape", Role::Asymptote, Dash::Dotted);
+        let line = LineStyle::new("escape", Role::Asymptote, Dash::Dotted);
         picture.upright(line, special.value);
     }
     let y = special.cycle.map_or(top, |cycle| height.of(special.value, &cycle));

@@ -1,7 +1,7 @@
 //! The eigenvalues of the rest without friction in the complex plane, and the way that they take as D
 //! moves (9): a circle on which the motion swings, and the real axis on which it does not.
 
-use super::items::{Item, Line, Picture};
+use super::items::{Item, LineStyle, Picture};
 use super::reading::reading;
 use super::role::{Dash, Mark, Role};
 use crate::numerics::elementary::{cos, sin};
@@ -33,14 +33,14 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
 fn locus(picture: &mut Picture) {
     const CORNERS: u16 = 240;
     let left = picture.window.x.from();
-    let stable = Line::new("the rest is stable", Role::Basin, Dash::Solid);
+    let stable = LineStyle::new("the rest is stable", Role::Basin, Dash::Solid);
     picture.items.push(Item::Columns(stable, left.min(0.0), 0.0));
-    picture.upright(Line::guide(), 0.0);
+    picture.upright(LineStyle::guide(), 0.0);
     let circle = (0..=CORNERS).map(|corner| {
         let angle = std::f64::consts::TAU * f64::from(corner) / f64::from(CORNERS);
         Point { x: cos(angle), y: sin(angle) }
     });
-    let way = || Line::new("eigenvalues over D", Role::Asymptote, Dash::Dotted);
+    let way = || LineStyle::new("eigenvalues over D", Role::Asymptote, Dash::Dotted);
     picture.curve(way(), circle);
     picture.level(way(), 0.0);
     for (at, name) in [((0.0, 1.0), "D = 0"), ((-1.0, 0.0), "D = 1"), ((1.0, 0.0), "D = -1")] {
@@ -65,7 +65,7 @@ fn pair(picture: &mut Picture, d: f64) {
     let mark = if d > 0.0 { Mark::Stable } else { Mark::Unstable };
     for at in eigenvalues(d) {
         let arm = [Point { x: 0.0, y: 0.0 }, at];
-        let line = Line::new("from the origin", Role::Current, Dash::Sparse);
+        let line = LineStyle::new("from the origin", Role::Current, Dash::Sparse);
         picture.curve(line.captioned(), arm);
         picture.mark(mark, at, Role::Current);
     }

@@ -2,7 +2,7 @@
 //!
 //! Bars are parts of the largest work of their owner, numbers are energies in the units of the model.
 
-use super::items::{Line, Picture};
+use super::items::{LineStyle, Picture};
 use super::role::{Dash, Mark, Role};
 use crate::scene::{Point, Span, View, Window};
 use crate::session::Session;
@@ -18,12 +18,12 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         ..session.plots[index].window
     };
     let mut picture = Picture::new(spec.title, "part of the largest work", "", window);
-    picture.upright(Line::guide(), 0.0);
+    picture.upright(LineStyle::guide(), 0.0);
     for (line, entry) in lines.iter().enumerate() {
         let from = Point { x: 0.0, y: middle(line) };
         if let LedgerLine::Work { source, work, part, so_far } = entry {
             let role = if *work < 0.0 { Role::Loss } else { Role::Gain };
-            let line = Line::new(*source, role, Dash::Solid).captioned();
+            let line = LineStyle::new(*source, role, Dash::Solid).captioned();
             picture.bar(line, from, Point { x: *part, ..from });
             if let Some(x) = *so_far {
                 picture.mark(Mark::Head, Point { x, ..from }, Role::Cursor);

@@ -1,7 +1,7 @@
 //! The rate V' of the energy over the velocity, of which alone it is a function (17 to 19): what damping
 //! feeds, what friction takes, and between which velocities friction takes more.
 
-use super::items::{Line, Picture};
+use super::items::{LineStyle, Picture};
 use super::reading::{CELLS, reading};
 use super::role::{Dash, Mark, Role};
 use crate::closed_form::lyapunov::{self, energy_rate};
@@ -40,8 +40,8 @@ fn rate(parameters: &Parameters, v: f64) -> f64 {
 }
 
 fn curves(picture: &mut Picture, parameters: Parameters) {
-    picture.level(Line::guide(), 0.0);
-    picture.upright(Line::guide(), 0.0);
+    picture.level(LineStyle::guide(), 0.0);
+    picture.upright(LineStyle::guide(), 0.0);
     let smooth = Parameters { r: 0.0, ..parameters };
     let dry = Parameters { d: 0.0, d2: 0.0, d3: 0.0, ..parameters };
     for (name, role, dash, of) in [
@@ -49,7 +49,7 @@ fn curves(picture: &mut Picture, parameters: Parameters) {
         ("taken by friction", Role::Sticking, Dash::Dotted, dry),
         ("rate of the energy V'", Role::Energy, Dash::Solid, parameters),
     ] {
-        picture.graph(Line::new(name, role, dash), move |v| Some(rate(&of, v)));
+        picture.graph(LineStyle::new(name, role, dash), move |v| Some(rate(&of, v)));
     }
     if let Some(radius) = lyapunov::radius(&parameters).filter(|radius| *radius > 0.0) {
         for (v, name) in [(radius, "l"), (-radius, "-l")] {

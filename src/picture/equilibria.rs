@@ -1,7 +1,7 @@
 //! Rest in a bifurcation diagram: with friction the sticking set, a band that attracts; without, the
 //! equilibrium at 0, stable on one side of the Hopf point and unstable on the other.
 
-use super::items::{Fill, Item, Line, Pattern, Picture, Variant};
+use super::items::{Fill, Item, LineStyle, Pattern, Picture, Variant};
 use super::phase_plane::stability;
 use super::role::{Dash, Role};
 use crate::oscillator::{Parameters, Symbol};
@@ -32,7 +32,7 @@ pub fn draw(
         }
         return;
     }
-    let line = Line::new(REST, Role::Sticking, Dash::Solid).of(variant);
+    let line = LineStyle::new(REST, Role::Sticking, Dash::Solid).of(variant);
     if !has_band {
         return picture.level(line, 0.0);
     }
@@ -81,7 +81,7 @@ fn point(picture: &mut Picture, shown: &Shown, variant: &Variant, abscissa: Symb
         let (role, dash) = stability(stable);
         let name = if stable { "rest (stable)" } else { "rest (unstable)" };
         let of = shown.clone();
-        picture.graph(Line::new(name, role, dash).of(variant), move |value| {
+        picture.graph(LineStyle::new(name, role, dash).of(variant), move |value| {
             (is_stable(&at(&of, abscissa, value)) == Some(stable)).then_some(0.0)
         });
     }

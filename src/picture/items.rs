@@ -22,7 +22,7 @@ pub struct Variant {
 
 /// How a line looks and what it is called.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Line {
+pub struct LineStyle {
     /// What it is; empty for lines that need no name.
     pub name: Text,
     /// What the legend of the screen says in place of the name; nothing where this is empty.
@@ -35,20 +35,20 @@ pub struct Line {
     pub dash: Dash,
 }
 
-impl Line {
+impl LineStyle {
     /// A line of this name and look.
     pub fn new(name: impl Into<Text>, role: Role, dash: Dash) -> Self {
-        Line { name: name.into(), brief: None, variant: None, role, dash }
+        LineStyle { name: name.into(), brief: None, variant: None, role, dash }
     }
 
     /// The same line of one of several variants.
     pub fn of(self, variant: &Variant) -> Self {
-        Line { variant: Some(variant.clone()), ..self }
+        LineStyle { variant: Some(variant.clone()), ..self }
     }
 
     /// The same line with other words in the legend of the screen.
     pub fn briefly(self, words: &'static str) -> Self {
-        Line { brief: Some(words), ..self }
+        LineStyle { brief: Some(words), ..self }
     }
 
     /// The same line with its name beside it: the legend of the screen leaves it out.
@@ -66,7 +66,7 @@ impl Line {
 
     /// An axis or another line that is there to be read against.
     pub fn guide() -> Self {
-        Line::new("", Role::Axis, Dash::Sparse)
+        LineStyle::new("", Role::Axis, Dash::Sparse)
     }
 }
 
@@ -125,23 +125,23 @@ impl Marks {
 /// Something in a picture.
 pub enum Item<'a> {
     /// A polyline; a point that is not finite interrupts it.
-    Curve(Line, Vec<Point>),
+    Curve(LineStyle, Vec<Point>),
     /// A polyline along which other parameters than those on the axes vary too.
-    Path(Line, Vec<Point>),
+    Path(LineStyle, Vec<Point>),
     /// A graph over the whole window, sampled as finely as its renderer needs.
-    Graph(Line, Function<'a>),
+    Graph(LineStyle, Function<'a>),
     /// An upright through the whole window.
-    Upright(Line, f64),
+    Upright(LineStyle, f64),
     /// A thick straight line.
-    Bar(Line, Point, Point),
+    Bar(LineStyle, Point, Point),
     /// The area that a curve, closed or with ends outside the window, does not separate from the origin.
-    Shade(Line, Vec<Point>),
+    Shade(LineStyle, Vec<Point>),
     /// The area that a closed curve separates from the origin.
-    Beyond(Line, Vec<Point>),
+    Beyond(LineStyle, Vec<Point>),
     /// All points whose abscissa lies between two values.
-    Columns(Line, f64, f64),
+    Columns(LineStyle, f64, f64),
     /// All points whose ordinate lies between two values.
-    Rows(Line, f64, f64),
+    Rows(LineStyle, f64, f64),
     /// Parts of the world, each filled with its pattern.
     Texture(Texture<'a>),
     /// Directions on a sparse lattice.
@@ -200,7 +200,7 @@ impl fmt::Debug for Picture<'_> {
 
 impl Item<'_> {
     /// The line of a curve, an area or a bar that has a name and is seen in this window.
-    pub fn seen(&self, window: Window) -> Option<&Line> {
+    pub fn seen(&self, window: Window) -> Option<&LineStyle> {
         let (line, seen) = match self {
             Item::Curve(line, points) | Item::Path(line, points) => (line, passes(points, window)),
             Item::Graph(line, value) => (line, is_met(value, window)),
@@ -259,25 +259,25 @@ impl<'a> Picture<'a> {
         }
     }
 
-    pub fn curve(&mut self, line: Line, points: impl IntoIterator<Item = Point>) {
+    pub fn curve(&mut self, line: LineStyle, points: impl IntoIterator<Item = Point>) {
         self.items.push(Item::Curve(line, points.into_iter().collect()));
     }
 
-    pub fn graph(&mut self, line: Line, value: impl Fn(f64) -> Option<f64> + 'a) {
+    pub fn graph(&mut self, line: LineStyle, value: impl Fn(f64) -> Option<f64> + 'a) {
         self.items.push(Item::Graph(line, Box::new(value)));
     }
 
     /// Adds the line on which the ordinate has this value.
-    pub fn level(&mut self, line: Line, y: f64) {
+    pub fn level(&mut self, line: LineStyle, y: f64) {
         self.graph(line, move |_| Some(y));
     }
 
-    pub fn upright(&mut self, line: Line, x: f64) {
+    pub fn upright(&mut self, line: LineStyle, x: f64) {
         self.items.push(Item::Upright(line, x));
     }
 
     /// Adds a thick straight line.
-    pub fn bar(&mut self, line: Line, from: Point, to: Point) {
+    pub fn bar(&mut self, line: LineStyle, from: Point, to: Point) {
         self.items.push(Item::Bar(line, from, to));
     }
 

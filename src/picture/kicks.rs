@@ -2,12 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use super::items::{Line, Picture};
+use super::items::{LineStyle, Picture};
 use super::role::{Dash, Role};
 use crate::numerics::elementary::sin_cos;
 use crate::scene::{Answer, Layer, Point, Topic};
 use crate::session::Session;
-use crate::study::kicks::{Distribution, Kicks};
+use crate::study::kicks::{Distribution, RandomKick};
 use crate::words::number::significant;
 
 /// Lines of equal density: their names, their distances from the mean in spreads, and their dashes.
@@ -26,12 +26,12 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
     match kicks.law {
         Distribution::Normal => {
             for (name, distance, dash) in NORMAL {
-                let line = Line::new(name, Role::Harmonic, dash).briefly("kicks: 1, 2, 3 sd");
+                let line = LineStyle::new(name, Role::Harmonic, dash).briefly("kicks: 1, 2, 3 sd");
                 picture.curve(line, ellipse(kicks, distance));
             }
         }
         Distribution::Uniform => {
-            let line = Line::new("all kicks, evenly", Role::Harmonic, Dash::Solid);
+            let line = LineStyle::new("all kicks, evenly", Role::Harmonic, Dash::Solid);
             picture.curve(line, rectangle(kicks));
         }
     }
@@ -57,19 +57,19 @@ fn told(session: &Session, index: usize) -> String {
     }
 }
 
-fn ellipse(kicks: &Kicks, distance: f64) -> impl Iterator<Item = Point> {
+fn ellipse(kicks: &RandomKick, distance: f64) -> impl Iterator<Item = Point> {
     /// Corners of the polygon that stands for the ellipse.
     const CORNERS: u16 = 120;
-    let Kicks { q, v, .. } = *kicks;
+    let RandomKick { q, v, .. } = *kicks;
     (0..=CORNERS).map(move |corner| {
         let (sin, cos) = sin_cos(TAU * f64::from(corner) / f64::from(CORNERS));
         Point { x: q.0 + distance * q.1 * cos, y: v.0 + distance * v.1 * sin }
     })
 }
 
-fn rectangle(kicks: &Kicks) -> impl Iterator<Item = Point> {
+fn rectangle(kicks: &RandomKick) -> impl Iterator<Item = Point> {
     const CORNERS: [(f64, f64); 5] =
         [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)];
-    let Kicks { q, v, .. } = *kicks;
+    let RandomKick { q, v, .. } = *kicks;
     CORNERS.into_iter().map(move |(x, y)| Point { x: q.0 + x * q.1, y: v.0 + y * v.1 })
 }

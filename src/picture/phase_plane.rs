@@ -6,7 +6,7 @@
 //! it is old.
 
 use super::construction;
-use super::items::{Item, Line, Picture, Variant};
+use super::items::{Item, LineStyle, Picture, Variant};
 use super::kicks;
 use super::reading::{CELLS, reading};
 use super::role::{Dash, Mark, Role};
@@ -66,7 +66,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     }
     if shows(Layer::Bands) {
         for border in session.borders(index).iter().flat_map(|found| &found.curves) {
-            let line = Line::new("border of a band of capture", Role::Bands, Dash::Dotted);
+            let line = LineStyle::new("border of a band of capture", Role::Bands, Dash::Dotted);
             let line = line.briefly("one half swing more");
             picture.curve(line, border.iter().map(point));
         }
@@ -75,7 +75,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         ghost(&mut picture, session);
     }
     kicks::draw(&mut picture, session, index);
-    picture.level(Line::guide(), 0.0);
+    picture.level(LineStyle::guide(), 0.0);
     if shows(Layer::Lyapunov) {
         for (variant, shown) in variants(&shown) {
             circle(&mut picture, &shown.problem.parameters, &variant);
@@ -83,7 +83,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     }
     if let Some(fitted) = session.fitted().filter(|_| shows(Layer::Recorded)) {
         let points = fitted.points.iter().map(|point| Point { x: point.q, y: point.v });
-        picture.curve(Line::new("record", Role::Ghost, Dash::Dotted), points);
+        picture.curve(LineStyle::new("record", Role::Ghost, Dash::Dotted), points);
     }
     if shows(Layer::Trajectory) {
         motions(&mut picture, session, index);
@@ -104,7 +104,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     }
     if shows(Layer::Balance) {
         for found in session.balance().iter().flat_map(|balance| &balance.balanced) {
-            let line = Line::new("cycle of N harmonics", Role::Harmonic, Dash::Dotted);
+            let line = LineStyle::new("cycle of N harmonics", Role::Harmonic, Dash::Dotted);
             picture.curve(line.briefly("N harmonics"), found.curve.iter().map(point));
         }
     }
@@ -133,7 +133,7 @@ fn belt(picture: &mut Picture, session: &Session) {
     let Some(running) = session.running() else { return };
     let y = running.reduced.sticking_velocity;
     let left = picture.window.x.from();
-    picture.level(Line::new("speed of the belt", Role::Current, Dash::Dashed), y);
+    picture.level(LineStyle::new("speed of the belt", Role::Current, Dash::Dashed), y);
     picture.caption(Point { x: left, y }, "belt", Role::Current);
     if session.draws_whole() {
         rides(picture, session, y);
@@ -150,17 +150,17 @@ fn rides(picture: &mut Picture, session: &Session, y: f64) {
     let cycles = session.kinds().filter(|_| session.layers.contains(&Layer::Cycles));
     for (from, to) in cycles.iter().flat_map(|it| &it.cycles).filter_map(|cycle| cycle.ride) {
         let [from, to] = [from, to].map(|x| Point { x: x / unit, y });
-        picture.bar(Line::new("cycle on the belt", Role::Stable, Dash::Solid), from, to);
+        picture.bar(LineStyle::new("cycle on the belt", Role::Stable, Dash::Solid), from, to);
     }
     let motion = session.course().filter(|_| session.layers.contains(&Layer::Trajectory));
     for ride in motion.iter().flat_map(|motion| &motion.rides) {
         let [from, to] = ride.map(|end| Point { x: end.q, y });
-        picture.bar(Line::new("motion on the belt", Role::Trajectory, Dash::Solid), from, to);
+        picture.bar(LineStyle::new("motion on the belt", Role::Trajectory, Dash::Solid), from, to);
     }
 }
 
 /// The kind of a cycle in the words of the legend, and as its own caption where it is no plain slip.
-fn kind(cycle: &machine::Cycle) -> (&'static str, &'static str) {
+fn kind(cycle: &machine::MachineCycle) -> (&'static str, &'static str) {
     match (cycle.stable, cycle.sticks, cycle.overtakes) {
         (_, true, false) => ("stick-slip cycle", "stick-slip"),
         (_, true, true) => ("overtaking stick-slip cycle", "stick-slip, overtaking"),
@@ -195,7 +195,7 @@ fn motions(picture: &mut Picture, session: &Session, index: usize) {
         if let Answer::Trajectory(found) = answer {
             let place = variant.index;
             let (line, variant) = if family {
-                (Line::new("motion", Role::Trajectory, Dash::Solid), variant)
+                (LineStyle::new("motion", Role::Trajectory, Dash::Solid), variant)
             } else {
                 (motion(session, place), Variant::default())
             };
@@ -225,28 +225,28 @@ pub(super) fn number_curve(
 }
 
 /// How the motion in this place among those on show is drawn, and what it is called.
-pub(super) fn motion(session: &Session, place: usize) -> Line {
+pub(super) fn motion(session: &Session, place: usize) -> LineStyle {
     const NAMES: [&str; MOST_MOTIONS] = [
         "motion 1", "motion 2", "motion 3", "motion 4", "motion 5", "motion 6", "motion 7",
         "motion 8",
     ];
     const DASHES: [Dash; 3] = [Dash::Dashed, Dash::Dotted, Dash::Solid];
     let Some(number) = session.number(place) else {
-        return Line::new("motion", Role::Trajectory, Dash::Solid);
+        return LineStyle::new("motion", Role::Trajectory, Dash::Solid);
     };
     let name = NAMES[(number - 1).min(NAMES.len() - 1)];
     match place {
-        0 => Line::new(name, Role::Trajectory, Dash::Solid),
-        _ => Line::new(name, Role::Beside, DASHES[place % DASHES.len()]),
+        0 => LineStyle::new(name, Role::Trajectory, Dash::Solid),
+        _ => LineStyle::new(name, Role::Beside, DASHES[place % DASHES.len()]),
     }
 }
 
 /// The segment where the mass rests.
-pub(super) fn sticking_set(r: f64) -> Line {
+pub(super) fn sticking_set(r: f64) -> LineStyle {
     if r == 0.0 {
-        return Line::new("equilibrium", Role::Sticking, Dash::Solid);
+        return LineStyle::new("equilibrium", Role::Sticking, Dash::Solid);
     }
-    Line::new("sticking set", Role::Sticking, Dash::Solid).briefly("sticking set (at rest)")
+    LineStyle::new("sticking set", Role::Sticking, Dash::Solid).briefly("sticking set (at rest)")
 }
 
 fn point(state: &State) -> Point {
@@ -266,12 +266,12 @@ fn flow(parameters: &Parameters, Point { x: q, y: v }: Point) -> Point {
 fn basin(picture: &mut Picture, found: &Cycles, variant: &Variant, with_cycles: bool) {
     let Some(drawn) = found.picture.as_ref().filter(|drawn| !drawn.edge.is_empty()) else { return };
     let edge: Vec<Point> = drawn.edge.iter().map(point).collect();
-    let area = Line::new("basin of the sticking set", Role::Basin, Dash::Solid).of(variant);
+    let area = LineStyle::new("basin of the sticking set", Role::Basin, Dash::Solid).of(variant);
     picture.items.push(Item::Shade(area.briefly("comes to rest"), edge.clone()));
     if with_cycles && found.edge == Edge::Cycle {
         return;
     }
-    let line = Line::new("border of the basin", Role::Unstable, Dash::Dashed);
+    let line = LineStyle::new("border of the basin", Role::Unstable, Dash::Dashed);
     picture.curve(line.of(variant), edge);
 }
 
@@ -279,9 +279,9 @@ fn basin(picture: &mut Picture, found: &Cycles, variant: &Variant, with_cycles: 
 fn safe(picture: &mut Picture, extent: &Extent) {
     let Extent::Within(border) = extent else { return };
     let border: Vec<Point> = border.iter().map(point).collect();
-    let area = Line::new("surely safe", Role::Safe, Dash::Solid);
+    let area = LineStyle::new("surely safe", Role::Safe, Dash::Solid);
     picture.items.push(Item::Shade(area, border.clone()));
-    let line = Line::new("border of the surely safe", Role::Safe, Dash::Dotted);
+    let line = LineStyle::new("border of the surely safe", Role::Safe, Dash::Dotted);
     picture.curve(line.briefly("surely safe"), border);
 }
 
@@ -298,10 +298,10 @@ fn lost(picture: &mut Picture, extent: &Extent) {
     // An open border, a separatrix, has no outside that a window could be filled with.
     if hypot(last.x - first.x, last.y - first.y) <= CLOSED * width {
         border.push(first);
-        let area = Line::new("surely lost", Role::Danger, Dash::Solid);
+        let area = LineStyle::new("surely lost", Role::Danger, Dash::Solid);
         picture.items.push(Item::Beyond(area, border.clone()));
     }
-    let line = Line::new("border of the surely lost", Role::Danger, Dash::Dotted);
+    let line = LineStyle::new("border of the surely lost", Role::Danger, Dash::Dotted);
     picture.curve(line.briefly("surely lost outside"), border);
 }
 
@@ -314,12 +314,17 @@ fn circle(picture: &mut Picture, parameters: &Parameters, variant: &Variant) {
                 sin_cos(std::f64::consts::TAU * f64::from(corner) / f64::from(CORNERS));
             Point { x: radius * cos, y: radius * sin }
         });
-        let line = Line::new("Lyapunov circle", Role::Lyapunov, Dash::Dotted);
+        let line = LineStyle::new("Lyapunov circle", Role::Lyapunov, Dash::Dotted);
         picture.curve(line.of(variant), corners);
     }
 }
 
-fn cycles(picture: &mut Picture, found: &Cycles, variant: &Variant, kinds: &[machine::Cycle]) {
+fn cycles(
+    picture: &mut Picture,
+    found: &Cycles,
+    variant: &Variant,
+    kinds: &[machine::MachineCycle],
+) {
     let curves = found.picture.iter().flat_map(|picture| &picture.curves);
     for (index, (cycle, curve)) in found.cycles.iter().zip(curves).enumerate() {
         let plain = if cycle.stable { "stable cycle" } else { "unstable cycle" };
@@ -330,7 +335,7 @@ fn cycles(picture: &mut Picture, found: &Cycles, variant: &Variant, kinds: &[mac
         let (role, dash) = stability(cycle.stable);
         let points: Vec<Point> = curve.iter().map(point).collect();
         picture.name_curve(&points, own, role);
-        picture.curve(Line::new(name, role, dash).of(variant), points);
+        picture.curve(LineStyle::new(name, role, dash).of(variant), points);
     }
 }
 
@@ -340,14 +345,14 @@ fn ghost(picture: &mut Picture, session: &Session) {
         match answer {
             Answer::Trajectory(found) => {
                 let samples = found.samples.iter().map(|sample| Point { x: sample.q, y: sample.v });
-                let line = Line::new("motion left", Role::Ghost, Dash::Dotted);
+                let line = LineStyle::new("motion left", Role::Ghost, Dash::Dotted);
                 picture.curve(line.briefly("the point left"), samples);
             }
             Answer::Cycles(found) => {
                 let curves = found.picture.iter().flat_map(|drawn| &drawn.curves);
                 for (cycle, curve) in found.cycles.iter().zip(curves) {
                     let role = if cycle.stable { Role::GhostStable } else { Role::GhostUnstable };
-                    let line = Line::new("cycle left", role, Dash::Dashed);
+                    let line = LineStyle::new("cycle left", role, Dash::Dashed);
                     picture.curve(line.briefly("the point left"), curve.iter().map(point));
                 }
             }

@@ -5,7 +5,7 @@
 //! else.
 
 use super::belt_path;
-use super::items::{Fill, Item, Line, Pattern, Picture};
+use super::items::{Fill, Item, LineStyle, Pattern, Picture};
 use super::reading::reading;
 use super::role::{Dash, Mark, Role};
 use crate::oscillator::Symbol;
@@ -40,24 +40,24 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     }
     signs(&mut picture, abscissa, against, session.value(Symbol::R));
     if let Some(chart) = found {
-        let mut boundary = |boundary, line: Line| {
+        let mut boundary = |boundary, line: LineStyle| {
             for run in chart.boundary(boundary) {
                 picture.curve(line.clone(), run.into_iter().map(|(x, y)| Point { x, y }));
             }
         };
         if shows(Layer::Boundaries) {
-            boundary(BoundaryKind::Fold, Line::new("fold", Role::Special, Dash::Solid));
-            boundary(BoundaryKind::Escape, Line::new("escape", Role::Danger, Dash::Solid));
+            boundary(BoundaryKind::Fold, LineStyle::new("fold", Role::Special, Dash::Solid));
+            boundary(BoundaryKind::Escape, LineStyle::new("escape", Role::Danger, Dash::Solid));
         }
         if shows(Layer::HarmonicFold) {
-            let line = Line::new("fold of the first harmonic", Role::Harmonic, Dash::Dotted);
+            let line = LineStyle::new("fold of the first harmonic", Role::Harmonic, Dash::Dotted);
             boundary(BoundaryKind::Harmonic, line.briefly("fold of one harmonic"));
         }
         if shows(Layer::Regimes) {
             names_of_regimes(&mut picture, chart);
         }
     }
-    let present = || Line::new("present value", Role::Current, Dash::Sparse);
+    let present = || LineStyle::new("present value", Role::Current, Dash::Sparse);
     picture.upright(present(), here.x);
     let level = [window.x.from(), window.x.to()].map(|x| Point { x, y: here.y });
     picture.curve(present(), level);
@@ -85,9 +85,9 @@ fn texture(regime: Regime) -> Option<Fill> {
 /// Where a parameter changes its sign; D = 0 is the Hopf point where there is no friction.
 fn signs(picture: &mut Picture, right: Symbol, up: Symbol, friction: f64) {
     let window = picture.window;
-    picture.upright(Line::guide(), 0.0);
+    picture.upright(LineStyle::guide(), 0.0);
     let level = [window.x.from(), window.x.to()].map(|x| Point { x, y: 0.0 });
-    picture.curve(Line::guide(), level);
+    picture.curve(LineStyle::guide(), level);
     let without = friction == 0.0;
     let hopf = match (right, up) {
         (Symbol::D, Symbol::R) | (Symbol::R, Symbol::D) => Some(Point { x: 0.0, y: 0.0 }),

@@ -3,7 +3,7 @@
 //! Where the map crosses the diagonal it has a cycle; where it enters the shaded band the motion comes
 //! to rest. The turning points of the motion climb and descend between map and diagonal as a cobweb.
 
-use super::items::{Item, Line, Marks, Picture};
+use super::items::{Item, LineStyle, Marks, Picture};
 use super::phase_plane::{self, sticking_set};
 use super::reading::reading;
 use super::role::{Dash, Mark, Role};
@@ -24,17 +24,17 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     let r = session.problem.parameters.r;
 
     if shows(Layer::Map) && r > 0.0 {
-        let rest = || Line::new("at rest there", Role::Basin, Dash::Solid);
+        let rest = || LineStyle::new("at rest there", Role::Basin, Dash::Solid);
         picture.items.extend([Item::Rows(rest(), -r, r), Item::Columns(rest(), -r, r)]);
     }
-    picture.graph(Line::new("diagonal", Role::Axis, Dash::Sparse), Some);
+    picture.graph(LineStyle::new("diagonal", Role::Axis, Dash::Sparse), Some);
     if shows(Layer::Map)
         && let Some(found) = session.return_map(index)
     {
         for side in &found.sides {
             let points =
                 side.iter().map(|turn| Point { x: turn.from, y: turn.to.unwrap_or(f64::NAN) });
-            picture.curve(Line::new("next turning point", Role::Map, Dash::Solid), points);
+            picture.curve(LineStyle::new("next turning point", Role::Map, Dash::Solid), points);
         }
         // A mass at rest there stays there.
         let held = found.parameters.r;
@@ -73,7 +73,7 @@ fn cobweb(picture: &mut Picture, session: &Session) {
 }
 
 /// Those of one motion, drawn like it.
-fn turns(picture: &mut Picture, motion: &Trajectory, like: &Line) {
+fn turns(picture: &mut Picture, motion: &Trajectory, like: &LineStyle) {
     let points = turning_points(motion);
     let rest = match motion.outcome {
         Outcome::Captured { q, .. } => Some(q),
@@ -90,7 +90,7 @@ fn turns(picture: &mut Picture, motion: &Trajectory, like: &Line) {
             [Point { x: from, y: to }, Point { x: to, y: to }]
         });
         let first = turns.first().map(|q| Point { x: *q, y: *q });
-        let line = Line::new(format!("{}, turn by turn", like.name), like.role, like.dash);
+        let line = LineStyle::new(format!("{}, turn by turn", like.name), like.role, like.dash);
         let brief = if like.role == Role::Beside { "motions beside" } else { "motion" };
         picture.curve(line.briefly(brief), first.into_iter().chain(steps));
         if let Some(start) = first {

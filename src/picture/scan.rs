@@ -1,6 +1,6 @@
 //! A scan over one parameter, as a curve. A map of shades over two is drawn by the screen alone.
 
-use super::items::{Line, Picture};
+use super::items::{LineStyle, Picture};
 use super::role::{Dash, Role};
 use super::ticks::Scale;
 use crate::scene::{Point, View};
@@ -41,7 +41,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     let mut picture = Picture::new(title, x, y, window);
     picture.varied = scanned.scan.over().iter().map(|sweep| sweep.symbol).collect();
     if !scanned.is_grid() {
-        let line = Line::new(y, Role::Trajectory, Dash::Solid);
+        let line = LineStyle::new(y, Role::Trajectory, Dash::Solid);
         let nowhere = Point { x: f64::NAN, y: f64::NAN };
         let points = 0..scanned.rows.len();
         picture.curve(line, points.map(|index| scanned.place(index).unwrap_or(nowhere)));

@@ -2,22 +2,22 @@
 //! where it is stable and dashed where it is not, stick-slip in thick ones, overtaking dotted; and where a
 //! stable state ends, the jump to the one that is left.
 
-use super::items::{Item, Line, Picture};
+use super::items::{Item, LineStyle, Picture};
 use super::reading::reading;
 use super::role::{Dash, Role};
-use crate::machine::Cycle;
+use crate::machine::MachineCycle;
 use crate::machine::jumps::{Jump, Landing};
-use crate::machine::special::{Kind, Special};
+use crate::machine::special::{Kind, MachineSpecial};
 use crate::question::speeds::Speed;
 use crate::scene::{Layer, Point, View};
 use crate::session::{self, Session};
 use crate::words::quantity::with_unit;
 
 /// A kind of cycle: what it is called, how it is drawn, and which cycles are of it.
-type Row = (&'static str, Role, Option<Dash>, fn(&Cycle) -> bool);
+type CycleKind = (&'static str, Role, Option<Dash>, fn(&MachineCycle) -> bool);
 
 /// All kinds; those without a dash are drawn thick.
-const KINDS: [Row; 5] = [
+const KINDS: [CycleKind; 5] = [
     ("stable slip cycle", Role::Stable, Some(Dash::Solid), |it| {
         it.stable && !it.sticks && !it.overtakes
     }),
@@ -43,7 +43,8 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         format!("v0 {speed} x_max {x}")
     });
     if let Some(running) = session.running() {
-        picture.upright(Line::new("present speed", Role::Current, Dash::Sparse), running.speed);
+        picture
+            .upright(LineStyle::new("present speed", Role::Current, Dash::Sparse), running.speed);
     }
     if session.layers.contains(&Layer::Speeds)
         && let Some(found) = session.speeds(index)
@@ -61,7 +62,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
 }
 
 /// The cycles of a kind: the smallest of it at all speeds are one curve, the next ones another.
-fn cycles(picture: &mut Picture, points: &[Speed], (name, role, dash, is): Row) {
+fn cycles(picture: &mut Picture, points: &[Speed], (name, role, dash, is): CycleKind) {
     let most = points.iter().map(|at| at.cycles.iter().filter(|it| is(it)).count()).max();
     for rank in 0..most.unwrap_or(0) {
         let place = |at: &Speed| {
@@ -70,10 +71,10 @@ fn cycles(picture: &mut Picture, points: &[Speed], (name, role, dash, is): Row) 
         };
         let places: Vec<Point> = points.iter().map(place).collect();
         match dash {
-            Some(dash) => picture.curve(Line::new(name, role, dash), places),
+            Some(dash) => picture.curve(LineStyle::new(name, role, dash), places),
             None => {
                 for pair in places.windows(2).filter(|pair| (pair[0].y + pair[1].y).is_finite()) {
-                    picture.bar(Line::new(name, role, Dash::Solid), pair[0], pair[1]);
+                    picture.bar(LineStyle::new(name, role, Dash::Solid), pair[0], pair[1]);
                 }
             }
         }
@@ -84,14 +85,14 @@ fn cycles(picture: &mut Picture, points: &[Speed], (name, role, dash, is): Row) 
 fn rest(picture: &mut Picture, points: &[Speed]) {
     let stable =
         points.iter().map(|at| Point { x: at.v0, y: if at.rests { 0.0 } else { f64::NAN } });
-    picture.curve(Line::new("rest", Role::Sticking, Dash::Solid), stable.collect::<Vec<_>>());
+    picture.curve(LineStyle::new("rest", Role::Sticking, Dash::Solid), stable.collect::<Vec<_>>());
     let touching = points.iter().map(|at| Point { x: at.v0, y: at.touching.unwrap_or(f64::NAN) });
-    let line = Line::new("touches the belt", Role::Special, Dash::Dotted);
+    let line = LineStyle::new("touches the belt", Role::Special, Dash::Dotted);
     picture.curve(line, touching.collect::<Vec<_>>());
 }
 
 /// A change, by its letter, and the jumps from the stable states that end there.
-fn changes(picture: &mut Picture, special: &Special) {
+fn changes(picture: &mut Picture, special: &MachineSpecial) {
     let letter = match special.kind {
         Kind::Hopf => "H",
         Kind::Grazing => "G",
@@ -110,7 +111,7 @@ fn changes(picture: &mut Picture, special: &Special) {
             Landing::Escaped | Landing::Unknown => picture.window.y.to(),
         };
         let ends = [from, to].map(|y| Point { x: at, y });
-        picture.curve(Line::new(name, Role::Warning, dash), ends);
+        picture.curve(LineStyle::new(name, Role::Warning, dash), ends);
     }
     picture.items.push(Item::Caption {
         at: Point { x: at, y: special.x_max.unwrap_or(0.0) },

@@ -120,7 +120,7 @@ impl Ticks {
 
     /// The finest ticks that `fit`; none at all if not even a single one fits.
     pub fn fitting(axis: Span, fit: impl Fn(&[Tick]) -> bool) -> Self {
-        let mut step = Step::at_least(axis.width() / MOST);
+        let mut step = TickStep::at_least(axis.width() / MOST);
         loop {
             let ticks = step.ticks(axis);
             if ticks.ticks.is_empty() || fit(&ticks.ticks) {
@@ -148,15 +148,15 @@ fn decades(axis: Span, sign: &str, digits: &[i64], every: usize) -> Vec<Tick> {
 
 /// A distance between ticks: `digit * 10^power` with digit 1, 2 or 5.
 #[derive(Clone, Copy)]
-struct Step {
+struct TickStep {
     digit: i64,
     power: i32,
 }
 
-impl Step {
+impl TickStep {
     /// The smallest round step not below `width`.
     fn at_least(width: f64) -> Self {
-        let mut step = Step { digit: 1, power: decade(width) };
+        let mut step = TickStep { digit: 1, power: decade(width) };
         while decimal(step.digit, step.power) < width {
             step = step.coarser();
         }
@@ -165,9 +165,9 @@ impl Step {
 
     fn coarser(self) -> Self {
         match self.digit {
-            1 => Step { digit: 2, ..self },
-            2 => Step { digit: 5, ..self },
-            _ => Step { digit: 1, power: self.power + 1 },
+            1 => TickStep { digit: 2, ..self },
+            2 => TickStep { digit: 5, ..self },
+            _ => TickStep { digit: 1, power: self.power + 1 },
         }
     }
 

@@ -3,7 +3,7 @@
 //! Displacement and energy change smoothly through the turning points, where the force of friction
 //! jumps from one end of `[-r, r]` to the other; at rest it is what the spring asks for.
 
-use super::items::{Item, Line, Marks, Picture};
+use super::items::{Item, LineStyle, Marks, Picture};
 use super::phase_plane::{motion, number_curve};
 use super::reading::CELLS;
 use super::role::{Dash, Mark, Role};
@@ -42,10 +42,10 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
             format!("{line} {letter} {}", value(read(state)))
         })
     });
-    picture.level(Line::guide(), 0.0);
+    picture.level(LineStyle::guide(), 0.0);
     if let Some(fitted) = session.fitted().filter(|_| shows(Layer::Record)) {
         let points = fitted.points.iter().map(|point| Point { x: point.tau, y: point.q });
-        picture.curve(Line::new("record", Role::Ghost, Dash::Solid), points);
+        picture.curve(LineStyle::new("record", Role::Ghost, Dash::Solid), points);
     }
     for (place, beside) in session.motions().into_iter().filter(|(place, _)| *place > 0) {
         let line = motion(session, place);
@@ -59,7 +59,8 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
                 }
                 number_curve(&mut picture, number, &points, line.role);
                 let name = format!("{name}, {}", line.name);
-                picture.curve(Line::new(name, line.role, dash).briefly("motions beside"), points);
+                picture
+                    .curve(LineStyle::new(name, line.role, dash).briefly("motions beside"), points);
             }
         }
     }
@@ -72,14 +73,14 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         if let Some(force) = force.clone() {
             let points: Vec<Point> = force.into_iter().map(|(x, y)| Point { x, y }).collect();
             let first = points.first().copied();
-            picture.curve(Line::new("friction force f", Role::Sticking, Dash::Solid), points);
+            picture.curve(LineStyle::new("friction force f", Role::Sticking, Dash::Solid), points);
             label(&mut picture, first, "f", Role::Sticking);
         }
         for (layer, letter, name, role, dash, read) in QUANTITIES {
             if shows(layer) {
                 let points = curve(motion, end, read);
                 number_curve(&mut picture, session.number(0), &points, role);
-                picture.curve(Line::new(name, role, dash), points);
+                picture.curve(LineStyle::new(name, role, dash), points);
                 let first = motion.samples.first();
                 let first = first.map(|s| Point { x: s.tau, y: read(State { q: s.q, v: s.v }) });
                 label(&mut picture, first, letter, role);
@@ -89,7 +90,11 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
             for (.., read) in QUANTITIES.iter().filter(|(layer, ..)| shows(*layer)) {
                 let [from, to] =
                     ride.map(|end| Point { x: end.tau, y: read(State { q: end.q, v: end.v }) });
-                picture.bar(Line::new("sticks to the belt", Role::Current, Dash::Solid), from, to);
+                picture.bar(
+                    LineStyle::new("sticks to the belt", Role::Current, Dash::Solid),
+                    from,
+                    to,
+                );
             }
         }
         if shows(Layer::Events) {
@@ -97,7 +102,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         }
     }
     if let Some(head) = session.head() {
-        picture.upright(Line::new("", Role::Cursor, Dash::Sparse), head.tau);
+        picture.upright(LineStyle::new("", Role::Cursor, Dash::Sparse), head.tau);
         for (.., read) in QUANTITIES.iter().filter(|(layer, ..)| shows(*layer)) {
             let y = read(State { q: head.q, v: head.v });
             picture.mark(Mark::Head, Point { x: head.tau, y }, Role::Cursor);
@@ -152,7 +157,7 @@ fn events(picture: &mut Picture, motion: &Trajectory) {
             picture.mark(Mark::Head, Point { x: tau, y: q }, Role::Trajectory);
         }
         Outcome::Escaped { tau } => {
-            picture.upright(Line::new("escapes", Role::Danger, Dash::Sparse), tau);
+            picture.upright(LineStyle::new("escapes", Role::Danger, Dash::Sparse), tau);
         }
         Outcome::GaveUp { .. } => {}
     }

@@ -3,7 +3,7 @@
 //! Each method is a curve through its tolerances, steps or widths, with its name at the finest; the best
 //! choices stand out, and so does the row that is nearest to the method in use.
 
-use super::items::{Item, Line, Marks, Picture};
+use super::items::{Item, LineStyle, Marks, Picture};
 use super::role::{Dash, Mark, Role};
 use crate::flow::{METHODS, Method};
 use crate::scene::{Layer, Point, View};
@@ -51,7 +51,7 @@ fn curves(picture: &mut Picture, found: &Trade) {
         };
         let own = found.rows.iter().filter(|row| row.problem.method == spec.method);
         let points: Vec<Point> = own.filter_map(place).collect();
-        picture.curve(Line::new(spec.name, role, dash).captioned(), points.iter().copied());
+        picture.curve(LineStyle::new(spec.name, role, dash).captioned(), points.iter().copied());
         picture.items.push(Item::Marks(Marks::new(Mark::Turn, role, points)));
     }
 }

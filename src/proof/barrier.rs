@@ -3,7 +3,7 @@
 
 use super::field::Field;
 use super::funnel::Funnel;
-use super::swing::{Start, swing_below};
+use super::swing::{StartBox, swing_below};
 use crate::numerics::Interval;
 
 /// Lower bound of where swings that start next to the centre end, for `a <= -2`: there the centre is a
@@ -24,7 +24,7 @@ pub fn least_end(field: &Field, funnel: Option<&Funnel>) -> f64 {
     if !(at.lower() > 0.0 && v.lower() > 0.0) {
         return 0.0;
     }
-    let start = Start { x: at, v: Interval::point(v.lower()) };
+    let start = StartBox { x: at, v: Interval::point(v.lower()) };
     let ceiling = funnel.map_or(f64::INFINITY, |it| it.ceiling);
     let field = field.strongest();
     let passage = swing_below(&field, &start, ceiling);

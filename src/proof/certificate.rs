@@ -4,10 +4,10 @@
 //! checker: it walks from the sticking set outwards, as far at a time as the image of where it stands.
 
 use super::cycles::{Proof, ProvedCycle};
-use super::map::{Direction, ReturnMap};
+use super::map::{Direction, ProvedMap};
 use super::theorems::Theorem;
 use crate::check::map::Map;
-use crate::check::{Bounds, Certificate, Kind, Step};
+use crate::check::{Bounds, Certificate, CertificateStep, Kind};
 use crate::numerics::Interval;
 use crate::numerics::elementary::cbrt;
 
@@ -28,7 +28,7 @@ pub fn certificate(proof: &Proof) -> Result<Certificate, String> {
             Theorem::Affine => Kind::Affine,
             Theorem::Frictionless => Kind::Frictionless,
         };
-        vec![Step { kind, from: 0.0, to: None, clearance: None, fences: None }]
+        vec![CertificateStep { kind, from: 0.0, to: None, clearance: None, fences: None }]
     } else {
         let mut walk = Walk { parameters, at: 0.0, above: false, steps: Vec::new() };
         walk.begin(proof)?;
@@ -60,7 +60,7 @@ struct Walk {
     at: f64,
     /// Whether G lies above the diagonal here.
     above: bool,
-    steps: Vec<Step>,
+    steps: Vec<CertificateStep>,
 }
 
 /// Steps after which a certificate is given up.
@@ -81,7 +81,7 @@ impl Walk {
 
     /// From where motions come to rest within a turn, or from next to a node that repels.
     fn begin(&mut self, proof: &Proof) -> Result<(), String> {
-        let mut map = ReturnMap::new(&proof.parameters);
+        let mut map = ProvedMap::new(&proof.parameters);
         let second = map.half(1, Direction::Backward, Interval::point(0.0)).lower();
         let first = map.half(0, Direction::Backward, Interval::point(second)).lower();
         let known = first > 0.0 && first < f64::INFINITY;
@@ -102,7 +102,7 @@ impl Walk {
 
     /// Goes a step.
     fn take(&mut self, kind: Kind, to: Option<f64>, clearance: Option<Bounds>, fences: Fences) {
-        self.steps.push(Step { kind, from: self.at, to, clearance, fences });
+        self.steps.push(CertificateStep { kind, from: self.at, to, clearance, fences });
         self.at = to.unwrap_or(f64::INFINITY);
     }
 

@@ -8,7 +8,7 @@
 //! do not), or by the distance from the diagonal in the middle; else it is halved.
 
 use super::ends::{Sign, sign_at};
-use super::map::{Bound, Direction, ReturnMap};
+use super::map::{Bound, Direction, ProvedMap};
 use crate::numerics::Interval;
 use crate::numerics::elementary::pow;
 
@@ -16,7 +16,7 @@ use crate::numerics::elementary::pow;
 const NARROWEST: f64 = 1e-13;
 
 /// An end of a gap, with the side of the diagonal on which the map lies there.
-pub type Edge = (f64, Sign);
+pub type GapEnd = (f64, Sign);
 
 /// What became of the gaps.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -29,7 +29,13 @@ pub struct Count {
 
 impl Count {
     /// Decides the gap between two edges.
-    pub fn decide(&mut self, map: &mut ReturnMap, mut low: Edge, mut high: Edge, halvings: u32) {
+    pub fn decide(
+        &mut self,
+        map: &mut ProvedMap,
+        mut low: GapEnd,
+        mut high: GapEnd,
+        halvings: u32,
+    ) {
         /// A walk goes on while each step takes this part of the gap away.
         const WORTH: f64 = 0.25;
         /// Two cycles' worth of walking before the derivative is asked.
@@ -63,7 +69,7 @@ impl Count {
     }
 
     /// Leaves a gap open, together with an open one that it touches.
-    fn leave(&mut self, low: Edge, high: Edge) {
+    fn leave(&mut self, low: GapEnd, high: GapEnd) {
         let gap = Interval::new(low.0, high.0);
         match self.open.last_mut() {
             Some(last) if last.upper() >= gap.lower() => *last = last.hull(gap),
@@ -72,7 +78,7 @@ impl Count {
     }
 
     /// Decides by the derivative, of the map or of its inverse; whether it could.
-    fn settle(&mut self, map: &mut ReturnMap, gap: Interval, low: Sign, high: Sign) -> bool {
+    fn settle(&mut self, map: &mut ProvedMap, gap: Interval, low: Sign, high: Sign) -> bool {
         // Near a cycle that repels the inverse contracts, and is known where the map itself is not.
         let repels = low == Sign::Below && high == Sign::Above;
         let directions = [Direction::Forward, Direction::Backward];
@@ -82,7 +88,7 @@ impl Count {
 
     fn settle_along(
         &mut self,
-        map: &mut ReturnMap,
+        map: &mut ProvedMap,
         direction: Direction,
         gap: Interval,
         low: Sign,
@@ -108,7 +114,7 @@ impl Count {
 }
 
 /// The new lower edge of a gap.
-fn from_below(map: &mut ReturnMap, (at, sign): Edge) -> f64 {
+fn from_below(map: &mut ProvedMap, (at, sign): GapEnd) -> f64 {
     let direction = match sign {
         Sign::Above => Direction::Forward,
         Sign::Below => Direction::Backward,
@@ -117,7 +123,7 @@ fn from_below(map: &mut ReturnMap, (at, sign): Edge) -> f64 {
 }
 
 /// The new upper edge of a gap.
-fn from_above(map: &mut ReturnMap, (at, sign): Edge) -> f64 {
+fn from_above(map: &mut ProvedMap, (at, sign): GapEnd) -> f64 {
     let direction = match sign {
         Sign::Above => Direction::Backward,
         Sign::Below => Direction::Forward,
@@ -126,7 +132,7 @@ fn from_above(map: &mut ReturnMap, (at, sign): Edge) -> f64 {
 }
 
 /// A point inside a gap at which the sign is certain.
-fn clear_middle(map: &mut ReturnMap, gap: Interval) -> Option<Edge> {
+fn clear_middle(map: &mut ProvedMap, gap: Interval) -> Option<GapEnd> {
     /// Parts of the way at which to look.
     const PARTS: [f64; 6] = [0.5, 0.57, 0.43, 0.64, 0.36, 0.79];
     let (low, high) = (gap.lower(), gap.upper());
@@ -147,7 +153,7 @@ mod tests {
     #[test]
     fn cycles_next_to_a_fold_are_told_apart() {
         let [d, d2, d3, r] = [-0.172_784_28, 0.2, 0.5, 0.1].map(Interval::point);
-        let mut map = ReturnMap::new(&ParameterBox { d, d2, d3, r });
+        let mut map = ProvedMap::new(&ParameterBox { d, d2, d3, r });
         let mut count = Count::default();
         count.decide(&mut map, (0.414, Sign::Below), (0.417, Sign::Below), 40);
         let cycles = [(0.415_062_415_659, false), (0.416_021_602_729, true)];

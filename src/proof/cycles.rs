@@ -7,7 +7,7 @@ use super::count::Count;
 use super::enclose::{Enclosure, enclose};
 use super::ends::{End, inner_end, outer_end};
 use super::field::{ParameterBox, scaled};
-use super::map::ReturnMap;
+use super::map::ProvedMap;
 use super::theorems::{Theorem, theorem};
 use crate::numerics::Interval;
 use crate::numerics::scaling::exponent;
@@ -86,7 +86,7 @@ pub fn prove(parameters: &ParameterBox, hints: &[f64]) -> Proof {
 
 fn prove_in_units(parameters: &ParameterBox, hints: &[f64]) -> Proof {
     let theorem = theorem(parameters);
-    let mut map = ReturnMap::new(parameters);
+    let mut map = ProvedMap::new(parameters);
     let mut proof =
         Proof { parameters: *parameters, theorem, cycles: Vec::new(), open: Vec::new(), swings: 0 };
     let known = match theorem {
@@ -120,7 +120,7 @@ fn prove_in_units(parameters: &ParameterBox, hints: &[f64]) -> Proof {
 }
 
 /// Counts by the return map.
-fn counted(map: &mut ReturnMap) -> Count {
+fn counted(map: &mut ProvedMap) -> Count {
     /// Halvings of the whole range before a gap is left open.
     const HALVINGS: u32 = 60;
     let mut count = Count::default();

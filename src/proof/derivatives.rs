@@ -1,7 +1,7 @@
 //! The derivatives of the return map by the clearance and by each parameter, enclosed.
 
 use super::field::{Field, ParameterBox};
-use super::swing::{Start, swing_with_derivatives};
+use super::swing::{StartBox, swing_with_derivatives};
 use crate::numerics::Interval;
 use crate::oscillator::Side;
 
@@ -34,7 +34,7 @@ pub fn derivatives(parameters: &ParameterBox, clearance: Interval) -> Option<Der
     let (mut from, mut by) = (clearance, [Interval::point(1.0), zero, zero, zero, zero]);
     for side in [Side::Lower, Side::Upper] {
         let field = Field::new(parameters, side);
-        let found = swing_with_derivatives(&field, &Start::at_rest(from)).arrived()?;
+        let found = swing_with_derivatives(&field, &StartBox::at_rest(from)).arrived()?;
         let slope = from / found.end * found.divergence.exp();
         let [a, b, c] = found.derivatives?;
         let b = if side == Side::Upper { b } else { -b };

@@ -2,7 +2,7 @@
 //! numbers.
 
 use super::field::{ParameterBox, scaled};
-use super::map::{Direction, ReturnMap};
+use super::map::{Direction, ProvedMap};
 use super::swing::Swing;
 use crate::numerics::Interval;
 use serde::Serialize;
@@ -59,7 +59,7 @@ impl Enclosure {
 ///
 /// The map is run the way in which it contracts: at a cycle that repels, backward.
 pub fn enclose(
-    map: &mut ReturnMap,
+    map: &mut ProvedMap,
     guess: f64,
     within: Interval,
     stable: bool,
@@ -91,7 +91,7 @@ pub fn enclose(
         }
     }
     // The only cycle within an interval lies in every step of the method from there, interior or not.
-    let only = |map: &mut ReturnMap| newton(map, within, direction)?.intersection(within);
+    let only = |map: &mut ProvedMap| newton(map, within, direction)?.intersection(within);
     let known = around.map(|(inner, _)| inner);
     let mut clearance = known.or_else(|| only(map).or(within.is_finite().then_some(within)))?;
     // Over so little as the smallest radius the derivative is as good as at a point.
@@ -105,7 +105,7 @@ pub fn enclose(
 
 /// One step of the interval Newton method: all fixed points in `over` lie in the result, and if that lies in
 /// the interior of `over` there is exactly one.
-fn newton(map: &mut ReturnMap, over: Interval, direction: Direction) -> Option<Interval> {
+fn newton(map: &mut ProvedMap, over: Interval, direction: Direction) -> Option<Interval> {
     let middle = Interval::point(over.middle());
     let off = map.image(direction, middle) - middle;
     let slope = map.slope(direction, over)? - Interval::point(1.0);
@@ -114,7 +114,7 @@ fn newton(map: &mut ReturnMap, over: Interval, direction: Direction) -> Option<I
 }
 
 /// A step of Newton's method in plain numbers.
-fn polished(map: &mut ReturnMap, near: f64, direction: Direction) -> f64 {
+fn polished(map: &mut ProvedMap, near: f64, direction: Direction) -> f64 {
     let Some((image, slope)) = map.image_and_slope(direction, Interval::point(near)) else {
         return near;
     };
@@ -123,7 +123,7 @@ fn polished(map: &mut ReturnMap, near: f64, direction: Direction) -> f64 {
 }
 
 /// All numbers of the cycle with this clearance.
-fn describe(map: &mut ReturnMap, clearance: Interval, direction: Direction) -> Option<Enclosure> {
+fn describe(map: &mut ProvedMap, clearance: Interval, direction: Direction) -> Option<Enclosure> {
     let ParameterBox { r, .. } = map.parameters;
     let gap = r.twice();
     // The clearance of the left turning point, then the swings below and above.
@@ -180,9 +180,9 @@ mod tests {
     use super::*;
     use crate::numerics::interval::PI;
 
-    fn map(parameters: [f64; 4]) -> ReturnMap {
+    fn map(parameters: [f64; 4]) -> ProvedMap {
         let [d, d2, d3, r] = parameters.map(Interval::point);
-        ReturnMap::new(&ParameterBox { d, d2, d3, r })
+        ProvedMap::new(&ParameterBox { d, d2, d3, r })
     }
 
     /// Linear half swings multiply by `m = exp(-pi D/sqrt(1 - D^2))`: the cycle is at `2 r/(m - 1)`, its multiplier `m^2`.

@@ -1,7 +1,7 @@
 //! The two ends of the search for cycles: below one clearance and above another there is none.
 
 use super::barrier::least_end;
-use super::map::{Direction, ReturnMap};
+use super::map::{Direction, ProvedMap};
 use crate::numerics::Interval;
 
 /// On which side of the diagonal the return map lies.
@@ -25,7 +25,7 @@ pub enum End {
 }
 
 /// The inner end.
-pub fn inner_end(map: &mut ReturnMap) -> End {
+pub fn inner_end(map: &mut ProvedMap) -> End {
     /// Halvings of a clearance that comes to rest, where the inverse is not to be had.
     const HALVINGS: i32 = 40;
     // The last clearances from which the second swing, and both swings, end in the sticking set.
@@ -70,7 +70,7 @@ pub fn inner_end(map: &mut ReturnMap) -> End {
 }
 
 /// The outer end; `inner` is the clearance at the inner one.
-pub fn outer_end(map: &mut ReturnMap, inner: f64) -> End {
+pub fn outer_end(map: &mut ProvedMap, inner: f64) -> End {
     let [first, second] = [0, 1].map(|index| {
         let greatest = map.greatest(index, Direction::Forward);
         if greatest < f64::INFINITY {
@@ -109,7 +109,7 @@ pub fn outer_end(map: &mut ReturnMap, inner: f64) -> End {
 }
 
 /// A clearance from which no motion turns twice.
-fn escape(map: &mut ReturnMap, inner: f64) -> End {
+fn escape(map: &mut ProvedMap, inner: f64) -> End {
     let mut clearance = inner.max(map.gap.upper());
     for _ in 0..200 {
         clearance *= 4.0;
@@ -124,7 +124,7 @@ fn escape(map: &mut ReturnMap, inner: f64) -> End {
 }
 
 /// On which side of the diagonal the map certainly lies at a clearance.
-pub fn sign_at(map: &mut ReturnMap, clearance: f64) -> Option<Sign> {
+pub fn sign_at(map: &mut ProvedMap, clearance: f64) -> Option<Sign> {
     let image = map.image(Direction::Forward, Interval::point(clearance));
     if image.lower() > clearance {
         Some(Sign::Above)

@@ -7,7 +7,7 @@
 use super::bracket::bracket;
 use super::field::{Field, ParameterBox};
 use super::funnel::Funnel;
-use super::swing::{Passage, Start, swing};
+use super::swing::{Passage, StartBox, swing};
 use crate::numerics::Interval;
 use crate::oscillator::{Side, Symbol};
 
@@ -43,7 +43,7 @@ pub fn returns_from_infinity(parameters: &ParameterBox) -> Option<bool> {
     }
     let field = Field::new(parameters, weak);
     let run =
-        |field: &Field, from: f64| swing(field, &Start::at_rest(Interval::point(from)), false);
+        |field: &Field, from: f64| swing(field, &StartBox::at_rest(Interval::point(from)), false);
     // The nearest start and the strongest damping escape, or the farthest start and the weakest damping do not.
     if start.lower() > 0.0 && run(&field.strongest(), start.lower()) == Passage::Never {
         return Some(false);

@@ -9,7 +9,7 @@ use super::bracket::bracket;
 use super::count::Count;
 use super::ends::{Sign, sign_at};
 use super::field::ParameterBox;
-use super::map::{Direction, ReturnMap};
+use super::map::{Direction, ProvedMap};
 use crate::numerics::Interval;
 use crate::oscillator::Symbol;
 
@@ -44,13 +44,13 @@ pub fn enclose_fold(
         let value =
             bracket(near, |at| inside(&place(Interval::point(at)), gap, clearance, halvings))?;
         let around = place(value);
-        sides(&mut ReturnMap::new(&around), gap)?;
+        sides(&mut ProvedMap::new(&around), gap)?;
         Some(Fold { value, clearance: touching(&around, gap) })
     })
 }
 
 /// The sign at both ends of a gap, if it is the same.
-fn sides(map: &mut ReturnMap, gap: Interval) -> Option<Sign> {
+fn sides(map: &mut ProvedMap, gap: Interval) -> Option<Sign> {
     let low = sign_at(map, gap.lower())?;
     (sign_at(map, gap.upper())? == low).then_some(low)
 }
@@ -60,7 +60,7 @@ fn inside(parameters: &ParameterBox, gap: Interval, near: f64, halvings: u32) ->
     if !(parameters.r.lower() >= 0.0) {
         return None;
     }
-    let mut map = ReturnMap::new(parameters);
+    let mut map = ProvedMap::new(parameters);
     let sign = sides(&mut map, gap)?;
     if sign_at(&mut map, near).is_some_and(|middle| middle != sign) {
         return Some(true);
@@ -74,7 +74,7 @@ fn inside(parameters: &ParameterBox, gap: Interval, near: f64, halvings: u32) ->
 fn touching(parameters: &ParameterBox, gap: Interval) -> Interval {
     /// The part of the interval that is tried at either end: a smaller one where a larger one is not certain.
     const PARTS: [f64; 4] = [0.3, 0.1, 0.03, 0.01];
-    let mut map = ReturnMap::new(parameters);
+    let mut map = ProvedMap::new(parameters);
     let mut regular = |lower: f64, upper: f64| {
         let slope = map.slope(Direction::Forward, Interval::new(lower, upper));
         upper > lower && slope.is_some_and(|slope| !slope.contains(1.0))

@@ -6,7 +6,7 @@
 //! `v = speed` (lemma 11), and motions from its two ends, which are no longer stiff, arrive almost together.
 
 use super::field::{Field, scaled};
-use super::swing::{Passage, Start, Swing, swing};
+use super::swing::{Passage, StartBox, Swing, swing};
 use crate::numerics::Interval;
 use crate::numerics::elementary::cbrt;
 use crate::numerics::scaling::exponent;
@@ -60,7 +60,7 @@ impl Funnel {
         let mut follow = |field: &Field, x: f64| {
             *swings += 1;
             let [x, v] = [x, funnel.speed].map(Interval::point);
-            swing(field, &Start { x, v }, false).arrived().map(|it| it.times_power(unit))
+            swing(field, &StartBox { x, v }, false).arrived().map(|it| it.times_power(unit))
         };
         funnel.low = follow(&local.strongest(), funnel.entry.lower());
         funnel.high = follow(&local.weakest(), funnel.entry.upper());

@@ -7,15 +7,15 @@
 
 use super::cycles::{Proof, ProvedCycle};
 use super::field::ParameterBox;
-use super::map::{Direction, ReturnMap};
-use super::swing::{Passage, Start, swing};
+use super::map::{Direction, ProvedMap};
+use super::swing::{Passage, StartBox, swing};
 use super::theorems::Theorem;
 use crate::numerics::Interval;
 use crate::numerics::elementary::powi;
 
 /// What is proved to border the basin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Edge {
+pub enum ProvedEdge {
     /// Nothing: every motion comes to rest.
     None,
     /// The innermost cycle.
@@ -27,9 +27,9 @@ pub enum Edge {
 /// The smallest kicks that are not captured: what is below the lower bound comes to rest, what is above the upper
 /// one does not.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Kicks {
+pub struct ProvedKicks {
     /// What borders the basin, where that is proved.
-    pub edge: Option<Edge>,
+    pub edge: Option<ProvedEdge>,
     /// Smallest displacement at rest; `None` where all are captured or nothing is known.
     pub displacement: Option<Interval>,
     /// Smallest impulse at `q = 0`; likewise.
@@ -48,21 +48,27 @@ const TURNS: usize = 300;
 /// Bounds of the kicks, `proof` being about the cycles at the same parameters; `hints` are kicks near them, of
 /// displacements and of impulses.
 #[must_use]
-pub fn kicks(proof: &Proof, hints: [Option<f64>; 2]) -> Kicks {
+pub fn kicks(proof: &Proof, hints: [Option<f64>; 2]) -> ProvedKicks {
     let parameters = &proof.parameters;
-    let open = |reason| Kicks { edge: None, displacement: None, impulse: None, open: Some(reason) };
+    let open =
+        |reason| ProvedKicks { edge: None, displacement: None, impulse: None, open: Some(reason) };
     if !(parameters.r.lower() > 0.0) {
         return open(NO_FRICTION);
     }
-    let mut map = ReturnMap::new(parameters);
+    let mut map = ProvedMap::new(parameters);
     if proof.is_complete() && proof.cycles.is_empty() && is_bounded(&mut map, proof) {
-        return Kicks { edge: Some(Edge::None), displacement: None, impulse: None, open: None };
+        return ProvedKicks {
+            edge: Some(ProvedEdge::None),
+            displacement: None,
+            impulse: None,
+            open: None,
+        };
     }
     let r = parameters.r;
     let (edge, clearances) = match innermost(proof) {
         Some(cycle) if cycle.stable => return open(ATTRACTS),
         Some(cycle) if let Some(it) = cycle.enclosure => {
-            (Some(Edge::Cycle), [it.clearance, -it.q_min - r])
+            (Some(ProvedEdge::Cycle), [it.clearance, -it.q_min - r])
         }
         _ => {
             let guess = hints[0].map(|hint| hint - r.middle());
@@ -75,7 +81,7 @@ pub fn kicks(proof: &Proof, hints: [Option<f64>; 2]) -> Kicks {
                 return open(NO_EDGE);
             }
             let none = proof.is_complete() && proof.cycles.is_empty();
-            (none.then_some(Edge::Separatrix), [right, left])
+            (none.then_some(ProvedEdge::Separatrix), [right, left])
         }
     };
     let displacement = smaller(clearances[0] + r, clearances[1] + r);
@@ -83,26 +89,26 @@ pub fn kicks(proof: &Proof, hints: [Option<f64>; 2]) -> Kicks {
         [0, 1].map(|half| threshold(hints[1], |speed| pushed(&mut map, half, speed, clearances)));
     let impulse = below.zip(above).map(|(below, above)| smaller(below, above));
     let open = impulse.is_none().then_some(NO_EDGE);
-    Kicks { edge, displacement: Some(displacement), impulse, open }
+    ProvedKicks { edge, displacement: Some(displacement), impulse, open }
 }
 
 /// What certainly borders the basin.
 #[must_use]
-pub fn edge(proof: &Proof) -> Option<Edge> {
+pub fn edge(proof: &Proof) -> Option<ProvedEdge> {
     /// Clearances at which to look for a motion that does not come to rest, in units of r.
     const FAR: [f64; 6] = [1e-3, 0.1, 1.0, 10.0, 1e2, 1e4];
     if !(proof.parameters.r.lower() > 0.0) {
         return None;
     }
     if let Some(innermost) = innermost(proof) {
-        return (!innermost.stable).then_some(Edge::Cycle);
+        return (!innermost.stable).then_some(ProvedEdge::Cycle);
     }
     if !(proof.is_complete() && proof.cycles.is_empty()) {
         return None;
     }
-    let mut map = ReturnMap::new(&proof.parameters);
+    let mut map = ProvedMap::new(&proof.parameters);
     if is_bounded(&mut map, proof) {
-        return Some(Edge::None);
+        return Some(ProvedEdge::None);
     }
     let unit = map.gap.upper();
     let starts = FAR.iter().flat_map(|far| [(0, far * unit), (1, far * unit)]);
@@ -110,7 +116,7 @@ pub fn edge(proof: &Proof) -> Option<Edge> {
         let mut known = Interval::new(0.0, f64::INFINITY);
         at_rest(&mut map, half, clearance, &mut known) == Some(false)
     });
-    lost.then_some(Edge::Separatrix)
+    lost.then_some(ProvedEdge::Separatrix)
 }
 
 /// The innermost cycle, if it is certain that there is none within it.
@@ -125,7 +131,7 @@ fn smaller(one: Interval, other: Interval) -> Interval {
 }
 
 /// Whether no motion grows beyond all bounds.
-fn is_bounded(map: &mut ReturnMap, proof: &Proof) -> bool {
+fn is_bounded(map: &mut ProvedMap, proof: &Proof) -> bool {
     let ParameterBox { d2, d3, .. } = proof.parameters;
     // Of the first integral of lemma 13 for D2 = 0, the energy, every motion loses.
     let energy = proof.theorem == Some(Theorem::OneWay) && d2 == Interval::point(0.0);
@@ -138,7 +144,7 @@ fn is_bounded(map: &mut ReturnMap, proof: &Proof) -> bool {
 /// Whether a start at rest with this clearance is captured, where that is certain; `half` is its first half swing.
 ///
 /// `known` are clearances up to which all are, and from which on none is; it learns from the answer.
-fn at_rest(map: &mut ReturnMap, half: usize, from: f64, known: &mut Interval) -> Option<bool> {
+fn at_rest(map: &mut ProvedMap, half: usize, from: f64, known: &mut Interval) -> Option<bool> {
     let mut at = Interval::point(from);
     for _ in 0..TURNS {
         let before = at;
@@ -164,9 +170,9 @@ fn at_rest(map: &mut ReturnMap, half: usize, from: f64, known: &mut Interval) ->
 
 /// Whether an impulse at `q = 0` is captured, where that is certain, given the clearances of the edge on the right
 /// and on the left.
-fn pushed(map: &mut ReturnMap, half: usize, speed: f64, edge: [Interval; 2]) -> Option<bool> {
+fn pushed(map: &mut ProvedMap, half: usize, speed: f64, edge: [Interval; 2]) -> Option<bool> {
     let field = *map.halves[half].field(Direction::Forward);
-    let start = Start { x: map.parameters.r, v: Interval::point(speed) };
+    let start = StartBox { x: map.parameters.r, v: Interval::point(speed) };
     let passage = swing(&field, &start, false);
     let Passage::Arrives(swing) = passage else {
         return (passage == Passage::Never).then_some(false);

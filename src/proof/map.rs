@@ -9,7 +9,7 @@ use std::cell::OnceCell;
 
 use super::field::{Field, ParameterBox};
 use super::funnel::Funnel;
-use super::swing::{MOST_STEPS, Passage, Start, Swing, swing, swing_below, swing_past_peak};
+use super::swing::{MOST_STEPS, Passage, StartBox, Swing, swing, swing_below, swing_past_peak};
 use crate::numerics::Interval;
 use crate::oscillator::Side;
 
@@ -24,7 +24,7 @@ pub struct Half {
 ///
 /// The first half swing runs below `v = 0`, from the right turning point to the left one, the second above.
 #[derive(Clone, Debug)]
-pub struct ReturnMap {
+pub struct ProvedMap {
     /// The parameters.
     pub parameters: ParameterBox,
     /// The two half maps in the order in which they are run.
@@ -80,7 +80,7 @@ impl Half {
     }
 }
 
-impl ReturnMap {
+impl ProvedMap {
     /// The map at these parameters.
     #[must_use]
     pub fn new(parameters: &ParameterBox) -> Self {
@@ -89,7 +89,7 @@ impl ReturnMap {
             Half { forward, backward: forward.reversed() }
         };
         let halves = [half(Side::Lower), half(Side::Upper)];
-        ReturnMap {
+        ProvedMap {
             parameters: *parameters,
             halves,
             funnels: Default::default(),
@@ -109,7 +109,7 @@ impl ReturnMap {
         if self.steps > MOST_WORK {
             return Passage::Unknown;
         }
-        let passage = swing_below(field, &Start::at_rest(start), ceiling);
+        let passage = swing_below(field, &StartBox::at_rest(start), ceiling);
         self.swings += 1;
         self.steps += match passage {
             Passage::Arrives(swing) | Passage::Exceeds(swing) => swing.steps,
@@ -128,11 +128,11 @@ impl ReturnMap {
     ) -> Option<Swing> {
         let field = *self.halves[index].field(direction);
         self.swings += 1;
-        if let Some(swing) = swing(&field, &Start::at_rest(start), true).arrived() {
+        if let Some(swing) = swing(&field, &StartBox::at_rest(start), true).arrived() {
             return Some(swing);
         }
         let funnel = self.funnel(index, direction)?;
-        let fallen = swing_past_peak(&field, &Start::at_rest(start), funnel.speed());
+        let fallen = swing_past_peak(&field, &StartBox::at_rest(start), funnel.speed());
         let Passage::Exceeds(fallen) = fallen else { return None };
         funnel.swing_after(&field, start, &fallen)
     }

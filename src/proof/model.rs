@@ -9,19 +9,19 @@ use crate::numerics::Interval;
 
 /// All functions on a step that are within `rest` of a polynomial.
 #[derive(Clone, Copy, Debug)]
-pub struct Model {
+pub struct TaylorModel {
     terms: [f64; ORDER],
     rest: f64,
 }
 
-impl Model {
+impl TaylorModel {
     /// A polynomial with these coefficients of powers of time on a step of length `h`, and what is within `rest` of it.
     ///
     /// The power and its product round at most `k + 1` times for the coefficient of degree k. Coefficients beyond the
     /// model's degree go to the rest.
     #[must_use]
     pub fn of_series(coefficients: &[f64], h: f64, rest: f64) -> Self {
-        let mut model = Model { terms: [0.0; ORDER], rest };
+        let mut model = TaylorModel { terms: [0.0; ORDER], rest };
         let (mut power, mut roundings) = (1.0, 1.0);
         for (k, &coefficient) in coefficients.iter().take(ORDER + 1).enumerate() {
             let term = coefficient * power;
@@ -77,7 +77,7 @@ impl Model {
     /// Every member times every member of `other`. A coefficient is a sum of at most [`ORDER`] products.
     #[must_use]
     pub fn times(&self, other: &Self) -> Self {
-        let mut product = Model { terms: [0.0; ORDER], rest: 0.0 };
+        let mut product = TaylorModel { terms: [0.0; ORDER], rest: 0.0 };
         let mut tail = 0.0;
         let mut tails = [0.0; ORDER + 1];
         for k in (0..ORDER).rev() {
@@ -101,7 +101,7 @@ impl Model {
     /// The integral from the beginning of the step, in units of its length.
     #[must_use]
     pub fn integral(&self) -> Self {
-        let mut integral = Model { terms: [0.0; ORDER], rest: self.rest };
+        let mut integral = TaylorModel { terms: [0.0; ORDER], rest: self.rest };
         for (k, term) in self.terms.iter().enumerate() {
             let term = term * INVERSE[k + 1];
             match integral.terms.get_mut(k + 1) {
@@ -130,7 +130,7 @@ impl Model {
             scale *= 0.5;
             squarings += 1;
         }
-        let zero = Model { terms: [0.0; ORDER], rest: 0.0 };
+        let zero = TaylorModel { terms: [0.0; ORDER], rest: 0.0 };
         let small = self.times_plus(Interval::point(scale), &zero);
         let one = zero.plus(Interval::point(1.0));
         let mut sum = one;
@@ -176,7 +176,7 @@ mod tests {
                 term /= -(degree + 1.0) * (degree + 2.0);
                 degree += 2.0;
             }
-            let cosine = Model::of_series(&series, h, 1e-15);
+            let cosine = TaylorModel::of_series(&series, h, 1e-15);
             let sine = cosine.integral();
             let sine_end = sine.at_end() * Interval::point(h);
             assert!(sine_end.contains(sin(h)) && sine_end.width() < 1e-14, "{sine_end}");
@@ -190,9 +190,9 @@ mod tests {
             assert!(power.contains(expected), "{power}");
             assert!(h > 1.0 || power.width() < 1e-12, "{power}");
         }
-        let large = Model { terms: [40.0; ORDER], rest: 0.0 };
+        let large = TaylorModel { terms: [40.0; ORDER], rest: 0.0 };
         assert!(large.exp().is_none());
-        let nothing = Model { terms: [f64::NAN; ORDER], rest: 0.0 };
+        let nothing = TaylorModel { terms: [f64::NAN; ORDER], rest: 0.0 };
         assert!(nothing.exp().is_none());
     }
 
@@ -200,7 +200,7 @@ mod tests {
     #[test]
     fn members_of_models_stay_members() {
         let point = Interval::point;
-        let model = Model::of_series(&[1.0], 1.0, 0.25);
+        let model = TaylorModel::of_series(&[1.0], 1.0, 0.25);
         let product = model.times(&model);
         for member in [0.75, 1.0, 1.25] {
             assert!(model.integral().at_end().contains(member));
@@ -218,7 +218,7 @@ mod tests {
     #[test]
     fn roundings_of_products_are_in_the_rest() {
         let series: Vec<f64> = (0..ORDER / 2).map(|k| 0.1 + sin(0.7 + k as f64)).collect();
-        let model = Model { rest: 0.0, ..Model::of_series(&series, 1.0, 0.0) };
+        let model = TaylorModel { rest: 0.0, ..TaylorModel::of_series(&series, 1.0, 0.0) };
         let product = model.times(&model);
         let errors = (0..ORDER - 1).map(|k| {
             let exact = (0..=k).fold(Twofold::of(0.0), |sum, i| {

@@ -1,9 +1,9 @@
 //! A motion, enclosed: half swing by half swing, until it comes to rest, until a time, or until it escapes.
 
 use super::field::{Field, ParameterBox};
-use super::map::{Direction, ReturnMap};
+use super::map::{Direction, ProvedMap};
 use super::ride::{blow_up, state_at};
-use super::swing::{Passage, Start, Swing, swing};
+use super::swing::{Passage, StartBox, Swing, swing};
 use crate::numerics::Interval;
 
 /// An arrival at `v = 0`.
@@ -17,7 +17,7 @@ pub struct Turn {
 
 /// How a motion certainly ends, or why that is open.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Fate {
+pub enum ProvedFate {
     /// At rest.
     Captured {
         /// Since when.
@@ -48,11 +48,11 @@ pub enum Fate {
 
 /// A motion as far as it is enclosed: what holds for all parameters and starts that were given.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Motion {
+pub struct ProvedMotion {
     /// Every arrival at `v = 0`, the last one included.
     pub turns: Vec<Turn>,
     /// How it ends.
-    pub fate: Fate,
+    pub fate: ProvedFate,
 }
 
 const EDGE: &str = "it arrives within its error of an end of the sticking set";
@@ -67,13 +67,13 @@ const MOST: usize = 20_000;
 
 /// Encloses the motion from displacements `q` and velocities `v` until a time, which may be infinite.
 #[must_use]
-pub fn follow(parameters: &ParameterBox, [q, v]: [Interval; 2], until: f64) -> Motion {
+pub fn follow(parameters: &ParameterBox, [q, v]: [Interval; 2], until: f64) -> ProvedMotion {
     let r = parameters.r;
     let mut turns = Vec::new();
     let mut tau = Interval::point(0.0);
     let rests = v == Interval::point(0.0);
     if rests && q.magnitude() <= r.lower() {
-        return Motion { turns, fate: Fate::Captured { tau, q } };
+        return ProvedMotion { turns, fate: ProvedFate::Captured { tau, q } };
     }
     // 0 below v = 0, where x = r - q, and 1 above, where x = q + r.
     let mut index = match (v.lower() > 0.0, v.upper() < 0.0) {
@@ -83,11 +83,12 @@ pub fn follow(parameters: &ParameterBox, [q, v]: [Interval; 2], until: f64) -> M
         _ if rests && q.upper() < -r.upper() => 1,
         _ => {
             let reason = if rests { EDGE } else { START };
-            return Motion { turns, fate: Fate::Open { tau, reason } };
+            return ProvedMotion { turns, fate: ProvedFate::Open { tau, reason } };
         }
     };
-    let mut start = if index == 1 { Start { x: q + r, v } } else { Start { x: r - q, v: -v } };
-    let mut map = ReturnMap::new(parameters);
+    let mut start =
+        if index == 1 { StartBox { x: q + r, v } } else { StartBox { x: r - q, v: -v } };
+    let mut map = ProvedMap::new(parameters);
     let fate = loop {
         let field = *map.halves[index].field(Direction::Forward);
         let time = Interval::point(until) - tau;
@@ -95,9 +96,9 @@ pub fn follow(parameters: &ParameterBox, [q, v]: [Interval; 2], until: f64) -> M
             let (x, v) =
                 if until < f64::INFINITY { state_at(&field, &start, time)? } else { None? };
             let (q, v) = if index == 1 { (x - r, v) } else { (r - x, -v) };
-            Some(Fate::Moving { q, v })
+            Some(ProvedFate::Moving { q, v })
         };
-        let open = |reason| Fate::Open { tau, reason };
+        let open = |reason| ProvedFate::Open { tau, reason };
         if turns.len() == MOST {
             break open(LONG);
         }
@@ -115,29 +116,29 @@ pub fn follow(parameters: &ParameterBox, [q, v]: [Interval; 2], until: f64) -> M
                 let q = if index == 1 { end - r } else { r - end };
                 turns.push(Turn { tau, q });
                 if end.upper() <= map.gap.lower() {
-                    break Fate::Captured { tau, q };
+                    break ProvedFate::Captured { tau, q };
                 }
                 let clearance = end - map.gap;
                 if !(clearance.lower() > 0.0) {
-                    break Fate::Open { tau, reason: EDGE };
+                    break ProvedFate::Open { tau, reason: EDGE };
                 }
-                (start, index) = (Start::at_rest(clearance), 1 - index);
+                (start, index) = (StartBox::at_rest(clearance), 1 - index);
             }
             Passage::Never => {
                 let escape = blow_up(&field, &start).map(|after| tau + after);
                 break match escape {
-                    Some(escape) if escape.upper() <= until => Fate::Escaped { tau: escape },
+                    Some(escape) if escape.upper() <= until => ProvedFate::Escaped { tau: escape },
                     _ => state().unwrap_or(open(NEVER)),
                 };
             }
             Passage::Unknown | Passage::Exceeds(_) => break state().unwrap_or(open(STIFF)),
         }
     };
-    Motion { turns, fate }
+    ProvedMotion { turns, fate }
 }
 
 /// Where a swing ends: from a wide interval of starts at rest by the motions from its ends (lemma 8).
-fn end(map: &mut ReturnMap, field: &Field, start: &Start, whole: &Swing) -> Interval {
+fn end(map: &mut ProvedMap, field: &Field, start: &StartBox, whole: &Swing) -> Interval {
     let point = start.x.is_point() && field.is_point();
     if point || start.v != Interval::point(0.0) {
         return whole.end;

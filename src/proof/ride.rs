@@ -5,7 +5,7 @@ use super::norm::Norm;
 use super::rounding::INFLATE;
 use super::series::Series;
 use super::step::Prepared;
-use super::swing::{MOST_STEPS, Start, never_returns};
+use super::swing::{MOST_STEPS, StartBox, never_returns};
 use crate::numerics::Interval;
 use crate::numerics::elementary::cbrt;
 use crate::numerics::scaling::exponent;
@@ -29,7 +29,7 @@ struct Ride {
 }
 
 impl Ride {
-    fn new(field: &Field, start: &Start) -> Option<Self> {
+    fn new(field: &Field, start: &StartBox) -> Option<Self> {
         let size = start.x.magnitude().max(start.v.magnitude());
         if !(size > 0.0 && size.is_finite() && start.v.lower() >= 0.0) {
             return None;
@@ -112,7 +112,7 @@ impl Ride {
 ///
 /// `None` where they cannot be had, or where the velocity may have come to 0 before.
 #[must_use]
-pub fn state_at(field: &Field, start: &Start, time: Interval) -> Option<(Interval, Interval)> {
+pub fn state_at(field: &Field, start: &StartBox, time: Interval) -> Option<(Interval, Interval)> {
     let mut ride = Ride::new(field, start)?;
     let target = time.middle();
     for _ in 0..MOST_STEPS {
@@ -146,7 +146,7 @@ fn about(field: &Field, (x, v): (Interval, Interval), off: f64) -> Option<(Inter
 
 /// The time at which the velocity becomes infinite, of motions that never turn; `None` where it has no bound.
 #[must_use]
-pub fn blow_up(field: &Field, start: &Start) -> Option<Interval> {
+pub fn blow_up(field: &Field, start: &StartBox) -> Option<Interval> {
     /// The bound is good enough when it leaves this part of the time open.
     const GOOD: f64 = 1e-12;
     let mut ride = Ride::new(field, start)?;

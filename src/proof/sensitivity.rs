@@ -6,7 +6,7 @@
 //! Taylor models.
 
 use super::field::Field;
-use super::model::Model;
+use super::model::TaylorModel;
 use super::series::Series;
 use crate::numerics::Interval;
 
@@ -26,7 +26,7 @@ impl Weighted {
     pub fn after(&self, field: &Field, series: &Series, h: f64, off: f64) -> Option<Self> {
         let Field { a, b, c } = *field;
         let step = Interval::point(h);
-        let v = Model::of_series(&series.v, h, off);
+        let v = TaylorModel::of_series(&series.v, h, off);
         let square = v.times(&v);
         let zero = v.times_plus(Interval::point(-1.0), &v);
         let slope = square.times_plus(c * Interval::point(3.0), &zero);

@@ -15,18 +15,18 @@ use crate::numerics::scaling::exponent;
 
 /// Where a half swing starts: any point of a box. On `v = 0` it starts left of the centre, `x < 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Start {
+pub struct StartBox {
     /// Position in the frame of the half plane.
     pub x: Interval,
     /// Velocity in that frame, not negative.
     pub v: Interval,
 }
 
-impl Start {
+impl StartBox {
     /// At rest with this clearance from the sticking set.
     #[must_use]
     pub fn at_rest(clearance: Interval) -> Self {
-        Start { x: -clearance, v: Interval::point(0.0) }
+        StartBox { x: -clearance, v: Interval::point(0.0) }
     }
 }
 
@@ -106,31 +106,31 @@ const ATTEMPTS: usize = 12;
 /// Guarantee: the bounds hold for the exact motions, whatever the rounding. `Unknown` where they cannot be
 /// had: a stiff or a wide motion, or one that arrives within its own error of the centre.
 #[must_use]
-pub fn swing(field: &Field, start: &Start, wants_fastest: bool) -> Passage {
+pub fn swing(field: &Field, start: &StartBox, wants_fastest: bool) -> Passage {
     run(field, start, f64::INFINITY, wants_fastest, None)
 }
 
 /// The same, given up as soon as every motion is certainly faster than `ceiling`.
 #[must_use]
-pub fn swing_below(field: &Field, start: &Start, ceiling: f64) -> Passage {
+pub fn swing_below(field: &Field, start: &StartBox, ceiling: f64) -> Passage {
     run(field, start, ceiling, false, None)
 }
 
 /// The same with the largest velocity, given up after that was reached.
 #[must_use]
-pub fn swing_past_peak(field: &Field, start: &Start, ceiling: f64) -> Passage {
+pub fn swing_past_peak(field: &Field, start: &StartBox, ceiling: f64) -> Passage {
     run(field, start, ceiling, true, None)
 }
 
 /// The same with the derivatives by the coefficients of the field (lemma 21), for four times the cost.
 #[must_use]
-pub fn swing_with_derivatives(field: &Field, start: &Start) -> Passage {
+pub fn swing_with_derivatives(field: &Field, start: &StartBox) -> Passage {
     run(field, start, f64::INFINITY, false, Some(Weighted::default()))
 }
 
 fn run(
     field: &Field,
-    start: &Start,
+    start: &StartBox,
     ceiling: f64,
     wants_fastest: bool,
     weighted: Option<Weighted>,
@@ -144,7 +144,7 @@ fn run(
     }
     let unit = exponent(size);
     let local = Prepared::new(&field.in_units_of(unit));
-    let start = Start { x: scaled(start.x, -unit), v: scaled(start.v, -unit) };
+    let start = StartBox { x: scaled(start.x, -unit), v: scaled(start.v, -unit) };
     let (x, v) = (start.x.middle(), start.v.middle());
     // The norm of a vector is at most the sum of its components' magnitudes.
     let radius = (start.x.radius() + start.v.radius()) * INFLATE;
@@ -393,7 +393,7 @@ impl Run {
 
     fn finish(
         &self,
-        start: &Start,
+        start: &StartBox,
         (end, velocity): (Interval, Interval),
         lag: f64,
         unit: i32,

@@ -9,7 +9,9 @@ use super::means::Means;
 use crate::fit::curves::Curves;
 use crate::fit::levenberg_marquardt::Runs;
 use crate::fit::names::Choice;
-use crate::fit::observation::{D, D2, D3, Data, LAST, OFFSET, OMEGA0, Observation, Q0, R, Start};
+use crate::fit::observation::{
+    D, D2, D3, Data, LAST, OFFSET, OMEGA0, Observation, Q0, R, StartKind,
+};
 use crate::fit::{self, refit};
 use crate::fit::{
     Estimate, Inertia, LossName, Margins, Question, Record, Unfit, estimate, length_in_metres,
@@ -220,8 +222,8 @@ fn points(estimate: &Estimate) -> Vec<Measured> {
         Data::Peaks { t, x, .. } => (t.clone().unwrap_or_default(), x),
     };
     let origin = match estimate.start {
-        Start::Release => p[LAST],
-        Start::Moving => t.first().copied().unwrap_or(0.0),
+        StartKind::Release => p[LAST],
+        StartKind::Moving => t.first().copied().unwrap_or(0.0),
     };
     let observation = Observation {
         data: estimate.data.clone(),
@@ -263,7 +265,7 @@ impl Fitted {
     #[must_use]
     pub fn problem(&self, before: Problem) -> Problem {
         let p = &self.fit.estimate.p;
-        let v = if self.fit.estimate.start == Start::Moving { p[LAST] } else { 0.0 };
+        let v = if self.fit.estimate.start == StartKind::Moving { p[LAST] } else { 0.0 };
         let last = self.points.last().map_or(before.until, |point| point.tau);
         Problem {
             parameters: parameters(p),
@@ -282,7 +284,7 @@ impl Fitted {
     /// The unknown that a number is, with its standard error; `None` where it was not estimated.
     #[must_use]
     pub fn error(&self, symbol: Symbol) -> Option<f64> {
-        let place = if symbol == Symbol::V0 && self.fit.estimate.start == Start::Moving {
+        let place = if symbol == Symbol::V0 && self.fit.estimate.start == StartKind::Moving {
             LAST
         } else {
             place(symbol)?

@@ -5,7 +5,7 @@ use super::means::Means;
 use crate::flow::{Cost, Reason};
 use crate::oscillator::Parameters;
 use crate::study::basin::basin;
-use crate::study::kicks::Kicks;
+use crate::study::kicks::RandomKick;
 use crate::study::stability::Share;
 
 /// What is asked.
@@ -14,7 +14,7 @@ pub struct Asked {
     /// The parameters.
     pub parameters: Parameters,
     /// The density of the kicks.
-    pub kicks: Kicks,
+    pub kicks: RandomKick,
 }
 
 /// The part of the kicks that leads out of the basin of the sticking set.
@@ -35,7 +35,7 @@ impl Question for Asked {
     }
 
     fn numbers(&self) -> [f64; 8] {
-        let Kicks { q, v, .. } = self.kicks;
+        let RandomKick { q, v, .. } = self.kicks;
         numbers(&self.parameters, [q.0, q.1, v.0, v.1])
     }
 }

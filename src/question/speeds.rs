@@ -6,10 +6,12 @@ use super::kind::Question;
 use super::means::Means;
 use crate::flow::quality::DRAFT;
 use crate::flow::{Cost, Reason};
-use crate::machine::branch::{Branch, BranchPoint, branch_while, points_while, spaced};
-use crate::machine::special::Special;
+use crate::machine::branch::{
+    MachineBranch, MachineBranchPoint, branch_while, points_while, spaced,
+};
+use crate::machine::special::MachineSpecial;
 use crate::machine::varied::Varied;
-use crate::machine::{Cycle, ORDER, Subject};
+use crate::machine::{MachineCycle, ORDER, Subject};
 use crate::oscillator::Belt;
 use crate::oscillator::belt::Quantity;
 
@@ -19,7 +21,7 @@ pub struct Speeds {
     /// What was found at each speed that has an answer.
     pub points: Vec<Speed>,
     /// The changes.
-    pub special: Vec<Special>,
+    pub special: Vec<MachineSpecial>,
     /// What the speeds took; the changes between them are not counted.
     pub cost: Cost,
 }
@@ -30,7 +32,7 @@ pub struct Speed {
     /// Speed of the belt, in m/s.
     pub v0: f64,
     /// The cycles, by amplitude.
-    pub cycles: Vec<Cycle>,
+    pub cycles: Vec<MachineCycle>,
     /// Largest displacement to the right from which the mass comes to rest, in m, where the motion that
     /// touches the belt borders it.
     pub touching: Option<f64>,
@@ -57,17 +59,17 @@ const VARIED: Varied = Varied::Quantity(Quantity::BeltSpeed);
 
 impl Asked {
     /// What the machine does at the speeds that are looked at, and the changes.
-    fn followed(&self, go: &dyn Fn() -> bool) -> Result<Branch, String> {
+    fn followed(&self, go: &dyn Fn() -> bool) -> Result<MachineBranch, String> {
         let subject = Subject::from(self.belt.as_ref());
         if self.rough {
             let subject = Subject { tolerance: Some(DRAFT.tolerance), ..subject };
             let values = (0..FEW).map(|index| spaced(self.range, index, FEW));
             let points = points_while(&subject, VARIED, values, go)?;
-            return Ok(Branch { points, special: Vec::new() });
+            return Ok(MachineBranch { points, special: Vec::new() });
         }
         let mut found = branch_while(&subject, VARIED, self.range, usize::from(STEPS) + 1, go)?;
         let (from, to) = self.range;
-        let beside = |special: &Special| near(special.value, (to - from) / f64::from(STEPS));
+        let beside = |special: &MachineSpecial| near(special.value, (to - from) / f64::from(STEPS));
         let values = found.special.iter().flat_map(beside);
         let values = values.filter(|value| (from..=to).contains(value));
         found.points.extend(points_while(&subject, VARIED, values, go)?);
@@ -93,7 +95,7 @@ impl Question for Asked {
         if !go() {
             return Err(Reason::Interrupted);
         }
-        let point = |BranchPoint { value, found }: &BranchPoint| {
+        let point = |MachineBranchPoint { value, found }: &MachineBranchPoint| {
             let found = found.as_ref().ok()?;
             let (kind, margin) = (found.border.kind(), found.margin);
             let touching = margin.filter(|_| kind == "grazing").map(|margin| margin.displacement.0);

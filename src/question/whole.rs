@@ -3,11 +3,11 @@
 
 use crate::flow::trajectory::{Crossing, Outcome, Sample, Trajectory};
 use crate::flow::{Cost, Limits, Method, Problem, Reason};
-use crate::machine::curve::{Curve, Piece};
-use crate::machine::motion::{self, Motion};
+use crate::machine::curve::{MachineCurve, Piece};
+use crate::machine::motion::{self, MachineMotion};
 use crate::machine::stepped::{SteppedMethod, Traced, traced};
 use crate::machine::turn::Place;
-use crate::machine::{Fate, Flow, Ledger, Model, Phase, Portrait, Stop};
+use crate::machine::{Flow, MachineFate, MachineLedger, Model, Phase, Portrait, Unfollowed};
 use crate::numerics::elementary::ln;
 use crate::oscillator::{Belt, Parameters, State};
 use crate::study::cycle::CycleErrors;
@@ -17,9 +17,9 @@ use crate::study::{Cycle, Cycles, Edge, Margin, cycle};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Course {
     /// What it ends as; a cycle by its place in [`Self::cycles`].
-    pub fate: Fate,
+    pub fate: MachineFate,
     /// The cycles of the machine, in SI units.
-    pub cycles: Vec<crate::machine::Cycle>,
+    pub cycles: Vec<crate::machine::MachineCycle>,
     /// Name of the kind of border of the basin.
     pub border: &'static str,
     /// Whether the border touches the belt's line.
@@ -27,16 +27,16 @@ pub struct Course {
     /// From where to where it rides on the belt.
     pub rides: Vec<[Sample; 2]>,
     /// Where its energy comes from and goes, in the units of the paper's oscillator.
-    pub ledger: Ledger,
+    pub ledger: MachineLedger,
 }
 
 /// What cycles are like.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Kinds {
     /// The cycles by the whole model, in SI units.
-    pub cycles: Vec<crate::machine::Cycle>,
+    pub cycles: Vec<crate::machine::MachineCycle>,
     /// Where the energy of one turn of each comes from and goes, in the units of the paper's oscillator.
-    pub works: Vec<Ledger>,
+    pub works: Vec<MachineLedger>,
     /// Name of the kind of border of the basin.
     pub border: &'static str,
     /// Whether that touches the belt's line.
@@ -47,7 +47,7 @@ pub struct Kinds {
     /// Whether all that slips is periodic.
     pub neutral: bool,
     /// Why motions further out are not known.
-    pub stop: Option<Stop>,
+    pub stop: Option<Unfollowed>,
 }
 
 /// What 1 stands for, in SI units.
@@ -63,26 +63,28 @@ impl Units {
         Units { x: model.pull, v: model.pull * model.omega_0, t: 1.0 / model.omega_0 }
     }
 
-    fn ledger(self, ledger: &Ledger, model: &Model) -> Ledger {
+    fn ledger(self, ledger: &MachineLedger, model: &Model) -> MachineLedger {
         let unit = model.stiffness * self.x * self.x;
-        let Ledger { start, end, belt, damper, guide } = *ledger;
+        let MachineLedger { start, end, belt, damper, guide } = *ledger;
         let [start, end, belt, damper, guide] =
             [start, end, belt, damper, guide].map(|energy| energy / unit);
-        Ledger { start, end, belt, damper, guide }
+        MachineLedger { start, end, belt, damper, guide }
     }
 
-    fn sample(self, state: &motion::State) -> Sample {
+    fn sample(self, state: &motion::MachineState) -> Sample {
         Sample { tau: state.t / self.t, q: state.x / self.x, v: state.v / self.v }
     }
 }
 
 /// Why the whole model has no answer.
-fn reason(stop: Stop) -> Reason {
+fn reason(stop: Unfollowed) -> Reason {
     Reason::NotApplicable {
         needs: match stop {
-            Stop::OutsideLaw { .. } => "a friction law that reaches the slips of these motions",
-            Stop::Escaped | Stop::Settled => "motions that turn",
-            Stop::Steps => "motions that turn within some thousand steps",
+            Unfollowed::OutsideLaw { .. } => {
+                "a friction law that reaches the slips of these motions"
+            }
+            Unfollowed::Escaped | Unfollowed::Settled => "motions that turn",
+            Unfollowed::Steps => "motions that turn within some thousand steps",
         },
     }
 }
@@ -111,13 +113,13 @@ pub fn motion(
     })?;
     let (x, v) = (problem.initial.q * units.x, problem.initial.v * units.v);
     let until = problem.until * units.t;
-    let found = Motion::new(&model, x, v, until);
+    let found = MachineMotion::new(&model, x, v, until);
     let drawn = match way {
         Some(way) => Drawn::stepped(traced(&model, way, problem.tolerance, (x, v), until), way),
         None => Drawn::series(&found, between),
     };
     let fate = match portrait.fate(x, v) {
-        Err(stop @ Stop::OutsideLaw { .. }) => Fate::Unknown(stop),
+        Err(stop @ Unfollowed::OutsideLaw { .. }) => MachineFate::Unknown(stop),
         fate => fate.map_err(reason)?,
     };
     let course = Course {
@@ -135,15 +137,15 @@ pub fn motion(
 struct Drawn {
     method: Method,
     legs: Vec<motion::Leg>,
-    samples: Vec<motion::State>,
-    end: motion::State,
-    outcome: motion::Outcome,
+    samples: Vec<motion::MachineState>,
+    end: motion::MachineState,
+    outcome: motion::MachineOutcome,
     cost: Cost,
 }
 
 impl Drawn {
     /// By Taylor series, with so many places between the ends of each step.
-    fn series(found: &Motion, between: u32) -> Self {
+    fn series(found: &MachineMotion, between: u32) -> Self {
         Drawn {
             method: Method::Taylor,
             legs: found.legs.clone(),
@@ -157,7 +159,8 @@ impl Drawn {
     /// By the steps of another method.
     fn stepped(found: Traced, way: SteppedMethod) -> Self {
         let Traced { legs, samples, outcome, evaluations, steps } = found;
-        let end = samples.last().copied().unwrap_or(motion::State { t: 0.0, x: 0.0, v: 0.0 });
+        let end =
+            samples.last().copied().unwrap_or(motion::MachineState { t: 0.0, x: 0.0, v: 0.0 });
         let cost = Cost { evaluations, steps, rejected: 0 };
         Drawn { method: way.method(), legs, samples, end, outcome, cost }
     }
@@ -169,10 +172,10 @@ fn trajectory(found: &Drawn, problem: &Problem, units: Units) -> Trajectory {
     let samples = std::iter::once(start).chain(sampled);
     let Sample { tau, q, v } = units.sample(&found.end);
     let outcome = match found.outcome {
-        motion::Outcome::Rests => Outcome::Captured { tau, q },
-        motion::Outcome::Moves => Outcome::Moving { tau, q, v },
-        motion::Outcome::Stops(Stop::Escaped) => Outcome::Escaped { tau },
-        motion::Outcome::Stops(stop) => Outcome::GaveUp { tau, reason: reason(stop) },
+        motion::MachineOutcome::Rests => Outcome::Captured { tau, q },
+        motion::MachineOutcome::Moves => Outcome::Moving { tau, q, v },
+        motion::MachineOutcome::Stops(Unfollowed::Escaped) => Outcome::Escaped { tau },
+        motion::MachineOutcome::Stops(stop) => Outcome::GaveUp { tau, reason: reason(stop) },
     };
     // A leg begins at a turning point unless it begins on the belt's line.
     let turns = found.legs.windows(2).filter(|pair| match pair[1].place {
@@ -203,7 +206,7 @@ fn rides(found: &Drawn, v0: f64, units: Units) -> Vec<[Sample; 2]> {
     let ends = found.legs.iter().skip(1).map(|leg| (leg.t, leg.x));
     let ends = ends.chain([(found.end.t, found.end.x)]);
     let legs = found.legs.iter().zip(ends).filter(|(leg, _)| leg.place == Place::Sticks);
-    let at = |t, x| units.sample(&motion::State { t, x, v: v0 });
+    let at = |t, x| units.sample(&motion::MachineState { t, x, v: v0 });
     legs.map(|(leg, (t, x))| [at(leg.t, leg.x), at(t, x)]).collect()
 }
 
@@ -237,7 +240,7 @@ pub fn portrait(
 }
 
 /// The ledgers of its cycles.
-fn works(found: &Portrait) -> Vec<Ledger> {
+fn works(found: &Portrait) -> Vec<MachineLedger> {
     let (mut flow, units) = (Flow::new(&found.model), Units::of(&found.model));
     let ledger = |cycle| flow.works_around(cycle).unwrap_or_default();
     found.cycles.iter().map(ledger).map(|one| units.ledger(&one, &found.model)).collect()
@@ -277,7 +280,7 @@ fn drawn(found: &Portrait, parameters: &Parameters, points: u16) -> Result<Cycle
     let mut flow = Flow::new(model);
     let mut curves = Vec::new();
     for cycle in &found.cycles {
-        let mut curve = Curve::default();
+        let mut curve = MachineCurve::default();
         flow.around(cycle.x.1, cycle.is_followed_backward(), &mut curve).map_err(reason)?;
         curves.push(places(&curve, model, points));
     }
@@ -306,7 +309,7 @@ fn drawn(found: &Portrait, parameters: &Parameters, points: u16) -> Result<Cycle
 }
 
 /// A closed curve as points.
-pub(super) fn places(curve: &Curve, model: &Model, points: u16) -> Vec<State> {
+pub(super) fn places(curve: &MachineCurve, model: &Model, points: u16) -> Vec<State> {
     let state = |x: f64, y: f64| State { q: x / model.pull, v: y / model.pull };
     let mut found = Vec::new();
     for piece in &curve.pieces {
@@ -324,7 +327,7 @@ pub(super) fn places(curve: &Curve, model: &Model, points: u16) -> Vec<State> {
     found
 }
 
-fn scaled(cycle: &crate::machine::Cycle, model: &Model, units: Units) -> Cycle {
+fn scaled(cycle: &crate::machine::MachineCycle, model: &Model, units: Units) -> Cycle {
     /// What all numbers of the reference machines keep, generously.
     const ERROR: f64 = 1e-12;
     let clearance = (cycle.x.1 - model.guide) / units.x;

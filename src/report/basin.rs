@@ -6,7 +6,7 @@ use super::certified::{Survived, survived};
 use super::csv;
 use super::json::{self, Price};
 use super::table::{Table, parameters, rounded};
-use crate::proof::kicks::Kicks;
+use crate::proof::kicks::ProvedKicks;
 use crate::study::basin::{Counts, SurveyedBasin};
 use crate::study::{Edge, Margin};
 use crate::words::number::{duration, significant};
@@ -33,7 +33,7 @@ struct Row {
     certified: Option<Survived>,
 }
 
-pub fn json(found: &SurveyedBasin, certified: Option<&Kicks>, seconds: f64) -> String {
+pub fn json(found: &SurveyedBasin, certified: Option<&ProvedKicks>, seconds: f64) -> String {
     json::text(&Document {
         found,
         certified: certified.map(survived),
@@ -41,7 +41,7 @@ pub fn json(found: &SurveyedBasin, certified: Option<&Kicks>, seconds: f64) -> S
     })
 }
 
-pub fn csv(found: &SurveyedBasin, certified: Option<&Kicks>) -> String {
+pub fn csv(found: &SurveyedBasin, certified: Option<&ProvedKicks>) -> String {
     let row = |certified| Row {
         counts: found.counts,
         margin: found.margin,

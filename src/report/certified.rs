@@ -9,8 +9,8 @@ use crate::numerics::Interval;
 use crate::numerics::elementary::{log10, pow};
 use crate::oscillator::Symbol;
 use crate::proof::cycles::Proof;
-use crate::proof::kicks::{Edge, Kicks};
-use crate::proof::motion::{Fate, Motion};
+use crate::proof::kicks::{ProvedEdge, ProvedKicks};
+use crate::proof::motion::{ProvedFate, ProvedMotion};
 use crate::proof::range::{Change, Piece, Range};
 use crate::study::fold::BoundaryPoint;
 use crate::words::number::significant;
@@ -72,20 +72,20 @@ impl PointBounds {
     }
 
     /// Of the end of a motion.
-    pub fn of_end(motion: &Motion, until: f64) -> Self {
+    pub fn of_end(motion: &ProvedMotion, until: f64) -> Self {
         let Followed { tau, q, v, proved, open, .. } = followed(motion, until);
         PointBounds { tau, q, v, proved, open }
     }
 }
 
 /// A motion until a time, for documents.
-pub fn followed(motion: &Motion, until: f64) -> Followed {
+pub fn followed(motion: &ProvedMotion, until: f64) -> Followed {
     let turns = motion.turns.iter().map(|turn| Turn { tau: turn.tau.into(), q: turn.q.into() });
     let (outcome, tau, q, v, open) = match motion.fate {
-        Fate::Captured { tau, q } => ("captured", tau, Some(q), None, None),
-        Fate::Moving { q, v } => ("moving", Interval::point(until), Some(q), Some(v), None),
-        Fate::Escaped { tau } => ("escaped", tau, None, None, None),
-        Fate::Open { tau, reason } => ("open", tau, None, None, Some(reason)),
+        ProvedFate::Captured { tau, q } => ("captured", tau, Some(q), None, None),
+        ProvedFate::Moving { q, v } => ("moving", Interval::point(until), Some(q), Some(v), None),
+        ProvedFate::Escaped { tau } => ("escaped", tau, None, None, None),
+        ProvedFate::Open { tau, reason } => ("open", tau, None, None, Some(reason)),
     };
     Followed {
         outcome,
@@ -99,22 +99,22 @@ pub fn followed(motion: &Motion, until: f64) -> Followed {
     }
 }
 
-pub fn motion_line(motion: &Motion, until: f64) -> String {
+pub fn motion_line(motion: &ProvedMotion, until: f64) -> String {
     let number = |it| certain(it, PLACES);
     let swings = match motion.turns.len() {
         1 => "1 half swing".to_owned(),
         more => format!("{more} half swings"),
     };
     let sentence = match motion.fate {
-        Fate::Captured { tau, q } => {
+        ProvedFate::Captured { tau, q } => {
             format!("captured after {swings} at q = {}, tau = {}", number(q), number(tau))
         }
-        Fate::Moving { q, v } => {
+        ProvedFate::Moving { q, v } => {
             let (q, v) = (number(q), number(v));
             format!("moving at tau = {until}, after {swings}: q = {q}, v = {v}")
         }
-        Fate::Escaped { tau } => format!("escapes after {swings}, at tau = {}", number(tau)),
-        Fate::Open { tau, reason } => {
+        ProvedFate::Escaped { tau } => format!("escapes after {swings}, at tau = {}", number(tau)),
+        ProvedFate::Open { tau, reason } => {
             return format!("open from tau = {} on, after {swings}: {reason}\n", number(tau));
         }
     };
@@ -131,15 +131,15 @@ pub struct Survived {
     open: Option<&'static str>,
 }
 
-fn name(edge: Edge) -> &'static str {
+fn name(edge: ProvedEdge) -> &'static str {
     match edge {
-        Edge::None => "none",
-        Edge::Cycle => "cycle",
-        Edge::Separatrix => "separatrix",
+        ProvedEdge::None => "none",
+        ProvedEdge::Cycle => "cycle",
+        ProvedEdge::Separatrix => "separatrix",
     }
 }
 
-pub fn survived(kicks: &Kicks) -> Survived {
+pub fn survived(kicks: &ProvedKicks) -> Survived {
     Survived {
         edge: kicks.edge.map(name),
         displacement: kicks.displacement.map(Bounds::from),
@@ -149,9 +149,9 @@ pub fn survived(kicks: &Kicks) -> Survived {
     }
 }
 
-pub fn kicks_lines(kicks: &Kicks) -> String {
+pub fn kicks_lines(kicks: &ProvedKicks) -> String {
     let edge = match kicks.edge {
-        Some(Edge::None) => "proved: every start is captured\n".to_owned(),
+        Some(ProvedEdge::None) => "proved: every start is captured\n".to_owned(),
         Some(edge) => format!("proved: the border of the basin is a {}\n", name(edge)),
         None => "open: what borders the basin\n".to_owned(),
     };

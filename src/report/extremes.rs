@@ -8,7 +8,7 @@ use super::table::Table;
 use crate::flow::{Method, Outcome};
 use crate::oscillator::Parameters;
 use crate::study::extremes::verdict::{BUDGET, METHODS};
-use crate::study::extremes::{Answer, Named, Verdict};
+use crate::study::extremes::{MethodAnswer, Named, Verdict};
 use crate::words::number::{exact as short, significant};
 
 /// As a table to read: the answer of `auto` and its cost, then the digits that each method lost.
@@ -68,7 +68,7 @@ struct Row {
 }
 
 impl Row {
-    fn new(verdict: &Verdict, answer: &Answer) -> Self {
+    fn new(verdict: &Verdict, answer: &MethodAnswer) -> Self {
         let (kind, tau, q, v) = match answer.outcome {
             Outcome::Captured { tau, q } => ("captured", tau, Some(q), Some(0.0)),
             Outcome::Moving { tau, q, v } => ("moving", tau, Some(q), Some(v)),
@@ -129,27 +129,27 @@ fn short_sentence(outcome: &Outcome) -> String {
 }
 
 /// How well a method answered.
-fn mark(answer: &Answer) -> String {
+fn mark(answer: &MethodAnswer) -> String {
     match answer {
-        Answer { contradicts: true, .. } => "wrong".into(),
-        Answer { digits_lost: Some(lost), .. } => format!("{lost:.1}"),
-        Answer { outcome: Outcome::GaveUp { .. }, .. } => "gave up".into(),
+        MethodAnswer { contradicts: true, .. } => "wrong".into(),
+        MethodAnswer { digits_lost: Some(lost), .. } => format!("{lost:.1}"),
+        MethodAnswer { outcome: Outcome::GaveUp { .. }, .. } => "gave up".into(),
         _ => "?".into(),
     }
 }
 
 /// How often each method answered how well.
 fn summary(verdicts: &[Verdict]) -> String {
-    type Asked<'a> = (Method, Vec<&'a Answer>);
+    type Asked<'a> = (Method, Vec<&'a MethodAnswer>);
     let asked = |method| (method, verdicts.iter().filter_map(|it| it.answer(method)).collect());
-    let count = |answers: &[&Answer], which: &dyn Fn(&Answer) -> bool| {
+    let count = |answers: &[&MethodAnswer], which: &dyn Fn(&MethodAnswer) -> bool| {
         answers.iter().filter(|it| which(it)).count().to_string()
     };
-    let lost = |answers: &[&Answer], low: f64, high: f64| {
+    let lost = |answers: &[&MethodAnswer], low: f64, high: f64| {
         count(answers, &|it| it.digits_lost.is_some_and(|lost| lost > low && lost <= high))
     };
-    let gave_up = |it: &Answer| matches!(it.outcome, Outcome::GaveUp { .. });
-    let unchecked = |it: &Answer| !it.contradicts && it.digits_lost.is_none() && !gave_up(it);
+    let gave_up = |it: &MethodAnswer| matches!(it.outcome, Outcome::GaveUp { .. });
+    let unchecked = |it: &MethodAnswer| !it.contradicts && it.digits_lost.is_none() && !gave_up(it);
     let table = Table::of(
         &METHODS.map(asked),
         &[

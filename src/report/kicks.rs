@@ -6,7 +6,7 @@ use super::csv;
 use super::json::{Price, text};
 use super::table::parameters as named;
 use crate::oscillator::Parameters;
-use crate::study::kicks::Kicks;
+use crate::study::kicks::RandomKick;
 use crate::study::repeated::Repeated;
 use crate::words::number::{duration, significant};
 
@@ -41,7 +41,7 @@ struct Row {
 }
 
 /// One document; `mean` is null where no kick is ever lost.
-pub fn json(parameters: &Parameters, kicks: &Kicks, found: &Repeated, seconds: f64) -> String {
+pub fn json(parameters: &Parameters, kicks: &RandomKick, found: &Repeated, seconds: f64) -> String {
     text(&Document {
         parameters,
         kicks: kicks.to_string(),
@@ -62,7 +62,12 @@ pub fn csv(parameters: &Parameters, found: &Repeated) -> String {
     csv::sheet(&Row::default(), found.places(parameters.r).map(row))
 }
 
-pub fn table(parameters: &Parameters, kicks: &Kicks, found: &Repeated, seconds: f64) -> String {
+pub fn table(
+    parameters: &Parameters,
+    kicks: &RandomKick,
+    found: &Repeated,
+    seconds: f64,
+) -> String {
     let Repeated { first, later, mean, error, cost, .. } = found;
     let number = |value: f64| significant(value, 6);
     let mean = if mean.is_finite() { number(*mean) } else { "none is ever lost".to_owned() };

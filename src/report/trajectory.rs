@@ -9,7 +9,7 @@ use super::table::{Table, digits, motion as question};
 use crate::flow::{Crossing, Method, Outcome, Trajectory};
 use crate::numerics::Interval;
 use crate::oscillator::{Ledger, Parameters, State};
-use crate::proof::motion::Motion;
+use crate::proof::motion::ProvedMotion;
 use crate::words::motion::sentence;
 use crate::words::number::{duration, exact, significant};
 
@@ -38,7 +38,7 @@ struct Row {
     certified: Option<PointBounds>,
 }
 
-pub fn json(motion: &Trajectory, certified: Option<&Motion>, seconds: f64) -> String {
+pub fn json(motion: &Trajectory, certified: Option<&ProvedMotion>, seconds: f64) -> String {
     json::text(&Document {
         parameters: &motion.problem.parameters,
         initial: &motion.problem.initial,
@@ -53,7 +53,7 @@ pub fn json(motion: &Trajectory, certified: Option<&Motion>, seconds: f64) -> St
 }
 
 /// One row for each point.
-pub fn csv(motion: &Trajectory, certified: Option<&Motion>) -> String {
+pub fn csv(motion: &Trajectory, certified: Option<&ProvedMotion>) -> String {
     let State { q, v } = motion.problem.initial;
     let row = |what, tau, q, v| Row { what, tau, q, v, certified: None };
     let mut start = row("start", 0.0, Some(q), Some(v));

@@ -6,7 +6,7 @@ use std::path::Path;
 use ratatui::Frame;
 use ratatui::layout::Size;
 
-use super::event::Stop;
+use super::event::LoopEnd;
 use super::figure_writer::Work;
 use crate::scene::Request;
 use crate::session::{Effect, Key, Msg, Place};
@@ -70,12 +70,12 @@ pub trait Application {
 
 /// What comes of an effect.
 #[derive(Debug)]
-pub enum Outcome {
+pub enum EffectOutcome {
     Done,
     /// The application is to be told something, which may have effects of its own.
     Told(Msg),
     /// The loop ends, or pauses.
-    Stop(Stop),
+    Stop(LoopEnd),
 }
 
 /// What runs an application: it carries out what the application asks for.
@@ -88,18 +88,18 @@ pub trait Host {
     ///
     /// # Errors
     /// The error of writing to the terminal.
-    fn carry_out(&mut self, effect: Effect) -> io::Result<Outcome>;
+    fn carry_out(&mut self, effect: Effect) -> io::Result<EffectOutcome>;
 
     /// Gives the application a message, and what comes of its effects in their order.
     ///
     /// # Errors
     /// The error of writing to the terminal.
-    fn give(&mut self, msg: Msg) -> io::Result<Option<Stop>> {
+    fn give(&mut self, msg: Msg) -> io::Result<Option<LoopEnd>> {
         for effect in self.application().update(msg) {
             let stop = match self.carry_out(effect)? {
-                Outcome::Done => None,
-                Outcome::Told(msg) => self.give(msg)?,
-                Outcome::Stop(stop) => Some(stop),
+                EffectOutcome::Done => None,
+                EffectOutcome::Told(msg) => self.give(msg)?,
+                EffectOutcome::Stop(stop) => Some(stop),
             };
             if stop.is_some() {
                 return Ok(stop);

@@ -27,7 +27,7 @@ pub enum Event {
 
 /// Why the loop stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stop {
+pub enum LoopEnd {
     /// The user has left.
     Quit,
     /// The user wants the job to be stopped, as Ctrl-Z does.

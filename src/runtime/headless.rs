@@ -9,9 +9,9 @@ use crossbeam_channel::unbounded;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
 
-use super::application::{Application, Host, Outcome};
+use super::application::{Application, EffectOutcome, Host};
 use super::effects::Files;
-use super::event::Stop;
+use super::event::LoopEnd;
 use super::panics::Notes;
 use super::picture;
 use super::worker::Tell;
@@ -98,22 +98,22 @@ impl<M: Application> Host for Replay<M> {
         &mut self.application
     }
 
-    fn carry_out(&mut self, effect: Effect) -> io::Result<Outcome> {
+    fn carry_out(&mut self, effect: Effect) -> io::Result<EffectOutcome> {
         Ok(match effect {
-            Effect::Quit => Outcome::Stop(Stop::Quit),
+            Effect::Quit => EffectOutcome::Stop(LoopEnd::Quit),
             // What it reads, a session depends on.
             Effect::Read { path, purpose } => {
                 let embedded = self.player.file(&path).map(|text| Ok(text.to_owned()));
                 let result = embedded.unwrap_or_else(|| Files::read(&path));
-                Outcome::Told(Msg::Read { path, purpose, result })
+                EffectOutcome::Told(Msg::Read { path, purpose, result })
             }
             Effect::Play(script) | Effect::PlayRegister(script) => {
                 self.player.interject(script);
-                Outcome::Done
+                EffectOutcome::Done
             }
             Effect::Figure { path, .. } => {
                 let text = format!("{} not written: a replay writes no files", path.display());
-                Outcome::Told(Msg::Written(Notice { error: false, text }))
+                EffectOutcome::Told(Msg::Written(Notice { error: false, text }))
             }
             Effect::Suspend
             | Effect::Repaint
@@ -124,7 +124,7 @@ impl<M: Application> Host for Replay<M> {
             | Effect::Record { .. }
             | Effect::StopWriting
             | Effect::PutAside(_)
-            | Effect::Write { .. } => Outcome::Done,
+            | Effect::Write { .. } => EffectOutcome::Done,
         })
     }
 }

@@ -12,7 +12,7 @@ use std::io::{self, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use super::lines::{Line, Lines};
+use super::lines::{FileLine, Lines};
 use crate::report::scan::Form;
 use crate::study::scan::Scan;
 
@@ -112,7 +112,7 @@ fn rows(
     let mut found = BTreeMap::new();
     let mut lines = Lines::new(file);
     let Ok(true) = lines.heading(&heading(scan, form)) else { return (found, 0) };
-    while let Ok(Line::Whole(line)) = lines.next(usize::MAX) {
+    while let Ok(FileLine::Whole(line)) = lines.next(usize::MAX) {
         found.extend(String::from_utf8(line).ok().and_then(|line| {
             let (index, row) = line.split_once('\t')?;
             let index = index.parse().ok().filter(|index| points.contains(index))?;

@@ -12,7 +12,7 @@ use rustix::io::Errno;
 
 use super::application::Application;
 use super::effects::Files;
-use super::event::{Event, Stop};
+use super::event::{Event, LoopEnd};
 use super::pump::Pump;
 use super::record::Record;
 use super::signals::{self, exit_code};
@@ -79,26 +79,26 @@ pub fn launch(
     // A panic has been reported by now, and the terminal given back; it ends the program all the same.
     let conducted = catch_unwind(AssertUnwindSafe(|| conduct(&mut pump, &guard)));
     pump.close_record();
-    let left = matches!(conducted, Ok(Ok(Stop::Quit)));
+    let left = matches!(conducted, Ok(Ok(LoopEnd::Quit)));
     let place = if left { &options.last } else { &options.keep };
     let kept = keep(&pump, place.as_deref());
     let ended = match conducted.unwrap_or_else(|panic| resume_unwind(panic)) {
         // A terminal that is gone refuses what is written to it, before its signal arrives.
-        Err(error) if error.raw_os_error() == Some(Errno::IO.raw_os_error()) => Ok(Stop::Closed),
+        Err(error) if error.raw_os_error() == Some(Errno::IO.raw_os_error()) => Ok(LoopEnd::Closed),
         ended => ended,
     };
-    if !matches!(ended, Ok(Stop::Closed) | Err(_)) {
+    if !matches!(ended, Ok(LoopEnd::Closed) | Err(_)) {
         pump.await_terminal();
     }
     guard.leave();
-    if let (Err(why), Ok(Stop::Quit | Stop::Ended { .. })) = (kept, &ended) {
+    if let (Err(why), Ok(LoopEnd::Quit | LoopEnd::Ended { .. })) = (kept, &ended) {
         eprintln!("hopfscope: the session is not kept: {why}");
     }
     let code = match ended? {
         // A thread that listens has panicked; without it there was nothing to go on for.
-        Stop::Closed if let Some(note) = notes.take() => return Err(io::Error::other(note)),
-        Stop::Ended { signal } => exit_code(signal).into(),
-        Stop::Closed => exit_code(HANG_UP).into(),
+        LoopEnd::Closed if let Some(note) = notes.take() => return Err(io::Error::other(note)),
+        LoopEnd::Ended { signal } => exit_code(signal).into(),
+        LoopEnd::Closed => exit_code(HANG_UP).into(),
         _ => ExitCode::SUCCESS,
     };
     Ok(code)
@@ -124,22 +124,22 @@ fn keep<M: Application, W: io::Write>(
 fn conduct<M: Application>(
     pump: &mut Pump<M, std::sync::Arc<std::fs::File>>,
     guard: &Guard,
-) -> io::Result<Stop> {
+) -> io::Result<LoopEnd> {
     // A stop from here is followed by a message that the process goes on, which then says nothing new.
     let mut expected = false;
     loop {
         match pump.run()? {
-            Stop::Suspend | Stop::Suspended if !signals::can_be_continued() => {
+            LoopEnd::Suspend | LoopEnd::Suspended if !signals::can_be_continued() => {
                 let text = "not stopped: there is no shell that could make it go on".to_owned();
                 pump.tell(Notice { error: true, text })?;
             }
-            Stop::Suspend => {
+            LoopEnd::Suspend => {
                 pump.hold();
                 pump.await_terminal();
                 guard.leave();
                 signals::suspend_job()?;
             }
-            Stop::Suspended => {
+            LoopEnd::Suspended => {
                 pump.hold();
                 pump.await_terminal();
                 guard.leave();
@@ -148,14 +148,14 @@ fn conduct<M: Application>(
                 guard.enter()?;
                 pump.repaint()?;
             }
-            Stop::Mouse(on) => guard.mouse(on)?,
-            Stop::Continued if std::mem::take(&mut expected) => {}
-            Stop::Continued => {
+            LoopEnd::Mouse(on) => guard.mouse(on)?,
+            LoopEnd::Continued if std::mem::take(&mut expected) => {}
+            LoopEnd::Continued => {
                 guard.leave();
                 guard.enter()?;
                 pump.repaint()?;
             }
-            ended @ (Stop::Quit | Stop::Ended { .. } | Stop::Closed) => return Ok(ended),
+            ended @ (LoopEnd::Quit | LoopEnd::Ended { .. } | LoopEnd::Closed) => return Ok(ended),
         }
     }
 }

@@ -50,7 +50,7 @@ pub(super) struct Lines<R> {
 }
 
 /// A line of a file.
-pub(super) enum Line {
+pub(super) enum FileLine {
     Whole(Vec<u8>),
     /// Without: the last one, perhaps empty.
     Cut(Vec<u8>),
@@ -72,23 +72,23 @@ impl<R: Read> Lines<R> {
             return Ok(true);
         }
         match self.next(heading.len())? {
-            Line::Whole(line) if line == heading.as_bytes() => Ok(true),
-            Line::Cut(begun) if heading.as_bytes().starts_with(&begun) => Ok(false),
+            FileLine::Whole(line) if line == heading.as_bytes() => Ok(true),
+            FileLine::Cut(begun) if heading.as_bytes().starts_with(&begun) => Ok(false),
             _ => Err(self.foreign("names other columns")),
         }
     }
 
     /// The next line; a line longer than `most` is cut there.
-    pub(super) fn next(&mut self, most: usize) -> io::Result<Line> {
+    pub(super) fn next(&mut self, most: usize) -> io::Result<FileLine> {
         let mut line = Vec::new();
         let most = u64::try_from(most).unwrap_or(u64::MAX);
         (&mut self.reader).take(most).read_until(b'\n', &mut line)?;
         self.number += 1;
         if line.last() == Some(&b'\n') {
             self.bytes += line.len() as u64;
-            Ok(Line::Whole(line))
+            Ok(FileLine::Whole(line))
         } else {
-            Ok(Line::Cut(line))
+            Ok(FileLine::Cut(line))
         }
     }
 

@@ -10,7 +10,7 @@ use std::io;
 use std::ops::Range;
 use std::path::PathBuf;
 
-use super::lines::{Line, Lines, Refusal};
+use super::lines::{FileLine, Lines, Refusal};
 use super::scan_file::compare;
 use crate::flow::Limits;
 use crate::report::scan::Form;
@@ -148,7 +148,7 @@ impl<'a> Reader<'a> {
 
     /// Reads a row of point number `from` or a later one of this part; a line without an end is none.
     fn read(&mut self, task: &Task, from: usize) -> Result<bool, Refusal> {
-        let Line::Whole(line) = self.lines.next(usize::MAX)? else { return Ok(false) };
+        let FileLine::Whole(line) = self.lines.next(usize::MAX)? else { return Ok(false) };
         let is_of =
             |index: &usize| line.starts_with(task.form.beginning(task.scan, *index).as_bytes());
         let Some(index) = (from..self.part.points.end).find(is_of) else {

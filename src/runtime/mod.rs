@@ -31,7 +31,7 @@ pub mod worker;
 pub mod workers;
 
 pub use application::Application;
-pub use event::{Event, Stop};
+pub use event::{Event, LoopEnd};
 pub use explorer::{Explorer, explore, replay};
 pub use launch::{Options, launch};
 pub use pump::Pump;

@@ -14,9 +14,9 @@ use std::time::{Duration, Instant};
 use crossbeam_channel::{Receiver, RecvTimeoutError};
 use ratatui::layout::Size;
 
-use super::application::{Application, Host, Outcome};
+use super::application::{Application, EffectOutcome, Host};
 use super::effects::Files;
-use super::event::{Event, Stop};
+use super::event::{Event, LoopEnd};
 use super::record::Record;
 use super::workers::Workers;
 use super::{picture, scan_file};
@@ -117,7 +117,7 @@ impl<M: Application, W: Write> Pump<M, W> {
     ///
     /// # Errors
     /// The error of writing to the terminal.
-    pub fn run(&mut self) -> io::Result<Stop> {
+    pub fn run(&mut self) -> io::Result<LoopEnd> {
         loop {
             if let Some(stop) = self.play()? {
                 return Ok(stop);
@@ -191,7 +191,7 @@ impl<M: Application, W: Write> Pump<M, W> {
         }
     }
 
-    fn handle(&mut self, event: Event) -> io::Result<Option<Stop>> {
+    fn handle(&mut self, event: Event) -> io::Result<Option<LoopEnd>> {
         match event {
             Event::Session(Msg::Idle) if !self.workers.is_idle() => Ok(None),
             Event::Session(msg) if is_users(&msg) => self.users(msg),
@@ -219,10 +219,10 @@ impl<M: Application, W: Write> Pump<M, W> {
                 self.resized(size);
                 Ok(None)
             }
-            Event::Suspend => Ok(Some(Stop::Suspended)),
-            Event::Continued => Ok(Some(Stop::Continued)),
-            Event::Ended { signal } => Ok(Some(Stop::Ended { signal })),
-            Event::Closed => Ok(Some(Stop::Closed)),
+            Event::Suspend => Ok(Some(LoopEnd::Suspended)),
+            Event::Continued => Ok(Some(LoopEnd::Continued)),
+            Event::Ended { signal } => Ok(Some(LoopEnd::Ended { signal })),
+            Event::Closed => Ok(Some(LoopEnd::Closed)),
         }
     }
 
@@ -237,7 +237,7 @@ impl<M: Application, W: Write> Pump<M, W> {
     }
 
     /// Changes the session and does what it asks for.
-    fn update(&mut self, msg: Msg) -> io::Result<Option<Stop>> {
+    fn update(&mut self, msg: Msg) -> io::Result<Option<LoopEnd>> {
         self.changed.get_or_insert_with(Instant::now);
         self.give(msg)
     }
@@ -248,14 +248,14 @@ impl<M: Application, W: Write> Pump<M, W> {
     }
 
     /// Begins to write a figure; what follows when it cannot.
-    fn write_figure(&mut self, path: PathBuf, plot: Option<usize>, replace: bool) -> Outcome {
+    fn write_figure(&mut self, path: PathBuf, plot: Option<usize>, replace: bool) -> EffectOutcome {
         let begun = Files::admit(&path, replace)
             .and_then(|()| self.application.figure(&path, plot))
             .and_then(|work| self.workers.write(path, replace, work));
         self.writing |= begun.is_ok();
         match begun {
-            Ok(()) => Outcome::Done,
-            Err(text) => Outcome::Told(Msg::Written(Notice { error: true, text })),
+            Ok(()) => EffectOutcome::Done,
+            Err(text) => EffectOutcome::Told(Msg::Written(Notice { error: true, text })),
         }
     }
 
@@ -316,26 +316,26 @@ impl<M: Application, W: Write> Host for Pump<M, W> {
         &mut self.application
     }
 
-    fn carry_out(&mut self, effect: Effect) -> io::Result<Outcome> {
+    fn carry_out(&mut self, effect: Effect) -> io::Result<EffectOutcome> {
         let notice = match effect {
-            Effect::Quit => return Ok(Outcome::Stop(Stop::Quit)),
-            Effect::Suspend => return Ok(Outcome::Stop(Stop::Suspend)),
-            Effect::Mouse(on) => return Ok(Outcome::Stop(Stop::Mouse(on))),
-            Effect::Repaint => return self.repaint().map(|()| Outcome::Done),
+            Effect::Quit => return Ok(EffectOutcome::Stop(LoopEnd::Quit)),
+            Effect::Suspend => return Ok(EffectOutcome::Stop(LoopEnd::Suspend)),
+            Effect::Mouse(on) => return Ok(EffectOutcome::Stop(LoopEnd::Mouse(on))),
+            Effect::Repaint => return self.repaint().map(|()| EffectOutcome::Done),
             Effect::StopWriting => {
                 self.workers.stop_writing();
-                return Ok(Outcome::Done);
+                return Ok(EffectOutcome::Done);
             }
             Effect::PutAside(path) => {
                 Files::put_aside(&path);
-                return Ok(Outcome::Done);
+                return Ok(EffectOutcome::Done);
             }
             Effect::Figure { path, plot, replace } => {
                 return Ok(self.write_figure(path, plot, replace));
             }
             Effect::Read { path, purpose } => {
                 let result = self.read(&path);
-                return Ok(Outcome::Told(Msg::Read { path, purpose, result }));
+                return Ok(EffectOutcome::Told(Msg::Read { path, purpose, result }));
             }
             Effect::Play(script) => return self.begin(script, false),
             Effect::PlayRegister(script) => return self.begin(script, true),
@@ -348,7 +348,7 @@ impl<M: Application, W: Write> Host for Pump<M, W> {
             Effect::Write { path, text, replace } => Files::write(&path, &text, replace),
             Effect::Record { path, forget, replace } => self.write_record(&path, forget, replace),
         };
-        Ok(Outcome::Told(Msg::Told(notice)))
+        Ok(EffectOutcome::Told(Msg::Told(notice)))
     }
 }
 

@@ -13,7 +13,7 @@ use std::path::Path;
 
 use super::journal::Journal;
 pub use super::lines::Refusal;
-use super::lines::{Line, Lines};
+use super::lines::{FileLine, Lines};
 use super::provenance_file;
 use crate::flow::{Limits, Reason};
 use crate::report::scan::Form;
@@ -160,8 +160,8 @@ fn kept(
     loop {
         let index = points.start + kept.rows;
         let line = match lines.next(usize::MAX)? {
-            Line::Whole(line) => line,
-            Line::Cut(begun) => {
+            FileLine::Whole(line) => line,
+            FileLine::Cut(begun) => {
                 let expected = form.beginning(scan, index.min(points.end - 1));
                 let common = begun.len().min(expected.len());
                 if begun[..common] != expected.as_bytes()[..common] {

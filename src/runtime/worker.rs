@@ -207,7 +207,7 @@ mod tests {
 
     /// What a job is told to do.
     #[derive(Debug)]
-    enum Step {
+    enum JobStep {
         /// To report a piece.
         Tell,
         /// To end with an answer.
@@ -218,7 +218,7 @@ mod tests {
     struct Bench {
         worker: Worker,
         started: Receiver<f64>,
-        finish: Sender<Step>,
+        finish: Sender<JobStep>,
         messages: Receiver<Msg>,
     }
 
@@ -229,15 +229,15 @@ mod tests {
 
     fn bench_with(turn: Duration) -> Bench {
         let (start, started) = unbounded();
-        let (finish, finished) = bounded::<Step>(0);
+        let (finish, finished) = bounded::<JobStep>(0);
         let (message, messages) = unbounded();
         let job = move |request: &Request, limits: &Limits, tell: &Tell| {
             let _ = start.send(number(request));
             assert!(number(request) >= 0.0, "a negative number");
             while !(limits.interrupted)() {
                 match finished.try_recv() {
-                    Ok(Step::Finish) => return Ok(nothing(request)),
-                    Ok(Step::Tell) => tell(nothing(request)),
+                    Ok(JobStep::Finish) => return Ok(nothing(request)),
+                    Ok(JobStep::Tell) => tell(nothing(request)),
                     Err(_) => {}
                 }
                 thread::yield_now();
@@ -272,7 +272,7 @@ mod tests {
         bench.worker.submit(vec![request(1.0), request(2.0)]);
         for wanted in [1.0, 2.0] {
             assert_eq!(bench.started.recv(), Ok(wanted));
-            bench.finish.send(Step::Finish).unwrap();
+            bench.finish.send(JobStep::Finish).unwrap();
             assert_eq!(bench.answered(), (wanted, Ok(())));
         }
         bench.idle();
@@ -284,7 +284,7 @@ mod tests {
         let bench = bench_with(Duration::ZERO);
         bench.worker.submit(vec![request(1.0), request(2.0), request(3.0)]);
         for number in [3.0, 2.0, 1.0] {
-            bench.finish.send(Step::Finish).unwrap();
+            bench.finish.send(JobStep::Finish).unwrap();
             assert_eq!(bench.answered(), (number, Ok(())));
         }
         bench.idle();
@@ -299,7 +299,7 @@ mod tests {
         assert_eq!(bench.started.recv(), Ok(1.0));
         bench.worker.submit(vec![request(2.0)]);
         assert_eq!(bench.started.recv(), Ok(2.0));
-        bench.finish.send(Step::Finish).unwrap();
+        bench.finish.send(JobStep::Finish).unwrap();
         assert_eq!(bench.answered(), (2.0, Ok(())));
         bench.idle();
     }
@@ -310,10 +310,10 @@ mod tests {
         bench.worker.submit(vec![request(1.0), request(2.0)]);
         assert_eq!(bench.started.recv(), Ok(1.0));
         bench.worker.submit(vec![request(1.0), request(3.0)]);
-        bench.finish.send(Step::Finish).unwrap();
+        bench.finish.send(JobStep::Finish).unwrap();
         assert_eq!(bench.answered(), (1.0, Ok(())));
         assert_eq!(bench.started.recv(), Ok(3.0));
-        bench.finish.send(Step::Finish).unwrap();
+        bench.finish.send(JobStep::Finish).unwrap();
         assert_eq!(bench.answered(), (3.0, Ok(())));
         bench.idle();
     }
@@ -326,7 +326,7 @@ mod tests {
         bench.worker.submit(vec![]);
         bench.worker.submit(vec![request(1.0)]);
         assert_eq!(bench.started.recv(), Ok(1.0));
-        bench.finish.send(Step::Finish).unwrap();
+        bench.finish.send(JobStep::Finish).unwrap();
         // The first run may have ended before the second was submitted; then it said so.
         let answered = bench.messages.iter().find(|message| !matches!(message, Msg::Idle));
         assert!(matches!(answered, Some(Msg::Answered(answered)) if answered.result.is_ok()));
@@ -337,18 +337,18 @@ mod tests {
     fn an_answer_on_its_way_is_not_computed_again() {
         let bench = bench();
         bench.worker.submit(vec![request(1.0)]);
-        bench.finish.send(Step::Finish).unwrap();
+        bench.finish.send(JobStep::Finish).unwrap();
         assert_eq!(bench.answered(), (1.0, Ok(())));
         bench.idle();
         // Not taken yet: a session that wants something else beside it still wants it.
         bench.worker.submit(vec![request(1.0), request(2.0)]);
-        bench.finish.send(Step::Finish).unwrap();
+        bench.finish.send(JobStep::Finish).unwrap();
         assert_eq!(bench.answered(), (2.0, Ok(())));
         bench.idle();
         // Taken and wanted nevertheless, as after a failure that is tried again.
         bench.worker.taken(&request(1.0));
         bench.worker.submit(vec![request(1.0), request(2.0)]);
-        bench.finish.send(Step::Finish).unwrap();
+        bench.finish.send(JobStep::Finish).unwrap();
         assert_eq!(bench.answered(), (1.0, Ok(())));
         bench.idle();
         assert_eq!(bench.started.try_iter().collect::<Vec<_>>(), [1.0, 2.0, 1.0]);
@@ -359,14 +359,14 @@ mod tests {
         let bench = bench();
         bench.worker.submit(vec![request(1.0)]);
         for _ in 0..2 {
-            bench.finish.send(Step::Tell).unwrap();
+            bench.finish.send(JobStep::Tell).unwrap();
             let Msg::Answered(piece) = bench.messages.recv().unwrap() else { panic!("no piece") };
             assert!(!piece.complete && piece.result.is_ok());
             assert!(!bench.worker.is_idle());
             // Still wanted, and not begun again.
             bench.worker.submit(vec![request(1.0)]);
         }
-        bench.finish.send(Step::Finish).unwrap();
+        bench.finish.send(JobStep::Finish).unwrap();
         let Msg::Answered(last) = bench.messages.recv().unwrap() else { panic!("no answer") };
         assert!(last.complete);
         bench.idle();
@@ -410,7 +410,7 @@ mod tests {
         bench.worker.submit(vec![request(-1.0), request(1.0)]);
         let panic = Failure::Panic("a negative number".to_owned());
         assert_eq!(bench.answered(), (-1.0, Err(panic)));
-        bench.finish.send(Step::Finish).unwrap();
+        bench.finish.send(JobStep::Finish).unwrap();
         assert_eq!(bench.answered(), (1.0, Ok(())));
         bench.idle();
     }

@@ -54,6 +54,6 @@ pub use state::session::{Price, Session, Size};
 pub use state::settings;
 pub use state::setup::Setup;
 pub use state::starts;
-pub use state::stop::Stop;
+pub use state::stop::BranchStop;
 pub use state::waiting::Waiting;
 pub use update::update;

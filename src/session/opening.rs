@@ -8,7 +8,7 @@ use crate::flow::{METHODS, Problem};
 use crate::numerics::decimal::shortest;
 use crate::oscillator::{PARAMETERS, Symbol};
 use crate::scene::{Scene, find};
-use crate::session::replay::script::Step;
+use crate::session::replay::script::Instruction;
 use crate::session::save;
 use crate::session::state::session::Session;
 use crate::session::state::settings::{COLORS, GLYPHS, THEMES, Wishes};
@@ -20,36 +20,36 @@ const CARRIED: &str = "start.toml";
 ///
 /// # Errors
 /// One line, if the session cannot be saved; none is known for which that is so.
-pub fn opening(session: &Session) -> Result<Vec<Step>, String> {
-    let mut steps: Vec<Step> = looks(session.look);
+pub fn opening(session: &Session) -> Result<Vec<Instruction>, String> {
+    let mut steps: Vec<Instruction> = looks(session.look);
     let text = save::text(session)?;
     let new = Session::new(session.scene.clone(), session.size);
     let is_new = save::text(&new)? == text;
     if let Some((lines, names)) = scene(&session.scene).filter(|_| is_new) {
         steps.extend(lines);
-        steps.push(Step::Start(names));
+        steps.push(Instruction::Start(names));
     } else {
-        steps.push(Step::File { name: CARRIED.to_owned(), text });
-        steps.push(Step::Run(format!("open {CARRIED}")));
+        steps.push(Instruction::File { name: CARRIED.to_owned(), text });
+        steps.push(Instruction::Run(format!("open {CARRIED}")));
         // What a scene opens with, it opens with; what was done before can be undone as before.
-        steps.extend(is_new.then(|| Step::Start(Vec::new())));
+        steps.extend(is_new.then(|| Instruction::Start(Vec::new())));
     }
     Ok(steps)
 }
 
 /// What the user wishes of the screen, where it is not the usual.
-fn looks(look: Wishes) -> Vec<Step> {
+fn looks(look: Wishes) -> Vec<Instruction> {
     fn line<T: Copy + PartialEq + Default>(
         name: &str,
         table: &[(T, &str)],
         value: T,
-    ) -> Option<Step> {
+    ) -> Option<Instruction> {
         let row = table.iter().find(|row| row.0 == value && value != T::default());
-        row.map(|row| Step::Run(format!("{name} {}", row.1)))
+        row.map(|row| Instruction::Run(format!("{name} {}", row.1)))
     }
-    let mouse = look.mouse.then(|| Step::Run("mouse".to_owned()));
-    let equal = look.stretched.then(|| Step::Run("equal off".to_owned()));
-    let units = look.dimensionless.then(|| Step::Run("units off".to_owned()));
+    let mouse = look.mouse.then(|| Instruction::Run("mouse".to_owned()));
+    let equal = look.stretched.then(|| Instruction::Run("equal off".to_owned()));
+    let units = look.dimensionless.then(|| Instruction::Run("units off".to_owned()));
     let lines = [
         line("glyphs", &GLYPHS, look.glyphs),
         line("color", &COLORS, look.colors),
@@ -63,7 +63,7 @@ fn looks(look: Wishes) -> Vec<Step> {
 
 /// The lines that open a scene of the program with other numbers, and the parameters that belong to it
 /// besides its own; `None` where it is another scene.
-fn scene(scene: &Scene) -> Option<(Vec<Step>, Vec<Symbol>)> {
+fn scene(scene: &Scene) -> Option<(Vec<Instruction>, Vec<Symbol>)> {
     let known = find(&scene.name).ok()?;
     let mut with_numbers = Scene::clone(&known);
     with_numbers.problem = scene.problem;
@@ -73,8 +73,8 @@ fn scene(scene: &Scene) -> Option<(Vec<Step>, Vec<Symbol>)> {
     }
     let names = scene.terms.difference(&known.terms).copied().collect();
     let words = numbers(&known.problem, &scene.problem);
-    let set = (!words.is_empty()).then(|| Step::Run(format!("set {}", words.join(" "))));
-    let lines = std::iter::once(Step::Run(format!("scene {}", scene.name))).chain(set);
+    let set = (!words.is_empty()).then(|| Instruction::Run(format!("set {}", words.join(" "))));
+    let lines = std::iter::once(Instruction::Run(format!("scene {}", scene.name))).chain(set);
     Some((lines.collect(), names))
 }
 

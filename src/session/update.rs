@@ -14,7 +14,7 @@ use crate::session::message::Msg;
 use crate::session::press::{ENTER, press, run_untyped};
 use crate::session::read::waiting;
 use crate::session::replay::parse::parse;
-use crate::session::replay::script::Step;
+use crate::session::replay::script::Instruction;
 use crate::session::state::overlay::{Caption, Entry, Overlay};
 use crate::session::state::plot::Pane;
 use crate::session::state::rows::Row;
@@ -30,7 +30,8 @@ pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
             macros::end(session);
             return Vec::new();
         }
-        if let (Some(request), Some(step)) = (session.awaited(&message), Step::of(&message)) {
+        if let (Some(request), Some(step)) = (session.awaited(&message), Instruction::of(&message))
+        {
             session.waiting = Some(Waiting { step, request });
             return Vec::new();
         }

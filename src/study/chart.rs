@@ -9,7 +9,7 @@
 mod line;
 mod trace;
 
-pub use line::{Band, Line};
+pub use line::{Band, ChartLine};
 use trace::{HALVINGS, Tracer, values};
 
 use super::regime::Regime;
@@ -37,7 +37,7 @@ pub struct Chart {
     /// The parameter along which lines run.
     pub along: Symbol,
     /// The lines, by the value of the other parameter.
-    pub lines: Vec<Line>,
+    pub lines: Vec<ChartLine>,
     /// What it cost.
     pub cost: Cost,
 }
@@ -111,7 +111,7 @@ pub fn chart(
         ratio: 1.0,
         known: None,
     };
-    let mut lines: Vec<Line> = Vec::new();
+    let mut lines: Vec<ChartLine> = Vec::new();
     for at in values(across, plane.range(across), resolution.lines) {
         let line = tracer.line(at)?;
         if let Some(before) = lines.last().cloned() {
@@ -171,14 +171,15 @@ impl Chart {
     }
 }
 
-impl Line {
+impl ChartLine {
     fn regime_at(&self, along: f64) -> Option<Regime> {
         self.bands.iter().find(|band| along <= band.to).and_then(|band| band.regime)
     }
 
     /// Whether the same regimes follow each other.
-    fn alike(&self, other: &Line) -> bool {
-        let regimes = |line: &Line| line.bands.iter().map(|band| band.regime).collect::<Vec<_>>();
+    fn alike(&self, other: &ChartLine) -> bool {
+        let regimes =
+            |line: &ChartLine| line.bands.iter().map(|band| band.regime).collect::<Vec<_>>();
         regimes(self) == regimes(other)
     }
 }

@@ -30,7 +30,7 @@ const FARTHEST: f64 = 1e8;
 /// A random kick.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
-pub struct Kicks {
+pub struct RandomKick {
     /// How both parts are spread.
     pub law: Distribution,
     /// Mean and spread of the displacement.
@@ -39,14 +39,14 @@ pub struct Kicks {
     pub v: (f64, f64),
 }
 
-impl Default for Kicks {
+impl Default for RandomKick {
     /// Normal, with standard deviations of 1.
     fn default() -> Self {
-        Kicks { law: Distribution::Normal, q: (0.0, 1.0), v: (0.0, 1.0) }
+        RandomKick { law: Distribution::Normal, q: (0.0, 1.0), v: (0.0, 1.0) }
     }
 }
 
-impl FromStr for Kicks {
+impl FromStr for RandomKick {
     type Err = String;
 
     /// Reads `q=0+-0.1,v=0+-0.05`, with `uniform:` before it for a law that is not normal.
@@ -60,7 +60,7 @@ impl FromStr for Kicks {
             Some(("uniform", parts)) => (Distribution::Uniform, parts),
             Some(_) => return Err(form()),
         };
-        let mut kicks = Kicks { law, q: (0.0, 0.0), v: (0.0, 0.0) };
+        let mut kicks = RandomKick { law, q: (0.0, 0.0), v: (0.0, 0.0) };
         for part in parts.split(',') {
             let (name, interval) = part.split_once('=').ok_or_else(form)?;
             let number = |text: &str| {
@@ -85,7 +85,7 @@ impl FromStr for Kicks {
     }
 }
 
-impl TryFrom<String> for Kicks {
+impl TryFrom<String> for RandomKick {
     type Error = String;
 
     fn try_from(text: String) -> Result<Self, String> {
@@ -93,13 +93,13 @@ impl TryFrom<String> for Kicks {
     }
 }
 
-impl From<Kicks> for String {
-    fn from(kicks: Kicks) -> Self {
+impl From<RandomKick> for String {
+    fn from(kicks: RandomKick) -> Self {
         kicks.to_string()
     }
 }
 
-impl fmt::Display for Kicks {
+impl fmt::Display for RandomKick {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let law = if self.law == Distribution::Uniform { "uniform:" } else { "" };
         let (q, v) = (self.q, self.v);
@@ -146,7 +146,7 @@ impl Distribution {
     }
 }
 
-impl Kicks {
+impl RandomKick {
     /// The largest displacement that matters.
     #[must_use]
     pub fn reach(&self) -> f64 {
@@ -155,7 +155,7 @@ impl Kicks {
 
     /// The part of the kicks that is lost: that leads out of the basin of the sticking set.
     ///
-    /// The basin has to be known as far as [`Kicks::reach`]. Quadrature as in [`Basin::captured_share`].
+    /// The basin has to be known as far as [`RandomKick::reach`]. Quadrature as in [`Basin::captured_share`].
     #[must_use]
     pub fn lost(&self, basin: &Basin) -> Share {
         let all = |part| Share { part, error: 0.0 };
@@ -230,13 +230,13 @@ mod tests {
 
     #[test]
     fn kicks_are_read_and_written() {
-        let kicks: Kicks = "q=0+-0.1,v=0.2+-0.05".parse().unwrap();
+        let kicks: RandomKick = "q=0+-0.1,v=0.2+-0.05".parse().unwrap();
         assert_eq!(kicks.law, Distribution::Normal);
         assert_eq!((kicks.q, kicks.v), ((0.0, 0.1), (0.2, 0.05)));
         assert_eq!(kicks.to_string(), "q=0+-0.1,v=0.2+-0.05");
-        assert_eq!("uniform:v=1+-1".parse::<Kicks>().unwrap().law, Distribution::Uniform);
+        assert_eq!("uniform:v=1+-1".parse::<RandomKick>().unwrap().law, Distribution::Uniform);
         for text in ["q", "x=1", "cauchy:q=1", "q=1+-", "q=1+--1", "q=inf"] {
-            assert!(text.parse::<Kicks>().is_err(), "{text}");
+            assert!(text.parse::<RandomKick>().is_err(), "{text}");
         }
     }
 
@@ -246,7 +246,7 @@ mod tests {
             let parameters = Parameters { d, d2, d3, r: 0.1 };
             let found = basin(&parameters, 2.0, &Limits::PATIENT).unwrap();
             let window = Window { q: (-0.5, 0.7), v: (-0.6, 0.4) };
-            let kicks = Kicks { law: Distribution::Uniform, q: (0.1, 0.6), v: (-0.1, 0.5) };
+            let kicks = RandomKick { law: Distribution::Uniform, q: (0.1, 0.6), v: (-0.1, 0.5) };
             let (lost, held) = (kicks.lost(&found), found.captured_share(&window));
             assert!((lost.part + held.part - 1.0).abs() <= lost.error + held.error + 1e-12);
         }
@@ -256,7 +256,7 @@ mod tests {
     fn normal_kicks_are_lost_as_often_as_a_monte_carlo_loses_them() {
         let parameters = Parameters { d: -0.3, d2: 0.2, d3: 0.5, r: 0.1 };
         let found = basin(&parameters, 3.0, &Limits::PATIENT).unwrap();
-        let kicks = Kicks { law: Distribution::Normal, q: (0.02, 0.08), v: (0.0, 0.1) };
+        let kicks = RandomKick { law: Distribution::Normal, q: (0.02, 0.08), v: (0.0, 0.1) };
         let lost = kicks.lost(&found);
         // Points of a lattice in the unit square, made normal by the inverse of the distribution.
         let inverse =
@@ -280,7 +280,7 @@ mod tests {
         // comes from next to the sticking set and falls as the spread grows.
         let parameters = Parameters { d: -0.05, d2: 0.5, d3: 0.0, r: 0.2 };
         let short_of_half = |spread: f64| {
-            let kicks = Kicks { law: Distribution::Normal, q: (0.0, spread), v: (0.0, 1.0) };
+            let kicks = RandomKick { law: Distribution::Normal, q: (0.0, spread), v: (0.0, 1.0) };
             let found = basin(&parameters, kicks.reach(), &Limits::PATIENT).unwrap();
             0.5 - kicks.lost(&found).part
         };
@@ -297,7 +297,7 @@ mod tests {
         let found = basin(&parameters, 3.0, &Limits::PATIENT).unwrap();
         let margin = found.margin().impulse.unwrap();
         let lost = |v: f64| {
-            Kicks { law: Distribution::Normal, q: (0.0, 0.0), v: (v, 0.0) }.lost(&found).part
+            RandomKick { law: Distribution::Normal, q: (0.0, 0.0), v: (v, 0.0) }.lost(&found).part
         };
         assert_eq!([lost(0.999 * margin), lost(1.001 * margin)], [0.0, 1.0]);
     }

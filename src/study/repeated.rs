@@ -11,7 +11,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::basin::{Basin, Fate, basin};
-use super::kicks::Kicks;
+use super::kicks::RandomKick;
 use super::stability::Share;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Detail, Limits, Outcome, Problem, Reason};
@@ -52,7 +52,7 @@ const FAR: f64 = 5.0;
 /// The [`Reason`] why the basin could not be computed; [`Reason::NotApplicable`] without friction.
 pub fn repeated(
     parameters: &Parameters,
-    kicks: &Kicks,
+    kicks: &RandomKick,
     limits: &Limits,
 ) -> Result<Repeated, Reason> {
     if parameters.r == 0.0 {
@@ -85,8 +85,8 @@ impl Repeated {
 }
 
 /// The starts that kicks from a place of rest lead to, as kicks from the origin.
-fn from(kicks: &Kicks, place: f64) -> Kicks {
-    Kicks { q: (kicks.q.0 + place, kicks.q.1), ..*kicks }
+fn from(kicks: &RandomKick, place: f64) -> RandomKick {
+    RandomKick { q: (kicks.q.0 + place, kicks.q.1), ..*kicks }
 }
 
 /// The chain on cells.
@@ -100,7 +100,12 @@ struct Chain {
 }
 
 impl Chain {
-    fn new(basin: &Basin, kicks: &Kicks, cells: usize, limits: &Limits) -> Result<Self, Reason> {
+    fn new(
+        basin: &Basin,
+        kicks: &RandomKick,
+        cells: usize,
+        limits: &Limits,
+    ) -> Result<Self, Reason> {
         let r = basin.parameters.r;
         let width = 2.0 * r / real(cells);
         let centres: Vec<f64> = (0..cells).map(|cell| (real(cell) + 0.5) * width - r).collect();
@@ -189,7 +194,7 @@ struct Column {
     weights: Vec<(usize, f64)>,
 }
 
-fn columns(kicks: &Kicks, centres: &[f64], fineness: f64) -> Vec<Column> {
+fn columns(kicks: &RandomKick, centres: &[f64], fineness: f64) -> Vec<Column> {
     let (mean, spread) = kicks.q;
     if spread == 0.0 {
         let column =
@@ -209,7 +214,7 @@ fn columns(kicks: &Kicks, centres: &[f64], fineness: f64) -> Vec<Column> {
 }
 
 /// Velocities of starts with their weights.
-fn rows(kicks: &Kicks, fineness: f64) -> Vec<(f64, f64)> {
+fn rows(kicks: &RandomKick, fineness: f64) -> Vec<(f64, f64)> {
     let (mean, spread) = kicks.v;
     if spread == 0.0 {
         return vec![(mean, 1.0)];
@@ -266,7 +271,7 @@ mod tests {
 
     /// Kicks one after the other, each from where the last one came to rest: mean number until one is lost, and
     /// its standard error.
-    fn drawn(parameters: &Parameters, kicks: &Kicks, most: u32) -> (f64, f64) {
+    fn drawn(parameters: &Parameters, kicks: &RandomKick, most: u32) -> (f64, f64) {
         let found = basin(parameters, 5.0, &Limits::PATIENT).unwrap();
         let mut random = Random::new(7);
         let (mut kicked, mut runs, mut squares, mut sum) = (0, 0.0, 0.0, 0.0);
@@ -291,9 +296,10 @@ mod tests {
     }
 
     const PARAMETERS: Parameters = Parameters { d: -0.3, d2: 0.2, d3: 0.5, r: 0.1 };
-    const KICKS: Kicks = Kicks { law: Distribution::Normal, q: (0.0, 0.04), v: (0.02, 0.08) };
+    const KICKS: RandomKick =
+        RandomKick { law: Distribution::Normal, q: (0.0, 0.04), v: (0.02, 0.08) };
 
-    fn agrees(parameters: &Parameters, kicks: &Kicks, drawn_kicks: u32) {
+    fn agrees(parameters: &Parameters, kicks: &RandomKick, drawn_kicks: u32) {
         let found = repeated(parameters, kicks, &Limits::PATIENT).unwrap();
         let (mean, deviation) = drawn(parameters, kicks, drawn_kicks);
         let error = 3.0 * deviation + found.error * found.mean;
@@ -317,10 +323,10 @@ mod tests {
     #[ignore = "1e6 kicks: a minute"]
     fn kicks_are_lost_after_as_many_as_a_large_monte_carlo_needs() {
         agrees(&PARAMETERS, &KICKS, 1_000_000);
-        let impulses = Kicks { q: (0.0, 0.0), ..KICKS };
+        let impulses = RandomKick { q: (0.0, 0.0), ..KICKS };
         agrees(
             &Parameters { d: -0.05, d2: 0.5, d3: 0.0, r: 0.2 },
-            &Kicks { v: (0.0, 0.6), ..impulses },
+            &RandomKick { v: (0.0, 0.6), ..impulses },
             1_000_000,
         );
     }
@@ -328,7 +334,7 @@ mod tests {
     #[test]
     fn where_nothing_is_lost_nothing_ever_is() {
         let damped = Parameters { d: 0.2, d2: 0.0, d3: 0.0, r: 0.1 };
-        let kicks = Kicks { q: (0.0, 0.0), ..KICKS };
+        let kicks = RandomKick { q: (0.0, 0.0), ..KICKS };
         let found = repeated(&damped, &kicks, &Limits::PATIENT).unwrap();
         assert_eq!((found.first.part, found.later, found.mean), (0.0, 0.0, f64::INFINITY));
         let without = Parameters { r: 0.0, ..damped };

@@ -8,7 +8,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use super::basin::Window;
-use super::kicks::Kicks;
+use super::kicks::RandomKick;
 use super::measure::{Conditions, Measure, Need, Value, measure, needs_of};
 use crate::flow::method::Dial;
 use crate::flow::{Cost, Limits, Problem, Reason};
@@ -310,7 +310,7 @@ impl Scan {
             }
         }
         if [Measure::Lost, Measure::Repeated].iter().any(|one| self.measures.contains(one)) {
-            let Kicks { law, q, v } = self.conditions.kicks;
+            let RandomKick { law, q, v } = self.conditions.kicks;
             inputs.push(("kick_law", Value::Word(law.name())));
             inputs.extend([("kick_q", q.0.into()), ("kick_q_spread", q.1.into())]);
             inputs.extend([("kick_v", v.0.into()), ("kick_v_spread", v.1.into())]);

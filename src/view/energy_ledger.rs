@@ -9,7 +9,7 @@ use ratatui::layout::Rect;
 
 use super::look::Look;
 use super::pane::Heading;
-use super::plot::{Names, Plot, rows};
+use super::plot::{Canvas, Names, rows};
 use crate::picture::energy_ledger::{middle, reading};
 use crate::picture::role::{Dash, Role};
 use crate::picture::ticks::{Tick, Ticks};
@@ -40,7 +40,7 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
             .map(|(_, entry)| reading(entry))
             .unwrap_or_default()
     });
-    let mut plot = Plot::new(area, window, names, &heading, look, buffer);
+    let mut plot = Canvas::new(area, window, names, &heading, look, buffer);
     plot.upright(0.0, Role::Axis, Dash::Solid);
     let symbols = look.symbols();
     let half = half_a_row(area, window);

@@ -3,7 +3,7 @@
 
 use super::pane;
 use crate::flow::{Outcome, Trajectory};
-use crate::machine::{Cycle, Fate};
+use crate::machine::{MachineCycle, MachineFate};
 use crate::scene::Topic;
 use crate::session::Session;
 use crate::study::Margin;
@@ -26,21 +26,21 @@ pub fn outcome(session: &Session, motion: &Trajectory) -> String {
         _ => "",
     };
     match (course.fate, motion.outcome) {
-        (Fate::Rest, Outcome::Captured { tau, q }) => {
+        (MachineFate::Rest, Outcome::Captured { tau, q }) => {
             let place = with_unit(q * units.displacement, PLACES, "m");
             let time = with_unit(tau * units.time, PLACES, "s");
             format!("comes to rest at x = {place}, after {time}{within}")
         }
-        (Fate::Rest, _) => format!("comes to rest{within}"),
-        (Fate::Cycle(index), _) => course.cycles.get(index).map_or_else(String::new, onto),
-        (Fate::Neutral, _) => "is periodic, one of a family".to_owned(),
-        (Fate::Escaped, _) => "grows without bound".to_owned(),
-        (Fate::Unknown(stop), _) => format!("is not known: {stop}"),
+        (MachineFate::Rest, _) => format!("comes to rest{within}"),
+        (MachineFate::Cycle(index), _) => course.cycles.get(index).map_or_else(String::new, onto),
+        (MachineFate::Neutral, _) => "is periodic, one of a family".to_owned(),
+        (MachineFate::Escaped, _) => "grows without bound".to_owned(),
+        (MachineFate::Unknown(stop), _) => format!("is not known: {stop}"),
     }
 }
 
 /// The cycle to which a motion tends.
-fn onto(cycle: &Cycle) -> String {
+fn onto(cycle: &MachineCycle) -> String {
     let size = with_unit(cycle.x.1, PLACES, "m");
     let over = if cycle.overtakes { "overtaking " } else { "" };
     if !cycle.sticks {

@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 
 use super::look::{Look, Symbols};
 use super::pane::Heading;
-use super::plot::{Name, Names, Plot};
+use super::plot::{Canvas, Name, Names};
 use crate::picture::items::{Item, Marks, Pattern, Picture};
 use crate::picture::role::Mark;
 
@@ -24,7 +24,7 @@ pub fn paint(area: Rect, picture: Picture, mut heading: Heading, look: &Look, bu
     heading.reading = reading;
     let (x, y) = (scales[0].title(&x), scales[1].title(&y));
     let names = Names { title: &title, x, y, scales, marks: None };
-    let mut plot = Plot::new(area, window, names, &heading, look, buffer);
+    let mut plot = Canvas::new(area, window, names, &heading, look, buffer);
     // Texts find their places when all else is there; names of curves last, since they have many places
     // to go to.
     let is_text = |item: &Item| matches!(item, Item::Caption { .. } | Item::Cross(_));
@@ -51,7 +51,7 @@ fn name<'a>(item: &'a Item) -> Option<Name<'a>> {
     }
 }
 
-fn put(plot: &mut Plot, item: &Item, look: &Look) {
+fn put(plot: &mut Canvas, item: &Item, look: &Look) {
     let symbols = look.symbols();
     match item {
         Item::Curve(line, points) | Item::Path(line, points) => {

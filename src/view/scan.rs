@@ -10,7 +10,7 @@ use ratatui::text::{Line, Span};
 
 use super::look::Look;
 use super::pane::{self, Heading};
-use super::plot::{Names, Plot};
+use super::plot::{Canvas, Names};
 use super::scan_map;
 use super::scan_table;
 use crate::picture::role::{Dash, Role};
@@ -53,7 +53,7 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
     let short = if whole { title.as_str() } else { View::Scan.spec().title };
     let names = Names { title: short, x, y, scales: scales(scanned), marks: None };
     let window = session.plots[index].window;
-    let mut plot = Plot::new(body(area), window, names, &heading, look, buffer);
+    let mut plot = Canvas::new(body(area), window, names, &heading, look, buffer);
     let legend = if scanned.is_grid() {
         scan_map::draw(&plot, scanned, look, buffer);
         scan_map::legend(scanned, width, look)
@@ -120,7 +120,7 @@ fn reading(scanned: &Scanned, width: usize) -> String {
 }
 
 /// The measured number over one parameter; where there is none the curve has a gap.
-fn curve(plot: &mut Plot, scanned: &Scanned, look: &Look) {
+fn curve(plot: &mut Canvas, scanned: &Scanned, look: &Look) {
     let point = |index| scanned.place(index).unwrap_or(Point { x: f64::NAN, y: f64::NAN });
     let role = Role::Trajectory;
     let all = 0..scanned.rows.len();

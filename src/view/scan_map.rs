@@ -8,7 +8,7 @@ use ratatui::text::{Line, Span};
 
 use super::look::Look;
 use super::pane;
-use super::plot::Plot;
+use super::plot::Canvas;
 use crate::numerics::elementary::{ln, pow};
 use crate::picture::role::Role;
 use crate::picture::scan::measured;
@@ -89,7 +89,7 @@ impl Ramp {
 }
 
 /// Fills each cell with the shade of the point nearest to it.
-pub fn draw(plot: &Plot, scanned: &Scanned, look: &Look, buffer: &mut Buffer) {
+pub fn draw(plot: &Canvas, scanned: &Scanned, look: &Look, buffer: &mut Buffer) {
     let words = scanned.plots_words();
     let ramp = Ramp::of(scanned, look);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "number of a word")]

@@ -16,7 +16,7 @@ use crate::flow::{Outcome, Trajectory};
 use crate::picture::role::Role;
 use crate::scene::{Answer, Layer, Topic};
 use crate::session::Session;
-use crate::session::fate::{End, Fate, Side};
+use crate::session::fate::{End, MotionVerdict, SideOfBorder};
 use crate::study::Edge;
 use crate::words::motion::{sentence, swings};
 use crate::words::number::{count, duration, significant};
@@ -203,13 +203,13 @@ fn symbol(session: &Session, look: &Look) -> String {
 }
 
 /// What becomes of a motion and why, in a sentence.
-fn verdict(fate: &Fate, motion: &Trajectory) -> String {
+fn verdict(fate: &MotionVerdict, motion: &Trajectory) -> String {
     let why = match fate.place {
-        Side::InsideCycle => " (inside the unstable cycle)",
-        Side::OutsideCycle => " (outside the unstable cycle)",
-        Side::InsideSeparatrix => " (inside the separatrix)",
-        Side::OutsideSeparatrix => " (outside the separatrix)",
-        Side::Anywhere => "",
+        SideOfBorder::InsideCycle => " (inside the unstable cycle)",
+        SideOfBorder::OutsideCycle => " (outside the unstable cycle)",
+        SideOfBorder::InsideSeparatrix => " (inside the separatrix)",
+        SideOfBorder::OutsideSeparatrix => " (outside the separatrix)",
+        SideOfBorder::Anywhere => "",
     };
     let three = |value| significant(value, 3);
     let end = match (fate.end, motion.outcome) {

@@ -17,7 +17,7 @@ use crate::scene::{
     Answer, Answered, Axes, LAYERS, Layer, PlotSetup, Point, Scene, Span, View, Window,
 };
 use crate::session::settings::{self, Colors, GLYPHS, Glyphs, THEMES};
-use crate::session::{Msg, Notice, Session, Size, Stop, update};
+use crate::session::{BranchStop, Msg, Notice, Session, Size, update};
 use crate::study::{BranchPoint, Return};
 use crate::view::screen::text;
 use proptest::prelude::*;
@@ -375,7 +375,7 @@ proptest! {
                         BranchPoint { value: *value, cycle: cycle(*q_max, *q_max > 0.0) }
                     }).collect()];
                     found.special[0].cycle = Some(cycle(value, true));
-                    session.held = Some(Stop::at(0, &found.special[0]));
+                    session.held = Some(BranchStop::at(0, &found.special[0]));
                 }
                 Ok(Answer::Balance(found)) => found.balanced.clear(),
                 Ok(Answer::ReturnMap(found)) => {

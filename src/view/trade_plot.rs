@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 
 use super::look::Look;
 use super::pane::Heading;
-use super::plot::{Names, Plot};
+use super::plot::{Canvas, Names};
 use super::screen;
 use crate::flow::Method;
 use crate::numerics::elementary::log10;
@@ -54,7 +54,7 @@ pub fn in_letters(trade: &Trade, seconds: &[f64]) -> String {
         marks: None,
     };
     let heading = Heading::default();
-    let mut plot = Plot::new(AREA, Window { x, y }, names, &heading, &look, &mut buffer);
+    let mut plot = Canvas::new(AREA, Window { x, y }, names, &heading, &look, &mut buffer);
     for (point, letter) in points.into_iter().rev() {
         plot.mark(point, letter, Role::Text);
     }

@@ -1,7 +1,7 @@
 //! The point of the branch that is held, in numbers.
 
 use super::look::Look;
-use crate::session::{Session, Stop};
+use crate::session::{BranchStop, Session};
 use crate::study::{Cycle, SpecialKind};
 use crate::words::number::significant;
 use crate::words::stability;
@@ -23,7 +23,7 @@ pub fn reading(session: &Session, look: &Look, width: u16) -> Option<String> {
     DIGITS.iter().map(line).find(fits).or_else(|| DIGITS.last().map(line))
 }
 
-fn sentence(name: &str, label: &str, held: &Stop, digits: usize, dot: &str) -> String {
+fn sentence(name: &str, label: &str, held: &BranchStop, digits: usize, dot: &str) -> String {
     let mut parts = vec![format!("{name} {}", significant(held.value, digits))];
     // The values that the variant holds, where the diagram shows several.
     parts.extend(Some(label.to_owned()).filter(|label| !label.is_empty()));

@@ -2,10 +2,10 @@
 //! stable state ends, up and down, as its motions make them.
 
 use hopfscope::flow::Limits;
-use hopfscope::machine::Cycle;
+use hopfscope::machine::MachineCycle;
 use hopfscope::machine::branch::branch;
 use hopfscope::machine::jumps::{Jump, Landing};
-use hopfscope::machine::special::{Kind, Special};
+use hopfscope::machine::special::{Kind, MachineSpecial};
 use hopfscope::machine::varied::Varied;
 use hopfscope::oscillator::Belt;
 use hopfscope::oscillator::belt::FrictionLaw;
@@ -19,7 +19,7 @@ fn machine(name: &str) -> Belt {
     machines().iter().find(|machine| machine.name == name).unwrap().belt.clone()
 }
 
-fn specials(belt: &Belt, from: f64, to: f64, count: usize) -> Vec<Special> {
+fn specials(belt: &Belt, from: f64, to: f64, count: usize) -> Vec<MachineSpecial> {
     branch(belt, Varied::named("v0").unwrap(), (from, to), count).unwrap().special
 }
 
@@ -169,7 +169,7 @@ fn a_draft_is_quick_and_shows_every_kind_where_the_whole_answer_does() {
         for at in &draft.points {
             let same = whole.points.iter().find(|other| (other.v0 / at.v0 - 1.0).abs() < 1e-12);
             let Some(same) = same else { continue };
-            let kinds = |cycles: &[Cycle]| -> Vec<_> {
+            let kinds = |cycles: &[MachineCycle]| -> Vec<_> {
                 cycles.iter().map(|cycle| (cycle.sticks, cycle.stable)).collect()
             };
             assert_eq!(kinds(&at.cycles), kinds(&same.cycles), "{scene} at {}", at.v0);

@@ -3,7 +3,7 @@
 
 use hopfscope::flow::{Limits, Method, Outcome};
 use hopfscope::study::extremes::verdict::{BUDGET, METHODS, TOLERANCE};
-use hopfscope::study::extremes::{Answer, Case, Verdict, cases, judge, named};
+use hopfscope::study::extremes::{Case, MethodAnswer, Verdict, cases, judge, named};
 use rayon::prelude::*;
 
 /// One step of any method after the budget is spent: a Taylor series, or a step of the implicit method
@@ -30,7 +30,7 @@ fn is_answer(outcome: &Outcome) -> bool {
     }
 }
 
-fn complaint(verdict: &Verdict, answer: &Answer, extra: f64) -> Option<String> {
+fn complaint(verdict: &Verdict, answer: &MethodAnswer, extra: f64) -> Option<String> {
     let gave_up = matches!(answer.outcome, Outcome::GaveUp { .. });
     let what = if !is_answer(&answer.outcome) {
         "not a number"

@@ -9,7 +9,7 @@ mod strange;
 use std::fs;
 
 use hopfscope::fit::names::{Choice, NAMES, named};
-use hopfscope::fit::observation::{Data, Observation, Start, Unknowns};
+use hopfscope::fit::observation::{Data, Observation, StartKind, Unknowns};
 use hopfscope::fit::{Estimate, Question, Record, estimate};
 use hopfscope::numerics::elementary::powi;
 use hopfscope::numerics::random::Random;
@@ -110,7 +110,7 @@ fn a_margin_seen_in_the_record_is_found_and_one_beyond_it_is_called_extrapolated
 /// A record of the program's own motion with noise.
 struct Simulated {
     p: Unknowns,
-    start: Start,
+    start: StartKind,
     seconds: f64,
     samples: u32,
     noise: f64,
@@ -152,7 +152,7 @@ fn a_guess_in_the_valley_of_another_number_of_half_swings_is_led_out_of_it() {
     let p = [8.0, -3.0, 0.01, -0.04, 0.001, 0.15, -6.0, 0.7];
     let decay = Simulated {
         p,
-        start: Start::Release,
+        start: StartKind::Release,
         seconds: 14.0,
         samples: 800,
         noise: 0.05,
@@ -171,7 +171,7 @@ fn a_guess_in_the_valley_of_another_number_of_half_swings_is_led_out_of_it() {
 fn a_drift_that_the_model_does_not_know_is_told() {
     let decay = Simulated {
         p: DECAY,
-        start: Start::Release,
+        start: StartKind::Release,
         seconds: 6.0,
         samples: 600,
         noise: 0.02,
@@ -193,7 +193,7 @@ fn ten_thousand_samples_take_at_most_forty_motions_with_derivatives() {
     // A weakly damped oscillation read by a converter with steps of 0.005.
     let ringing = Simulated {
         p: [31.4, 0.0, 0.0008, 0.0, 2e-5, 0.001, 6.0, 0.5],
-        start: Start::Moving,
+        start: StartKind::Moving,
         seconds: 30.0,
         samples: 10_000,
         noise: 0.006,
@@ -210,7 +210,7 @@ fn ten_thousand_samples_take_at_most_forty_motions_with_derivatives() {
     }
     let decay = Simulated {
         p: DECAY,
-        start: Start::Release,
+        start: StartKind::Release,
         seconds: 6.0,
         samples: 10_000,
         noise: 0.05,
@@ -347,7 +347,7 @@ fn a_fit_is_the_same_in_any_unit() {
     // The scaling symmetry: D2 per length, D3 per length squared.
     let decay = Simulated {
         p: DECAY,
-        start: Start::Release,
+        start: StartKind::Release,
         seconds: 6.0,
         samples: 300,
         noise: 0.05,
@@ -370,7 +370,7 @@ fn peaks_go_on_where_the_motion_rests_so_that_intervals_do_not_end_at_that_rim()
     // The last two readings are a swing that has nearly died away.
     let decay = [1.0, 0.3, 0.012, 0.004, 0.0004, 0.1, 8.0, 0.0];
     let data = Data::Peaks { t: None, x: vec![0.0; 24], ratio: 1.0 };
-    let observation = Observation { data, start: Start::Release, linear: false, reach: 1e9 };
+    let observation = Observation { data, start: StartKind::Release, linear: false, reach: 1e9 };
     let stronger = |r: f64| {
         let mut p = decay;
         p[5] = r;

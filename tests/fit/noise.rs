@@ -17,7 +17,7 @@ fn covered(estimates: &[Estimate], p: &Unknowns) -> Vec<usize> {
 fn intervals_of_95_percent_hold_the_truth_in_93_to_97_of_100_noisy_decays() {
     let decay = Simulated {
         p: DECAY,
-        start: Start::Release,
+        start: StartKind::Release,
         seconds: 6.0,
         samples: 200,
         noise: 0.05,
@@ -33,7 +33,7 @@ fn intervals_of_95_percent_hold_the_truth_in_93_to_97_of_100_noisy_decays() {
 fn correlated_noise_is_told_and_paid_for() {
     let decay = Simulated {
         p: DECAY,
-        start: Start::Release,
+        start: StartKind::Release,
         seconds: 6.0,
         samples: 400,
         noise: 0.05,
@@ -60,7 +60,7 @@ fn correlated_noise_is_told_and_paid_for() {
 fn impossible_samples_are_left_out_and_the_rest_is_fitted_as_if_they_had_not_been() {
     let decay = Simulated {
         p: DECAY,
-        start: Start::Release,
+        start: StartKind::Release,
         seconds: 6.0,
         samples: 1200,
         noise: 0.05,
@@ -99,7 +99,7 @@ fn readings_at_rest_of_a_coarse_converter_do_not_count_as_if_their_errors_were_i
         at[1] = offset;
         let coarse = Simulated {
             p: at,
-            start: Start::Release,
+            start: StartKind::Release,
             seconds: 4.0,
             samples: 2000,
             noise: 0.01,
@@ -123,7 +123,7 @@ fn a_rest_that_two_numbers_of_half_swings_explain_is_told_with_both() {
     // Weak friction and much noise: the last turning point may lie on either side of the rim.
     let unclear = Simulated {
         p: [14.0, 0.1, 0.002, 0.0, 0.01, 0.02, 5.0, 0.4],
-        start: Start::Moving,
+        start: StartKind::Moving,
         seconds: 20.0,
         samples: 1000,
         noise: 0.06,

@@ -1,7 +1,7 @@
 //! Records that begin in another way, and such as are no motion of this oscillator.
 
 use hopfscope::fit::names::NAMES;
-use hopfscope::fit::observation::Start;
+use hopfscope::fit::observation::StartKind;
 use hopfscope::fit::{Question, Record, estimate};
 use hopfscope::numerics::elementary::{cos, exp, sin};
 use hopfscope::numerics::random::Random;
@@ -13,7 +13,7 @@ fn a_mass_that_is_struck_where_it_rests_is_fitted_from_the_stroke_on() {
     // A stroke: at rest for 0.4 s, then under way through the same place.
     let struck = Simulated {
         p: [16.0, 0.2, 0.015, 0.0, 0.0, 0.1, 0.0, 5.0],
-        start: Start::Moving,
+        start: StartKind::Moving,
         seconds: 4.0,
         samples: 1000,
         noise: 0.03,
@@ -28,7 +28,7 @@ fn a_mass_that_is_struck_where_it_rests_is_fitted_from_the_stroke_on() {
         let record = Record { t: Some(t), x, ..Record::default() };
         let found = estimate(&record, &Question::default(), &|| false).unwrap();
         assert!((100..106).contains(&found.before), "{}", found.before);
-        assert!(found.start == Start::Moving && found.rests && found.whiteness.white);
+        assert!(found.start == StartKind::Moving && found.rests && found.whiteness.white);
         for row in &NAMES {
             let off =
                 (found.p[row.place] - struck.p[row.place]) / found.covariance.error(row.place);

@@ -1,7 +1,7 @@
 //! Certificates of limit cycles: what is written is accepted, and nothing else.
 
 use hopfscope::check::motion::Field;
-use hopfscope::check::{Certificate, Kind, Step, check};
+use hopfscope::check::{Certificate, CertificateStep, Kind, check};
 use hopfscope::numerics::Interval;
 use hopfscope::numerics::elementary::cbrt;
 use hopfscope::oscillator::Parameters;
@@ -32,7 +32,8 @@ fn what_is_written_is_accepted() {
             check(&text).unwrap_or_else(|why| panic!("{d} {d2} {d3} {r}: {why}\n{text}"));
         assert_eq!(accepted.cycles, cycles, "{d} {d2} {d3} {r}");
         let shown = accepted.steps.iter().filter(|step| step.clearance.is_some()).count();
-        let by_theorem = matches!(accepted.steps[..], [Step { to: None, from: 0.0, .. }]);
+        let by_theorem =
+            matches!(accepted.steps[..], [CertificateStep { to: None, from: 0.0, .. }]);
         assert!(by_theorem || shown == cycles);
     }
 }
@@ -137,8 +138,13 @@ fn a_step_that_is_missing_or_out_of_place_is_refused_with_its_line() {
         let there = gone + 5;
         assert!((there - 1..=there).contains(&line(&refusal)), "without step {gone}: {refusal}");
     }
-    let steps =
-        vec![Step { kind: Kind::OneWay, from: 0.0, to: None, clearance: None, fences: None }];
+    let steps = vec![CertificateStep {
+        kind: Kind::OneWay,
+        from: 0.0,
+        to: None,
+        clearance: None,
+        fences: None,
+    }];
     let claimed = file(&Certificate { parameters: whole.parameters, cycles: 0, steps }).unwrap();
     assert_eq!(line(&check(&claimed).unwrap_err()), 5);
     assert_eq!(line(&check("{\n\"cycles\": x").unwrap_err()), 2);
@@ -223,8 +229,13 @@ fn what_is_nearly_true_is_refused() {
     });
     assert!(why.contains("contract") || why.contains("certain"), "{why}");
     // 32 |D|^3 < 27 r^2 D3 decides.
-    let steps =
-        vec![Step { kind: Kind::OneWay, from: 0.0, to: None, clearance: None, fences: None }];
+    let steps = vec![CertificateStep {
+        kind: Kind::OneWay,
+        from: 0.0,
+        to: None,
+        clearance: None,
+        fences: None,
+    }];
     let limit = cbrt(27.0 * 0.01 * 0.5 / 32.0);
     for (d, holds) in [(-limit * (1.0 - 1e-9), true), (-limit * (1.0 + 1e-9), false)] {
         let parameters = [[d; 2], [0.2; 2], [0.5; 2], [0.1; 2]];

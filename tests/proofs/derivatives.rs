@@ -13,7 +13,7 @@ fn derivatives_by_the_parameters_obey_scaling_and_the_closed_form() {
         (-0.4, 0.0, 0.0, 0.7),
     ] {
         let field = Field { a: point(2.0 * d), b: point(b), c: point(c) };
-        let found = swing_with_derivatives(&field, &Start::at_rest(point(z))).arrived().unwrap();
+        let found = swing_with_derivatives(&field, &StartBox::at_rest(point(z))).arrived().unwrap();
         let [by_a, by_b, by_c] = found.derivatives.unwrap();
         let by_z = point(z) / found.end * found.divergence.exp();
         let off = point(z) * by_z - point(b) * by_b - (point(c) * by_c).twice() - found.end;

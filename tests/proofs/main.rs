@@ -19,8 +19,8 @@ use hopfscope::proof::derivatives::{cycle_derivatives, derivatives};
 use hopfscope::proof::escape::enclose_escape;
 use hopfscope::proof::field::{Field, ParameterBox};
 use hopfscope::proof::fold::enclose_fold;
-use hopfscope::proof::map::{Direction, ReturnMap};
-use hopfscope::proof::swing::{Passage, Start, swing, swing_with_derivatives};
+use hopfscope::proof::map::{Direction, ProvedMap};
+use hopfscope::proof::swing::{Passage, StartBox, swing, swing_with_derivatives};
 use hopfscope::study::cycle::cycles;
 use hopfscope::study::escape::escape_point;
 use hopfscope::study::fold::fold;
@@ -128,7 +128,7 @@ fn check_half_swings(count: usize) {
         let x = 1e-3 * pow(5e3, dice.roll());
         let point = Interval::point;
         let field = Field { a: point(2.0 * d), b: point(d2), c: point(d3) };
-        let start = Start::at_rest(point(x));
+        let start = StartBox::at_rest(point(x));
         let found = match swing(&field, &start, false) {
             Passage::Arrives(found) => found,
             Passage::Never | Passage::Exceeds(_) => continue,
@@ -179,7 +179,8 @@ fn half_swings_scale_to_the_last_bit() {
             b: point(0.3 * by(-unit)),
             c: point(0.5 * by(-unit) * by(-unit)),
         };
-        let found = swing(&field, &Start::at_rest(point(0.75 * by(unit))), true).arrived().unwrap();
+        let found =
+            swing(&field, &StartBox::at_rest(point(0.75 * by(unit))), true).arrived().unwrap();
         (
             found.end.lower() / by(unit),
             found.end.upper() / by(unit),
@@ -192,7 +193,7 @@ fn half_swings_scale_to_the_last_bit() {
     }
     // Far below where damping is anything but linear.
     let tiny = Field { a: point(-0.4), b: point(0.3), c: point(0.5) };
-    let swing = swing(&tiny, &Start::at_rest(point(1e-300)), false).arrived().unwrap();
+    let swing = swing(&tiny, &StartBox::at_rest(point(1e-300)), false).arrived().unwrap();
     let growth = exp(std::f64::consts::PI * 0.2 / 0.96_f64.sqrt());
     assert!((swing.end.lower() / 1e-300 / growth - 1.0).abs() < 1e-12, "{swing:?}");
 }
@@ -379,7 +380,7 @@ fn stiff_half_swings_arrive_where_an_implicit_method_says() {
         (-0.25, 1.0, -1e-5, 1e7, 0.867_665_236_647, 1e-8),
     ] {
         // The second half of the map runs above v = 0, where b is D2.
-        let mut map = ReturnMap::new(&exactly(d, d2, d3, 0.0));
+        let mut map = ProvedMap::new(&exactly(d, d2, d3, 0.0));
         let found = map.half(1, Direction::Forward, Interval::point(start));
         let slack = 1e-9 * end;
         assert!(found.lower() <= end + slack && end - slack <= found.upper(), "{found} {end}");

@@ -5,8 +5,8 @@ use hopfscope::flow::Limits;
 use hopfscope::numerics::Interval;
 use hopfscope::numerics::elementary::{exp, powi, sin_cos};
 use hopfscope::oscillator::{Parameters, Symbol};
-use hopfscope::proof::kicks::{Edge, Kicks, kicks};
-use hopfscope::proof::motion::{Fate, Motion, follow};
+use hopfscope::proof::kicks::{ProvedEdge, ProvedKicks, kicks};
+use hopfscope::proof::motion::{ProvedFate, ProvedMotion, follow};
 use hopfscope::proof::range::{change_within, range};
 use hopfscope::proof::{ParameterBox, prove};
 use hopfscope::study::basin::basin;
@@ -22,7 +22,7 @@ struct Reference {
     turning_points: Vec<[f64; 2]>,
 }
 
-fn motion(parameters: &Parameters, q: f64, v: f64, until: f64) -> Motion {
+fn motion(parameters: &Parameters, q: f64, v: f64, until: f64) -> ProvedMotion {
     follow(&ParameterBox::from(parameters), [q, v].map(Interval::point), until)
 }
 
@@ -49,7 +49,7 @@ fn reference_motions_are_enclosed() {
         if one.outcome == "captured" {
             captured += 1;
             assert_eq!(found.turns.len(), turning_points.len(), "{parameters:?}");
-            assert!(matches!(found.fate, Fate::Captured { .. }), "{:?}", found.fate);
+            assert!(matches!(found.fate, ProvedFate::Captured { .. }), "{:?}", found.fate);
         }
     }
     assert!(captured > 3, "{captured}");
@@ -60,12 +60,12 @@ fn reference_motions_are_enclosed() {
 fn motions_are_followed_to_rest_to_a_time_and_to_their_escape() {
     let linear = Parameters { d: -0.1, d2: 0.0, d3: 0.0, r: 0.5 };
     let found = motion(&linear, 2.0, 0.0, 100.0);
-    let Fate::Captured { q, tau } = found.fate else { panic!("{found:?}") };
+    let ProvedFate::Captured { q, tau } = found.fate else { panic!("{found:?}") };
     assert!(q.contains(-0.116_144_440_390_138) && q.width() < 1e-12 && found.turns.len() == 3);
     assert!(near(tau, 3.0 * std::f64::consts::PI / 0.99_f64.sqrt(), 1e-14));
     // Half way through a half swing: q - r = c e^(-D tau) (cos + D/omega sin), c = 2.5 from (2, 0), below v = 0.
     let found = motion(&linear, 2.0, 0.0, 1.0);
-    let Fate::Moving { q, v } = found.fate else { panic!("{found:?}") };
+    let ProvedFate::Moving { q, v } = found.fate else { panic!("{found:?}") };
     let omega = 0.99_f64.sqrt();
     let (sine, cosine) = sin_cos(omega);
     let growth = 1.5 * exp(0.1);
@@ -74,14 +74,14 @@ fn motions_are_followed_to_rest_to_a_time_and_to_their_escape() {
     // v' = v^2 - x from far out, in a half plane: infinite after about 1/v.
     let escaping = Parameters { d: 0.0, d2: -1.0, d3: 0.0, r: 0.0 };
     let found = motion(&escaping, 0.0, 1e3, 1.0);
-    let Fate::Escaped { tau } = found.fate else { panic!("{found:?}") };
+    let ProvedFate::Escaped { tau } = found.fate else { panic!("{found:?}") };
     assert!(tau.contains(1e-3) || near(tau, 1e-3, 1e-8), "{tau}");
     assert!(tau.width() < 1e-7 * tau.upper(), "{tau}");
     // A start that rests, one on either side of v = 0, and one that arrives at the end time.
-    assert!(matches!(motion(&linear, 0.5, 0.0, 1.0).fate, Fate::Captured { .. }));
+    assert!(matches!(motion(&linear, 0.5, 0.0, 1.0).fate, ProvedFate::Captured { .. }));
     let wide = [Interval::point(2.0), Interval::new(-1e-9, 1e-9)];
     let open = follow(&ParameterBox::from(&linear), wide, 1.0);
-    assert!(matches!(open.fate, Fate::Open { .. }) && open.turns.is_empty());
+    assert!(matches!(open.fate, ProvedFate::Open { .. }) && open.turns.is_empty());
 }
 
 /// What is enclosed for an interval of parameters and starts holds for those in it.
@@ -98,7 +98,7 @@ fn intervals_hold_the_motions_inside() {
     }
 }
 
-fn kicked(parameters: &Parameters) -> Kicks {
+fn kicked(parameters: &Parameters) -> ProvedKicks {
     kicks(&prove(&ParameterBox::from(parameters), &[]), [None; 2])
 }
 
@@ -108,13 +108,16 @@ fn margins_hold_their_references() {
     let linear = kicked(&Parameters { d: -0.1, d2: 0.0, d3: 0.0, r: 0.1 });
     let displacement = linear.displacement.unwrap();
     assert!(displacement.contains(0.638_682_318_435_773_5) && displacement.width() < 1e-13);
-    assert_eq!(linear.edge, Some(Edge::Cycle));
+    assert_eq!(linear.edge, Some(ProvedEdge::Cycle));
     let found = kicked(&Parameters { d: -0.2, d2: 0.2, d3: 0.5, r: 0.1 });
     assert!(found.displacement.unwrap().contains(0.350_058_845_389_937_26));
     assert!(found.impulse.unwrap().width() < 1e-11);
-    assert_eq!(kicked(&Parameters { d: 0.1, d2: 0.0, d3: 0.5, r: 0.1 }).edge, Some(Edge::None));
+    assert_eq!(
+        kicked(&Parameters { d: 0.1, d2: 0.0, d3: 0.5, r: 0.1 }).edge,
+        Some(ProvedEdge::None)
+    );
     let escape = kicked(&Parameters { d: -0.02, d2: 0.5, d3: 0.0, r: 0.1 });
-    assert_eq!(escape.edge, Some(Edge::Separatrix));
+    assert_eq!(escape.edge, Some(ProvedEdge::Separatrix));
     assert!(escape.displacement.unwrap().width() < 1e-9);
     assert!(kicked(&Parameters { d: -0.1, d2: 0.0, d3: 0.5, r: 0.0 }).open.is_some());
 }
@@ -153,7 +156,7 @@ fn margins_are_never_larger_than_the_truth() {
             let ends = |v: f64| motion(&parameters, 0.0, v, 1e5).fate;
             for sign in [-1.0, 1.0] {
                 let inside = ends(sign * impulse.lower() * (1.0 - 1e-9));
-                let rests = matches!(inside, Fate::Captured { .. } | Fate::Open { .. });
+                let rests = matches!(inside, ProvedFate::Captured { .. } | ProvedFate::Open { .. });
                 assert!(rests, "{parameters:?} {inside:?}");
             }
         }

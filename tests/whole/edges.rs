@@ -1,8 +1,10 @@
 //! Machines of which the reference has none: the guide catches what no cycle holds, rest without swings, laws
 //! that end beyond the cycles.
 
-use hopfscope::machine::return_map::Return;
-use hopfscope::machine::{Body, Border, Fate, Flow, Modal, Model, Portrait, Stop, Subject};
+use hopfscope::machine::return_map::MachineReturn;
+use hopfscope::machine::{
+    Body, Flow, MachineBorder, MachineFate, Modal, Model, Portrait, Subject, Unfollowed,
+};
 use hopfscope::numerics::elementary::exp;
 use hopfscope::oscillator::Belt;
 use hopfscope::oscillator::belt::FrictionLaw;
@@ -35,7 +37,7 @@ fn a_guide_that_holds_one_turning_point_of_a_cycle_leaves_no_cycle() {
     let held = 5.45e-3;
     let found = portrait(&clutch(held));
     assert!(found.cycles.iter().all(|cycle| cycle.sticks), "{:?}", found.cycles);
-    assert!(matches!(found.border, Border::Grazing(_)) && !found.border.touches());
+    assert!(matches!(found.border, MachineBorder::Grazing(_)) && !found.border.touches());
     let margin = found.margin.unwrap();
     assert!((margin.displacement.1 / held - 1.0).abs() < 1e-12, "{margin:?}");
     for (x, v) in [
@@ -44,13 +46,21 @@ fn a_guide_that_holds_one_turning_point_of_a_cycle_leaves_no_cycle() {
         (0.0, margin.velocity.0),
         (0.0, -margin.velocity.1),
     ] {
-        assert_eq!(found.fate(x * (1.0 - 1e-9), v * (1.0 - 1e-9)), Ok(Fate::Rest), "{x} {v}");
-        assert_eq!(found.fate(x * (1.0 + 1e-9), v * (1.0 + 1e-9)), Ok(Fate::Cycle(0)), "{x} {v}");
+        assert_eq!(
+            found.fate(x * (1.0 - 1e-9), v * (1.0 - 1e-9)),
+            Ok(MachineFate::Rest),
+            "{x} {v}"
+        );
+        assert_eq!(
+            found.fate(x * (1.0 + 1e-9), v * (1.0 + 1e-9)),
+            Ok(MachineFate::Cycle(0)),
+            "{x} {v}"
+        );
         // Followed one return, the motion just within comes to rest, the one just beyond goes on.
         if v == 0.0 && x > 0.0 {
             let mut flow = Flow::new(&found.model);
-            assert!(matches!(flow.returned(x * (1.0 - 1e-9)), Ok(Return::Rests(_))));
-            assert!(matches!(flow.returned(x * (1.0 + 1e-9)), Ok(Return::Turns(_))));
+            assert!(matches!(flow.returned(x * (1.0 - 1e-9)), Ok(MachineReturn::Rests(_))));
+            assert!(matches!(flow.returned(x * (1.0 + 1e-9)), Ok(MachineReturn::Turns(_))));
         }
     }
     // A guide that holds neither of them leaves the cycle; one that holds both takes it away.
@@ -86,7 +96,7 @@ fn where_no_cycle_repels_the_basin_ends_where_the_guide_just_holds() {
     for guide_static in [1.0, 2.0, 4.0] {
         let belt = node(guide_static);
         let found = portrait(&belt);
-        assert!(matches!(found.border, Border::Grazing(_)) && !found.border.touches());
+        assert!(matches!(found.border, MachineBorder::Grazing(_)) && !found.border.touches());
         assert!(found.cycles.iter().all(|cycle| cycle.sticks), "{:?}", found.cycles);
         let held = guide_static * belt.friction / belt.stiffness;
         let margin = found.margin.unwrap();
@@ -95,11 +105,11 @@ fn where_no_cycle_repels_the_basin_ends_where_the_guide_just_holds() {
         }
         // Followed in time, the border is where it is said to be.
         for (sign, kick) in [(1.0, margin.velocity.0), (-1.0, margin.velocity.1)] {
-            assert_eq!(found.fate(0.0, sign * kick * (1.0 - 1e-9)), Ok(Fate::Rest));
-            assert_eq!(found.fate(0.0, sign * kick * (1.0 + 1e-9)), Ok(Fate::Cycle(0)));
+            assert_eq!(found.fate(0.0, sign * kick * (1.0 - 1e-9)), Ok(MachineFate::Rest));
+            assert_eq!(found.fate(0.0, sign * kick * (1.0 + 1e-9)), Ok(MachineFate::Cycle(0)));
         }
-        assert_eq!(found.fate(held, 0.0), Ok(Fate::Rest));
-        assert_eq!(found.fate(held * (1.0 + 1e-9), 0.0), Ok(Fate::Cycle(0)));
+        assert_eq!(found.fate(held, 0.0), Ok(MachineFate::Rest));
+        assert_eq!(found.fate(held * (1.0 + 1e-9), 0.0), Ok(MachineFate::Cycle(0)));
         // A window within the basin is all of it; one of half its width and height is not.
         let (x, v) = (1e-3 * held, 1e-3 * margin.velocity.0.min(margin.velocity.1));
         assert!((found.rest_share((-x, x), (-v, v)).unwrap() - 1.0).abs() < 1e-12);
@@ -117,13 +127,15 @@ fn where_the_law_ends_it_is_not_said_that_every_kick_is_survived() {
                 friction.polynomial.coefficients = [0.62, -1.11435, -0.98584]\n";
     let found = portrait(&parse("x", "x.toml", text, |_| Err(String::new())).unwrap().belt);
     let margin = found.margin.unwrap();
-    assert!(matches!(found.stop, Some(Stop::OutsideLaw { .. })) && found.incomplete().is_some());
+    assert!(
+        matches!(found.stop, Some(Unfollowed::OutsideLaw { .. })) && found.incomplete().is_some()
+    );
     // A kick against the belt is a little faster yet just after it.
     let fastest = 0.408_645_154 - 0.1379;
     assert!((0.9999 * fastest..fastest).contains(&margin.velocity.1), "{margin:?}");
     for (x, v) in [(margin.displacement.0, 0.0), (-margin.displacement.1, 0.0)] {
-        assert_eq!(found.fate(0.999 * x, v), Ok(Fate::Rest), "{x}");
-        assert!(matches!(found.fate(1.001 * x, v), Err(_) | Ok(Fate::Unknown(_))), "{x}");
+        assert_eq!(found.fate(0.999 * x, v), Ok(MachineFate::Rest), "{x}");
+        assert!(matches!(found.fate(1.001 * x, v), Err(_) | Ok(MachineFate::Unknown(_))), "{x}");
     }
     // Of a window within what is known all comes to rest; of a larger one it is not known how much.
     let near = 0.5 * margin.velocity.1;
@@ -137,7 +149,7 @@ fn where_motions_take_too_many_steps_the_margin_is_what_was_followed() {
                 friction.polynomial.coefficients = [0.437, 2.72777, 2.16231, 57.38058, 272.78022]\n";
     let found = portrait(&parse("x", "x.toml", text, |_| Err(String::new())).unwrap().belt);
     let margin = found.margin.unwrap();
-    assert_eq!((found.stop, margin.displacement.0), (Some(Stop::Steps), found.known));
+    assert_eq!((found.stop, margin.displacement.0), (Some(Unfollowed::Steps), found.known));
     assert!(margin.displacement.0 > 10.0 && margin.velocity.1 > 10.0, "{margin:?}");
     assert!(found.steps < 100_000, "{} steps", found.steps);
 }
@@ -162,7 +174,7 @@ fn an_overdamped_mass_rests_after_every_kick_that_the_law_covers() {
     let end = 0.2;
     let found = portrait(&measured(40.0, 0.05, end));
     assert!(found.model.damping > 2.0 && found.cycles.is_empty());
-    assert!(matches!(found.border, Border::None) && found.stop.is_some());
+    assert!(matches!(found.border, MachineBorder::None) && found.stop.is_some());
     let margin = found.margin.unwrap();
     // A kick against the belt slips fastest at once.
     assert!((margin.velocity.1 - (end - 0.02)).abs() < 1e-12, "{margin:?}");
@@ -173,7 +185,7 @@ fn an_overdamped_mass_rests_after_every_kick_that_the_law_covers() {
         (0.0, -margin.velocity.1),
     ] {
         assert!(x != 0.0 || v != 0.0);
-        assert_eq!(found.fate(0.999 * x, 0.999 * v), Ok(Fate::Rest), "{x} {v}");
+        assert_eq!(found.fate(0.999 * x, 0.999 * v), Ok(MachineFate::Rest), "{x} {v}");
     }
 }
 
@@ -188,9 +200,9 @@ fn what_the_belt_releases_is_on_its_cycle_even_where_all_beyond_is_unknown() {
     assert!(short.cycles[last].sticks);
     let release = short.model.lines.unwrap().release;
     for part in [0.0, 0.3, 0.9] {
-        assert_eq!(short.fate(release - part * cycle.x.1, 0.02), Ok(Fate::Cycle(last)));
+        assert_eq!(short.fate(release - part * cycle.x.1, 0.02), Ok(MachineFate::Cycle(last)));
     }
-    assert_eq!(short.fate(cycle.x.1, 0.0), Ok(Fate::Cycle(last)));
+    assert_eq!(short.fate(cycle.x.1, 0.0), Ok(MachineFate::Cycle(last)));
 }
 
 /// A tool whose cut feeds its mode at small velocities.
@@ -252,7 +264,7 @@ fn where_motions_run_away_the_search_for_cycles_settles() {
     let found = portrait(&parse("x", "x.toml", text, |_| Err(String::new())).unwrap().belt);
     assert_eq!(found.unresolved, []);
     let outermost = found.cycles.last().unwrap().x.1;
-    assert_eq!(found.fate(outermost * (1.0 + 1e-9), 0.0), Ok(Fate::Escaped));
+    assert_eq!(found.fate(outermost * (1.0 + 1e-9), 0.0), Ok(MachineFate::Escaped));
     assert!(found.steps < 4000, "{} steps", found.steps);
 }
 
@@ -270,10 +282,10 @@ fn where_everything_is_carried_off_that_is_the_answer() {
         let held = carried_off(damping, 0.05);
         assert_eq!(held.stop, None, "{damping}");
         assert_eq!(held.margin.unwrap().displacement, (0.05, 0.05), "{damping}");
-        assert_eq!(held.fate(0.05 * (1.0 + 1e-9), 0.0), Ok(Fate::Escaped), "{damping}");
+        assert_eq!(held.fate(0.05 * (1.0 + 1e-9), 0.0), Ok(MachineFate::Escaped), "{damping}");
         let free = carried_off(damping, 0.0);
-        assert!(matches!(free.border, Border::NoBasin) && free.stop.is_none(), "{damping}");
-        assert_eq!(free.fate(1e-6, 0.0), Ok(Fate::Escaped), "{damping}");
+        assert!(matches!(free.border, MachineBorder::NoBasin) && free.stop.is_none(), "{damping}");
+        assert_eq!(free.fate(1e-6, 0.0), Ok(MachineFate::Escaped), "{damping}");
     }
 }
 
@@ -289,8 +301,12 @@ fn relaxing(ratio: f64) -> Portrait {
 fn a_mode_far_beyond_critical_damping_has_an_answer() {
     // Overdamped at rest: everything creeps there.
     let found = relaxing(10.0);
-    assert!(found.cycles.is_empty() && matches!(found.border, Border::None), "{:?}", found.cycles);
-    assert_eq!(found.fate(1e-3, 0.0), Ok(Fate::Rest));
+    assert!(
+        found.cycles.is_empty() && matches!(found.border, MachineBorder::None),
+        "{:?}",
+        found.cycles
+    );
+    assert_eq!(found.fate(1e-3, 0.0), Ok(MachineFate::Rest));
     // Fed as strongly it relaxes to a cycle: it creeps until feeding and damping cancel at the knee, and leaps.
     for ratio in [-5.0_f64, -10.0] {
         let found = relaxing(ratio);
@@ -314,8 +330,8 @@ fn what_static_friction_alone_holds_survives_no_kick_along_the_belt() {
         assert!((displacement / 0.05 - 1.0).abs() < 1e-15, "{margin:?}");
     }
     for kick in [1e-4, -1e-4, 0.03] {
-        assert!(matches!(found.fate(0.0, kick), Ok(Fate::Cycle(_))), "{kick}");
+        assert!(matches!(found.fate(0.0, kick), Ok(MachineFate::Cycle(_))), "{kick}");
     }
-    assert_eq!(found.fate(0.05 * (1.0 - 1e-9), 0.0), Ok(Fate::Rest));
-    assert!(matches!(found.fate(0.05 * (1.0 + 1e-9), 0.0), Ok(Fate::Cycle(_))));
+    assert_eq!(found.fate(0.05 * (1.0 - 1e-9), 0.0), Ok(MachineFate::Rest));
+    assert!(matches!(found.fate(0.05 * (1.0 + 1e-9), 0.0), Ok(MachineFate::Cycle(_))));
 }

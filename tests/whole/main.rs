@@ -8,12 +8,12 @@ mod random;
 use std::f64::consts::PI;
 
 use hopfscope::machine::branch::branch;
-use hopfscope::machine::motion::Outcome;
-use hopfscope::machine::return_map::Return;
+use hopfscope::machine::motion::MachineOutcome;
+use hopfscope::machine::return_map::MachineReturn;
 use hopfscope::machine::special::Kind;
 use hopfscope::machine::turn::Place;
 use hopfscope::machine::varied::Varied;
-use hopfscope::machine::{Border, Fate, Flow, Model, Motion, Portrait, Unfit};
+use hopfscope::machine::{Flow, MachineBorder, MachineFate, MachineMotion, Model, Portrait, Unfit};
 use hopfscope::numerics::elementary::{asin, atan, atan2, exp, exp_m1, hypot, ln, powi, tanh};
 use hopfscope::oscillator::Belt;
 use hopfscope::oscillator::belt::FrictionLaw;
@@ -90,13 +90,13 @@ fn every_reference_start_ends_where_it_should() {
             let (x, v) = (number(&end[0]), number(&end[1]));
             let fate = found.fate(x, v).unwrap();
             let told = match fate {
-                Fate::Rest => Value::from("rest"),
-                Fate::Cycle(index) => Value::from(index),
-                Fate::Neutral => Value::from("neutral"),
+                MachineFate::Rest => Value::from("rest"),
+                MachineFate::Cycle(index) => Value::from(index),
+                MachineFate::Neutral => Value::from("neutral"),
                 other => panic!("{name}: {other:?}"),
             };
             assert_eq!(told, end[2], "{name} from {x}, {v}");
-            if fate == Fate::Rest {
+            if fate == MachineFate::Rest {
                 let rest = Flow::new(&found.model).rest_of(x, v / found.model.omega_0).unwrap();
                 let error = (rest - number(&end[3])).abs();
                 assert!(
@@ -134,7 +134,7 @@ fn the_share_counts_every_piece_of_the_border() {
             for j in 0..count {
                 let part = |index: i32| (f64::from(index) + 0.5) / f64::from(count);
                 let start = (x.0 + (x.1 - x.0) * part(i), v.0 + (v.1 - v.0) * part(j));
-                rest += i32::from(found.fate(start.0, start.1) == Ok(Fate::Rest));
+                rest += i32::from(found.fate(start.0, start.1) == Ok(MachineFate::Rest));
             }
         }
         let counted = f64::from(rest) / f64::from(count * count);
@@ -248,10 +248,10 @@ fn static_friction_below_the_kinetic_one_is_refused() {
 #[test]
 fn without_friction_of_the_guide_a_falling_law_leaves_no_basin() {
     let found = portrait(&Belt { damping: 0.0, ..machine("bstab-1.5") });
-    assert!(matches!(found.border, Border::NoBasin));
+    assert!(matches!(found.border, MachineBorder::NoBasin));
     assert_eq!(found.margin.unwrap().least_displacement(), 0.0);
     assert_eq!(found.cycles.len(), 1);
-    assert!(found.cycles[0].sticks && found.fate(1e-9, 0.0) == Ok(Fate::Cycle(0)));
+    assert!(found.cycles[0].sticks && found.fate(1e-9, 0.0) == Ok(MachineFate::Cycle(0)));
 }
 
 #[test]
@@ -267,13 +267,15 @@ fn the_ledger_of_a_motion_closes_with_the_work_of_the_belt() {
             (-0.2 * far, 1.7 * belt.belt_speed),
         ] {
             let period = 2.0 * PI / model.omega_0;
-            let motion = Motion::new(&model, start.0, start.1, 5.3 * period);
+            let motion = MachineMotion::new(&model, start.0, start.1, 5.3 * period);
             assert!(
                 motion.ledger.residual().abs() < 1e-13,
                 "{name} {start:?}: {:?}",
                 motion.ledger
             );
-            assert!(motion.outcome == Outcome::Rests || close(motion.end.t, 5.3 * period, 1e-13));
+            assert!(
+                motion.outcome == MachineOutcome::Rests || close(motion.end.t, 5.3 * period, 1e-13)
+            );
         }
     }
 }
@@ -327,7 +329,11 @@ fn linear(damping: f64, guide: f64) -> Belt {
 fn a_cycle_that_repels_beyond_all_digits_is_the_border_of_rest() {
     for d in [-0.1_f64, -0.6, -0.95, -0.99, -0.999, -0.9999] {
         let found = portrait(&linear(2.0 * d, 0.1));
-        assert!(matches!(found.border, Border::Cycle(0, _)), "{d}: {:?}", found.border.kind());
+        assert!(
+            matches!(found.border, MachineBorder::Cycle(0, _)),
+            "{d}: {:?}",
+            found.border.kind()
+        );
         let cycle = &found.cycles[0];
         // Equations (30) to (33), corrected.
         let omega = (1.0 - d * d).sqrt();
@@ -357,16 +363,16 @@ fn a_law_that_ends_far_out_hides_no_margin() {
     let cubic = hopfscope::study::cycle::cycles(&reduced.parameters, true, &limits).unwrap();
     let expected = cubic.cycles[0].q_max * reduced.units.displacement;
     assert!(close(found.margin.unwrap().displacement.0, expected, 1e-13));
-    assert!(matches!(found.fate(3.0, 0.0), Err(_) | Ok(Fate::Unknown(_))));
+    assert!(matches!(found.fate(3.0, 0.0), Err(_) | Ok(MachineFate::Unknown(_))));
     // Where all that the law covers comes to rest, the margin is what it covers, and not everything.
     let damped = Belt { damping: 0.9, belt_speed: 1.2, ..belt };
     let found = portrait(&damped);
     let margin = found.margin.unwrap();
     assert_eq!(found.border.kind(), "none");
-    let slip = |x: f64| Motion::new(&found.model, x, 0.0, 20.0).v.0.abs() + 1.2;
+    let slip = |x: f64| MachineMotion::new(&found.model, x, 0.0, 20.0).v.0.abs() + 1.2;
     assert!(found.stop.is_some() && close(slip(margin.displacement.0), 1.25, 1e-9), "{margin:?}");
-    assert_eq!(found.fate(0.999 * margin.displacement.0, 0.0), Ok(Fate::Rest));
-    assert_eq!(found.fate(0.0, -0.999 * margin.velocity.1), Ok(Fate::Rest));
+    assert_eq!(found.fate(0.999 * margin.displacement.0, 0.0), Ok(MachineFate::Rest));
+    assert_eq!(found.fate(0.0, -0.999 * margin.velocity.1), Ok(MachineFate::Rest));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 //! Taylor steps, and switching lines looked for by a dense scan of every step.
 
 use hopfscope::machine::turn::Place;
-use hopfscope::machine::{Model, Motion, Phase};
+use hopfscope::machine::{MachineMotion, Model, Phase};
 use hopfscope::numerics::twofold::Twofold;
 use hopfscope::oscillator::Belt;
 use hopfscope::oscillator::belt::FrictionLaw;
@@ -235,7 +235,7 @@ fn phases_and_their_times_are_those_of_a_dense_scan_in_twice_the_precision() {
         let model = Model::new(&machine.belt()).unwrap();
         for (x, y) in starts {
             let until = 21.0;
-            let motion = Motion::new(&model, x, y, until);
+            let motion = MachineMotion::new(&model, x, y, until);
             let expected = machine.legs(x, y, until);
             assert_eq!(motion.legs.len(), expected.len(), "{machine:?} from {x}, {y}");
             for (leg, (place, t, x)) in motion.legs.iter().zip(expected) {

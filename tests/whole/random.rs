@@ -64,8 +64,8 @@ fn the_return_map_of_any_machine_never_decreases() {
         for step in 1..60 {
             let x = model.guide_static + 0.05 * f64::from(step) * model.speed.max(model.pull);
             let image = match flow.returned(x) {
-                Ok(Return::Turns(image)) => image.x,
-                Ok(Return::Rests(_)) => model.guide_static,
+                Ok(MachineReturn::Turns(image)) => image.x,
+                Ok(MachineReturn::Rests(_)) => model.guide_static,
                 Err(_) => break,
             };
             assert!(image >= last - 1e-13 * image.abs(), "{model:?} at {x}: {image} after {last}");
@@ -86,12 +86,14 @@ fn any_start_ends_where_its_motion_goes() {
         for _ in 0..3 {
             let (x, v) = (dice.between(-3.0, 3.0), dice.between(-2.0, 2.0));
             let Ok(fate) = found.fate(x, v) else { continue };
-            let motion = Motion::new(&model, x, v, 400.0);
+            let motion = MachineMotion::new(&model, x, v, 400.0);
             assert!(motion.ledger.residual().abs() < 1e-11, "{belt:?}: {:?}", motion.ledger);
             let late = motion.samples(0).into_iter().filter(|state| state.t > 380.0);
             let size = late.map(|state| state.x).fold(0.0, f64::max);
             match (fate, motion.outcome) {
-                (Fate::Cycle(index), Outcome::Moves) if found.cycles[index].sticks => {
+                (MachineFate::Cycle(index), MachineOutcome::Moves)
+                    if found.cycles[index].sticks =>
+                {
                     let cycle = &found.cycles[index];
                     assert!(
                         close(size, cycle.x.1, 1e-9),
@@ -99,9 +101,11 @@ fn any_start_ends_where_its_motion_goes() {
                     );
                     followed += 1;
                 }
-                (Fate::Cycle(_), outcome) => assert_eq!(outcome, Outcome::Moves, "{belt:?}"),
-                (Fate::Rest, outcome) => {
-                    assert!(outcome == Outcome::Rests || belt.friction == 0.0, "{belt:?}");
+                (MachineFate::Cycle(_), outcome) => {
+                    assert_eq!(outcome, MachineOutcome::Moves, "{belt:?}")
+                }
+                (MachineFate::Rest, outcome) => {
+                    assert!(outcome == MachineOutcome::Rests || belt.friction == 0.0, "{belt:?}");
                 }
                 _ => {}
             }
@@ -121,7 +125,7 @@ fn no_contact_is_too_shallow_to_be_seen() {
             for sign in [-1.0, 1.0] {
                 let excess = sign * powi(10.0, -power);
                 let left = -(rho + radius * (1.0 + excess));
-                let motion = Motion::new(&model, left, 0.0, 0.9 * PI / model.omega_0);
+                let motion = MachineMotion::new(&model, left, 0.0, 0.9 * PI / model.omega_0);
                 let stuck = motion.legs.iter().any(|leg| leg.place == Place::Sticks);
                 assert_eq!(stuck, excess > 0.0, "{guide} {speed} {excess:e}");
             }
@@ -135,7 +139,7 @@ fn no_contact_is_too_shallow_to_be_seen() {
         for power in 3..13 {
             for sign in [-1.0, 1.0] {
                 let x = touch * (1.0 + sign * powi(10.0, -power));
-                let Ok(Return::Turns(image)) = flow.returned(x) else { panic!("{name}") };
+                let Ok(MachineReturn::Turns(image)) = flow.returned(x) else { panic!("{name}") };
                 assert_eq!(image.sticks_from.is_some(), sign > 0.0, "{name} at {x}");
             }
         }
@@ -154,7 +158,7 @@ fn what_comes_to_ride_on_the_belt_leaves_it_as_one() {
         let end = marks.beyond.unwrap_or(3.0 * touch).min(3.0 * touch);
         for part in [1e-9, 0.1, 0.5, 0.999] {
             let x = touch + part * (end - touch);
-            let Ok(Return::Turns(image)) = flow.returned(x) else { continue };
+            let Ok(MachineReturn::Turns(image)) = flow.returned(x) else { continue };
             let from = image.sticks_from.unwrap_or_else(|| panic!("{model:?} at {x}: {image:?}"));
             assert_eq!((image.x, image.log_slope), (released, f64::NEG_INFINITY), "{model:?}");
             assert!(from <= marks.lines.release && from >= marks.lines.low, "{model:?}");

@@ -31,7 +31,7 @@ pub struct Range {
 
 /// Where a motion starts; what is not given stays.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Start {
+pub struct StartOverride {
     /// Displacement, in m.
     pub x: Option<f64>,
     /// Velocity, in m/s.
@@ -89,8 +89,8 @@ pub fn disturbance(text: &str) -> Result<f64, String> {
 }
 
 /// `x=..,v=..`, one of them or both.
-pub fn start(text: &str) -> Result<Start, String> {
-    let mut start = Start::default();
+pub fn start(text: &str) -> Result<StartOverride, String> {
+    let mut start = StartOverride::default();
     for part in text.split(',') {
         match assignment(part)? {
             (Name::Displacement, x) => start.x = Some(x.middle.value),

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use clap::Args;
 
 use self::input::{
-    Name, Range, Start, Window, assignment, disturbance, margin, range, start, window,
+    Name, Range, StartOverride, Window, assignment, disturbance, margin, range, start, window,
 };
 use super::failure::Failure;
 use super::input::method;
@@ -25,7 +25,7 @@ use crate::machine::survey::{Course, Trouble, survey};
 use crate::machine::{Body, Portrait, Subject, Tolerances};
 use crate::report::belt::branch::{Borders, Branched};
 use crate::report::belt::mode::ModeAnswer;
-use crate::report::belt::{self, Answer, Designed, Head, RestShare, Sweep, SweepPoint};
+use crate::report::belt::{self, BeltAnswer, Designed, Head, RestShare, Sweep, SweepPoint};
 use crate::runtime::bounded;
 use crate::scene::machine::file::parse;
 use crate::scene::machine::library::{TEXTBOOK, find, machines};
@@ -38,7 +38,7 @@ use crate::study::design::Kick;
 /// Says what a mass on a belt does, in physical units
 #[derive(Debug, Args)]
 #[command(long_about = long_about())]
-pub struct Belt {
+pub struct Arguments {
     /// File of the machine, or the name of one that comes with the program
     #[arg(value_name = "FILE", default_value = TEXTBOOK)]
     machine: String,
@@ -51,7 +51,7 @@ pub struct Belt {
     disturbance: Option<f64>,
     /// Start of the motion, such as "x=1 mm,v=0 m/s"
     #[arg(long, value_name = "x=..,v=..", value_parser = start, allow_hyphen_values = true)]
-    start: Option<Start>,
+    start: Option<StartOverride>,
     /// Window "XMIN:XMAX,VMIN:VMAX": tells the part of it from which the mass comes to rest
     #[arg(long, value_name = "WINDOW", value_parser = window, allow_hyphen_values = true)]
     window: Option<Window>,
@@ -142,7 +142,7 @@ pub fn scene(name: &str) -> Result<Arc<Scene>, Failure> {
     Ok(Arc::new(scaled.scene()))
 }
 
-impl Belt {
+impl Arguments {
     /// The machine with what was set on the command line.
     fn adjusted(&self, mut machine: Machine) -> Result<Machine, Failure> {
         for &(name, Toleranced { middle, half_width }) in &self.set {
@@ -158,7 +158,7 @@ impl Belt {
         let told = &mut machine.tolerances.disturbance;
         *told = self.disturbance.unwrap_or(*told);
         machine.tolerances.check(&machine.belt).map_err(Failure::Usage)?;
-        let Start { x, v } = self.start.unwrap_or_default();
+        let StartOverride { x, v } = self.start.unwrap_or_default();
         machine.displacement = x.unwrap_or(machine.displacement);
         machine.velocity = v.unwrap_or(machine.velocity);
         Ok(machine)
@@ -222,7 +222,7 @@ impl Belt {
         let (survey, rest_share, design, certain) = found.map_err(troubled)?;
         let incomplete = survey.course.portrait.incomplete();
         let answer =
-            Answer { machine: &machine, survey: &survey, rest_share, design, certain, seconds };
+            BeltAnswer { machine: &machine, survey: &survey, rest_share, design, certain, seconds };
         self.output.print(&match self.output.format {
             Format::Table => belt::table(&answer),
             Format::Json => belt::json(&answer),
@@ -251,7 +251,7 @@ impl Belt {
                 Name::Velocity => mode.start.1 = middle.value,
             }
         }
-        let Start { x, v } = self.start.unwrap_or_default();
+        let StartOverride { x, v } = self.start.unwrap_or_default();
         mode.start = (x.unwrap_or(mode.start.0), v.unwrap_or(mode.start.1));
         let subject =
             Subject { tolerance: self.own(second), ..Body::Mode(mode.numbers.clone()).into() };

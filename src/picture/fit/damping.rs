@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::pieces::{curve, picture, points, window, with_unit};
 use crate::fit::Fitted;
 use crate::fit::observation::{D, D3, R};
-use crate::picture::items::{Item, Line, Marks, Picture};
+use crate::picture::items::{Item, LineStyle, Marks, Picture};
 use crate::picture::role::{Dash, Mark, Role};
 use crate::scene::Point;
 
@@ -36,7 +36,7 @@ pub fn damping(fitted: &Fitted) -> Option<Picture<'static>> {
     let names = (name, "loss of amplitude".to_owned());
     let extent = Some(window(found.extent)?);
     let mut picture = picture("damping over amplitude", names, curves, extent)?;
-    let line = Line::new("90 % band of averaged", Role::Field, Dash::Solid);
+    let line = LineStyle::new("90 % band of averaged", Role::Field, Dash::Solid);
     picture.items.push(Item::Shade(line, points(&found.band)));
     let exact = points(&found.exact);
     let zeros = exact.windows(2).filter(|two| two[0].y * two[1].y < 0.0);

@@ -8,7 +8,7 @@ use crate::fit::curves::memory as memory_of;
 use crate::fit::observation::{D, OFFSET, Q0, R, parameters};
 use crate::flow::Limits;
 use crate::oscillator::Parameters;
-use crate::picture::items::{Item, Line, Marks, Picture};
+use crate::picture::items::{Item, LineStyle, Marks, Picture};
 use crate::picture::role::{Dash, Mark, Role};
 use crate::scene::{Span, Window};
 use crate::study::basin::{Basin, basin};
@@ -112,7 +112,7 @@ fn phase(fitted: &Fitted) -> Option<Picture<'static>> {
     let q = with_unit("x - offset", fitted.unit());
     let v = with_unit("velocity/omega0", fitted.unit());
     let mut picture = picture("phase plane", (q, v), curves, Some(Window { x: span, y: span }))?;
-    let line = Line::new("sticking set", Role::Sticking, Dash::Solid);
+    let line = LineStyle::new("sticking set", Role::Sticking, Dash::Solid);
     picture.bar(line, at(-p[R], 0.0), at(p[R], 0.0));
     Some(picture)
 }

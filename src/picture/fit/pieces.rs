@@ -1,12 +1,12 @@
 //! Pieces of the pictures of a fit.
 
 use crate::fit::curves::{Extent, Place};
-use crate::picture::items::{Line, Picture};
+use crate::picture::items::{LineStyle, Picture};
 use crate::picture::role::{Dash, Role};
 use crate::scene::{Point, Span, Window};
 
 /// A curve before it stands in a picture.
-pub type Curve = (Line, Vec<Point>);
+pub type Curve = (LineStyle, Vec<Point>);
 
 pub fn at(x: f64, y: f64) -> Point {
     Point { x, y }
@@ -23,7 +23,7 @@ pub fn window([left, right, low, high]: Extent) -> Option<Window> {
 
 /// A curve through these points.
 pub fn curve(name: &'static str, role: Role, dash: Dash, points: Vec<Point>) -> Curve {
-    (Line::new(name, role, dash), points)
+    (LineStyle::new(name, role, dash), points)
 }
 
 /// A picture of these curves; where no window is given, of one that holds them all with some room. `None` if

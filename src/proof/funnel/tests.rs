@@ -8,7 +8,7 @@ use crate::numerics::elementary::exp;
 /// The swing from rest that is followed to its fall, and between the fences from there on.
 fn between_fences(field: &Field, start: Interval) -> Swing {
     let funnel = Funnel::new(field, &mut 0).unwrap();
-    let fallen = swing_past_peak(field, &Start::at_rest(start), funnel.speed());
+    let fallen = swing_past_peak(field, &StartBox::at_rest(start), funnel.speed());
     let Passage::Exceeds(fallen) = fallen else { panic!("{field:?}: {fallen:?}") };
     funnel.swing_after(field, start, &fallen).unwrap()
 }
@@ -58,7 +58,7 @@ fn steps_that_still_get_through_agree_with_the_fences() {
         ([-1.0, -0.1, 0.5], 100.0),
     ] {
         let (field, start) = (field(coefficients), Interval::point(z));
-        let steps = swing(&field, &Start::at_rest(start), false).arrived().unwrap();
+        let steps = swing(&field, &StartBox::at_rest(start), false).arrived().unwrap();
         let fences = between_fences(&field, start);
         for (narrow, wide) in [
             (steps.end, fences.end),
@@ -96,7 +96,7 @@ fn an_interval_of_swings_holds_each_of_them() {
         for b in ends(b) {
             for c in ends(c) {
                 for z in ends(around(z)) {
-                    let start = Start::at_rest(Interval::point(z));
+                    let start = StartBox::at_rest(Interval::point(z));
                     let one = swing(&field([a, b, c]), &start, false).arrived().unwrap();
                     for (one, all) in
                         [(one.end, all.end), (one.duration, all.duration), (area(&one), area(&all))]

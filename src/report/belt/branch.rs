@@ -5,9 +5,9 @@ use serde::Serialize;
 use super::document::{Cost, CycleOf, kind};
 use super::table::{CYCLE, cells};
 use super::{Head, PLACES};
-use crate::machine::branch::Branch;
+use crate::machine::branch::MachineBranch;
 use crate::machine::jumps::{Jump, Landing};
-use crate::machine::special::{Kind, Special};
+use crate::machine::special::{Kind, MachineSpecial};
 use crate::machine::varied::Varied;
 use crate::report::csv::Sheet;
 use crate::report::json::text;
@@ -20,7 +20,7 @@ pub struct Branched<'a> {
     pub head: &'a Head<'a>,
     /// The number that varies.
     pub varied: Varied,
-    pub branch: Branch,
+    pub branch: MachineBranch,
     pub seconds: f64,
 }
 
@@ -31,7 +31,7 @@ pub struct Borders<'a> {
     /// The number along which the changes lie, and the other.
     pub varied: (Varied, Varied),
     /// The changes at each value of the other.
-    pub rows: Vec<(f64, Vec<Special>)>,
+    pub rows: Vec<(f64, Vec<MachineSpecial>)>,
     pub seconds: f64,
 }
 
@@ -42,7 +42,7 @@ struct Document<'a> {
     quantity: &'static str,
     unit: &'static str,
     points: Vec<Point>,
-    special: &'a [Special],
+    special: &'a [MachineSpecial],
     cost: Cost,
 }
 
@@ -97,7 +97,7 @@ fn words(kind: Kind) -> &'static str {
 }
 
 /// The stable states that end at a change, while the number grows and while it falls.
-fn jumps(special: &Special) -> String {
+fn jumps(special: &MachineSpecial) -> String {
     let told = |jump: Option<Jump>, way: &str| {
         jump.map_or_else(String::new, |Jump { from, to }| {
             let length = |x| with_unit(x, 5, "m");
@@ -214,7 +214,7 @@ struct BordersDocument<'a> {
 #[derive(Serialize)]
 struct BorderRow<'a> {
     value: f64,
-    special: &'a [Special],
+    special: &'a [MachineSpecial],
 }
 
 #[derive(Serialize)]

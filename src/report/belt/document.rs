@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::expansion::Expansion;
-use super::{Answer, Designed, RestShare, finite, margins};
-use crate::machine::guarantee::{Kicks, Uncertain};
-use crate::machine::motion::{Outcome, State};
+use super::{BeltAnswer, Designed, RestShare, finite, margins};
+use crate::machine::guarantee::{GuaranteedKicks, Uncertain};
+use crate::machine::motion::{MachineOutcome, MachineState};
 use crate::machine::survey::{Course, Second};
 use crate::machine::turn::Place;
-use crate::machine::{Cycle, Fate, Ledger, Portrait};
+use crate::machine::{MachineCycle, MachineFate, MachineLedger, Portrait};
 use crate::oscillator::belt::{Derivatives, FrictionLaw, QUANTITIES, Units};
 use crate::oscillator::{Belt, Interval, Parameters};
 use crate::report::json::text;
@@ -55,7 +55,7 @@ struct GuaranteedOf {
 }
 
 impl GuaranteedOf {
-    fn new(answer: &Answer, certain: &Result<Kicks, Uncertain>) -> Self {
+    fn new(answer: &BeltAnswer, certain: &Result<GuaranteedKicks, Uncertain>) -> Self {
         let kicks = certain.ok();
         GuaranteedOf {
             displacement: kicks.and_then(|kicks| finite(kicks.displacement)),
@@ -186,7 +186,7 @@ impl Whole {
 }
 
 impl CycleOf {
-    pub(super) fn new(cycle: &Cycle) -> Self {
+    pub(super) fn new(cycle: &MachineCycle) -> Self {
         CycleOf {
             kind: kind(cycle),
             overtakes: cycle.overtakes,
@@ -204,13 +204,13 @@ impl CycleOf {
 }
 
 /// The name of a kind of cycle.
-pub(super) fn kind(cycle: &Cycle) -> &'static str {
+pub(super) fn kind(cycle: &MachineCycle) -> &'static str {
     if cycle.sticks { "stick-slip" } else { "slip" }
 }
 
 #[derive(Serialize)]
 pub(super) struct MotionOf {
-    start: Start,
+    start: StartOf,
     outcome: OutcomeOf,
     /// How far it was followed, in s.
     until: f64,
@@ -231,7 +231,7 @@ struct StateOf {
 }
 
 impl StateOf {
-    fn new(State { t, x, v }: State) -> Self {
+    fn new(MachineState { t, x, v }: MachineState) -> Self {
         StateOf { t, x, v }
     }
 }
@@ -250,10 +250,13 @@ struct SecondOf {
 }
 
 impl SecondOf {
-    fn new(Second { way, tolerance, found }: &Second, first: State) -> Self {
+    fn new(Second { way, tolerance, found }: &Second, first: MachineState) -> Self {
         let end = found.map(|found| found.end);
-        let less =
-            |end: State| StateOf { t: end.t - first.t, x: end.x - first.x, v: end.v - first.v };
+        let less = |end: MachineState| StateOf {
+            t: end.t - first.t,
+            x: end.x - first.x,
+            v: end.v - first.v,
+        };
         SecondOf {
             method: way.name(),
             tolerance: *tolerance,
@@ -265,7 +268,7 @@ impl SecondOf {
 }
 
 #[derive(Serialize)]
-struct Start {
+struct StartOf {
     x: f64,
     v: f64,
 }
@@ -304,17 +307,17 @@ impl MotionOf {
         let Course { motion, fate, rest, .. } = course;
         let named = |kind| OutcomeOf { kind, cycle: None, x: None, t: None };
         let outcome = match fate {
-            Fate::Rest => OutcomeOf {
+            MachineFate::Rest => OutcomeOf {
                 x: *rest,
-                t: (motion.outcome == Outcome::Rests).then_some(motion.end.t),
+                t: (motion.outcome == MachineOutcome::Rests).then_some(motion.end.t),
                 ..named("rest")
             },
-            Fate::Cycle(index) => OutcomeOf { cycle: Some(*index), ..named("cycle") },
-            Fate::Neutral => named("neutral"),
-            Fate::Escaped => named("escaped"),
-            Fate::Unknown(_) => named("unknown"),
+            MachineFate::Cycle(index) => OutcomeOf { cycle: Some(*index), ..named("cycle") },
+            MachineFate::Neutral => named("neutral"),
+            MachineFate::Escaped => named("escaped"),
+            MachineFate::Unknown(_) => named("unknown"),
         };
-        let Ledger { start, end, belt, damper, guide } = motion.ledger;
+        let MachineLedger { start, end, belt, damper, guide } = motion.ledger;
         let residual = motion.ledger.residual();
         let phase = |place: Place| match place {
             Place::Sticks => "stick",
@@ -322,7 +325,7 @@ impl MotionOf {
             Place::Slips(_) => "slip",
         };
         MotionOf {
-            start: Start { x, v },
+            start: StartOf { x, v },
             outcome,
             until: motion.end.t,
             displacement: motion.x,
@@ -377,7 +380,7 @@ fn rest_band(belt: &Belt, units: &Units) -> Both {
 }
 
 /// Everything that is said about a machine, as a document.
-pub fn json(answer: &Answer) -> String {
+pub fn json(answer: &BeltAnswer) -> String {
     let survey = answer.survey;
     let (belt, reduced) = (&survey.belt, &survey.reduced);
     text(&Document {

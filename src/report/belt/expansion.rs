@@ -103,7 +103,7 @@ fn expanded<'a>(cycle: &'a Cycle, survey: &Survey) -> ExpandedCycle<'a> {
     let (v_min, v_max) = (cycle.v_min * units.velocity, cycle.v_max * units.velocity);
     let period = cycle.period * units.time;
     let alike = survey.course.portrait.cycles.iter().filter(|whole| whole.stable == cycle.stable);
-    let distance = |whole: &crate::machine::Cycle| (whole.x.1 - x_max).abs();
+    let distance = |whole: &crate::machine::MachineCycle| (whole.x.1 - x_max).abs();
     let nearest = alike.min_by(|one, other| distance(one).total_cmp(&distance(other)));
     let error = nearest.map(|whole| CycleError {
         x_min: x_min - whole.x.0,

@@ -13,7 +13,7 @@ pub use table::{csv, table};
 
 use serde::Serialize;
 
-use crate::machine::guarantee::{Kicks, Uncertain};
+use crate::machine::guarantee::{GuaranteedKicks, Uncertain};
 use crate::machine::survey::Survey;
 use crate::machine::varied::Varied;
 use crate::machine::{Modal, Portrait};
@@ -71,18 +71,18 @@ impl RestShare {
 }
 
 /// Everything that is said about a machine.
-pub struct Answer<'a> {
+pub struct BeltAnswer<'a> {
     pub machine: &'a Machine,
     pub survey: &'a Survey,
     pub rest_share: RestShare,
     /// The friction for a margin, if asked for.
     pub design: Option<Designed>,
     /// The kicks that are survived for certain, or why none is; `None` if not asked for.
-    pub certain: Option<Result<Kicks, Uncertain>>,
+    pub certain: Option<Result<GuaranteedKicks, Uncertain>>,
     pub seconds: f64,
 }
 
-impl Answer<'_> {
+impl BeltAnswer<'_> {
     /// The numbers that are not known exactly, each between its ends in SI units.
     fn uncertain(&self) -> Vec<(Varied, Interval)> {
         self.machine.tolerances.intervals(&self.machine.belt)

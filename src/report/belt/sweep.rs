@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::document::{Cost, DesignOf, Whole};
 use super::{Designed, Head, PLACES, RestShare, margins};
 use crate::machine::varied::Varied;
-use crate::machine::{Border, Portrait};
+use crate::machine::{MachineBorder, Portrait};
 use crate::report::csv::Sheet;
 use crate::report::json::text;
 use crate::report::table::Table;
@@ -83,13 +83,13 @@ pub fn json(sweep: &Sweep) -> String {
 /// What becomes of motions, in a few words.
 fn regime(found: &Portrait) -> String {
     let rest = match found.border {
-        Border::NoBasin => "no basin",
+        MachineBorder::NoBasin => "no basin",
         _ if found.neutral => "periodic",
-        Border::None if found.margin.is_some() => "all that are known come to rest",
-        Border::None => "all come to rest",
-        Border::Cycle(..) => "basin within a cycle",
-        Border::Grazing(_) if found.border.touches() => "basin up to the belt",
-        Border::Grazing(_) => "basin up to what the guide holds",
+        MachineBorder::None if found.margin.is_some() => "all that are known come to rest",
+        MachineBorder::None => "all come to rest",
+        MachineBorder::Cycle(..) => "basin within a cycle",
+        MachineBorder::Grazing(_) if found.border.touches() => "basin up to the belt",
+        MachineBorder::Grazing(_) => "basin up to what the guide holds",
     };
     let stable = found.cycles.iter().filter(|cycle| cycle.stable);
     let kinds = stable.map(|cycle| match (cycle.sticks, cycle.overtakes) {

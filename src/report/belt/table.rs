@@ -4,13 +4,13 @@ use serde::Serialize;
 
 use super::document::kind;
 use super::expansion::Expansion;
-use super::{Answer, PLACES, RestShare, finite, line, margins, numbers};
-use crate::machine::guarantee::{Kicks, Uncertain};
-use crate::machine::motion::{Outcome, State};
+use super::{BeltAnswer, PLACES, RestShare, finite, line, margins, numbers};
+use crate::machine::guarantee::{GuaranteedKicks, Uncertain};
+use crate::machine::motion::{MachineOutcome, MachineState};
 use crate::machine::stepped::Stepped;
 use crate::machine::survey::{Course, Second};
 use crate::machine::varied::Varied;
-use crate::machine::{Border, Cycle, Fate, Portrait};
+use crate::machine::{MachineBorder, MachineCycle, MachineFate, Portrait};
 use crate::oscillator::Interval;
 use crate::oscillator::belt::{Derivatives, FrictionLaw};
 use crate::report::csv::Sheet;
@@ -30,7 +30,7 @@ struct Row {
 }
 
 /// The numbers about a machine that stand alone.
-fn rows(answer: &Answer) -> Vec<Row> {
+fn rows(answer: &BeltAnswer) -> Vec<Row> {
     let survey = answer.survey;
     let (belt, reduced) = (&survey.belt, &survey.reduced);
     let (parameters, units) = (&reduced.parameters, &reduced.units);
@@ -59,7 +59,7 @@ fn rows(answer: &Answer) -> Vec<Row> {
 }
 
 /// Everything that is said about a machine, to read.
-pub fn table(answer: &Answer) -> String {
+pub fn table(answer: &BeltAnswer) -> String {
     let survey = answer.survey;
     let (belt, reduced) = (&survey.belt, &survey.reduced);
     let machine = answer.machine;
@@ -114,26 +114,26 @@ fn friction(law: &FrictionLaw, mu: &Derivatives) -> String {
 /// What borders the basin of rest, in a sentence.
 pub(super) fn border(portrait: &Portrait) -> &'static str {
     match portrait.border {
-        Border::None if portrait.margin.is_some() => {
+        MachineBorder::None if portrait.margin.is_some() => {
             "every kick within the margin is survived; larger ones are not known"
         }
-        Border::None => "every kick is survived: whatever happens, the mass comes to rest",
-        Border::NoBasin => "no kick is survived, however small: rest repels",
-        Border::Cycle(..) => "beyond the margin an unstable cycle is crossed",
-        Border::Grazing(_) if portrait.neutral => {
+        MachineBorder::None => "every kick is survived: whatever happens, the mass comes to rest",
+        MachineBorder::NoBasin => "no kick is survived, however small: rest repels",
+        MachineBorder::Cycle(..) => "beyond the margin an unstable cycle is crossed",
+        MachineBorder::Grazing(_) if portrait.neutral => {
             "within the margin every motion is periodic; beyond it the mass sticks to the belt"
         }
-        Border::Grazing(_) if portrait.border.touches() => {
+        MachineBorder::Grazing(_) if portrait.border.touches() => {
             "beyond the margin the mass comes to stick to the belt"
         }
-        Border::Grazing(_) => {
+        MachineBorder::Grazing(_) => {
             "beyond the margin the guide catches the mass no more, and it is carried off"
         }
     }
 }
 
 /// The nominal margins and those that hold for certain, side by side, and what they allow for.
-fn guaranteed(answer: &Answer, certain: &Result<Kicks, Uncertain>) -> String {
+fn guaranteed(answer: &BeltAnswer, certain: &Result<GuaranteedKicks, Uncertain>) -> String {
     let tolerances = &answer.machine.tolerances;
     let unit = |varied: Varied, value| with_unit(value, 12, varied.unit());
     let number = |(varied, interval): (Varied, Interval)| {
@@ -182,7 +182,7 @@ pub(super) fn gaps(portrait: &Portrait) -> String {
 }
 
 /// The cycles, a row each.
-pub(super) fn cycles(cycles: &[Cycle]) -> String {
+pub(super) fn cycles(cycles: &[MachineCycle]) -> String {
     if cycles.is_empty() {
         return "no cycle\n".to_owned();
     }
@@ -198,7 +198,7 @@ pub(super) const CYCLE: &[&str] =
     &["x from", "to", "v from", "to", "period", "on the belt", "multiplier"];
 
 /// The cells of these columns, behind the kind.
-pub(super) fn cells(cycle: &Cycle) -> Vec<String> {
+pub(super) fn cells(cycle: &MachineCycle) -> Vec<String> {
     let over = if cycle.overtakes { ", overtaking" } else { "" };
     let mut cells = vec![format!("{} {}{over}", stability(cycle.stable), kind(cycle))];
     let ([from, to], [slowest, fastest]) = ([cycle.x.0, cycle.x.1], [cycle.v.0, cycle.v.1]);
@@ -217,27 +217,27 @@ pub(super) fn fate((x, v): (f64, f64), course: &Course) -> String {
     let from = format!("from x = {}, v = {}: ", length(x), with_unit(v, PLACES, "m/s"));
     let end = &course.motion.end;
     from + &match course.fate {
-        Fate::Rest => {
+        MachineFate::Rest => {
             let place = course.rest.map_or_else(String::new, |x| format!(" at x = {}", length(x)));
-            if course.motion.outcome == Outcome::Rests {
+            if course.motion.outcome == MachineOutcome::Rests {
                 format!("comes to rest{place}, at t = {}", with_unit(end.t, PLACES, "s"))
             } else {
                 format!("comes to rest{place}")
             }
         }
-        Fate::Cycle(index) => {
+        MachineFate::Cycle(index) => {
             let cycle = &course.portrait.cycles[index];
             format!("ends on the {} cycle up to x = {}", kind(cycle), length(cycle.x.1))
         }
-        Fate::Neutral => "is periodic, one of a family".to_owned(),
-        Fate::Escaped => "grows without bound".to_owned(),
-        Fate::Unknown(stop) => format!("is not known: {stop}"),
+        MachineFate::Neutral => "is periodic, one of a family".to_owned(),
+        MachineFate::Escaped => "grows without bound".to_owned(),
+        MachineFate::Unknown(stop) => format!("is not known: {stop}"),
     } + &course.second.as_ref().map_or_else(String::new, |second| by(second, course))
 }
 
 /// The motion by another method beside the first, in a sentence.
 fn by(Second { way, tolerance, found }: &Second, course: &Course) -> String {
-    let State { t, x, v } = course.motion.end;
+    let MachineState { t, x, v } = course.motion.end;
     let lead = format!("\nby {} at {tolerance:e}: ", way.name());
     lead + &match found {
         Ok(Stepped { end, .. }) => format!(
@@ -253,7 +253,7 @@ fn by(Second { way, tolerance, found }: &Second, course: &Course) -> String {
 }
 
 /// What the cubic expansion says instead, in a sentence.
-fn expansion(answer: &Answer) -> String {
+fn expansion(answer: &BeltAnswer) -> String {
     let survey = answer.survey;
     let found = Expansion::new(survey);
     let lead = "friction as a cubic (the oscillator of the paper) says: ";
@@ -280,7 +280,7 @@ fn expansion(answer: &Answer) -> String {
 }
 
 /// One row for each number, in SI units.
-pub fn csv(answer: &Answer) -> String {
+pub fn csv(answer: &BeltAnswer) -> String {
     let mut out = sheet();
     for Row { what, dimensionless, physical } in rows(answer) {
         let (value, unit) = physical.map_or((None, ""), |(value, unit)| (Some(value), unit));
@@ -288,7 +288,7 @@ pub fn csv(answer: &Answer) -> String {
     }
     if let Some(certain) = &answer.certain {
         let kicks = certain.ok();
-        let value = |pick: fn(&Kicks) -> f64| kicks.as_ref().map(pick).and_then(finite);
+        let value = |pick: fn(&GuaranteedKicks) -> f64| kicks.as_ref().map(pick).and_then(finite);
         put(&mut out, "guaranteed: displacement", None, value(|it| it.displacement), "m");
         put(&mut out, "guaranteed: impulse", None, value(|it| it.impulse), "N s");
     }

@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::fit::Fitted;
 use crate::fit::margin::Spread;
 use crate::fit::names::NAMES;
-use crate::fit::observation::{LAST, Q0, Start};
+use crate::fit::observation::{LAST, Q0, StartKind};
 use crate::fit::physical::{self, kicks, rows};
 use crate::fit::separable::combinations;
 use crate::report::csv;
@@ -207,8 +207,8 @@ fn start(fitted: &Fitted) -> BTreeMap<&'static str, serde_json::Value> {
         })
     };
     let (kind, last) = match estimate.start {
-        Start::Release => ("release", "t0"),
-        Start::Moving => ("moving", "v0"),
+        StartKind::Release => ("release", "t0"),
+        StartKind::Moving => ("moving", "v0"),
     };
     let mut start = BTreeMap::from([("kind", kind.into()), ("q0", value(Q0))]);
     if estimate.free[LAST] {
@@ -236,8 +236,8 @@ fn correlations(fitted: &Fitted) -> BTreeMap<String, f64> {
 
 fn physical(fitted: &Fitted) -> Option<Physical> {
     let (metres, impulse) = kicks(fitted)?;
-    let number = |row: physical::Row| {
-        let physical::Row { name, value, standard_error, unit } = row;
+    let number = |row: physical::EstimatedNumber| {
+        let physical::EstimatedNumber { name, value, standard_error, unit } = row;
         (name, PhysicalNumber { value, standard_error, unit })
     };
     Some(Physical {

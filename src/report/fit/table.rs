@@ -3,7 +3,7 @@
 use crate::fit::Fitted;
 use crate::fit::margin::Spread;
 use crate::fit::names::{NAMES, NameSpec};
-use crate::fit::observation::{Data, LAST, Q0, Start};
+use crate::fit::observation::{Data, LAST, Q0, StartKind};
 use crate::fit::physical::{kicks, rows};
 use crate::report::table::Table;
 use crate::words::fit::sentences;
@@ -51,9 +51,9 @@ fn subject(fitted: &Fitted) -> String {
         Data::Samples { t, .. } => {
             let span = t.last().zip(t.first()).map_or(0.0, |(last, first)| last - first);
             let begin = match estimate.start {
-                Start::Release => "released within it",
-                Start::Moving if estimate.before > 0 => "since the mass was struck",
-                Start::Moving => "in motion from its beginning",
+                StartKind::Release => "released within it",
+                StartKind::Moving if estimate.before > 0 => "since the mass was struck",
+                StartKind::Moving => "in motion from its beginning",
             };
             format!("{} samples over {} s, {begin}", t.len(), significant(span, 4))
         }
@@ -77,8 +77,8 @@ fn start(fitted: &Fitted) -> String {
     let mut parts = vec![number("q0", Q0, unit)];
     if estimate.free[LAST] {
         parts.push(match estimate.start {
-            Start::Release => number("t0", LAST, "s"),
-            Start::Moving => number("v0/omega0", LAST, unit),
+            StartKind::Release => number("t0", LAST, "s"),
+            StartKind::Moving => number("v0/omega0", LAST, unit),
         });
     }
     let noise = significant(estimate.covariance.deviation, 3);

@@ -7,8 +7,8 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use super::play::{Pause, Playing};
-use super::{Application, Files, Outcome, Pump, picture};
-use crate::runtime::event::{Event, Stop};
+use super::{Application, EffectOutcome, Files, Pump, picture};
+use crate::runtime::event::{Event, LoopEnd};
 use crate::session::read::waiting::forgets;
 use crate::session::replay::{Action, Script};
 use crate::session::{Code, Key, Msg, Notice};
@@ -28,7 +28,7 @@ fn is_key(msg: &Msg, code: Code) -> bool {
 
 impl<M: Application, W: Write> Pump<M, W> {
     /// Something that the user did: given to the session; while something is played, to that.
-    pub(super) fn users(&mut self, msg: Msg) -> io::Result<Option<Stop>> {
+    pub(super) fn users(&mut self, msg: Msg) -> io::Result<Option<LoopEnd>> {
         let Some(playing) = &mut self.playing else {
             if self.application.is_waiting() {
                 if !forgets(&msg) && !leaves(&msg) {
@@ -44,7 +44,7 @@ impl<M: Application, W: Write> Pump<M, W> {
             }
             self.recorder.note(&msg);
             let stop = self.update(msg)?;
-            if stop == Some(Stop::Quit) {
+            if stop == Some(LoopEnd::Quit) {
                 self.recorder.forget(1);
             }
             return Ok(stop);
@@ -59,7 +59,7 @@ impl<M: Application, W: Write> Pump<M, W> {
             return self.played(false, "replay stopped".to_owned(), false);
         }
         if leaves(&msg) {
-            return Ok(Some(Stop::Quit));
+            return Ok(Some(LoopEnd::Quit));
         }
         if playing.register {
             self.held_back.push_back(Event::Session(msg));
@@ -68,7 +68,7 @@ impl<M: Application, W: Write> Pump<M, W> {
         } else if caption && matches!(msg, Msg::Key(_)) {
             playing.go_on();
         } else if is_key(&msg, Code::Char('q')) {
-            return Ok(Some(Stop::Quit));
+            return Ok(Some(LoopEnd::Quit));
         } else if is_key(&msg, Code::Char(' ')) {
             let wished = playing.pause == Pause::Wished;
             playing.pause = if wished { Pause::Not } else { Pause::Wished };
@@ -109,24 +109,24 @@ impl<M: Application, W: Write> Pump<M, W> {
     }
 
     /// Begins to play; something that is played already goes on afterwards.
-    pub(super) fn begin(&mut self, script: Script, register: bool) -> io::Result<Outcome> {
+    pub(super) fn begin(&mut self, script: Script, register: bool) -> io::Result<EffectOutcome> {
         let asked = self.application.asked();
         let Some(playing) = &mut self.playing else {
             self.playing = Some(Playing::new(script, register, asked));
-            return Ok(Outcome::Done);
+            return Ok(EffectOutcome::Done);
         };
         playing.given.forget(asked);
         if playing.player.interject(script) {
-            return Ok(Outcome::Done);
+            return Ok(EffectOutcome::Done);
         }
         let stop = self.played(true, "replay stopped: it plays itself".to_owned(), false)?;
-        Ok(stop.map_or(Outcome::Done, Outcome::Stop))
+        Ok(stop.map_or(EffectOutcome::Done, EffectOutcome::Stop))
     }
 
     /// The next step of a replay, if the screen shows all that happened before it.
     ///
     /// A replay inside the explorer has the size of the terminal and keeps no pictures.
-    pub(super) fn play(&mut self) -> io::Result<Option<Stop>> {
+    pub(super) fn play(&mut self) -> io::Result<Option<LoopEnd>> {
         if self.changed.is_some()
             || !self.events.is_empty()
             || !self.missed.is_empty()
@@ -150,7 +150,7 @@ impl<M: Application, W: Write> Pump<M, W> {
                     }
                     playing.given.note(&msg);
                     let stop = self.update(msg)?;
-                    if stop == Some(Stop::Quit) {
+                    if stop == Some(LoopEnd::Quit) {
                         // What asked for this leaves again.
                         self.settle(true);
                     }
@@ -163,7 +163,7 @@ impl<M: Application, W: Write> Pump<M, W> {
     }
 
     /// Ends a replay; `whole` if it was played to its end.
-    fn played(&mut self, error: bool, text: String, whole: bool) -> io::Result<Option<Stop>> {
+    fn played(&mut self, error: bool, text: String, whole: bool) -> io::Result<Option<LoopEnd>> {
         self.settle(whole);
         self.update(Msg::Say(String::new(), None))?;
         self.update(Msg::Told(Notice { error, text }))

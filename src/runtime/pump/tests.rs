@@ -76,9 +76,9 @@ impl Application for Counter {
 }
 
 /// A terminal that tells what is written to it.
-struct Line(Sender<String>);
+struct Wire(Sender<String>);
 
-impl Write for Line {
+impl Write for Wire {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let _ = self.0.send(String::from_utf8_lossy(bytes).into_owned());
         Ok(bytes.len())
@@ -94,7 +94,7 @@ fn size() -> Size {
 }
 
 struct Bench {
-    pump: Pump<Counter, Line>,
+    pump: Pump<Counter, Wire>,
     events: Sender<Event>,
     written: Receiver<String>,
 }
@@ -102,7 +102,7 @@ struct Bench {
 fn bench() -> Bench {
     let (write, written) = unbounded();
     let (events, received) = unbounded();
-    let screen = Screen::new(Line(write), size()).unwrap();
+    let screen = Screen::new(Wire(write), size()).unwrap();
     let job = |_: &Request, _: &crate::flow::Limits, _: &Tell| Err(Reason::OutOfRange);
     let report = events.clone();
     let report = move |msg| drop(report.send(Event::Session(msg)));
@@ -125,7 +125,7 @@ fn five_hundred_keys_at_once_are_one_frame_of_the_newest_state() {
     let running = std::thread::spawn(move || pump.run().unwrap());
     assert!(written.recv().unwrap().contains("500"));
     events.send(key("q")).unwrap();
-    assert_eq!(running.join().unwrap(), Stop::Quit);
+    assert_eq!(running.join().unwrap(), LoopEnd::Quit);
     assert!(written.is_empty());
 }
 
@@ -180,7 +180,7 @@ fn play(file: &str) -> String {
     while !written.recv().unwrap().contains("replay") {}
     events.send(key("q")).unwrap();
     let (stop, pump) = running.join().unwrap();
-    assert_eq!(stop, Stop::Quit);
+    assert_eq!(stop, LoopEnd::Quit);
     view::screen::text(&picture::of(&pump.application, size()))
 }
 
@@ -211,7 +211,7 @@ fn keys_are_answered_while_a_figure_is_written() {
     while !written.recv().unwrap().contains("written") {}
     assert_eq!(std::fs::read(path).unwrap(), b"curves");
     events.send(key("q")).unwrap();
-    assert_eq!(running.join().unwrap(), Stop::Quit);
+    assert_eq!(running.join().unwrap(), LoopEnd::Quit);
 }
 
 #[test]
@@ -233,10 +233,10 @@ fn a_figure_that_may_not_be_written_is_not_begun() {
 fn what_concerns_the_process_stops_the_loop() {
     let Bench { mut pump, events, .. } = bench();
     for (event, stop) in [
-        (Event::Suspend, Stop::Suspended),
-        (Event::Continued, Stop::Continued),
-        (Event::Ended { signal: 15 }, Stop::Ended { signal: 15 }),
-        (Event::Closed, Stop::Closed),
+        (Event::Suspend, LoopEnd::Suspended),
+        (Event::Continued, LoopEnd::Continued),
+        (Event::Ended { signal: 15 }, LoopEnd::Ended { signal: 15 }),
+        (Event::Closed, LoopEnd::Closed),
     ] {
         events.send(event).unwrap();
         assert_eq!(pump.run().unwrap(), stop);
@@ -254,7 +254,7 @@ fn a_caption_waits_for_a_key_that_does_nothing_else() {
     while !written.recv().unwrap().contains("done") {}
     events.send(key("q")).unwrap();
     let (stop, pump) = running.join().unwrap();
-    assert_eq!(stop, Stop::Quit);
+    assert_eq!(stop, LoopEnd::Quit);
     assert_eq!(pump.running().count, 2, "the first q went on with the tour");
 }
 
@@ -326,14 +326,14 @@ fn what_was_pressed_is_written_without_what_asks_for_it() {
 }
 
 /// What is recorded, without the comments.
-fn recorded(pump: &Pump<Counter, Line>) -> String {
+fn recorded(pump: &Pump<Counter, Wire>) -> String {
     replay::text("", pump.recorder.steps())
 }
 
 #[test]
 fn the_users_keys_stop_hold_or_leave_a_replay_and_are_no_part_of_it() {
     let file = || Some(replay::parse("<right*3>").unwrap());
-    let step = |pump: &mut Pump<Counter, Line>| {
+    let step = |pump: &mut Pump<Counter, Wire>| {
         pump.draw().unwrap();
         pump.play().unwrap()
     };
@@ -352,7 +352,7 @@ fn the_users_keys_stop_hold_or_leave_a_replay_and_are_no_part_of_it() {
     step(&mut pump);
     assert_eq!(pump.application.count, 2, "and on");
     for leaves in ["q", "<C-c>"] {
-        assert_eq!(pump.handle(key(leaves)).unwrap(), Some(Stop::Quit));
+        assert_eq!(pump.handle(key(leaves)).unwrap(), Some(LoopEnd::Quit));
     }
     pump.handle(key("<esc>")).unwrap();
     assert_eq!(pump.application.notice, "replay stopped");
@@ -379,7 +379,7 @@ fn what_is_typed_while_a_register_is_played_comes_after_it() {
     pump.release();
     let missed: Vec<Event> = pump.missed.drain(..).collect();
     let stops: Vec<_> = missed.into_iter().map(|event| pump.handle(event).unwrap()).collect();
-    assert_eq!(stops, [None, Some(Stop::Quit)]);
+    assert_eq!(stops, [None, Some(LoopEnd::Quit)]);
     assert!(pump.application.moving);
     assert_eq!(recorded(&pump), "<enter> p\n", "what asks for it plays it again; q is no part");
 }

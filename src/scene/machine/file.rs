@@ -62,14 +62,14 @@ struct MachineFile {
     /// Bound on a force that disturbs the mass.
     disturbance: Option<Spanned<Number>>,
     #[serde(default)]
-    start: Start,
+    start: StartTable,
     until: Option<Spanned<Number>>,
 }
 
 /// Where the motion starts.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Start {
+pub(super) struct StartTable {
     pub x: Option<Spanned<Number>>,
     pub v: Option<Spanned<Number>>,
 }

@@ -4,7 +4,7 @@
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::file::{FARTHEST_START, Number, Start, UNTIL_RANGE, number, quantity_as};
+use super::file::{FARTHEST_START, Number, StartTable, UNTIL_RANGE, number, quantity_as};
 use crate::machine::Modal;
 use crate::oscillator::belt::{Dimension, Quantity};
 use crate::scene::misread::{self, Complaint, Misread};
@@ -38,7 +38,7 @@ struct ModeFile {
     #[serde(rename = "R_static")]
     guide_static: Option<Spanned<Number>>,
     #[serde(default)]
-    start: Start,
+    start: StartTable,
     until: Option<Spanned<Number>>,
 }
 

@@ -18,7 +18,7 @@ use crate::session::state::plot::{Framing, Pane};
 use crate::session::state::rows::Row;
 use crate::session::state::session::{MOST_HARMONICS, Session};
 use crate::session::state::settings::{COLORS, GLYPHS, THEMES, named};
-use crate::study::kicks::Kicks;
+use crate::study::kicks::RandomKick;
 
 /// What a line has done, or why not.
 type Done = Result<Vec<Effect>, String>;
@@ -176,7 +176,7 @@ pub fn harmonics(session: &mut Session, rest: &str) -> Done {
 
 /// Shows random kicks over the basin.
 pub fn kicks(session: &mut Session, rest: &str) -> Done {
-    let kicks: Kicks = rest.parse()?;
+    let kicks: RandomKick = rest.parse()?;
     if session.draws_whole() {
         return Err(
             "kicks are counted by the cubic expansion alone: switch the layer whole off".to_owned()

@@ -10,7 +10,7 @@ use crate::session::effect::Effect;
 use crate::session::read::walk::Way;
 use crate::session::state::plot::{Pane, Plot};
 use crate::session::state::session::Session;
-use crate::session::state::stop::Stop;
+use crate::session::state::stop::BranchStop;
 
 /// Points that a far move takes.
 pub const FAR: isize = 10;
@@ -24,7 +24,7 @@ pub fn take_hold(session: &mut Session) -> Vec<Effect> {
     Vec::new()
 }
 
-fn first(session: &Session) -> Result<Stop, &'static str> {
+fn first(session: &Session) -> Result<BranchStop, &'static str> {
     let index = session.plot;
     if !session.shows_in(Layer::Branch, index) {
         return Err("the branch is not shown: {layers} lists the layers");
@@ -56,7 +56,7 @@ fn first(session: &Session) -> Result<Stop, &'static str> {
 
 /// Goes `count` points along the piece of the branch that is held.
 pub fn go(session: &mut Session, count: isize) -> Vec<Effect> {
-    let further = |way: &Way, held: &Stop| way.further(held, count);
+    let further = |way: &Way, held: &BranchStop| way.further(held, count);
     if !moved(session, further) {
         let text = "the branch ends here; {walk-to-next} goes on to the next special point or end";
         inform(session, told(session, text));
@@ -71,7 +71,7 @@ pub fn go_to_landmark(session: &mut Session, onward: bool) -> Vec<Effect> {
 }
 
 /// Holds another point; returns whether it is another.
-fn moved(session: &mut Session, choose: impl Fn(&Way, &Stop) -> Option<Stop>) -> bool {
+fn moved(session: &mut Session, choose: impl Fn(&Way, &BranchStop) -> Option<BranchStop>) -> bool {
     let Some(held) = session.held else { return false };
     let found = choose(&Way::along(&session.branches(session.plot)), &held).unwrap_or(held);
     session.held = Some(found);

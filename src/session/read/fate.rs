@@ -39,7 +39,7 @@ pub enum End {
 
 /// On which side of what borders the basin a motion starts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
+pub enum SideOfBorder {
     /// Inside of the unstable cycle.
     InsideCycle,
     OutsideCycle,
@@ -52,10 +52,10 @@ pub enum Side {
 
 /// The verdict about a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Fate {
+pub struct MotionVerdict {
     /// What becomes of it.
     pub end: End,
-    pub place: Side,
+    pub place: SideOfBorder,
 }
 
 /// Relative distance from a cycle below which rounding decides, of a start that turns there, and of a
@@ -66,29 +66,29 @@ const NEAR: [f64; 2] = [1e-12, 1e-8];
 const RESOLVED: f64 = 1e-6;
 
 /// What becomes of a motion among these cycles; `None` where that is not known.
-pub fn fate(found: &Cycles, motion: &Trajectory) -> Option<Fate> {
+pub fn fate(found: &Cycles, motion: &Trajectory) -> Option<MotionVerdict> {
     match found.edge {
         _ if !found.cycles.is_empty() && found.edge != Edge::Separatrix => among(found, motion),
         Edge::None if found.parameters.r > 0.0 => {
-            Some(Fate { end: End::Rests, place: Side::Anywhere })
+            Some(MotionVerdict { end: End::Rests, place: SideOfBorder::Anywhere })
         }
         Edge::Separatrix => beside_separatrix(found, motion),
         // Without friction, D2 and a cycle: damping decides.
         _ => {
             let decays = found.parameters.d > 0.0 && found.parameters.d3 >= 0.0;
             let alone = found.parameters.d2 == 0.0 && decays;
-            alone.then_some(Fate { end: End::Decays, place: Side::Anywhere })
+            alone.then_some(MotionVerdict { end: End::Decays, place: SideOfBorder::Anywhere })
         }
     }
 }
 
 /// The verdict without friction and nonlinear damping, where the sign of D decides and no cycle is asked for.
-fn linear(motion: &Trajectory) -> Option<Fate> {
+fn linear(motion: &Trajectory) -> Option<MotionVerdict> {
     let (Parameters { d, d2, d3, r }, start) = (motion.problem.parameters, motion.problem.initial);
     let moves = start.q != 0.0 || start.v != 0.0;
     let end = if d > 0.0 { End::Decays } else { End::Grows };
     let alone = [d2, d3, r] == [0.0; 3] && d != 0.0 && moves;
-    alone.then_some(Fate { end, place: Side::Anywhere })
+    alone.then_some(MotionVerdict { end, place: SideOfBorder::Anywhere })
 }
 
 /// The first turning point of a motion, and whether it is where the motion starts. Where turning points
@@ -102,11 +102,11 @@ fn turning(motion: &Trajectory, r: f64) -> Option<(f64, bool)> {
 }
 
 /// The verdict where there are cycles, each inside the next.
-fn among(found: &Cycles, motion: &Trajectory) -> Option<Fate> {
+fn among(found: &Cycles, motion: &Trajectory) -> Option<MotionVerdict> {
     let r = found.parameters.r;
     let unstable = found.cycles.iter().any(|cycle| !cycle.stable);
-    let inside = if unstable { Side::InsideCycle } else { Side::Anywhere };
-    let rests = Fate { end: End::Rests, place: inside };
+    let inside = if unstable { SideOfBorder::InsideCycle } else { SideOfBorder::Anywhere };
+    let rests = MotionVerdict { end: End::Rests, place: inside };
     let Some((q, exact)) = turning(motion, r) else {
         return matches!(motion.outcome, Outcome::Captured { .. }).then_some(rests);
     };
@@ -125,12 +125,12 @@ fn among(found: &Cycles, motion: &Trajectory) -> Option<Fate> {
         } else {
             End::OnTheEdge { distance: distance(cycle) }
         };
-        return Some(Fate { end, place: Side::OutsideCycle });
+        return Some(MotionVerdict { end, place: SideOfBorder::OutsideCycle });
     }
     let outer = found.cycles.iter().find(|cycle| clearance(cycle) > own);
     let inner = found.cycles.iter().rfind(|cycle| clearance(cycle) < own);
-    let outside = if unstable { Side::OutsideCycle } else { Side::Anywhere };
-    let onto = |cycle: &Cycle, grows| Fate {
+    let outside = if unstable { SideOfBorder::OutsideCycle } else { SideOfBorder::Anywhere };
+    let onto = |cycle: &Cycle, grows| MotionVerdict {
         end: End::Onto { q_max: cycle.q_max, grows },
         place: outside,
     };
@@ -138,30 +138,35 @@ fn among(found: &Cycles, motion: &Trajectory) -> Option<Fate> {
         (_, Some(outer)) if outer.stable => onto(outer, true),
         (Some(inner), _) if inner.stable => onto(inner, false),
         (None, Some(_)) if r > 0.0 => rests,
-        (None, Some(_)) => Fate { end: End::Decays, place: inside },
-        (Some(_), None) => Fate { end: End::Grows, place: outside },
+        (None, Some(_)) => MotionVerdict { end: End::Decays, place: inside },
+        (Some(_), None) => MotionVerdict { end: End::Grows, place: outside },
         _ => return None,
     })
 }
 
 /// The verdict where a motion that just escapes borders the basin: a start at rest within the margin is
 /// captured, and so is a turning point; of others their outcome tells.
-fn beside_separatrix(found: &Cycles, motion: &Trajectory) -> Option<Fate> {
+fn beside_separatrix(found: &Cycles, motion: &Trajectory) -> Option<MotionVerdict> {
     let margin = found.picture.as_ref()?.margin.displacement;
     let within = |q: f64| margin.is_some_and(|margin| q.abs() < margin);
     let turned = || turning(motion, found.parameters.r).is_some_and(|(q, _)| within(q));
     match motion.outcome {
-        Outcome::Captured { .. } => Some(Fate { end: End::Rests, place: Side::InsideSeparatrix }),
-        Outcome::Escaped { .. } => Some(Fate { end: End::Grows, place: Side::OutsideSeparatrix }),
-        _ => turned().then_some(Fate { end: End::Rests, place: Side::InsideSeparatrix }),
+        Outcome::Captured { .. } => {
+            Some(MotionVerdict { end: End::Rests, place: SideOfBorder::InsideSeparatrix })
+        }
+        Outcome::Escaped { .. } => {
+            Some(MotionVerdict { end: End::Grows, place: SideOfBorder::OutsideSeparatrix })
+        }
+        _ => turned()
+            .then_some(MotionVerdict { end: End::Rests, place: SideOfBorder::InsideSeparatrix }),
     }
 }
 
 /// The verdict of the whole model.
-fn of_course(course: &Course, motion: &Trajectory) -> Option<Fate> {
+fn of_course(course: &Course, motion: &Trajectory) -> Option<MotionVerdict> {
     let end = match course.fate {
-        machine::Fate::Rest => End::Rests,
-        machine::Fate::Cycle(index) => {
+        machine::MachineFate::Rest => End::Rests,
+        machine::MachineFate::Cycle(index) => {
             let cycle = course.cycles.get(index)?;
             let size = |sample: &Sample| hypot(sample.q, sample.v);
             let (first, last) = (motion.samples.first()?, motion.samples.last()?);
@@ -170,15 +175,15 @@ fn of_course(course: &Course, motion: &Trajectory) -> Option<Fate> {
             let grows = cycle.stable && size(first) <= size(last);
             End::Onto { q_max: largest, grows }
         }
-        machine::Fate::Escaped => End::Grows,
-        machine::Fate::Neutral | machine::Fate::Unknown(_) => return None,
+        machine::MachineFate::Escaped => End::Grows,
+        machine::MachineFate::Neutral | machine::MachineFate::Unknown(_) => return None,
     };
     let place = match (course.border, end) {
-        ("cycle", End::Rests) => Side::InsideCycle,
-        ("cycle", _) => Side::OutsideCycle,
-        _ => Side::Anywhere,
+        ("cycle", End::Rests) => SideOfBorder::InsideCycle,
+        ("cycle", _) => SideOfBorder::OutsideCycle,
+        _ => SideOfBorder::Anywhere,
     };
-    Some(Fate { end, place })
+    Some(MotionVerdict { end, place })
 }
 
 impl Session {
@@ -227,7 +232,7 @@ impl Session {
 
     /// What becomes of the motion that was computed last; `None` as long as its cycles are not known, and
     /// of methods that miss the turning points.
-    pub fn fate(&self) -> Option<Fate> {
+    pub fn fate(&self) -> Option<MotionVerdict> {
         let motion = self.trajectory()?;
         if let Some(course) = self.course() {
             return of_course(course, motion);

@@ -103,8 +103,8 @@ impl Session {
 }
 
 /// Adds the lines of one owner by the whole model.
-fn add_works(lines: &mut Vec<LedgerLine>, owner: Owner, ledger: &machine::Ledger) {
-    let machine::Ledger { start, end, belt, damper, guide } = *ledger;
+fn add_works(lines: &mut Vec<LedgerLine>, owner: Owner, ledger: &machine::MachineLedger) {
+    let machine::MachineLedger { start, end, belt, damper, guide } = *ledger;
     let works = [("belt", belt), ("damper", -damper), ("guide", -guide)];
     let stored = matches!(owner, Owner::Motion(..)).then_some(("stored", end - start));
     let largest = works.iter().chain(&stored).map(|(_, work)| work.abs()).fold(0.0, f64::max);

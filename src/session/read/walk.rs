@@ -4,13 +4,13 @@
 //! point itself and not its place in the list, so that it stays the same point when the branch is computed again.
 
 use crate::numerics::elementary::{hypot, ln};
-use crate::session::state::stop::Stop;
+use crate::session::state::stop::BranchStop;
 use crate::study::{Branch, SpecialKind};
 
 /// The connected pieces of branches, each as the stops along it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Way {
-    pieces: Vec<Vec<Stop>>,
+    pieces: Vec<Vec<BranchStop>>,
     /// Width of all values, to measure distances by.
     extent: f64,
 }
@@ -29,25 +29,26 @@ impl Way {
         let mut way = Way { pieces: Vec::new(), extent: if high > low { high - low } else { 1.0 } };
         for (variant, branch) in branches {
             for piece in branch.pieces.iter().filter(|piece| !piece.is_empty()) {
-                let mut stops: Vec<Stop> =
-                    piece.iter().map(|point| Stop::on(*variant, point)).collect();
+                let mut stops: Vec<BranchStop> =
+                    piece.iter().map(|point| BranchStop::on(*variant, point)).collect();
                 if stops[0].value > stops[stops.len() - 1].value {
                     stops.reverse();
                 }
                 way.pieces.push(stops);
             }
             for special in &branch.special {
-                way.insert(Stop::at(*variant, special));
+                way.insert(BranchStop::at(*variant, special));
             }
         }
         way
     }
 
     /// Puts a special point where the detour over it is shortest.
-    fn insert(&mut self, special: Stop) {
+    fn insert(&mut self, special: BranchStop) {
         let mut best: Option<(f64, Position)> = None;
         let numbered = self.pieces.iter().enumerate();
-        let same = |piece: &[Stop]| piece.first().is_some_and(|it| it.variant == special.variant);
+        let same =
+            |piece: &[BranchStop]| piece.first().is_some_and(|it| it.variant == special.variant);
         for (index, piece) in numbered.filter(|(_, piece)| same(piece)) {
             for gap in 0..=piece.len() {
                 let around = (gap.checked_sub(1).map(|last| &piece[last]), piece.get(gap));
@@ -74,11 +75,12 @@ impl Way {
 
     /// How far apart two points are: in parts of all values, and in the logarithm of the size. A cycle
     /// at infinity is as far as its value is. From one branch to another no way leads.
-    fn apart(&self, one: &Stop, other: &Stop) -> f64 {
+    fn apart(&self, one: &BranchStop, other: &BranchStop) -> f64 {
         if one.variant != other.variant {
             return f64::INFINITY;
         }
-        let size = |stop: &Stop| stop.cycle.map(|cycle| ln(cycle.q_max.max(f64::MIN_POSITIVE)));
+        let size =
+            |stop: &BranchStop| stop.cycle.map(|cycle| ln(cycle.q_max.max(f64::MIN_POSITIVE)));
         let values = (one.value - other.value) / self.extent;
         match (size(one), size(other)) {
             (Some(a), Some(b)) => hypot(values, a - b),
@@ -87,8 +89,8 @@ impl Way {
     }
 
     /// Every stop with its place.
-    fn stops(&self) -> impl Iterator<Item = (Position, &Stop)> {
-        let numbered = |(index, piece): (usize, &'_ Vec<Stop>)| {
+    fn stops(&self) -> impl Iterator<Item = (Position, &BranchStop)> {
+        let numbered = |(index, piece): (usize, &'_ Vec<BranchStop>)| {
             (0..piece.len()).map(move |place| (index, place)).collect::<Vec<_>>()
         };
         let places = self.pieces.iter().enumerate().flat_map(numbered);
@@ -96,31 +98,31 @@ impl Way {
     }
 
     /// The stop for which `measure` is smallest.
-    pub fn nearest(&self, measure: impl Fn(&Stop) -> f64) -> Option<Stop> {
+    pub fn nearest(&self, measure: impl Fn(&BranchStop) -> f64) -> Option<BranchStop> {
         let rated = self.stops().map(|(_, stop)| (measure(stop), *stop));
         rated.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, stop)| stop)
     }
 
     /// Where a walk begins at a value of the parameter: beside it on the innermost cycle there, which
     /// borders the basin; else on the nearest value.
-    pub fn start(&self, value: f64) -> Option<Stop> {
-        let distance = |stop: &Stop| (stop.value - value).abs();
+    pub fn start(&self, value: f64) -> Option<BranchStop> {
+        let distance = |stop: &BranchStop| (stop.value - value).abs();
         let beside = self.pieces.iter().flat_map(|piece| piece.windows(2)).filter_map(|pair| {
             let around = (pair[0].value <= value) != (pair[1].value <= value);
             let [one, other] = [pair[0], pair[1]].map(|stop| (distance(&stop), stop));
             around.then_some(if one.0 <= other.0 { one.1 } else { other.1 })
         });
-        let size = |stop: &Stop| stop.cycle.map_or(f64::INFINITY, |cycle| cycle.q_max);
+        let size = |stop: &BranchStop| stop.cycle.map_or(f64::INFINITY, |cycle| cycle.q_max);
         let innermost = beside.min_by(|a, b| size(a).total_cmp(&size(b)));
         innermost.or_else(|| self.nearest(distance))
     }
 
     /// The same stop on this way, or the one next to it.
-    pub fn again(&self, held: &Stop) -> Option<Stop> {
+    pub fn again(&self, held: &BranchStop) -> Option<BranchStop> {
         self.place(held).map(|(piece, place)| self.pieces[piece][place])
     }
 
-    fn place(&self, held: &Stop) -> Option<Position> {
+    fn place(&self, held: &BranchStop) -> Option<Position> {
         let same = self.stops().find(|(_, stop)| *stop == held);
         let rated = || self.stops().map(|(place, stop)| (self.apart(held, stop), place));
         same.map(|(place, _)| place)
@@ -128,16 +130,16 @@ impl Way {
     }
 
     /// The stop `count` stops further on the same piece, or its end.
-    pub fn further(&self, held: &Stop, count: isize) -> Option<Stop> {
+    pub fn further(&self, held: &BranchStop, count: isize) -> Option<BranchStop> {
         let (piece, place) = self.place(held)?;
         let stops = &self.pieces[piece];
         Some(stops[place.saturating_add_signed(count).min(stops.len() - 1)])
     }
 
     /// The next special point or end of a piece, on to other pieces and around the last one.
-    pub fn landmark(&self, held: &Stop, onward: bool) -> Option<Stop> {
+    pub fn landmark(&self, held: &BranchStop, onward: bool) -> Option<BranchStop> {
         let here = self.place(held)?;
-        let marked = |(piece, place): Position, stop: &Stop| {
+        let marked = |(piece, place): Position, stop: &BranchStop| {
             stop.special.is_some() || place == 0 || place + 1 == self.pieces[piece].len()
         };
         let landmarks: Vec<Position> = self
@@ -156,8 +158,8 @@ impl Way {
 
 /// Whether a special point can lie between two stops, of which one is missing at the end of a piece: a
 /// fold where stability changes, a crossing between the signs, and ends at ends.
-fn admits(kind: Option<SpecialKind>, around: (Option<&Stop>, Option<&Stop>)) -> bool {
-    let stable = |stop: &Stop| stop.cycle.is_some_and(|cycle| cycle.stable);
+fn admits(kind: Option<SpecialKind>, around: (Option<&BranchStop>, Option<&BranchStop>)) -> bool {
+    let stable = |stop: &BranchStop| stop.cycle.is_some_and(|cycle| cycle.stable);
     match (kind, around) {
         (Some(SpecialKind::Fold), (Some(one), Some(other))) => stable(one) != stable(other),
         (Some(SpecialKind::ZeroCrossing), (Some(one), Some(other))) => {
@@ -184,7 +186,7 @@ mod tests {
     }
 
     /// Walks over all landmarks, from the first stop of the first piece back to it.
-    fn landmarks(way: &Way) -> Vec<Stop> {
+    fn landmarks(way: &Way) -> Vec<BranchStop> {
         let first = way.pieces[0][0];
         let mut found = vec![first];
         while let Some(next) = way.landmark(&found[found.len() - 1], true)
@@ -201,7 +203,7 @@ mod tests {
         let stops = &way.pieces[0];
         let fold = stops.iter().position(|stop| stop.special == Some(SpecialKind::Fold)).unwrap();
         assert!((stops[fold].value + 0.172_784_103_071_94).abs() < 1e-12);
-        let stable = |stop: &Stop| stop.cycle.unwrap().stable;
+        let stable = |stop: &BranchStop| stop.cycle.unwrap().stable;
         assert!(stops[..fold].iter().all(|stop| !stable(stop)));
         assert!(stops[fold + 1..].iter().all(stable));
         assert!(stops.iter().all(|stop| stop.value <= stops[fold].value));

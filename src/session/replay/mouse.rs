@@ -3,7 +3,7 @@
 
 use crate::scene::Point;
 use crate::session::message::pointer::{Gesture, Place, Pointed};
-use crate::session::replay::script::Step;
+use crate::session::replay::script::Instruction;
 
 /// How the instruction is written.
 pub(super) fn text(Pointed { gesture, place }: &Pointed) -> String {
@@ -19,7 +19,7 @@ pub(super) fn text(Pointed { gesture, place }: &Pointed) -> String {
 }
 
 /// Reads what follows the gesture.
-pub(super) fn read(gesture: Gesture, rest: &str) -> Result<Step, String> {
+pub(super) fn read(gesture: Gesture, rest: &str) -> Result<Instruction, String> {
     let words: Vec<&str> = rest.split_whitespace().collect();
     let finite = |word: &str| word.parse().ok().filter(|number: &f64| number.is_finite());
     let place = match words[..] {
@@ -31,7 +31,7 @@ pub(super) fn read(gesture: Gesture, rest: &str) -> Result<Step, String> {
         }
         _ => None,
     };
-    place.map(|place| Step::Pointed(Pointed { gesture, place })).ok_or_else(|| {
+    place.map(|place| Instruction::Pointed(Pointed { gesture, place })).ok_or_else(|| {
         format!("a place of the mouse is \"N X Y\" on plot N, from 1, or \"row N\", not {rest:?}")
     })
 }

@@ -7,7 +7,7 @@ use crate::oscillator::PARAMETERS;
 use crate::scene::misread::printable;
 use crate::session::message::key::{Code, Key};
 use crate::session::message::pointer::Gesture;
-use crate::session::replay::script::{LONGEST, Located, Script, Step};
+use crate::session::replay::script::{Instruction, LONGEST, Located, Script};
 
 /// Text that is no keystroke file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -39,18 +39,18 @@ pub(super) const ESCAPES: [(char, char); 5] =
     [('"', '"'), ('\\', '\\'), ('\n', 'n'), ('\r', 'r'), ('\t', 't')];
 
 /// How the rest of a directive becomes a step, or why it does not.
-type Reading = fn(&str) -> Result<Step, String>;
+type Reading = fn(&str) -> Result<Instruction, String>;
 
 /// What stands between angle brackets and is no key: its first word, and how the rest is read.
 const DIRECTIVES: [(&str, Reading); 14] = [
-    ("wait", |rest| alone(rest, "wait", Step::Wait)),
-    ("async", |rest| alone(rest, "async", Step::Async)),
+    ("wait", |rest| alone(rest, "wait", Instruction::Wait)),
+    ("async", |rest| alone(rest, "async", Instruction::Async)),
     ("elapse", elapse),
     ("resize", resize),
-    ("expect", |rest| text(rest, "expect").map(Step::Expect)),
-    ("paste", |rest| text(rest, "paste").map(Step::Paste)),
-    ("run", |rest| text(rest, "run").map(Step::Run)),
-    ("say", |rest| text(rest, "say").map(Step::Say)),
+    ("expect", |rest| text(rest, "expect").map(Instruction::Expect)),
+    ("paste", |rest| text(rest, "paste").map(Instruction::Paste)),
+    ("run", |rest| text(rest, "run").map(Instruction::Run)),
+    ("say", |rest| text(rest, "say").map(Instruction::Say)),
     ("screen", screen),
     ("start", start),
     ("file", file),
@@ -103,10 +103,10 @@ fn length_of_name(text: &str) -> usize {
     text.len()
 }
 
-fn step(token: &str) -> Result<Step, String> {
+fn step(token: &str) -> Result<Instruction, String> {
     if !token.starts_with('<') {
         let char = token.chars().next().unwrap_or(' ');
-        return Ok(Step::Key { key: Key::plain(Code::Char(char)), count: 1 });
+        return Ok(Instruction::Key { key: Key::plain(Code::Char(char)), count: 1 });
     }
     let Some(name) = token[1..].strip_suffix('>') else {
         return Err("\"<\" without \">\" on its line; the character itself is <lt>".to_owned());
@@ -119,15 +119,15 @@ fn step(token: &str) -> Result<Step, String> {
 }
 
 /// Seconds that pass, up to an hour.
-fn elapse(text: &str) -> Result<Step, String> {
+fn elapse(text: &str) -> Result<Instruction, String> {
     let seconds = text.parse().ok().filter(|seconds| (0.0..=LONGEST).contains(seconds));
     seconds
-        .map(Step::Elapse)
+        .map(Instruction::Elapse)
         .ok_or_else(|| format!("elapse takes seconds, 0 .. {LONGEST}, such as <elapse 0.25>"))
 }
 
 /// A key, perhaps with a count: `right`, `right*5`, `*`, `**5`.
-fn keys(name: &str) -> Result<Step, String> {
+fn keys(name: &str) -> Result<Instruction, String> {
     let counted = name.rsplit_once('*').filter(|(key, count)| {
         !key.is_empty() && !count.is_empty() && count.bytes().all(|byte| byte.is_ascii_digit())
     });
@@ -139,7 +139,7 @@ fn keys(name: &str) -> Result<Step, String> {
         None => (name, 1),
     };
     match Key::named(key) {
-        Ok(key) => Ok(Step::Key { key, count }),
+        Ok(key) => Ok(Instruction::Key { key, count }),
         Err(unknown) => Err(nearest_directive(key).unwrap_or_else(|| unknown.to_string())),
     }
 }
@@ -154,7 +154,7 @@ fn nearest_directive(name: &str) -> Option<String> {
     (likeness >= 0.8).then(|| format!("unknown key <{name}>; did you mean <{directive}>?"))
 }
 
-fn alone(rest: &str, word: &str, step: Step) -> Result<Step, String> {
+fn alone(rest: &str, word: &str, step: Instruction) -> Result<Instruction, String> {
     if rest.is_empty() {
         Ok(step)
     } else {
@@ -162,40 +162,44 @@ fn alone(rest: &str, word: &str, step: Step) -> Result<Step, String> {
     }
 }
 
-fn resize(rest: &str) -> Result<Step, String> {
+fn resize(rest: &str) -> Result<Instruction, String> {
     let read = |text: &str| text.parse().ok().filter(|cells| (1..=LARGEST).contains(cells));
     let size = rest.split_once('x').and_then(|(w, h)| Some((read(w)?, read(h)?)));
     match size {
-        Some((width, height)) => Ok(Step::Resize { width, height }),
+        Some((width, height)) => Ok(Instruction::Resize { width, height }),
         None => Err(format!(
             "<resize {rest}> needs columns and rows from 1 to {LARGEST}, as in <resize 80x24>"
         )),
     }
 }
 
-fn screen(name: &str) -> Result<Step, String> {
+fn screen(name: &str) -> Result<Instruction, String> {
     let allowed = |char: char| char.is_ascii_alphanumeric() || matches!(char, '-' | '_' | '.');
     if !name.is_empty() && name.chars().all(allowed) && !name.starts_with('.') {
-        Ok(Step::Screen(name.to_owned()))
+        Ok(Instruction::Screen(name.to_owned()))
     } else {
         Err(format!("<screen {name}> needs a name of letters, digits, \"-\", \"_\" and \".\""))
     }
 }
 
-fn start(rest: &str) -> Result<Step, String> {
+fn start(rest: &str) -> Result<Instruction, String> {
     let symbol = |name: &str| {
         let row = PARAMETERS.iter().find(|row| row.name == name);
         row.map(|row| row.symbol).ok_or_else(|| format!("<start> names parameters, not {name:?}"))
     };
-    rest.split_whitespace().map(symbol).collect::<Result<_, _>>().map(Step::Start)
+    rest.split_whitespace().map(symbol).collect::<Result<_, _>>().map(Instruction::Start)
 }
 
 /// A name and a text, each in quotes.
-fn file(rest: &str) -> Result<Step, String> {
+fn file(rest: &str) -> Result<Instruction, String> {
     let refused = || "<file> needs a name and a text, as in <file \"a.toml\" \"..\">".to_owned();
     let (name, rest) = leading(rest, "file").map_err(|_| refused())?;
     let (text, rest) = leading(rest.trim_start(), "file").map_err(|_| refused())?;
-    if name.is_empty() || !rest.is_empty() { Err(refused()) } else { Ok(Step::File { name, text }) }
+    if name.is_empty() || !rest.is_empty() {
+        Err(refused())
+    } else {
+        Ok(Instruction::File { name, text })
+    }
 }
 
 /// Text in quotes that is not empty, and nothing else.
@@ -237,13 +241,13 @@ mod tests {
 
     use super::*;
 
-    fn steps(text: &str) -> Vec<Step> {
+    fn steps(text: &str) -> Vec<Instruction> {
         let script = parse(text).unwrap_or_else(|error| panic!("{text}: {error}"));
         script.steps.into_iter().map(|located| located.step).collect()
     }
 
-    fn key(text: &str, count: u32) -> Step {
-        Step::Key { key: text.parse().unwrap(), count }
+    fn key(text: &str, count: u32) -> Instruction {
+        Instruction::Key { key: text.parse().unwrap(), count }
     }
 
     #[test]
@@ -251,15 +255,15 @@ mod tests {
         let text = "# a comment\n<right*5> <wait>\n[ ] j k   one # and a comment\n<space><lt>\
                     <C-r><S-tab> <f1> <pgup>\n<resize 80x24><expect \"captured\">\n\
                     <screen after-five-steps>\n<async>";
-        let mut wanted = vec![key("<right>", 5), Step::Wait];
+        let mut wanted = vec![key("<right>", 5), Instruction::Wait];
         wanted.extend("[]jkone".chars().map(|char| key(&char.to_string(), 1)));
         for name in ["<space>", "<lt>", "<C-r>", "<S-tab>", "<f1>", "<pgup>"] {
             wanted.push(key(name, 1));
         }
-        wanted.push(Step::Resize { width: 80, height: 24 });
-        wanted.push(Step::Expect("captured".to_owned()));
-        wanted.push(Step::Screen("after-five-steps".to_owned()));
-        wanted.push(Step::Async);
+        wanted.push(Instruction::Resize { width: 80, height: 24 });
+        wanted.push(Instruction::Expect("captured".to_owned()));
+        wanted.push(Instruction::Screen("after-five-steps".to_owned()));
+        wanted.push(Instruction::Async);
         assert_eq!(steps(text), wanted);
     }
 
@@ -272,7 +276,10 @@ mod tests {
         assert_eq!(steps("a>>b"), [key("a", 1), key(">", 1), key(">", 1), key("b", 1)]);
         assert_eq!(steps("<esc>>"), [key("<esc>", 1), key(">", 1)]);
         let text = r#"<expect "a > b \"c\" # \\ d">x"#;
-        assert_eq!(steps(text), [Step::Expect("a > b \"c\" # \\ d".to_owned()), key("x", 1)]);
+        assert_eq!(
+            steps(text),
+            [Instruction::Expect("a > b \"c\" # \\ d".to_owned()), key("x", 1)]
+        );
     }
 
     #[test]
@@ -324,12 +331,12 @@ mod tests {
             count in 1..=MOST,
             quoted in any::<String>(),
         ) {
-            for step in [Step::Key { key, count }, Step::Key { key, count: 1 }] {
+            for step in [Instruction::Key { key, count }, Instruction::Key { key, count: 1 }] {
                 prop_assert_eq!(steps(&format!("x{step}x"))[1].clone(), step);
             }
             let one_line: String = quoted.chars().filter(|char| *char != '\u{feff}').collect();
             if !one_line.is_empty() {
-                for step in [Step::Expect(one_line.clone()), Step::Paste(one_line)] {
+                for step in [Instruction::Expect(one_line.clone()), Instruction::Paste(one_line)] {
                     prop_assert_eq!(steps(&format!("x{step}x"))[1].clone(), step);
                 }
             }

@@ -5,7 +5,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use crate::session::message::Msg;
-use crate::session::replay::script::{Located, Script, Step};
+use crate::session::replay::script::{Instruction, Located, Script};
 
 /// What to do next.
 #[derive(Clone, Debug)]
@@ -62,7 +62,7 @@ const DEEPEST: u32 = 1000;
 
 /// How many captions a file has.
 fn captions(script: &Script) -> usize {
-    script.steps.iter().filter(|located| matches!(located.step, Step::Say(_))).count()
+    script.steps.iter().filter(|located| matches!(located.step, Instruction::Say(_))).count()
 }
 
 impl Player {
@@ -107,19 +107,19 @@ impl Player {
             let Some((Located { line, column, step }, depth)) = self.steps.front().cloned() else {
                 return Ok(if idle { Action::Done } else { Action::Wait });
             };
-            if !idle && (!self.asynchronous || step == Step::Wait) {
+            if !idle && (!self.asynchronous || step == Instruction::Wait) {
                 return Ok(Action::Wait);
             }
             self.advance();
             self.depth = depth;
             match step {
-                Step::Async => self.asynchronous = true,
-                Step::File { name, text } => drop(self.files.insert(name.into(), text)),
-                Step::Screen(name) => return Ok(Action::Keep(name)),
-                Step::Expect(text) if !screen().contains(&text) => {
+                Instruction::Async => self.asynchronous = true,
+                Instruction::File { name, text } => drop(self.files.insert(name.into(), text)),
+                Instruction::Screen(name) => return Ok(Action::Keep(name)),
+                Instruction::Expect(text) if !screen().contains(&text) => {
                     return Err(Unmet { line, column, text });
                 }
-                Step::Say(text) => {
+                Instruction::Say(text) => {
                     self.captions.0 += 1;
                     return Ok(Action::Give(Msg::Say(text, Some(self.captions))));
                 }
@@ -134,7 +134,8 @@ impl Player {
 
     /// Goes behind the first step, or behind one press of it.
     fn advance(&mut self) {
-        if let Some((Located { step: Step::Key { count, .. }, .. }, _)) = self.steps.front_mut()
+        if let Some((Located { step: Instruction::Key { count, .. }, .. }, _)) =
+            self.steps.front_mut()
             && *count > 1
         {
             *count -= 1;

@@ -1,7 +1,7 @@
 //! Writing a keystroke file from what happens in a live session.
 
 use crate::session::message::Msg;
-use crate::session::replay::script::{LONGEST, Step};
+use crate::session::replay::script::{Instruction, LONGEST};
 
 /// Longest line of a recorded file, in characters, unless one step is longer.
 const LINE: usize = 72;
@@ -12,43 +12,48 @@ pub const HEADER: &str = "# A recording of hopfscope";
 /// What a user did, as a keystroke file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Recorder {
-    steps: Vec<Step>,
+    steps: Vec<Instruction>,
     /// Steps at the beginning that have not changed since this was last asked.
     unchanged: usize,
 }
 
 impl Recorder {
     /// A recording that begins with these steps.
-    pub fn new(steps: Vec<Step>) -> Self {
+    pub fn new(steps: Vec<Instruction>) -> Self {
         Recorder { steps, unchanged: 0 }
     }
 
     /// Notes a message, if it stands for something in a keystroke file; the answers of the worker come by
     /// themselves.
     pub fn note(&mut self, message: &Msg) {
-        if let Some(step) = Step::of(message) {
+        if let Some(step) = Instruction::of(message) {
             self.add(step);
         }
     }
 
     /// Adds a step, as one with the last where the two can be.
-    pub fn add(&mut self, step: Step) {
+    pub fn add(&mut self, step: Instruction) {
         self.touch(self.steps.len().saturating_sub(1));
         match (self.steps.last_mut(), step) {
-            (Some(Step::Key { key, count }), Step::Key { key: pressed, count: 1 })
-                if *key == pressed && *count < super::parse::MOST =>
-            {
+            (
+                Some(Instruction::Key { key, count }),
+                Instruction::Key { key: pressed, count: 1 },
+            ) if *key == pressed && *count < super::parse::MOST => {
                 *count += 1;
             }
-            (Some(Step::Elapse(passed)), Step::Elapse(seconds)) if *passed + seconds <= LONGEST => {
+            (Some(Instruction::Elapse(passed)), Instruction::Elapse(seconds))
+                if *passed + seconds <= LONGEST =>
+            {
                 *passed += seconds;
             }
-            (Some(last @ Step::Resize { .. }), step @ Step::Resize { .. }) => *last = step,
+            (Some(last @ Instruction::Resize { .. }), step @ Instruction::Resize { .. }) => {
+                *last = step
+            }
             (_, step) => self.steps.push(step),
         }
     }
 
-    pub fn steps(&self) -> &[Step] {
+    pub fn steps(&self) -> &[Instruction] {
         &self.steps
     }
 
@@ -65,20 +70,23 @@ impl Recorder {
     /// are no press, and stay.
     pub fn forget(&mut self, presses: u32) {
         let first = self.before(presses);
-        let forgotten: Vec<Step> = self.steps.drain(first..).collect();
-        let nobodys = |step: &Step| matches!(step, Step::Resize { .. } | Step::Elapse(_));
+        let forgotten: Vec<Instruction> = self.steps.drain(first..).collect();
+        let nobodys = |step: &Instruction| {
+            matches!(step, Instruction::Resize { .. } | Instruction::Elapse(_))
+        };
         forgotten.into_iter().filter(nobodys).for_each(|step| self.add(step));
     }
 
     /// Puts the text of a file that is asked for by the last presses before these, unless it is known.
     pub fn embed(&mut self, name: &str, text: &str, presses: u32) {
         let known = self.steps.iter().rev().find_map(|step| match step {
-            Step::File { name: other, text } if other == name => Some(text),
+            Instruction::File { name: other, text } if other == name => Some(text),
             _ => None,
         });
         if known.is_none_or(|known| known != text) {
             let at = self.before(presses);
-            self.steps.insert(at, Step::File { name: name.to_owned(), text: text.to_owned() });
+            self.steps
+                .insert(at, Instruction::File { name: name.to_owned(), text: text.to_owned() });
         }
     }
 
@@ -88,15 +96,15 @@ impl Recorder {
         while presses > 0 && at > 0 {
             at -= 1;
             match &mut self.steps[at] {
-                Step::Key { key, count } if *count > presses => {
+                Instruction::Key { key, count } if *count > presses => {
                     *count -= presses;
-                    let rest = Step::Key { key: *key, count: presses };
+                    let rest = Instruction::Key { key: *key, count: presses };
                     at += 1;
                     self.steps.insert(at, rest);
                     presses = 0;
                 }
-                Step::Key { count, .. } => presses -= *count,
-                Step::Resize { .. } | Step::Elapse(_) | Step::File { .. } => {}
+                Instruction::Key { count, .. } => presses -= *count,
+                Instruction::Resize { .. } | Instruction::Elapse(_) | Instruction::File { .. } => {}
                 _ => presses -= 1,
             }
         }
@@ -117,7 +125,7 @@ pub fn heading(started: &str) -> String {
 }
 
 /// A keystroke file of these steps, below a comment.
-pub fn text(comment: &str, steps: &[Step]) -> String {
+pub fn text(comment: &str, steps: &[Instruction]) -> String {
     let lines = lines(steps).into_iter().map(|(_, line)| line);
     std::iter::once(self::comment(comment)).chain(lines).collect()
 }
@@ -127,7 +135,7 @@ pub fn comment(lines: &str) -> String {
 }
 
 /// The lines of a keystroke file, each with the place of its first step and its end.
-pub fn lines(steps: &[Step]) -> Vec<(usize, String)> {
+pub fn lines(steps: &[Instruction]) -> Vec<(usize, String)> {
     let mut lines: Vec<(usize, String)> = Vec::new();
     let mut length = 0;
     for (index, step) in steps.iter().enumerate() {

@@ -10,7 +10,7 @@ pub const LONGEST: f64 = 3600.0;
 
 /// One instruction of a keystroke file.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Step {
+pub enum Instruction {
     /// A key, pressed so many times: `x`, `<right>`, `<right*5>`.
     Key { key: Key, count: u32 },
     /// The mouse: `<click 1 0.5 -0.25>` on the first plot, `<click row 2>`; `<nearer ..>` and `<farther ..>` for its wheel.
@@ -44,19 +44,19 @@ pub enum Step {
     },
 }
 
-impl Step {
+impl Instruction {
     /// What a message stands for in a keystroke file; `None` where it comes by itself from something else
     /// that does.
     pub fn of(message: &Msg) -> Option<Self> {
         Some(match message {
-            Msg::Key(key) => Step::Key { key: *key, count: 1 },
-            Msg::Pointed(pointed) => Step::Pointed(*pointed),
-            Msg::Paste(text) if !text.is_empty() => Step::Paste(text.clone()),
-            Msg::Elapsed { seconds } => Step::Elapse(*seconds),
-            Msg::Resize { width, height } => Step::Resize { width: *width, height: *height },
-            Msg::Run(line) => Step::Run(line.clone()),
-            Msg::Say(text, _) if !text.is_empty() => Step::Say(text.clone()),
-            Msg::Start(names) => Step::Start(names.clone()),
+            Msg::Key(key) => Instruction::Key { key: *key, count: 1 },
+            Msg::Pointed(pointed) => Instruction::Pointed(*pointed),
+            Msg::Paste(text) if !text.is_empty() => Instruction::Paste(text.clone()),
+            Msg::Elapsed { seconds } => Instruction::Elapse(*seconds),
+            Msg::Resize { width, height } => Instruction::Resize { width: *width, height: *height },
+            Msg::Run(line) => Instruction::Run(line.clone()),
+            Msg::Say(text, _) if !text.is_empty() => Instruction::Say(text.clone()),
+            Msg::Start(names) => Instruction::Start(names.clone()),
             Msg::Paste(_)
             | Msg::Say(..)
             | Msg::Read { .. }
@@ -70,15 +70,19 @@ impl Step {
     /// What a step gives to a session; of a key, one press.
     pub fn message(&self) -> Option<Msg> {
         Some(match self {
-            Step::Key { key, .. } => Msg::Key(*key),
-            Step::Pointed(pointed) => Msg::Pointed(*pointed),
-            Step::Paste(text) => Msg::Paste(text.clone()),
-            Step::Elapse(seconds) => Msg::Elapsed { seconds: *seconds },
-            Step::Resize { width, height } => Msg::Resize { width: *width, height: *height },
-            Step::Run(line) => Msg::Run(line.clone()),
-            Step::Say(text) => Msg::Say(text.clone(), None),
-            Step::Start(names) => Msg::Start(names.clone()),
-            Step::Wait | Step::Async | Step::Expect(_) | Step::Screen(_) | Step::File { .. } => {
+            Instruction::Key { key, .. } => Msg::Key(*key),
+            Instruction::Pointed(pointed) => Msg::Pointed(*pointed),
+            Instruction::Paste(text) => Msg::Paste(text.clone()),
+            Instruction::Elapse(seconds) => Msg::Elapsed { seconds: *seconds },
+            Instruction::Resize { width, height } => Msg::Resize { width: *width, height: *height },
+            Instruction::Run(line) => Msg::Run(line.clone()),
+            Instruction::Say(text) => Msg::Say(text.clone(), None),
+            Instruction::Start(names) => Msg::Start(names.clone()),
+            Instruction::Wait
+            | Instruction::Async
+            | Instruction::Expect(_)
+            | Instruction::Screen(_)
+            | Instruction::File { .. } => {
                 return None;
             }
         })
@@ -90,7 +94,7 @@ impl Step {
 pub struct Located {
     pub line: usize,
     pub column: usize,
-    pub step: Step,
+    pub step: Instruction,
 }
 
 /// A keystroke file, read.
@@ -102,8 +106,8 @@ pub struct Script {
 
 impl Script {
     /// A file of these steps, so many times over.
-    pub fn repeated(steps: &[Step], times: u32) -> Self {
-        let located = |(index, step): (usize, &Step)| Located {
+    pub fn repeated(steps: &[Instruction], times: u32) -> Self {
+        let located = |(index, step): (usize, &Instruction)| Located {
             line: 1,
             column: index + 1,
             step: step.clone(),
@@ -115,8 +119,8 @@ impl Script {
     /// How many messages of a user it gives to a session.
     pub fn presses(&self) -> u64 {
         let presses = |located: &Located| match located.step {
-            Step::Key { count, .. } => u64::from(count),
-            Step::Pointed(_) | Step::Paste(_) | Step::Run(_) => 1,
+            Instruction::Key { count, .. } => u64::from(count),
+            Instruction::Pointed(_) | Instruction::Paste(_) | Instruction::Run(_) => 1,
             _ => 0,
         };
         self.steps.iter().map(presses).sum()
@@ -125,7 +129,7 @@ impl Script {
     /// How many keys it presses.
     pub fn keys(&self) -> u64 {
         let presses = |located: &Located| match located.step {
-            Step::Key { count, .. } => u64::from(count),
+            Instruction::Key { count, .. } => u64::from(count),
             _ => 0,
         };
         self.steps.iter().map(presses).sum()

@@ -2,33 +2,35 @@
 
 use super::mouse;
 use super::parse::ESCAPES;
-use super::script::Step;
+use super::script::Instruction;
 
-impl std::fmt::Display for Step {
+impl std::fmt::Display for Instruction {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Step::Key { key, count: 1 } => write!(out, "{key}"),
-            Step::Key { key, count } => {
+            Instruction::Key { key, count: 1 } => write!(out, "{key}"),
+            Instruction::Key { key, count } => {
                 let key = key.to_string();
                 let name = key.strip_prefix('<').and_then(|name| name.strip_suffix('>'));
                 write!(out, "<{}*{count}>", name.unwrap_or(&key))
             }
-            Step::Pointed(pointed) => write!(out, "{}", mouse::text(pointed)),
-            Step::Paste(text) => write!(out, "<paste {}>", quoted(text)),
-            Step::Elapse(seconds) => write!(out, "<elapse {seconds}>"),
-            Step::Wait => write!(out, "<wait>"),
-            Step::Async => write!(out, "<async>"),
-            Step::Resize { width, height } => write!(out, "<resize {width}x{height}>"),
-            Step::Expect(text) => write!(out, "<expect {}>", quoted(text)),
-            Step::Run(line) => write!(out, "<run {}>", quoted(line)),
-            Step::Say(text) => write!(out, "<say {}>", quoted(text)),
-            Step::Screen(name) => write!(out, "<screen {name}>"),
-            Step::Start(names) => {
+            Instruction::Pointed(pointed) => write!(out, "{}", mouse::text(pointed)),
+            Instruction::Paste(text) => write!(out, "<paste {}>", quoted(text)),
+            Instruction::Elapse(seconds) => write!(out, "<elapse {seconds}>"),
+            Instruction::Wait => write!(out, "<wait>"),
+            Instruction::Async => write!(out, "<async>"),
+            Instruction::Resize { width, height } => write!(out, "<resize {width}x{height}>"),
+            Instruction::Expect(text) => write!(out, "<expect {}>", quoted(text)),
+            Instruction::Run(line) => write!(out, "<run {}>", quoted(line)),
+            Instruction::Say(text) => write!(out, "<say {}>", quoted(text)),
+            Instruction::Screen(name) => write!(out, "<screen {name}>"),
+            Instruction::Start(names) => {
                 write!(out, "<start")?;
                 names.iter().try_for_each(|symbol| write!(out, " {}", symbol.spec().name))?;
                 write!(out, ">")
             }
-            Step::File { name, text } => write!(out, "<file {} {}>", quoted(name), quoted(text)),
+            Instruction::File { name, text } => {
+                write!(out, "<file {} {}>", quoted(name), quoted(text))
+            }
         }
     }
 }

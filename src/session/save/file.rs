@@ -10,7 +10,7 @@ use crate::scene::{Arrangement, Axes, Layer, PlotSetup, Point, Scene, Setting, V
 use crate::session::state::doubt::Doubt;
 use crate::session::state::plot::Framing;
 use crate::session::state::rows::Steps;
-use crate::study::kicks::Kicks;
+use crate::study::kicks::RandomKick;
 
 /// The format that this program writes; it reads this one and all before.
 pub const VERSION: u32 = 1;
@@ -30,7 +30,7 @@ pub struct SavedSession {
     pub unfolded: bool,
     pub harmonics: usize,
     #[serde(default)]
-    pub kicks: Kicks,
+    pub kicks: RandomKick,
     /// Lines typed on the command line, the newest last.
     pub lines: Vec<String>,
     pub present: Show,

@@ -14,7 +14,7 @@ use crate::scene::misread::{self, Misread};
 use crate::scene::{MOST_PLOTS, PlotSetup, Scene, Setting, find};
 use crate::session::read::numbers::difference;
 use crate::session::replay;
-use crate::session::replay::script::Step;
+use crate::session::replay::script::Instruction;
 use crate::session::state::doubt::Doubt;
 use crate::session::state::history::{Before, History, ScreenSetup, Snapshot};
 use crate::session::state::marks::{Bookmark, Marks};
@@ -194,7 +194,7 @@ fn opened(look: &SavedPlot) -> Plot {
     }
 }
 
-fn steps(name: char, keys: &str) -> Result<Vec<Step>, String> {
+fn steps(name: char, keys: &str) -> Result<Vec<Instruction>, String> {
     let script = replay::parse(keys).map_err(|error| format!("register {name}: {error}"))?;
     Ok(script.steps.into_iter().map(|located| located.step).collect())
 }

@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 
 use crate::session::replay::recorder::Recorder;
-use crate::session::replay::script::Step;
+use crate::session::replay::script::Instruction;
 use crate::session::state::history::Snapshot;
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Macros {
     /// What was recorded, by letter.
-    pub registers: BTreeMap<char, Vec<Step>>,
+    pub registers: BTreeMap<char, Vec<Instruction>>,
     /// What is being recorded, and where to.
     pub recording: Option<(char, Recorder)>,
     /// The register played last.

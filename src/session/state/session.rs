@@ -30,9 +30,9 @@ use crate::session::state::scan_form::Form;
 use crate::session::state::settings::Wishes;
 use crate::session::state::setup::Setup;
 use crate::session::state::starts::Starts;
-use crate::session::state::stop::Stop;
+use crate::session::state::stop::BranchStop;
 use crate::session::state::waiting::Waiting;
-use crate::study::kicks::Kicks;
+use crate::study::kicks::RandomKick;
 
 /// Harmonics at most: more cost more than the picture shows.
 pub const MOST_HARMONICS: usize = 63;
@@ -115,11 +115,11 @@ pub struct Session {
     /// The motion in time.
     pub playback: Playback,
     /// The point of the branch in focus that is held, while the user walks along it.
-    pub held: Option<Stop>,
+    pub held: Option<BranchStop>,
     /// Number N of harmonics of the layer `balance`.
     pub harmonics: usize,
     /// Random kicks of the layer `kicks`.
-    pub kicks: Kicks,
+    pub kicks: RandomKick,
     pub layers: BTreeSet<Layer>,
     /// What lies over the panes and gets the keys.
     pub overlay: Option<Overlay>,
@@ -182,7 +182,7 @@ impl Session {
             playback: Playback::default(),
             held: None,
             harmonics: HARMONICS,
-            kicks: Kicks::default(),
+            kicks: RandomKick::default(),
             layers: scene.layers.clone(),
             overlay: None,
             history: History::default(),

@@ -4,7 +4,7 @@ use crate::study::{BranchPoint, Cycle, Special, SpecialKind};
 
 /// A point of a branch where a walk can stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stop {
+pub struct BranchStop {
     /// Whose branch it is, of several that a diagram shows.
     pub variant: usize,
     /// Value of the branch's parameter.
@@ -15,13 +15,13 @@ pub struct Stop {
     pub special: Option<SpecialKind>,
 }
 
-impl Stop {
+impl BranchStop {
     pub fn on(variant: usize, point: &BranchPoint) -> Self {
-        Stop { variant, value: point.value, cycle: Some(point.cycle), special: None }
+        BranchStop { variant, value: point.value, cycle: Some(point.cycle), special: None }
     }
 
     /// A special point of the branch of a variant.
     pub fn at(variant: usize, point: &Special) -> Self {
-        Stop { variant, value: point.value, cycle: point.cycle, special: Some(point.kind) }
+        BranchStop { variant, value: point.value, cycle: point.cycle, special: Some(point.kind) }
     }
 }

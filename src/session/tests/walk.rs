@@ -3,9 +3,9 @@
 use super::Trial;
 use crate::oscillator::State;
 use crate::scene::View;
-use crate::session::{Context, Stop};
+use crate::session::{BranchStop, Context};
 
-fn held(trial: &Trial) -> Stop {
+fn held(trial: &Trial) -> BranchStop {
     trial.session.held.expect("a point is held")
 }
 
@@ -65,7 +65,7 @@ fn there_must_be_a_branch_to_hold() {
     // Zooming computes the branch again; the hold stays on it.
     trial.press("+");
     let held = held(&trial);
-    assert!(trial.branch(1).pieces.iter().flatten().any(|point| Stop::on(0, point) == held));
+    assert!(trial.branch(1).pieces.iter().flatten().any(|point| BranchStop::on(0, point) == held));
 }
 
 #[test]

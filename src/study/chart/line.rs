@@ -16,7 +16,7 @@ pub struct Band {
 
 /// The bands at one value of the other parameter, and the boundaries between them.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Line {
+pub struct ChartLine {
     /// Value of the other parameter.
     pub at: f64,
     /// From one end of the range to the other.

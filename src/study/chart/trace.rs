@@ -1,7 +1,7 @@
 //! Drawing the lines of a chart: the boundaries on each, the bands between them, and further lines where a
 //! boundary is bent.
 
-use super::line::{Band, Line};
+use super::line::{Band, ChartLine};
 use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason};
 use crate::numerics::elementary::{exp, hypot, ln, powi};
@@ -67,11 +67,11 @@ impl Tracer<'_> {
     /// Adds the lines that are needed between two, so that chords lie close to the boundaries.
     pub fn between(
         &mut self,
-        before: &Line,
-        after: &Line,
+        before: &ChartLine,
+        after: &ChartLine,
         chord: f64,
         halvings: u32,
-        lines: &mut Vec<Line>,
+        lines: &mut Vec<ChartLine>,
     ) -> Result<(), Reason> {
         let through_zero = before.at < 0.0 && after.at > 0.0;
         let failed = before.failure.is_some() || after.failure.is_some();
@@ -81,15 +81,16 @@ impl Tracer<'_> {
         let middle = self.line(f64::midpoint(before.at, after.at))?;
         let (width, height) =
             (self.range.1 - self.range.0, self.across_range.1 - self.across_range.0);
-        let bent =
-            [|line: &Line| line.fold, |line: &Line| line.escape].into_iter().any(|boundary| {
+        let bent = [|line: &ChartLine| line.fold, |line: &ChartLine| line.escape].into_iter().any(
+            |boundary| {
                 let [Some(from), Some(middle), Some(to)] = [before, &middle, after].map(boundary)
                 else {
                     return false;
                 };
                 let slope = (to - from) / width / ((after.at - before.at) / height);
                 (middle - f64::midpoint(from, to)).abs() / width > chord * hypot(1.0, slope)
-            });
+            },
+        );
         if bent || !before.alike(after) {
             self.between(before, &middle, chord, halvings - 1, lines)?;
             lines.push(middle.clone());
@@ -99,7 +100,7 @@ impl Tracer<'_> {
     }
 
     /// The line at this value of the other parameter.
-    pub fn line(&mut self, at: f64) -> Result<Line, Reason> {
+    pub fn line(&mut self, at: f64) -> Result<ChartLine, Reason> {
         let mut here = self.parameters;
         self.across.set(&mut here, &mut State { q: 0.0, v: 0.0 }, at);
         let harmonic = self.harmonic(&here);
@@ -122,7 +123,7 @@ impl Tracer<'_> {
         let bands = self.bands(&here, &boundaries, failure.is_some());
         let shown = |boundary: Option<f64>| boundary.filter(|boundary| boundary.is_finite());
         let (fold, escape) = (shown(boundaries.fold), shown(boundaries.escape));
-        Ok(Line { at, bands, fold, harmonic, escape, failure })
+        Ok(ChartLine { at, bands, fold, harmonic, escape, failure })
     }
 
     /// The parameters with the one along the line at `value`.

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::certain::enclosed;
-use super::known::Answer;
+use super::known::KnownAnswer;
 use super::measure::{
     Known, at_rest, cycles, half_swing, last_cycle, of_cycle, oscillator, outcome, place, smallest,
     state_at,
@@ -14,7 +14,7 @@ use crate::flow::{Detail, Limits, Outcome, Problem, Reason};
 use crate::numerics::Interval;
 use crate::numerics::elementary::exp;
 use crate::oscillator::{Parameters, Side, State};
-use crate::proof::motion::Fate;
+use crate::proof::motion::ProvedFate;
 use crate::study::arc::{Arc, Direction};
 use crate::study::basin::basin;
 use crate::study::escape::escape_point;
@@ -143,8 +143,8 @@ pub const CLAIMS: &[Claim] = &[
                     let case = format!("{}, q = {:.6}", place(&parameters), start.q);
                     let fate = enclosed(&parameters, start, 1e3).fate;
                     let holds = matches!(end, Outcome::Escaped { .. });
-                    let certain = holds && matches!(fate, Fate::Escaped { .. });
-                    cases.push((case, Answer { holds, certain }));
+                    let certain = holds && matches!(fate, ProvedFate::Escaped { .. });
+                    cases.push((case, KnownAnswer { holds, certain }));
                 }
             }
             Ok(Finding::always(cases))
@@ -204,7 +204,7 @@ pub const CLAIMS: &[Claim] = &[
 ];
 
 /// Whether a motion from rest at `q` is at rest there, or further out, one turn later.
-fn returns_to(parameters: &Parameters, q: f64, limits: &Limits) -> Result<Answer, Reason> {
+fn returns_to(parameters: &Parameters, q: f64, limits: &Limits) -> Result<KnownAnswer, Reason> {
     let problem = Problem {
         parameters: *parameters,
         initial: at_rest(q),
@@ -220,10 +220,10 @@ fn returns_to(parameters: &Parameters, q: f64, limits: &Limits) -> Result<Answer
     let bounds = enclosed(parameters, at_rest(q), 60.0);
     let nearer = match (bounds.turns.get(1), bounds.fate) {
         (Some(turn), _) => turn.q.upper() < q,
-        (None, Fate::Captured { .. } | Fate::Escaped { .. }) => true,
+        (None, ProvedFate::Captured { .. } | ProvedFate::Escaped { .. }) => true,
         (None, _) => false,
     };
-    Ok(Answer { holds, certain: nearer && !holds })
+    Ok(KnownAnswer { holds, certain: nearer && !holds })
 }
 
 /// The slope of the return map of `v = 0, q > r` at `q`: central differences of integrated motions.

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::certain::BoundedCycle;
-use super::known::Answer;
+use super::known::KnownAnswer;
 use super::measure::{
     Known, amplitude, at_rest, beside_proof, captured, cycles, edge, largest, mean, of_cycle,
     oscillator, place, smallest,
@@ -225,7 +225,7 @@ fn distortion(limits: &Limits, dampings: &[f64]) -> Result<Finding, Reason> {
         let found = cycles(&with, limits)?;
         let certain = found.certain && without.certain;
         let same = found.are(without.cycles.len());
-        cases.push((place(&with), Answer { certain, ..same }));
+        cases.push((place(&with), KnownAnswer { certain, ..same }));
     }
     Ok(Finding::always(cases))
 }

@@ -3,10 +3,10 @@
 
 use std::ops::Deref;
 
-use super::known::{Answer, Known, POOR, Sense};
+use super::known::{Known, KnownAnswer, POOR, Sense};
 use crate::numerics::Interval;
 use crate::oscillator::{Parameters, State};
-use crate::proof::motion::{Fate, Motion, follow};
+use crate::proof::motion::{ProvedFate, ProvedMotion, follow};
 use crate::proof::{Enclosure, ParameterBox};
 use crate::study::Edge;
 use crate::study::cycle::Cycle;
@@ -135,13 +135,13 @@ pub struct AllFound {
 impl AllFound {
     /// Whether something holds that depends on the number and the stability of the cycles only.
     #[must_use]
-    pub fn answer(&self, holds: impl Fn(&[BoundedCycle]) -> bool) -> Answer {
-        Answer { holds: holds(&self.cycles), certain: self.certain }
+    pub fn answer(&self, holds: impl Fn(&[BoundedCycle]) -> bool) -> KnownAnswer {
+        KnownAnswer { holds: holds(&self.cycles), certain: self.certain }
     }
 
     /// Whether there are this many.
     #[must_use]
-    pub fn are(&self, number: usize) -> Answer {
+    pub fn are(&self, number: usize) -> KnownAnswer {
         self.answer(|cycles| cycles.len() == number)
     }
 }
@@ -158,14 +158,14 @@ pub struct CertainEdge {
 impl CertainEdge {
     /// Whether it is of a kind.
     #[must_use]
-    pub fn is(self, edge: Edge) -> Answer {
-        Answer { holds: self.edge == edge, certain: self.certain }
+    pub fn is(self, edge: Edge) -> KnownAnswer {
+        KnownAnswer { holds: self.edge == edge, certain: self.certain }
     }
 }
 
 /// The motion from a state, enclosed.
 #[must_use]
-pub fn enclosed(parameters: &Parameters, initial: State, until: f64) -> Motion {
+pub fn enclosed(parameters: &Parameters, initial: State, until: f64) -> ProvedMotion {
     let start = [initial.q, initial.v].map(Interval::point);
     follow(&ParameterBox::from(parameters), start, until)
 }
@@ -174,7 +174,7 @@ pub fn enclosed(parameters: &Parameters, initial: State, until: f64) -> Motion {
 #[must_use]
 pub fn enclosed_state(parameters: &Parameters, initial: State, tau: f64) -> Option<[Interval; 2]> {
     match enclosed(parameters, initial, tau).fate {
-        Fate::Moving { q, v } => Some([q, v]),
+        ProvedFate::Moving { q, v } => Some([q, v]),
         _ => None,
     }
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::certain::enclosed;
-use super::known::Answer;
+use super::known::KnownAnswer;
 use super::measure::{
     Known, at_rest, captured, energy_change, half_swing, oscillator, outcome, place,
 };
@@ -14,7 +14,7 @@ use crate::numerics::Interval;
 use crate::numerics::elementary::{exp, hypot};
 use crate::oscillator::{HalfPlane, Parameters, Side, State};
 use crate::proof::kicks::kicks;
-use crate::proof::motion::Fate;
+use crate::proof::motion::ProvedFate;
 use crate::proof::{ParameterBox, prove};
 use crate::study::basin::basin;
 use crate::study::margin::Margin;
@@ -105,8 +105,9 @@ pub const CLAIMS: &[Claim] = &[
                 let end = outcome(&PLAIN, start, 10.0, limits)?;
                 let holds = matches!(end, Outcome::Captured { q: end, .. } if end != q);
                 let fate = enclosed(&PLAIN, start, 10.0).fate;
-                let certain = matches!(fate, Fate::Captured { q: end, .. } if !end.contains(q));
-                cases.push((format!("q = {q}"), Answer { holds, certain: certain && holds }));
+                let certain =
+                    matches!(fate, ProvedFate::Captured { q: end, .. } if !end.contains(q));
+                cases.push((format!("q = {q}"), KnownAnswer { holds, certain: certain && holds }));
             }
             Ok(Finding::always(cases))
         },

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::certain::{BoundedCycle, enclosed};
-use super::known::Answer;
+use super::known::KnownAnswer;
 use super::measure::{
     Known, amplitude, at_rest, half_swing, largest, mean, of_cycle, oscillator, place, smallest,
 };
@@ -226,7 +226,7 @@ fn harmonic_against_extents(
                     .iter()
                     .all(|&a| agrees(a, v.lower(), q.lower()) && agrees(a, v.upper(), q.upper()))
         });
-        cases.push((place, Answer { holds: decided, certain }));
+        cases.push((place, KnownAnswer { holds: decided, certain }));
     }
     Ok(Finding::always(cases))
 }

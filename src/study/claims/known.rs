@@ -63,12 +63,12 @@ impl Known {
 
     /// Whether it is larger than a number.
     #[must_use]
-    pub fn exceeds(&self, limit: f64) -> Answer {
+    pub fn exceeds(&self, limit: f64) -> KnownAnswer {
         let holds = self.value > limit;
         let certain = self
             .bounds
             .is_some_and(|it| if holds { it.lower() > limit } else { it.upper() <= limit });
-        Answer { holds, certain }
+        KnownAnswer { holds, certain }
     }
 
     /// A number that is what it is, such as a count.
@@ -100,23 +100,23 @@ impl Neg for Known {
 
 /// The answer to a question, and whether it is certain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Answer {
+pub struct KnownAnswer {
     /// Whether it is so.
     pub holds: bool,
     /// Whether that is proved.
     pub certain: bool,
 }
 
-impl From<bool> for Answer {
+impl From<bool> for KnownAnswer {
     fn from(holds: bool) -> Self {
-        Answer { holds, certain: false }
+        KnownAnswer { holds, certain: false }
     }
 }
 
-impl Answer {
+impl KnownAnswer {
     /// Whether it is as expected.
     #[must_use]
-    pub fn is(self, expected: bool) -> Answer {
-        Answer { holds: self.holds == expected, ..self }
+    pub fn is(self, expected: bool) -> KnownAnswer {
+        KnownAnswer { holds: self.holds == expected, ..self }
     }
 }

@@ -4,13 +4,13 @@
 //! differ by. Cycles come from the general search, also where a closed form exists.
 
 use super::certain::{AllFound, BoundedCycle, CertainEdge, enclosed, enclosed_state};
-use super::known::Answer;
 pub use super::known::Known;
+use super::known::KnownAnswer;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits, Method, Outcome, Problem, Reason};
 use crate::numerics::Interval;
 use crate::oscillator::{Parameters, Side, State, Symbol};
-use crate::proof::motion::Fate;
+use crate::proof::motion::ProvedFate;
 use crate::proof::range::change_within;
 use crate::proof::{Enclosure, ParameterBox, kicks, prove};
 use crate::study::Edge;
@@ -188,15 +188,15 @@ pub fn captured(
     initial: State,
     until: f64,
     limits: &Limits,
-) -> Result<Answer, Reason> {
+) -> Result<KnownAnswer, Reason> {
     let end = outcome(parameters, initial, until, limits)?;
     let holds = matches!(end, Outcome::Captured { .. });
     let certain = match enclosed(parameters, initial, until).fate {
-        Fate::Captured { .. } => holds,
-        Fate::Moving { .. } | Fate::Escaped { .. } => !holds,
-        Fate::Open { .. } => false,
+        ProvedFate::Captured { .. } => holds,
+        ProvedFate::Moving { .. } | ProvedFate::Escaped { .. } => !holds,
+        ProvedFate::Open { .. } => false,
     };
-    Ok(Answer { holds, certain })
+    Ok(KnownAnswer { holds, certain })
 }
 
 /// All cycles by the general search, smallest first, whether or not a closed form exists.
@@ -229,9 +229,9 @@ pub fn edge(parameters: &Parameters, limits: &Limits) -> Result<CertainEdge, Rea
     let found = basin(parameters, 10.0, limits)?.edge;
     let proved = kicks::edge(&prove(&ParameterBox::from(parameters), &[]));
     let certain = match found {
-        Edge::None => proved == Some(kicks::Edge::None),
-        Edge::Cycle => proved == Some(kicks::Edge::Cycle),
-        Edge::Separatrix => proved == Some(kicks::Edge::Separatrix),
+        Edge::None => proved == Some(kicks::ProvedEdge::None),
+        Edge::Cycle => proved == Some(kicks::ProvedEdge::Cycle),
+        Edge::Separatrix => proved == Some(kicks::ProvedEdge::Separatrix),
     };
     Ok(CertainEdge { edge: found, certain })
 }

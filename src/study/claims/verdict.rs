@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::certain::Certainty;
-use super::known::{Answer, Known, POOR, Sense};
+use super::known::{Known, KnownAnswer, POOR, Sense};
 
 /// Rounding of a formula, as a part of its value.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -83,11 +83,11 @@ impl Finding {
 
     /// What should hold in each of these cases; the place becomes the first in which it does not.
     #[must_use]
-    pub fn always<A: Into<Answer>>(cases: impl IntoIterator<Item = (String, A)>) -> Self {
+    pub fn always<A: Into<KnownAnswer>>(cases: impl IntoIterator<Item = (String, A)>) -> Self {
         let (mut holds, mut all, mut place) = (0_u32, 0_u32, String::new());
         let (mut certain, mut refuted) = (true, false);
         for (case, answer) in cases {
-            let answer: Answer = answer.into();
+            let answer: KnownAnswer = answer.into();
             all += 1;
             holds += u32::from(answer.holds);
             certain &= answer.certain;
@@ -310,7 +310,7 @@ mod tests {
         assert_eq!(Finding::at_most(1.02, above).mark, Some(Certainty::Refuted));
         assert_eq!(Finding::at_most(0.5, above).mark, None);
         // One case that certainly fails refutes, all that certainly hold prove.
-        let case = |holds, certain| (String::new(), Answer { holds, certain });
+        let case = |holds, certain| (String::new(), KnownAnswer { holds, certain });
         assert_eq!(
             Finding::always([case(true, true), case(true, true)]).mark,
             Some(Certainty::Proved)

@@ -26,7 +26,7 @@ pub const METHODS: [Method; 6] =
 
 /// What one method answered.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Answer {
+pub struct MethodAnswer {
     /// The method that was asked.
     pub method: Method,
     /// Its answer.
@@ -52,13 +52,13 @@ pub struct Verdict {
     /// Computed only where some method lost a digit.
     pub sensitivity: f64,
     /// The answers, in the order of [`METHODS`], of the methods that serve these parameters.
-    pub answers: Vec<Answer>,
+    pub answers: Vec<MethodAnswer>,
 }
 
 impl Verdict {
     /// What a method answered, where it serves these parameters.
     #[must_use]
-    pub fn answer(&self, method: Method) -> Option<&Answer> {
+    pub fn answer(&self, method: Method) -> Option<&MethodAnswer> {
         self.answers.iter().find(|answer| answer.method == method)
     }
 }
@@ -73,7 +73,7 @@ pub fn judge(case: &Case, tolerance: f64, limits: &Limits) -> Verdict {
     let answers = methods.map(|&method| {
         let motion = follow(case, method, tolerance, BUDGET, limits);
         let distance = reference.as_ref().and_then(|reference| distance(&motion, reference));
-        Answer {
+        MethodAnswer {
             method,
             outcome: motion.outcome,
             digits_lost: distance.filter(|distance| distance.is_finite()).map(digits),
@@ -81,7 +81,7 @@ pub fn judge(case: &Case, tolerance: f64, limits: &Limits) -> Verdict {
             cost: motion.cost,
         }
     });
-    let answers: Vec<Answer> = answers.collect();
+    let answers: Vec<MethodAnswer> = answers.collect();
     let worst = answers.iter().filter_map(|answer| answer.digits_lost).fold(0.0, f64::max);
     let sensitivity = match &reference {
         Some(motion) if worst >= 1.0 || answers.iter().any(|answer| answer.contradicts) => {

@@ -2,7 +2,7 @@
 
 use crate::oscillator::{Interval, ParameterBox, Parameters, Symbol};
 use crate::study::basin::Window;
-use crate::study::kicks::Kicks;
+use crate::study::kicks::RandomKick;
 
 /// The window of starts, the tolerances, the disturbance and the kicks.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,12 +14,12 @@ pub struct Conditions {
     /// Bound on the disturbance.
     pub disturbance: f64,
     /// Kicks of which a part is lost.
-    pub kicks: Kicks,
+    pub kicks: RandomKick,
 }
 
 impl From<Window> for Conditions {
     fn from(window: Window) -> Self {
-        let kicks = Kicks::default();
+        let kicks = RandomKick::default();
         Conditions { window, half_widths: Vec::new(), disturbance: 0.0, kicks }
     }
 }

@@ -8,12 +8,12 @@
 
 use ratatui::layout::Rect;
 
-use super::Plot;
+use super::Canvas;
 use crate::numerics::elementary::atan2;
 use crate::picture::role::Role;
 use crate::scene::Point;
 
-impl Plot<'_> {
+impl Canvas<'_> {
     /// Shades the cells that `curve` does not separate from the origin, or those that it does.
     ///
     /// The curve may be closed, or open with ends outside the window.

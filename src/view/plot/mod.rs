@@ -55,7 +55,7 @@ pub struct Name<'a> {
 
 /// A plot being drawn.
 #[derive(Debug)]
-pub struct Plot<'a> {
+pub struct Canvas<'a> {
     look: &'a Look,
     window: Window,
     inner: Rect,
@@ -63,7 +63,7 @@ pub struct Plot<'a> {
     inside: Option<(Ticks, Ticks)>,
 }
 
-impl<'a> Plot<'a> {
+impl<'a> Canvas<'a> {
     /// Writes title and axes into `area`, and gives the raster between them. Where `names` have no marks
     /// for the vertical axis it has round numbers.
     pub fn new(
@@ -86,7 +86,7 @@ impl<'a> Plot<'a> {
         };
         pane::title(area, names.title, &axes, heading, look, buffer);
         let dots = Dots::new(inner, look.glyphs);
-        let mut plot = Plot { look, window, inner, dots, inside: None };
+        let mut plot = Canvas { look, window, inner, dots, inside: None };
         if roomy {
             plot.axes(&rightward, &upward, buffer);
         } else {

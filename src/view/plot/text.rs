@@ -2,7 +2,7 @@
 
 #![expect(clippy::cast_possible_truncation, reason = "lengths of short texts count cells")]
 
-use super::{Name, Plot};
+use super::{Canvas, Name};
 use crate::picture::role::Role;
 use crate::scene::Point;
 use crate::view::dots::Covering;
@@ -18,7 +18,7 @@ const CLEAR: i32 = 6;
 /// Distance from other curves, in rows, below which a name is rather left out.
 const NEAR: i32 = 2;
 
-impl Plot<'_> {
+impl Canvas<'_> {
     /// Writes names beside their curves, each where the others are far away.
     pub fn names(&mut self, names: &[Name]) {
         let cells = |name: &Name| {

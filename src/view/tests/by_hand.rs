@@ -12,7 +12,7 @@ use crate::question::{Borders, Rows};
 use crate::scene::library::find;
 use crate::scene::{Answer, Answered, Layer, Request};
 use crate::session::{Key, Msg, Session, Size, update};
-use crate::study::chart::{Band, Chart, Line, Plane};
+use crate::study::chart::{Band, Chart, ChartLine, Plane};
 use crate::study::measure::Value;
 use crate::study::regime::Regime;
 use crate::study::scan::ScanRow;
@@ -221,7 +221,7 @@ pub(super) fn parted(plane: Plane) -> Chart {
         let bands = vec![band(from, fold, Regime::Coexisting), band(fold, to, Regime::Global)];
         let at = plane.up_range.0 + part * (plane.up_range.1 - plane.up_range.0);
         let harmonic = Some(0.9 * fold);
-        Line { at, bands, fold: Some(fold), harmonic, escape: None, failure: None }
+        ChartLine { at, bands, fold: Some(fold), harmonic, escape: None, failure: None }
     };
     let cost = Cost { evaluations: 9_000, steps: 300, rejected: 0 };
     Chart { plane, along: plane.right, lines: (0..=20).map(line).collect(), cost }

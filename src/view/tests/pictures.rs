@@ -4,7 +4,7 @@ use super::by_hand::{press, settle};
 use super::{braille, draw, letters, settled};
 use crate::flow::Limits;
 use crate::oscillator::Symbol;
-use crate::picture::items::{Item, Line};
+use crate::picture::items::{Item, LineStyle};
 use crate::picture::role::{Dash, Mark, Role};
 use crate::question::answer;
 use crate::scene::library::{find, library};
@@ -25,7 +25,7 @@ fn computed(scene: &str) -> Session {
 }
 
 /// The heights of what is called rest at a value of the parameter of a diagram, with its line.
-fn rests(session: &Session, index: usize, at: f64) -> Vec<(Line, f64)> {
+fn rests(session: &Session, index: usize, at: f64) -> Vec<(LineStyle, f64)> {
     let picture = crate::picture::of(session, index);
     let heights = picture.items.iter().filter_map(|item| match item {
         Item::Graph(line, value) if line.name.starts_with("rest") => {
@@ -49,9 +49,11 @@ fn rest_is_in_every_bifurcation_diagram() {
                     .filter(|at| plot.axes.abscissa != Symbol::D || *at != 0.0)
                     .flat_map(|at| {
                         let found = rests(&session, index, at);
-                        let of = |line: &Line| line.variant.as_ref().map(|it| it.label.clone());
-                        let ours =
-                            |(line, _): &(Line, f64)| of(line).unwrap_or_default() == shown.label;
+                        let of =
+                            |line: &LineStyle| line.variant.as_ref().map(|it| it.label.clone());
+                        let ours = |(line, _): &(LineStyle, f64)| {
+                            of(line).unwrap_or_default() == shown.label
+                        };
                         found
                             .into_iter()
                             .filter(ours)
