@@ -48,14 +48,21 @@
     )
 )]
 
+#[warn(clippy::missing_errors_doc)]
 pub mod closed_form;
+#[warn(clippy::missing_errors_doc)]
 pub mod fit;
+#[warn(clippy::missing_errors_doc)]
 pub mod flow;
+#[warn(clippy::missing_errors_doc)]
 pub mod machine;
 #[doc(hidden)]
 pub mod numerics;
+#[warn(clippy::missing_errors_doc)]
 pub mod oscillator;
+#[warn(clippy::missing_errors_doc)]
 pub mod proof;
+#[warn(clippy::missing_errors_doc)]
 pub mod study;
 
 #[cfg(feature = "explorer")]

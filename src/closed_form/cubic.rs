@@ -30,7 +30,6 @@ pub enum Pair {
 ///
 /// With `sin(beta) = sqrt(R)` the roots are `A_1 3 sin(beta/3)/sin(beta)` and
 /// `A_2 (2/sqrt 3) cos(pi/6 + beta/3)`: Viete's formula, with the cancelling factors divided out.
-#[must_use]
 pub fn supercritical(d: f64, d3: f64, r: f64) -> Pair {
     if d.is_nan() || d >= 0.0 {
         return Pair::None;
@@ -50,7 +49,6 @@ pub fn supercritical(d: f64, d3: f64, r: f64) -> Pair {
 ///
 /// In units of `A_Z` it obeys `u^3 - delta u - 1 = 0` with `delta = pi D A_Z/(2 r)`; where delta is not
 /// small, the hyperbolic and the trigonometric formula in units of `A_1` and `A_2` keep all digits.
-#[must_use]
 pub fn subcritical(d: f64, d3: f64, r: f64) -> Option<f64> {
     /// Up to here the expansion about `u = 1` is a good start for Newton's method.
     const NEAR_ZERO: f64 = 1.5;
@@ -88,7 +86,6 @@ fn triple_ratio(part: f64, whole: f64) -> f64 {
 }
 
 /// `R` and `1 - R`, the latter with full relative precision.
-#[must_use]
 pub fn distance_from_fold(d: f64, d3: f64, r: f64) -> (f64, f64) {
     /// Beyond this power of two R is as good as zero or infinite.
     const FAR: i32 = 1000;
@@ -109,19 +106,16 @@ pub fn distance_from_fold(d: f64, d3: f64, r: f64) -> (f64, f64) {
 }
 
 /// `A_1 = 2 r/(pi abs(D))`.
-#[must_use]
 pub fn small_root(d: f64, r: f64) -> Wide {
     Wide::of(2.0 / PI).times(Wide::of(r)).over(Wide::of(d.abs()))
 }
 
 /// `A_2 = sqrt(8 abs(D)/(3 abs(D3)))`.
-#[must_use]
 pub fn large_root(d: f64, d3: f64) -> Wide {
     Wide::of(8.0 / 3.0).times(Wide::of(d.abs())).over(Wide::of(d3.abs())).sqrt()
 }
 
 /// `A_Z = cbrt(16 r/(3 pi abs(D3)))`.
-#[must_use]
 pub fn zero_crossing_root(d3: f64, r: f64) -> Wide {
     Wide::of(16.0 / (3.0 * PI)).times(Wide::of(r)).over(Wide::of(d3.abs())).cbrt()
 }

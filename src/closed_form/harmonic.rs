@@ -53,7 +53,6 @@ pub struct Fold {
 /// Guarantee: each amplitude is right to a few units in its last place. Amplitudes that over- or
 /// underflow are left out. At the centre `D = D3 = r = 0` every amplitude is stationary; the list is
 /// then empty and [`is_centre`] says so.
-#[must_use]
 pub fn amplitudes(parameters: &Parameters) -> Vec<Harmonic> {
     let harmonic = |amplitude: f64, stable| Harmonic {
         amplitude,
@@ -81,20 +80,17 @@ pub fn amplitudes(parameters: &Parameters) -> Vec<Harmonic> {
 }
 
 /// Whether every amplitude is stationary: `D = D3 = r = 0`.
-#[must_use]
 pub fn is_centre(parameters: &Parameters) -> bool {
     parameters.d == 0.0 && parameters.d3 == 0.0 && parameters.r == 0.0
 }
 
 /// Mean `A0 = -(D2/2) A^2` (equation 40); infinite where it overflows, never NaN.
-#[must_use]
 pub fn mean(d2: f64, amplitude: f64) -> f64 {
     if d2 == 0.0 { 0.0 } else { -0.5 * (d2 * amplitude) * amplitude }
 }
 
 /// Rate of change of the amplitude, `A' = -2 r/pi - D A - (3/8) D3 A^3` (equation 41, corrected: the
 /// printed right-hand side is twice as large).
-#[must_use]
 pub fn amplitude_rate(parameters: &Parameters, amplitude: f64) -> f64 {
     let Parameters { d, d3, r, .. } = *parameters;
     let cubic = if d3 == 0.0 { 0.0 } else { 0.375 * (d3 * amplitude) * amplitude };
@@ -103,7 +99,6 @@ pub fn amplitude_rate(parameters: &Parameters, amplitude: f64) -> f64 {
 
 /// The damping at which an amplitude `A > 0` is stationary: `D = -2 r/(pi A) - (3/8) D3 A^2`, equation
 /// (42) solved for D. `None` where that is not a finite number.
-#[must_use]
 pub fn damping_at(d3: f64, r: f64, amplitude: f64) -> Option<f64> {
     let friction = if r == 0.0 { 0.0 } else { 2.0 / PI * r / amplitude };
     let cubic = if d3 == 0.0 { 0.0 } else { 0.375 * (d3 * amplitude) * amplitude };
@@ -114,7 +109,6 @@ pub fn damping_at(d3: f64, r: f64, amplitude: f64) -> Option<f64> {
 /// The fold for `D3 > 0`, `r > 0` (equations 48 and 49); at `r = 0` it has become the Hopf point.
 ///
 /// Guarantee: right to a few units in the last place; `None` where it over- or underflows.
-#[must_use]
 pub fn fold(d3: f64, r: f64) -> Option<Fold> {
     if !(d3 > 0.0 && r > 0.0) {
         return None;
@@ -126,7 +120,6 @@ pub fn fold(d3: f64, r: f64) -> Option<Fold> {
 }
 
 /// Amplitude `A_Z = cbrt(-16 r/(3 pi D3))` of the cycle at `D = 0` for `D3 < 0`, `r > 0` (equation 50).
-#[must_use]
 pub fn zero_crossing(d3: f64, r: f64) -> Option<f64> {
     (d3 < 0.0 && r > 0.0).then(|| zero_crossing_root(d3, r)).and_then(Wide::value)
 }
@@ -134,14 +127,12 @@ pub fn zero_crossing(d3: f64, r: f64) -> Option<f64> {
 /// Asymptote of small amplitudes, `A_1 = -2 r/(pi D)` for `D < 0` (equation 51).
 ///
 /// For `D3 = 0` it solves the one-harmonic equation exactly, but not the oscillator.
-#[must_use]
 pub fn small_asymptote(parameters: &Parameters) -> Option<f64> {
     let Parameters { d, r, .. } = *parameters;
     (d < 0.0 && r > 0.0).then(|| small_root(d, r)).and_then(Wide::value)
 }
 
 /// Asymptote of large amplitudes, `A_2 = sqrt(-8 D/(3 D3))` where D and D3 differ in sign (equation 52).
-#[must_use]
 pub fn large_asymptote(parameters: &Parameters) -> Option<f64> {
     let Parameters { d, d3, .. } = *parameters;
     let apart = (d < 0.0 && d3 > 0.0) || (d > 0.0 && d3 < 0.0);
@@ -151,7 +142,6 @@ pub fn large_asymptote(parameters: &Parameters) -> Option<f64> {
 /// Discriminant of the cubic (42) divided by its leading coefficient (equation 47):
 /// `(1/3) (16/(3 D3))^2 (-8 D^3/D3 - (9/pi)^2 r^2)`. Positive: three real roots; zero: two of them
 /// equal; negative: one. `None` where `D3 = 0` leaves no cubic or where it overflows.
-#[must_use]
 pub fn discriminant(parameters: &Parameters) -> Option<f64> {
     let Parameters { d, d3, r, .. } = *parameters;
     if d3 == 0.0 {

@@ -39,31 +39,26 @@ const HYPERBOLIC: f64 = 1.0;
 
 impl Linear {
     /// The flow with damping `d`, `abs(d) < 1e150`.
-    #[must_use]
     pub fn new(d: f64) -> Self {
         Linear { d, frequency: Twofold::from_one_minus_square(d).sqrt() }
     }
 
     /// Whether motions oscillate: `abs(D) < 1`.
-    #[must_use]
     pub fn oscillates(&self) -> bool {
         self.d.abs() < 1.0
     }
 
     /// `sqrt(1 - D^2)` in twice the working precision, where motions oscillate.
-    #[must_use]
     pub fn omega(&self) -> Option<Twofold> {
         self.oscillates().then_some(self.frequency)
     }
 
     /// Duration of a half swing from rest, `pi/omega`, where motions oscillate.
-    #[must_use]
     pub fn half_period(&self) -> Option<f64> {
         self.omega().map(|omega| PI.over(omega).value())
     }
 
     /// Natural logarithm of the growth in a half swing from rest, `-pi D/omega`, where motions oscillate.
-    #[must_use]
     pub fn log_growth(&self) -> Option<Twofold> {
         self.omega().map(|omega| PI.times(-self.d).over(omega))
     }
@@ -73,7 +68,6 @@ impl Linear {
     /// Guarantee: the error is a few units in the last place of `max(abs(x(t)), abs(v(t)))`, times
     /// `max(1, t)` where the state passes near an eigenvector of nearly critical damping. What
     /// overflows is infinite, nothing is NaN.
-    #[must_use]
     pub fn state(&self, x: f64, v: f64, t: f64) -> (f64, f64) {
         let phase = self.frequency.times(t);
         if !self.oscillates() && phase.high.abs() > HYPERBOLIC {
@@ -121,7 +115,6 @@ impl Linear {
     /// Guarantee: time and place are right to a few units in their last place; where damping is
     /// critical or more and the start lies next to the motion that never returns, the time is as
     /// uncertain as the last digits of the start make it.
-    #[must_use]
     pub fn first_standstill(&self, x: f64, v: f64) -> Option<Standstill> {
         if v == 0.0 {
             let (time, growth) = (self.half_period()?, self.log_growth()?);
@@ -170,13 +163,11 @@ fn together(slow: f64, fast: f64) -> f64 {
 }
 
 /// [`Linear::state`] for a single use.
-#[must_use]
 pub fn linear_flow(d: f64, x: f64, v: f64, t: f64) -> (f64, f64) {
     Linear::new(d).state(x, v, t)
 }
 
 /// [`Linear::first_standstill`] for a single use.
-#[must_use]
 pub fn first_standstill(d: f64, x: f64, v: f64) -> Option<Standstill> {
     Linear::new(d).first_standstill(x, v)
 }

@@ -10,7 +10,6 @@ use crate::numerics::root::{TO_ROUNDING, bisect};
 use crate::oscillator::{Parameters, State};
 
 /// The rate of change `V'` of the energy (equations 17 to 19, with the terms of higher order).
-#[must_use]
 pub fn energy_rate(parameters: &Parameters, state: State) -> f64 {
     let Parameters { d, d2, d3, r } = *parameters;
     let v = state.v;
@@ -22,7 +21,6 @@ pub fn energy_rate(parameters: &Parameters, state: State) -> f64 {
 ///
 /// `None` where it is not a finite number: for `D >= 0` the linearised energy never grows.
 /// Assumption: `D2` and `D3` negligible within the circle; [`full_disk`] assumes nothing.
-#[must_use]
 pub fn radius(parameters: &Parameters) -> Option<f64> {
     let Parameters { d, r, .. } = *parameters;
     let radius = -r / (2.0 * d);
@@ -43,7 +41,6 @@ pub enum Disk {
 /// Its radius is the smallest `v` beyond which `r + 2 D v - abs(D2) v^2 + D3 v^3`, the loss of energy
 /// per length of path on the worse side of `v = 0`, is negative. Guarantee: the radius is bracketed
 /// between neighbouring doubles by the sign of that polynomial as rounded.
-#[must_use]
 pub fn full_disk(parameters: &Parameters) -> Disk {
     let Parameters { d, d2, d3, r } = *parameters;
     let asymmetry = d2.abs();

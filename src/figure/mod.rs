@@ -51,10 +51,7 @@ const ENDINGS: [(&str, Form); 4] =
     [("svg", Form::Svg), ("png", Form::Png), ("csv", Form::Csv), ("json", Form::Json)];
 
 impl Form {
-    /// The form that the ending of a file asks for.
-    ///
-    /// # Errors
-    /// One line with the endings that there are.
+    /// The form that the ending of a file asks for. Fails with one line with the endings that there are.
     pub fn of_file(path: &Path) -> Result<Form, String> {
         let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
         let form = ENDINGS.iter().find(|(known, _)| known.eq_ignore_ascii_case(ending));
@@ -63,10 +60,7 @@ impl Form {
     }
 }
 
-/// A figure as the content of a file.
-///
-/// # Errors
-/// One line if the picture cannot be painted; only for [`Form::Png`].
+/// A figure as the content of a file. Fails with one line if the picture cannot be painted; only for [`Form::Png`].
 pub fn file(figure: &Figure, form: Form) -> Result<Vec<u8>, String> {
     match form {
         Form::Svg => Ok(svg(figure).into_bytes()),

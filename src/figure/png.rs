@@ -18,10 +18,7 @@ const FONTS: [&[u8]; 2] = [
 /// What the fonts are called.
 const FAMILY: &str = "DejaVu Sans";
 
-/// Paints an SVG.
-///
-/// # Errors
-/// One line if it is none, or too large.
+/// Paints an SVG. Fails with one line if it is none, or too large.
 pub(super) fn png(svg: &str) -> Result<Vec<u8>, String> {
     let mut fonts = fontdb::Database::new();
     for font in FONTS {

@@ -92,7 +92,6 @@ pub enum LastStep {
 
 impl LastStep {
     /// The point at `time` after the start of the step.
-    #[must_use]
     pub fn at(&self, time: f64) -> Point {
         match self {
             LastStep::Series(step) => step.at(time),
@@ -102,7 +101,6 @@ impl LastStep {
     }
 
     /// The integrals of powers of `v` over the step.
-    #[must_use]
     pub fn powers(&self) -> Powers {
         match self {
             LastStep::Series(step) => step.powers(),
@@ -114,7 +112,6 @@ impl LastStep {
 
 impl Auto {
     /// A stepper whose relative error a step is about `tolerance`.
-    #[must_use]
     pub fn new(tolerance: f64) -> Self {
         let field = HalfPlane { d: 0.0, d2: 0.0, d3: 0.0 };
         Auto {
@@ -138,7 +135,6 @@ impl Auto {
     }
 
     /// How many steps were implicit.
-    #[must_use]
     pub fn implicit_steps(&self) -> u64 {
         self.implicit_steps
     }
@@ -149,7 +145,6 @@ impl Auto {
     }
 
     /// A copy of the last step alone, to be kept.
-    #[must_use]
     pub fn last_step(&mut self) -> LastStep {
         self.prepare_dense();
         match self.implicit() {
@@ -160,13 +155,11 @@ impl Auto {
     }
 
     /// The integral of `v^2` over the last step; nonlinear fields only.
-    #[must_use]
     pub fn square_integral(&self) -> f64 {
         self.implicit().map_or_else(|| self.taylor.square_integral(), |stiff| stiff.powers().second)
     }
 
     /// The largest v in the last step, if the acceleration changes its sign there.
-    #[must_use]
     pub fn fastest(&mut self) -> Option<f64> {
         self.prepare_dense();
         match self.last {

@@ -5,7 +5,6 @@ use crate::numerics::hermite::Hermite;
 
 impl Trajectory {
     /// When the motion ended: the time of its outcome.
-    #[must_use]
     pub fn end(&self) -> f64 {
         match self.outcome {
             Outcome::Captured { tau, .. }
@@ -17,7 +16,6 @@ impl Trajectory {
 
     /// Where the motion is at a time from its start on: between two samples on the cubic with the
     /// displacements and velocities of both, at rest after its capture. `None` without samples.
-    #[must_use]
     pub fn at(&self, tau: f64) -> Option<Sample> {
         let last = *self.samples.last()?;
         if let Outcome::Captured { tau: since, q } = self.outcome

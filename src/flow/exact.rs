@@ -21,7 +21,6 @@ pub struct Exact {
 
 impl Exact {
     /// A stepper that has not begun.
-    #[must_use]
     pub fn new() -> Self {
         Exact {
             field: HalfPlane { d: 0.0, d2: 0.0, d3: 0.0 },
@@ -37,7 +36,6 @@ impl Exact {
     /// The largest v in the last step, if the acceleration changes its sign there.
     ///
     /// Velocity and acceleration obey the equation of displacement and velocity.
-    #[must_use]
     pub fn fastest(&self) -> Option<f64> {
         let Point { x, v } = self.start;
         let acceleration = self.field.acceleration(x, v);

@@ -59,7 +59,6 @@ pub type Rk4<F = HalfPlane> = Explicit<4, 4, F>;
 
 impl<F: Field> Dop853<F> {
     /// The pair of order 8; its estimated relative error a step stays below `tolerance`.
-    #[must_use]
     pub fn dop853(field: F, tolerance: f64) -> Self {
         Self::new(&dop853::SCHEME, field, tolerance, 0.0)
     }
@@ -67,7 +66,6 @@ impl<F: Field> Dop853<F> {
 
 impl<F: Field> Dopri5<F> {
     /// The pair of order 5; its estimated relative error a step stays below `tolerance`.
-    #[must_use]
     pub fn dopri5(field: F, tolerance: f64) -> Self {
         Self::new(&dopri5::SCHEME, field, tolerance, 0.0)
     }
@@ -75,7 +73,6 @@ impl<F: Field> Dopri5<F> {
 
 impl<F: Field> Rk4<F> {
     /// The classical method with steps of length `step`, its error unknown.
-    #[must_use]
     pub fn rk4(field: F, step: f64) -> Self {
         Self::new(&rk4::SCHEME, field, 0.0, step)
     }

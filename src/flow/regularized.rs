@@ -28,7 +28,6 @@ pub struct Regularized {
 
 impl Regularized {
     /// The field of these parameters.
-    #[must_use]
     pub fn new(parameters: &Parameters, law: SignLaw) -> Self {
         Regularized { smooth: HalfPlane::new(parameters, Side::Upper), r: parameters.r, law }
     }

@@ -33,7 +33,6 @@ pub(super) struct Works {
 
 impl Run {
     /// At the start.
-    #[must_use]
     pub fn new(problem: &Problem, method: Method, detail: Detail) -> Self {
         let moving = Outcome::Moving { tau: 0.0, q: problem.initial.q, v: problem.initial.v };
         let mut samples = Vec::new();
@@ -58,14 +57,12 @@ impl Run {
     }
 
     /// No answer.
-    #[must_use]
     pub fn give_up(mut self, reason: Reason) -> Trajectory {
         self.found.outcome = Outcome::GaveUp { tau: self.time.value(), reason };
         self.found
     }
 
     /// Follows the motion until it ends.
-    #[must_use]
     pub fn go<S: Stepper>(mut self, stepper: &mut S, limits: &Limits) -> Trajectory {
         let Problem { parameters, initial, .. } = self.found.problem;
         let outcome = match Side::entered_from(initial, parameters.r) {

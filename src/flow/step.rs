@@ -14,7 +14,6 @@ pub struct Point {
 
 impl Point {
     /// Size of the state, `max(abs(x), abs(v))`.
-    #[must_use]
     pub fn size(self) -> f64 {
         self.x.abs().max(self.v.abs())
     }
@@ -34,7 +33,6 @@ pub struct ErrorScale {
 
 impl ErrorScale {
     /// For a step between these points with this relative tolerance.
-    #[must_use]
     pub fn new(tolerance: f64, start: Point, end: Point) -> Self {
         ErrorScale {
             x: tolerance * start.size().max(end.size()),
@@ -50,7 +48,6 @@ pub const LONGEST: f64 = 2.0;
 
 /// The longest first step worth trying from a velocity that falls at once: a few times the time in which
 /// it would stop if it fell on like this. Without it an arrival after 1e-300 would be sought in steps of 1.
-#[must_use]
 pub fn stopping_time(v: f64, acceleration: f64) -> f64 {
     const FEW: f64 = 4.0;
     if v > 0.0 && acceleration < 0.0 { FEW * v / -acceleration } else { f64::INFINITY }
@@ -98,7 +95,6 @@ pub struct Step {
 
 impl Step {
     /// Whether a motion above `v = 0` can arrive there: at `x < 0` the field would lift it off again.
-    #[must_use]
     pub fn is_possible(&self) -> bool {
         self.end.x >= 0.0
     }
@@ -134,16 +130,11 @@ pub trait Stepper<F: Field = HalfPlane> {
     fn begin(&mut self, field: &F);
 
     /// Takes one step from a point with `v >= 0` (on `v = 0`: with `x < 0`), at most `longest` long,
-    /// and not beyond the first arrival at `v = 0`.
-    ///
-    /// # Errors
-    /// [`Reason::StepTooSmall`] or [`Reason::OutOfRange`] where no step meets the tolerance.
+    /// and not beyond the first arrival at `v = 0`. Fails with [`Reason::StepTooSmall`] or [`Reason::OutOfRange`]
+    /// where no step meets the tolerance.
     fn advance(&mut self, from: Point, longest: f64) -> Result<Step, Reason>;
 
     /// Takes one step, at most `longest` long, wherever it leads: `v = 0` is not looked for.
-    ///
-    /// # Errors
-    /// As [`Stepper::advance`].
     fn pass(&mut self, from: Point, longest: f64) -> Result<Step, Reason>;
 
     /// Makes [`Stepper::at`] usable for the last step, if that costs something.

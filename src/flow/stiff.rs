@@ -74,7 +74,6 @@ pub struct Stiff<F: Field = HalfPlane> {
 
 impl<F: Field> Stiff<F> {
     /// A stepper whose relative error a step is about `tolerance`.
-    #[must_use]
     pub fn new(field: F, tolerance: f64) -> Self {
         let scheme = SCHEMES.iter().find(|row| tolerance >= row.0).map_or(&SEVEN, |row| row.1);
         let stages = scheme.nodes.len();
@@ -113,7 +112,6 @@ impl<F: Field> Stiff<F> {
     ///
     /// Bisection on the acceleration along the polynomial: v is flat there, an error e of the time costs
     /// e^2 of v.
-    #[must_use]
     pub fn fastest(&self) -> Option<f64> {
         /// Halvings to half the digits of the time.
         const HALVINGS: u32 = 30;

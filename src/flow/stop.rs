@@ -26,7 +26,6 @@ impl ComingToRest {
     ///
     /// With x constant `v' = -(x + force)`, so the way is the integral of `v/(x + force)` over v, by
     /// Gauss's rule. Guarantee: a relative error of 1e-12 at most.
-    #[must_use]
     pub fn of(field: &HalfPlane, point: Point) -> Option<Self> {
         /// Largest damping force as a part of the position.
         const WEAK: f64 = 1e-3;
@@ -55,14 +54,12 @@ impl ComingToRest {
     }
 
     /// The distance; 0 where it underflows.
-    #[must_use]
     pub fn way(&self) -> f64 {
         times_power(self.distance, self.unit)
     }
 
     /// How far it stops beyond a place that it has `passed` by so much already (negative: not yet), and the
     /// exponent of the unit of that.
-    #[must_use]
     pub fn beyond(&self, passed: f64) -> (f64, i32) {
         if passed == 0.0 { (self.distance, self.unit) } else { (passed + self.way(), 0) }
     }

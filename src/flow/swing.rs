@@ -61,10 +61,8 @@ pub struct Failed {
 /// most `longest`.
 ///
 /// `watch` sees each accepted step: the stepper that holds it, the time at which it began, the exponent
-/// of the unit in which its numbers are measured, and the step; it may stop the swing there.
-///
-/// # Errors
-/// [`Failed`] with the reason and the time reached.
+/// of the unit in which its numbers are measured, and the step; it may stop the swing there. Fails with [`Failed`]
+/// with the reason and the time reached.
 pub fn swing<S: Stepper>(
     stepper: &mut S,
     field: &HalfPlane,
@@ -79,9 +77,6 @@ pub fn swing<S: Stepper>(
 /// Follows a motion for `longest` without looking for `v = 0`, through as many half swings as it takes.
 ///
 /// Assumption: there is no friction. Then the field of the upper side holds on both sides.
-///
-/// # Errors
-/// As [`swing`].
 pub fn glide<S: Stepper>(
     stepper: &mut S,
     field: &HalfPlane,

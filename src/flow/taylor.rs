@@ -72,14 +72,12 @@ const INVERSE: [f64; LENGTH] = reciprocals();
 
 impl Taylor {
     /// A stepper whose relative truncation error a step is about `tolerance`.
-    #[must_use]
     pub fn new(tolerance: f64) -> Self {
         let order = ORDERS.iter().find(|row| tolerance >= row.0).map_or(MOST, |row| row.1);
         Self::with_order(tolerance, order)
     }
 
     /// The same with a chosen order, at most 28.
-    #[must_use]
     pub fn with_order(tolerance: f64, order: usize) -> Self {
         Taylor {
             field: HalfPlane { d: 0.0, d2: 0.0, d3: 0.0 },
@@ -98,7 +96,6 @@ impl Taylor {
     }
 
     /// The order.
-    #[must_use]
     pub fn order(&self) -> f64 {
         #[expect(clippy::cast_precision_loss, reason = "at most 28")]
         {
@@ -206,7 +203,6 @@ impl Taylor {
 
 impl Taylor {
     /// The integral of `v^2` over the last step, from the series itself; nonlinear fields only.
-    #[must_use]
     pub fn square_integral(&self) -> f64 {
         let t = times_power(self.duration, -self.time_exponent);
         value(&self.square_integral[..=self.order], t)
@@ -214,7 +210,6 @@ impl Taylor {
 
     /// The largest v in the last step, if the acceleration changes its sign there.
     ///
-    #[must_use]
     pub fn fastest(&self) -> Option<f64> {
         let end = times_power(self.duration, -self.time_exponent);
         let slopes = derivative(&self.v);

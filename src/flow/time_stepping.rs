@@ -32,7 +32,6 @@ pub struct TimeStepping {
 
 impl TimeStepping {
     /// A stepper with friction `r` and steps of this length.
-    #[must_use]
     pub fn new(field: HalfPlane, r: f64, length: f64) -> Self {
         let start = Point { x: 0.0, v: 0.0 };
         TimeStepping { field, r, length, start, end: start, duration: length, evaluations: 0 }

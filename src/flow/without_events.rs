@@ -13,7 +13,6 @@ impl Run {
     ///
     /// `sticks` says whether a motion that this method brings to `v = 0` inside the sticking set stays
     /// there. Positions at crossings are those of a velocity that is linear within the step.
-    #[must_use]
     pub fn walk<F: Field, S: Stepper<F>>(
         mut self,
         stepper: &mut S,

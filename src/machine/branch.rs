@@ -25,7 +25,6 @@ pub struct MachineBranch {
 }
 
 /// Value number `index` of `count` evenly spaced ones, both ends included to the last bit.
-#[must_use]
 pub fn spaced((from, to): (f64, f64), index: usize, count: usize) -> f64 {
     if index + 1 == count {
         return to;

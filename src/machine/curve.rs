@@ -38,7 +38,6 @@ pub struct Slip {
 
 impl Slip {
     /// Displacement and velocity (divided by the natural frequency) at a time from the start of the step.
-    #[must_use]
     pub fn at(&self, t: f64) -> (f64, f64) {
         (value(&self.x[..], t) - self.offset, value(&self.y[..], t))
     }
@@ -125,7 +124,6 @@ pub struct Rectangle {
 
 impl Rectangle {
     /// Its area.
-    #[must_use]
     pub fn area(&self) -> f64 {
         (self.x.1 - self.x.0) * (self.y.1 - self.y.0)
     }
@@ -162,7 +160,6 @@ impl Watch for MachineCurve {
 impl MachineCurve {
     /// The velocities at which it passes a displacement, at `y > 0` and at `y < 0`; `speed` is that of the
     /// belt.
-    #[must_use]
     pub fn velocities_at(&self, x: f64, speed: f64) -> (Option<f64>, Option<f64>) {
         let mut found = (None, None);
         for piece in &self.pieces {
@@ -188,7 +185,6 @@ impl MachineCurve {
 
     /// The area that a closed curve has in common with a window: the integral of `y dx` along it, with y
     /// clamped to the window.
-    #[must_use]
     pub fn area_within(&self, window: &Rectangle, speed: f64) -> f64 {
         let clamped = speed.clamp(window.y.0, window.y.1);
         let of = |piece: &Piece| match piece {

@@ -37,10 +37,8 @@ fn guaranteed_excess(
 }
 
 /// The least friction R of the guide, in N, at which the margin, or with tolerances the guaranteed margin, is
-/// `wanted` (m or N s) or more; `None` where no bracket of it was found.
-///
-/// # Errors
-/// [`Trouble`] where a machine on the way has no portrait.
+/// `wanted` (m or N s) or more; `None` where no bracket of it was found. Fails with [`Trouble`] where a machine on
+/// the way has no portrait.
 pub fn friction_for(
     subject: &Subject,
     known: &Tolerances,

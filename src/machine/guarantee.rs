@@ -117,7 +117,6 @@ pub fn best(belt: &Belt, known: &Tolerances) -> Result<Option<Portrait>, Trouble
 }
 
 /// The kicks within the basin of a machine that bounds those of all others.
-#[must_use]
 pub fn kicks(corners: &Corners, portrait: &Portrait) -> GuaranteedKicks {
     let infinite = GuaranteedKicks { displacement: f64::INFINITY, impulse: f64::INFINITY };
     portrait.margin.map_or(infinite, |margin| GuaranteedKicks {

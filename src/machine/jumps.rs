@@ -59,7 +59,6 @@ pub struct Jumps {
 impl Jumps {
     /// The jumps at `value`, found from the states so far `aside` of it. What shrinks with the distance, as
     /// a cycle does that is born at rest, is no jump.
-    #[must_use]
     pub fn at(family: Family, value: f64, aside: f64) -> Self {
         /// How much farther one looks as well.
         const FARTHER: f64 = 100.0;

@@ -42,10 +42,7 @@ pub struct Zeros {
     pub unresolved: Vec<(f64, f64)>,
 }
 
-/// The zeros of a function between two samples.
-///
-/// # Errors
-/// The [`Unfollowed`] of an evaluation.
+/// The zeros of a function between two samples. Fails with the [`Unfollowed`] of an evaluation.
 pub fn zeros(
     ends: (Sample, Sample),
     evaluate: &mut impl FnMut(f64) -> Result<Sample, Unfollowed>,
@@ -119,10 +116,8 @@ fn leaf(
     Ok(())
 }
 
-/// The zero between two samples of different sign: Newton's method inside a bracket.
-///
-/// # Errors
-/// The [`Unfollowed`] of an evaluation.
+/// The zero between two samples of different sign: Newton's method inside a bracket. Fails with the [`Unfollowed`]
+/// of an evaluation.
 pub fn zero(
     left: Sample,
     right: Sample,
@@ -143,10 +138,7 @@ pub fn zero(
 }
 
 /// Where the slope vanishes between two samples with slopes of different sign, or a place on the way there at which
-/// the function has another sign than at both.
-///
-/// # Errors
-/// The [`Unfollowed`] of an evaluation.
+/// the function has another sign than at both. Fails with the [`Unfollowed`] of an evaluation.
 fn extremum(
     left: Sample,
     right: Sample,

@@ -139,7 +139,6 @@ fn signs_at(family: Family, value: f64) -> Option<Signs> {
 }
 
 /// All special values between two neighbouring ones, with the portraits there.
-#[must_use]
 pub fn between(
     family: Family,
     left: (f64, &Portrait),

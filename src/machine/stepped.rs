@@ -41,7 +41,6 @@ impl SteppedMethod {
     }
 
     /// The method itself.
-    #[must_use]
     pub fn method(self) -> Method {
         match self {
             SteppedMethod::Dop853 => Method::Dop853,
@@ -50,7 +49,6 @@ impl SteppedMethod {
     }
 
     /// Its name.
-    #[must_use]
     pub fn name(self) -> &'static str {
         self.method().spec().name
     }
@@ -133,7 +131,6 @@ pub fn stepped(
 }
 
 /// The same with all of its steps, as far as it can be followed.
-#[must_use]
 pub fn traced(
     model: &Model,
     way: SteppedMethod,

@@ -93,7 +93,6 @@ pub enum Trouble {
 
 impl Trouble {
     /// Whether the machine itself is at fault, and not what it takes to compute it.
-    #[must_use]
     pub fn is_of_the_machine(&self) -> bool {
         !matches!(
             self,

@@ -42,7 +42,6 @@ pub struct WayToTurn {
 
 impl Model {
     /// What the mass does at displacement `x` and velocity `y` (divided by the natural frequency).
-    #[must_use]
     pub fn place(&self, x: f64, y: f64) -> Place {
         if y == 0.0 {
             return if self.rests_at(x) {

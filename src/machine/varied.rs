@@ -59,19 +59,16 @@ impl Varied {
     }
 
     /// The one with this name, compared exactly.
-    #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         Self::all().find(|varied| varied.name() == name)
     }
 
     /// The names of all of them.
-    #[must_use]
     pub fn names() -> String {
         Self::all().map(Self::name).collect::<Vec<_>>().join(", ")
     }
 
     /// The name on the command line.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Varied::Quantity(quantity) => quantity.spec().name,
@@ -86,7 +83,6 @@ impl Varied {
     }
 
     /// Its SI unit.
-    #[must_use]
     pub fn unit(self) -> &'static str {
         match self {
             Varied::Quantity(quantity) => quantity.spec().unit,
@@ -100,7 +96,6 @@ impl Varied {
     }
 
     /// Its dimension.
-    #[must_use]
     pub fn dimension(self) -> Dimension {
         match self {
             Varied::Quantity(quantity) => quantity.spec().dimension,
@@ -158,7 +153,6 @@ impl Varied {
     }
 
     /// Its value in a machine; static friction that is not given is that of the law at rest, and R.
-    #[must_use]
     pub fn get(self, belt: &Belt) -> Option<f64> {
         match self {
             Varied::Quantity(quantity) => Some(belt.get(quantity)),

@@ -95,9 +95,6 @@ pub fn newton(
 }
 
 /// [`newton`] for a function that may fail.
-///
-/// # Errors
-/// The first error of the function.
 #[inline]
 pub fn try_newton<E>(
     mut bracket: Bracket,
@@ -140,9 +137,6 @@ pub fn bisect(
 }
 
 /// [`bisect`] for a condition that may fail.
-///
-/// # Errors
-/// The first error of the condition.
 pub fn try_bisect<E>(
     mut without: f64,
     mut with: f64,
@@ -167,9 +161,6 @@ pub fn try_bisect<E>(
 /// the next step a halving.
 ///
 /// Hard-wired: 100 evaluations; the order of convergence is 1.44, so that ten are usual.
-///
-/// # Errors
-/// The first error of the function.
 pub fn illinois<E>(
     ends: [(f64, f64); 2],
     small: f64,
@@ -218,9 +209,6 @@ pub fn maximum(low: f64, high: f64, width: f64, function: impl Fn(f64) -> f64) -
 }
 
 /// [`maximum`] for a function that may fail.
-///
-/// # Errors
-/// The first error of the function.
 pub fn try_maximum<E>(
     mut low: f64,
     mut high: f64,

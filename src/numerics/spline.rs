@@ -107,9 +107,7 @@ impl From<SmoothingSpline> for Points {
 }
 
 impl SmoothingSpline {
-    /// The smoothest curve that misses `points` by `scatter` (at most) in the quadratic mean.
-    ///
-    /// # Errors
+    /// The smoothest curve that misses `points` by `scatter` (at most) in the quadratic mean. Fails with
     /// [`PointsError`] for fewer than four points, numbers that are not finite, abscissae that do not increase or
     /// are so uneven that numbers overflow.
     pub fn new(points: &[(f64, f64)], scatter: f64) -> Result<Self, PointsError> {

@@ -131,10 +131,7 @@ impl From<Unfit> for Fit {
 }
 
 impl Fit {
-    /// Fits a record, and tells how many motions it has computed so far.
-    ///
-    /// # Errors
-    /// [`Reason::Interrupted`].
+    /// Fits a record, and tells how many motions it has computed so far. Fails with [`Reason::Interrupted`].
     pub fn of(recording: &Recording, limits: &Limits, told: &dyn Fn(u64)) -> Result<Self, Reason> {
         let motions = Cell::new(0);
         let interrupted = || {
@@ -155,10 +152,7 @@ impl Fit {
     }
 
     /// The same with D, D2, D3 and r held where they have values; unless it is to be `drawn`, too, the distribution of
-    /// the margin stays that without.
-    ///
-    /// # Errors
-    /// [`Reason::Interrupted`].
+    /// the margin stays that without. Fails with [`Reason::Interrupted`].
     pub fn held(
         &self,
         values: [Option<f64>; 4],
@@ -200,10 +194,7 @@ impl Fit {
         Fit(Arc::new(Ok(Fitted { fit, points, rise, drawn })))
     }
 
-    /// What was found, or why there is nothing.
-    ///
-    /// # Errors
-    /// The [`Unfit`] of the record.
+    /// What was found, or why there is nothing. Fails with the [`Unfit`] of the record.
     pub fn found(&self) -> Result<&Fitted, &Unfit> {
         self.0.as_ref().as_ref()
     }
@@ -262,7 +253,6 @@ fn place(symbol: Symbol) -> Option<usize> {
 
 impl Fitted {
     /// The fitted motion.
-    #[must_use]
     pub fn problem(&self, before: Problem) -> Problem {
         let p = &self.fit.estimate.p;
         let v = if self.fit.estimate.start == StartKind::Moving { p[LAST] } else { 0.0 };
@@ -276,13 +266,11 @@ impl Fitted {
     }
 
     /// Whether a number is held, by hand or since the record was opened.
-    #[must_use]
     pub fn holds(&self, symbol: Symbol) -> bool {
         place(symbol).is_some_and(|place| !self.fit.estimate.free[place])
     }
 
     /// The unknown that a number is, with its standard error; `None` where it was not estimated.
-    #[must_use]
     pub fn error(&self, symbol: Symbol) -> Option<f64> {
         let place = if symbol == Symbol::V0 && self.fit.estimate.start == StartKind::Moving {
             LAST

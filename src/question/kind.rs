@@ -10,9 +10,6 @@ pub trait Question: Sized + PartialEq {
     type Found;
 
     /// Computes the answer.
-    ///
-    /// # Errors
-    /// The [`Reason`] why there is none.
     fn answer(&self, means: &Means) -> Result<Self::Found, Reason>;
 
     /// The same question, to be answered quickly and roughly first; `None` where it is rough already, or

@@ -76,7 +76,6 @@ impl Fineness {
     };
 
     /// More points on each curve, to look at it more closely.
-    #[must_use]
     pub fn finer(self, times: u16) -> Fineness {
         let several = usize::from(times);
         Fineness {

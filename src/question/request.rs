@@ -41,7 +41,6 @@ macro_rules! types {
 
         impl Topic {
             /// The name on the screen.
-            #[must_use]
             pub fn name(self) -> &'static str {
                 match self {
                     $(Topic::$topic => $name,)*
@@ -51,7 +50,6 @@ macro_rules! types {
 
         impl Answer {
             /// What the computation cost, counted.
-            #[must_use]
             pub fn cost(&self) -> Cost {
                 match self {
                     $(Answer::$topic($found) => $cost,)*
@@ -62,7 +60,6 @@ macro_rules! types {
 
         impl Request {
             /// What this asks about.
-            #[must_use]
             pub fn topic(&self) -> Topic {
                 match self {
                     $(Request::$topic(_) $(| Request::$request(_))? => Topic::$topic,)*
@@ -71,7 +68,6 @@ macro_rules! types {
 
             /// The same question, to be answered quickly and roughly first; `None` where it is rough
             /// already, or where roughness saves nothing.
-            #[must_use]
             pub fn draft(&self) -> Option<Request> {
                 match self {
                     $(Request::$topic(asked) => asked.draft().map(Request::$topic),
@@ -96,9 +92,6 @@ macro_rules! types {
         }
 
         /// Answers a request: the only place where a question becomes a computation.
-        ///
-        /// # Errors
-        /// The [`Reason`] why there is no answer.
         pub fn answer_by(request: &Request, means: &Means) -> Result<Answer, Reason> {
             match request {
                 $(Request::$topic(asked) => asked.answer(means).map(Answer::$topic),
@@ -112,7 +105,6 @@ questions!(types);
 
 impl Topic {
     /// Whether it is asked of each variant that a plot shows.
-    #[must_use]
     pub fn is_of_variants(self) -> bool {
         matches!(self, Topic::Trajectory | Topic::Cycles | Topic::Branch)
     }
@@ -145,14 +137,12 @@ impl Whole {
 
 impl Request {
     /// Whether it may take long and must not keep others waiting.
-    #[must_use]
     pub fn is_long(&self) -> bool {
         matches!(self, Request::Scan(_) | Request::Proof(_) | Request::Fit(_))
     }
 
     /// How alike this is to a question: how many of their numbers are equal. `None` where its answer must
     /// not stand in for the wanted one, not even until that is there.
-    #[must_use]
     pub fn likeness(&self, wanted: &Request) -> Option<usize> {
         let pairs = || self.numbers().into_iter().zip(wanted.numbers());
         self.compares(wanted).then(|| pairs().filter(|(mine, wanted)| mine == wanted).count())
@@ -160,17 +150,11 @@ impl Request {
 }
 
 /// Answers a request for the screen, on this thread.
-///
-/// # Errors
-/// The [`Reason`] why there is no answer.
 pub fn answer(request: &Request, limits: &Limits) -> Result<Answer, Reason> {
     answer_for(request, Fineness::SCREEN, limits)
 }
 
 /// The same with curves of another fineness.
-///
-/// # Errors
-/// The [`Reason`] why there is no answer.
 pub fn answer_for(
     request: &Request,
     fineness: Fineness,

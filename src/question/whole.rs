@@ -96,9 +96,6 @@ fn model(belt: &Belt) -> Result<Model, Reason> {
 }
 
 /// The motion of a machine, with so many places between the ends of each step.
-///
-/// # Errors
-/// The [`Reason`] why there is none.
 pub fn motion(
     belt: &Belt,
     problem: &Problem,
@@ -212,9 +209,6 @@ fn rides(found: &Drawn, v0: f64, units: Units) -> Vec<[Sample; 2]> {
 
 /// The cycles of a machine with their curves, so many points on each step, and the border of the basin;
 /// `cubic` draws those of the cubic expansion in their place.
-///
-/// # Errors
-/// The [`Reason`] why there are none.
 pub fn portrait(
     belt: &Belt,
     parameters: &Parameters,
@@ -247,15 +241,11 @@ fn works(found: &Portrait) -> Vec<MachineLedger> {
 }
 
 /// The portrait of a machine.
-///
-/// # Errors
-/// The [`Reason`] why there is none.
 pub fn found(belt: &Belt) -> Result<Portrait, Reason> {
     model(belt).and_then(|model| Portrait::new(&model).map_err(reason))
 }
 
 /// The kicks that a machine survives; `None` where every one is.
-#[must_use]
 pub fn margin(found: &Portrait) -> Option<Margin> {
     let units = Units::of(&found.model);
     found.margin.map(|margin| Margin {
@@ -265,7 +255,6 @@ pub fn margin(found: &Portrait) -> Option<Margin> {
 }
 
 /// Kicks in m and N s, infinite where every one is survived, without units.
-#[must_use]
 pub fn margin_of(model: &Model, displacement: f64, impulse: f64) -> Margin {
     let units = Units::of(model);
     let finite = |value: f64| Some(value).filter(|it| it.is_finite());

@@ -68,10 +68,8 @@ fn extent(basin: Option<&Basin>, otherwise: Extent, points: u16) -> Extent {
     }
 }
 
-/// The zones of an oscillator, with so many points on each step of a border.
-///
-/// # Errors
-/// The [`Reason`] why a border could not be computed.
+/// The zones of an oscillator, with so many points on each step of a border. Fails with the [`Reason`] why a border
+/// could not be computed.
 fn of_oscillator(
     known: &ParameterBox,
     disturbance: f64,
@@ -94,10 +92,8 @@ fn of_oscillator(
     })
 }
 
-/// The zones of a machine by the whole model, in the units of its oscillator.
-///
-/// # Errors
-/// The [`Reason`] why a machine within the tolerances has no portrait.
+/// The zones of a machine by the whole model, in the units of its oscillator. Fails with the [`Reason`] why a
+/// machine within the tolerances has no portrait.
 pub fn of_machine(belt: &Belt, known: &Tolerances, points: u16) -> Result<Zones, Reason> {
     let needs = "a friction law that reaches the slips of all machines within the tolerances";
     let trouble = |_| Reason::NotApplicable { needs };

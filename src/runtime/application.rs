@@ -49,10 +49,7 @@ pub trait Application {
     }
 
     /// Makes a figure of what it shows, or of one plot of it, in the form that the ending of a file asks
-    /// for; the work is done elsewhere.
-    ///
-    /// # Errors
-    /// One line that says why there is none.
+    /// for; the work is done elsewhere. Fails with one line that says why there is none.
     fn figure(&self, _path: &Path, _plot: Option<usize>) -> Result<Work, String> {
         Err("nothing to write".to_owned())
     }
@@ -85,15 +82,9 @@ pub trait Host {
     fn application(&mut self) -> &mut Self::Application;
 
     /// Carries out an effect.
-    ///
-    /// # Errors
-    /// The error of writing to the terminal.
     fn carry_out(&mut self, effect: Effect) -> io::Result<EffectOutcome>;
 
     /// Gives the application a message, and what comes of its effects in their order.
-    ///
-    /// # Errors
-    /// The error of writing to the terminal.
     fn give(&mut self, msg: Msg) -> io::Result<Option<LoopEnd>> {
         for effect in self.application().update(msg) {
             let stop = match self.carry_out(effect)? {

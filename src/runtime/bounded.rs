@@ -7,10 +7,7 @@ use std::path::Path;
 /// Longest file that is read, in bytes.
 const LONGEST: u64 = 64 << 20;
 
-/// What a file holds.
-///
-/// # Errors
-/// The file cannot be read, or is too long.
+/// What a file holds. Fails where the file cannot be read, or is too long.
 pub fn bytes(path: &Path) -> io::Result<Vec<u8>> {
     let mut held = Vec::new();
     File::open(path)?.take(LONGEST + 1).read_to_end(&mut held)?;
@@ -21,10 +18,7 @@ pub fn bytes(path: &Path) -> io::Result<Vec<u8>> {
     Ok(held)
 }
 
-/// What a file says.
-///
-/// # Errors
-/// As [`bytes`]; also where the file is not UTF-8.
+/// What a file says. Fails as [`bytes`]; also where the file is not UTF-8.
 pub fn text(path: &Path) -> io::Result<String> {
     String::from_utf8(bytes(path)?).map_err(|_| {
         let line = "not a text: it holds bytes that are not UTF-8";

@@ -40,10 +40,7 @@ impl Files {
         }
     }
 
-    /// Whether a file may be written.
-    ///
-    /// # Errors
-    /// One line: it is there already, and not to be replaced.
+    /// Whether a file may be written. Fails with one line: it is there already, and not to be replaced.
     pub fn admit(path: &Path, replace: bool) -> Result<(), String> {
         let path = at_home(path);
         if replace || !path.exists() {
@@ -67,10 +64,7 @@ impl Files {
         }
     }
 
-    /// The text of a file, or one line that says why there is none.
-    ///
-    /// # Errors
-    /// One line with the name of the file.
+    /// The text of a file, or one line that says why there is none. Fails with one line with the name of the file.
     pub fn read(path: &Path) -> Result<String, String> {
         let path = at_home(path);
         let told = |why: &dyn std::fmt::Display| format!("{}: {why}", path.display());

@@ -121,9 +121,6 @@ impl Application for Explorer {
 }
 
 /// Answers a request: a scan on all cores, everything else here.
-///
-/// # Errors
-/// The [`Reason`] why there is no answer.
 pub fn answer(request: &Request, limits: &Limits, tell: &Tell) -> Result<Answer, Reason> {
     let rows = |scan: &Scan, from| scanning::answer(scan, from, limits, tell);
     if let Request::Fit(asked) = request {
@@ -146,10 +143,8 @@ fn fitted(recording: &Recording, limits: &Limits, tell: &Tell) -> Result<Fit, Re
 
 /// Runs a session in the terminal, until the user leaves or a signal ends the program.
 ///
-/// Ask [`Environment::admit`] first: it says in one line why there is no terminal to run in.
-///
-/// # Errors
-/// If the terminal cannot be used, or goes away while it is written to.
+/// Ask [`Environment::admit`] first: it says in one line why there is no terminal to run in. Fails if the terminal
+/// cannot be used, or goes away while it is written to.
 pub fn explore(
     session: Session,
     environment: Environment,
@@ -159,10 +154,7 @@ pub fn explore(
 }
 
 /// Plays a keystroke file on a session without a terminal. [`headless::play`] says what comes back;
-/// [`crate::view::screen::text`] turns its pictures into text.
-///
-/// # Errors
-/// If the system gives no thread for the worker.
+/// [`crate::view::screen::text`] turns its pictures into text. Fails if the system gives no thread for the worker.
 pub fn replay(
     session: Session,
     environment: Environment,

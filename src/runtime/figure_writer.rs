@@ -46,10 +46,8 @@ impl FigureWriter {
         FigureWriter { report, notes, task: None }
     }
 
-    /// Begins to write a file; [`Msg::Written`] says how that ends.
-    ///
-    /// # Errors
-    /// One line: another file is being written, or the system gives no thread.
+    /// Begins to write a file; [`Msg::Written`] says how that ends. Fails with one line: another file is being
+    /// written, or the system gives no thread.
     pub fn begin(&mut self, path: PathBuf, replace: bool, work: Work) -> Result<(), String> {
         if self.is_writing() {
             return Err(format!("{} not written: another file still is", path.display()));

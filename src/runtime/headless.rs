@@ -39,10 +39,7 @@ pub struct Played<M> {
 /// until the application wants to quit.
 ///
 /// Effects on the world outside are not carried out: a replay writes no files and copies nothing. Files
-/// that the session asks for are read.
-///
-/// # Errors
-/// If the system gives no thread for the worker.
+/// that the session asks for are read. Fails if the system gives no thread for the worker.
 pub fn play<M: Application>(
     application: M,
     answer: impl Fn(&Request, &Limits, &Tell) -> Result<Answer, Reason> + Send + Sync + 'static,

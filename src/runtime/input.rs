@@ -34,10 +34,8 @@ const INTERRUPT: &[u8] = b"\x03";
 /// Bytes read at once.
 const BUFFER: usize = 4096;
 
-/// Starts the thread that reads the terminal at standard input until it is gone.
-///
-/// # Errors
-/// If the system gives no thread.
+/// Starts the thread that reads the terminal at standard input until it is gone. Fails if the system gives no
+/// thread.
 pub fn start(events: Sender<Event>) -> io::Result<()> {
     thread::Builder::new().name("input".to_owned()).spawn(move || {
         let last = LastWord(events);

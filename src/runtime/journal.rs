@@ -55,10 +55,7 @@ impl Journal {
         (Journal { path: beside(path), file: Some(file), bytes }, found)
     }
 
-    /// Notes a row.
-    ///
-    /// # Errors
-    /// If it cannot be written.
+    /// Notes a row. Fails if it cannot be written.
     pub fn note(&mut self, scan: &Scan, form: Form, (index, row): (usize, &str)) -> io::Result<()> {
         let file = match &mut self.file {
             Some(file) => file,

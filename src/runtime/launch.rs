@@ -53,10 +53,8 @@ pub struct Options {
 /// [`crate::terminal::Environment::admit`] for whether there is one. Gives the exit code: 0 when the user
 /// left, 128 + n after signal n.
 ///
-/// Call it from the thread that may take the terminal down with its panics; others may not.
-///
-/// # Errors
-/// If the terminal cannot be used, or goes away while it is written to.
+/// Call it from the thread that may take the terminal down with its panics; others may not. Fails if the terminal
+/// cannot be used, or goes away while it is written to.
 pub fn launch(
     application: impl Application,
     answer: impl Fn(&Request, &Limits, &Tell) -> Result<Answer, Reason> + Send + Sync + 'static,
@@ -104,10 +102,8 @@ pub fn launch(
     Ok(code)
 }
 
-/// Keeps what would be missed of a session that was interrupted or left.
-///
-/// # Errors
-/// One line that says why it is lost.
+/// Keeps what would be missed of a session that was interrupted or left. Fails with one line that says why it is
+/// lost.
 fn keep<M: Application, W: io::Write>(
     pump: &Pump<M, W>,
     path: Option<&Path>,

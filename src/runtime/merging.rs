@@ -56,9 +56,6 @@ impl fmt::Display for Conflict {
 /// written is the whole where none is missing.
 ///
 /// With `recheck`, the first and the last row of each part are computed again within these limits and compared.
-///
-/// # Errors
-/// The [`Conflict`].
 pub fn merge(
     scan: &Scan,
     form: Form,

@@ -6,10 +6,7 @@ use crate::question::{Fineness, answer_for};
 use crate::scene::{Answered, Request, Topic};
 use crate::session::{Msg, Session, update};
 
-/// Computes everything on show as finely as print needs.
-///
-/// # Errors
-/// What was asked that has no answer, and why.
+/// Computes everything on show as finely as print needs. Fails with what was asked that has no answer, and why.
 pub fn complete(
     session: &mut Session,
     fineness: Fineness,

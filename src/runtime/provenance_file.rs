@@ -28,10 +28,7 @@ pub fn beside(path: &Path) -> PathBuf {
     name.into()
 }
 
-/// Writes it, unless the rows go to a device or a pipe.
-///
-/// # Errors
-/// If it cannot be written.
+/// Writes it, unless the rows go to a device or a pipe. Fails if it cannot be written.
 pub fn write(path: &Path, provenance: &Provenance) -> io::Result<()> {
     if !fs::metadata(path)?.is_file() {
         return Ok(());
@@ -39,18 +36,13 @@ pub fn write(path: &Path, provenance: &Provenance) -> io::Result<()> {
     fs::write(beside(path), serde_json::to_string_pretty(provenance)? + "\n")
 }
 
-/// Reads it.
-///
-/// # Errors
-/// If it is not there, cannot be read, or says something else.
+/// Reads it. Fails if it is not there, cannot be read, or says something else.
 pub fn read(path: &Path) -> io::Result<Provenance> {
     Ok(serde_json::from_slice(&fs::read(beside(path))?)?)
 }
 
-/// The files in a folder that have such a file beside them, in the order of their names.
-///
-/// # Errors
-/// If the folder cannot be read.
+/// The files in a folder that have such a file beside them, in the order of their names. Fails if the folder cannot
+/// be read.
 pub fn files_in(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder)? {

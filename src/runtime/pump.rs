@@ -114,9 +114,6 @@ impl<M: Application, W: Write> Pump<M, W> {
     }
 
     /// Runs until something happens that concerns the whole process.
-    ///
-    /// # Errors
-    /// The error of writing to the terminal.
     pub fn run(&mut self) -> io::Result<LoopEnd> {
         loop {
             if let Some(stop) = self.play()? {
@@ -154,9 +151,6 @@ impl<M: Application, W: Write> Pump<M, W> {
     }
 
     /// Tells the session something.
-    ///
-    /// # Errors
-    /// The error of writing to the terminal.
     pub fn tell(&mut self, notice: Notice) -> io::Result<()> {
         self.update(Msg::Told(notice)).map(drop)
     }
@@ -168,9 +162,6 @@ impl<M: Application, W: Write> Pump<M, W> {
     }
 
     /// The terminal is ours again, in an unknown state.
-    ///
-    /// # Errors
-    /// The error of writing to the terminal.
     pub fn repaint(&mut self) -> io::Result<()> {
         self.held = false;
         let size = (self.terminal_size)();

@@ -20,10 +20,8 @@ pub struct Record {
 }
 
 impl Record {
-    /// Begins the file with what is known already; see [`Record::admit`].
-    ///
-    /// # Errors
-    /// One line: the file may not be replaced, or cannot be written.
+    /// Begins the file with what is known already; see [`Record::admit`]. Fails with one line: the file may not be
+    /// replaced, or cannot be written.
     pub fn begin(
         path: &Path,
         replace: bool,
@@ -43,10 +41,7 @@ impl Record {
     }
 
     /// Whether a recording may be written to a file: where there is none, or one that is empty or a
-    /// recording itself.
-    ///
-    /// # Errors
-    /// One line, with `how` to replace the file all the same.
+    /// recording itself. Fails with one line, with `how` to replace the file all the same.
     pub fn admit(path: &Path, replace: bool, how: &str) -> Result<(), String> {
         let path = at_home(path);
         let name = path.display();
@@ -67,10 +62,7 @@ impl Record {
         Err(format!("{name} is there already and is not a recording; {how}"))
     }
 
-    /// Writes what has changed since the last time.
-    ///
-    /// # Errors
-    /// One line: the file cannot be written.
+    /// Writes what has changed since the last time. Fails with one line: the file cannot be written.
     pub fn keep(&mut self, recorder: &mut Recorder) -> Result<(), String> {
         let (unchanged, count) = (recorder.unchanged(), recorder.steps().len());
         if unchanged == count && !self.lines.is_empty() {

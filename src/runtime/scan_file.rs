@@ -35,9 +35,6 @@ pub struct ScanFile {
 
 impl ScanFile {
     /// An empty file with nothing but the heading, if it is to have one.
-    ///
-    /// # Errors
-    /// The [`Refusal`].
     pub fn create(
         path: &Path,
         scan: &Scan,
@@ -61,10 +58,7 @@ impl ScanFile {
     }
 
     /// The file with the rows of these points that it holds already, and how many those are; a new file
-    /// if there is none.
-    ///
-    /// # Errors
-    /// The [`Refusal`]; then the file is as it was.
+    /// if there is none. Fails with the [`Refusal`]; then the file is as it was.
     pub fn resume(
         path: &Path,
         scan: &Scan,
@@ -99,19 +93,14 @@ impl ScanFile {
         self.ahead.len()
     }
 
-    /// Keeps a row whose turn has not come.
-    ///
-    /// # Errors
-    /// If the journal cannot be written.
+    /// Keeps a row whose turn has not come. Fails if the journal cannot be written.
     pub fn keep(&mut self, scan: &Scan, index: usize, row: &ScanRow) -> io::Result<()> {
         self.noted.insert(index);
         self.journal.note(scan, self.form, (index, &self.form.line(scan, index, row)))
     }
 
-    /// Adds the next row that an earlier process has not computed, and those after it that one has.
-    ///
-    /// # Errors
-    /// If the file cannot be written.
+    /// Adds the next row that an earlier process has not computed, and those after it that one has. Fails if the
+    /// file cannot be written.
     pub fn add(&mut self, scan: &Scan, index: usize, row: &ScanRow) -> io::Result<()> {
         self.file.write_all(self.form.line(scan, index, row).as_bytes())?;
         self.points.start = index + 1;

@@ -60,10 +60,7 @@ impl<F: FnMut(usize, ScanRow) -> ControlFlow<()>> Taker for F {
 /// Computes the rows of these points and hands each to `taker`, in their order, as soon as it and all
 /// before it are known; until the taker breaks off or `interrupted` says so.
 ///
-/// A row whose computation panics has the panic for its reason.
-///
-/// # Errors
-/// If the system gives no threads.
+/// A row whose computation panics has the panic for its reason. Fails if the system gives no threads.
 pub fn rows(
     scan: &Scan,
     points: Range<usize>,
@@ -131,9 +128,7 @@ pub fn rows(
     Ok(())
 }
 
-/// Answers a request for the rows from point number `from` on: pieces as they come, the rest at the end.
-///
-/// # Errors
+/// Answers a request for the rows from point number `from` on: pieces as they come, the rest at the end. Fails with
 /// [`Reason::Interrupted`]; what was told before stays true.
 pub fn answer(scan: &Scan, from: usize, limits: &Limits, tell: &Tell) -> Result<Rows, Reason> {
     /// How long rows are gathered before they are shown: some frames.

@@ -23,10 +23,7 @@ const GRACE: Duration = Duration::from_secs(2);
 /// Signals that end the program.
 const ENDING: [i32; 4] = [SIGTERM, SIGHUP, SIGINT, SIGQUIT];
 
-/// Starts the thread that waits for signals.
-///
-/// # Errors
-/// If the system gives no thread, or refuses a handler.
+/// Starts the thread that waits for signals. Fails if the system gives no thread, or refuses a handler.
 pub fn start(events: Sender<Event>, guard: Guard) -> io::Result<()> {
     let mut signals = Signals::new(ENDING.into_iter().chain([SIGTSTP, SIGCONT, SIGWINCH]))?;
     thread::Builder::new().name("signals".to_owned()).spawn(move || {
@@ -76,18 +73,12 @@ pub fn can_be_continued() -> bool {
 }
 
 /// Asks all processes of the job to stop, as the terminal does for Ctrl-Z; one of them may be a
-/// wrapper for which the shell waits. This process gets [`Event::Suspend`].
-///
-/// # Errors
-/// If the system refuses.
+/// wrapper for which the shell waits. This process gets [`Event::Suspend`]. Fails if the system refuses.
 pub fn suspend_job() -> io::Result<()> {
     Ok(kill_current_process_group(Signal::TSTP)?)
 }
 
-/// Stops this process; returns when it goes on.
-///
-/// # Errors
-/// If the system refuses.
+/// Stops this process; returns when it goes on. Fails if the system refuses.
 pub fn stop() -> io::Result<()> {
     emulate_default_handler(SIGTSTP)
 }

@@ -73,10 +73,7 @@ impl Shared {
 
 impl Worker {
     /// Starts the thread. `answer` computes; `report` gets a message for every answer that is still
-    /// wanted, and [`Msg::Idle`] when there is nothing left to do.
-    ///
-    /// # Errors
-    /// If the system gives no thread.
+    /// wanted, and [`Msg::Idle`] when there is nothing left to do. Fails if the system gives no thread.
     pub fn start(
         answer: impl Fn(&Request, &Limits, &Tell) -> Result<Answer, Reason> + Send + 'static,
         notes: Notes,

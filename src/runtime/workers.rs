@@ -23,10 +23,8 @@ pub struct Workers {
 }
 
 impl Workers {
-    /// Starts them; see [`Worker::start`]. Each says [`Msg::Idle`] for itself; ask [`Workers::is_idle`].
-    ///
-    /// # Errors
-    /// If the system gives no threads.
+    /// Starts them; see [`Worker::start`]. Each says [`Msg::Idle`] for itself; ask [`Workers::is_idle`]. Fails if
+    /// the system gives no threads.
     pub fn start(
         answer: impl Fn(&Request, &Limits, &Tell) -> Result<Answer, Reason> + Send + Sync + 'static,
         notes: Notes,
@@ -74,10 +72,7 @@ impl Workers {
         }
     }
 
-    /// Begins to write a figure; see [`FigureWriter::begin`].
-    ///
-    /// # Errors
-    /// One line that says why not.
+    /// Begins to write a figure; see [`FigureWriter::begin`]. Fails with one line that says why not.
     pub fn write(&mut self, path: PathBuf, replace: bool, work: Work) -> Result<(), String> {
         self.figures.begin(path, replace, work)
     }

@@ -70,9 +70,7 @@ fn auto() -> Method {
     Method::Auto
 }
 
-/// Reads a scene; `name` is the name by which it is opened, `file` the one in error messages.
-///
-/// # Errors
+/// Reads a scene; `name` is the name by which it is opened, `file` the one in error messages. Fails with
 /// [`Misread`] with the place and what is allowed there.
 pub fn parse(name: &str, file: &str, text: &str) -> Result<Scene, Misread> {
     let read: SceneFile = misread::toml(file, text)?;

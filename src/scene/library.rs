@@ -131,10 +131,7 @@ impl std::error::Error for NoScene {}
 /// How much two names must have in common to be suggested (0: nothing, 1: equal).
 const ALIKE: f64 = 0.7;
 
-/// The scene with this name.
-///
-/// # Errors
-/// [`NoScene`] with the names that look like it.
+/// The scene with this name. Fails with [`NoScene`] with the names that look like it.
 pub fn find(name: &str) -> Result<Arc<Scene>, NoScene> {
     let known = library().iter().find(|scene| scene.names().any(|own| own == name));
     known.cloned().ok_or_else(|| {

@@ -61,10 +61,7 @@ impl Complaint {
     }
 }
 
-/// Reads a TOML file.
-///
-/// # Errors
-/// [`Misread`] with the first mistake, the message of the library as one line.
+/// Reads a TOML file. Fails with [`Misread`] with the first mistake, the message of the library as one line.
 pub fn toml<T: DeserializeOwned>(file: &str, text: &str) -> Result<T, Misread> {
     toml::from_str(text).map_err(|error| {
         let lines = error.message().lines().map(str::trim).filter(|line| !line.is_empty());

@@ -47,10 +47,8 @@ impl fmt::Display for NoSpan {
 impl std::error::Error for NoSpan {}
 
 impl Span {
-    /// The interval between two numbers.
-    ///
-    /// # Errors
-    /// [`NoSpan`] unless both are finite, `from < to`, and far enough apart to be told apart.
+    /// The interval between two numbers. Fails with [`NoSpan`] unless both are finite, `from < to`, and far enough
+    /// apart to be told apart.
     pub fn new(from: f64, to: f64) -> Result<Self, NoSpan> {
         let largest = from.abs().max(to.abs());
         // Written so that NaN fails.

@@ -61,10 +61,8 @@ struct SettingsFile {
 /// Commands that must have a key: without them there is no way out.
 const INDISPENSABLE: [&str; 2] = ["quit", "back"];
 
-/// Reads a settings file; `file` is its name in error messages.
-///
-/// # Errors
-/// [`Misread`] with the place of the first mistake and what is allowed there.
+/// Reads a settings file; `file` is its name in error messages. Fails with [`Misread`] with the place of the first
+/// mistake and what is allowed there.
 pub fn parse(file: &str, text: &str) -> Result<Config, Misread> {
     let read: SettingsFile = misread::toml(file, text)?;
     config(&read).map_err(|complaint| complaint.in_file(file, text))

@@ -16,10 +16,8 @@ use crate::session::state::settings::{COLORS, GLYPHS, THEMES, Wishes};
 /// The name under which a file carries a session.
 const CARRIED: &str = "start.toml";
 
-/// The steps that lead to a session in which nothing is open.
-///
-/// # Errors
-/// One line, if the session cannot be saved; none is known for which that is so.
+/// The steps that lead to a session in which nothing is open. Fails with one line, if the session cannot be saved;
+/// none is known for which that is so.
 pub fn opening(session: &Session) -> Result<Vec<Instruction>, String> {
     let mut steps: Vec<Instruction> = looks(session.look);
     let text = save::text(session)?;

@@ -169,10 +169,8 @@ fn run_typed(session: &mut Session, text: &str) -> Vec<Effect> {
     })
 }
 
-/// Runs a line; nothing is open any more.
-///
-/// # Errors
-/// One line that says what is wrong and what is allowed; the session is as it was.
+/// Runs a line; nothing is open any more. Fails with one line that says what is wrong and what is allowed; the
+/// session is as it was.
 pub fn run_line(session: &mut Session, text: &str) -> Result<Vec<Effect>, String> {
     let (name, rest) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
     let (name, rest) = (full_name(name), rest.trim());

@@ -113,10 +113,8 @@ impl std::fmt::Display for NoComparison {
 impl std::error::Error for NoComparison {}
 
 impl Reference {
-    /// The reference for a motion; method and tolerance of the problem are not looked at.
-    ///
-    /// # Errors
-    /// [`Reason`] where no two ways of computing it come to an end.
+    /// The reference for a motion; method and tolerance of the problem are not looked at. Fails with [`Reason`]
+    /// where no two ways of computing it come to an end.
     pub fn of(problem: &Problem, limits: &Limits) -> Result<Self, Reason> {
         let tight = Limits { evaluations: limits.evaluations.min(MOST), ..*limits };
         let both = precise(problem, FINE, &tight)
@@ -198,10 +196,7 @@ impl Reference {
         self
     }
 
-    /// How far a computed motion is from this one.
-    ///
-    /// # Errors
-    /// [`NoComparison`] where there is no distance.
+    /// How far a computed motion is from this one. Fails with [`NoComparison`] where there is no distance.
     pub fn compare(&self, found: &Trajectory) -> Result<Deviation, NoComparison> {
         let mut other = Self::from_doubles(found, self.source).map_err(NoComparison::GaveUp)?;
         if found.problem.parameters.r == 0.0 && found.crossings.is_empty() {

@@ -76,10 +76,7 @@ pub struct Arc {
 
 impl Arc {
     /// The swing on `side` that starts with this `clearance` (forward), or after which the next one starts
-    /// starts with it (backward).
-    ///
-    /// # Errors
-    /// The [`Reason`] why it could not be computed; escape is not an error.
+    /// starts with it (backward). Fails with the [`Reason`] why it could not be computed; escape is not an error.
     pub fn new(
         parameters: &Parameters,
         side: Side,
@@ -121,7 +118,6 @@ impl Arc {
 
     /// Speed `abs(v)` where the arc passes the displacement `q`: `None` beyond its turning points,
     /// infinity beyond where it ran away.
-    #[must_use]
     pub fn speed_at(&self, q: f64) -> Option<f64> {
         let target = self.direction.sense() * self.side.position(q, self.r);
         if self.direction == Direction::Backward {
@@ -163,7 +159,6 @@ impl Arc {
 
     /// The clearance at which the swing starts: 0 where it leaves a node that repels, `None` where it comes
     /// from infinity.
-    #[must_use]
     pub fn clearance(&self) -> Option<Length> {
         if self.direction == Direction::Forward {
             return Some(self.clearance);
@@ -176,7 +171,6 @@ impl Arc {
     }
 
     /// Area between the arc and `v = 0`: the integral of `v dq`, which is that of `v^2 dtau`.
-    #[must_use]
     pub fn area(&self) -> f64 {
         let piece_area = |piece: &ArcStep| {
             let second = piece.step.powers().second;
@@ -186,7 +180,6 @@ impl Arc {
     }
 
     /// The integrals of powers of the speed over time.
-    #[must_use]
     pub fn powers(&self) -> Powers {
         let mut sum = Powers::default();
         for ArcStep { step, unit, .. } in &self.pieces {
@@ -200,7 +193,6 @@ impl Arc {
     }
 
     /// The integral of the displacement over time.
-    #[must_use]
     pub fn time_integral(&self) -> f64 {
         let piece_integral = |piece: &ArcStep| {
             let displacement = |time: f64| {
@@ -213,7 +205,6 @@ impl Arc {
     }
 
     /// Points along the arc in the order of time, `count` on each integration step.
-    #[must_use]
     pub fn points(&self, count: u16) -> Vec<State> {
         let mut points = Vec::new();
         for piece in &self.pieces {

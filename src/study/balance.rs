@@ -26,9 +26,6 @@ pub type Weighed = (f64, f64);
 /// The residual of [`Route::Mixed`] at `u = ln c0`, with the digits that a difference would lose.
 ///
 /// Beside it a bound on its error: each work is known to rounding. `None` where a swing does not end.
-///
-/// # Errors
-/// The [`Reason`] why a swing failed.
 pub fn weighed_residual(
     equation: &mut Equation,
     u: f64,
@@ -38,9 +35,6 @@ pub fn weighed_residual(
 }
 
 /// The same with the pair of swings that was weighed.
-///
-/// # Errors
-/// The [`Reason`] why a swing failed.
 pub fn weighed_closing(
     equation: &mut Equation,
     u: f64,

@@ -23,7 +23,6 @@ pub struct PhysicalMargin {
 
 impl PhysicalMargin {
     /// A margin in these units.
-    #[must_use]
     pub fn new(margin: &Margin, units: &Units) -> Self {
         PhysicalMargin {
             displacement: margin.displacement.map(|size| size * units.displacement),
@@ -47,7 +46,6 @@ pub struct Followed {
 impl Followed {
     /// Follows the samples of a motion; between two of them the velocity is the cubic with the values and
     /// accelerations at both, whose error is of fourth order in their small distance.
-    #[must_use]
     pub fn of(motion: &Trajectory, sticking: f64) -> Self {
         let parameters = &motion.problem.parameters;
         let State { q, v } = motion.problem.initial;

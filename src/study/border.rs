@@ -31,7 +31,6 @@ pub struct Border {
 
 impl Border {
     /// The border of two arcs, the first of them on `side`; `closed` says whether it is a cycle.
-    #[must_use]
     pub fn of(side: Side, [first, second]: [Arc; 2], closed: bool) -> Self {
         match side {
             Side::Upper => Border { upper: first, lower: second, closed },
@@ -39,11 +38,8 @@ impl Border {
         }
     }
 
-    /// The two arcs of a cycle, the first of them on `side`.
-    ///
-    /// # Errors
-    /// The [`Reason`] why one could not be computed, or [`Reason::NoConvergence`] where an arc does not end
-    /// at the beginning of the other one.
+    /// The two arcs of a cycle, the first of them on `side`. Fails with the [`Reason`] why one could not be
+    /// computed, or [`Reason::NoConvergence`] where an arc does not end at the beginning of the other one.
     pub fn of_cycle(
         parameters: &Parameters,
         side: Side,
@@ -63,10 +59,8 @@ impl Border {
     /// With `D > -1` escape is the alternative, on the side in whose frame `D2 < 0` (`D3 = 0`): there the
     /// border goes out along the parabola `v^2 = 1/(2 D2^2) - q/D2` for ever, and before it came from
     /// infinity on the other side. With `D <= -1` the end points of the sticking set are nodes that repel,
-    /// and on one side at least the border comes out of one.
-    ///
-    /// # Errors
-    /// The [`Reason`] why an arc could not be computed, or [`Reason::NoConvergence`].
+    /// and on one side at least the border comes out of one. Fails with the [`Reason`] why an arc could not be
+    /// computed, or [`Reason::NoConvergence`].
     pub fn separatrix(
         parameters: &Parameters,
         reach: f64,
@@ -119,7 +113,6 @@ impl Border {
 
     /// The border as a polyline in the order of time, `count` points on each integration step, beginning
     /// with the arc that comes from infinity if one does; a closed one ends with its first point.
-    #[must_use]
     pub fn curve(&self, count: u16) -> Vec<State> {
         let [upper, lower] = [&self.upper, &self.lower];
         let arcs = if lower.clearance().is_none() { [lower, upper] } else { [upper, lower] };
@@ -131,13 +124,11 @@ impl Border {
     }
 
     /// Whether it encloses a bounded part of the plane.
-    #[must_use]
     pub fn is_closed(&self) -> bool {
         self.closed
     }
 
     /// The velocities at displacement `q` between which a start lies inside; `None` where none does.
-    #[must_use]
     pub fn span_at(&self, q: f64) -> Option<(f64, f64)> {
         let lower = self.lower.speed_at(q)?;
         let upper = self.upper.speed_at(q)?;
@@ -146,10 +137,8 @@ impl Border {
 }
 
 /// The half swing from the clearance `start` to that of the next one, `next`, followed in the direction in
-/// which it attracts; `backward` is tried first.
-///
-/// # Errors
-/// The [`Reason`] why it could not be computed, or [`Reason::NoConvergence`] where it ends elsewhere.
+/// which it attracts; `backward` is tried first. Fails with the [`Reason`] why it could not be computed, or
+/// [`Reason::NoConvergence`] where it ends elsewhere.
 fn attracting(
     parameters: &Parameters,
     side: Side,

@@ -81,7 +81,6 @@ pub fn bands(
 impl Bands {
     /// How many arrivals at `v = 0` a motion from `start` has until it rests, the last one included;
     /// `None` beyond the bands that were found.
-    #[must_use]
     pub fn arrivals(&self, start: State) -> Option<usize> {
         let (arcs, beyond) = match Side::entered_from(start, self.r) {
             None => return Some(0),
@@ -93,7 +92,6 @@ impl Bands {
     }
 
     /// The borders as polylines in the order of time, `count` points on each integration step.
-    #[must_use]
     pub fn curves(&self, count: u16) -> Vec<Vec<State>> {
         self.upper.iter().chain(&self.lower).map(|arc| arc.points(count)).collect()
     }

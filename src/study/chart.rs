@@ -56,7 +56,6 @@ pub enum BoundaryKind {
 impl Plane {
     /// The parameter along which lines run: D where it is one of the two, else the one that moves a fold
     /// from everywhere to everywhere.
-    #[must_use]
     pub fn along(&self) -> Symbol {
         let has = |symbol: Symbol| self.right == symbol || self.up == symbol;
         [Symbol::D, Symbol::R, Symbol::D3]
@@ -124,7 +123,6 @@ pub fn chart(
 
 impl Chart {
     /// The places of a boundary as points (right, up), in runs without a gap.
-    #[must_use]
     pub fn boundary(&self, boundary: BoundaryKind) -> Vec<Vec<(f64, f64)>> {
         let mut runs: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
         for line in &self.lines {
@@ -144,7 +142,6 @@ impl Chart {
     }
 
     /// The point (right, up) at a place on a line.
-    #[must_use]
     pub fn point(&self, at: f64, along: f64) -> (f64, f64) {
         if self.along == self.plane.right { (along, at) } else { (at, along) }
     }
@@ -152,7 +149,6 @@ impl Chart {
     /// The regime at a point (right, up); `None` outside and where it could not be found out.
     ///
     /// Between two lines with the same bands their ends are interpolated; else the nearer line counts.
-    #[must_use]
     pub fn regime_at(&self, right: f64, up: f64) -> Option<Regime> {
         let (at, along) = if self.along == self.plane.right { (up, right) } else { (right, up) };
         let after = self.lines.partition_point(|line| line.at < at);

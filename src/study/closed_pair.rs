@@ -57,7 +57,6 @@ impl Spread {
 }
 
 /// `d ln(c + gap) / d ln(c)`.
-#[must_use]
 pub fn share(clearance: Length, gap: f64) -> f64 {
     if gap == 0.0 { 1.0 } else { clearance.value / (clearance.value + gap) }
 }
@@ -109,7 +108,6 @@ impl Closing {
     }
 
     /// The same with clearances and duration known to all digits of a double, beyond the relative errors given.
-    #[must_use]
     pub fn sharpened(
         self,
         (first, second, duration): (f64, f64, f64),
@@ -124,13 +122,11 @@ impl Closing {
     }
 
     /// How errors of rounding and of the first clearance reach the others.
-    #[must_use]
     pub fn errors(&self) -> &[Spread; 2] {
         &self.errors
     }
 
     /// Bounds on the errors of its numbers.
-    #[must_use]
     pub fn spread(&self) -> Spread {
         let [own, gain] = &self.errors;
         let sum =
@@ -146,7 +142,6 @@ impl Closing {
     }
 
     /// The cycle of two swings equally fast, known in closed form to a few units in the last place.
-    #[must_use]
     pub fn in_closed_form(
         clearances: [Length; 2],
         duration: f64,
@@ -187,7 +182,6 @@ impl Closing {
     ///
     /// `mu = c0/(c0 + 2 r) c1/(c1 + 2 r) exp(-integral of (2 D + 3 D3 v^2))`: the divergence with the
     /// turning points built in. The D2 part of the integral vanishes on a closed curve.
-    #[must_use]
     pub fn log_multiplier(&self, parameters: &Parameters) -> f64 {
         let gap = 2.0 * parameters.r;
         let past_friction: f64 =
@@ -200,7 +194,6 @@ impl Closing {
 
 impl Closing {
     /// Sum of the magnitudes of the terms of [`Closing::log_multiplier`].
-    #[must_use]
     pub fn log_terms(&self, parameters: &Parameters) -> f64 {
         let Parameters { d, d3, r, .. } = *parameters;
         let shares = [self.first, self.second].map(|it| log_share(it, 2.0 * r).abs());

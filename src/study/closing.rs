@@ -34,7 +34,6 @@ pub enum Route {
 impl Route {
     /// The route on which rounding grows least, by the logarithms of what each swing makes of a relative
     /// error of its clearance.
-    #[must_use]
     pub fn steadiest([first, second]: [f64; 2]) -> Self {
         if first > 0.0 && second > 0.0 || first < 0.0 && second < 0.0 {
             Route::contracting(first + second)
@@ -47,7 +46,6 @@ impl Route {
     }
 
     /// The route that contracts at a cycle of this multiplier.
-    #[must_use]
     pub fn contracting(log_multiplier: f64) -> Self {
         /// Within this of 0 all routes converge alike.
         const STEEP: f64 = 1.5;
@@ -74,26 +72,22 @@ pub struct Equation {
 }
 
 /// The side in whose frame `D2 >= 0`.
-#[must_use]
 pub fn first_side(parameters: &Parameters) -> Side {
     if parameters.d2 < 0.0 { Side::Lower } else { Side::Upper }
 }
 
 impl Equation {
     /// The equation at these parameters, each integration step within the relative `tolerance`.
-    #[must_use]
     pub fn new(parameters: &Parameters, tolerance: f64) -> Self {
         Self::on_side(parameters, first_side(parameters), tolerance)
     }
 
     /// The same with the first swing on a given side.
-    #[must_use]
     pub fn on_side(parameters: &Parameters, side: Side, tolerance: f64) -> Self {
         Self::with(parameters, side, |field| HalfMap::new(field, tolerance))
     }
 
     /// The same with half maps made by `map`.
-    #[must_use]
     pub fn with(parameters: &Parameters, side: Side, map: impl Fn(HalfPlane) -> HalfMap) -> Self {
         let fields = [side, side.opposite()].map(|side| HalfPlane::new(parameters, side));
         Self::on_fields(parameters, side, fields, map)
@@ -103,7 +97,6 @@ impl Equation {
     ///
     /// Only the search for brackets and [`Self::at`] serve such an equation; whatever else takes D2 from its
     /// parameters does not.
-    #[must_use]
     pub fn on_fields(
         parameters: &Parameters,
         side: Side,
@@ -120,14 +113,12 @@ impl Equation {
     }
 
     /// The same equation, each integration step within another relative tolerance.
-    #[must_use]
     pub fn again(&self, tolerance: f64) -> Self {
         let fields = [&self.forward[0], &self.forward[1]].map(|map| *map.field());
         Self::on_fields(&self.parameters, self.side, fields, |field| HalfMap::new(field, tolerance))
     }
 
     /// Whether both fields are those of its parameters.
-    #[must_use]
     pub fn is_of_one_motion(&self) -> bool {
         let sides = [self.side, self.side.opposite()];
         let own = sides.map(|side| HalfPlane::new(&self.parameters, side));
@@ -153,13 +144,11 @@ impl Equation {
     }
 
     /// Relative error of an integration step.
-    #[must_use]
     pub fn tolerance(&self) -> f64 {
         self.forward[0].tolerance()
     }
 
     /// What all swings so far cost.
-    #[must_use]
     pub fn cost(&self) -> Cost {
         let mut cost = self.charged;
         for map in self.forward.iter().chain(&self.backward) {
@@ -174,7 +163,6 @@ impl Equation {
     }
 
     /// How many half swings were computed so far.
-    #[must_use]
     pub fn swings(&self) -> u64 {
         self.forward.iter().chain(&self.backward).map(|map| map.swings).sum()
     }

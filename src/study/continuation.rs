@@ -63,7 +63,6 @@ pub struct Curve<'a> {
 
 impl<'a> Curve<'a> {
     /// The curve along `symbol` with p measured in units of `scale`; `side` is that of the first swing.
-    #[must_use]
     pub fn new(
         parameters: &Parameters,
         symbol: Symbol,
@@ -90,7 +89,6 @@ impl<'a> Curve<'a> {
     }
 
     /// The parameters with the varying one at `p`.
-    #[must_use]
     pub fn parameters_at(&self, p: f64) -> Parameters {
         let mut parameters = self.parameters;
         self.symbol.set(&mut parameters, &mut State { q: 0.0, v: 0.0 }, p);
@@ -99,19 +97,16 @@ impl<'a> Curve<'a> {
 
     /// Relative error of a swing that tells cycles apart which differ by the tolerance: where two are
     /// about to meet, the residual between them is as small as the square of their distance.
-    #[must_use]
     pub fn fineness(&self) -> f64 {
         (self.tolerance * self.tolerance).max(f64::EPSILON)
     }
 
     /// Relative error accepted in the clearance.
-    #[must_use]
     pub fn tolerance(&self) -> f64 {
         self.tolerance
     }
 
     /// The limits under which it computes.
-    #[must_use]
     pub fn limits(&self) -> &'a Limits<'a> {
         self.limits
     }
@@ -150,9 +145,6 @@ impl<'a> Curve<'a> {
     }
 
     /// Corrects a prediction along the line across `tangent`; `None` where it does not settle.
-    ///
-    /// # Errors
-    /// The [`Reason`] why a swing failed.
     pub fn correct(
         &mut self,
         near: (f64, f64),
@@ -204,9 +196,6 @@ impl<'a> Curve<'a> {
     ///
     /// Bisection until Newton's method takes over. In D, D3 and r the residual falls everywhere, because
     /// each of them takes energy from every swing: then it is the only cycle of this clearance.
-    ///
-    /// # Errors
-    /// The [`Reason`] why a swing failed.
     pub fn bracketed(&mut self, u: f64, range: (f64, f64)) -> Result<Option<CurvePoint>, Reason> {
         /// Halvings after which the bracket is as fine as the parameter.
         const HALVINGS: u32 = 60;
@@ -240,9 +229,6 @@ impl<'a> Curve<'a> {
     }
 
     /// The cycle at exactly `p`, near `u`.
-    ///
-    /// # Errors
-    /// The [`Reason`] why a swing failed.
     pub fn at_parameter(
         &mut self,
         p: f64,
@@ -253,7 +239,6 @@ impl<'a> Curve<'a> {
     }
 
     /// Where the line between or beyond two points leads after `length` from the second one.
-    #[must_use]
     pub fn ahead(&self, point: &CurvePoint, tangent: Tangent, length: f64) -> (f64, f64) {
         (point.u + UNIT_OF_U * tangent.u * length, point.p + self.scale * tangent.p * length)
     }
@@ -262,9 +247,6 @@ impl<'a> Curve<'a> {
     ///
     /// `leaves` sees each new point; the point that leaves is the last one. Steps adapt to the bend of
     /// the curve and to the convergence of the corrections.
-    ///
-    /// # Errors
-    /// The [`Reason`] why a swing failed.
     pub fn follow(
         &mut self,
         start: CurvePoint,
@@ -365,9 +347,6 @@ impl<'a> Curve<'a> {
     ///
     /// Bracketing secant (the Illinois rule) on the logarithm of the multiplier along the chord. The
     /// parameter is stationary there: an error e of the place costs e^2 of the parameter.
-    ///
-    /// # Errors
-    /// The [`Reason`] why a swing failed.
     pub fn fold_between(
         &mut self,
         one: &CurvePoint,

@@ -45,13 +45,11 @@ type Slopes = [[f64; 2]; 2];
 
 impl Guess {
     /// A place known otherwise.
-    #[must_use]
     pub fn at(parameters: &Parameters, u: f64) -> Self {
         Guess { parameters: *parameters, u, slopes: None }
     }
 
     /// The fold in D at these values of D2, D3 and r; `None` where there is none, or D2 bends the cycle too much.
-    #[must_use]
     pub fn in_damping(parameters: &Parameters) -> Option<Self> {
         /// Largest product of D2 and the amplitude at which the estimate is any good.
         const BENT: f64 = 3.5;
@@ -60,7 +58,6 @@ impl Guess {
     }
 
     /// The same beside a fold that is known: as far from the estimate as this one is.
-    #[must_use]
     pub fn beside(known: &FoldCycle, parameters: &Parameters) -> Option<Self> {
         let (here, there) = (FoldEstimate::of(parameters)?, FoldEstimate::of(&known.parameters)?);
         let d = here.d * (known.parameters.d / there.d);
@@ -69,7 +66,6 @@ impl Guess {
     }
 
     /// The same cycle at other parameters.
-    #[must_use]
     pub fn moved_to(self, parameters: &Parameters) -> Self {
         Guess { parameters: *parameters, ..self }
     }
@@ -104,10 +100,7 @@ impl FoldEstimate {
 }
 
 /// Finds the fold next to a guess while `symbol` varies, to a relative error of `tolerance` of its clearance, and its
-/// square of the parameter; `None` where Newton's method leads nowhere.
-///
-/// # Errors
-/// [`Reason::Interrupted`].
+/// square of the parameter; `None` where Newton's method leads nowhere. Fails with [`Reason::Interrupted`].
 pub fn fold_near(
     guess: &Guess,
     symbol: Symbol,

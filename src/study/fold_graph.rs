@@ -24,13 +24,11 @@ pub struct Highest {
 
 impl Highest {
     /// Whether its multiplier is far from the 1 of a fold, or does not exist.
-    #[must_use]
     pub fn is_no_fold(&self) -> bool {
         self.point.log_multiplier.is_nan() || self.point.log_multiplier.abs() >= 1.0
     }
 
     /// What a fold says of it.
-    #[must_use]
     pub fn point(&self) -> FoldPoint {
         let cycle = self.point.closing.describe(&self.parameters, self.side);
         let grazes = self.d < -1.0 && cycle.is_stable_beyond_doubt();

@@ -16,10 +16,7 @@ const CRITICAL: f64 = -1.0 - 1e-3;
 const LARGEST: f64 = -1e6;
 
 /// The damping at which the stable cycle grazes the sticking set, and that cycle; `None` where none does below
-/// `D = -1`, or it cannot be told.
-///
-/// # Errors
-/// [`Reason::Interrupted`].
+/// `D = -1`, or it cannot be told. Fails with [`Reason::Interrupted`].
 pub fn grazing(
     parameters: &Parameters,
     limits: &Limits,

@@ -45,25 +45,21 @@ impl Length {
     pub const ZERO: Length = Length { value: 0.0, log: f64::NEG_INFINITY };
 
     /// From a length.
-    #[must_use]
     pub fn new(value: f64) -> Self {
         Length { value, log: ln(value) }
     }
 
     /// From the logarithm of a length.
-    #[must_use]
     pub fn from_log(log: f64) -> Self {
         Length { value: exp(log), log }
     }
 
     /// Difference of the logarithms, which is the relative difference where that is small.
-    #[must_use]
     pub fn apart(self, other: Self) -> f64 {
         if self.log == other.log { 0.0 } else { (self.log - other.log).abs() }
     }
 
     /// This length and another one put together.
-    #[must_use]
     pub fn plus(self, more: f64) -> Self {
         if more == 0.0 { self } else { Length::new(self.value + more) }
     }
@@ -120,7 +116,6 @@ pub struct HalfMap {
 
 impl HalfMap {
     /// The map of this field, each step within the relative `tolerance`.
-    #[must_use]
     pub fn new(field: HalfPlane, tolerance: f64) -> Self {
         let natural = (1.0 / field.d2.abs()).min(1.0 / field.d3.abs().sqrt());
         let linear_below = LINEAR_BELOW * tolerance.max(ROUNDING) * natural;
@@ -128,7 +123,6 @@ impl HalfMap {
     }
 
     /// The same map, integrated step by step wherever the state is larger than `linear_below`.
-    #[must_use]
     pub fn integrating_above(linear_below: f64, field: HalfPlane, tolerance: f64) -> Self {
         let stepper = Auto::new(tolerance);
         // A node that repels has no part worth skipping.
@@ -142,19 +136,16 @@ impl HalfMap {
     }
 
     /// Relative error of a step.
-    #[must_use]
     pub fn tolerance(&self) -> f64 {
         self.tolerance
     }
 
     /// The field.
-    #[must_use]
     pub fn field(&self) -> &HalfPlane {
         &self.field
     }
 
     /// What the swings so far cost.
-    #[must_use]
     pub fn cost(&self) -> Cost {
         Cost {
             evaluations: self.stepper.evaluations(),

@@ -109,7 +109,6 @@ impl fmt::Display for RandomKick {
 
 impl Distribution {
     /// One word.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Distribution::Normal => "normal",
@@ -148,7 +147,6 @@ impl Distribution {
 
 impl RandomKick {
     /// The largest displacement that matters.
-    #[must_use]
     pub fn reach(&self) -> f64 {
         self.q.0.abs() + self.law.reach() * self.q.1
     }
@@ -156,7 +154,6 @@ impl RandomKick {
     /// The part of the kicks that is lost: that leads out of the basin of the sticking set.
     ///
     /// The basin has to be known as far as [`RandomKick::reach`]. Quadrature as in [`Basin::captured_share`].
-    #[must_use]
     pub fn lost(&self, basin: &Basin) -> Share {
         let all = |part| Share { part, error: 0.0 };
         if basin.fates.first() != Some(&Fate::Captured) {

@@ -15,7 +15,6 @@ const LIFTED: i32 = -800;
 
 /// The parameters in units in which r has room below it, and the exponent of that unit; `None` where r is
 /// large enough, or where other parameters would lose digits in exchange.
-#[must_use]
 pub fn lifted(parameters: &Parameters) -> Option<(Parameters, i32)> {
     if parameters.r == 0.0 || exponent(parameters.r) >= TOO_SMALL {
         return None;
@@ -27,7 +26,6 @@ pub fn lifted(parameters: &Parameters) -> Option<(Parameters, i32)> {
 
 impl Cycles {
     /// The same cycles, every length multiplied by `2^unit`.
-    #[must_use]
     pub fn times_power(self, unit: i32) -> Self {
         let harmonic = |it: Harmonic| Harmonic {
             amplitude: times_power(it.amplitude, unit),
@@ -46,7 +44,6 @@ impl Cycles {
 
 impl Cycle {
     /// The same cycle, every length multiplied by `2^unit`.
-    #[must_use]
     pub fn times_power(self, unit: i32) -> Self {
         let length = |value| times_power(value, unit);
         Cycle {

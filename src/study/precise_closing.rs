@@ -46,14 +46,12 @@ pub struct Residual {
 
 impl PreciseEquation {
     /// The equation with the first swing on a given side.
-    #[must_use]
     pub fn new(parameters: &Parameters, side: Side) -> Self {
         let fields = [side, side.opposite()].map(|side| HalfPlane::new(parameters, side));
         PreciseEquation { fields, gap: Twofold::of(2.0 * parameters.r), cost: Cost::default() }
     }
 
     /// What it cost, in evaluations of a double.
-    #[must_use]
     pub fn cost(&self) -> Cost {
         Cost { evaluations: DEARER * self.cost.evaluations, ..self.cost }
     }
@@ -75,9 +73,6 @@ impl PreciseEquation {
     }
 
     /// The residual at a clearance of the first swing; `None` where a swing escapes or is captured.
-    ///
-    /// # Errors
-    /// The [`Reason`] why a swing failed.
     pub fn at(
         &mut self,
         route: Route,

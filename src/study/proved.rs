@@ -72,7 +72,6 @@ pub fn compare(found: &[Cycle], proof: &Proof) -> Result<(), Contradiction> {
 }
 
 /// The proved cycle that a cycle of the search is, if there is one.
-#[must_use]
 pub fn matching<'a>(proof: &'a Proof, cycle: &Cycle) -> Option<&'a ProvedCycle> {
     proof.cycles.iter().find(|proved| is_match(proved, cycle))
 }

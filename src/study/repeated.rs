@@ -46,10 +46,8 @@ const COLUMNS: f64 = 600.0;
 /// Kicks beyond this many spreads are too rare to matter for where kicks end.
 const FAR: f64 = 5.0;
 
-/// Follows kicks until one is lost.
-///
-/// # Errors
-/// The [`Reason`] why the basin could not be computed; [`Reason::NotApplicable`] without friction.
+/// Follows kicks until one is lost. Fails with the [`Reason`] why the basin could not be computed;
+/// [`Reason::NotApplicable`] without friction.
 pub fn repeated(
     parameters: &Parameters,
     kicks: &RandomKick,

@@ -32,7 +32,6 @@ pub struct Errors {
 
 impl Errors {
     /// These errors and `factor` times others.
-    #[must_use]
     pub fn plus(self, other: Errors, factor: f64) -> Errors {
         // Nothing times an infinite sensitivity is nothing.
         let times = |value: f64| if factor == 0.0 { 0.0 } else { factor * value };
@@ -62,7 +61,6 @@ impl Roundoff {
     /// size grew by `log_growth` there.
     ///
     /// `log_start` is the logarithm of the clearance c at which the swing started.
-    #[must_use]
     pub fn new(
         field: HalfPlane,
         tolerance: f64,
@@ -81,7 +79,6 @@ impl Roundoff {
     }
 
     /// The errors of a swing in closed form.
-    #[must_use]
     pub fn closed(log_end: f64, duration: f64, fastest: f64) -> [Errors; 2] {
         let rounding = UNIT * log_end.abs().max(1.0);
         let gain = Errors { end: 1.0, duration: 0.0, square: 0.0, fastest };
@@ -134,7 +131,6 @@ impl Roundoff {
 
     /// The errors at the end, which a closed form reaches after another `rest`: of rounding, and of a
     /// relative error 1 of the start.
-    #[must_use]
     pub fn done(mut self, field: &HalfPlane, log_end: f64, rest: f64) -> [Errors; 2] {
         let log_size = f64::from(self.unit) * std::f64::consts::LN_2;
         let log_growth = 2.0 * (log_size - field.d * rest - log_end);

@@ -78,7 +78,6 @@ impl Sweep {
     }
 
     /// Value number `index`, the first and the last of them exactly.
-    #[must_use]
     pub fn value(&self, index: usize) -> f64 {
         if index == 0 {
             return self.from;
@@ -202,25 +201,21 @@ impl Scan {
     }
 
     /// The parameters that are scanned over; the last one varies fastest.
-    #[must_use]
     pub fn over(&self) -> &[Sweep] {
         &self.over
     }
 
     /// What is measured.
-    #[must_use]
     pub fn measures(&self) -> &[Measure] {
         &self.measures
     }
 
     /// How many points there are.
-    #[must_use]
     pub fn points(&self) -> usize {
         self.over.iter().map(|sweep| sweep.count).product()
     }
 
     /// Which value of each sweep point number `index` has.
-    #[must_use]
     pub fn place(&self, index: usize) -> Vec<usize> {
         let mut place = vec![0; self.over.len()];
         let mut rest = index;
@@ -232,7 +227,6 @@ impl Scan {
     }
 
     /// The motion at point number `index`.
-    #[must_use]
     pub fn problem(&self, index: usize) -> Problem {
         let mut problem = self.base;
         for (sweep, which) in self.over.iter().zip(self.place(index)) {
@@ -258,14 +252,12 @@ impl Scan {
     }
 
     /// A row that could not be measured at all.
-    #[must_use]
     pub fn failed(&self, reason: String) -> ScanRow {
         let values = vec![Value::Nothing; self.measured().len()];
         ScanRow { values, reason: Some(reason), cost: Cost::default() }
     }
 
     /// The columns that are measured, in their order.
-    #[must_use]
     pub fn measured(&self) -> Vec<&'static str> {
         self.measures.iter().flat_map(|measure| measure.spec().columns).copied().collect()
     }
@@ -273,7 +265,6 @@ impl Scan {
     /// All that the row of point number `index` depends on, by name.
     ///
     /// With it every row says for itself what it is: rows of different scans can stand in one file.
-    #[must_use]
     pub fn inputs(&self, index: usize) -> Vec<(&'static str, Value)> {
         let Problem { parameters, initial, until, method, tolerance, step, epsilon } =
             self.problem(index);

@@ -37,13 +37,11 @@ pub struct Node {
 
 impl Node {
     /// From the values of both functions.
-    #[must_use]
     pub fn new(at: f64, rise: f64, fall: f64, slope: f64) -> Self {
         Node { at, rise, fall, difference: rise - fall, slope }
     }
 
     /// `rise - fall`: positive outside the domain of `rise`, negative outside that of `fall`.
-    #[must_use]
     pub fn value(&self) -> f64 {
         self.difference
     }
@@ -60,9 +58,6 @@ pub type Bracket = (Node, Node);
 ///
 /// `function(at, fine)` may be off by `blur` where it is not asked to be fine; where that is too much to decide, it
 /// is asked again. A `blur` of 0 asks it to be fine from the beginning.
-///
-/// # Errors
-/// Whatever the function fails with.
 pub fn search<E>(
     low: Node,
     high: Node,

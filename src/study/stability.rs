@@ -35,7 +35,6 @@ impl Basin {
     ///
     /// Adaptive Gauss-Kronrod quadrature over the displacements inside the edge. The error is ten times the sum of the
     /// differences between its two rules.
-    #[must_use]
     pub fn captured_share(&self, window: &Window) -> Share {
         let whole = |part| Share { part, error: 0.0 };
         if self.fates.first() != Some(&Fate::Captured) {

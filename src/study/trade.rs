@@ -85,7 +85,6 @@ fn ladder(problem: &Problem, method: Method) -> Vec<Problem> {
 
 impl Tried {
     /// Judges a computed motion.
-    #[must_use]
     pub fn new(found: &Trajectory, reference: &Reference) -> Self {
         Tried {
             problem: found.problem,
@@ -98,13 +97,11 @@ impl Tried {
     }
 
     /// The error, where there is one.
-    #[must_use]
     pub fn error(&self) -> Option<f64> {
         self.deviation.ok().map(|deviation| deviation.error)
     }
 
     /// The decimal logarithms of evaluations and error; `None` where one of them is none or zero.
-    #[must_use]
     pub fn place(&self) -> Option<(f64, f64)> {
         #[expect(clippy::cast_precision_loss, reason = "counts far below 2^53")]
         let evaluations = self.cost.evaluations as f64;
@@ -113,7 +110,6 @@ impl Tried {
     }
 
     /// Whether the motion ends as it should: right kind of outcome, right number of half swings.
-    #[must_use]
     pub fn agrees(&self) -> bool {
         self.deviation.is_ok_and(|deviation| deviation.agrees)
     }
@@ -122,10 +118,8 @@ impl Tried {
 impl Trade {
     /// Computes every row.
     ///
-    /// A method that gives up for want of budget is not asked for more digits.
-    ///
-    /// # Errors
-    /// [`Reason`] where there is no reference, or when interrupted.
+    /// A method that gives up for want of budget is not asked for more digits. Fails with [`Reason`] where there is
+    /// no reference, or when interrupted.
     pub fn of(problem: &Problem, limits: &Limits) -> Result<Self, Reason> {
         let reference = Reference::of(problem, limits)?;
         let mut rows = Vec::new();
@@ -149,13 +143,11 @@ impl Trade {
     }
 
     /// Which rows stand for the method and tolerance of the problem.
-    #[must_use]
     pub fn is_own(&self, row: &Tried) -> bool {
         row.problem.method == self.problem.method && row.problem.setting() == self.problem.setting()
     }
 
     /// The row of a problem's method whose accuracy is nearest to the problem's.
-    #[must_use]
     pub fn nearest_to(&self, problem: &Problem) -> Option<&Tried> {
         let far = |row: &&Tried| ln(row.problem.setting() / problem.setting()).abs();
         let rows = self.rows.iter().filter(|row| row.problem.method == problem.method);
@@ -164,7 +156,6 @@ impl Trade {
     }
 
     /// The cost of all rows together.
-    #[must_use]
     pub fn cost(&self) -> Cost {
         let mut sum = self.reference.cost;
         for row in &self.rows {
@@ -174,7 +165,6 @@ impl Trade {
     }
 
     /// Evaluations of each row, to be compared as costs.
-    #[must_use]
     pub fn evaluations(&self) -> Vec<f64> {
         #[expect(clippy::cast_precision_loss, reason = "counts far below 2^53")]
         self.rows.iter().map(|row| row.cost.evaluations as f64).collect()
@@ -184,7 +174,6 @@ impl Trade {
     ///
     /// No other row that ends as the motion does has a smaller error for the same or less, or the same
     /// error for less. A row that ends otherwise is never among them.
-    #[must_use]
     pub fn front(&self, costs: &[f64]) -> Vec<bool> {
         let judged: Vec<Option<(f64, f64)>> = self
             .rows

@@ -28,7 +28,6 @@ const WEAK: f64 = 1e-9;
 /// Equation (42) with its one root, for `D3 <= 0`, or for `r = 0`; the turning points are at
 /// `A0 -+ A - D2 A^2/6` with A0 of equation (40). Guarantee: relative errors of a few units in the last
 /// place.
-#[must_use]
 pub fn weak_closing(parameters: &Parameters) -> Option<Closing> {
     let Parameters { d, d2, d3, r } = *parameters;
     let one_zero = if r > 0.0 { d3 <= 0.0 } else { d * d3 < 0.0 };
@@ -54,7 +53,6 @@ pub fn weak_closing(parameters: &Parameters) -> Option<Closing> {
 /// way on every motion.
 ///
 /// It does where `r + 2 D w + D3 w^3` has the same sign for all speeds w.
-#[must_use]
 pub fn is_one_way(parameters: &Parameters) -> bool {
     /// Beyond rounding.
     const CLEARLY: f64 = 1.0 - 1e-12;

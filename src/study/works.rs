@@ -13,7 +13,6 @@ use crate::oscillator::{Ledger, Parameters, State};
 /// The ledger of one turn of a cycle; `residual` is what the works fail to cancel by.
 ///
 /// `None` for a border that is not closed.
-#[must_use]
 pub fn works(border: &Border, parameters: &Parameters) -> Option<Ledger> {
     let Parameters { d, d2, d3, r } = *parameters;
     let [left, right] = [border.upper.clearance()?.value, border.lower.clearance()?.value];
@@ -39,7 +38,6 @@ pub fn works(border: &Border, parameters: &Parameters) -> Option<Ledger> {
 ///
 /// Between two samples the motion is the cubic through both ([`Trajectory::at`]); what its works fail to
 /// account for is the residual, as in the ledger of the whole motion, which is exact.
-#[must_use]
 pub fn works_until(motion: &Trajectory, until: f64) -> Option<Ledger> {
     /// Abscissae and weights of Gauss and Legendre's rule on 0 .. 1, exact to degree 5.
     const NODES: [(f64, f64); 3] = [

@@ -75,10 +75,7 @@ impl Environment {
         }
     }
 
-    /// Whether the explorer can run here.
-    ///
-    /// # Errors
-    /// The [`Refusal`] to show; the exit code is 2.
+    /// Whether the explorer can run here. Fails with the [`Refusal`] to show; the exit code is 2.
     pub fn admit(&self) -> Result<(), Refusal> {
         if !self.input_is_terminal {
             Err(Refusal::NotATerminal("standard input"))

@@ -70,10 +70,7 @@ pub struct Guard {
 }
 
 impl Guard {
-    /// A guard for the terminal at standard output, not yet taken.
-    ///
-    /// # Errors
-    /// If standard output is closed.
+    /// A guard for the terminal at standard output, not yet taken. Fails if standard output is closed.
     pub fn new() -> io::Result<Guard> {
         let out = File::from(io::stdout().as_fd().try_clone_to_owned()?);
         Ok(Guard { state: Arc::default(), out: Arc::new(out) })
@@ -84,10 +81,8 @@ impl Guard {
         Arc::clone(&self.out)
     }
 
-    /// Takes the terminal: raw mode, then [`MODES`]. Does nothing if it is taken.
-    ///
-    /// # Errors
-    /// If the terminal cannot be switched to raw mode or written to; then it is as it was.
+    /// Takes the terminal: raw mode, then [`MODES`]. Does nothing if it is taken. Fails if the terminal cannot be
+    /// switched to raw mode or written to; then it is as it was.
     pub fn enter(&self) -> io::Result<()> {
         let mut state = self.state();
         if state.taken {
@@ -100,10 +95,8 @@ impl Guard {
         written.inspect_err(|_| self.leave())
     }
 
-    /// Turns reports of the mouse on or off; a terminal that is not taken gets them when it is.
-    ///
-    /// # Errors
-    /// If the terminal cannot be written to.
+    /// Turns reports of the mouse on or off; a terminal that is not taken gets them when it is. Fails if the
+    /// terminal cannot be written to.
     pub fn mouse(&self, on: bool) -> io::Result<()> {
         let mut state = self.state();
         if state.taken && state.mouse != on {

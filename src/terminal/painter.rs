@@ -95,9 +95,6 @@ impl<W: Write> Painter<W> {
     }
 
     /// Writes a control sequence that draws nothing, outside of frames.
-    ///
-    /// # Errors
-    /// The error of writing to the terminal.
     pub fn control(&mut self, sequence: &str) -> io::Result<()> {
         self.out.write_all(sequence.as_bytes())?;
         self.out.flush()?;

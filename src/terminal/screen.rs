@@ -30,10 +30,7 @@ pub struct Traffic {
 }
 
 impl<W: Write> Screen<W> {
-    /// A screen of this size on a terminal that was just taken.
-    ///
-    /// # Errors
-    /// None that a [`Painter`] gives; the signature is ratatui's.
+    /// A screen of this size on a terminal that was just taken. Never fails; the signature is ratatui's.
     pub fn new(out: W, size: Size) -> io::Result<Screen<W>> {
         let terminal = Terminal::new(Painter::new(out, known(size)))?;
         Ok(Screen { terminal, pacing: Pacing::default(), frames: 0 })
@@ -41,9 +38,6 @@ impl<W: Write> Screen<W> {
 
     /// Asks the terminal whether it answers, before there is a picture to wait for; and what its background
     /// is, if that matters. No picture waits for that: the first is there before a slow line has answered.
-    ///
-    /// # Errors
-    /// The error of writing to the terminal.
     pub fn probe(&mut self, now: Instant, background: bool) -> io::Result<()> {
         let question = if background { BACKGROUND } else { "" };
         self.terminal.backend_mut().control(&format!("{question}{REQUEST}"))?;
@@ -67,9 +61,6 @@ impl<W: Write> Screen<W> {
     }
 
     /// Draws a frame; one that looks like the last sends nothing.
-    ///
-    /// # Errors
-    /// The error of writing to the terminal.
     pub fn draw(&mut self, now: Instant, picture: impl FnOnce(&mut Frame)) -> io::Result<()> {
         let before = self.traffic().bytes;
         let asks = self.pacing.asks();
@@ -93,9 +84,6 @@ impl<W: Write> Screen<W> {
     }
 
     /// Makes the next frame send everything: something else may have written to the terminal.
-    ///
-    /// # Errors
-    /// The error of writing to the terminal.
     pub fn repaint(&mut self, size: Size) -> io::Result<()> {
         let size = known(size);
         let painter = self.terminal.backend_mut();
@@ -106,9 +94,6 @@ impl<W: Write> Screen<W> {
     }
 
     /// Writes a sequence that draws nothing, such as one for the clipboard.
-    ///
-    /// # Errors
-    /// The error of writing to the terminal.
     pub fn control(&mut self, sequence: &str) -> io::Result<()> {
         self.terminal.backend_mut().control(sequence)
     }

@@ -145,10 +145,8 @@ impl Look {
     }
 
     /// The look that a theme file describes, in colours of one depth for all and, where that is sixteen, of
-    /// another for what they have no colour for.
-    ///
-    /// # Errors
-    /// [`ThemeError`] names the line, the role or the word that is wrong.
+    /// another for what they have no colour for. Fails with a [`ThemeError`] that names the line, the role or the
+    /// word that is wrong.
     pub fn from_text(
         text: &str,
         glyphs: Glyphs,

@@ -28,7 +28,6 @@ pub struct Jet {
 }
 
 /// The number of a harmonic as a factor.
-#[must_use]
 #[expect(clippy::cast_precision_loss, reason = "numbers of harmonics are small")]
 pub fn factor(k: usize) -> f64 {
     k as f64
@@ -36,44 +35,37 @@ pub fn factor(k: usize) -> f64 {
 
 impl Fourier {
     /// The zero function, with room for harmonics up to `degree`.
-    #[must_use]
     pub fn zero(degree: usize) -> Self {
         Fourier { coefficients: vec![Complex::default(); degree + 1] }
     }
 
     /// Number of the highest harmonic that the series has room for.
-    #[must_use]
     pub fn degree(&self) -> usize {
         self.coefficients.len().saturating_sub(1)
     }
 
     /// `c_k` for every whole `k`; 0 beyond the degree.
-    #[must_use]
     pub fn coefficient(&self, k: isize) -> Complex<f64> {
         let known = self.coefficients.get(k.unsigned_abs()).copied().unwrap_or_default();
         if k < 0 { known.conj() } else { known }
     }
 
     /// Mean over a turn.
-    #[must_use]
     pub fn mean(&self) -> f64 {
         self.coefficient(0).re
     }
 
     /// Factor `a_k` of `cos(k t)`, `k > 0`.
-    #[must_use]
     pub fn cosine(&self, k: usize) -> f64 {
         2.0 * self.coefficient(k.cast_signed()).re
     }
 
     /// Factor `b_k` of `sin(k t)`, `k > 0`.
-    #[must_use]
     pub fn sine(&self, k: usize) -> f64 {
         -2.0 * self.coefficient(k.cast_signed()).im
     }
 
     /// The derivative with respect to the angle.
-    #[must_use]
     pub fn derivative(&self) -> Self {
         let terms = self.coefficients.iter().enumerate().skip(1);
         let turned = terms.map(|(k, c)| Complex::new(-c.im, c.re) * factor(k));
@@ -81,7 +73,6 @@ impl Fourier {
     }
 
     /// The product with another series, cut off beyond harmonic `degree`; what is kept is not aliased.
-    #[must_use]
     pub fn product(&self, other: &Self, degree: usize) -> Self {
         let (own, theirs) = (self.degree().cast_signed(), other.degree().cast_signed());
         let coefficient = |m: usize| {
@@ -93,14 +84,12 @@ impl Fourier {
     }
 
     /// The function with every coefficient passed through `change`.
-    #[must_use]
     pub fn map(&self, change: impl Fn(f64) -> f64) -> Self {
         let both = |c: &Complex<f64>| Complex::new(change(c.re), change(c.im));
         Fourier { coefficients: self.coefficients.iter().map(both).collect() }
     }
 
     /// Value and derivatives at an angle.
-    #[must_use]
     pub fn at(&self, angle: f64) -> Jet {
         let [value, slope, curvature] = self.derivatives(angle);
         Jet { value, slope, curvature }
@@ -109,7 +98,6 @@ impl Fourier {
     /// Derivatives number 0, 1, .., `ORDER - 1` at an angle.
     ///
     /// Rounding of the value: at most about `f64::EPSILON * (abs(mean) + bound(1))`.
-    #[must_use]
     pub fn derivatives<const ORDER: usize>(&self, angle: f64) -> [f64; ORDER] {
         let (sin, cos) = sin_cos(angle);
         let unit = Complex::new(cos, sin);
@@ -131,7 +119,6 @@ impl Fourier {
     }
 
     /// A bound of derivative number `derivative` that holds at every angle (of `f - c_0`, for number 0).
-    #[must_use]
     pub fn bound(&self, derivative: usize) -> f64 {
         let terms = self.coefficients.iter().enumerate().skip(1);
         let power = i32::try_from(derivative).unwrap_or(i32::MAX);

@@ -75,7 +75,6 @@ impl Unknown {
 
 impl Basis {
     /// The harmonics up to `count` that these parameters ask for.
-    #[must_use]
     pub fn new(parameters: &Parameters, count: usize) -> Self {
         Basis { count, odd: parameters.d2 == 0.0 }
     }
@@ -87,13 +86,11 @@ impl Basis {
     }
 
     /// Number of unknowns, and of equations.
-    #[must_use]
     pub fn unknowns(self) -> usize {
         self.entries().count()
     }
 
     /// The ansatz with `part` of a change of the unknowns added, and with room for all harmonics.
-    #[must_use]
     pub fn moved(self, from: &Ansatz, changes: &DVector<f64>, part: f64) -> Ansatz {
         let mut to = self.widened(from);
         for (entry, change) in self.entries().zip(changes.iter()) {
@@ -109,7 +106,6 @@ impl Basis {
     }
 
     /// The ansatz with room for all harmonics; new ones are zero.
-    #[must_use]
     pub fn widened(self, from: &Ansatz) -> Ansatz {
         let mut to = from.clone();
         to.q.coefficients.resize(self.count + 1, Complex::default());
@@ -153,7 +149,6 @@ impl ChangeWaves {
 
 impl Residual {
     /// The residual of an ansatz that has room for the harmonics of the basis.
-    #[must_use]
     pub fn new(parameters: &Parameters, basis: Basis, ansatz: &Ansatz) -> Self {
         let p = ansatz.q.derivative();
         let square = p.product(&p, 2 * basis.count);
@@ -172,20 +167,17 @@ impl Residual {
     }
 
     /// Number of instants in a turn at which the ansatz stands on `v = 0`; two at a cycle.
-    #[must_use]
     pub fn crossings(&self) -> usize {
         self.crossings.len()
     }
 
     /// What every equation leaves.
-    #[must_use]
     pub fn values(&self) -> DVector<f64> {
         let values = self.basis.entries().map(|entry| entry.of(self.coefficient(entry.harmonic())));
         DVector::from_iterator(self.basis.unknowns(), values)
     }
 
     /// The largest of what the equations leave, relative to the largest term in them.
-    #[must_use]
     pub fn relative(&self) -> f64 {
         let Parameters { d, d2, d3, r } = self.parameters;
         let eta = self.frequency;
@@ -204,7 +196,6 @@ impl Residual {
     }
 
     /// Derivatives of every equation (rows) by every unknown (columns).
-    #[must_use]
     pub fn jacobian(&self) -> DMatrix<f64> {
         let damping = self.damping_slope();
         let size = self.basis.unknowns();

@@ -292,14 +292,12 @@ fn extremes(function: &Fourier) -> (f64, f64) {
 
 impl HarmonicCycle {
     /// Half of what lies between the turning points.
-    #[must_use]
     pub fn amplitude(&self) -> f64 {
         0.5 * (self.q_max - self.q_min)
     }
 
     /// The closed curve in the phase plane, with `points` points evenly spaced in time and the first one
     /// repeated at the end.
-    #[must_use]
     pub fn curve(&self, points: usize) -> Vec<State> {
         let state = |index: usize| {
             let jet = self.displacement.at(TAU * (factor(index % points) / factor(points)));

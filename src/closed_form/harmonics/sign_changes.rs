@@ -23,7 +23,6 @@ pub struct SignChange {
 
 impl SignChange {
     /// `+1` where the function rises, `-1` where it falls.
-    #[must_use]
     pub fn direction(&self) -> f64 {
         if self.rising { 1.0 } else { -1.0 }
     }
@@ -35,7 +34,6 @@ impl SignChange {
 /// is by `f64::EPSILON` times the sum of `k abs(c_k)`. A function that is constant, or whose coefficients
 /// leave the range of floating point, has none. Cost: some evaluations for each harmonic; flat places
 /// cost more, at most a few hundred for each harmonic.
-#[must_use]
 pub fn sign_changes(function: &Fourier) -> Vec<SignChange> {
     /// Pieces of the first cut, for each harmonic: so many leave little to be cut again.
     const PIECES: usize = 2;

@@ -27,7 +27,6 @@ impl Collocation {
     /// For `v' = -k (v - t^(S+1)) + (S + 1) t^S`, where the solution of order `2 S - 1` would be exact without
     /// damping (Prothero and Robinson's problem; Hairer and Wanner, section IV.15). With k h damping times
     /// in a step this part grows as `(k h)^(S-1)` towards S. The formula is good to a fifth.
-    #[must_use]
     pub fn reduced_order(&self, damping_times: f64) -> f64 {
         let growth = damping_times / (damping_times + self.stiff);
         #[expect(clippy::cast_precision_loss, reason = "at most 7")]

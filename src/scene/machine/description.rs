@@ -27,10 +27,8 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// The dimensionless oscillator and its units.
-    ///
-    /// # Errors
-    /// [`BeltError`] where the machine has no dimensionless form.
+    /// The dimensionless oscillator and its units. Fails with [`BeltError`] where the machine has no dimensionless
+    /// form.
     pub fn reduce(&self) -> Result<Reduced, BeltError> {
         self.belt.reduce()
     }

@@ -162,10 +162,8 @@ impl Number {
 }
 
 /// Reads a machine; `name` is the name by which it is opened, `file` the one in error messages, and
-/// `fetch` gets the text of a table that the file names, or says why not.
-///
-/// # Errors
-/// [`Misread`] with the place and what is allowed there.
+/// `fetch` gets the text of a table that the file names, or says why not. Fails with [`Misread`] with the place and
+/// what is allowed there.
 pub fn parse(
     name: &str,
     file: &str,
@@ -299,10 +297,7 @@ pub(super) fn quantity_as(
         .map_err(|message| Complaint { at: given.span(), message: named(name, message) })
 }
 
-/// A measured value as a value of this quantity, within its range.
-///
-/// # Errors
-/// One line that says what is allowed.
+/// A measured value as a value of this quantity, within its range. Fails with one line that says what is allowed.
 pub fn value_of(quantity: Quantity, read: &Measured) -> Result<f64, String> {
     let row = quantity.spec();
     let value = read.as_a(row.dimension, row.unit)?;

@@ -51,10 +51,8 @@ pub fn is_mode(text: &str) -> bool {
 pub const NO_BELT: &str =
     "a vibration mode has no belt to be drawn; `hopfscope belt FILE` answers about it";
 
-/// Reads a mode; `name` is the name by which it is opened, `file` the one in error messages.
-///
-/// # Errors
-/// [`Misread`] with the place and what is allowed there.
+/// Reads a mode; `name` is the name by which it is opened, `file` the one in error messages. Fails with [`Misread`]
+/// with the place and what is allowed there.
 pub fn parse(name: &str, file: &str, text: &str) -> Result<Mode, Misread> {
     let read: ModeFile = misread::toml(file, text)?;
     mode(name, &read).map_err(|complaint| complaint.in_file(file, text))

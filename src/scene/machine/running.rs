@@ -21,10 +21,8 @@ pub struct Running<'a> {
 }
 
 impl<'a> Running<'a> {
-    /// The machine with its belt at `speed` m/s, whatever speed it has of its own.
-    ///
-    /// # Errors
-    /// One line that says what is allowed: the range of speeds, or what the friction law lacks there.
+    /// The machine with its belt at `speed` m/s, whatever speed it has of its own. Fails with one line that says
+    /// what is allowed: the range of speeds, or what the friction law lacks there.
     pub fn at(machine: &'a Machine, speed: f64) -> Result<Self, String> {
         let speed = Quantity::BeltSpeed.check(speed).map_err(|refused| refused.to_string())?;
         let reduced = machine.belt.reduce_at(speed).map_err(|refused| refused.to_string())?;

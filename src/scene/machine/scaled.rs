@@ -34,10 +34,7 @@ impl From<ScaledMachine> for Machine {
 }
 
 impl ScaledMachine {
-    /// Reduces a machine.
-    ///
-    /// # Errors
-    /// [`BeltError`] where it has no dimensionless form.
+    /// Reduces a machine. Fails with [`BeltError`] where it has no dimensionless form.
     pub fn new(machine: Machine) -> Result<Self, BeltError> {
         let reduced = machine.reduce()?;
         Ok(ScaledMachine { machine, reduced })

@@ -83,10 +83,7 @@ impl Setting {
         self.others.iter().any(Option::is_some)
     }
 
-    /// The same, if all of its numbers are within their ranges.
-    ///
-    /// # Errors
-    /// The first one that is not.
+    /// The same, if all of its numbers are within their ranges. Fails with the first one that is not.
     pub fn checked(self) -> Result<Self, Outside> {
         for row in &QUANTITIES {
             self.get(row.quantity).map_or(Ok(0.0), |value| row.quantity.check(value))?;

@@ -6,10 +6,7 @@ use crate::oscillator::belt::Dimension;
 /// Reads a table: a velocity and a coefficient of friction in each line, between them a semicolon or a tab
 /// (then numbers may have a decimal comma) or a comma. `#` begins a comment, and a line of names may come
 /// first. Velocities are in m/s unless they, or the name of their column in brackets (`v [mm/s]`), say
-/// otherwise.
-///
-/// # Errors
-/// One line that names the file, the line and what is expected there.
+/// otherwise. Fails with one line that names the file, the line and what is expected there.
 pub fn table(file: &str, text: &str) -> Result<Vec<(f64, f64)>, String> {
     let mut unit = String::new();
     let mut points = Vec::new();

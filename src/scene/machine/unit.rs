@@ -17,10 +17,8 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// The value as a quantity of this dimension; `unit` is its SI unit, for the message.
-    ///
-    /// # Errors
-    /// One line that says which unit is expected.
+    /// The value as a quantity of this dimension; `unit` is its SI unit, for the message. Fails with one line that
+    /// says which unit is expected.
     pub fn as_a(&self, dimension: Dimension, unit: &str) -> Result<f64, String> {
         if self.dimension.is_none_or(|written| written == dimension) {
             Ok(self.value)
@@ -62,10 +60,7 @@ const PREFIXES: [(char, f64); 9] = [
 /// Largest exponent that is read.
 const LARGEST_POWER: i8 = 9;
 
-/// Reads a number with or without a unit.
-///
-/// # Errors
-/// One line that says what cannot be read.
+/// Reads a number with or without a unit. Fails with one line that says what cannot be read.
 pub fn measured(text: &str) -> Result<Measured, String> {
     let text = text.trim();
     let end = number_end(text);
@@ -89,10 +84,8 @@ pub struct Toleranced {
     pub half_width: f64,
 }
 
-/// Reads a number with a tolerance: `1 N +- 0.2 N`, `1 N +- 5 %`, `0.8 N .. 1.2 N`, or one that is exact.
-///
-/// # Errors
-/// One line that says what cannot be read.
+/// Reads a number with a tolerance: `1 N +- 0.2 N`, `1 N +- 5 %`, `0.8 N .. 1.2 N`, or one that is exact. Fails
+/// with one line that says what cannot be read.
 pub fn toleranced(text: &str) -> Result<Toleranced, String> {
     let two = |one: &str, other: &str| {
         let (one, other) = (measured(one)?, measured(other)?);

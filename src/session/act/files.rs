@@ -237,10 +237,7 @@ fn none_interrupted(session: &mut Session) -> Vec<Effect> {
     refuse(session, "no session was interrupted")
 }
 
-/// The tour that comes with the program, as a keystroke file.
-///
-/// # Errors
-/// One line; a test plays the tour.
+/// The tour that comes with the program, as a keystroke file. Fails with one line; a test plays the tour.
 pub fn tour_script() -> Result<Script, String> {
     replay::parse(TOUR).map_err(|error| format!("the tour: {error}"))
 }

@@ -97,10 +97,7 @@ fn columns(text: &str) -> Result<(Option<Column>, Option<Column>), String> {
     Ok((column(time)?, column(displacement)?))
 }
 
-/// Reads the record.
-///
-/// # Errors
-/// One line: what is wrong, where, and what is allowed.
+/// Reads the record. Fails with one line: what is wrong, where, and what is allowed.
 pub(in crate::session) fn opened(path: &Path, words: &str, text: &str) -> Result<Opened, String> {
     let Said { inertia, unit, reading, choice, loss } = said(words)?;
     let mut record = parse(text.as_bytes(), &reading).map_err(|error| error.to_string())?;

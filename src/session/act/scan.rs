@@ -231,10 +231,7 @@ pub fn save(session: &mut Session, path: PathBuf) -> Vec<Effect> {
     vec![Effect::SaveScan { path, scan, rows }]
 }
 
-/// `NAME=FROM:TO:COUNT .. MEASURE,..`
-///
-/// # Errors
-/// One line that says what is wrong and what is allowed.
+/// `NAME=FROM:TO:COUNT .. MEASURE,..`. Fails with one line that says what is wrong and what is allowed.
 pub fn scan(session: &mut Session, rest: &str) -> Result<Vec<Effect>, String> {
     let (sweeps, measures): (Vec<&str>, Vec<&str>) =
         rest.split_whitespace().partition(|word| word.contains('='));
@@ -244,10 +241,7 @@ pub fn scan(session: &mut Session, rest: &str) -> Result<Vec<Effect>, String> {
     Ok(start(session, scan))
 }
 
-/// The file for the rows.
-///
-/// # Errors
-/// One line, where there is no scan.
+/// The file for the rows. Fails with one line, where there is no scan.
 pub fn save_to(session: &mut Session, rest: &str) -> Result<Vec<Effect>, String> {
     if session.scanned.is_none() {
         return Err("there is no scan".to_owned());

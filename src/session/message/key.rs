@@ -116,10 +116,7 @@ impl Key {
         typed.map_or_else(|| self.to_string(), String::from)
     }
 
-    /// Reads what stands between angle brackets.
-    ///
-    /// # Errors
-    /// [`NoKey`] with the nearest name.
+    /// Reads what stands between angle brackets. Fails with [`NoKey`] with the nearest name.
     pub fn named(text: &str) -> Result<Self, NoKey> {
         let (mut control, mut alt, mut shift) = (false, false, false);
         let mut rest = text;

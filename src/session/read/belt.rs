@@ -95,10 +95,8 @@ impl Session {
         })
     }
 
-    /// What is not known exactly, with a tolerance of a number of the machine, in SI units.
-    ///
-    /// # Errors
-    /// One line, where no parameter stands for that number.
+    /// What is not known exactly, with a tolerance of a number of the machine, in SI units. Fails with one line,
+    /// where no parameter stands for that number.
     pub(in crate::session) fn with_tolerance(
         &self,
         setup: &Setup,
@@ -116,10 +114,7 @@ impl Session {
         setup.doubt.with_half_width(symbol, half_width / running.scale(symbol))
     }
 
-    /// What 1 of r and w stands for, in newtons.
-    ///
-    /// # Errors
-    /// One line, where the scene has no machine.
+    /// What 1 of r and w stands for, in newtons. Fails with one line, where the scene has no machine.
     pub(in crate::session) fn unit_of_force(&self, setup: &Setup) -> Result<f64, String> {
         let fitted = self.fitted().and_then(|fitted| fitted.fit.units());
         if let Some(units) = fitted {
@@ -141,9 +136,7 @@ impl Session {
     }
 
     /// A motion of the machine with another number: from the same place in metres, with the same doubt in newtons.
-    ///
-    /// # Errors
-    /// One line, where there is no machine, or none with that number.
+    /// Fails with one line, where there is no machine, or none with that number.
     pub(in crate::session) fn with_quantity(
         &self,
         setup: &Setup,

@@ -8,10 +8,7 @@ use crate::study::basin;
 use crate::study::measure::Measure;
 use crate::study::scan::{Scan, Sweep};
 
-/// The scan that is typed, of the motion on show.
-///
-/// # Errors
-/// One line that says what is wrong and what is allowed.
+/// The scan that is typed, of the motion on show. Fails with one line that says what is wrong and what is allowed.
 pub fn typed(form: &Form, session: &Session) -> Result<Scan, String> {
     let texts = form.inputs.each_ref().map(|input| input.text().trim().replace('\u{2212}', "-"));
     let [name, from, to, count, second, from2, to2, count2, measures] = &texts;
@@ -30,10 +27,8 @@ pub fn typed(form: &Form, session: &Session) -> Result<Scan, String> {
     scan_of(session, over, measures)
 }
 
-/// A scan of the motion on show; the window of `stability` is that of a phase plane on show.
-///
-/// # Errors
-/// One line that says what is wrong and what is allowed.
+/// A scan of the motion on show; the window of `stability` is that of a phase plane on show. Fails with one line
+/// that says what is wrong and what is allowed.
 pub fn scan_of(session: &Session, over: Vec<Sweep>, measures: &str) -> Result<Scan, String> {
     let measures = measures.split(',').map(|name| Measure::named(name.trim()));
     let measures = measures.collect::<Result<Vec<_>, _>>()?;

@@ -59,10 +59,7 @@ const DIRECTIVES: [(&str, Reading); 14] = [
     ("farther", |rest| mouse::read(Gesture::Farther, rest)),
 ];
 
-/// Reads a whole keystroke file.
-///
-/// # Errors
-/// [`BadScript`] with the place of the first mistake.
+/// Reads a whole keystroke file. Fails with [`BadScript`] with the place of the first mistake.
 pub fn parse(text: &str) -> Result<Script, BadScript> {
     let mut steps = Vec::new();
     for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {

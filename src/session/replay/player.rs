@@ -98,10 +98,8 @@ impl Player {
     }
 
     /// What to do next, given whether the session is idle and, if asked, what the screen shows: its
-    /// rows, separated by newlines.
-    ///
-    /// # Errors
-    /// [`Unmet`] if the screen does not show what it should. The player then stands behind that step.
+    /// rows, separated by newlines. Fails with [`Unmet`] if the screen does not show what it should. The player
+    /// then stands behind that step.
     pub fn next(&mut self, idle: bool, screen: impl Fn() -> String) -> Result<Action, Unmet> {
         loop {
             let Some((Located { line, column, step }, depth)) = self.steps.front().cloned() else {

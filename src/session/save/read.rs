@@ -24,10 +24,8 @@ use crate::session::state::session::{MOST_HARMONICS, Session};
 use crate::session::state::setup::Setup;
 use crate::session::state::starts::{MOST_MOTIONS, Starts};
 
-/// Makes a session what a file says. Look, keys and size stay, and so do answers, as far as they fit.
-///
-/// # Errors
-/// One line that says what is wrong; the session is as it was.
+/// Makes a session what a file says. Look, keys and size stay, and so do answers, as far as they fit. Fails with
+/// one line that says what is wrong; the session is as it was.
 pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     let file = read(text)?;
     let scene = scene(file.present.scene)?;
@@ -95,10 +93,8 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// What is in a saved session, in a line: its scene, what was changed, and how often.
-///
-/// # Errors
-/// One line that says what is wrong.
+/// What is in a saved session, in a line: its scene, what was changed, and how often. Fails with one line that says
+/// what is wrong.
 pub fn summary(text: &str) -> Result<String, String> {
     let file = read(text)?;
     let scene = scene(file.present.scene)?;

@@ -13,10 +13,8 @@ use crate::session::state::plot::{Pane, Plot};
 use crate::session::state::session::Session;
 use crate::session::state::setup::Setup;
 
-/// The session as the text of a file.
-///
-/// # Errors
-/// One line, if the text cannot be made; no session is known for which that is so.
+/// The session as the text of a file. Fails with one line, if the text cannot be made; no session is known for
+/// which that is so.
 pub fn text(session: &Session) -> Result<String, String> {
     let (past, future) = session.history.parts();
     let left = session.marks.left.as_ref().map(|mark| &mark.setup);

@@ -56,10 +56,7 @@ impl Doubt {
         self.held.contains(&true)
     }
 
-    /// The same, if no number of it is negative.
-    ///
-    /// # Errors
-    /// One line that names the number.
+    /// The same, if no number of it is negative. Fails with one line that names the number.
     pub fn checked(self) -> Result<Self, String> {
         let mut all = self.half_widths.into_iter().chain([self.disturbance]);
         match all.find(|it| !(it.is_finite() && *it >= 0.0)) {
@@ -75,10 +72,7 @@ impl Doubt {
         UNSURE.iter().position(|it| *it == symbol).map_or(0.0, |place| self.half_widths[place])
     }
 
-    /// The same with another half width of a parameter.
-    ///
-    /// # Errors
-    /// One line, where the number is no parameter.
+    /// The same with another half width of a parameter. Fails with one line, where the number is no parameter.
     pub fn with_half_width(mut self, symbol: Symbol, half: f64) -> Result<Self, String> {
         let place = UNSURE.iter().position(|it| *it == symbol).ok_or_else(|| {
             format!("{symbol} is the start of a motion; only D, D2, D3, r have half widths")
@@ -114,10 +108,8 @@ impl Doubt {
         Doubt { disturbance: disturbance / running.reduced.units.force, ..doubt }
     }
 
-    /// The same as tolerances of the machine on show; those of its other numbers are the file's.
-    ///
-    /// # Errors
-    /// One line, where a number of no part of the machine has a half width.
+    /// The same as tolerances of the machine on show; those of its other numbers are the file's. Fails with one
+    /// line, where a number of no part of the machine has a half width.
     pub fn on_machine(&self, running: &Running, belt: &Belt) -> Result<Tolerances, String> {
         if self.half_width(Symbol::D2) > 0.0 {
             return Err("no part of the machine sets D2 alone: it has no half width".to_owned());

@@ -93,11 +93,8 @@ impl Keymap {
         self.bindings.retain(|(at, _), bound| *at != context || bound.command != command);
     }
 
-    /// Gives a key to a command in a context.
-    ///
-    /// # Errors
-    /// [`Unbindable`] if the key means something else where this context holds, or types a character
-    /// there.
+    /// Gives a key to a command in a context. Fails with [`Unbindable`] if the key means something else where this
+    /// context holds, or types a character there.
     pub fn bind(
         &mut self,
         context: Context,

@@ -24,7 +24,6 @@ pub enum Certainty {
 
 impl Certainty {
     /// One word for scripts and tables.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Certainty::Proved => "proved",
@@ -34,7 +33,6 @@ impl Certainty {
     }
 
     /// The mark of a claim about two cases.
-    #[must_use]
     pub(super) fn and(one: Option<Certainty>, other: Option<Certainty>) -> Option<Certainty> {
         match (one?, other?) {
             (Certainty::Refuted, _) | (_, Certainty::Refuted) => Some(Certainty::Refuted),
@@ -44,7 +42,6 @@ impl Certainty {
     }
 
     /// The mark of a formula beside what it is compared with.
-    #[must_use]
     pub(super) fn of(sense: Sense, formula: f64, computed: &Known) -> Option<Certainty> {
         let bounds = computed.bounds?;
         let formula = with_rounding(formula, computed.error);
@@ -67,7 +64,6 @@ impl Certainty {
     }
 
     /// The mark of a limit, from the formula and what it is compared with far from it and nearer.
-    #[must_use]
     pub(super) fn of_limit(far: (f64, &Known), near: (f64, &Known)) -> Option<Certainty> {
         let miss = |(formula, computed): (f64, &Known)| {
             Some(miss(with_rounding(formula, computed.error), computed.bounds?))
@@ -109,7 +105,6 @@ pub struct BoundedCycle {
 
 impl BoundedCycle {
     /// Of a search and a proof.
-    #[must_use]
     pub fn new(cycle: Cycle, bounds: Option<Enclosure>) -> Self {
         BoundedCycle { cycle, bounds }
     }
@@ -134,13 +129,11 @@ pub struct AllFound {
 
 impl AllFound {
     /// Whether something holds that depends on the number and the stability of the cycles only.
-    #[must_use]
     pub fn answer(&self, holds: impl Fn(&[BoundedCycle]) -> bool) -> KnownAnswer {
         KnownAnswer { holds: holds(&self.cycles), certain: self.certain }
     }
 
     /// Whether there are this many.
-    #[must_use]
     pub fn are(&self, number: usize) -> KnownAnswer {
         self.answer(|cycles| cycles.len() == number)
     }
@@ -157,21 +150,18 @@ pub struct CertainEdge {
 
 impl CertainEdge {
     /// Whether it is of a kind.
-    #[must_use]
     pub fn is(self, edge: Edge) -> KnownAnswer {
         KnownAnswer { holds: self.edge == edge, certain: self.certain }
     }
 }
 
 /// The motion from a state, enclosed.
-#[must_use]
 pub fn enclosed(parameters: &Parameters, initial: State, until: f64) -> ProvedMotion {
     let start = [initial.q, initial.v].map(Interval::point);
     follow(&ParameterBox::from(parameters), start, until)
 }
 
 /// Bounds of a state at a time before the motion comes to rest.
-#[must_use]
 pub fn enclosed_state(parameters: &Parameters, initial: State, tau: f64) -> Option<[Interval; 2]> {
     match enclosed(parameters, initial, tau).fate {
         ProvedFate::Moving { q, v } => Some([q, v]),

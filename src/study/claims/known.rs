@@ -43,26 +43,22 @@ pub struct Known {
 
 impl Known {
     /// A number and how far it may be off.
-    #[must_use]
     pub fn new(value: f64, error: f64) -> Self {
         Known { value, error, bounds: None }
     }
 
     /// With an interval that certainly holds it.
-    #[must_use]
     pub fn within(self, bounds: impl Into<Option<Interval>>) -> Self {
         Known { bounds: bounds.into(), ..self }
     }
 
     /// With another number added.
-    #[must_use]
     pub fn plus(self, shift: f64) -> Self {
         let bounds = self.bounds.map(|it| it + Interval::point(shift));
         Known { value: self.value + shift, bounds, ..self }
     }
 
     /// Whether it is larger than a number.
-    #[must_use]
     pub fn exceeds(&self, limit: f64) -> KnownAnswer {
         let holds = self.value > limit;
         let certain = self
@@ -72,19 +68,16 @@ impl Known {
     }
 
     /// A number that is what it is, such as a count.
-    #[must_use]
     pub fn exact(value: f64) -> Self {
         Known::new(value, 0.0)
     }
 
     /// A number known to a part of itself.
-    #[must_use]
     pub fn relative(value: f64, part: f64) -> Self {
         Known::new(value, part * value.abs())
     }
 
     /// Two answers to one question: the first, with their difference as its error.
-    #[must_use]
     pub fn twice(value: f64, again: f64) -> Self {
         Known::new(value, (value - again).abs() + 4.0 * f64::EPSILON * value.abs())
     }
@@ -115,7 +108,6 @@ impl From<bool> for KnownAnswer {
 
 impl KnownAnswer {
     /// Whether it is as expected.
-    #[must_use]
     pub fn is(self, expected: bool) -> KnownAnswer {
         KnownAnswer { holds: self.holds == expected, ..self }
     }

@@ -61,7 +61,6 @@ impl PartialEq for Examined {
 
 impl Examined {
     /// What the numbers say; `None` where they could not be computed.
-    #[must_use]
     pub fn verdict(&self) -> Option<Verdict> {
         self.finding.as_ref().ok().map(Finding::verdict)
     }

@@ -50,7 +50,6 @@ pub enum Verdict {
 
 impl Finding {
     /// A formula and what it should be equal to.
-    #[must_use]
     pub fn equal(paper: f64, computed: Known) -> Self {
         Self::new(Sense::Equal, paper, computed)
     }
@@ -62,19 +61,16 @@ impl Finding {
     }
 
     /// A formula and what it should approximate.
-    #[must_use]
     pub fn near(paper: f64, computed: Known) -> Self {
         Self::new(Sense::Near, paper, computed)
     }
 
     /// A formula and what it should be a lower bound of.
-    #[must_use]
     pub fn at_most(paper: f64, computed: Known) -> Self {
         Self::new(Sense::AtMost, paper, computed)
     }
 
     /// A formula and what it should approach, at two places, the second nearer to the limit.
-    #[must_use]
     pub fn tends(far: (f64, Known), near: (f64, Known)) -> Self {
         let before = Self::near(far.0, far.1).miss();
         let mark = Certainty::of_limit((far.0, &far.1), (near.0, &near.1));
@@ -82,7 +78,6 @@ impl Finding {
     }
 
     /// What should hold in each of these cases; the place becomes the first in which it does not.
-    #[must_use]
     pub fn always<A: Into<KnownAnswer>>(cases: impl IntoIterator<Item = (String, A)>) -> Self {
         let (mut holds, mut all, mut place) = (0_u32, 0_u32, String::new());
         let (mut certain, mut refuted) = (true, false);
@@ -105,19 +100,16 @@ impl Finding {
     }
 
     /// The same, but the paper is silent: its formula is one of ours.
-    #[must_use]
     pub fn unsaid(self) -> Self {
         Finding { corrected: self.paper.or(self.corrected), paper: None, ..self }
     }
 
     /// With the formula as it should read.
-    #[must_use]
     pub fn corrected(self, value: f64) -> Self {
         Finding { corrected: Some(value), ..self }
     }
 
     /// With a description of the place.
-    #[must_use]
     pub fn at(self, place: impl fmt::Display) -> Self {
         Finding { place: place.to_string(), ..self }
     }
@@ -141,13 +133,11 @@ impl Finding {
     }
 
     /// The paper's number minus the computed one; the corrected one's where the paper is silent.
-    #[must_use]
     pub fn difference(&self) -> Option<f64> {
         Some(self.paper.or(self.corrected)? - self.computed.value)
     }
 
     /// That difference as a part of the computed number, or as it is where one of the two is zero.
-    #[must_use]
     pub fn miss(&self) -> f64 {
         self.difference().map_or(f64::NAN, |difference| self.part(difference))
     }
@@ -157,7 +147,6 @@ impl Finding {
     }
 
     /// What differences are measured against.
-    #[must_use]
     pub fn scale(&self) -> f64 {
         let (formula, computed) = (self.paper.or(self.corrected), self.computed.value);
         if formula == Some(0.0) || computed == 0.0 { 1.0 } else { computed.abs() }
@@ -173,7 +162,6 @@ impl Finding {
     }
 
     /// The largest difference with which the claim still holds.
-    #[must_use]
     pub fn bound(&self) -> f64 {
         let known = self.computed.error + ROUNDING * self.scale();
         match self.sense {
@@ -200,7 +188,6 @@ impl Finding {
     /// for an approximation, the difference further away for a limit. What fails is corrected if the
     /// corrected formula passes the same comparison; a statement about cases holds in part if it holds in
     /// any.
-    #[must_use]
     pub fn verdict(&self) -> Verdict {
         let approximate = matches!(self.sense, Sense::Near | Sense::Tends { .. });
         match (self.paper.or(self.corrected), self.corrected) {
@@ -223,7 +210,6 @@ impl Finding {
 
 impl Verdict {
     /// One word for scripts.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Verdict::Agrees => "agrees",
@@ -235,7 +221,6 @@ impl Verdict {
     }
 
     /// Relative difference with which it or its corrected form holds, where it does so approximately.
-    #[must_use]
     pub fn within(self) -> Option<f64> {
         match self {
             Verdict::Approximates { within } => Some(within),

@@ -29,7 +29,6 @@ impl CurvePoint {
     }
 
     /// The route on which its swings are computed best.
-    #[must_use]
     pub fn route(&self) -> Route {
         Route::steadiest(self.closing.growth)
     }
@@ -64,14 +63,12 @@ impl Tangent {
 }
 
 /// Whether a curve that is a graph over the amplitude goes through that of a point.
-#[must_use]
 pub fn covers(curve: &[CurvePoint], point: &CurvePoint) -> bool {
     let beyond = |it: &CurvePoint| it.u > point.u;
     curve.iter().any(beyond) && !curve.iter().all(beyond)
 }
 
 /// Whether a curve passes a point: between neighbours in p, and close in u.
-#[must_use]
 pub fn passes(curve: &[CurvePoint], point: &CurvePoint) -> bool {
     curve.windows(2).any(|pair| {
         let (one, other) = (&pair[0], &pair[1]);

@@ -31,9 +31,6 @@ impl Curve<'_> {
     /// Distance is measured in p, u and amplitude together, each in parts of what the curve spans: this
     /// is how far apart points look on a diagram. Between followed points the curve is interpolated by
     /// polynomials through six of them.
-    ///
-    /// # Errors
-    /// The [`Reason`] why a swing failed.
     pub fn spread(
         &mut self,
         points: &[CurvePoint],

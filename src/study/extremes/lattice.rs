@@ -109,7 +109,6 @@ pub struct Case {
 
 impl SpecialStart {
     /// The start at these parameters.
-    #[must_use]
     pub fn state(self, parameters: &Parameters) -> State {
         /// How far beyond the balance of all other terms the escaping velocity is.
         const BEYOND: f64 = 100.0;

@@ -94,7 +94,6 @@ const BLOW_UPS: [BlowUp; 6] = [
 ];
 
 /// Every named extreme by the methods that serve it.
-#[must_use]
 pub fn named(limits: &Limits) -> Vec<Named> {
     let mut all = vec![
         million_swings(Method::Exact, 1e-13, 1e-15, limits),

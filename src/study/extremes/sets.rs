@@ -66,7 +66,6 @@ pub struct SetVerdict {
 
 impl SetVerdict {
     /// The cycles; none where it gave up.
-    #[must_use]
     pub fn cycles(&self) -> &[LatticeCycle] {
         match &self.answer {
             SetAnswer::Found { cycles } => cycles,
@@ -85,7 +84,6 @@ pub fn sets(thin: bool) -> impl Iterator<Item = Parameters> {
 }
 
 /// Searches for all cycles at these parameters within [`BUDGET`].
-#[must_use]
 pub fn judge_set(parameters: &Parameters, limits: &Limits) -> SetVerdict {
     let limits =
         Limits { evaluations: limits.evaluations.min(BUDGET), interrupted: limits.interrupted };

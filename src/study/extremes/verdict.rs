@@ -57,14 +57,12 @@ pub struct Verdict {
 
 impl Verdict {
     /// What a method answered, where it serves these parameters.
-    #[must_use]
     pub fn answer(&self, method: Method) -> Option<&MethodAnswer> {
         self.answers.iter().find(|answer| answer.method == method)
     }
 }
 
 /// Follows a motion by every method that serves its parameters, to a relative `tolerance`.
-#[must_use]
 pub fn judge(case: &Case, tolerance: f64, limits: &Limits) -> Verdict {
     let linear = case.parameters.is_piecewise_linear();
     let reference = reference(case, tolerance, limits);

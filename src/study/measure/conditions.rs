@@ -26,7 +26,6 @@ impl From<Window> for Conditions {
 
 impl Conditions {
     /// The box of parameters around these; friction is never negative.
-    #[must_use]
     pub fn around(&self, parameters: &Parameters) -> ParameterBox {
         let mut known = ParameterBox::from(parameters);
         for &(symbol, half_width) in &self.half_widths {
@@ -46,7 +45,6 @@ impl Conditions {
     }
 
     /// How far the edge of the basin matters.
-    #[must_use]
     pub fn reach(&self) -> f64 {
         self.window.q.0.abs().max(self.window.q.1.abs())
     }

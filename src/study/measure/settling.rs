@@ -41,7 +41,6 @@ impl Settling {
     }
 
     /// Largest and mean time to rest; `None` where a start is not at rest in the end.
-    #[must_use]
     pub fn times(&self) -> Option<[f64; 2]> {
         let times: Vec<f64> = self.times.iter().copied().collect::<Option<_>>()?;
         let largest = times.iter().copied().fold(0.0, f64::max);
@@ -51,7 +50,6 @@ impl Settling {
 
     /// The part of the starts that is at rest in the end, and how much that may differ from the part of the
     /// window: half of the cells that have a neighbour of the other kind.
-    #[must_use]
     pub fn rested(&self) -> [f64; 2] {
         let side = usize::from(SIDE);
         let rests = |row: usize, column: usize| self.times[row * side + column].is_some();

@@ -66,7 +66,6 @@ pub enum Need {
 
 impl Need {
     /// The name in the reason of a row.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Need::Motion => "motion",
@@ -82,7 +81,6 @@ impl Need {
     }
 
     /// The numbers on which the computation depends.
-    #[must_use]
     pub fn depends_on(self) -> &'static [Symbol] {
         const ALL: [Symbol; 6] =
             [Symbol::D, Symbol::D2, Symbol::D3, Symbol::R, Symbol::Q0, Symbol::V0];
@@ -248,7 +246,6 @@ pub const MEASURES: [MeasureSpec; 16] = [
 
 impl Measure {
     /// The row of [`MEASURES`] that describes this measure.
-    #[must_use]
     pub fn spec(self) -> &'static MeasureSpec {
         &MEASURES[self as usize]
     }
@@ -266,7 +263,6 @@ impl Measure {
 }
 
 /// What these measures need computed.
-#[must_use]
 pub fn needs_of(measures: &[Measure]) -> BTreeSet<Need> {
     measures.iter().map(|measure| measure.spec().needs).collect()
 }
@@ -298,7 +294,6 @@ impl<T: Into<Value>> From<Option<T>> for Value {
 
 impl Value {
     /// The value as a number to be plotted; words and nothing have none.
-    #[must_use]
     pub fn number(self) -> Option<f64> {
         match self {
             Value::Number(value) => Some(value),
