@@ -32,6 +32,8 @@ pub struct Noise {
     pub has_outliers: bool,
     /// The smallest step from one sample to the next: of the converter, or of the last digit written; 0 of none.
     pub step: f64,
+    /// Whether neighbouring samples differ by noise of more than a step, rather than by the motion alone.
+    pub is_audible: bool,
 }
 
 impl Noise {
@@ -65,7 +67,9 @@ impl Noise {
         #[expect(clippy::cast_precision_loss, reason = "counts of samples")]
         let has_outliers = impossible > 0.0 && jumps as f64 > SHARE * sorted.len() as f64;
         // Where most differences vanish there is the rounding of the converter, and that of decimals.
-        Noise { deviation: deviation.max(quantised), has_outliers, step }
+        let deviation = deviation.max(quantised);
+        let is_audible = deviation > step && alternates(x);
+        Noise { deviation, has_outliers, step, is_audible }
     }
 
     /// How many readings of a mass at rest tell as much as all of them, where residuals have this variance: the
@@ -88,6 +92,16 @@ impl Noise {
     }
 }
 
+/// Whether fourth differences change their sign from sample to sample more often than not: those of a smooth motion
+/// hardly ever do, those of white noise do in four cases of five.
+fn alternates(x: &[f64]) -> bool {
+    let fourth =
+        x.windows(5).map(|five| five[0] + five[4] - 4.0 * (five[1] + five[3]) + 6.0 * five[2]);
+    let fourth: Vec<f64> = fourth.filter(|value| *value != 0.0).collect();
+    let changes = fourth.windows(2).filter(|two| two[0] * two[1] < 0.0).count();
+    2 * changes > fourth.len()
+}
+
 /// The level and the weights of the sample before and of the one before that, which tell a sample best.
 fn told_by_two(x: &[f64]) -> Option<[f64; 3]> {
     let mut normal = nalgebra::Matrix3::zeros();
@@ -103,10 +117,11 @@ fn told_by_two(x: &[f64]) -> Option<[f64; 3]> {
 /// Which samples lie within full scale: a converter that saturates repeats its largest or smallest value far
 /// more often than the values next to it.
 ///
-/// What the record begins or ends with does not count: a mass may be held, or rest, at its extreme. Next to flattened
+/// What the record begins or ends with does not count where the noise is smaller than a step of the converter: a mass may
+/// be held, or rest, at its extreme. Noise that is larger cannot be silent there. Next to flattened
 /// samples noise has chosen which ones are left, so those are left out until the motion is clear of the limit.
 #[must_use]
-pub fn within_scale(x: &[f64], noise: f64) -> Vec<bool> {
+pub fn within_scale(x: &[f64], noise: &Noise) -> Vec<bool> {
     /// Deviations of the noise that are clear of the limit.
     const CLEAR: f64 = 6.0;
     let (low, high) = x
@@ -114,8 +129,9 @@ pub fn within_scale(x: &[f64], noise: f64) -> Vec<bool> {
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &x| (low.min(x), high.max(x)));
     let mut within = vec![true; x.len()];
     for limit in [low, high] {
-        if is_saturated(x, limit, high - low) {
-            let near: Vec<bool> = x.iter().map(|x| (x - limit).abs() <= CLEAR * noise).collect();
+        if is_saturated(x, limit, high - low, noise) {
+            let clear = CLEAR * noise.deviation;
+            let near: Vec<bool> = x.iter().map(|x| (x - limit).abs() <= clear).collect();
             let order: Vec<usize> = (0..x.len()).collect();
             for pass in [order.clone(), order.into_iter().rev().collect()] {
                 let mut beside = false;
@@ -129,7 +145,7 @@ pub fn within_scale(x: &[f64], noise: f64) -> Vec<bool> {
     within
 }
 
-fn is_saturated(x: &[f64], limit: f64, range: f64) -> bool {
+fn is_saturated(x: &[f64], limit: f64, range: f64, noise: &Noise) -> bool {
     /// The neighbouring values that are counted for comparison, as a part of the range.
     const BAND: f64 = 0.01;
     /// Fewest repetitions, and how much more frequent they must be.
@@ -140,7 +156,7 @@ fn is_saturated(x: &[f64], limit: f64, range: f64) -> bool {
     if to <= from {
         return false;
     }
-    let inner = &x[from..to];
+    let inner = if noise.is_audible { x } else { &x[from..to] };
     let at = inner.iter().filter(|x| **x == limit).count();
     let steps = inner.iter().map(|x| (x - limit).abs()).filter(|step| *step > 0.0);
     let step = steps.fold(f64::INFINITY, f64::min);
@@ -204,7 +220,10 @@ mod tests {
 
     #[test]
     fn full_scale_is_seen_and_a_hold_or_a_coarse_converter_is_not_taken_for_it() {
-        let left_out = |x: &[f64]| within_scale(x, 0.01).iter().filter(|within| !**within).count();
+        let left_out = |x: &[f64]| {
+            let noise = Noise { deviation: 0.01, ..Noise::of(x, 63.0) };
+            within_scale(x, &noise).iter().filter(|within| !**within).count()
+        };
         let clipped: Vec<f64> = swing(600).iter().map(|x| x.min(3.0)).collect();
         let flat = clipped.iter().filter(|x| **x == 3.0).count();
         assert!(
@@ -215,6 +234,12 @@ mod tests {
         let coarse: Vec<f64> = swing(600).iter().map(|x| (x / 0.25).round() * 0.25).collect();
         let held: Vec<f64> = vec![5.0; 200].into_iter().chain(swing(400)).collect();
         let rests: Vec<f64> = swing(400).into_iter().chain(vec![-5.0; 200]).collect();
-        assert_eq!([coarse, held, rests].map(|x| left_out(&x)), [0; 3]);
+        assert_eq!([coarse, held.clone(), rests].map(|x| left_out(&x)), [0; 3]);
+        // A hold beyond full scale is silent, although there is noise.
+        let mut chance = Random::new(5);
+        let noisy: Vec<f64> = held.iter().map(|x| x + 0.01 * chance.normal()).collect();
+        let beyond: Vec<f64> = noisy.iter().map(|x| x.min(3.0)).collect();
+        assert_eq!(left_out(&noisy), 0);
+        assert!(left_out(&beyond) >= 200, "{}", left_out(&beyond));
     }
 }

@@ -23,7 +23,7 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
     let per_period = dominant_frequency(all, &record.x).map_or(f64::INFINITY, |frequency| {
         all.len() as f64 / ((all[all.len() - 1] - all[0]) * frequency)
     });
-    let within = within_scale(&record.x, Noise::of(&record.x, per_period).deviation);
+    let within = within_scale(&record.x, &Noise::of(&record.x, per_period));
     let keep = |values: &[f64]| -> Vec<f64> {
         values.iter().zip(&within).filter(|(_, within)| **within).map(|(value, _)| *value).collect()
     };
@@ -109,7 +109,7 @@ fn telling(
         let observation = problem.observation(found.start);
         let task = problem.task(&observation);
         let optimum = task.solve(best.p, runs)?;
-        found.valleys = problem.valleys(&task, optimum, runs)?;
+        found.valleys = problem.valleys(&task, vec![optimum], runs)?;
     }
     Ok(telling)
 }

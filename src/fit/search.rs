@@ -4,7 +4,7 @@ use super::levenberg_marquardt::{NoFit, Optimum, Runs, Task, interrupted};
 use super::loss::Loss;
 use super::observation::{D2, D3, Data, LAST, OMEGA0, R, StartKind, Unknowns};
 use super::problem::LeastSquares;
-use super::valley::Valley;
+use super::valley::{Valley, WIDE, by_cost, through_the_valley};
 
 /// A way in which a record may begin, with guesses of the unknowns.
 #[derive(Clone, Debug, PartialEq)]
@@ -81,8 +81,49 @@ impl LeastSquares<'_> {
         }
         let (start, optimum) = best.ok_or(failure)?;
         let observation = self.observation(start);
-        let valleys = self.valleys(&self.task(&observation), optimum, runs)?;
+        let task = self.task(&observation);
+        let mut optima = vec![optimum];
+        if self.may_be_elsewhere(&task, &optima[0]) {
+            let alike = guesses.iter().filter(|beginning| beginning.start == start);
+            let guesses = alike.flat_map(|beginning| beginning.guesses.iter().copied());
+            let guesses = guesses.chain([optima[0].p]).collect();
+            optima.extend(self.by_fewer_terms(start, guesses, runs)?);
+        }
+        let valleys = self.valleys(&task, optima, runs)?;
         Ok(Minima { start, valleys })
+    }
+
+    /// The minima that follow from those without D2 and D3: where noise leaves room for many valleys, these have fewer.
+    fn by_fewer_terms(
+        &self,
+        start: StartKind,
+        guesses: Vec<Unknowns>,
+        runs: &mut Runs,
+    ) -> Result<Vec<Optimum>, NoFit> {
+        /// Most minima from which to go on.
+        const MOST: usize = 3;
+        let mut fewer = *self;
+        (fewer.free[D2], fewer.free[D3]) = (false, false);
+        let guesses = guesses.into_iter().map(|guess| without(guess, &[D2, D3], self)).collect();
+        let beginning = Beginning { start, certain: true, guesses };
+        let (observation, all) = (fewer.observation(start), self.observation(start));
+        let task = fewer.task(&observation);
+        let mut minima = Vec::new();
+        for (_, guess, _) in fewer.ranked(&[beginning], runs)? {
+            if let Ok(found) = interrupted(task.solve(guess, runs))? {
+                let mut optima = Vec::new();
+                for guess in through_the_valley(&task, &found, WIDE, &[], runs)? {
+                    optima.extend(interrupted(task.solve(guess, runs))?);
+                }
+                optima.push(found);
+                minima = fewer.valleys(&task, optima, runs)?;
+            }
+        }
+        let mut optima = Vec::new();
+        for minimum in minima.into_iter().take(MOST) {
+            optima.extend(interrupted(self.task(&all).solve(minimum.optimum.p, runs))?);
+        }
+        Ok(optima)
     }
 
     /// The root mean square of the residuals at a cost.
@@ -103,7 +144,7 @@ impl LeastSquares<'_> {
             valley.optimum = task.solve(valley.optimum.p, runs)?;
             valley.half_swings = valley.optimum.seen.turns.len();
         }
-        found.valleys.sort_by(|one, other| one.optimum.cost.total_cmp(&other.optimum.cost));
+        found.valleys.sort_by(by_cost);
         found.valleys.dedup_by_key(|valley| valley.half_swings);
         Ok(())
     }
@@ -118,7 +159,8 @@ impl LeastSquares<'_> {
         found.cost < best.cost - needed
     }
 
-    /// For each way of beginning the guess that comes closest to the record as it stands.
+    /// For each way of beginning the guess that comes closest to the record as it stands, with D2 and D3 or without: a
+    /// wrong one of these may let every motion escape.
     fn ranked(
         &self,
         guesses: &[Beginning],
@@ -129,7 +171,8 @@ impl LeastSquares<'_> {
             let observation = self.observation(beginning.start);
             let task = self.task(&observation);
             let mut best = (f64::INFINITY, None);
-            for &guess in &beginning.guesses {
+            let plain = beginning.guesses.iter().map(|guess| without(*guess, &[D2, D3], self));
+            for guess in beginning.guesses.iter().copied().chain(plain) {
                 if let Ok(seen) = interrupted(task.look(&guess, false, runs))? {
                     let cost = task.cost(&seen);
                     if cost < best.0 {

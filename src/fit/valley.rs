@@ -4,8 +4,10 @@
 //! before the rest: where a turning point crosses the rim of the sticking set the residuals are continuous and
 //! their derivatives are not. So one descent never decides.
 
+use std::cmp::Ordering;
+
 use super::levenberg_marquardt::{NoFit, Optimum, Runs, Task, interrupted};
-use super::observation::{Data, R, UNKNOWNS, Unknowns};
+use super::observation::{D2, D3, Data, R, UNKNOWNS, Unknowns};
 use super::problem::{LeastSquares, Verdict};
 
 /// A local minimum with its number of half swings.
@@ -18,7 +20,21 @@ pub struct Valley {
 }
 
 impl LeastSquares<'_> {
-    /// The minimum, and those of neighbouring numbers of half swings, the lowest first.
+    /// Whether the right valley may be far from this minimum: noise hides how many half swings there are.
+    #[must_use]
+    pub fn may_be_elsewhere(&self, task: &Task, optimum: &Optimum) -> bool {
+        /// An error of r of this part of it.
+        const LOOSE: f64 = 0.03;
+        let r = optimum.p[R];
+        self.free[R]
+            && (self.free[D2] || self.free[D3])
+            && matches!(self.data, Data::Samples { .. })
+            && (r == 0.0
+                || optimum.seen.rests
+                    && way_of_friction(task, optimum).is_none_or(|way| way.error > LOOSE * r))
+    }
+
+    /// These minima, and those of neighbouring numbers of half swings, the lowest first.
     ///
     /// From the lowest one known, one half swing more and one less are tried, and what comes closest to the record
     /// when r alone is moved and all else follows; until nothing is lower.
@@ -28,12 +44,14 @@ impl LeastSquares<'_> {
     pub fn valleys(
         &self,
         task: &Task,
-        optimum: Optimum,
+        optima: Vec<Optimum>,
         runs: &mut Runs,
     ) -> Result<Vec<Valley>, NoFit> {
         /// Most minima around which others are sought.
         const MOST: usize = 8;
-        let mut valleys = vec![Valley { half_swings: optimum.seen.turns.len(), optimum }];
+        let mut valleys = Vec::new();
+        optima.into_iter().for_each(|optimum| keep(&mut valleys, optimum));
+        valleys.sort_by(by_cost);
         if !self.free[R] || !matches!(self.data, Data::Samples { .. }) {
             return Ok(valleys);
         }
@@ -50,21 +68,32 @@ impl LeastSquares<'_> {
             guesses.extend(if verdict == Verdict::Noise {
                 along_the_valley(task, &from, &way, &valleys, runs)?
             } else {
-                through_the_valley(task, &from, &valleys, runs)?
+                through_the_valley(task, &from, FINE, &valleys, runs)?
             });
             for guess in guesses {
                 let Ok(found) = interrupted(task.solve(guess, runs))? else { continue };
-                let half_swings = found.seen.turns.len();
-                match valleys.iter_mut().find(|valley| valley.half_swings == half_swings) {
-                    Some(known) if known.optimum.cost <= found.cost => {}
-                    Some(known) => known.optimum = found,
-                    None => valleys.push(Valley { half_swings, optimum: found }),
-                }
+                keep(&mut valleys, found);
             }
-            valleys.sort_by(|one, other| one.optimum.cost.total_cmp(&other.optimum.cost));
+            valleys.sort_by(by_cost);
         }
         Ok(valleys)
     }
+}
+
+/// Adds a minimum, if it is the lowest for its number of half swings.
+fn keep(valleys: &mut Vec<Valley>, optimum: Optimum) {
+    let half_swings = optimum.seen.turns.len();
+    match valleys.iter_mut().find(|valley| valley.half_swings == half_swings) {
+        Some(known) if known.optimum.cost <= optimum.cost => {}
+        Some(known) => known.optimum = optimum,
+        None => valleys.push(Valley { half_swings, optimum }),
+    }
+}
+
+/// The order of minima: the lowest first.
+#[must_use]
+pub fn by_cost(one: &Valley, other: &Valley) -> Ordering {
+    one.optimum.cost.total_cmp(&other.optimum.cost)
 }
 
 /// Points beyond the rim of the sticking set: the last half swing falls away, or one more is added.
@@ -129,22 +158,30 @@ fn along_the_valley(
     Ok(closest.beside(known))
 }
 
+/// Steps of r on each side: a valley may be no wider than a percent of r.
+const FINE: [f64; 9] = [1.01, 1.01, 1.01, 1.02, 1.02, 1.04, 1.04, 1.04, 1.04];
+
+/// Such steps to twice and to half of r.
+pub const WIDE: [f64; 9] = [1.03, 1.04, 1.05, 1.06, 1.08, 1.1, 1.12, 1.15, 1.2];
+
 /// The same with all else fitted again at each step of r: while the residuals are not white the right minimum may
 /// be so far that nothing follows linearly.
-fn through_the_valley(
+///
+/// # Errors
+/// [`NoFit::Interrupted`].
+pub fn through_the_valley(
     task: &Task,
     optimum: &Optimum,
+    factors: [f64; 9],
     known: &[Valley],
     runs: &mut Runs,
 ) -> Result<Vec<Unknowns>, NoFit> {
-    /// Steps on each side: a valley may be no wider than a percent of r.
-    const FACTORS: [f64; 9] = [1.01, 1.01, 1.01, 1.02, 1.02, 1.04, 1.04, 1.04, 1.04];
     let mut held = *task;
     held.free[R] = false;
     let mut closest = Closest::default();
     for up in [true, false] {
         let mut p = optimum.p;
-        for factor in FACTORS {
+        for factor in factors {
             p[R] *= if up { factor } else { 1.0 / factor };
             let Ok(found) = interrupted(held.solve_roughly(p, runs))? else { break };
             p = found.p;

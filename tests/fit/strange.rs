@@ -61,3 +61,26 @@ fn what_is_no_motion_of_this_oscillator_is_told_and_costs_little() {
         assert!(with + without < 3000, "{what}: {with} and {without} motions");
     }
 }
+
+#[test]
+fn a_hold_beyond_full_scale_is_left_out_with_all_that_is_flattened() {
+    let p = [20.0, 0.3, 0.02, 0.0, 0.0, 0.1, 6.0, 0.2];
+    let seen = Simulated {
+        p,
+        start: StartKind::Release,
+        seconds: 5.0,
+        samples: 1500,
+        noise: 0.02,
+        memory: 0.0,
+    };
+    for seed in 1..=3 {
+        let mut record = seen.record(seed);
+        record.x.iter_mut().for_each(|x| *x = x.clamp(-5.0, 5.0));
+        let found = estimate(&record, &Question::default(), &|| false).unwrap();
+        assert!(found.saturated > 60 && found.whiteness.white, "{}", found.saturated);
+        for row in &NAMES {
+            let off = (found.p[row.place] - p[row.place]) / found.covariance.error(row.place);
+            assert!(off.abs() < 4.0, "{}: {off}", row.name);
+        }
+    }
+}
