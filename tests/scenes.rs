@@ -6,13 +6,18 @@ use hopfscope::machine::MachineFate;
 use hopfscope::numerics::elementary::hypot;
 use hopfscope::oscillator::Symbol;
 use hopfscope::question::answer;
-use hopfscope::scene::{Answer, Answered, Topic, find};
+use hopfscope::scene::{Answer, Request, Topic, find};
 use hopfscope::session::replay::{Action, Player, parse};
-use hopfscope::session::{Msg, Session, Size, run_line, update};
+use hopfscope::session::{Msg, Session, Size, run_line, settle, update};
 use hopfscope::study::{Cycle, Edge, Return};
 
 /// A scene with its motion and its cycles computed; diagrams are not looked at here.
 struct Stage(Session);
+
+/// The answer to a question, by computation.
+fn computed(request: &Request) -> Msg {
+    Msg::answered(request.clone(), Ok(answer(request, &Limits::PATIENT).unwrap()), 0.0)
+}
 
 impl Stage {
     fn open(scene: &str) -> Self {
@@ -31,21 +36,10 @@ impl Stage {
     }
 
     fn settle(&mut self) {
-        for request in self.0.wants() {
+        settle(&mut self.0, |_, request| {
             let diagram = matches!(request.topic(), Topic::Branch | Topic::Speeds);
-            if !diagram && self.0.is_open(&request) {
-                let result = Ok(answer(&request, &Limits::PATIENT).unwrap());
-                update(
-                    &mut self.0,
-                    Msg::Answered(Box::new(Answered {
-                        request,
-                        result,
-                        seconds: 0.0,
-                        complete: true,
-                    })),
-                );
-            }
-        }
+            (!diagram).then(|| computed(request))
+        });
     }
 
     fn outcome(&self) -> Outcome {
@@ -284,13 +278,9 @@ impl Stage {
     fn at(scene: &str, line: &str) -> Option<Stage> {
         let mut session = Session::new(find(scene).unwrap(), Size { width: 80, height: 24 });
         run_line(&mut session, line).ok()?;
-        for request in session.wants() {
-            if matches!(request.topic(), Topic::Trajectory | Topic::Cycles) {
-                let result = Ok(answer(&request, &Limits::PATIENT).unwrap());
-                let answered = Answered { request, result, seconds: 0.0, complete: true };
-                update(&mut session, Msg::Answered(Box::new(answered)));
-            }
-        }
+        settle(&mut session, |_, request| {
+            matches!(request.topic(), Topic::Trajectory | Topic::Cycles).then(|| computed(request))
+        });
         Some(Stage(session))
     }
 }

@@ -6,10 +6,10 @@ use std::rc::Rc;
 
 use hopfscope::flow::Limits;
 use hopfscope::question::{Failure, answer};
+use hopfscope::scene::Scene;
 use hopfscope::scene::library::library;
-use hopfscope::scene::{Answered, Scene};
 use hopfscope::session::settings::{self, Colors, Glyphs};
-use hopfscope::session::{Msg, Session, Size, update};
+use hopfscope::session::{Msg, Session, Size, settle, update};
 use hopfscope::terminal::painter::Painter;
 use hopfscope::view::{self, Look};
 use ratatui::Terminal;
@@ -55,13 +55,10 @@ impl Explorer {
 
     /// Answers everything, draws, and says how many bytes that took.
     fn draw(&mut self) -> usize {
-        for request in self.session.wants() {
-            if self.session.is_open(&request) {
-                let result = answer(&request, &Limits::default()).map_err(Failure::Reason);
-                let answered = Answered { request, result, seconds: 0.000_25, complete: true };
-                update(&mut self.session, Msg::Answered(Box::new(answered)));
-            }
-        }
+        settle(&mut self.session, |_, request| {
+            let result = answer(request, &Limits::default()).map_err(Failure::Reason);
+            Some(Msg::answered(request.clone(), result, 0.000_25))
+        });
         update(&mut self.session, Msg::Idle);
         *self.line.0.borrow_mut() = 0;
         self.terminal.draw(|frame| view::draw(frame, &self.session, &self.look)).unwrap();

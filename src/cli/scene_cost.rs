@@ -7,18 +7,15 @@ use super::timing::timed;
 use crate::flow::Limits;
 use crate::question::answer;
 use crate::report::scene_cost::{Question, SceneCost, StepCost};
-use crate::scene::{Answered, Request, Scene, library};
+use crate::scene::{Scene, library};
 use crate::session::act::parameters;
-use crate::session::{Msg, Row, Session, Size, update};
+use crate::session::{self, Msg, Row, Session, Size, update};
 
 /// How often a question that is answered quickly is answered for the median of its times.
 const TIMES: u32 = 5;
 
 /// Seconds below which one measurement says little.
 const QUICK: f64 = 2e-3;
-
-/// Rounds of questions after which a scene is taken to ask for ever: windows are fitted after the first.
-const ROUNDS: usize = 4;
 
 /// Every scene of the program with what it costs.
 pub fn measured() -> Result<Vec<SceneCost>, Failure> {
@@ -52,25 +49,25 @@ fn of(scene: &Arc<Scene>) -> Result<SceneCost, Failure> {
 /// Answers what a session asks until it asks nothing more.
 fn settle(session: &mut Session, scene: &Scene) -> Result<Vec<Question>, Failure> {
     let mut answered = Vec::new();
-    for _ in 0..ROUNDS {
-        let open: Vec<Request> =
-            session.wants().into_iter().filter(|request| session.is_open(request)).collect();
-        for request in open {
-            let layers = session.requirements().into_iter();
-            let layers = layers.filter(|part| part.request == request).flat_map(|part| part.layers);
-            let layers = layers.collect();
-            let ask = || answer(&request, &Limits::PATIENT);
-            let (result, once) = timed(1, ask);
-            let seconds = if once < QUICK { timed(TIMES, ask).1 } else { once };
-            let found = result.map_err(|reason| {
-                let (name, topic) = (&scene.name, request.topic().name());
-                Failure::Unanswered(format!("scene {name}: {topic}: {reason}"))
-            })?;
-            let (topic, cost) = (request.topic(), found.cost());
-            answered.push(Question { topic, layers, cost, seconds });
-            let answered = Answered { request, result: Ok(found), seconds, complete: true };
-            update(session, Msg::Answered(Box::new(answered)));
+    let mut failed = None;
+    session::settle(session, |session, request| {
+        let layers = session.requirements().into_iter();
+        let layers = layers.filter(|part| part.request == *request).flat_map(|part| part.layers);
+        let layers = layers.collect();
+        let ask = || answer(request, &Limits::PATIENT);
+        let (result, once) = timed(1, ask);
+        let seconds = if once < QUICK { timed(TIMES, ask).1 } else { once };
+        let topic = request.topic();
+        match result {
+            Ok(found) => {
+                answered.push(Question { topic, layers, cost: found.cost(), seconds });
+                Some(Msg::answered(request.clone(), Ok(found), seconds))
+            }
+            Err(reason) => {
+                failed = Some(format!("scene {}: {}: {reason}", scene.name, topic.name()));
+                None
+            }
         }
-    }
-    Ok(answered)
+    });
+    failed.map_or(Ok(answered), |why| Err(Failure::Unanswered(why)))
 }

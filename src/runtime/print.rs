@@ -3,7 +3,7 @@
 use crate::figure::{FAINT, Figure};
 use crate::flow::{Limits, Reason};
 use crate::question::{Fineness, answer_for};
-use crate::scene::{Answered, Request, Topic};
+use crate::scene::{Request, Topic};
 use crate::session::{Msg, Session, update};
 
 /// Computes everything on show as finely as print needs. Fails with what was asked that has no answer, and why.
@@ -85,7 +85,6 @@ fn ask(
     limits: &Limits,
 ) -> Result<(), Reason> {
     let found = answer_for(&request, fineness, limits)?;
-    let answered = Answered { request, result: Ok(found), seconds: 0.0, complete: true };
-    update(session, Msg::Answered(Box::new(answered)));
+    update(session, Msg::answered(request, Ok(found), 0.0));
     Ok(())
 }

@@ -126,8 +126,7 @@ impl Worker {
                 if aside.into_inner() && !panicked {
                     queue.put_aside();
                 } else if let Some(request) = queue.finish() {
-                    let answered = Answered { request, result, seconds, complete: true };
-                    report(Msg::Answered(Box::new(answered)));
+                    report(Msg::answered(request, result, seconds));
                 }
                 if queue.is_idle() && !queue.is_closed() {
                     report(Msg::Idle);

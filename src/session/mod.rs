@@ -56,4 +56,4 @@ pub use state::setup::Setup;
 pub use state::starts;
 pub use state::stop::BranchStop;
 pub use state::waiting::Waiting;
-pub use update::update;
+pub use update::{settle, update};

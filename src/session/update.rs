@@ -6,7 +6,7 @@
 
 use crate::flow::Reason;
 use crate::question::Failure;
-use crate::scene::Answered;
+use crate::scene::{Answered, Request};
 use crate::session::act::notice::{inform, refuse, told};
 use crate::session::act::{answers, files, history, macros, mouse, typing, walk};
 use crate::session::effect::Effect;
@@ -41,6 +41,22 @@ pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
         effects.extend(take_in(session, message));
     }
     effects
+}
+
+/// Rounds of questions after which a session is taken to ask for ever: windows are fitted after the first.
+const ROUNDS: usize = 5;
+
+/// Answers what a session asks until it asks nothing more; what `answer` gives no message for stays open.
+pub fn settle(session: &mut Session, mut answer: impl FnMut(&Session, &Request) -> Option<Msg>) {
+    for _ in 0..ROUNDS {
+        let mut open = session.wants();
+        open.retain(|request| session.is_open(request));
+        for request in open {
+            if let Some(message) = answer(session, &request) {
+                update(session, message);
+            }
+        }
+    }
 }
 
 /// Takes a message in that waits for nothing.

@@ -12,8 +12,8 @@ use hopfscope::oscillator::belt::FrictionLaw;
 use hopfscope::picture::items::Item;
 use hopfscope::question::answer;
 use hopfscope::scene::machine::library::machines;
-use hopfscope::scene::{Answer, Answered, Topic, View, find};
-use hopfscope::session::{Msg, Session, Size, update};
+use hopfscope::scene::{Answer, Topic, View, find};
+use hopfscope::session::{Msg, Session, Size, settle};
 
 fn machine(name: &str) -> Belt {
     machines().iter().find(|machine| machine.name == name).unwrap().belt.clone()
@@ -90,13 +90,10 @@ fn a_cycle_that_is_born_at_rest_is_no_jump() {
 /// A scene with all its questions answered.
 fn shown(scene: &str) -> Session {
     let mut session = Session::new(find(scene).unwrap(), Size { width: 160, height: 50 });
-    for request in session.wants() {
-        if request.topic() != Topic::Branch && session.is_open(&request) {
-            let result = Ok(answer(&request, &Limits::PATIENT).unwrap());
-            let answered = Answered { request, result, seconds: 0.0, complete: true };
-            update(&mut session, Msg::Answered(Box::new(answered)));
-        }
-    }
+    settle(&mut session, |_, request| {
+        let found = || Ok(answer(request, &Limits::PATIENT).unwrap());
+        (request.topic() != Topic::Branch).then(|| Msg::answered(request.clone(), found(), 0.0))
+    });
     session
 }
 

@@ -6,7 +6,8 @@ pub mod pointer;
 use std::path::PathBuf;
 
 use crate::oscillator::Symbol;
-use crate::scene::Answered;
+use crate::question::Failure;
+use crate::scene::{Answer, Answered, Request};
 use crate::session::message::key::Key;
 use crate::session::message::pointer::Pointed;
 
@@ -45,6 +46,13 @@ pub enum Msg {
     Written(Notice),
     /// The outer rings tell how an effect ended, such as a file written or not, or a replay.
     Told(Notice),
+}
+
+impl Msg {
+    /// The whole answer to a request, or why there is none, and the seconds that it took.
+    pub fn answered(request: Request, result: Result<Answer, Failure>, seconds: f64) -> Self {
+        Msg::Answered(Box::new(Answered { request, result, seconds, complete: true }))
+    }
 }
 
 /// What a file is read for.

@@ -1,10 +1,10 @@
 //! The dial: its stops, what is computed roughly first, and when an error is measured.
 
-use super::{COST, Trial, answered};
+use super::{COST, Trial, answered, by_hand};
 use crate::flow::{Limits, Method, Reason};
 use crate::oscillator::Symbol;
 use crate::question::{Failure, answer};
-use crate::scene::{Answer, Answered, Request, TOPICS, Topic, find};
+use crate::scene::{Answer, Request, TOPICS, Topic, find};
 use crate::session::act::parameters;
 use crate::session::read::wants::Unmeasured;
 use crate::session::{Msg, Row, Session, Standing, update};
@@ -38,14 +38,14 @@ fn the_dial_is_the_same_whatever_its_number_is_called() {
 }
 
 /// The answer to a question as if it had cost this much.
-fn costly(request: Request, evaluations: u64) -> Answered {
-    let mut found = answered(request);
-    match &mut found.result {
-        Ok(Answer::Trajectory(motion)) => motion.cost.evaluations = evaluations,
-        Ok(Answer::Branch(branch)) => branch.cost.evaluations = evaluations,
+fn costly(request: Request, evaluations: u64) -> Msg {
+    let mut found = by_hand(&request);
+    match &mut found {
+        Answer::Trajectory(motion) => motion.cost.evaluations = evaluations,
+        Answer::Branch(branch) => branch.cost.evaluations = evaluations,
         _ => {}
     }
-    found
+    Msg::answered(request, Ok(found), 0.001)
 }
 
 /// The kinds wanted and open, those of drafts marked.
@@ -69,7 +69,7 @@ fn what_took_long_is_answered_by_a_draft_first_and_refined_then() {
     update(&mut trial.session, Msg::Key("<right>".parse().unwrap()));
     assert_eq!(open(&trial), [(Topic::Trajectory, false), (Topic::Cycles, false)], "cheap so far");
     let request = trial.session.request(Topic::Trajectory, 0).unwrap();
-    update(&mut trial.session, Msg::Answered(Box::new(costly(request, 10_000_000))));
+    update(&mut trial.session, costly(request, 10_000_000));
     trial.settle();
 
     // The next step of a key: the draft, then what it is a draft of.
@@ -81,14 +81,14 @@ fn what_took_long_is_answered_by_a_draft_first_and_refined_then() {
     let draft = trial.session.wants()[0].clone();
     let Request::Trajectory(problem) = &draft else { panic!("{draft:?}") };
     assert_eq!(problem.quality().unwrap().name, "draft");
-    update(&mut trial.session, Msg::Answered(Box::new(costly(draft.clone(), 1_000))));
+    update(&mut trial.session, costly(draft.clone(), 1_000));
     let is_draft =
         |trial: &Trial| matches!(trial.session.standing(Topic::Trajectory, 0), Standing::Draft(_));
     assert!(is_draft(&trial) && trial.session.is_busy());
     assert_eq!(open(&trial), [(Topic::Trajectory, false), (Topic::Cycles, false)]);
     // A draft is no measure of what the full answer takes.
     let full = trial.session.request(Topic::Trajectory, 0).unwrap();
-    update(&mut trial.session, Msg::Answered(Box::new(costly(full, 10_000_000))));
+    update(&mut trial.session, costly(full, 10_000_000));
     trial.settle();
     assert!(!is_draft(&trial));
     let topics: Vec<Topic> = trial.session.price.recomputed.iter().map(|part| part.topic).collect();
@@ -102,7 +102,7 @@ fn what_took_long_is_answered_by_a_draft_first_and_refined_then() {
     assert!(superseded != newer);
     trial.settle();
     let held = trial.session.trajectory().cloned();
-    update(&mut trial.session, Msg::Answered(Box::new(costly(superseded, 1))));
+    update(&mut trial.session, costly(superseded, 1));
     assert_eq!(held, trial.session.trajectory().cloned());
 
     // At draft quality there is nothing to refine.
@@ -117,7 +117,7 @@ fn what_took_long_is_answered_by_a_draft_first_and_refined_then() {
 fn plots_with_like_questions_keep_their_drafts_apart() {
     let mut session = Trial::open("fig17").session;
     for request in session.wants() {
-        update(&mut session, Msg::Answered(Box::new(costly(request, 10_000_000))));
+        update(&mut session, costly(request, 10_000_000));
     }
     update(&mut session, Msg::Key("<right>".parse().unwrap()));
     session.problem.tolerance = 1e-12;
@@ -126,7 +126,7 @@ fn plots_with_like_questions_keep_their_drafts_apart() {
     while let Some(request) = session.wants().into_iter().find(|request| session.is_open(request)) {
         assert!(!asked.contains(&request), "asked again: {request:?}");
         asked.push(request.clone());
-        update(&mut session, Msg::Answered(Box::new(answered(request))));
+        update(&mut session, answered(request));
     }
     assert_eq!(asked.len(), 2 * branches, "a draft and an answer for each");
     for plot in 0..session.plots.len() {
@@ -139,16 +139,11 @@ fn a_draft_that_fails_is_not_tried_again() {
     let mut trial = Trial::alone("supercritical");
     update(&mut trial.session, Msg::Key("<right>".parse().unwrap()));
     let request = trial.session.request(Topic::Trajectory, 0).unwrap();
-    update(&mut trial.session, Msg::Answered(Box::new(costly(request, 10_000_000))));
+    update(&mut trial.session, costly(request, 10_000_000));
     update(&mut trial.session, Msg::Key("<right>".parse().unwrap()));
     let draft = trial.session.wants()[0].clone();
-    let failed = Answered {
-        request: draft.clone(),
-        result: Err(Failure::Reason(Reason::OutOfRange)),
-        seconds: 0.0,
-        complete: true,
-    };
-    update(&mut trial.session, Msg::Answered(Box::new(failed)));
+    let failed = Err(Failure::Reason(Reason::OutOfRange));
+    update(&mut trial.session, Msg::answered(draft.clone(), failed, 0.0));
     assert!(!trial.session.wants().contains(&draft));
     assert_eq!(trial.notice(), "", "what it is a draft of may still be answered");
 }
@@ -189,8 +184,7 @@ fn the_measured_error_is_that_of_the_motion_on_show() {
     for topic in [Topic::Trajectory, Topic::Reference] {
         let request = session.request(topic, 0).unwrap();
         let result = Ok(answer(&request, &Limits::PATIENT).unwrap());
-        let answered = Answered { request, result, seconds: 0.0, complete: true };
-        update(session, Msg::Answered(Box::new(answered)));
+        update(session, Msg::answered(request, result, 0.0));
     }
     assert_eq!(session.problem.method, Method::Dop853);
     let (deviation, reference) = session.measured().unwrap();
@@ -217,8 +211,7 @@ fn why_there_is_no_measured_error_is_known() {
                 }
                 _ => answer(&request, &Limits::PATIENT).unwrap(),
             };
-            let answered = Answered { request, result: Ok(result), seconds: 0.0, complete: true };
-            update(&mut session, Msg::Answered(Box::new(answered)));
+            update(&mut session, Msg::answered(request, Ok(result), 0.0));
         }
         assert!(session.measures());
         assert_eq!(session.unmeasured(), why);

@@ -61,7 +61,7 @@ fn an_interval_is_taken_by_its_middle_and_a_bare_value_is_exact() {
     );
 }
 
-/// The reference of the issue: D = -0.3, D2 = 0.2, D3 = 0.5, r = 0.1.
+/// Against reference numbers for D = -0.3, D2 = 0.2, D3 = 0.5, r = 0.1.
 #[test]
 fn what_is_certain_is_asked_with_the_box_and_answers_the_reference() {
     let mut trial = Trial::open("plain");

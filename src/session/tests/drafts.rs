@@ -8,7 +8,7 @@ use crate::numerics::elementary::hypot;
 use crate::oscillator::Symbol;
 use crate::question;
 use crate::question::{Failure, answer};
-use crate::scene::{Answer, Answered, Request, TOPICS, Topic, library};
+use crate::scene::{Answer, Request, TOPICS, Topic, library};
 use crate::session::act::parameters;
 use crate::session::{Msg, Row, Session, Size, update};
 use crate::study::Branch;
@@ -23,8 +23,7 @@ fn give(session: &mut Session, request: Request) -> u64 {
     let found = answer(&request, &Limits::PATIENT);
     let evaluations = found.as_ref().map_or(0, |found| found.cost().evaluations);
     let result = found.map_err(Failure::Reason);
-    let answered = Answered { request, result, seconds: 0.0, complete: true };
-    update(session, Msg::Answered(Box::new(answered)));
+    update(session, Msg::answered(request, result, 0.0));
     evaluations
 }
 

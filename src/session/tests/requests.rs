@@ -4,7 +4,7 @@ use super::{COST, Trial, answered};
 use crate::flow::Reason;
 use crate::oscillator::{Parameters, Symbol};
 use crate::question::Failure;
-use crate::scene::{Answered, Request, Topic};
+use crate::scene::{Request, Topic};
 use crate::session::{Msg, update};
 
 const MOTION: &[Topic] = &[Topic::Trajectory];
@@ -152,11 +152,11 @@ fn a_late_answer_never_replaces_the_one_that_is_asked_for() {
     let superseded = trial.session.request(Topic::Trajectory, 1).unwrap();
     trial.press("u");
     let held = trial.session.trajectory().cloned();
-    update(&mut trial.session, Msg::Answered(Box::new(answered(superseded.clone()))));
+    update(&mut trial.session, answered(superseded.clone()));
     assert_eq!(trial.session.trajectory().cloned(), held);
     // While something else is still being computed, it is the newest there is.
     update(&mut trial.session, Msg::Key("<left>".parse().unwrap()));
-    update(&mut trial.session, Msg::Answered(Box::new(answered(superseded.clone()))));
+    update(&mut trial.session, answered(superseded.clone()));
     let Request::Trajectory(problem) = superseded else { panic!("a trajectory was asked for") };
     assert_eq!(trial.session.trajectory().unwrap().problem, problem);
     assert!(trial.session.is_stale(Topic::Trajectory, 1));
@@ -167,15 +167,7 @@ fn a_failure_is_told_once_and_not_tried_again() {
     let mut trial = Trial::open("plain");
     update(&mut trial.session, Msg::Key("<right>".parse().unwrap()));
     let request = trial.session.request(Topic::Cycles, 1).unwrap();
-    let failed = |failure| {
-        let result = Err(failure);
-        Msg::Answered(Box::new(Answered {
-            request: request.clone(),
-            result,
-            seconds: 0.0,
-            complete: true,
-        }))
-    };
+    let failed = |failure| Msg::answered(request.clone(), Err(failure), 0.0);
     update(&mut trial.session, failed(Failure::Reason(Reason::Interrupted)));
     assert!(trial.session.is_open(&request), "an interrupted question is still a question");
     update(&mut trial.session, failed(Failure::Reason(Reason::OutOfRange)));

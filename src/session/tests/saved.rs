@@ -222,7 +222,7 @@ proptest! {
         broken[at] = other;
         let _ = save::open(&mut trial.session, &broken.into_iter().collect::<String>());
         for request in trial.session.wants() {
-            update(&mut trial.session, Msg::Answered(Box::new(answered(request))));
+            update(&mut trial.session, answered(request));
         }
     }
 

@@ -7,7 +7,7 @@ use super::strange::any_key;
 use super::{Trial, answered};
 use crate::flow::Reason;
 use crate::question::Failure;
-use crate::scene::{Answered, library};
+use crate::scene::library;
 use crate::session::read::waiting::NEEDS;
 use crate::session::replay::{Action, Player, parse};
 use crate::session::{Effect, Msg, update};
@@ -22,7 +22,7 @@ fn hurry(trial: &mut Trial, message: Msg) -> bool {
         assert!(round < 10, "waits again and again: {waiting:?}");
         let request = waiting.request.clone();
         assert!(trial.open_questions().contains(&request), "waits for what nobody answers");
-        let answer = Msg::Answered(Box::new(answered(request)));
+        let answer = answered(request);
         let effects = update(&mut trial.session, answer);
         trial.effects.extend(effects);
     }
@@ -131,9 +131,7 @@ fn what_waits_is_run_when_its_computation_gives_up_and_says_so() {
         }
         while let Some(waiting) = trial.session.waiting.clone() {
             let result = Err(Failure::Reason(Reason::OutOfRange));
-            let given_up =
-                Answered { request: waiting.request, result, seconds: 0.0, complete: true };
-            update(&mut trial.session, Msg::Answered(Box::new(given_up)));
+            update(&mut trial.session, Msg::answered(waiting.request, result, 0.0));
         }
         assert!(trial.notice().contains(said), "{keys}: {}", trial.notice());
     }
@@ -161,7 +159,7 @@ proptest! {
             type_ahead(&mut fast, &key);
             // Some of what is asked is answered before the next key.
             for request in fast.open_questions().into_iter().take(answers) {
-                let answer = Msg::Answered(Box::new(answered(request)));
+                let answer = answered(request);
                 update(&mut fast.session, answer);
             }
             pressed += &key;

@@ -10,7 +10,7 @@ use crate::question;
 use crate::question::zones::{Extent, Zones};
 use crate::question::{Borders, Rows};
 use crate::scene::library::find;
-use crate::scene::{Answer, Answered, Layer, Request};
+use crate::scene::{Answer, Layer, Request};
 use crate::session::{Key, Msg, Session, Size, update};
 use crate::study::chart::{Band, Chart, ChartLine, Plane};
 use crate::study::measure::Value;
@@ -31,20 +31,9 @@ pub(super) fn open(scene: &str, width: u16, height: u16) -> Session {
 
 /// Answers every open question by hand, at a price that is always the same.
 pub(super) fn settle(session: &mut Session) {
-    for request in session.wants() {
-        if session.is_open(&request) {
-            let result = Ok(by_hand(&request));
-            update(
-                session,
-                Msg::Answered(Box::new(Answered {
-                    request,
-                    result,
-                    seconds: 0.000_25,
-                    complete: true,
-                })),
-            );
-        }
-    }
+    crate::session::settle(session, |_, request| {
+        Some(Msg::answered(request.clone(), Ok(by_hand(request)), 0.000_25))
+    });
     update(session, Msg::Idle);
 }
 

@@ -8,7 +8,7 @@ use crate::picture::items::{Item, LineStyle};
 use crate::picture::role::{Dash, Mark, Role};
 use crate::question::answer;
 use crate::scene::library::{find, library};
-use crate::scene::{Answered, Ordinate, Point, View};
+use crate::scene::{Ordinate, Point, View};
 use crate::session::{Msg, Session, Size, update};
 use crate::view::look::Look;
 use crate::view::screen::text;
@@ -18,8 +18,7 @@ fn computed(scene: &str) -> Session {
     let mut session = Session::new(find(scene).unwrap(), Size { width: 120, height: 40 });
     for request in session.wants() {
         let result = Ok(answer(&request, &Limits::default()).unwrap());
-        let answered = Answered { request, result, seconds: 0.0, complete: true };
-        update(&mut session, Msg::Answered(Box::new(answered)));
+        update(&mut session, Msg::answered(request, result, 0.0));
     }
     session
 }
@@ -223,8 +222,7 @@ fn both_sides_of_the_unstable_cycle_stand_in_one_picture() {
         update(&mut session, Msg::Key(key.parse().unwrap()));
         for request in session.asks() {
             let result = Ok(answer(&request, &Limits::default()).unwrap());
-            let answered = Answered { request, result, seconds: 0.0, complete: true };
-            update(&mut session, Msg::Answered(Box::new(answered)));
+            update(&mut session, Msg::answered(request, result, 0.0));
         }
     }
     let picture = crate::picture::of(&session, 0);
