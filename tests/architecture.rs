@@ -401,3 +401,39 @@ fn a_circle_is_seen_through_whatever_a_module_offers_again() {
         "a parent with data that its children use"
     );
 }
+
+/// Whether what CONTRIBUTING.md names is there: a file, a folder, or something in the module that it is said to be in.
+fn is_there(root: &Path, sources: &[Source], name: &str) -> bool {
+    let path = name.trim_end_matches("*.toml").trim_end_matches('/');
+    if name.contains('/') || name.ends_with(".rs") {
+        let inside = |source: &Source| source.path.ends_with(path);
+        return root.join(path).exists()
+            || root.join("src").join(path).exists()
+            || root.join("src/session").join(path).exists()
+            || sources.iter().any(inside);
+    }
+    let words: Vec<&str> = name.split("::").collect();
+    let (item, module) = words.split_last().unwrap();
+    let said = |text: &str| {
+        text.split(|char: char| !char.is_alphanumeric() && char != '_').any(|word| word == *item)
+    };
+    let within =
+        |source: &&Source| module.iter().all(|it| source.module.iter().any(|own| own == it));
+    sources.iter().filter(within).any(|source| said(&source.text) || source.top() == *item)
+}
+
+#[test]
+fn the_walks_through_the_code_name_what_is_there() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let text = fs::read_to_string(root.join("CONTRIBUTING.md")).unwrap();
+    let sources = sources();
+    let is_name =
+        |name: &&str| name.starts_with(char::is_alphanumeric) && !name.contains([' ', '=', '-']);
+    let named: Vec<&str> = text.split('`').skip(1).step_by(2).filter(is_name).collect();
+    assert!(named.len() > 60, "{named:?}");
+    let gone: Vec<_> = named.iter().filter(|name| !is_there(root, &sources, name)).collect();
+    assert!(gone.is_empty(), "CONTRIBUTING.md names what is not there: {gone:?}");
+    for gone in ["src/session/gone.rs", "session/state/gone/", "gone.rs", "session::gone"] {
+        assert!(!is_there(root, &sources, gone), "{gone}");
+    }
+}
