@@ -48,10 +48,8 @@ pub struct Explicit<const S: usize, const R: usize, F: Field = HalfPlane> {
     rejected: u64,
 }
 
-/// DOP853.
 pub type Dop853<F = HalfPlane> = Explicit<12, 16, F>;
 
-/// DOPRI5.
 pub type Dopri5<F = HalfPlane> = Explicit<7, 8, F>;
 
 /// The classical method of order 4.

@@ -95,7 +95,6 @@ impl Taylor {
         }
     }
 
-    /// The order.
     pub fn order(&self) -> f64 {
         #[expect(clippy::cast_precision_loss, reason = "at most 28")]
         {

@@ -6,7 +6,6 @@ use super::subject::Subject;
 use super::survey::Trouble;
 use super::varied::Varied;
 
-/// A point of a branch.
 #[derive(Clone, Debug)]
 pub struct MachineBranchPoint {
     /// Value of the number that varies, in SI units.
@@ -18,7 +17,6 @@ pub struct MachineBranchPoint {
 /// The cycles along a number.
 #[derive(Clone, Debug)]
 pub struct MachineBranch {
-    /// Its points.
     pub points: Vec<MachineBranchPoint>,
     /// Where the portrait changes, in the order of the points.
     pub special: Vec<MachineSpecial>,

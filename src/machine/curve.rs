@@ -8,7 +8,6 @@ use crate::numerics::polynomial::{value, value_and_slope};
 use crate::numerics::quadrature::gauss;
 use crate::numerics::root::{Bracket, Change, newton};
 
-/// One piece of a curve.
 #[derive(Clone, Debug)]
 pub enum Piece {
     /// A step in slip: its series hold everywhere between its ends.
@@ -25,7 +24,6 @@ pub enum Piece {
 /// A step in slip.
 #[derive(Clone, Debug)]
 pub struct Slip {
-    /// The phase.
     pub phase: Phase,
     /// Duration, in `1/omega_0`.
     pub duration: f64,
@@ -123,7 +121,6 @@ pub struct Rectangle {
 }
 
 impl Rectangle {
-    /// Its area.
     pub fn area(&self) -> f64 {
         (self.x.1 - self.x.0) * (self.y.1 - self.y.0)
     }

@@ -48,7 +48,6 @@ impl SteppedMethod {
         }
     }
 
-    /// Its name.
     pub fn name(self) -> &'static str {
         self.method().spec().name
     }

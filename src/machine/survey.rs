@@ -45,11 +45,8 @@ pub struct Course {
 /// A motion by a method that is not Taylor series.
 #[derive(Clone, Copy, Debug)]
 pub struct Second {
-    /// The method.
     pub way: SteppedMethod,
-    /// Its tolerance.
     pub tolerance: f64,
-    /// What it found.
     pub found: Result<Stepped, Unfollowed>,
 }
 

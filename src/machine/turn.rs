@@ -9,7 +9,6 @@ use super::model::{Model, Phase};
 /// What the mass does at a place of the phase plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
-    /// It slips.
     Slips(Phase),
     /// It rides on the belt.
     Sticks,

@@ -9,7 +9,6 @@ use crate::oscillator::belt::{Dimension, FrictionLaw, QUANTITIES, Quantity};
 /// A number of a machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Varied {
-    /// One of its quantities.
     Quantity(Quantity),
     /// The coefficient of static friction of the belt.
     StaticCoefficient,
@@ -43,7 +42,6 @@ const COEFFICIENTS: [&str; 6] = ["mu0", "mu1", "mu2", "mu3", "mu4", "mu5"];
 /// Names of the coefficients of a damping ratio, in powers of the velocity.
 const RATIOS: [&str; 6] = ["ratio0", "ratio1", "ratio2", "ratio3", "ratio4", "ratio5"];
 
-/// Units of these coefficients.
 const COEFFICIENT_UNITS: [&str; 6] = ["", "s/m", "s^2/m^2", "s^3/m^3", "s^4/m^4", "s^5/m^5"];
 
 impl Varied {
@@ -95,7 +93,6 @@ impl Varied {
         }
     }
 
-    /// Its dimension.
     pub fn dimension(self) -> Dimension {
         match self {
             Varied::Quantity(quantity) => quantity.spec().dimension,

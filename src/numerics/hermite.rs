@@ -3,9 +3,7 @@
 /// A cubic on `0 ..= 1`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hermite {
-    /// Values at 0 and 1.
     pub values: (f64, f64),
-    /// Slopes at 0 and 1.
     pub slopes: (f64, f64),
 }
 

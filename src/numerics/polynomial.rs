@@ -40,7 +40,6 @@ pub fn value_and_slope(coefficients: &[f64], t: f64) -> (f64, f64) {
 /// A function and its first three derivatives at one place.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Derivatives {
-    /// The value.
     pub value: f64,
     /// First derivative.
     pub first: f64,

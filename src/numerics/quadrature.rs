@@ -22,7 +22,6 @@ pub fn gauss(function: impl Fn(f64) -> f64) -> f64 {
 /// An integral, with an estimate of its absolute error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Integral {
-    /// The value.
     pub value: f64,
     /// The estimated error.
     pub error: f64,

@@ -32,7 +32,6 @@ impl Bracket {
         Bracket { low, high, rising: false }
     }
 
-    /// The middle.
     pub fn middle(&self) -> f64 {
         0.5 * (self.low + self.high)
     }

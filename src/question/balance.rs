@@ -6,10 +6,8 @@ use crate::flow::Reason;
 use crate::oscillator::Parameters;
 use crate::study::harmonic_error::{HarmonicBalance, harmonic_balance};
 
-/// What is asked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
-    /// The parameters.
     pub parameters: Parameters,
     /// Number N of harmonics.
     pub harmonics: usize,

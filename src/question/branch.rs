@@ -8,7 +8,6 @@ use crate::oscillator::{Parameters, Symbol};
 use crate::study::Branch;
 use crate::study::branch::{Points, branch};
 
-/// What is asked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
     /// The parameters; the one that varies is set to 0 so that stepping it changes nothing here.

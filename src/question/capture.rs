@@ -6,10 +6,8 @@ use crate::flow::{Cost, Reason};
 use crate::oscillator::{Parameters, State};
 use crate::study::capture::bands;
 
-/// What is asked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
-    /// The parameters.
     pub parameters: Parameters,
     /// Clearance up to which borders are followed.
     pub reach: f64,

@@ -5,7 +5,6 @@ use super::means::Means;
 use crate::flow::Reason;
 use crate::study::claims::{Examined, examine_all};
 
-/// What is asked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked;
 

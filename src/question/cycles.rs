@@ -7,10 +7,8 @@ use crate::oscillator::Parameters;
 use crate::study::Cycles;
 use crate::study::cycle::cycles_drawn;
 
-/// What is asked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
-    /// The parameters.
     pub parameters: Parameters,
 }
 

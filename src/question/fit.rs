@@ -75,10 +75,8 @@ impl std::ops::Deref for Recording {
     }
 }
 
-/// What is asked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
-    /// The record.
     pub recording: Recording,
 }
 

@@ -8,10 +8,8 @@ use crate::study::basin::basin;
 use crate::study::kicks::RandomKick;
 use crate::study::stability::Share;
 
-/// What is asked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
-    /// The parameters.
     pub parameters: Parameters,
     /// The density of the kicks.
     pub kicks: RandomKick,

@@ -8,10 +8,8 @@ use super::whole::{self, Course};
 use crate::flow::{Problem, Reason, Trajectory};
 use crate::oscillator::Belt;
 
-/// What is asked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
-    /// The machine.
     pub belt: Arc<Belt>,
     /// Start, end time and tolerance; the parameters are those of the cubic expansion.
     pub problem: Problem,

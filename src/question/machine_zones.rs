@@ -9,7 +9,6 @@ use crate::flow::Reason;
 use crate::machine::Tolerances;
 use crate::oscillator::Belt;
 
-/// What is asked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
     /// The machine.

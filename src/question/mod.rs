@@ -41,7 +41,6 @@ macro_rules! questions {
             Trade(trade) "trade" costs |found| found.cost();
             /// The rows of a scan that are not there yet.
             Scan(scan) "scan" costs |found| found.cost();
-            /// The claims of the paper.
             Claims(claims) "paper" costs |_| Cost::default();
             /// How many cycles there are for certain.
             Proof(proof) "proof" costs |_| Cost::default();

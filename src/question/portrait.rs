@@ -9,7 +9,6 @@ use crate::flow::Reason;
 use crate::oscillator::{Belt, Parameters};
 use crate::study::Cycles;
 
-/// What is asked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
     /// The machine.

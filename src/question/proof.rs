@@ -6,10 +6,8 @@ use crate::flow::Reason;
 use crate::oscillator::Parameters;
 use crate::proof::{ParameterBox, Proof, prove};
 
-/// What is asked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
-    /// The parameters.
     pub parameters: Parameters,
 }
 

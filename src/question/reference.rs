@@ -8,7 +8,6 @@ use crate::study::accuracy::Reference;
 /// Evaluations that a reference may take in the explorer: beyond, the energy ledger must do.
 const REFERENCE: u64 = 4_000_000;
 
-/// What is asked: the reference of this motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked(pub Motion);
 

@@ -5,7 +5,6 @@ use super::kind::Question;
 use super::means::Means;
 use crate::flow::Reason;
 
-/// What is asked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
     /// The fit of all numbers.

@@ -18,7 +18,6 @@ const BOUNDARY_TOLERANCE: f64 = 1e-13;
 /// The same in a draft.
 const DRAFT_BOUNDARY_TOLERANCE: f64 = 1e-3;
 
-/// What is asked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
     /// The parameters; the two that vary are set to 0 so that stepping them changes nothing here.

@@ -7,10 +7,8 @@ use crate::oscillator::Parameters;
 use crate::study::ReturnMap;
 use crate::study::return_map::return_map;
 
-/// What is asked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
-    /// The parameters.
     pub parameters: Parameters,
     /// Displacements, from and to.
     pub range: (f64, f64),

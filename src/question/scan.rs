@@ -7,10 +7,8 @@ use super::means::{Means, Rows};
 use crate::flow::Reason;
 use crate::study::scan::Scan;
 
-/// What is asked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
-    /// The scan.
     pub scan: Arc<Scan>,
     /// Number of the first point wanted.
     pub from: usize,

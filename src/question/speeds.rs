@@ -44,7 +44,6 @@ pub struct Speed {
 const STEPS: u8 = 32;
 const FEW: usize = 7;
 
-/// What is asked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
     /// The machine; its own speed is put to 1 so that stepping it changes nothing here.

@@ -8,7 +8,6 @@ use crate::study::trade::Trade;
 /// Evaluations that a row of the trade may take on the screen; the command line waits longer.
 const ROW: u64 = 1_000_000;
 
-/// What is asked: the trade on this motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked(pub Motion);
 

@@ -13,7 +13,6 @@ use crate::study::basin::Basin;
 use crate::study::cycle::PICTURE_REACH;
 use crate::study::guarantee::{guarantee, uncertain, zones};
 
-/// What is asked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
     /// Where the parameters lie.
@@ -41,7 +40,6 @@ pub enum Extent {
     Nothing,
     /// What a curve does not separate from the origin.
     Within(Vec<State>),
-    /// All of it.
     Everything,
 }
 
@@ -56,7 +54,6 @@ pub struct Zones {
     pub nominal: Margin,
     /// The margin that holds for certain, or why none does.
     pub guaranteed: Result<Margin, String>,
-    /// What it cost.
     pub cost: Cost,
 }
 

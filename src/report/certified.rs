@@ -71,7 +71,6 @@ impl PointBounds {
         PointBounds { tau: tau.into(), q, v, proved: true, open: None }
     }
 
-    /// Of the end of a motion.
     pub fn of_end(motion: &ProvedMotion, until: f64) -> Self {
         let Followed { tau, q, v, proved, open, .. } = followed(motion, until);
         PointBounds { tau, q, v, proved, open }

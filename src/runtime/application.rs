@@ -81,7 +81,6 @@ pub trait Host {
 
     fn application(&mut self) -> &mut Self::Application;
 
-    /// Carries out an effect.
     fn carry_out(&mut self, effect: Effect) -> io::Result<EffectOutcome>;
 
     /// Gives the application a message, and what comes of its effects in their order.

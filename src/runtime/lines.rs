@@ -49,7 +49,6 @@ pub(super) struct Lines<R> {
     bytes: u64,
 }
 
-/// A line of a file.
 pub(super) enum FileLine {
     Whole(Vec<u8>),
     /// Without: the last one, perhaps empty.

@@ -430,7 +430,6 @@ pub fn commands() -> impl Iterator<Item = &'static Command> {
     rows().map(|row| &row.command)
 }
 
-/// How the command with this name is run.
 pub(super) fn run(name: &str) -> Option<Run> {
     rows().find(|row| row.command.name == name).map(|row| row.run)
 }

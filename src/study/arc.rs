@@ -70,7 +70,6 @@ pub struct Arc {
     rest: Option<ArcStep>,
     /// The swing, or why it has no end.
     pub swing: Result<HalfSwing, NoEnd>,
-    /// What it cost.
     pub cost: Cost,
 }
 

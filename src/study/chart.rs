@@ -23,7 +23,6 @@ pub struct Plane {
     pub right: Symbol,
     /// The parameter upwards.
     pub up: Symbol,
-    /// Range of the one to the right.
     pub right_range: (f64, f64),
     /// Range of the one upwards.
     pub up_range: (f64, f64),
@@ -38,7 +37,6 @@ pub struct Chart {
     pub along: Symbol,
     /// The lines, by the value of the other parameter.
     pub lines: Vec<ChartLine>,
-    /// What it cost.
     pub cost: Cost,
 }
 

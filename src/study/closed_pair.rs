@@ -36,7 +36,6 @@ pub struct Closing {
 pub struct Spread {
     /// Of the clearances at which the swings start.
     pub clearance: [f64; 2],
-    /// Of the duration.
     pub duration: f64,
     /// Of the integral of `v^2`.
     pub square: f64,

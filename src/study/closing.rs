@@ -62,7 +62,6 @@ impl Route {
 /// The half maps of both swings in both directions.
 #[derive(Clone, Debug)]
 pub struct Equation {
-    /// The parameters.
     pub parameters: Parameters,
     /// The side of the first swing.
     pub side: Side,

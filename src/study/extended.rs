@@ -19,7 +19,6 @@ use crate::oscillator::{Parameters, Side, State, Symbol};
 /// A fold: the cycle at which two meet.
 #[derive(Clone, Copy, Debug)]
 pub struct FoldCycle {
-    /// The parameters.
     pub parameters: Parameters,
     /// The cycle.
     pub closing: Closing,
@@ -34,7 +33,6 @@ pub struct FoldCycle {
 /// A place near a fold.
 #[derive(Clone, Copy, Debug)]
 pub struct Guess {
-    /// The parameters.
     pub parameters: Parameters,
     /// The unknown `ln c0`.
     pub u: f64,

@@ -15,7 +15,6 @@ use crate::oscillator::{Parameters, Side, Symbol};
 /// The cycle of the largest D.
 #[derive(Clone, Copy, Debug)]
 pub struct Highest {
-    /// Its D.
     pub d: f64,
     point: CurvePoint,
     parameters: Parameters,

@@ -13,7 +13,6 @@ pub struct FoldPoint {
     pub d: f64,
     /// Right turning point of the cycle that is born there.
     pub q_max: f64,
-    /// Its period.
     pub period: f64,
     /// Whether the stable cycle grazes the sticking set there, instead of meeting an unstable one.
     ///

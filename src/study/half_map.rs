@@ -65,7 +65,6 @@ impl Length {
     }
 }
 
-/// One half swing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HalfSwing {
     /// Clearance at which it starts: at `(-start, 0)`.
@@ -140,7 +139,6 @@ impl HalfMap {
         self.tolerance
     }
 
-    /// The field.
     pub fn field(&self) -> &HalfPlane {
         &self.field
     }

@@ -27,7 +27,6 @@ pub enum Distribution {
 /// As far as kicks may reach: basins are still known well there.
 const FARTHEST: f64 = 1e8;
 
-/// A random kick.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct RandomKick {

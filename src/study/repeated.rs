@@ -30,7 +30,6 @@ pub struct Repeated {
     pub error: f64,
     /// Density of the places of rest after many kicks, in cells of equal width from -r to r.
     pub density: Vec<f64>,
-    /// What it cost.
     pub cost: Cost,
 }
 

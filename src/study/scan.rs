@@ -42,7 +42,6 @@ pub struct Sweep {
 /// Fewest and most values of a [`Sweep`].
 pub const COUNTS: std::ops::RangeInclusive<usize> = 2..=1_000_000;
 
-/// Most points of a scan.
 pub const MOST_POINTS: usize = 1_000_000_000;
 
 /// How a sweep is written.
@@ -160,7 +159,6 @@ pub struct ScanRow {
     pub values: Vec<Value>,
     /// What could not be computed, and why.
     pub reason: Option<String>,
-    /// What it cost.
     pub cost: Cost,
 }
 
@@ -205,7 +203,6 @@ impl Scan {
         &self.over
     }
 
-    /// What is measured.
     pub fn measures(&self) -> &[Measure] {
         &self.measures
     }

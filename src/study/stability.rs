@@ -15,7 +15,6 @@ use crate::numerics::root::{TO_ROUNDING, bisect};
 /// A part of a whole, and a bound on its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Share {
-    /// The part, 0 .. 1.
     pub part: f64,
     /// Estimated absolute error.
     pub error: f64,

@@ -39,7 +39,6 @@ pub struct Tried {
     pub deviation: Result<Deviation, NoComparison>,
     /// How many turning points, or changes of the sign of v, it has.
     pub turns: usize,
-    /// What it cost.
     pub cost: Cost,
 }
 

@@ -13,7 +13,6 @@ pub(super) struct Content {
     pub below: u16,
 }
 
-/// A line of a list.
 pub(super) enum ListLine {
     /// Groups the rows below it.
     Heading(&'static str),

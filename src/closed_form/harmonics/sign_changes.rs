@@ -63,7 +63,6 @@ pub fn sign_changes(function: &Fourier) -> Vec<SignChange> {
 /// when a piece is a hundredth of the shortest wave long.
 const ORDER: usize = 8;
 
-/// An end of a piece.
 #[derive(Clone, Copy)]
 struct PieceEnd {
     angle: f64,

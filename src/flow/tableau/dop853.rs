@@ -5,7 +5,6 @@
 
 use super::{ErrorEstimate, Scheme};
 
-/// The scheme.
 pub static SCHEME: Scheme<STAGES, 16> = Scheme {
     columns: Scheme::<STAGES, 16>::columns(&A, &WEIGHTS, &[&ERROR5, &ERROR3]),
     weights: WEIGHTS,
@@ -15,7 +14,6 @@ pub static SCHEME: Scheme<STAGES, 16> = Scheme {
     dense: &DENSE,
 };
 
-/// Stages.
 const STAGES: usize = 12;
 
 /// Row `i` gives stage `i + 1` from the slopes of the stages before it.

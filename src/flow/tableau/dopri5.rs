@@ -5,7 +5,6 @@
 
 use super::{ErrorEstimate, Scheme};
 
-/// The scheme.
 pub static SCHEME: Scheme<STAGES, 8> = Scheme {
     columns: Scheme::<STAGES, 8>::columns(&A, &WEIGHTS, &[&ERROR]),
     weights: WEIGHTS,

@@ -2,7 +2,6 @@
 
 use super::{ErrorEstimate, Scheme};
 
-/// The scheme.
 pub static SCHEME: Scheme<STAGES, 4> = Scheme {
     columns: Scheme::<STAGES, 4>::columns(&A, &WEIGHTS, &[]),
     weights: WEIGHTS,
@@ -12,7 +11,6 @@ pub static SCHEME: Scheme<STAGES, 4> = Scheme {
     dense: &[],
 };
 
-/// Stages.
 const STAGES: usize = 4;
 
 /// Row `i` gives stage `i + 1` from the slopes of the stages before it.

@@ -19,7 +19,6 @@ pub enum Owner {
     Motion(usize, Option<usize>),
 }
 
-/// A line of the ledger.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LedgerLine {
     /// Whose works the lines below are.

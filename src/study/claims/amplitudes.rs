@@ -17,7 +17,6 @@ use crate::study::cycle::cycles as cycles_of;
 use crate::study::fold::fold;
 use crate::study::fold_point::FoldPoint;
 
-/// The claims.
 pub const CLAIMS: &[Claim] = &[
     Claim {
         equation: "(42)",
@@ -378,7 +377,6 @@ fn counted(
     Ok(Finding::always(cases))
 }
 
-/// (48).
 fn printed_fold(d3: f64, r: f64) -> f64 {
     -0.5 * cbrt(powi(9.0 / PI, 2) * r * r * d3)
 }

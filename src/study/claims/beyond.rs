@@ -20,7 +20,6 @@ use crate::study::basin::basin;
 use crate::study::escape::escape_point;
 use crate::study::half_map::Length;
 
-/// The claims.
 pub const CLAIMS: &[Claim] = &[
     Claim {
         equation: "x' < v0",

@@ -16,7 +16,6 @@ use crate::study::Edge;
 use crate::study::cycle::cycles as all;
 use crate::study::fold::fold;
 
-/// The claims.
 pub const CLAIMS: &[Claim] = &[
     Claim {
         equation: "6.3",

@@ -121,7 +121,6 @@ impl Deref for BoundedCycle {
 /// All cycles of the search, and whether it is proved that there are these and no others.
 #[derive(Clone, Debug)]
 pub struct AllFound {
-    /// The cycles.
     pub cycles: Vec<BoundedCycle>,
     /// Whether their number is proved.
     pub certain: bool,
@@ -142,7 +141,6 @@ impl AllFound {
 /// What borders a basin, and whether that is proved.
 #[derive(Clone, Copy, Debug)]
 pub struct CertainEdge {
-    /// The edge.
     pub edge: Edge,
     /// Whether it is proved.
     pub certain: bool,

@@ -19,7 +19,6 @@ use crate::proof::{ParameterBox, prove};
 use crate::study::basin::basin;
 use crate::study::margin::Margin;
 
-/// The claims.
 pub const CLAIMS: &[Claim] = &[
     Claim {
         equation: "(10)",

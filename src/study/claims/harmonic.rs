@@ -16,7 +16,6 @@ use crate::numerics::interval::PI as PI_BOUNDS;
 use crate::oscillator::Parameters;
 use crate::study::harmonic_error::harmonic_balance;
 
-/// The claims.
 pub const CLAIMS: &[Claim] = &[
     Claim {
         equation: "(34)",

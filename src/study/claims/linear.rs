@@ -16,7 +16,6 @@ use crate::proof::Enclosure;
 use crate::study::Edge;
 use crate::study::cycle::Cycle;
 
-/// The claims.
 pub const CLAIMS: &[Claim] = &[
     Claim {
         equation: "5",
@@ -213,7 +212,6 @@ impl LinearSwing {
         LinearSwing { d, omega, growth: exp(-PI * d / omega) }
     }
 
-    /// (30).
     fn clearance(&self) -> f64 {
         2.0 / (self.growth - 1.0)
     }

@@ -59,7 +59,6 @@ fn short(value: f64) -> String {
     if full.len() <= TYPED { full } else { format!("{value:.6}") }
 }
 
-/// A state at rest.
 pub fn at_rest(q: f64) -> State {
     State { q, v: 0.0 }
 }

@@ -47,7 +47,6 @@ pub const UNSAID: &str = "-";
 /// A claim and what became of it.
 #[derive(Clone, Debug)]
 pub struct Examined {
-    /// The claim.
     pub claim: &'static Claim,
     /// The numbers, or why there are none.
     pub finding: Result<Finding, Reason>,

@@ -8,7 +8,6 @@ use crate::numerics::elementary::{exp, ln, powi};
 use crate::numerics::interval::PI;
 use crate::oscillator::Parameters;
 
-/// The claims.
 pub const CLAIMS: &[Claim] = &[
     Claim {
         equation: "after (2)",

@@ -10,7 +10,6 @@ use crate::numerics::elementary::log2;
 use crate::oscillator::Parameters;
 use crate::study::Edge;
 
-/// The claims.
 pub const CLAIMS: &[Claim] = &[
     Claim {
         equation: "after Fig. 17",

@@ -99,7 +99,6 @@ pub const THIN: usize = 11;
 /// One motion of the lattice.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Case {
-    /// Its parameters.
     pub parameters: Parameters,
     /// What is special about its start.
     pub start: SpecialStart,

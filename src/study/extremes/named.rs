@@ -11,17 +11,13 @@ use crate::oscillator::{Parameters, State};
 /// One of them by one method.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Named {
-    /// What it is.
     pub what: &'static str,
-    /// The method.
     pub method: Method,
-    /// What is measured.
     pub measure: &'static str,
     /// The measured value; infinite where the answer is of the wrong kind.
     pub measured: f64,
     /// The largest value that is right.
     pub allowed: f64,
-    /// What it cost.
     pub cost: Cost,
 }
 

@@ -24,7 +24,6 @@ const AGAIN: f64 = 1e-13;
 /// A limit cycle of the lattice.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct LatticeCycle {
-    /// The cycle.
     #[serde(flatten)]
     pub cycle: Cycle,
     /// By what part of the clearance a turn fails to close, followed again by steps of another length, along
@@ -56,11 +55,8 @@ fn as_text<S: serde::Serializer>(reason: &Reason, out: S) -> Result<S::Ok, S::Er
 /// The parameters of a place of the lattice and what the search for cycles answered there.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SetVerdict {
-    /// The parameters.
     pub parameters: Parameters,
-    /// The answer.
     pub answer: SetAnswer,
-    /// What it cost.
     pub cost: Cost,
 }
 

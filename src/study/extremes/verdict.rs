@@ -24,7 +24,6 @@ const REFERENCE_BUDGET: u64 = 200_000;
 pub const METHODS: [Method; 6] =
     [Method::Auto, Method::Exact, Method::Taylor, Method::Dop853, Method::Dopri5, Method::Stiff];
 
-/// What one method answered.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MethodAnswer {
     /// The method that was asked.
@@ -36,7 +35,6 @@ pub struct MethodAnswer {
     pub digits_lost: Option<f64>,
     /// Whether the answer contradicts the reference.
     pub contradicts: bool,
-    /// What it cost.
     pub cost: Cost,
 }
 

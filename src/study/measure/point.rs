@@ -35,7 +35,6 @@ pub struct ScanPoint {
     settling: Option<Settling>,
     repeated: Option<Repeated>,
     proof: Option<Proof>,
-    /// What all of it cost.
     pub cost: Cost,
     /// What could not be computed, and why.
     pub failures: Vec<(Need, Reason)>,
