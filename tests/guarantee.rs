@@ -189,6 +189,31 @@ fn the_margin_known_from_elsewhere() {
 }
 
 #[test]
+fn a_border_far_out_on_one_side_is_that_of_the_plain_system() {
+    // D2 brakes on one side and drives on the other, and a D3 of nearly nothing closes the way out: the far end lies where
+    // swings have forgotten their starts.
+    for d3 in [-5e-3, -5e-4, -1e-9] {
+        let plain = Parameters { d: 0.1157, d2: 0.3517, d3, r: 0.22 };
+        let margin = basin(&plain, 0.0, &Limits::PATIENT).unwrap().margin();
+        let exact = [plain.d, plain.d2, plain.d3, plain.r].map(|value| [value; 2]);
+        let (known, _) = case(exact[0], exact[1], exact[2], exact[3], 0.0);
+        let found = guarantee(&known, 0.0, &Limits::PATIENT).unwrap();
+        for (sure, one) in [
+            (found.guaranteed.margin.displacement, margin.displacement),
+            (found.guaranteed.margin.impulse, margin.impulse),
+        ] {
+            let (sure, one) = (sure.unwrap(), one.unwrap());
+            assert!((-1e-9..1e-12).contains(&(sure / one - 1.0)), "{d3}: {sure} {one}");
+        }
+        // What is not known exactly only lessens it.
+        let (wide, w) = case(exact[0], [0.3143, 0.3517], [d3, -d3], [0.28, 0.3], 0.06);
+        let found = guarantee(&wide, w, &Limits::PATIENT).unwrap();
+        let least = found.guaranteed.margin.displacement.unwrap();
+        assert!(least < 1.001 * margin.displacement.unwrap() && least > 1.9, "{d3}: {least}");
+    }
+}
+
+#[test]
 fn no_disturbance_leads_out_of_the_guaranteed_margin() {
     let mut random = Random::new(1);
     for (known, w) in cases() {

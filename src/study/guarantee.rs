@@ -146,6 +146,9 @@ impl Sided {
 /// Relative error of a clearance, of rounding and of steps, where the closing equation is not flat.
 const NOISE: f64 = 1e-12;
 
+/// An error of the clearance beyond which the other way of closing is asked.
+const FLAT: f64 = 1e-10;
+
 /// The inner end of a bracket as narrow as rounding allows, and the relative error of the clearance there.
 fn refine(
     equation: &mut Equation,
@@ -165,7 +168,33 @@ fn refine(
         if node.value().is_nan() { Err(Reason::OutOfRange) } else { Ok(node.value()) }
     })?;
     let width = (other.0 - one.0).abs();
-    Ok((one.0.min(other.0), width + NOISE / slope.abs().min(1.0)))
+    let (inside, error) = (one.0.min(other.0), width + NOISE / slope.abs().min(1.0));
+    let again = if error > FLAT { settled(equation, inside, limits)? } else { None };
+    Ok(again.unwrap_or((inside, error)))
+}
+
+/// A border whose far end lies where both swings, the first forward and the second backward, have forgotten their starts:
+/// the closing equation is flat there, and says little of that end. Run backward, both swings forget where they started
+/// and tell both ends.
+fn settled(
+    equation: &mut Equation,
+    inside: f64,
+    limits: &Limits,
+) -> Result<Option<(f64, f64)>, Reason> {
+    const ROUNDS: usize = 40;
+    let mut at = inside;
+    for _ in 0..ROUNDS {
+        let node = equation.at(Route::Backward, at, limits)?.node;
+        let (value, slope) = (node.value(), node.slope);
+        if !value.is_finite() || slope.is_nan() || slope <= 0.0 {
+            break;
+        }
+        if value.abs() <= 4.0 * f64::EPSILON * at.abs().max(1.0) {
+            return Ok(Some((at, NOISE / slope.min(1.0))));
+        }
+        at -= value;
+    }
+    Ok(None)
 }
 
 /// Margins that hold for certain.
