@@ -192,8 +192,9 @@ fn the_margin_known_from_elsewhere() {
 fn a_border_far_out_on_one_side_is_that_of_the_plain_system() {
     // D2 brakes on one side and drives on the other, and a D3 of nearly nothing closes the way out: the far end lies where
     // swings have forgotten their starts.
-    for d3 in [-5e-3, -5e-4, -1e-9] {
-        let plain = Parameters { d: 0.1157, d2: 0.3517, d3, r: 0.22 };
+    let far = [(0.1157, -5e-3), (0.1157, -5e-4), (0.1157, -1e-9), (0.65, -1e-3), (0.36, -2e-4)];
+    for (d, d3) in far {
+        let plain = Parameters { d, d2: 0.3517, d3, r: 0.22 };
         let margin = basin(&plain, 0.0, &Limits::PATIENT).unwrap().margin();
         let exact = [plain.d, plain.d2, plain.d3, plain.r].map(|value| [value; 2]);
         let (known, _) = case(exact[0], exact[1], exact[2], exact[3], 0.0);

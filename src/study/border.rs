@@ -46,10 +46,22 @@ impl Border {
         closing: &Closing,
         limits: &Limits,
     ) -> Result<Self, Reason> {
-        let Closing { first, second, .. } = *closing;
         let repels = closing.log_multiplier(parameters) > 0.0;
-        let arc = |side, start, next| attracting(parameters, side, (start, next), repels, limits);
-        let arcs = [arc(side, first, second)?, arc(side.opposite(), second, first)?];
+        Self::of_closing([parameters; 2], side, closing, repels, limits)
+    }
+
+    /// The same with parameters of its own for each of the two arcs; `repels` is the direction in time that is tried first.
+    pub fn of_closing(
+        parameters: [&Parameters; 2],
+        side: Side,
+        closing: &Closing,
+        repels: bool,
+        limits: &Limits,
+    ) -> Result<Self, Reason> {
+        let Closing { first, second, .. } = *closing;
+        let arc = |of, side, start, next| attracting(of, side, (start, next), repels, limits);
+        let [own, other] = parameters;
+        let arcs = [arc(own, side, first, second)?, arc(other, side.opposite(), second, first)?];
         Ok(Border::of(side, arcs, true))
     }
 

@@ -70,8 +70,6 @@ impl Sided {
     /// The basin of its sticking set, which is all that its innermost border parts, for `D > -1`; `reach` as
     /// for [`super::basin::basin`]. The second number bounds the relative error of the border's clearance.
     ///
-    /// Both arcs are followed backward in time, in which the border of a basin attracts.
-    ///
     /// # Errors
     /// The [`Reason`] why the border could not be computed; [`Reason::NotApplicable`] for `D <= -1`.
     pub fn basin(&self, reach: f64, limits: &Limits) -> Result<(Basin, f64), Reason> {
@@ -84,30 +82,29 @@ impl Sided {
             Arc::new(self.on(side), side, Direction::Backward, next, limits)
         };
         let escaping = self.field(second).d2;
-        let (edge, arcs, error) =
+        let (edge, border, error) =
             if let Some((closing, error)) = self.closing(&mut equation, limits)? {
-                let arcs = [arc(first, closing.second)?, arc(second, closing.first)?];
-                (Edge::Cycle, Some(arcs), error)
+                let own = [self.on(first), self.on(second)];
+                let border = Border::of_closing(own, first, &closing, true, limits)?;
+                (Edge::Cycle, Some(border), error)
             } else if self.upper.d3 == 0.0 && escaping < 0.0 {
                 // Run backward, the motion that goes out along the parabola for ever attracts, to rounding after
                 // this clearance in units of 1/abs(D2).
                 const FORGETS: f64 = 40.0;
                 let out = arc(second, Length::new(reach + FORGETS / escaping.abs()))?;
                 let before = arc(first, out.clearance().unwrap_or(Length::ZERO))?;
-                (Edge::Separatrix, Some([before, out]), NOISE)
+                (Edge::Separatrix, Some(Border::of(first, [before, out], false)), NOISE)
             } else {
                 (Edge::None, None, 0.0)
             };
         let mut cost = equation.cost();
-        let mut borders = Vec::new();
         let mut fates = vec![Fate::Captured];
-        if let Some(arcs) = arcs {
-            for arc in &arcs {
-                cost += arc.cost;
-            }
-            borders.push(Border::of(first, arcs, edge == Edge::Cycle));
+        if let Some(border) = &border {
+            cost += border.upper.cost;
+            cost += border.lower.cost;
             fates.push(Fate::Escaped);
         }
+        let borders = border.into_iter().collect();
         Ok((Basin { parameters: self.upper, edge, borders, fates, cost }, error))
     }
 
@@ -124,7 +121,12 @@ impl Sided {
         }
         let Some(bracket) = innermost_bracket(equation, limits)? else { return Ok(None) };
         let (inside, error) = refine(equation, bracket, limits)?;
-        Ok(Some((equation.at(Route::Mixed, inside, limits)?, error)))
+        let mut closing = equation.at(Route::Mixed, inside, limits)?;
+        if !closing.node.value().is_finite() {
+            // The first swing escapes from within rounding of the border.
+            closing = equation.at(Route::Backward, inside, limits)?;
+        }
+        Ok(Some((closing, error)))
     }
 
     /// The closing equation, and with it the side of its first swing: that on which D2 brakes more, because a
