@@ -48,7 +48,7 @@ pub struct LinearCycle {
 pub enum NoCycle {
     /// `D >= 0` or D is not a number: every motion loses energy (or, for `D = r = 0`, keeps it).
     NotSelfExcited,
-    /// `D <= -1`: no swing recurs, every motion beyond the sticking set runs away.
+    /// `D <= -1`: no swing recurs, every motion beyond the sticking set escapes.
     Overdamped,
     /// `r = 0`: the cycle has shrunk to the steady state.
     NoFriction,

@@ -2,7 +2,7 @@
 //!
 //! A start at the rim of the sticking set, with next to no velocity, comes to `v = 0` a little further out,
 //! perhaps by less than the position can show. That little decides: it is the clearance of the next swing,
-//! and where the rim repels (`D <= -1`) it grows for ever. So it is computed by itself, and with its
+//! and where the rim repels (`D <= -1`) it grows forever. So it is computed by itself, and with its
 //! exponent, because it is quadratic in the velocity.
 
 use super::step::Point;

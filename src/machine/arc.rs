@@ -38,7 +38,7 @@ impl fmt::Display for Unfollowed {
                 "motions of this machine slip by more than {slip:.6} m/s, where the friction law ends or its \
                  coefficient falls below 0; it must be known and not negative there"
             ),
-            Unfollowed::Escaped => write!(out, "the motion runs away"),
+            Unfollowed::Escaped => write!(out, "the motion grows without bound"),
             Unfollowed::Settled => write!(out, "the motion turns no more"),
             Unfollowed::Steps => write!(
                 out,
@@ -132,7 +132,7 @@ const NEAR: f64 = 1e-16;
 /// A motion this small is at rest: its series would underflow.
 const LEAST: f64 = 1e-250;
 
-/// Velocities that have grown by this factor have run away.
+/// Velocities that have grown by this factor count as escaped.
 const ESCAPED: f64 = 1e60;
 
 /// Computes motions of a model, with the room that it needs for it.

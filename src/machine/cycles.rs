@@ -95,7 +95,7 @@ pub struct FixedPoints {
 /// Logarithm of a multiplier from which on cycles are computed backward in time.
 const STRONG: f64 = 4.0;
 
-/// Stands for what cannot be reckoned: the mass comes to rest, or runs away.
+/// Stands for a value that does not exist: the mass comes to rest, or escapes.
 const FAR: f64 = 1e3;
 
 impl Flow<'_> {
@@ -178,7 +178,7 @@ impl Flow<'_> {
                 {
                     found.points.push((released, image));
                 }
-                // What runs away is known.
+                // What escapes is known.
                 Some((_, Err(stop))) if stop != Unfollowed::Escaped => found.stop = Some(stop),
                 _ => {}
             }

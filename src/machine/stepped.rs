@@ -113,7 +113,7 @@ pub struct Traced {
 /// estimated relative error below `tolerance`.
 ///
 /// # Errors
-/// [`Unfollowed`] where it leaves the law, runs away, or needs too many steps.
+/// [`Unfollowed`] where it leaves the law, escapes, or needs too many steps.
 pub fn stepped(
     model: &Model,
     way: SteppedMethod,

@@ -71,7 +71,7 @@ pub fn table(found: &SurveyedBasin, seconds: f64) -> String {
     for (fate, count) in [
         ("are captured", captured),
         ("end on a stable cycle", cycle),
-        ("run away", escaped),
+        ("escape", escaped),
         ("stay undecided", undecided),
     ] {
         counts.row(vec![fate.to_owned(), count.to_string()]);

@@ -1,4 +1,4 @@
-//! Files that are read up to a length: a device or a pipe could go on for ever.
+//! Files that are read up to a length: a device or a pipe could be endless.
 
 use std::fs::File;
 use std::io::{self, Read};

@@ -1,7 +1,7 @@
 //! A keystroke file played without a terminal: the same application, the same worker, no screen.
 //!
 //! Nothing here waits for time to pass. While something is wanted the worker's next message is waited
-//! for; when nothing is wanted the file goes on.
+//! for; when nothing is wanted the next step of the file is taken.
 
 use std::io;
 

@@ -82,7 +82,7 @@ fn read(terminal: &impl AsFd, mut send: impl FnMut(Event)) {
     }
 }
 
-/// Whether there is something to read within this time; `None` waits for ever.
+/// Whether there is something to read within this time; `None` waits forever.
 fn more(terminal: &impl AsFd, time: Option<Duration>) -> bool {
     let time = time.and_then(|time| Timespec::try_from(time).ok());
     let mut waiting = [PollFd::new(terminal, PollFlags::IN)];

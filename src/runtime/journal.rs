@@ -32,7 +32,7 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// The journal beside this file, which knows nothing; what an earlier scan has left is removed.
+    /// The journal beside this file, empty; what an earlier scan has left is removed.
     pub fn new(path: &Path) -> Self {
         let journal = Journal { path: beside(path), file: None, bytes: 0 };
         journal.remove();

@@ -1,4 +1,4 @@
-//! The file of a scan: it grows by one line a row, and can be gone on with after any end.
+//! The file of a scan: it grows by one line a row, and can be resumed however it ended.
 //!
 //! Each line is handed to the system in one piece as soon as it is known, to the file or, before its turn, to the
 //! [`Journal`], so that a process that is killed loses what it was computing and at most leaves a line without its

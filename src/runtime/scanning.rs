@@ -165,7 +165,7 @@ fn step_back(polite: bool) {
     /// How many steps of niceness, of 19.
     const STEPS: i32 = 10;
     if polite {
-        // Without it the scan is as right, only less considerate.
+        // Without it the rows are the same, but other programs are slowed down more.
         let _ = rustix::process::nice(STEPS);
     }
 }

@@ -67,7 +67,7 @@ pub fn exit_code(signal: i32) -> u8 {
 /// Whether someone can make the process go on after it was stopped: a shell with job control.
 ///
 /// There is none above the leader of a session, as in `ssh -t host hopfscope`: stopped, it would hang
-/// for ever.
+/// forever.
 pub fn can_be_continued() -> bool {
     getsid(None).is_ok_and(|session| session != getpgrp())
 }

@@ -43,7 +43,7 @@ pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
     effects
 }
 
-/// Rounds of questions after which a session is taken to ask for ever: windows are fitted after the first.
+/// Rounds of questions after which a session is taken to ask forever: windows are fitted after the first.
 const ROUNDS: usize = 5;
 
 /// Answers what a session asks until it asks nothing more; what `answer` gives no message for stays open.

@@ -3,8 +3,8 @@
 //! The better one is the same motion in numbers of twice the working precision
 //! ([`crate::flow::precise`]), computed twice with different orders and steps: how far these two differ is
 //! its own error, typically `1e-26`, and it is always told. Where that would take too long (stiff motions,
-//! millions of swings) the closed form takes its place, or else an implicit run near rounding; then another
-//! method's difference from it is the own error, and no smaller error can be measured.
+//! millions of swings) the closed form takes its place, or else an implicit run near rounding; then the
+//! difference of a further method from it is taken as its own error, and no smaller error can be measured.
 
 use crate::flow::precise::{self, COARSE, FINE, Precise, precise};
 use crate::flow::trajectory::trajectory;
@@ -29,7 +29,7 @@ pub struct PreciseTurn {
 /// Where a motion ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Ending {
-    /// At rest for ever.
+    /// At rest forever.
     Rest {
         /// Displacement.
         q: Twofold,
@@ -200,7 +200,7 @@ impl Reference {
     pub fn compare(&self, found: &Trajectory) -> Result<Deviation, NoComparison> {
         let mut other = Self::from_doubles(found, self.source).map_err(NoComparison::GaveUp)?;
         if found.problem.parameters.r == 0.0 && found.crossings.is_empty() {
-            // Nobody looked for turning points where nothing happens at them: the end must do.
+            // Where nothing happens at turning points they are not located: the ends are compared.
             other.turns.clone_from(&self.turns);
         }
         self.deviation(&other).ok_or(NoComparison::OtherFate)

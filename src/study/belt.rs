@@ -1,5 +1,5 @@
 //! The oscillator of the paper as a machine: its margins in physical units, and where a motion of it reaches
-//! the speed of the belt, of which it knows nothing.
+//! the speed of the belt, which is no part of its equation.
 
 use serde::Serialize;
 

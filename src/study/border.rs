@@ -69,7 +69,7 @@ impl Border {
     /// of interest.
     ///
     /// With `D > -1` escape is the alternative, on the side in whose frame `D2 < 0` (`D3 = 0`): there the
-    /// border goes out along the parabola `v^2 = 1/(2 D2^2) - q/D2` for ever, and before it came from
+    /// border goes out along the parabola `v^2 = 1/(2 D2^2) - q/D2` forever, and before it came from
     /// infinity on the other side. With `D <= -1` the end points of the sticking set are nodes that repel,
     /// and on one side at least the border comes out of one. Fails with the [`Reason`] why an arc could not be
     /// computed, or [`Reason::NoConvergence`].

@@ -61,7 +61,7 @@ pub fn share(clearance: Length, gap: f64) -> f64 {
 }
 
 impl HalfSwing {
-    /// The swing that creeps back to the centre for ever: its end is 0.
+    /// The swing that creeps back to the centre forever: its end is 0.
     pub(super) fn collapsed(start: Length) -> Self {
         HalfSwing { duration: f64::INFINITY, ..HalfSwing::nothing(start) }
     }

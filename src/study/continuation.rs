@@ -111,7 +111,7 @@ impl<'a> Curve<'a> {
         self.limits
     }
 
-    /// The pair of swings at a point that need not close; `None` where they are too dear or too large to
+    /// The pair of swings at a point that need not close; `None` where they are too costly or too large to
     /// be computed, which ends a curve.
     fn closing(&mut self, route: Route, u: f64, p: f64) -> Result<Option<Closing>, Reason> {
         let step = STEP * self.tolerance;

@@ -1,6 +1,6 @@
 //! The graph `D(u)` of all cycles, followed to its top.
 //!
-//! The slow and sure way to a fold, for where Newton's method on both of its equations leads nowhere: where D3 is
+//! The slow and sure way to a fold, for where Newton's method on both of its equations fails: where D3 is
 //! much weaker than D2, so that the graph is flat, and beyond critical negative damping.
 
 use super::closing::{Route, first_side};

@@ -1,4 +1,4 @@
-//! What is told of a fold of limit cycles.
+//! What is known about a fold of limit cycles.
 
 use serde::Serialize;
 

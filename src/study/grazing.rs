@@ -43,7 +43,7 @@ fn found(
     if !beyond?.is_empty() {
         return Ok(None);
     }
-    // The cycle starts at the end of the set, and takes for ever to leave it.
+    // The cycle starts at the end of the set, and takes forever to leave it.
     Ok(Some(FoldPoint { d, q_max: way.q_max, period: f64::INFINITY, grazes: true }))
 }
 

@@ -88,7 +88,7 @@ impl Sided {
                 let border = Border::of_closing(own, first, &closing, true, limits)?;
                 (Edge::Cycle, Some(border), error)
             } else if self.upper.d3 == 0.0 && escaping < 0.0 {
-                // Run backward, the motion that goes out along the parabola for ever attracts, to rounding after
+                // Run backward, the motion that goes out along the parabola forever attracts, to rounding after
                 // this clearance in units of 1/abs(D2).
                 const FORGETS: f64 = 40.0;
                 let out = arc(second, Length::new(reach + FORGETS / escaping.abs()))?;

@@ -1,4 +1,4 @@
-//! Kicks by chance: which part of them is lost.
+//! Random kicks: which part of them is lost.
 //!
 //! A kick displaces the mass from its rest at the origin and gives it a velocity; both are random, independent
 //! and normal or uniform. What is lost is an integral of their density over the exact basin, whose border is a

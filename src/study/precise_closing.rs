@@ -20,7 +20,7 @@ pub const FINER: f64 = 1e-12;
 const GRAIN: Grain = Grain { order: 30, tolerance: 1e-29 };
 
 /// What an evaluation costs in units of one in doubles.
-const DEARER: u64 = 100;
+const COSTLIER: u64 = 100;
 
 /// Most evaluations of one swing.
 const BUDGET: u64 = 20_000;
@@ -53,7 +53,7 @@ impl PreciseEquation {
 
     /// What it cost, in evaluations of a double.
     pub fn cost(&self) -> Cost {
-        Cost { evaluations: DEARER * self.cost.evaluations, ..self.cost }
+        Cost { evaluations: COSTLIER * self.cost.evaluations, ..self.cost }
     }
 
     fn swing(

@@ -1,4 +1,4 @@
-//! The limit cycles, found by the search and proved: the search proposes, the proof disposes.
+//! The limit cycles, found by the search and then proved.
 //!
 //! The two share no code but the parameters. Where both are sure and differ, one of them is wrong, and the
 //! answer is a [`Contradiction`] instead of either.

@@ -20,11 +20,11 @@ use crate::oscillator::Parameters;
 pub enum Regime {
     /// Every motion comes to rest.
     Global,
-    /// Motions come to rest inside an unstable cycle, and run away outside.
+    /// Motions come to rest inside an unstable cycle, and escape outside.
     Finite,
     /// Motions come to rest inside a border, and tend to a stable cycle outside.
     Coexisting,
-    /// No cycle: a separatrix borders the starts that come to rest, others run away.
+    /// No cycle: a separatrix borders the starts that come to rest, others escape.
     Escape,
     /// Without friction: the rest repels, and every motion tends to a stable cycle.
     Cycle,

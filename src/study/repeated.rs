@@ -1,7 +1,7 @@
-//! Kicks again and again, each after the mass has come to rest: how many until the rest is lost.
+//! Repeated kicks, each after the mass has come to rest: how many until the rest is lost.
 //!
 //! Where a kick from one place of rest ends is decided by the motion alone, so the places of rest are a Markov
-//! chain on the sticking set that a kick can leave for ever. Its leading left eigenvector is the density of the
+//! chain on the sticking set that a kick can leave forever. Its leading left eigenvector is the density of the
 //! places after many kicks, given that none was lost (quasi-stationary; Darroch and Seneta, J. Appl. Prob. 2
 //! (1965) 88); the mean number of kicks until one is lost solves `n = 1 + K n`.
 //!

@@ -2,7 +2,7 @@
 //!
 //! A [`Scan`] is a list of numbered points, and a [`ScanRow`] is what was measured at one of them. Rows do
 //! not depend on each other: any of them can be computed anywhere, at any time, and is the same to the
-//! last bit. So a scan can be shared between cores and machines, stopped, and gone on with.
+//! last bit. So a scan can be shared between cores and machines, stopped, and resumed.
 
 use std::fmt;
 use std::str::FromStr;

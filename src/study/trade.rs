@@ -234,7 +234,7 @@ mod tests {
         let cost = |row: &Tried| row.cost.evaluations;
         let taylor = rows(&trade, Method::Taylor);
         assert!(cost(taylor[13]) < 7 * cost(taylor[0]), "13 digits for 6 times the first");
-        // Auto is never dearer than the series by a tenth at the same tolerance from three digits on.
+        // Auto is never costlier than the series by a tenth at the same tolerance from three digits on.
         for (auto, taylor) in rows(&trade, Method::Auto).iter().zip(&taylor).skip(1) {
             assert!(10 * cost(auto) <= 11 * cost(taylor));
         }
@@ -268,9 +268,9 @@ mod tests {
         assert!(matches!(coarse.outcome, Outcome::Moving { q, .. } if (q - 0.0015).abs() < 1e-4));
         assert!(coarse.error().unwrap() > 0.1176, "{coarse:?}");
         let smoothed = rows(&trade, Method::Smoothed);
-        let dearer =
+        let costlier =
             |one: usize| smoothed[one + 1].cost.evaluations > 5 * smoothed[one].cost.evaluations;
-        assert!(dearer(1) && dearer(2) && dearer(3));
+        assert!(costlier(1) && costlier(2) && costlier(3));
     }
 
     #[test]

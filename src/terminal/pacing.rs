@@ -8,7 +8,7 @@
 //!
 //! A terminal that never answers must not be slower for it. Until the first answer arrives frames are
 //! limited by [`FRAME_TIME`] alone, and after `TRIES` unanswered requests no more are made. A
-//! terminal that has answered and then stays silent (a dropped line) is waited for, but not for ever:
+//! terminal that has answered and then stays silent (a dropped line) is waited for, but not forever:
 //! [`Pacing::PATIENCE`], or four times the longest wait so far.
 
 use std::time::{Duration, Instant};

@@ -206,7 +206,7 @@ fn time_series(session: &Session, plot: usize) -> Option<Window> {
     }
     let motions = session.motions();
     if motions.iter().any(|(_, motion)| matches!(motion.outcome, Outcome::Escaped { .. })) {
-        // Where the values run away their beginning is looked at.
+        // Where the values diverge, their beginning is looked at.
         let extent = ESCAPE * hypot(session.problem.initial.q, session.problem.initial.v).max(r);
         values.retain(|value| value.abs() <= extent);
     }

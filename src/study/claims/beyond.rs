@@ -114,7 +114,7 @@ pub const CLAIMS: &[Claim] = &[
     Claim {
         equation: "escape",
         section: UNSAID,
-        statement: "with D3 = 0 motions beyond the parabola v^2 = 1/(2 D2^2) - q/D2 run away: impulse that is \
+        statement: "with D3 = 0 motions beyond the parabola v^2 = 1/(2 D2^2) - q/D2 escape: impulse that is \
                     not survived",
         scene: Some("escape"),
         check: |limits| {
@@ -129,7 +129,7 @@ pub const CLAIMS: &[Claim] = &[
     Claim {
         equation: "escape",
         section: UNSAID,
-        statement: "with D3 < 0 every motion outside the unstable cycle runs away in finite time",
+        statement: "with D3 < 0 every motion outside the unstable cycle escapes in finite time",
         scene: Some("subcritical"),
         check: |limits| {
             let mut cases = Vec::new();
