@@ -102,7 +102,7 @@ fn any_start_ends_where_its_motion_goes() {
                     followed += 1;
                 }
                 (MachineFate::Cycle(_), outcome) => {
-                    assert_eq!(outcome, MachineOutcome::Moves, "{belt:?}")
+                    assert_eq!(outcome, MachineOutcome::Moves, "{belt:?}");
                 }
                 (MachineFate::Rest, outcome) => {
                     assert!(outcome == MachineOutcome::Rests || belt.friction == 0.0, "{belt:?}");

@@ -243,71 +243,40 @@ fn what_concerns_the_process_stops_the_loop() {
     }
 }
 
-#[test]
-fn a_caption_waits_for_a_key_that_does_nothing_else() {
-    let Bench { pump, events, written } = bench();
-    let file = replay::parse("<right> <say \"look\"> <right>").unwrap();
-    let mut pump = pump.playing(Some(file));
-    let running = std::thread::spawn(move || (pump.run().unwrap(), pump));
-    while !written.recv().unwrap().contains("look") {}
-    events.send(key("q")).unwrap();
-    while !written.recv().unwrap().contains("done") {}
-    events.send(key("q")).unwrap();
-    let (stop, pump) = running.join().unwrap();
-    assert_eq!(stop, LoopEnd::Quit);
-    assert_eq!(pump.running().count, 2, "the first q went on with the tour");
-}
+/// A tour, what is pressed at each text that is seen, and how often it steps by then.
+type Tour<'a> = (&'a str, &'a [(&'a str, &'a [&'a str])], u32);
 
-#[test]
-fn a_tour_goes_back_to_the_caption_before() {
-    let Bench { pump, events, written } = bench();
-    let file = replay::parse("<right> <say \"one\"> <right> <say \"two\"> <right>").unwrap();
-    let mut pump = pump.playing(Some(file));
-    let running = std::thread::spawn(move || (pump.run().unwrap(), pump));
-    let seen_and_pressed =
-        [("one", "<space>"), ("two", "<backspace>"), ("one", "<space>"), ("two", "<space>")];
-    for (caption, pressed) in seen_and_pressed {
-        while !written.recv().unwrap().contains(caption) {}
-        events.send(key(pressed)).unwrap();
-    }
-    while !written.recv().unwrap().contains("done") {}
-    events.send(key("q")).unwrap();
-    let (_, pump) = running.join().unwrap();
+/// At `done` the tour is over, so that q leaves the program.
+#[rustfmt::skip]
+const TOURS: [Tour; 4] = [
+    // A caption waits for a key that does nothing else: the first q goes on with the tour.
+    ("<right> <say \"look\"> <right>", &[("look", &["q"]), ("done", &["q"])], 2),
     // Once to the first caption and on to the second, back to the first, on again and to the end.
-    assert_eq!(pump.running().count, 2 + 3);
-}
+    ("<right> <say \"one\"> <right> <say \"two\"> <right>", &[
+        ("one", &["<space>"]), ("two", &["<backspace>"]), ("one", &["<space>"]), ("two", &["<space>"]), ("done", &["q"]),
+    ], 2 + 3),
+    // A key that a caption lets do its work does it, twice here, and the whole file is played as if it had not.
+    ("<right> <say \"try\"> <right> <say \"second\">", &[
+        ("try", &["<right>", "<right>", "n"]), ("second", &["n"]), ("done", &["q"]),
+    ], 1 + 2 + 2),
+    ("<right> <say \"look\"> <right>", &[("look", &["<esc>"]), ("stopped", &["q"])], 1),
+];
 
 #[test]
-fn a_key_that_a_caption_lets_do_its_work_does_it_and_the_tour_goes_on_as_if_it_had_not() {
-    let Bench { pump, events, written } = bench();
-    let file = replay::parse("<right> <say \"try\"> <right> <say \"second\">").unwrap();
-    let mut pump = pump.playing(Some(file));
-    let running = std::thread::spawn(move || (pump.run().unwrap(), pump));
-    for (seen, pressed) in [("try", &["<right>", "<right>", "n"][..]), ("second", &["n"])] {
-        while !written.recv().unwrap().contains(seen) {}
-        for name in pressed {
-            events.send(key(name)).unwrap();
+fn a_tour_waits_at_captions_goes_back_lets_keys_be_tried_and_is_left_by_escape() {
+    for (file, pressed, count) in TOURS {
+        let Bench { pump, events, written } = bench();
+        let mut pump = pump.playing(Some(replay::parse(file).unwrap()));
+        let running = std::thread::spawn(move || (pump.run().unwrap(), pump));
+        for (seen, names) in pressed {
+            while !written.recv().unwrap().contains(seen) {}
+            for name in *names {
+                events.send(key(name)).unwrap();
+            }
         }
+        let (stop, pump) = running.join().unwrap();
+        assert_eq!((stop, pump.running().count), (LoopEnd::Quit, count), "{file}");
     }
-    while !written.recv().unwrap().contains("done") {}
-    events.send(key("q")).unwrap();
-    let (_, pump) = running.join().unwrap();
-    // Up to the caption, two presses there, and the whole file again.
-    assert_eq!(pump.running().count, 1 + 2 + 2);
-}
-
-#[test]
-fn a_tour_is_left_at_any_caption_by_escape() {
-    let Bench { pump, events, written } = bench();
-    let file = replay::parse("<right> <say \"look\"> <right>").unwrap();
-    let mut pump = pump.playing(Some(file));
-    let running = std::thread::spawn(move || (pump.run().unwrap(), pump));
-    while !written.recv().unwrap().contains("look") {}
-    events.send(key("<esc>")).unwrap();
-    while !written.recv().unwrap().contains("stopped") {}
-    events.send(key("q")).unwrap();
-    let (_, pump) = running.join().unwrap();
-    assert_eq!(pump.running().count, 1);
 }
 
 #[test]

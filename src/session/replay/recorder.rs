@@ -47,7 +47,7 @@ impl Recorder {
                 *passed += seconds;
             }
             (Some(last @ Instruction::Resize { .. }), step @ Instruction::Resize { .. }) => {
-                *last = step
+                *last = step;
             }
             (_, step) => self.steps.push(step),
         }
