@@ -405,7 +405,7 @@ fn a_circle_is_seen_through_whatever_a_module_offers_again() {
 /// Whether what CONTRIBUTING.md names is there: a file, a folder, or something in the module that it is said to be in.
 fn is_there(root: &Path, sources: &[Source], name: &str) -> bool {
     let path = name.trim_end_matches("*.toml").trim_end_matches('/');
-    if name.contains('/') || name.ends_with(".rs") {
+    if name.contains(['/', '.']) {
         let inside = |source: &Source| source.path.ends_with(path);
         return root.join(path).exists()
             || root.join("src").join(path).exists()

@@ -4,7 +4,6 @@
 const REPEAT: i64 = 1000;
 
 /// Seconds of `12:34:56.789`, `34:56,789` or `2026-03-02T12:34:56.789Z`; `None` of all else.
-#[must_use]
 pub fn seconds(cell: &str) -> Option<f64> {
     let (days, clock) = match cell.split_once(['T', ' ']) {
         Some((date, clock)) => (days(date)?, clock.trim()),

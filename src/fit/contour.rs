@@ -16,10 +16,7 @@ pub const RISES: [f64; 2] = [2.3, 6.0];
 const DIRECTIONS: u32 = 24;
 
 /// Where chi-squared has risen by `rise` in the plane of two free unknowns, around the estimate; r stays at 0
-/// where the contour would cross it.
-///
-/// # Errors
-/// [`NoFit::Interrupted`].
+/// where the contour would cross it. Fails with [`NoFit::Interrupted`].
 pub fn contour(
     estimate: &Estimate,
     places: [usize; 2],

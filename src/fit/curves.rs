@@ -47,7 +47,6 @@ pub struct Damping {
 
 impl Curves {
     /// What is worth seeing of the residuals.
-    #[must_use]
     pub fn residual_extent(&self, deviation: f64) -> Option<Extent> {
         let seen = self.sampled.as_ref()?;
         let sizes = seen.residual.iter().filter(|it| it.is_finite()).map(|it| it.abs());
@@ -56,7 +55,6 @@ impl Curves {
     }
 
     /// Computes them all.
-    #[must_use]
     pub fn of(estimate: &Estimate, margins: &Margins) -> Self {
         let (spread, spread_extent) = spread(estimate, margins);
         Curves {
@@ -69,7 +67,6 @@ impl Curves {
 }
 
 /// Autocorrelation of the residuals over lags in s, as far as two periods.
-#[must_use]
 pub fn memory(estimate: &Estimate) -> Vec<Place> {
     const LAGS: usize = 400;
     let Data::Samples { t, .. } = &estimate.data else { return Vec::new() };

@@ -23,7 +23,6 @@ pub struct Guess {
 
 /// Reads guesses off a record; `None` where fewer than three turning points, a hold and a rest included, can be
 /// told from noise.
-#[must_use]
 pub fn guess(t: &[f64], x: &[f64], noise: &Noise) -> Option<Guess> {
     let cleaned = if noise.has_outliers { without_jumps(x) } else { x.to_vec() };
     let (low, high) = cleaned
@@ -86,7 +85,6 @@ fn samples_within(t: &[f64], stretch: f64) -> f64 {
 }
 
 /// Twice the slope of the times of extremes over their number; a missed extreme counts for two.
-#[must_use]
 pub fn period_of(extremes: &[Extreme]) -> Option<f64> {
     let gaps: Vec<f64> = extremes.windows(2).map(|two| two[1].t - two[0].t).collect();
     if gaps.len() < 2 {

@@ -68,7 +68,6 @@ impl Stretch {
     /// derivatives are not wanted) and the damping allows it.
     ///
     /// `None` where the numbers leave their range.
-    #[must_use]
     pub fn new(field: HalfPlane, start: Jet, linear: bool, with_derivatives: bool) -> Option<Self> {
         if linear && field.d.abs() < OSCILLATORY {
             return Some(Self::linear(field, start, with_derivatives));
@@ -87,7 +86,6 @@ impl Stretch {
     }
 
     /// Moves on to the stretch that begins at `start`; `false` where the numbers leave their range.
-    #[must_use]
     pub fn advance(&mut self, start: Jet) -> bool {
         let Formula::Series(terms) = &mut self.formula else { return false };
         let duration = if self.with_derivatives {
@@ -108,7 +106,6 @@ impl Stretch {
     }
 
     /// Position, velocity, and the derivatives of the position.
-    #[must_use]
     #[inline]
     pub fn at(&self, t: f64) -> (f64, f64, [f64; WAYS]) {
         match &self.formula {
@@ -129,7 +126,6 @@ impl Stretch {
     }
 
     /// The point `t` after the start of this stretch, with all derivatives.
-    #[must_use]
     pub fn jet(&self, t: f64) -> Jet {
         match &self.formula {
             Formula::Linear { start, omega } => linear_jet(self.field.d, *omega, start, t),

@@ -43,7 +43,6 @@ struct Named {
 }
 
 /// How many seconds a unit of time is.
-#[must_use]
 pub fn seconds(unit: &str) -> Option<f64> {
     let plain = unit.to_lowercase().replace(['\u{b5}', '\u{3bc}'], "u");
     TIME_UNITS.iter().find(|(name, _)| *name == plain).map(|(_, seconds)| *seconds)
@@ -72,7 +71,6 @@ impl Named {
 
 impl Header {
     /// The header that these lines make: the last one with a known name, and units that may follow it.
-    #[must_use]
     pub fn of(lines: &[Vec<&str>]) -> Self {
         let read = |line: &Vec<&str>| Header {
             columns: line.iter().map(|cell| Named::read(cell)).collect(),
@@ -98,25 +96,21 @@ impl Header {
     }
 
     /// Whether the file has no header.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.columns.is_empty()
     }
 
     /// The names.
-    #[must_use]
     pub fn names(&self) -> Vec<&str> {
         self.columns.iter().map(|column| column.name.as_str()).collect()
     }
 
     /// The column with this name.
-    #[must_use]
     pub fn named(&self, name: &str) -> Option<usize> {
         self.columns.iter().position(|column| column.name.eq_ignore_ascii_case(name.trim()))
     }
 
     /// The unit of a column.
-    #[must_use]
     pub fn unit(&self, column: usize) -> Option<String> {
         self.columns.get(column)?.unit.clone()
     }
@@ -129,14 +123,12 @@ impl Header {
     }
 
     /// The column of times. A capital T is a temperature.
-    #[must_use]
     pub fn time(&self) -> Option<usize> {
         let called = |name: &str| TIMES.iter().any(|time| name.to_lowercase().contains(time));
         self.find(called, None).or_else(|| self.find(|name| name == "t", None))
     }
 
     /// The column of displacements beside that of times.
-    #[must_use]
     pub fn displacement(&self, time: Option<usize>) -> Option<usize> {
         let is = |known: &str, name: &str| {
             let name = name.to_lowercase();

@@ -26,7 +26,6 @@ pub struct Runs<'a> {
 
 impl<'a> Runs<'a> {
     /// Nothing is computed yet.
-    #[must_use]
     pub fn new(interrupted: &'a dyn Fn() -> bool) -> Self {
         Runs { with_derivatives: 0, plain: 0, interrupted, closest: f64::INFINITY }
     }
@@ -93,21 +92,18 @@ impl Task<'_> {
     }
 
     /// The loss at a point.
-    #[must_use]
     pub fn cost(&self, seen: &Seen) -> f64 {
         let used = seen.residuals.iter().enumerate().filter(|(index, _)| self.counts(*index));
         used.map(|(_, residual)| self.loss.of(residual.value)).sum()
     }
 
     /// The residuals that count.
-    #[must_use]
     pub fn used_residuals<'a>(&self, seen: &'a Seen) -> Vec<&'a Residual> {
         let used = seen.residuals.iter().enumerate().filter(|(index, _)| self.counts(*index));
         used.map(|(_, residual)| residual).collect()
     }
 
     /// Variance of the noise: the loss's own measure of the residuals over the degrees of freedom.
-    #[must_use]
     pub fn variance(&self, seen: &Seen, freedom: f64) -> f64 {
         let used = self.used_residuals(seen).into_iter();
         let influence = |residual: &Residual| self.loss.weight(residual.value) * residual.value;
@@ -127,13 +123,11 @@ impl Task<'_> {
     }
 
     /// The columns of the free unknowns.
-    #[must_use]
     pub fn columns(&self) -> Vec<usize> {
         (0..UNKNOWNS).filter(|&column| self.free[column]).collect()
     }
 
     /// The triangular factor of the weighted gradients of these unknowns, with the residuals as a last column.
-    #[must_use]
     pub fn factor(&self, seen: &Seen, columns: &[usize]) -> DMatrix<f64> {
         let width = columns.len() + 1;
         triangle(width, seen.residuals.len(), |index, row| {

@@ -21,13 +21,11 @@ pub enum Loss {
 
 impl Loss {
     /// Whether large residuals count less than their square.
-    #[must_use]
     pub fn is_robust(self) -> bool {
         self != Loss::Linear
     }
 
     /// The loss of a residual.
-    #[must_use]
     pub fn of(self, residual: f64) -> f64 {
         match self {
             Loss::Linear => residual * residual,
@@ -41,7 +39,6 @@ impl Loss {
     }
 
     /// The weight of a residual in the equivalent weighted least squares: the derivative of the loss by `e^2`.
-    #[must_use]
     pub fn weight(self, residual: f64) -> f64 {
         match self {
             Loss::Linear => 1.0,

@@ -19,7 +19,6 @@ pub struct NameSpec {
 
 impl NameSpec {
     /// Its unit: powers of the record's unit of length and of a second.
-    #[must_use]
     pub fn unit(&self, length: &str) -> String {
         let length = if length.is_empty() { "unit" } else { length };
         let power = |name: &str, power: i32| match power {
@@ -43,7 +42,6 @@ pub const NAMES: [NameSpec; 6] = [
 ];
 
 /// The row with this name.
-#[must_use]
 pub fn named(name: &str) -> Option<&'static NameSpec> {
     NAMES.iter().find(|row| row.name == name)
 }
@@ -128,7 +126,6 @@ impl PartialEq for NameSpec {
 impl Choice {
     /// The value at which a number is held; damping and friction that are neither free nor set are zero, and
     /// `omega0` and the offset are estimated unless they are set: no record comes without them.
-    #[must_use]
     pub fn held(&self, row: &NameSpec) -> Option<f64> {
         if let Some((_, value)) = self.held.iter().find(|(held, _)| *held == row) {
             return Some(*value);
@@ -138,14 +135,12 @@ impl Choice {
     }
 
     /// Whether an estimate of this number is asked for.
-    #[must_use]
     pub fn is_wanted(&self, row: &NameSpec) -> bool {
         let held = self.held.iter().any(|(held, _)| *held == row);
         !held && self.free.as_ref().is_none_or(|free| free.contains(&row))
     }
 
     /// Which unknowns are free, and the values of the others.
-    #[must_use]
     pub fn unknowns(&self) -> [Option<f64>; UNKNOWNS] {
         let mut held = [None; UNKNOWNS];
         for row in &NAMES {

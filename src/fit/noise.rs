@@ -6,7 +6,6 @@ use std::f64::consts::PI;
 use crate::numerics::elementary::{exp, powi};
 
 /// The median; 0 of nothing.
-#[must_use]
 pub fn median(mut values: Vec<f64>) -> f64 {
     let middle = values.len() / 2;
     if values.is_empty() {
@@ -17,7 +16,6 @@ pub fn median(mut values: Vec<f64>) -> f64 {
 }
 
 /// The robust standard deviation: the median magnitude of a normal deviate is 0.6745.
-#[must_use]
 pub fn robust_deviation(values: impl Iterator<Item = f64>) -> f64 {
     median(values.map(f64::abs).collect()) / 0.6745
 }
@@ -38,7 +36,6 @@ pub struct Noise {
 
 impl Noise {
     /// The noise of successive samples, of which a period has so many.
-    #[must_use]
     pub fn of(x: &[f64], samples_per_period: f64) -> Self {
         /// With fewer samples a period the motion itself has large second differences.
         const FEW: f64 = 12.0;
@@ -78,7 +75,6 @@ impl Noise {
     /// With normal noise of `s` steps the mean reading is off by `sum_k (-1)^k sin(2 pi k x)/(pi k)
     /// exp(-2 pi^2 k^2 s^2)` steps, the Fourier series of the rounding error, of which the mean square over all
     /// places x is summed here.
-    #[must_use]
     pub fn readings_at_rest(&self, variance: f64) -> f64 {
         const TERMS: u32 = 12;
         let square = powi(self.step, 2);
@@ -120,7 +116,6 @@ fn told_by_two(x: &[f64]) -> Option<[f64; 3]> {
 /// What the record begins or ends with does not count where the noise is smaller than a step of the converter: a mass may
 /// be held, or rest, at its extreme. Noise that is larger cannot be silent there. Next to flattened
 /// samples noise has chosen which ones are left, so those are left out until the motion is clear of the limit.
-#[must_use]
 pub fn within_scale(x: &[f64], noise: &Noise) -> Vec<bool> {
     /// Deviations of the noise that are clear of the limit.
     const CLEAR: f64 = 6.0;

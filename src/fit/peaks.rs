@@ -15,9 +15,7 @@ use super::search::Beginning;
 use super::turning_points::Extreme;
 
 /// Fits a list of peaks: the errors of displacements and times are weighed against each other by their residuals.
-///
-/// # Errors
-/// [`Unfit`].
+/// Fails with [`Unfit`].
 pub fn peaks(record: &Record, question: &Question, runs: &mut Runs) -> Result<Estimate, Unfit> {
     const ROUNDS: usize = 8;
     let x = &record.x;

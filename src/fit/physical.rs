@@ -39,7 +39,6 @@ const LAWS: [Law; 6] = [
 ];
 
 /// The physical numbers, with errors from the covariance of the fit.
-#[must_use]
 pub fn rows(fitted: &Fitted) -> Vec<EstimatedNumber> {
     let Some((inertia, metres)) = fitted.inertia else { return Vec::new() };
     LAWS.iter().map(|law| row(fitted, law, inertia, metres)).collect()
@@ -69,7 +68,6 @@ fn row(fitted: &Fitted, law: &Law, inertia: Inertia, metres: f64) -> EstimatedNu
 }
 
 /// Factors that turn a displacement of the record into metres and a velocity over `omega0` into an impulse.
-#[must_use]
 pub fn kicks(fitted: &Fitted) -> Option<(f64, f64)> {
     let (inertia, metres) = fitted.inertia?;
     let omega0 = fitted.estimate.p[OMEGA0];

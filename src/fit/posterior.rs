@@ -30,10 +30,7 @@ const SPARE: usize = 4;
 /// likelihood, and its own draws stand.
 const FEWEST: f64 = 0.1;
 
-/// Draws from the distribution of an estimate.
-///
-/// # Errors
-/// [`Reason::Interrupted`].
+/// Draws from the distribution of an estimate. Fails with [`Reason::Interrupted`].
 pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Drawn, Reason> {
     let places: Vec<usize> =
         [D, D2, D3, R].into_iter().filter(|&place| estimate.free[place]).collect();

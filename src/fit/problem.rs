@@ -39,7 +39,6 @@ const HIDDEN: f64 = 4.0;
 
 impl LeastSquares<'_> {
     /// Record and model.
-    #[must_use]
     pub fn observation(&self, start: StartKind) -> Observation {
         let free = |place: usize| self.free[place];
         Observation {
@@ -51,14 +50,12 @@ impl LeastSquares<'_> {
     }
 
     /// What is estimated, and how residuals count.
-    #[must_use]
     pub fn task<'a>(&'a self, observation: &'a Observation) -> Task<'a> {
         let LeastSquares { free, loss, used, .. } = *self;
         Task { observation, free, loss, used, horizon: usize::MAX }
     }
 
     /// How far the residuals are from noise.
-    #[must_use]
     pub fn verdict(&self, optimum: &Optimum) -> Verdict {
         let Data::Samples { t, .. } = self.data else { return Verdict::Unexplained };
         let residuals: Vec<f64> = self.residuals(optimum).collect();
@@ -86,7 +83,6 @@ impl LeastSquares<'_> {
 
     /// Whether the residuals are no larger than noise may be, whatever they look like: those of a coarse converter
     /// are alike where the mass rests.
-    #[must_use]
     pub fn comes_near(&self, optimum: &Optimum) -> bool {
         let squares = self.residuals(optimum).map(|it| it * it);
         let (sum, count) = squares.fold((0.0, 0.0), |(sum, count), it| (sum + it, count + 1.0));
@@ -101,7 +97,6 @@ impl LeastSquares<'_> {
     }
 
     /// Whether the residuals may be noise.
-    #[must_use]
     pub fn explains(&self, optimum: &Optimum) -> bool {
         self.verdict(optimum) != Verdict::Unexplained
     }

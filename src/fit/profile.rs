@@ -21,7 +21,6 @@ pub struct ProfileInterval {
 
 impl ProfileInterval {
     /// The smallest interval that holds both.
-    #[must_use]
     pub fn joined(self, other: ProfileInterval) -> Self {
         let both = |one: Option<f64>, two: Option<f64>, pick: fn(f64, f64) -> f64| {
             one.zip(two).map(|(one, two)| pick(one, two))
@@ -54,10 +53,7 @@ pub struct Profile<'a> {
 }
 
 impl Profile<'_> {
-    /// The interval of an unknown.
-    ///
-    /// # Errors
-    /// [`NoFit::Interrupted`].
+    /// The interval of an unknown. Fails with [`NoFit::Interrupted`].
     pub fn interval(&self, unknown: usize, runs: &mut Runs) -> Result<ProfileInterval, NoFit> {
         let z = deviation_of_95_percent(self.covariance.independent(unknown));
         let reach = z * self.covariance.error(unknown);
@@ -81,7 +77,6 @@ impl Profile<'_> {
     }
 
     /// The interval by the standard error alone.
-    #[must_use]
     pub fn straight(&self, unknown: usize) -> ProfileInterval {
         let z = deviation_of_95_percent(self.covariance.independent(unknown));
         let (center, reach) = (self.optimum.p[unknown], z * self.covariance.error(unknown));

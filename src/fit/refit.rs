@@ -20,7 +20,6 @@ pub struct Refit<'a> {
 
 impl<'a> Refit<'a> {
     /// The estimate with these unknowns held, wherever that will be.
-    #[must_use]
     pub fn without(estimate: &'a Estimate, places: &[usize]) -> Self {
         let mut free = estimate.free;
         for place in places {

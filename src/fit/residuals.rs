@@ -25,7 +25,6 @@ const ORDERS: usize = 10;
 const LONG: f64 = 0.25;
 
 /// Judges residuals, in the order of time, of a motion with so many samples a period.
-#[must_use]
 pub fn whiteness(residuals: &[f64], samples_per_period: f64) -> Whiteness {
     /// Fewer residuals say nothing.
     const FEWEST: usize = 24;
@@ -56,7 +55,6 @@ impl Whiteness {
 
     /// The same for the noise before the fit absorbed a part of it: the one whose residuals, by `left_over`,
     /// have the autocorrelations that are seen.
-    #[must_use]
     pub fn restored(
         self,
         residuals: &[f64],
@@ -109,7 +107,6 @@ fn count(count: usize) -> f64 {
 }
 
 /// The autocorrelation of residuals at these lags.
-#[must_use]
 pub fn autocorrelations(residuals: &[f64], lags: &[usize]) -> Vec<f64> {
     let power: f64 = residuals.iter().map(|e| e * e).sum();
     let at = |lag: usize| -> f64 {

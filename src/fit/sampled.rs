@@ -23,7 +23,6 @@ pub struct Sampled {
 
 impl Sampled {
     /// What is drawn of a fitted record; `None` of peaks alone.
-    #[must_use]
     pub fn of(estimate: &Estimate) -> Option<Self> {
         /// A step of so many usual ones is a gap.
         const GAP: f64 = 6.0;

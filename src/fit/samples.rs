@@ -13,10 +13,7 @@ use super::search::Minima;
 use super::spectrum::dominant_frequency;
 use crate::numerics::elementary::powi;
 
-/// Fits a record of samples.
-///
-/// # Errors
-/// [`Unfit`].
+/// Fits a record of samples. Fails with [`Unfit`].
 pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<Estimate, Unfit> {
     let all = record.t.as_deref().unwrap_or_default();
     #[expect(clippy::cast_precision_loss, reason = "a count of samples")]

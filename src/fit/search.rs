@@ -38,10 +38,7 @@ const FEWEST: usize = 4;
 
 impl LeastSquares<'_> {
     /// Follows the guesses down, those of each way of beginning in the order in which they resemble the record,
-    /// until one explains it; else the best of all.
-    ///
-    /// # Errors
-    /// [`NoFit`] where no guess leads anywhere.
+    /// until one explains it; else the best of all. Fails with [`NoFit`] where no guess leads anywhere.
     pub fn search(&self, guesses: &[Beginning], runs: &mut Runs) -> Result<Minima, NoFit> {
         let mut best: Option<(StartKind, Optimum)> = None;
         let mut failure = NoFit::Lost;
@@ -133,10 +130,8 @@ impl LeastSquares<'_> {
         (cost / count).sqrt()
     }
 
-    /// Fits every minimum again, with the residuals that count now.
-    ///
-    /// # Errors
-    /// [`NoFit`] when interrupted, or the motion is lost.
+    /// Fits every minimum again, with the residuals that count now. Fails with [`NoFit`] when interrupted, or the
+    /// motion is lost.
     pub fn polish(&self, found: &mut Minima, runs: &mut Runs) -> Result<(), NoFit> {
         let observation = self.observation(found.start);
         let task = self.task(&observation);

@@ -28,7 +28,6 @@ pub struct Combination {
 const UNKNOWN: f64 = 0.5;
 
 /// The combinations to report; none where every number is known by itself.
-#[must_use]
 pub fn combinations(estimate: &Estimate) -> Vec<Combination> {
     let (low, high) = estimate.amplitudes();
     if !(low > 0.0 && high >= low) {

@@ -9,7 +9,6 @@ const MOST: usize = 1 << 14;
 
 /// The frequency in 1/s at which the record times its frequency has most power: without that factor a long
 /// hold or rest, or a drift, would win. `None` for fewer than eight samples or no duration.
-#[must_use]
 pub fn dominant_frequency(t: &[f64], x: &[f64]) -> Option<f64> {
     let count = t.len().next_power_of_two().clamp(64, MOST);
     let (first, last) = (*t.first()?, *t.last()?);

@@ -15,7 +15,6 @@ pub struct Extreme {
 }
 
 /// The record averaged over a window of time: gaps and uneven sampling do no harm.
-#[must_use]
 pub fn smoothed(t: &[f64], x: &[f64], window: f64) -> Vec<f64> {
     let (mut from, mut to, mut sum) = (0, 0, 0.0);
     let mut out = Vec::with_capacity(x.len());
@@ -35,7 +34,6 @@ pub fn smoothed(t: &[f64], x: &[f64], window: f64) -> Vec<f64> {
 }
 
 /// The record without single jumps: medians of five.
-#[must_use]
 pub fn without_jumps(x: &[f64]) -> Vec<f64> {
     let around = |index: usize| x[index.saturating_sub(2)..(index + 3).min(x.len())].to_vec();
     (0..x.len()).map(|index| median(around(index))).collect()
@@ -44,7 +42,6 @@ pub fn without_jumps(x: &[f64]) -> Vec<f64> {
 /// The turning points of a record with this period: a zigzag through the smoothed record that turns only after
 /// it has come back by `hysteresis`, each corner refined by a parabola through the samples around it. The
 /// first sample is none.
-#[must_use]
 pub fn turning_points(t: &[f64], x: &[f64], period: f64, hysteresis: f64) -> Vec<Extreme> {
     let smooth = smoothed(t, x, period / 12.0);
     let corners = zigzag(&smooth, hysteresis);

@@ -30,7 +30,6 @@ impl Covariance {
     ///
     /// With correlated noise `cov(J'e) = s^2 sum_l rho_l J_t' J_(t+l)`, which stands between two inverses of
     /// `J'J`. `None` where an unknown has no influence at all.
-    #[must_use]
     pub fn at(task: &Task, optimum: &Optimum, autocorrelation: &[f64]) -> Option<Self> {
         let columns = task.columns();
         let width = columns.len();
@@ -85,7 +84,6 @@ impl Covariance {
 
     /// Whether the autocorrelations were those of a noise: then no variance is negative, and the unknowns absorb some
     /// of it.
-    #[must_use]
     pub fn is_possible(&self) -> bool {
         self.absorbed > 0.0 && self.matrix.diagonal().iter().all(|variance| *variance > 0.0)
     }
@@ -95,7 +93,6 @@ impl Covariance {
     }
 
     /// Covariance of two unknowns; 0 where one is held.
-    #[must_use]
     pub fn of(&self, one: usize, other: usize) -> f64 {
         match (self.place(one), self.place(other)) {
             (Some(one), Some(other)) => self.matrix[(one, other)],
@@ -104,13 +101,11 @@ impl Covariance {
     }
 
     /// Standard error of an unknown; 0 where it is held.
-    #[must_use]
     pub fn error(&self, unknown: usize) -> f64 {
         self.of(unknown, unknown).max(0.0).sqrt()
     }
 
     /// How much larger the variance is than with white noise of the same size.
-    #[must_use]
     pub fn inflation(&self, unknown: usize) -> f64 {
         self.place(unknown).map_or(1.0, |at| self.matrix[(at, at)] / self.white[(at, at)])
     }
@@ -119,7 +114,6 @@ impl Covariance {
     ///
     /// Of correlated noise the memory is estimated, too: for an autoregression of first order with the inflation
     /// `I = (1 + rho)/(1 - rho)` of slow unknowns the relative variance of their variance is `2 (1 + 2 I)/n`.
-    #[must_use]
     pub fn independent(&self, unknown: usize) -> f64 {
         let inflation = self.inflation(unknown);
         let repeated = if inflation == 1.0 { 1.0 } else { 1.0 + 2.0 * inflation.max(1.0) };
@@ -127,7 +121,6 @@ impl Covariance {
     }
 
     /// How all unknowns follow a unit change of one of them when the loss is kept as small as possible.
-    #[must_use]
     pub fn along(&self, unknown: usize) -> Unknowns {
         let mut along = [0.0; UNKNOWNS];
         if let Some(at) = self.place(unknown) {
@@ -172,7 +165,6 @@ fn blurred(rows: &[Vec<f64>], autocorrelation: &[f64]) -> impl Iterator<Item = V
 
 /// The autocorrelations at lags 1, 2, .. that the residuals of a fit to noise with these autocorrelations have
 /// on average: with `H = Q Q'`, which the unknowns absorb, the residuals have the covariance `(1 - H) S (1 - H)`.
-#[must_use]
 pub fn left_over(task: &Task, optimum: &Optimum, noise: &[f64], lags: usize) -> Vec<f64> {
     let columns = task.columns();
     let width = columns.len();
@@ -226,7 +218,6 @@ pub fn left_over(task: &Task, optimum: &Optimum, noise: &[f64], lags: usize) -> 
 
 /// The deviation within which a normal variable, or with few degrees of freedom one of Student's, lies with
 /// 95 % (expansion in the inverse degrees of freedom; 0.3 % off at 3).
-#[must_use]
 pub fn deviation_of_95_percent(freedom: f64) -> f64 {
     let z: f64 = 1.959_963_984_540_054;
     let (z3, z5, z7) = (powi(z, 3), powi(z, 5), powi(z, 7));

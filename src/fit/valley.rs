@@ -21,7 +21,6 @@ pub struct Valley {
 
 impl LeastSquares<'_> {
     /// Whether the right valley may be far from this minimum: noise hides how many half swings there are.
-    #[must_use]
     pub fn may_be_elsewhere(&self, task: &Task, optimum: &Optimum) -> bool {
         /// An error of r of this part of it.
         const LOOSE: f64 = 0.03;
@@ -37,10 +36,7 @@ impl LeastSquares<'_> {
     /// These minima, and those of neighbouring numbers of half swings, the lowest first.
     ///
     /// From the lowest one known, one half swing more and one less are tried, and what comes closest to the record
-    /// when r alone is moved and all else follows; until nothing is lower.
-    ///
-    /// # Errors
-    /// [`NoFit::Interrupted`].
+    /// when r alone is moved and all else follows; until nothing is lower. Fails with [`NoFit::Interrupted`].
     pub fn valleys(
         &self,
         task: &Task,
@@ -50,7 +46,9 @@ impl LeastSquares<'_> {
         /// Most minima around which others are sought.
         const MOST: usize = 8;
         let mut valleys = Vec::new();
-        optima.into_iter().for_each(|optimum| keep(&mut valleys, optimum));
+        for optimum in optima {
+            keep(&mut valleys, optimum);
+        }
         valleys.sort_by(by_cost);
         if !self.free[R] || !matches!(self.data, Data::Samples { .. }) {
             return Ok(valleys);
@@ -91,7 +89,6 @@ fn keep(valleys: &mut Vec<Valley>, optimum: Optimum) {
 }
 
 /// The order of minima: the lowest first.
-#[must_use]
 pub fn by_cost(one: &Valley, other: &Valley) -> Ordering {
     one.optimum.cost.total_cmp(&other.optimum.cost)
 }
@@ -165,10 +162,7 @@ const FINE: [f64; 9] = [1.01, 1.01, 1.01, 1.02, 1.02, 1.04, 1.04, 1.04, 1.04];
 pub const WIDE: [f64; 9] = [1.03, 1.04, 1.05, 1.06, 1.08, 1.1, 1.12, 1.15, 1.2];
 
 /// The same with all else fitted again at each step of r: while the residuals are not white the right minimum may
-/// be so far that nothing follows linearly.
-///
-/// # Errors
-/// [`NoFit::Interrupted`].
+/// be so far that nothing follows linearly. Fails with [`NoFit::Interrupted`].
 pub fn through_the_valley(
     task: &Task,
     optimum: &Optimum,

@@ -9,7 +9,6 @@ use crate::numerics::interval::PI;
 ///
 /// With `x = pi abs(D)/omega` a half swing ends where it began, mirrored, at the clearance
 /// `2 r/(exp(x) - 1)`. Both are written with `exp(-x)`, which does not overflow.
-#[must_use]
 pub fn affine_cycle(parameters: &ParameterBox) -> Option<Enclosure> {
     let ParameterBox { d, r, .. } = *parameters;
     let one = Interval::point(1.0);

@@ -11,7 +11,6 @@ use crate::numerics::Interval;
 ///
 /// With `k = 2 abs(b) + 1` motions cross the parabola `v = x - k x^2` upwards as long as
 /// `x (2 k^2 + abs(c)) <= k - abs(b)`, and those from next to the centre begin above it.
-#[must_use]
 pub fn least_end(field: &Field, funnel: Option<&Funnel>) -> f64 {
     /// A part of the largest point, so that the motion forgets where it was begun.
     const NEAR: f64 = 1e-3;

@@ -27,7 +27,6 @@ pub struct Derivatives {
 ///
 /// With the half maps `h` and `H`, `G(z) = H(h(z) - 2 r) - 2 r`; their derivatives by the coefficients of the field
 /// are those of lemma 21, with `a = 2 D`, `b = D2` above `v = 0` and `-D2` below, `c = D3`.
-#[must_use]
 pub fn derivatives(parameters: &ParameterBox, clearance: Interval) -> Option<Derivatives> {
     let gap = parameters.r.twice();
     let zero = Interval::point(0.0);
@@ -54,7 +53,6 @@ pub fn derivatives(parameters: &ParameterBox, clearance: Interval) -> Option<Der
 
 /// The derivatives of a cycle's clearance by D, D2, D3 and r, by the implicit function theorem; `None` where the derivative
 /// of the map may be 1.
-#[must_use]
 pub fn cycle_derivatives(parameters: &ParameterBox, clearance: Interval) -> Option<[Interval; 4]> {
     let Derivatives { clearance: slope, d, d2, d3, r, .. } = derivatives(parameters, clearance)?;
     let off = Interval::point(1.0) - slope;

@@ -13,13 +13,11 @@ use crate::oscillator::{Side, Symbol};
 
 /// Encloses the value of the parameter `symbol`, D, D2 or r, near which a cycle escapes to infinity, for `D3 = 0`; the other
 /// parameters are those of `parameters`, which may be intervals. `None` where nothing could be proved.
-#[must_use]
 pub fn enclose_escape(parameters: &ParameterBox, symbol: Symbol, near: f64) -> Option<Interval> {
     bracket(near, |at| returns_from_infinity(&parameters.with(symbol, Interval::point(at))))
 }
 
 /// Whether the half swing after one from infinity returns; `None` where that is not certain.
-#[must_use]
 pub fn returns_from_infinity(parameters: &ParameterBox) -> Option<bool> {
     let d2 = parameters.d2;
     let (strong, weak) = if d2.lower() > 0.0 {

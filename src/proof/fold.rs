@@ -26,7 +26,6 @@ pub struct Fold {
 /// `parameters`, which may be intervals. `None` where nothing could be proved.
 ///
 /// The bounds of the value are about as close as rounding allows: a few units of 1e-15.
-#[must_use]
 pub fn enclose_fold(
     parameters: &ParameterBox,
     symbol: Symbol,

@@ -50,7 +50,6 @@ struct Fences {
 
 impl Funnel {
     /// The funnel of a field, if it has one: for `c > 0`, or `b > 0`.
-    #[must_use]
     pub fn new(field: &Field, swings: &mut u32) -> Option<Self> {
         // In units in which b, or c, is about 1.
         let (b, c) = (field.b.magnitude(), field.c.magnitude());
@@ -140,20 +139,17 @@ impl Funnel {
     }
 
     /// The velocity at which the fences end.
-    #[must_use]
     pub fn speed(&self) -> f64 {
         self.speed
     }
 
     /// Lower bound of where all motions arrive that were faster than `speed`.
-    #[must_use]
     pub fn least(&self) -> f64 {
         let low = self.low.map_or(f64::NEG_INFINITY, |low| low.end.lower());
         low.max(self.beyond_fold.lower())
     }
 
     /// Lower bound of where a motion arrives that has this passage below the ceiling.
-    #[must_use]
     pub fn least_after(funnel: Option<&Self>, field: &Field, passage: &Passage) -> f64 {
         match passage {
             Passage::Arrives(swing) => swing.end.lower(),
@@ -166,14 +162,12 @@ impl Funnel {
     }
 
     /// Upper bound of where motions arrive that start at rest, up to `reach` away.
-    #[must_use]
     pub fn greatest(&self) -> f64 {
         let high = self.high.map_or(f64::INFINITY, |high| high.end.upper());
         high.min(self.beyond_fold.upper())
     }
 
     /// The climb from rest far out, where nothing slows motions down yet (lemma 12).
-    #[must_use]
     pub fn climb_from(&self, field: &Field, start: Interval) -> Option<Climb> {
         let positive = |it: Interval| Interval::point(it.upper().max(0.0));
         let v = Interval::point(self.ceiling);
@@ -195,7 +189,6 @@ impl Funnel {
     }
 
     /// The climb of motions that were found to be faster than the ceiling.
-    #[must_use]
     pub fn climb_of(&self, field: &Field, swing: &Swing) -> Option<Climb> {
         self.run_away(field, swing.end.upper(), swing.divergence.upper())
     }
@@ -233,7 +226,6 @@ impl Funnel {
 
     /// Where motions arrive, and an upper bound of the derivative of that by their start; `climb` is the part until
     /// they were all faster than `speed` (lemma 12).
-    #[must_use]
     pub fn contraction(
         &self,
         field: &Field,
@@ -254,7 +246,6 @@ impl Funnel {
 
     /// The whole swing, of motions that were found to fall from their largest velocity: the duration and the integral of
     /// `v^2` of the part between the fences follow from by how little they miss the slow manifold (lemma 12).
-    #[must_use]
     pub fn swing_after(&self, field: &Field, start: Interval, fallen: &Swing) -> Option<Swing> {
         if !(start.upper() <= self.reach && self.rate > 0.0) {
             return None;

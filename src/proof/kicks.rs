@@ -47,7 +47,6 @@ const TURNS: usize = 300;
 
 /// Bounds of the kicks, `proof` being about the cycles at the same parameters; `hints` are kicks near them, of
 /// displacements and of impulses.
-#[must_use]
 pub fn kicks(proof: &Proof, hints: [Option<f64>; 2]) -> ProvedKicks {
     let parameters = &proof.parameters;
     let open =
@@ -93,7 +92,6 @@ pub fn kicks(proof: &Proof, hints: [Option<f64>; 2]) -> ProvedKicks {
 }
 
 /// What certainly borders the basin.
-#[must_use]
 pub fn edge(proof: &Proof) -> Option<ProvedEdge> {
     /// Clearances at which to look for a motion that does not come to rest, in units of r.
     const FAR: [f64; 6] = [1e-3, 0.1, 1.0, 10.0, 1e2, 1e4];

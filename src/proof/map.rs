@@ -71,7 +71,6 @@ pub enum Bound {
 
 impl Half {
     /// The field that a direction runs.
-    #[must_use]
     pub fn field(&self, direction: Direction) -> &Field {
         match direction {
             Direction::Forward => &self.forward,
@@ -82,7 +81,6 @@ impl Half {
 
 impl ProvedMap {
     /// The map at these parameters.
-    #[must_use]
     pub fn new(parameters: &ParameterBox) -> Self {
         let half = |side| {
             let forward = Field::new(parameters, side);

@@ -66,7 +66,6 @@ const LONG: &str = "its half swings are too many";
 const MOST: usize = 20_000;
 
 /// Encloses the motion from displacements `q` and velocities `v` until a time, which may be infinite.
-#[must_use]
 pub fn follow(parameters: &ParameterBox, [q, v]: [Interval; 2], until: f64) -> ProvedMotion {
     let r = parameters.r;
     let mut turns = Vec::new();

@@ -15,7 +15,6 @@ pub struct Norm {
 
 impl Norm {
     /// The norm with a skew, brought within the range in which it is of use.
-    #[must_use]
     pub fn new(skew: f64) -> Self {
         /// Beyond this it is too flat.
         const FLATTEST: f64 = 1.999;
@@ -25,7 +24,6 @@ impl Norm {
     }
 
     /// The skew in which errors grow least where the damping slope is m: the norm of the eigenvectors.
-    #[must_use]
     pub fn fitting(m: f64) -> Self {
         Norm::new(if m.abs() > 2.0 { 4.0 / m } else { m })
     }
@@ -34,7 +32,6 @@ impl Norm {
     ///
     /// The ratio of the squares on the unit circle is `(2 + s' y)/(2 + s y)` with `y = sin 2 phi`, monotone in y. Its
     /// terms are at least 0.001, and their absolute error of 2.3e-16 is a part 2.3e-13 of them.
-    #[must_use]
     pub fn into(self, other: Norm) -> f64 {
         if self.skew == other.skew {
             return 1.0;

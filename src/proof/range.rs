@@ -17,7 +17,6 @@ pub struct Piece {
 }
 
 /// Whether each cycle attracts, at all values; `None` where that is not proved.
-#[must_use]
 pub fn cycles_at(parameters: &ParameterBox) -> Option<Vec<bool>> {
     let proof = prove(parameters, &[]);
     proof.is_complete().then(|| proof.cycles.iter().map(|cycle| cycle.stable).collect())
@@ -44,7 +43,6 @@ pub struct Change {
 }
 
 /// Decides a range of values.
-#[must_use]
 pub fn range(base: &ParameterBox, symbol: Symbol, (low, high): (f64, f64)) -> Range {
     /// Parts of the range that are tried as a whole.
     const PARTS: i32 = 16;
@@ -112,7 +110,6 @@ fn narrowed(
 }
 
 /// The change between two values a part `away` of a third below and above it, if there is one.
-#[must_use]
 pub fn change_within(base: &ParameterBox, symbol: Symbol, at: f64, away: f64) -> Option<Change> {
     let ask = |value: f64| cycles_at(&base.with(symbol, Interval::point(value)));
     let (low, high) = (at - away * at.abs(), at + away * at.abs());
@@ -123,7 +120,6 @@ pub fn change_within(base: &ParameterBox, symbol: Symbol, at: f64, away: f64) ->
 
 /// The change nearest to a value, if there is one: between values on both sides at which the numbers of cycles are
 /// proved and differ.
-#[must_use]
 pub fn change_near(base: &ParameterBox, symbol: Symbol, hint: f64) -> Option<Change> {
     /// Powers of ten, as parts of the value, at which to ask.
     const AWAY: std::ops::RangeInclusive<i32> = -12..=-3;

@@ -111,7 +111,6 @@ impl Ride {
 /// Position and velocity at a time after the start, of all motions of a box of starts and fields.
 ///
 /// `None` where they cannot be had, or where the velocity may have come to 0 before.
-#[must_use]
 pub fn state_at(field: &Field, start: &StartBox, time: Interval) -> Option<(Interval, Interval)> {
     let mut ride = Ride::new(field, start)?;
     let target = time.middle();
@@ -145,7 +144,6 @@ fn about(field: &Field, (x, v): (Interval, Interval), off: f64) -> Option<(Inter
 }
 
 /// The time at which the velocity becomes infinite, of motions that never turn; `None` where it has no bound.
-#[must_use]
 pub fn blow_up(field: &Field, start: &StartBox) -> Option<Interval> {
     /// The bound is good enough when it leaves this part of the time open.
     const GOOD: f64 = 1e-12;

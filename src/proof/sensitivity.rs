@@ -22,7 +22,6 @@ impl Default for Weighted {
 
 impl Weighted {
     /// Adds a step of length `h`, over which the velocity is within `off` of the polynomial.
-    #[must_use]
     pub fn after(&self, field: &Field, series: &Series, h: f64, off: f64) -> Option<Self> {
         let Field { a, b, c } = *field;
         let step = Interval::point(h);
@@ -45,7 +44,6 @@ impl Weighted {
     }
 
     /// The same at a moment at most `lag` earlier or later, around which the velocity is at most `speed` in size.
-    #[must_use]
     pub fn within(&self, field: &Field, lag: f64, speed: f64) -> Self {
         let late = Interval::new(-lag, lag);
         let slope = field.slope(Interval::new(-speed, speed));
@@ -60,7 +58,6 @@ impl Weighted {
     }
 
     /// The derivatives of the end by a, b and c.
-    #[must_use]
     pub fn derivatives(&self, end: Interval) -> [Interval; 3] {
         self.0.map(|sum| -(sum / end))
     }

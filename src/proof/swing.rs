@@ -24,7 +24,6 @@ pub struct StartBox {
 
 impl StartBox {
     /// At rest with this clearance from the sticking set.
-    #[must_use]
     pub fn at_rest(clearance: Interval) -> Self {
         StartBox { x: -clearance, v: Interval::point(0.0) }
     }
@@ -68,14 +67,12 @@ pub enum Passage {
 
 impl Swing {
     /// The integral of `v^2` in units of `2^(2 unit)`.
-    #[must_use]
     pub fn square_in(&self, unit: i32) -> Interval {
         let k = self.unit - unit;
         scaled(scaled(self.square, k), k)
     }
 
     /// The same swing with lengths multiplied by `2^k`.
-    #[must_use]
     pub fn times_power(self, k: i32) -> Self {
         let fastest = self.fastest.map(|it| scaled(it, k));
         let derivatives = self.derivatives.map(|it| by_units(it, k));
@@ -86,7 +83,6 @@ impl Swing {
 
 impl Passage {
     /// The swing, if it certainly arrives.
-    #[must_use]
     pub fn arrived(self) -> Option<Swing> {
         if let Passage::Arrives(swing) = self { Some(swing) } else { None }
     }
@@ -105,25 +101,21 @@ const ATTEMPTS: usize = 12;
 ///
 /// Guarantee: the bounds hold for the exact motions, whatever the rounding. `Unknown` where they cannot be
 /// had: a stiff or a wide motion, or one that arrives within its own error of the centre.
-#[must_use]
 pub fn swing(field: &Field, start: &StartBox, wants_fastest: bool) -> Passage {
     run(field, start, f64::INFINITY, wants_fastest, None)
 }
 
 /// The same, given up as soon as every motion is certainly faster than `ceiling`.
-#[must_use]
 pub fn swing_below(field: &Field, start: &StartBox, ceiling: f64) -> Passage {
     run(field, start, ceiling, false, None)
 }
 
 /// The same with the largest velocity, given up after that was reached.
-#[must_use]
 pub fn swing_past_peak(field: &Field, start: &StartBox, ceiling: f64) -> Passage {
     run(field, start, ceiling, true, None)
 }
 
 /// The same with the derivatives by the coefficients of the field (lemma 21), for four times the cost.
-#[must_use]
 pub fn swing_with_derivatives(field: &Field, start: &StartBox) -> Passage {
     run(field, start, f64::INFINITY, false, Some(Weighted::default()))
 }
@@ -196,7 +188,6 @@ fn by_units([a, b, c]: [Interval; 3], k: i32) -> [Interval; 3] {
 /// On the line `v = x + m` motions cross to the left where `P(v) = m - (a + 2) v - b v^2 - c v^3 >= 0`, and
 /// above it the acceleration is at least `P(v) + v`. So if P is not negative from v on, what is above the line
 /// and faster than v stays so.
-#[must_use]
 pub fn never_returns(field: &Field, x: f64, v: f64) -> bool {
     let m = Interval::point(v) - Interval::point(x);
     if !(field.c.upper() <= 0.0 && m.lower() > 0.0 && v >= 0.0) {

@@ -20,7 +20,6 @@ pub enum Theorem {
 }
 
 /// The theorem that decides the number of cycles, if there is one.
-#[must_use]
 pub fn theorem(parameters: &ParameterBox) -> Option<Theorem> {
     let ParameterBox { d, d2, d3, r } = *parameters;
     let zero = |it: Interval| it == Interval::point(0.0);
