@@ -54,7 +54,6 @@ pub mod closed_form;
 pub mod fit;
 #[warn(clippy::missing_errors_doc)]
 pub mod flow;
-#[warn(clippy::missing_errors_doc)]
 pub mod machine;
 #[doc(hidden)]
 pub mod numerics;
@@ -62,7 +61,6 @@ pub mod numerics;
 pub mod oscillator;
 #[warn(clippy::missing_errors_doc)]
 pub mod proof;
-#[warn(clippy::missing_errors_doc)]
 pub mod study;
 
 #[cfg(feature = "explorer")]

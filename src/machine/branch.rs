@@ -32,10 +32,8 @@ pub fn spaced((from, to): (f64, f64), index: usize, count: usize) -> f64 {
     from + part * (to - from)
 }
 
-/// Follows the cycles of a machine along one of its numbers, through `count` values.
-///
-/// # Errors
-/// One line, where the machine's law has no such number.
+/// Follows the cycles of a machine along one of its numbers, through `count` values. Fails with one line, where the
+/// machine's law has no such number.
 pub fn branch(
     subject: impl Into<Subject>,
     varied: Varied,
@@ -45,10 +43,8 @@ pub fn branch(
     branch_while(&subject.into(), varied, range, count, &|| true)
 }
 
-/// The same as long as it is wanted: a branch that is not ends early.
-///
-/// # Errors
-/// One line, where the machine's law has no such number.
+/// The same as long as it is wanted: a branch that is not ends early. Fails with one line, where the machine's law
+/// has no such number.
 pub fn branch_while(
     subject: &Subject,
     varied: Varied,
@@ -69,10 +65,8 @@ pub fn branch_while(
     Ok(MachineBranch { points, special })
 }
 
-/// What a machine does at values of one of its numbers, as long as that is wanted.
-///
-/// # Errors
-/// One line, where the machine's law has no such number.
+/// What a machine does at values of one of its numbers, as long as that is wanted. Fails with one line, where the
+/// machine's law has no such number.
 pub fn points_while(
     subject: &Subject,
     varied: Varied,
@@ -84,10 +78,8 @@ pub fn points_while(
     values.take_while(|_| wanted()).map(point).collect()
 }
 
-/// The special values along one number, at each value of another.
-///
-/// # Errors
-/// One line, where the machine's law has no such numbers.
+/// The special values along one number, at each value of another. Fails with one line, where the machine's law has
+/// no such numbers.
 pub fn borders(
     subject: &Subject,
     (along, range, count): (Varied, (f64, f64), usize),

@@ -71,10 +71,8 @@ impl fmt::Display for Uncertain {
     }
 }
 
-/// The kicks that a machine survives for certain, or why none is.
-///
-/// # Errors
-/// [`Trouble`] where a machine within the tolerances has no model, or one that bounds them has no portrait.
+/// The kicks that a machine survives for certain, or why none is. Fails with [`Trouble`] where a machine within the
+/// tolerances has no model, or one that bounds them has no portrait.
 pub fn guaranteed(
     belt: &Belt,
     known: &Tolerances,
@@ -83,9 +81,6 @@ pub fn guaranteed(
 }
 
 /// The machine whose basin lies within those of all others, or why there is none.
-///
-/// # Errors
-/// As [`guaranteed`].
 pub fn worst(
     belt: &Belt,
     known: &Tolerances,
@@ -109,9 +104,6 @@ pub fn worst(
 
 /// The machine outside of whose basin nothing comes to rest: with the largest friction and damping. `None` where
 /// other numbers are uncertain.
-///
-/// # Errors
-/// As [`guaranteed`].
 pub fn best(belt: &Belt, known: &Tolerances) -> Result<Option<Portrait>, Trouble> {
     known.best(belt).map(|best| portrait(&best)).transpose()
 }

@@ -35,10 +35,8 @@ pub struct Landmarks {
 }
 
 impl Flow<'_> {
-    /// The landmarks; `None` without a belt, or without a law for small slips.
-    ///
-    /// # Errors
-    /// [`Unfollowed`] where the friction law ends before they are reached.
+    /// The landmarks; `None` without a belt, or without a law for small slips. Fails with [`Unfollowed`] where the
+    /// friction law ends before they are reached.
     pub fn landmarks(&mut self) -> Result<Option<Landmarks>, Unfollowed> {
         let model = self.model;
         let Some(lines) = model.lines else { return Ok(None) };

@@ -24,11 +24,13 @@
 //! assert!(portrait.cycles.iter().any(|cycle| cycle.stable && cycle.sticks));
 //! ```
 
+#[warn(clippy::missing_errors_doc)]
 pub(crate) mod arc;
 mod border;
 #[doc(hidden)]
 pub mod branch;
 pub(crate) mod curve;
+#[warn(clippy::missing_errors_doc)]
 pub(crate) mod cycles;
 pub(crate) mod design;
 mod force;
@@ -41,9 +43,11 @@ pub(crate) mod landmarks;
 pub(crate) mod law;
 pub(crate) mod ledger;
 pub(crate) mod modal;
+#[warn(clippy::missing_errors_doc)]
 pub(crate) mod model;
 #[doc(hidden)]
 pub mod motion;
+#[warn(clippy::missing_errors_doc)]
 pub(crate) mod portrait;
 mod reach;
 #[doc(hidden)]

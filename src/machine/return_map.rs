@@ -47,9 +47,7 @@ pub enum MachineReturn {
 }
 
 impl Flow<'_> {
-    /// The next right turning point after the one at `x`, outside of what the guide holds.
-    ///
-    /// # Errors
+    /// The next right turning point after the one at `x`, outside of what the guide holds. Fails with
     /// [`Unfollowed`] where the motion does not turn; a motion that settles at a balance comes to rest instead.
     pub fn returned(&mut self, x: f64) -> Result<MachineReturn, Unfollowed> {
         let mut divergence = Divergence::default();
@@ -74,10 +72,8 @@ impl Flow<'_> {
     }
 
     /// The right turning point before the left one at `left`, with the logarithm of (acceleration before the
-    /// arc's end / after its start); `None` where no motion comes from one.
-    ///
-    /// # Errors
-    /// [`Unfollowed`] where the friction law ends, or steps do.
+    /// arc's end / after its start); `None` where no motion comes from one. Fails with [`Unfollowed`] where the
+    /// friction law ends, or steps do.
     pub(super) fn right_before(
         &mut self,
         left: f64,
@@ -94,10 +90,8 @@ impl Flow<'_> {
 
     /// The map backward from the right turning point `x`, among motions that slip below the belt's speed
     /// all the way: [`Image::x`] is the turning point before. It contracts where the map itself expands.
-    /// `None` where no such motion leads to `x`.
-    ///
-    /// # Errors
-    /// [`Unfollowed`] where the friction law ends, or steps do.
+    /// `None` where no such motion leads to `x`. Fails with [`Unfollowed`] where the friction law ends, or steps
+    /// do.
     pub fn preimage(&mut self, x: f64) -> Result<Option<Image>, Unfollowed> {
         let mut divergence = Divergence::default();
         let (left, entered) = match self.arc(Phase::Between, (x, 0.0), true, &mut divergence) {
@@ -119,10 +113,8 @@ impl Flow<'_> {
     }
 
     /// The left turning point from which a motion between rest and the belt's speed reaches `(x, y)`; where
-    /// there is none, the edge of what the guide holds.
-    ///
-    /// # Errors
-    /// [`Unfollowed`] where the friction law ends, or steps do.
+    /// there is none, the edge of what the guide holds. Fails with [`Unfollowed`] where the friction law ends, or
+    /// steps do.
     pub fn left_before(
         &mut self,
         x: f64,

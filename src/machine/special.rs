@@ -70,10 +70,7 @@ pub struct Signs {
 }
 
 impl Signs {
-    /// Computes them.
-    ///
-    /// # Errors
-    /// [`Unfollowed`] where the friction law ends before.
+    /// Computes them. Fails with [`Unfollowed`] where the friction law ends before.
     pub fn new(model: &Model) -> Result<Self, Unfollowed> {
         let mut flow = Flow::new(model);
         let signs =

@@ -27,10 +27,8 @@ pub const ALLOWED: &str = "auto, taylor, dop853 and dopri5";
 pub struct OneLine;
 
 impl SteppedMethod {
-    /// The way of a method; `None` for Taylor series.
-    ///
-    /// # Errors
-    /// [`OneLine`] for a method that cannot follow a machine; [`ALLOWED`] tells which can.
+    /// The way of a method; `None` for Taylor series. Fails with [`OneLine`] for a method that cannot follow a
+    /// machine; [`ALLOWED`] tells which can.
     pub fn of(method: Method) -> Result<Option<SteppedMethod>, OneLine> {
         match method {
             Method::Auto | Method::Taylor => Ok(None),
@@ -110,10 +108,8 @@ pub struct Traced {
 }
 
 /// Follows a motion from displacement `x` (m) and velocity `v` (m/s) for `until` seconds; each step has an
-/// estimated relative error below `tolerance`.
-///
-/// # Errors
-/// [`Unfollowed`] where it leaves the law, escapes, or needs too many steps.
+/// estimated relative error below `tolerance`. Fails with [`Unfollowed`] where it leaves the law, escapes, or needs
+/// too many steps.
 pub fn stepped(
     model: &Model,
     way: SteppedMethod,

@@ -51,9 +51,7 @@ pub struct Second {
 }
 
 impl Course {
-    /// What a model does, and the motion from `start` (m and m/s), followed for `until` seconds.
-    ///
-    /// # Errors
+    /// What a model does, and the motion from `start` (m and m/s), followed for `until` seconds. Fails with
     /// [`Trouble`] where motions leave the law before the border of rest is known, or cannot be followed.
     pub fn new(model: &Model, start: (f64, f64), until: f64) -> Result<Self, Trouble> {
         let portrait = Portrait::new(model)?;
@@ -128,19 +126,15 @@ impl From<Unfollowed> for Trouble {
     }
 }
 
-/// The portrait of a machine whose friction law reaches as far as its motions do.
-///
-/// # Errors
-/// [`Trouble`] where it has no model, or where motions leave the law before the border of rest is known.
+/// The portrait of a machine whose friction law reaches as far as its motions do. Fails with [`Trouble`] where it
+/// has no model, or where motions leave the law before the border of rest is known.
 pub fn portrait(belt: &Belt) -> Result<Portrait, Trouble> {
     Ok(Portrait::new(&Model::new(belt)?)?)
 }
 
 /// Everything about a machine and its motion from `start` (m and m/s), followed for `until` seconds; without
-/// a tolerance, to rounding.
-///
-/// # Errors
-/// [`Trouble`] where it has no model, or where motions leave the law before the border of rest is known.
+/// a tolerance, to rounding. Fails with [`Trouble`] where it has no model, or where motions leave the law before
+/// the border of rest is known.
 pub fn survey(
     belt: &Belt,
     start: (f64, f64),

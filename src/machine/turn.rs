@@ -67,10 +67,7 @@ impl Model {
 
 impl Flow<'_> {
     /// Follows a motion from a place to its next turning point: on the left from `y < 0`, on the right
-    /// otherwise.
-    ///
-    /// # Errors
-    /// [`Unfollowed`] where it does not turn.
+    /// otherwise. Fails with [`Unfollowed`] where it does not turn.
     pub fn turn(
         &mut self,
         place: Place,

@@ -108,10 +108,7 @@ impl Varied {
         }
     }
 
-    /// Accepts a value in SI units.
-    ///
-    /// # Errors
-    /// One line that says what is allowed.
+    /// Accepts a value in SI units. Fails with one line that says what is allowed.
     pub fn check(self, value: f64) -> Result<f64, String> {
         let any = (-1e12, 1e12);
         let (min, max) = match self {
@@ -160,10 +157,7 @@ impl Varied {
         }
     }
 
-    /// Gives it a value in SI units.
-    ///
-    /// # Errors
-    /// One line, if the machine's law has no such number.
+    /// Gives it a value in SI units. Fails with one line, if the machine's law has no such number.
     pub fn set(self, belt: &mut Belt, value: f64) -> Result<(), String> {
         match self {
             Varied::Quantity(quantity) => belt.set(quantity, value),
@@ -185,10 +179,7 @@ impl Varied {
         Ok(())
     }
 
-    /// Gives it a value in SI units, in a vibration mode.
-    ///
-    /// # Errors
-    /// One line, if a mode has no such number.
+    /// Gives it a value in SI units, in a vibration mode. Fails with one line, if a mode has no such number.
     pub fn set_of_mode(self, mode: &mut Modal, value: f64) -> Result<(), String> {
         let powers = mode.damping_ratio.len();
         let place = match self {

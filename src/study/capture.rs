@@ -28,10 +28,8 @@ const RESOLVED: f64 = 1e-9;
 
 /// Finds the borders of at most `most` bands whose turning points lie within `reach`.
 ///
-/// They stop earlier where they accumulate at the edge of the basin.
-///
-/// # Errors
-/// The [`Reason`] why a border could not be computed.
+/// They stop earlier where they accumulate at the edge of the basin. Fails with the [`Reason`] why a border could
+/// not be computed.
 pub fn bands(
     parameters: &Parameters,
     reach: f64,

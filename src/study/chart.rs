@@ -79,11 +79,8 @@ pub struct Resolution {
     pub tolerance: f64,
 }
 
-/// Draws a chart; the two parameters of the plane do not matter.
-///
-/// # Errors
-/// [`Reason::Interrupted`], or [`Reason::NotApplicable`] where the plane is none. What fails on a line is
-/// said there.
+/// Draws a chart; the two parameters of the plane do not matter. Fails with [`Reason::Interrupted`], or
+/// [`Reason::NotApplicable`] where the plane is none. What fails on a line is said there.
 pub fn chart(
     parameters: &Parameters,
     plane: Plane,

@@ -170,9 +170,6 @@ impl Equation {
     ///
     /// No cycle starts with less. `None` where no swing of any clearance passes it: every motion is
     /// captured.
-    ///
-    /// # Errors
-    /// The [`Reason`] why a swing failed.
     pub fn smallest_clearance(&mut self, limits: &Limits) -> Result<Option<Length>, Reason> {
         let end = Length::new(2.0 * self.parameters.r);
         match self.backward[0].swing(end, limits) {
@@ -184,17 +181,11 @@ impl Equation {
     }
 
     /// The two swings for `u = ln c0`.
-    ///
-    /// # Errors
-    /// The [`Reason`] why a swing failed.
     pub fn at(&mut self, route: Route, u: f64, limits: &Limits) -> Result<Closing, Reason> {
         self.from(route, Length::from_log(u), limits)
     }
 
     /// The two swings for `c0`.
-    ///
-    /// # Errors
-    /// The [`Reason`] why a swing failed.
     pub fn from(
         &mut self,
         route: Route,

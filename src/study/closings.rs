@@ -22,18 +22,12 @@ use crate::oscillator::Parameters;
 pub const STEP: f64 = 1e-16;
 
 /// All closings, from the closed form where there is one.
-///
-/// # Errors
-/// The [`Reason`] why a swing failed.
 pub fn all_closings(equation: &mut Equation, limits: &Limits) -> Result<Vec<Closing>, Reason> {
     some_closings(equation, usize::MAX, limits)
 }
 
 /// The closing of the smallest amplitude, from the closed form where there is one: half the work of
 /// finding all.
-///
-/// # Errors
-/// The [`Reason`] why a swing failed.
 pub fn innermost_closing(
     equation: &mut Equation,
     limits: &Limits,
@@ -66,17 +60,11 @@ impl From<&LinearCycle> for Closing {
 }
 
 /// All closings, by amplitude.
-///
-/// # Errors
-/// The [`Reason`] why a swing failed.
 pub fn closings(equation: &mut Equation, limits: &Limits) -> Result<Vec<Closing>, Reason> {
     searched(equation, usize::MAX, &[], limits)
 }
 
 /// All closings outside of the intervals of `ln c0` in which all are known, by amplitude.
-///
-/// # Errors
-/// The [`Reason`] why a swing failed.
 pub fn other_closings(
     equation: &mut Equation,
     known: &[(f64, f64)],
@@ -269,9 +257,6 @@ fn brackets(
 
 /// The bracket of the innermost closing, without any use of closed forms or of the parameters' D2: it serves an
 /// equation whose damping differs by side.
-///
-/// # Errors
-/// The [`Reason`] why a swing failed.
 pub(super) fn innermost_bracket(
     equation: &mut Equation,
     limits: &Limits,

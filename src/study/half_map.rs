@@ -152,9 +152,7 @@ impl HalfMap {
         }
     }
 
-    /// Swings from `(-start, 0)`, handing each step to `watch` as (stepper, unit exponent, duration).
-    ///
-    /// # Errors
+    /// Swings from `(-start, 0)`, handing each step to `watch` as (stepper, unit exponent, duration). Fails with
     /// [`NoEnd`] if the motion does not come back to `v = 0`.
     pub fn swing_watched(
         &mut self,
@@ -258,10 +256,7 @@ impl HalfMap {
         Ok(self.finish(start, end, duration + rest, square, fastest, errors))
     }
 
-    /// Swings from `(-start, 0)`.
-    ///
-    /// # Errors
-    /// [`NoEnd`] if the motion does not come back to `v = 0`.
+    /// Swings from `(-start, 0)`. Fails with [`NoEnd`] if the motion does not come back to `v = 0`.
     pub fn swing(&mut self, start: Length, limits: &Limits) -> Result<HalfSwing, NoEnd> {
         self.run(start, false, limits, |_, _, _| {})
     }

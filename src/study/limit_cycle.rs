@@ -58,7 +58,6 @@ pub struct CycleErrors {
 
 impl Cycle {
     /// Whether its multiplier is far below the 1 at which two cycles meet.
-    #[must_use]
     pub fn is_stable_beyond_doubt(&self) -> bool {
         /// Where two cycles meet, the logarithm vanishes to about half of the digits.
         const FAR: f64 = -1.0;
@@ -145,7 +144,6 @@ impl From<&LinearCycle> for Cycle {
 
 impl Edge {
     /// What borders the basin: the innermost cycle, else a separatrix where motions can escape.
-    #[must_use]
     pub fn around(parameters: &Parameters, stable: &[bool]) -> Self {
         let self_excited_node = parameters.d <= -1.0 && parameters.r > 0.0;
         // Without friction a rest that repels has no basin, and nothing borders it.

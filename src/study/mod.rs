@@ -3,9 +3,11 @@
 pub(crate) mod accuracy;
 pub(crate) mod arc;
 pub(crate) mod balance;
+#[warn(clippy::missing_errors_doc)]
 pub mod basin;
 pub(crate) mod belt;
 pub(crate) mod border;
+#[warn(clippy::missing_errors_doc)]
 pub mod branch;
 #[doc(hidden)]
 pub mod capture;
@@ -19,17 +21,22 @@ pub mod closing;
 #[doc(hidden)]
 pub mod closings;
 pub(crate) mod continuation;
+#[warn(clippy::missing_errors_doc)]
 pub mod cycle;
+#[warn(clippy::missing_errors_doc)]
 pub mod design;
+#[warn(clippy::missing_errors_doc)]
 pub mod escape;
 pub(crate) mod extended;
 #[doc(hidden)]
 pub mod extremes;
+#[warn(clippy::missing_errors_doc)]
 pub mod fold;
 #[doc(hidden)]
 pub mod fold_graph;
 pub(crate) mod fold_point;
 pub(crate) mod grazing;
+#[warn(clippy::missing_errors_doc)]
 pub mod guarantee;
 #[doc(hidden)]
 pub mod half_map;
@@ -38,6 +45,7 @@ pub mod harmonic_error;
 pub(crate) mod kicks;
 pub(crate) mod lift;
 pub(crate) mod limit_cycle;
+#[warn(clippy::missing_errors_doc)]
 pub mod margin;
 #[doc(hidden)]
 pub mod measure;
@@ -46,6 +54,7 @@ pub mod polish;
 pub(crate) mod precise_closing;
 #[doc(hidden)]
 pub mod proved;
+#[warn(clippy::missing_errors_doc)]
 pub mod regime;
 pub(crate) mod repeated;
 pub(crate) mod return_map;

@@ -32,10 +32,8 @@ pub(super) fn is_exact(equation: &Equation) -> bool {
     equation.tolerance() <= 4.0 * f64::EPSILON && equation.is_of_one_motion()
 }
 
-/// The closing in a bracket, to rounding where doubles allow it, else in twice the working precision.
-///
-/// # Errors
-/// The [`Reason`] why a swing failed, or [`Reason::NoConvergence`].
+/// The closing in a bracket, to rounding where doubles allow it, else in twice the working precision. Fails with
+/// the [`Reason`] why a swing failed, or [`Reason::NoConvergence`].
 pub fn polish(
     equation: &mut Equation,
     bracket: Bracket,
@@ -76,9 +74,6 @@ fn polish_from(
 
 /// The closing next to `u`, known to have a multiplier near this one, by [`polish`]; `None` where doubles and thirty
 /// digits leave it vague. More digits than doubles have are asked for a relative error of `sharp` only.
-///
-/// # Errors
-/// As [`polish`].
 pub fn polish_near(
     equation: &mut Equation,
     u: f64,

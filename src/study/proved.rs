@@ -29,10 +29,8 @@ impl fmt::Display for Contradiction {
 
 impl std::error::Error for Contradiction {}
 
-/// Proves what the search found, for the parameters as the doubles that they are.
-///
-/// # Errors
-/// A [`Contradiction`] where the proof excludes a cycle that was found, or proves one that was not.
+/// Proves what the search found, for the parameters as the doubles that they are. Fails with a [`Contradiction`]
+/// where the proof excludes a cycle that was found, or proves one that was not.
 pub fn proved(found: &Cycles) -> Result<Proof, Contradiction> {
     let hints: Vec<f64> = found.cycles.iter().map(|cycle| cycle.clearance).collect();
     let proof = prove(&ParameterBox::from(&found.parameters), &hints);
@@ -40,10 +38,7 @@ pub fn proved(found: &Cycles) -> Result<Proof, Contradiction> {
     Ok(proof)
 }
 
-/// Compares the cycles of the search with a proof.
-///
-/// # Errors
-/// A [`Contradiction`] where they differ.
+/// Compares the cycles of the search with a proof. Fails with a [`Contradiction`] where they differ.
 pub fn compare(found: &[Cycle], proof: &Proof) -> Result<(), Contradiction> {
     let contradiction = |what| Err(Contradiction { what });
     for cycle in found {

@@ -21,9 +21,6 @@ impl Equation {
     ///
     /// Every second swing, however close to the sticking set it starts, ends beyond the one that creeps out
     /// from its rim, and the next first swing starts there.
-    ///
-    /// # Errors
-    /// The [`Reason`] why a swing failed.
     pub fn rim(&mut self, limits: &Limits) -> Result<Option<f64>, Reason> {
         let r = self.parameters.r;
         let rim = self.rim_start();
@@ -41,9 +38,6 @@ impl Equation {
 
     /// The way of motions that leave the end of the sticking set, a node that repels (`D < -1`), on the side on which
     /// they come further.
-    ///
-    /// # Errors
-    /// The [`Reason`] why a swing failed.
     pub fn way_from_rim(&mut self, limits: &Limits) -> Result<WayFromRim, Reason> {
         let Parameters { r, .. } = self.parameters;
         let gap = 2.0 * r;

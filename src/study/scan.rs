@@ -48,10 +48,7 @@ pub const MOST_POINTS: usize = 1_000_000_000;
 const FORM: &str = "expected NAME=FROM:TO:COUNT, such as D=-0.95:0:400, or NAME=log:FROM:TO:COUNT";
 
 impl Sweep {
-    /// A sweep that makes sense.
-    ///
-    /// # Errors
-    /// One line that says what is wrong and what is allowed.
+    /// A sweep that makes sense. Fails with one line that says what is wrong and what is allowed.
     pub fn new(
         symbol: Symbol,
         (from, to): (f64, f64),
@@ -163,10 +160,8 @@ pub struct ScanRow {
 }
 
 impl Scan {
-    /// A scan that makes sense: each sweep moves something that is measured.
-    ///
-    /// # Errors
-    /// One line that says what is wrong and what is allowed.
+    /// A scan that makes sense: each sweep moves something that is measured. Fails with one line that says what is
+    /// wrong and what is allowed.
     pub fn new(
         base: Problem,
         over: Vec<Sweep>,
@@ -233,10 +228,7 @@ impl Scan {
         problem
     }
 
-    /// Measures point number `index`.
-    ///
-    /// # Errors
-    /// [`Reason::Interrupted`], and no other.
+    /// Measures point number `index`. Fails with [`Reason::Interrupted`], and no other.
     pub fn row(&self, index: usize, limits: &Limits) -> Result<ScanRow, Reason> {
         let problem = self.problem(index);
         let (values, point) = measure(&problem, &self.measures, &self.conditions, limits)?;

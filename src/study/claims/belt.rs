@@ -52,10 +52,7 @@ fn at(speed: f64) -> Result<Reduced, Reason> {
 }
 
 /// Whether the vibrations at some speeds of the belt stay below it: the stable cycle, and a motion that
-/// comes to it from just outside of the unstable one.
-///
-/// # Errors
-/// The [`Reason`] why a cycle was not found.
+/// comes to it from just outside of the unstable one. Fails with the [`Reason`] why a cycle was not found.
 pub fn stays_slower(limits: &Limits) -> Result<Finding, Reason> {
     let mut cases = Vec::new();
     for speed in SPEEDS {
@@ -76,10 +73,8 @@ pub fn stays_slower(limits: &Limits) -> Result<Finding, Reason> {
     Ok(Finding::always(cases))
 }
 
-/// The speed of the belt at which the stable cycle just reaches it, by one harmonic and computed.
-///
-/// # Errors
-/// The [`Reason`] why a cycle was not found.
+/// The speed of the belt at which the stable cycle just reaches it, by one harmonic and computed. Fails with the
+/// [`Reason`] why a cycle was not found.
 pub fn contact(limits: &Limits) -> Result<Finding, Reason> {
     let harmonic = root(|speed| {
         let Reduced { parameters, sticking_velocity, .. } = at(speed)?;

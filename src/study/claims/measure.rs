@@ -95,10 +95,7 @@ fn missing(sought: &'static str) -> Reason {
     Reason::NoConvergence { sought, change: f64::NAN }
 }
 
-/// Place and time of the first arrival at `v = 0`.
-///
-/// # Errors
-/// The [`Reason`] why the motion has none.
+/// Place and time of the first arrival at `v = 0`. Fails with the [`Reason`] why the motion has none.
 pub fn half_swing(
     parameters: &Parameters,
     initial: State,
@@ -117,9 +114,6 @@ pub fn half_swing(
 }
 
 /// State at a time before the motion comes to rest.
-///
-/// # Errors
-/// The [`Reason`] why there is none.
 pub fn state_at(
     parameters: &Parameters,
     initial: State,
@@ -138,9 +132,6 @@ pub fn state_at(
 }
 
 /// Change of the energy over a motion, and the works of linear damping and of friction.
-///
-/// # Errors
-/// The [`Reason`] why there are none.
 pub fn energy_change(
     parameters: &Parameters,
     initial: State,
@@ -160,10 +151,7 @@ pub fn energy_change(
     .ok_or(missing("an energy ledger"))
 }
 
-/// How a motion ends before `until`.
-///
-/// # Errors
-/// The [`Reason`] why it was given up.
+/// How a motion ends before `until`. Fails with the [`Reason`] why it was given up.
 pub fn outcome(
     parameters: &Parameters,
     initial: State,
@@ -178,10 +166,7 @@ pub fn outcome(
     }
 }
 
-/// Whether a motion comes to rest before `until`.
-///
-/// # Errors
-/// The [`Reason`] why it was given up.
+/// Whether a motion comes to rest before `until`. Fails with the [`Reason`] why it was given up.
 pub fn captured(
     parameters: &Parameters,
     initial: State,
@@ -198,10 +183,8 @@ pub fn captured(
     Ok(KnownAnswer { holds, certain })
 }
 
-/// All cycles by the general search, smallest first, whether or not a closed form exists.
-///
-/// # Errors
-/// The [`Reason`] why the search failed.
+/// All cycles by the general search, smallest first, whether or not a closed form exists. Fails with the [`Reason`]
+/// why the search failed.
 pub fn cycles(parameters: &Parameters, limits: &Limits) -> Result<AllFound, Reason> {
     let mut equation = Equation::new(parameters, 0.5 * f64::EPSILON);
     let found = closings(&mut equation, limits)?;
@@ -220,10 +203,7 @@ pub fn beside_proof(parameters: &Parameters, found: Vec<Cycle>) -> AllFound {
     AllFound { cycles: found.into_iter().map(with_bounds).collect(), certain }
 }
 
-/// What borders the basin.
-///
-/// # Errors
-/// The [`Reason`] why a border could not be computed.
+/// What borders the basin. Fails with the [`Reason`] why a border could not be computed.
 pub fn edge(parameters: &Parameters, limits: &Limits) -> Result<CertainEdge, Reason> {
     let found = basin(parameters, 10.0, limits)?.edge;
     let proved = kicks::edge(&prove(&ParameterBox::from(parameters), &[]));
@@ -244,17 +224,11 @@ pub fn last_cycle(parameters: &Parameters, found: f64, error: f64) -> Known {
 }
 
 /// The smallest cycle.
-///
-/// # Errors
-/// The [`Reason`] why there is none.
 pub fn smallest(parameters: &Parameters, limits: &Limits) -> Result<BoundedCycle, Reason> {
     cycles(parameters, limits)?.cycles.first().copied().ok_or(missing("a limit cycle"))
 }
 
 /// The largest cycle.
-///
-/// # Errors
-/// The [`Reason`] why there is none.
 pub fn largest(parameters: &Parameters, limits: &Limits) -> Result<BoundedCycle, Reason> {
     cycles(parameters, limits)?.cycles.last().copied().ok_or(missing("a limit cycle"))
 }
@@ -266,10 +240,7 @@ pub fn amplitude(cycle: &BoundedCycle) -> Known {
     })
 }
 
-/// Mean displacement of a cycle over its period.
-///
-/// # Errors
-/// The [`Reason`] why its arcs could not be computed.
+/// Mean displacement of a cycle over its period. Fails with the [`Reason`] why its arcs could not be computed.
 pub fn mean(parameters: &Parameters, cycle: &Cycle, limits: &Limits) -> Result<Known, Reason> {
     /// Relative error of the integral of q by arcs to 1e-14.
     const INTEGRAL: f64 = 1e-11;

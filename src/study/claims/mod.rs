@@ -82,18 +82,13 @@ pub fn claims() -> impl Iterator<Item = &'static Claim> {
     SECTIONS.iter().copied().flatten()
 }
 
-/// Puts all claims to the test.
-///
-/// # Errors
-/// [`Reason::Interrupted`] and no other.
+/// Puts all claims to the test. Fails with [`Reason::Interrupted`] and no other.
 pub fn examine_all(limits: &Limits) -> Result<Vec<Examined>, Reason> {
     claims().map(|claim| examine(claim, limits)).collect()
 }
 
-/// Puts one claim to the test.
-///
-/// # Errors
-/// [`Reason::Interrupted`] and no other: any other reason belongs to the answer.
+/// Puts one claim to the test. Fails with [`Reason::Interrupted`] and no other: any other reason belongs to the
+/// answer.
 pub fn examine(claim: &'static Claim, limits: &Limits) -> Result<Examined, Reason> {
     match (claim.check)(limits) {
         Err(Reason::Interrupted) => Err(Reason::Interrupted),

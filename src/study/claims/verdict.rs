@@ -114,10 +114,7 @@ impl Finding {
         Finding { place: place.to_string(), ..self }
     }
 
-    /// Of several findings about one claim, the one that misses most.
-    ///
-    /// # Errors
-    /// The first error among them.
+    /// Of several findings about one claim, the one that misses most. Fails with the first error among them.
     pub fn worst<E>(findings: impl IntoIterator<Item = Result<Self, E>>) -> Result<Self, E> {
         let mut worst = Self::always::<bool>([]);
         let (mut cases, mut mark) = (0, Some(Certainty::Proved));

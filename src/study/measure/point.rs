@@ -43,10 +43,7 @@ pub struct ScanPoint {
 }
 
 /// Fills the columns of these measures at a point, in their order. What could not be computed is [`Value::Nothing`],
-/// and [`ScanPoint::failures`] says why.
-///
-/// # Errors
-/// [`Reason::Interrupted`], and no other.
+/// and [`ScanPoint::failures`] says why. Fails with [`Reason::Interrupted`], and no other.
 pub fn measure(
     problem: &Problem,
     measures: &[Measure],

@@ -16,10 +16,8 @@ pub struct Settling {
 }
 
 impl Settling {
-    /// Follows every start until the end time of the motion.
-    ///
-    /// # Errors
-    /// The [`Reason`] why one of them was given up.
+    /// Follows every start until the end time of the motion. Fails with the [`Reason`] why one of them was given
+    /// up.
     pub fn of(problem: &Problem, window: &Window, limits: &Limits) -> Result<(Self, Cost), Reason> {
         let mut cost = Cost::default();
         let cell = |(from, to): (f64, f64), index: u16| {

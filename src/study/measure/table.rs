@@ -250,10 +250,7 @@ impl Measure {
         &MEASURES[self as usize]
     }
 
-    /// The measure with this name.
-    ///
-    /// # Errors
-    /// One line that says which there are.
+    /// The measure with this name. Fails with one line that says which there are.
     pub fn named(name: &str) -> Result<Self, String> {
         MEASURES.iter().find(|row| row.name == name).map(|row| row.measure).ok_or_else(|| {
             let names = MEASURES.map(|row| row.name).join(", ");
