@@ -189,6 +189,13 @@ fn the_margin_known_from_elsewhere() {
 }
 
 #[test]
+fn where_there_may_be_no_friction_nothing_is_guaranteed_and_no_number_is_below_zero() {
+    let (known, w) = case([-0.1; 2], [0.0; 2], [0.0; 2], [0.0, 0.1], 0.0);
+    let margin = guarantee(&known, w, &Limits::PATIENT).unwrap().guaranteed.margin;
+    assert_eq!((margin.displacement, margin.impulse), (Some(0.0), Some(0.0)));
+}
+
+#[test]
 fn a_border_far_out_on_one_side_is_that_of_the_plain_system() {
     // D2 brakes on one side and drives on the other, and a D3 of nearly nothing closes the way out: the far end lies where
     // swings have forgotten their starts.
@@ -215,16 +222,7 @@ fn a_border_far_out_on_one_side_is_that_of_the_plain_system() {
 }
 
 #[test]
-fn no_disturbance_leads_out_of_the_guaranteed_margin() {
-    let mut random = Random::new(1);
-    for (known, w) in cases() {
-        assert_eq!(leaving(&known, w, 60, &mut random), 0, "{known:?}, w = {w}");
-    }
-}
-
-#[test]
-#[ignore = "1e5 motions: a minute"]
-fn no_disturbance_of_very_many_leads_out_of_the_guaranteed_margin() {
+fn no_disturbance_of_a_hundred_thousand_leads_out_of_the_guaranteed_margin() {
     let mut random = Random::new(2);
     for (known, w) in cases() {
         assert_eq!(leaving(&known, w, 20_000, &mut random), 0, "{known:?}, w = {w}");

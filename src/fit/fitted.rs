@@ -77,6 +77,13 @@ impl Fitted {
         Some(Units { omega_0, displacement, velocity, time: 1.0 / omega_0, impulse, force })
     }
 
+    /// Motions computed with and without derivatives, those that weigh the draws of the margin among the latter.
+    #[must_use]
+    pub fn motions(&self) -> (u64, u64) {
+        let (with, without) = self.estimate.motions;
+        (with, without + self.margins.motions)
+    }
+
     /// The unit of the displacements as it is written behind numbers.
     #[must_use]
     pub fn unit(&self) -> &str {

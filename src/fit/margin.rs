@@ -50,6 +50,8 @@ pub struct Margins {
     pub draws: Vec<Parameters>,
     /// Where draws were weighted by their likelihood: as many of equal weight would tell as much.
     pub effective: Option<f64>,
+    /// Motions computed to weigh them.
+    pub motions: u64,
     /// Whether the median displacement lies outside the amplitudes measured.
     pub extrapolated: bool,
     /// Draws whose margin could not be computed.
@@ -66,7 +68,7 @@ pub const DRAWS: usize = 400;
 pub fn margins(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Margins, Reason> {
     let (smallest, largest) = estimate.amplitudes();
     let ask = |parameters: &Parameters| answer(parameters, largest, limits);
-    let Drawn { draws: drawn, effective } = drawn(estimate, draws, limits)?;
+    let Drawn { draws: drawn, effective, motions } = drawn(estimate, draws, limits)?;
     let computed: Vec<Result<MarginOfDraw, Reason>> = drawn.par_iter().map(ask).collect();
     if (limits.interrupted)() {
         return Err(Reason::Interrupted);
@@ -91,6 +93,7 @@ pub fn margins(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Mar
         displacements,
         draws: drawn,
         effective,
+        motions,
     })
 }
 

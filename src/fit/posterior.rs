@@ -21,6 +21,8 @@ pub struct Drawn {
     pub draws: Vec<Parameters>,
     /// Where they were weighted: as many independent draws would tell as much.
     pub effective: Option<f64>,
+    /// Motions computed to weigh them.
+    pub motions: u64,
 }
 
 /// Weighted draws for each one that is kept.
@@ -34,10 +36,12 @@ const FEWEST: f64 = 0.1;
 pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Drawn, Reason> {
     let places: Vec<usize> =
         [D, D2, D3, R].into_iter().filter(|&place| estimate.free[place]).collect();
+    let mut motions = 0;
     if !places.iter().all(|&place| estimate.intervals[place].quadratic) {
         let normal = Normal::of(estimate, estimate.covariance.columns.clone());
         let points: Vec<Unknowns> = (0..SPARE * draws).map(|index| normal.point(index)).collect();
         let weights = weights(estimate, &normal, &points, limits)?;
+        motions = weights.len() as u64;
         let (sum, squares) = weights
             .iter()
             .fold((0.0, 0.0), |(sum, squares), weight| (sum + weight, squares + weight * weight));
@@ -45,7 +49,7 @@ pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Drawn
         #[expect(clippy::cast_precision_loss, reason = "a count of draws")]
         if effective >= FEWEST * draws as f64 {
             let draws = resampled(&points, &weights, draws);
-            return Ok(Drawn { draws, effective: Some(effective) });
+            return Ok(Drawn { draws, effective: Some(effective), motions });
         }
     }
     let normal = Normal::of(estimate, places);
@@ -55,7 +59,7 @@ pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Drawn
         p[R] = p[R].max(0.0);
         parameters(&p)
     };
-    Ok(Drawn { draws: (0..draws).map(draw).collect(), effective: None })
+    Ok(Drawn { draws: (0..draws).map(draw).collect(), effective: None, motions })
 }
 
 /// The ratio of likelihood to density of each point, to a factor.

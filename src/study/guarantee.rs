@@ -319,7 +319,7 @@ pub fn guaranteed(
     let r = worst.upper.r;
     let Margin { displacement, impulse } = basin.margin();
     // Of a displacement only the clearance is in error; an impulse comes of an arc from that clearance.
-    let shrunk = |length: f64| (length * (1.0 - error)).next_down();
+    let shrunk = |length: f64| (length * (1.0 - error)).next_down().max(0.0);
     let displacement = displacement.map(|q| (r + shrunk(q - r)).next_down().max(r.min(q)));
     let margin = Margin { displacement, impulse: impulse.map(shrunk) };
     Ok((Guaranteed { margin, reason: None }, basin.cost))

@@ -147,7 +147,7 @@ pub fn json(fitted: &Fitted) -> String {
         .iter()
         .map(|it| Valley { half_swings: it.half_swings, delta_chi2: it.delta_chi2 })
         .collect();
-    let (with_derivatives, without) = estimate.motions;
+    let (with_derivatives, without) = fitted.motions();
     json::text(&Document {
         file: &fitted.name,
         unit: record.unit.as_deref(),

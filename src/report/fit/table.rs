@@ -38,7 +38,7 @@ pub fn table(fitted: &Fitted) -> String {
     for sentence in sentences(fitted) {
         out += &format!("{sentence}\n");
     }
-    let (with, plain) = estimate.motions;
+    let (with, plain) = fitted.motions();
     out + &format!(
         "{with} motions with derivatives, {plain} without, {}\n",
         duration(fitted.seconds)
