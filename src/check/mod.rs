@@ -44,7 +44,7 @@ pub struct Certificate {
 #[serde(deny_unknown_fields)]
 pub struct CertificateStep {
     #[serde(rename = "step")]
-    pub kind: Kind,
+    pub kind: StepKind,
     pub from: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub to: Option<f64>,
@@ -59,7 +59,7 @@ pub struct CertificateStep {
 /// What a step shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Kind {
+pub enum StepKind {
     Within,
     Below,
     Above,
@@ -113,7 +113,7 @@ pub fn check(text: &str) -> Result<Certificate, String> {
     Ok(given)
 }
 
-impl Kind {
+impl StepKind {
     /// How many cycles there are by a theorem; `None` if this is none, or its conditions are not met by all of these
     /// parameters.
     pub fn theorem(self, [d, d2, d3, r]: [Interval; 4]) -> Option<usize> {
@@ -121,7 +121,7 @@ impl Kind {
         let (negative, positive) =
             (|it: Interval| it.upper() < 0.0, |it: Interval| it.lower() > 0.0);
         let (holds, cycles) = match self {
-            Kind::OneWay => {
+            StepKind::OneWay => {
                 // For D < 0 < D3 the least value, at w^2 = -2 D/(3 D3), is positive where 32 D^3 + 27 r^2 D3 > 0.
                 let least = Interval::point(32.0) * d * d.square()
                     + Interval::point(27.0) * r.square() * d3;
@@ -129,11 +129,11 @@ impl Kind {
                 let loses = d.lower() >= 0.0 && d3.lower() >= 0.0;
                 (gains || loses || (positive(d3) && negative(d) && positive(least)), 0)
             }
-            Kind::Overdamped => (d.upper() <= -1.0 && d3.upper() <= 0.0, 0),
-            Kind::Affine => {
+            StepKind::Overdamped => (d.upper() <= -1.0 && d3.upper() <= 0.0, 0),
+            StepKind::Affine => {
                 (zero(d2) && zero(d3) && d.lower() > -1.0 && negative(d) && positive(r), 1)
             }
-            Kind::Frictionless => {
+            StepKind::Frictionless => {
                 let opposite = negative(d) && positive(d3) || positive(d) && negative(d3);
                 (zero(r) && opposite, 1)
             }
@@ -150,20 +150,20 @@ impl CertificateStep {
         let gap = format!("it begins at {from:?}, and the step before ends at {at:?}");
         known(from == at, &gap)?;
         known(from < to, "it does not end beyond its beginning")?;
-        let inverse = matches!(self.kind, Kind::Below | Kind::Unstable);
+        let inverse = matches!(self.kind, StepKind::Below | StepKind::Unstable);
         let map = Map::new(parameters, inverse, self.fences.unwrap_or_default());
         match self.kind {
-            Kind::Within => {
+            StepKind::Within => {
                 // Infinite clearances are those of all.
                 let of = Interval::new(if to < f64::INFINITY { to } else { 0.0 }, to);
                 known(map.images(of).upper() < from, "images of G may lie beyond `from`")?;
             }
-            Kind::Below | Kind::Above => {
+            StepKind::Below | StepKind::Above => {
                 let least = map.images(Interval::point(from)).lower();
                 let beyond = least > to || least == f64::INFINITY;
                 known(beyond, "the image of `from` may not lie beyond `to`")?;
             }
-            Kind::Stable | Kind::Unstable => {
+            StepKind::Stable | StepKind::Unstable => {
                 return self.verify_cycle(&map, [from, to]).map(|()| 1);
             }
             _ => {

@@ -9,7 +9,7 @@ fn point(value: f64) -> Interval {
 
 /// Whether a step of a cycle is shown.
 fn shown(
-    kind: Kind,
+    kind: StepKind,
     parameters: [f64; 4],
     [from, to]: Bounds,
     clearance: Bounds,
@@ -52,7 +52,7 @@ fn bounds_of_a_clearance_that_miss_it_are_refused() {
     let linear = [d, 0.0, 0.0, r];
     let within = [0.9999 * exact, 1.0001 * exact];
     let shown = |low: f64, high: f64| {
-        shown(Kind::Unstable, linear, within, [exact * (1.0 + low), exact * (1.0 + high)])
+        shown(StepKind::Unstable, linear, within, [exact * (1.0 + low), exact * (1.0 + high)])
     };
     let off = 1e-12;
     assert_eq!(shown(-off, off), Ok(1));
@@ -67,7 +67,7 @@ fn a_step_that_holds_two_cycles_is_refused() {
     let near_fold = [-0.172_784_28, 0.2, 0.5, 0.1];
     let [repelling, attracting] = [0.415_062_415_659, 0.416_021_602_729];
     let around = [attracting - 1e-9, attracting + 1e-9];
-    let shown = |from: f64| shown(Kind::Stable, near_fold, [from, attracting + 1e-6], around);
+    let shown = |from: f64| shown(StepKind::Stable, near_fold, [from, attracting + 1e-6], around);
     assert_eq!(shown(attracting - 1e-6), Ok(1));
     assert_eq!(shown(repelling - 1e-6).unwrap_err(), "the map that should contract may not");
 }
@@ -77,6 +77,6 @@ fn a_step_that_holds_two_cycles_is_refused() {
 fn the_first_integral_falls_where_its_rate_has_one_sign() {
     for (off, holds) in [(1e-12, Some(0)), (-1e-12, None)] {
         let parameters = [-0.375, 0.2, 0.25, 0.5 * (1.0 + off)];
-        assert_eq!(Kind::OneWay.theorem(parameters.map(point)), holds, "{off}");
+        assert_eq!(StepKind::OneWay.theorem(parameters.map(point)), holds, "{off}");
     }
 }

@@ -15,7 +15,7 @@ use super::places::Memory;
 use super::replay::script;
 use super::start::StartOptions;
 use crate::runtime::effects::Files;
-use crate::runtime::{Options, Record, explore};
+use crate::runtime::{Options, RecordingFile, explore};
 use crate::scene::library::{PLAIN, find, names};
 use crate::session::opening::opening;
 use crate::session::replay::{Instruction, Recorder, Script};
@@ -123,7 +123,8 @@ pub fn go(
     recorder.extend(play.iter().cloned());
     let mut recorder = Recorder::new(recorder);
     // A file that cannot be written should be known before the session, not after.
-    let record = record.map(|(path, force)| Record::begin(path, force, &started, &mut recorder));
+    let record =
+        record.map(|(path, force)| RecordingFile::begin(path, force, &started, &mut recorder));
     let record = record.transpose().map_err(Failure::Usage)?;
     let memory = Memory::open();
     if let Some(memory) = &memory {

@@ -8,7 +8,7 @@ use super::failure::Failure;
 use super::output::{print, write};
 use super::start::StartOptions;
 use super::wrapped::columns;
-use crate::figure::{self as forms, Form};
+use crate::figure::{self as forms, FileForm};
 use crate::flow::Limits;
 use crate::question::Fineness;
 use crate::runtime::print::{complete, figure};
@@ -27,7 +27,7 @@ pub struct Arguments {
     start: StartOptions,
     /// File to write; its ending says in which form: .svg, .png, .csv or .json
     #[arg(long, value_name = "FILE", value_parser = file)]
-    output: Option<(PathBuf, Form)>,
+    output: Option<(PathBuf, FileForm)>,
     /// Replaces what FILE holds
     #[arg(long, requires = "output")]
     force: bool,
@@ -51,9 +51,9 @@ pub enum Printed {
 }
 
 /// A file with one of the known endings.
-fn file(text: &str) -> Result<(PathBuf, Form), String> {
+fn file(text: &str) -> Result<(PathBuf, FileForm), String> {
     let path = PathBuf::from(text);
-    Form::of_file(&path).map(|form| (path, form))
+    FileForm::of_file(&path).map(|form| (path, form))
 }
 
 /// The size of a panel that is drawn with characters, where no terminal says how wide.
@@ -107,9 +107,9 @@ mod tests {
 
     #[test]
     fn the_ending_of_a_file_says_in_which_form() {
-        assert_eq!(file("a/fig.SVG").unwrap().1, Form::Svg);
-        assert_eq!(file("fig.json").unwrap().1, Form::Json);
-        assert_eq!(file("fig.png").unwrap().1, Form::Png);
+        assert_eq!(file("a/fig.SVG").unwrap().1, FileForm::Svg);
+        assert_eq!(file("fig.json").unwrap().1, FileForm::Json);
+        assert_eq!(file("fig.png").unwrap().1, FileForm::Png);
         for wrong in ["fig", "fig.pdf", ".svg", ""] {
             assert!(file(wrong).is_err(), "{wrong}");
         }

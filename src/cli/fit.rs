@@ -10,7 +10,7 @@ use clap::{Args, ValueEnum};
 use super::failure::Failure;
 use super::output::{Format, Output, write};
 use super::timing::timed;
-use crate::figure::{self, Figure, Form};
+use crate::figure::{self, Figure, FileForm};
 use crate::fit::contour::{RISES, contour};
 use crate::fit::curves::Curves;
 use crate::fit::levenberg_marquardt::Runs;
@@ -63,7 +63,7 @@ pub struct Arguments {
     /// Pictures to write as well: record and residuals, damping over amplitude, phase plane, margin; the ending says
     /// in which form: .svg, .png, .csv or .json
     #[arg(long = "output", value_name = "FILE", value_parser = picture)]
-    pictures: Option<(PathBuf, Form)>,
+    pictures: Option<(PathBuf, FileForm)>,
     /// Replaces what that file holds
     #[arg(long, requires = "pictures")]
     force: bool,
@@ -146,9 +146,9 @@ fn length(text: &str) -> Result<String, String> {
 }
 
 /// A file with one of the known endings.
-fn picture(text: &str) -> Result<(PathBuf, Form), String> {
+fn picture(text: &str) -> Result<(PathBuf, FileForm), String> {
     let path = PathBuf::from(text);
-    Form::of_file(&path).map(|form| (path, form))
+    FileForm::of_file(&path).map(|form| (path, form))
 }
 
 fn draws(text: &str) -> Result<usize, String> {

@@ -13,7 +13,7 @@ use super::output::{holds_something, without};
 use super::part::Shard;
 use super::scan::{ScanCommand, ScanRequest};
 use crate::flow::Limits;
-use crate::report::scan::Form;
+use crate::report::scan::RowForm;
 use crate::runtime::merging::{Conflict, Part, merge};
 use crate::runtime::provenance_file;
 use crate::words::provenance::Provenance;
@@ -46,7 +46,7 @@ const OWN: [(&str, bool); 6] = [
 ];
 
 /// A part, and what its provenance says.
-struct Source {
+struct PartSource {
     path: PathBuf,
     provenance: Provenance,
     arguments: Vec<String>,
@@ -61,7 +61,7 @@ impl Arguments {
         for other in &sources[1..] {
             other.must_belong_with(first)?;
         }
-        let parts: Vec<Part> = sources.iter().map(Source::part).collect();
+        let parts: Vec<Part> = sources.iter().map(PartSource::part).collect();
         let ScanRequest { scan, form, .. } = &first.asked;
         let recheck = self.check.then_some(&Limits::PATIENT);
         let mut output = self.output.as_deref().map(Output::begin).transpose()?;
@@ -90,17 +90,17 @@ impl Arguments {
     }
 
     /// The parts that are there, at least one, and the paths where there is none.
-    fn sources(&self) -> Result<(Vec<Source>, Vec<&Path>), Failure> {
+    fn sources(&self) -> Result<(Vec<PartSource>, Vec<&Path>), Failure> {
         let (mut sources, mut absent) = (Vec::new(), Vec::new());
         for path in &self.parts {
             if path.is_dir() {
                 let files =
                     provenance_file::files_in(path).map_err(|error| Failure::file(path, &error))?;
                 for file in files {
-                    sources.push(Source::read(file)?);
+                    sources.push(PartSource::read(file)?);
                 }
             } else if path.exists() {
-                sources.push(Source::read(path.clone())?);
+                sources.push(PartSource::read(path.clone())?);
             } else {
                 absent.push(path.as_path());
             }
@@ -113,7 +113,7 @@ impl Arguments {
     }
 }
 
-impl Source {
+impl PartSource {
     fn read(path: PathBuf) -> Result<Self, Failure> {
         let beside = provenance_file::beside(&path);
         let provenance = provenance_file::read(&path).map_err(|error| {
@@ -126,12 +126,12 @@ impl Source {
             return Err(Failure::Usage(format!("{beside}: {command:?} is not a scan")));
         };
         let asked = command.asked()?;
-        if asked.form == Form::Table {
+        if asked.form == RowForm::Table {
             let line =
                 format!("{}: a table rounds its numbers; merge needs csv or json", path.display());
             return Err(Failure::Usage(line));
         }
-        Ok(Source { path, provenance, arguments, asked })
+        Ok(PartSource { path, provenance, arguments, asked })
     }
 
     fn part(&self) -> Part {
@@ -158,7 +158,7 @@ impl Source {
 }
 
 /// Says which rows of a gap are missing, one line for each shard that it meets, and what computes them.
-fn report(gap: &Range<usize>, missing: &[Range<usize>], sources: &[Source]) {
+fn report(gap: &Range<usize>, missing: &[Range<usize>], sources: &[PartSource]) {
     let all = sources[0].asked.scan.points();
     let shard = sources.iter().find_map(|source| source.asked.shard);
     let shards = shard.into_iter().flat_map(Shard::siblings);
@@ -176,8 +176,8 @@ fn report(gap: &Range<usize>, missing: &[Range<usize>], sources: &[Source]) {
 }
 
 /// The command that computes just these rows: the one that left them out where it only has to be resumed.
-fn command_for(piece: &Range<usize>, missing: &[Range<usize>], sources: &[Source]) -> String {
-    let stopped_here = |source: &&Source| {
+fn command_for(piece: &Range<usize>, missing: &[Range<usize>], sources: &[PartSource]) -> String {
+    let stopped_here = |source: &&PartSource| {
         let points = &source.asked.points;
         let earlier = |gap: &Range<usize>| {
             gap.start.max(points.start) < piece.start && gap.end > points.start
@@ -193,16 +193,16 @@ fn command_for(piece: &Range<usize>, missing: &[Range<usize>], sources: &[Source
     let (from, to) = (piece.start + 1, piece.end);
     let mut arguments = without(&first.arguments, &OWN);
     arguments.extend(["--rows".to_owned(), format!("{from}:{to}")]);
-    let ending = if first.asked.form == Form::Json { "json" } else { "csv" };
+    let ending = if first.asked.form == RowForm::Json { "json" } else { "csv" };
     let path = first.path.with_file_name(format!("rows-{from}-{to}.{ending}"));
     command(arguments, first.asked.form, &path)
 }
 
 /// The command line that writes rows of this form to a file, whatever its name ends with.
-fn command(mut arguments: Vec<String>, form: Form, path: &Path) -> String {
-    if form != Form::of_file(path) {
+fn command(mut arguments: Vec<String>, form: RowForm, path: &Path) -> String {
+    if form != RowForm::of_file(path) {
         arguments = without(&arguments, &[("--format", true)]);
-        let name = if form == Form::Json { "json" } else { "csv" };
+        let name = if form == RowForm::Json { "json" } else { "csv" };
         arguments.extend(["--format", name].map(str::to_owned));
     }
     arguments.extend(["--output".to_owned(), path.to_string_lossy().into_owned()]);

@@ -8,7 +8,7 @@ use clap::{Args, ValueEnum};
 use super::failure::Failure;
 use super::output::{print, without, write};
 use super::part::MOST;
-use crate::report::scan::Form;
+use crate::report::scan::RowForm;
 use crate::words::provenance::{Provenance, quoted};
 
 /// The options that ask for a recipe.
@@ -120,7 +120,7 @@ fn recipe(
         return Err(Failure::Usage(line));
     }
     let parts = format!("{rows}.parts");
-    let ending = if Form::of_file(Path::new(&rows)) == Form::Json { "json" } else { "csv" };
+    let ending = if RowForm::of_file(Path::new(&rows)) == RowForm::Json { "json" } else { "csv" };
     let fields = [
         ("@version@", env!("CARGO_PKG_VERSION").to_owned()),
         ("@scan@", Provenance::of(&scan).command),

@@ -20,7 +20,7 @@ use super::progress::{Outlet, Progress};
 use super::start::StartOptions;
 use crate::flow::Limits;
 use crate::oscillator::Symbol;
-use crate::report::scan::Form;
+use crate::report::scan::RowForm;
 use crate::runtime::provenance_file;
 use crate::runtime::scan_file::{Refusal, ScanFile};
 use crate::runtime::scanning::{Processors, Taker, rows};
@@ -126,7 +126,7 @@ pub struct ScanRequest {
     /// The whole scan.
     pub scan: Scan,
     /// The form of its rows.
-    pub form: Form,
+    pub form: RowForm,
     /// The points that are to be computed.
     pub points: Range<usize>,
     /// Whether the line of names comes before their rows.
@@ -137,7 +137,7 @@ pub struct ScanRequest {
 
 /// Where the rows go.
 enum Sink {
-    Standard(Form),
+    Standard(RowForm),
     File(ScanFile),
 }
 
@@ -325,14 +325,14 @@ impl ScanCommand {
         Ok((Sink::File(file), done))
     }
 
-    fn form(&self) -> Result<Form, Failure> {
+    fn form(&self) -> Result<RowForm, Failure> {
         let form = match self.format {
-            Some(Rows::Json) => Form::Json,
-            Some(Rows::Table) => Form::Table,
-            Some(Rows::Csv) => Form::Csv,
-            None => self.output.as_deref().map_or(Form::Csv, Form::of_file),
+            Some(Rows::Json) => RowForm::Json,
+            Some(Rows::Table) => RowForm::Table,
+            Some(Rows::Csv) => RowForm::Csv,
+            None => self.output.as_deref().map_or(RowForm::Csv, RowForm::of_file),
         };
-        if form == Form::Table && self.resume {
+        if form == RowForm::Table && self.resume {
             let line = "--format table rounds its numbers; --resume needs csv or json";
             return Err(Failure::Usage(line.to_owned()));
         }

@@ -47,7 +47,7 @@ pub struct Panel {
     pub x: Axis,
     pub y: Axis,
     /// Lines, from back to front.
-    pub curves: Vec<Curve>,
+    pub curves: Vec<FigureCurve>,
     pub areas: Vec<Area>,
     /// Points with a meaning.
     pub marks: Vec<MarkedPoint>,
@@ -94,7 +94,7 @@ pub struct Axis {
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Curve {
+pub struct FigureCurve {
     /// What it is, and which values it has of its own.
     pub name: String,
     pub role: &'static str,

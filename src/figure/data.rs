@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::content::{Area, Curve, Figure};
+use super::content::{Area, Figure, FigureCurve};
 use crate::report::csv::Sheet;
 use crate::report::json::text;
 
@@ -26,7 +26,7 @@ pub fn csv(figure: &Figure) -> String {
             }
         };
         for (number, curve) in (1..).zip(&shown.curves) {
-            let Curve { name, role, style, points, .. } = curve;
+            let FigureCurve { name, role, style, points, .. } = curve;
             add(
                 PointRow { kind: "curve", number, name, role, style, ..PointRow::default() },
                 points,

@@ -25,7 +25,7 @@ pub use chord::FAINT;
 pub use data::{csv, json};
 pub use svg::svg;
 
-pub use content::{Area, Axis, Caption, Curve, Figure, MarkedPoint, Panel};
+pub use content::{Area, Axis, Caption, Figure, FigureCurve, MarkedPoint, Panel};
 
 use std::path::Path;
 
@@ -36,7 +36,7 @@ use crate::words::provenance::Provenance;
 
 /// The form in which a figure is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
+pub enum FileForm {
     Svg,
     /// The same picture as dots, 288 to the inch.
     Png,
@@ -47,12 +47,16 @@ pub enum Form {
 }
 
 /// The endings of files, and the forms that they ask for.
-const ENDINGS: [(&str, Form); 4] =
-    [("svg", Form::Svg), ("png", Form::Png), ("csv", Form::Csv), ("json", Form::Json)];
+const ENDINGS: [(&str, FileForm); 4] = [
+    ("svg", FileForm::Svg),
+    ("png", FileForm::Png),
+    ("csv", FileForm::Csv),
+    ("json", FileForm::Json),
+];
 
-impl Form {
+impl FileForm {
     /// The form that the ending of a file asks for. Fails with one line with the endings that there are.
-    pub fn of_file(path: &Path) -> Result<Form, String> {
+    pub fn of_file(path: &Path) -> Result<FileForm, String> {
         let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
         let form = ENDINGS.iter().find(|(known, _)| known.eq_ignore_ascii_case(ending));
         form.map(|(_, form)| *form)
@@ -60,16 +64,16 @@ impl Form {
     }
 }
 
-/// A figure as the content of a file. Fails with one line if the picture cannot be painted; only for [`Form::Png`].
-pub fn file(figure: &Figure, form: Form) -> Result<Vec<u8>, String> {
+/// A figure as the content of a file. Fails with one line if the picture cannot be painted; only for [`FileForm::Png`].
+pub fn file(figure: &Figure, form: FileForm) -> Result<Vec<u8>, String> {
     match form {
-        Form::Svg => Ok(svg(figure).into_bytes()),
-        Form::Csv => Ok(csv(figure).into_bytes()),
-        Form::Json => Ok(json(figure).into_bytes()),
+        FileForm::Svg => Ok(svg(figure).into_bytes()),
+        FileForm::Csv => Ok(csv(figure).into_bytes()),
+        FileForm::Json => Ok(json(figure).into_bytes()),
         #[cfg(feature = "png")]
-        Form::Png => png::png(&svg(figure)),
+        FileForm::Png => png::png(&svg(figure)),
         #[cfg(not(feature = "png"))]
-        Form::Png => {
+        FileForm::Png => {
             Err("this program was built without .png; .svg, .csv and .json are there".into())
         }
     }

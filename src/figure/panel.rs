@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::content::{Area, Axis, Caption, Curve, MarkedPoint, Panel};
+use super::content::{Area, Axis, Caption, FigureCurve, MarkedPoint, Panel};
 use super::filled;
 use super::sample;
 use crate::oscillator::{State, Symbol};
@@ -69,7 +69,7 @@ impl Panel {
             Item::Bar(line, from, to) => {
                 let curve = curve(line, &[*from, *to], held(picture, line.variant.as_ref()));
                 if let Some(curve) = curve {
-                    self.curve(Curve { style: "thick", ..curve });
+                    self.curve(FigureCurve { style: "thick", ..curve });
                 }
             }
             Item::Shade(line, edge) => self.area(picture, line, edge),
@@ -106,8 +106,8 @@ impl Panel {
     }
 
     /// Adds a curve; of several variants that have it in common it is kept once.
-    fn curve(&mut self, curve: Curve) {
-        let same = |other: &&mut Curve| {
+    fn curve(&mut self, curve: FigureCurve) {
+        let same = |other: &&mut FigureCurve| {
             (other.pen, other.style, &other.kind) == (curve.pen, curve.style, &curve.kind)
                 && other.points == curve.points
         };
@@ -164,7 +164,7 @@ fn beyond(edge: &[Point], window: Window) -> Vec<Point> {
 }
 
 /// A line as data. One point is no line: a motion at rest has its mark.
-fn curve(line: &LineStyle, points: &[Point], parameters: Held) -> Option<Curve> {
+fn curve(line: &LineStyle, points: &[Point], parameters: Held) -> Option<FigureCurve> {
     let finite = points.iter().filter(|point| point.x.is_finite() && point.y.is_finite());
     let style = match line.dash {
         Dash::Solid => "solid",
@@ -172,7 +172,7 @@ fn curve(line: &LineStyle, points: &[Point], parameters: Held) -> Option<Curve> 
         Dash::Dotted => "dotted",
         Dash::Sparse => "sparse",
     };
-    (finite.count() > 1).then(|| Curve {
+    (finite.count() > 1).then(|| FigureCurve {
         name: line.full_name().into_owned(),
         role: line.role.name(),
         style,

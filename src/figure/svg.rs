@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::captions;
-use super::content::{Area, Curve, Figure, MarkedPoint, Panel};
+use super::content::{Area, Figure, FigureCurve, MarkedPoint, Panel};
 use super::data::remarks;
 use super::ink::{dashes, escaped, ink, shading};
 use super::layout::{self, ENTRY, Frame, HEAD, MARGIN, PLOT};
@@ -263,7 +263,7 @@ fn legend(figure: &Figure) -> Vec<Explained> {
         }
     };
     for panel in &figure.panels {
-        for Curve { kind, pen, style, points, .. } in &panel.curves {
+        for FigureCurve { kind, pen, style, points, .. } in &panel.curves {
             let points: Vec<Point> = points.iter().map(|[x, y]| Point { x: *x, y: *y }).collect();
             if passes(&points, panel.window) {
                 add(Explained::Line(kind.clone(), *pen, style));

@@ -38,7 +38,7 @@ pub struct Point {
 
 /// A turning point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Turn {
+pub struct FittedTurn {
     /// When.
     pub tau: f64,
     /// Where.
@@ -53,7 +53,7 @@ pub struct Turn {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FollowedMotion {
     /// Every arrival at `v = 0` within the time, the last one included where it rests.
-    pub turns: Vec<Turn>,
+    pub turns: Vec<FittedTurn>,
     /// Whether the last turn is a capture.
     pub rests: bool,
 }
@@ -73,7 +73,7 @@ pub struct Way {
 
 /// The motion grew beyond its reach, or its half swings beyond number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Lost;
+pub struct MotionLost;
 
 /// Derivatives of the start of a half swing.
 #[derive(Clone, Copy, Default)]
@@ -86,14 +86,14 @@ struct StartGradient {
 /// Follows the motion from `start` through the ascending `times`, handing each point to `see`.
 ///
 /// # Errors
-/// [`Lost`] where the motion escapes before the last time.
+/// [`MotionLost`] where the motion escapes before the last time.
 pub fn follow(
     parameters: &Parameters,
     start: State,
     times: &[f64],
     way: Way,
     mut see: impl FnMut(usize, Point),
-) -> Result<FollowedMotion, Lost> {
+) -> Result<FollowedMotion, MotionLost> {
     let r = parameters.r;
     let mut followed = FollowedMotion::default();
     let mut next = 0;
@@ -136,7 +136,7 @@ pub fn follow(
         chain.tau = turn.tau_by;
         side = side.opposite();
     }
-    Err(Lost)
+    Err(MotionLost)
 }
 
 /// A half swing about to begin.
@@ -192,11 +192,11 @@ impl<'a> HalfSwing<'a> {
         next: &mut usize,
         way: Way,
         see: &mut impl FnMut(usize, Point),
-    ) -> Result<(Option<Turn>, f64), Lost> {
+    ) -> Result<(Option<FittedTurn>, f64), MotionLost> {
         let (sign, r) = (self.side.sign(), self.parameters.r);
         let Way { linear, with_derivatives, reach, .. } = way;
         let mut stretch =
-            Stretch::new(self.field, self.start, linear, with_derivatives).ok_or(Lost)?;
+            Stretch::new(self.field, self.start, linear, with_derivatives).ok_or(MotionLost)?;
         let mut passed = 0.0;
         for _ in 0..STEPS {
             let until = passed + stretch.duration;
@@ -225,21 +225,22 @@ impl<'a> HalfSwing<'a> {
             }
             // Neither a motion that escapes nor one whose steps no longer move the time comes to an end.
             if !(end.x.abs().max(end.v) <= reach && until > passed) {
-                return Err(Lost);
+                return Err(MotionLost);
             }
             passed = until;
             if !stretch.advance(end) {
-                return Err(Lost);
+                return Err(MotionLost);
             }
         }
-        Err(Lost)
+        Err(MotionLost)
     }
 
-    fn turn(&self, tau: f64, end: &Jet) -> Turn {
+    fn turn(&self, tau: f64, end: &Jet) -> FittedTurn {
         let sign = self.side.sign();
         let force = self.field.acceleration(end.x, 0.0);
         let (moved, sped) = (self.combined(&end.y), self.combined(&end.w));
-        let mut turn = Turn { tau, q: sign * (end.x - self.parameters.r), ..Turn::default() };
+        let mut turn =
+            FittedTurn { tau, q: sign * (end.x - self.parameters.r), ..FittedTurn::default() };
         for p in 0..NUMBERS {
             let friction = if p == R { 1.0 } else { 0.0 };
             turn.q_by[p] = sign * (moved[p] - friction);
@@ -355,7 +356,7 @@ mod tests {
         let parameters = Parameters { d: -0.1, d2: 0.0, d3: -1.0, r: 0.1 };
         let start = State { q: 10.0, v: 0.0 };
         let found = follow(&parameters, start, &[50.0], way(false, true), |_, _| {});
-        assert_eq!(found, Err(Lost));
+        assert_eq!(found, Err(MotionLost));
         let rest = State { q: 0.05, v: 0.0 };
         let found = points(&parameters, rest, &[0.0, 50.0], way(false, true));
         assert!(found.iter().all(|point| (point.q, point.v, point.by[4]) == (0.05, 0.0, 1.0)));

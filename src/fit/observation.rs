@@ -4,7 +4,7 @@
 //! release, or in motion from the first sample on: both have the same eight unknowns but for the last. Turning
 //! points, with or without times, are the same motion seen only where `v = 0`.
 
-use super::motion::{Gradient, Lost, Turn, Way, follow};
+use super::motion::{FittedTurn, Gradient, MotionLost, Way, follow};
 use crate::oscillator::{Parameters, State};
 
 /// How many unknowns there are.
@@ -101,7 +101,7 @@ pub struct Seen {
     /// One for each measured number.
     pub residuals: Vec<Residual>,
     /// The turning points within the record.
-    pub turns: Vec<Turn>,
+    pub turns: Vec<FittedTurn>,
     /// Whether the motion comes to rest within the record.
     pub rests: bool,
 }
@@ -129,10 +129,10 @@ impl Observation {
     /// Compares the record with the model.
     ///
     /// # Errors
-    /// [`Lost`] where the model escapes before the record ends.
-    pub fn compare(&self, p: &Unknowns, with_derivatives: bool) -> Result<Seen, Lost> {
+    /// [`MotionLost`] where the model escapes before the record ends.
+    pub fn compare(&self, p: &Unknowns, with_derivatives: bool) -> Result<Seen, MotionLost> {
         if !(p[OMEGA0] > 0.0 && p.iter().all(|value| value.is_finite())) {
-            return Err(Lost);
+            return Err(MotionLost);
         }
         let way = Way {
             linear: self.linear && p[D2] == 0.0 && p[D3] == 0.0,
@@ -146,7 +146,7 @@ impl Observation {
         }
     }
 
-    fn samples(&self, p: &Unknowns, t: &[f64], x: &[f64], way: Way) -> Result<Seen, Lost> {
+    fn samples(&self, p: &Unknowns, t: &[f64], x: &[f64], way: Way) -> Result<Seen, MotionLost> {
         let (held, origin, velocity) = match self.start {
             StartKind::Release => (t.partition_point(|&t| t < p[LAST]), p[LAST], 0.0),
             StartKind::Moving => (0, t.first().copied().unwrap_or(0.0), p[LAST]),
@@ -179,7 +179,13 @@ fn unknowns(by: &Gradient) -> Unknowns {
 }
 
 /// Compares turning points; times count in the unit `ratio`.
-fn peaks(p: &Unknowns, t: Option<&[f64]>, x: &[f64], ratio: f64, way: Way) -> Result<Seen, Lost> {
+fn peaks(
+    p: &Unknowns,
+    t: Option<&[f64]>,
+    x: &[f64],
+    ratio: f64,
+    way: Way,
+) -> Result<Seen, MotionLost> {
     /// No half swing of a motion that goes on oscillating takes longer.
     const SLOWEST: f64 = 50.0;
     #[expect(clippy::cast_precision_loss, reason = "a number of peaks")]
@@ -187,17 +193,17 @@ fn peaks(p: &Unknowns, t: Option<&[f64]>, x: &[f64], ratio: f64, way: Way) -> Re
     let way = Way { turns: x.len() - 1, ..way };
     let start = State { q: p[Q0], v: 0.0 };
     let followed = follow(&parameters(p), start, &patience, way, |_, _| {})?;
-    let mut first = Turn { q: p[Q0], ..Default::default() };
+    let mut first = FittedTurn { q: p[Q0], ..Default::default() };
     first.q_by[4] = 1.0;
     let mut turns: Vec<_> = std::iter::once(first).chain(followed.turns.iter().copied()).collect();
     // A swing that has died away goes on as one of no size: so nothing jumps where the last turning point crosses
     // the rim of the sticking set.
     while followed.rests && turns.len() < x.len() {
         let last = turns[turns.len() - 1];
-        turns.push(Turn { tau: last.tau + std::f64::consts::PI, ..last });
+        turns.push(FittedTurn { tau: last.tau + std::f64::consts::PI, ..last });
     }
     if turns.len() < x.len() {
-        return Err(Lost);
+        return Err(MotionLost);
     }
     let mut residuals = Vec::with_capacity(2 * x.len());
     for (turn, x) in turns.iter().zip(x) {

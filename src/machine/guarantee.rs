@@ -28,7 +28,7 @@ pub struct GuaranteedKicks {
 
 /// Why no kick is survived for certain.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Uncertain {
+pub enum MachineUncertain {
     /// The disturbance moves the mass from its rest by itself.
     Disturbance {
         /// The disturbance, in N.
@@ -46,25 +46,25 @@ pub enum Uncertain {
     OutsideLaw,
 }
 
-impl fmt::Display for Uncertain {
+impl fmt::Display for MachineUncertain {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Uncertain::Disturbance { disturbance, friction } => write!(
+            MachineUncertain::Disturbance { disturbance, friction } => write!(
                 out,
                 "the disturbance of {disturbance} N is not below the smallest friction R = {friction} N"
             ),
-            Uncertain::Tolerances => {
+            MachineUncertain::Tolerances => {
                 write!(out, "the tolerances change the forces by more than the friction holds")
             }
-            Uncertain::TooMany => write!(
+            MachineUncertain::TooMany => write!(
                 out,
                 "tolerances of more than {MOST} numbers beside R, R_static, d1 and d3 are not looked at together"
             ),
-            Uncertain::Unbounded => write!(
+            MachineUncertain::Unbounded => write!(
                 out,
                 "no motion slower than the belt bounds the basins of all machines within the tolerances"
             ),
-            Uncertain::OutsideLaw => {
+            MachineUncertain::OutsideLaw => {
                 write!(out, "within the tolerances the border leaves the friction law")
             }
         }
@@ -76,7 +76,7 @@ impl fmt::Display for Uncertain {
 pub fn guaranteed(
     belt: &Belt,
     known: &Tolerances,
-) -> Result<Result<GuaranteedKicks, Uncertain>, Trouble> {
+) -> Result<Result<GuaranteedKicks, MachineUncertain>, Trouble> {
     Ok(worst(belt, known)?.map(|(corners, portrait)| kicks(&corners, &portrait)))
 }
 
@@ -84,15 +84,15 @@ pub fn guaranteed(
 pub fn worst(
     belt: &Belt,
     known: &Tolerances,
-) -> Result<Result<(Corners, Portrait), Uncertain>, Trouble> {
+) -> Result<Result<(Corners, Portrait), MachineUncertain>, Trouble> {
     let corners = match Corners::new(belt, known)? {
         Ok(corners) => corners,
-        Err(TooMany) => return Ok(Err(Uncertain::TooMany)),
+        Err(TooMany) => return Ok(Err(MachineUncertain::TooMany)),
     };
     let least = corners.friction;
     if least < 0.0 || known.disturbance > 0.0 && least == 0.0 {
         let friction = corners.belts[0].friction;
-        return Ok(Err(Uncertain::Disturbance { disturbance: known.disturbance, friction }));
+        return Ok(Err(MachineUncertain::Disturbance { disturbance: known.disturbance, friction }));
     }
     let found = if corners.numbers == 0 {
         Ok(portrait(&corners.worst(0, 0.0))?)
@@ -134,7 +134,7 @@ fn slip_border(portrait: &Portrait) -> Option<(f64, f64)> {
 
 impl Corners {
     /// A machine whose border bounds all others at its own velocities.
-    fn bounded(&self, belt: &Belt) -> Result<Result<Portrait, Uncertain>, Trouble> {
+    fn bounded(&self, belt: &Belt) -> Result<Result<Portrait, MachineUncertain>, Trouble> {
         /// Ranges of velocities that are tried, each larger than the border of the one before.
         const ROUNDS: usize = 8;
         const ROOM: f64 = 1.2;
@@ -143,14 +143,14 @@ impl Corners {
         let mut range = (ROOM * middle.0, (ROOM * middle.1).min(slowest));
         for _ in 0..ROUNDS {
             if self.models.iter().any(|model| model.least_velocity() > range.0) {
-                return Ok(Err(Uncertain::OutsideLaw));
+                return Ok(Err(MachineUncertain::OutsideLaw));
             }
             let (corner, less) = self.bound(range.0, range.1);
             if less * self.stiffest >= self.friction {
-                return Ok(Err(Uncertain::Tolerances));
+                return Ok(Err(MachineUncertain::Tolerances));
             }
             let Some(found) = self.below_the_line(corner, less)? else {
-                return Ok(Err(Uncertain::Unbounded));
+                return Ok(Err(MachineUncertain::Unbounded));
             };
             let (low, high) = found.velocities;
             if low >= range.0 && high <= range.1 {
@@ -158,7 +158,7 @@ impl Corners {
             }
             range = (range.0.min(ROOM * low), range.1.max(ROOM * high).min(slowest));
         }
-        Ok(Err(Uncertain::Unbounded))
+        Ok(Err(MachineUncertain::Unbounded))
     }
 
     /// The portrait of a worst machine whose border stays below the line of every belt, with as much friction

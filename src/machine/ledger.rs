@@ -34,13 +34,13 @@ impl MachineLedger {
 
 /// The works of the steps, divided by the stiffness.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Works {
+pub(super) struct StepWorks {
     pub belt: f64,
     pub damper: f64,
     pub guide: f64,
 }
 
-impl Works {
+impl StepWorks {
     /// Counts a step in slip up to `duration`.
     pub fn slip(&mut self, model: &Model, step: &SeriesStep, duration: f64) {
         let mut belt = 0.0;
@@ -81,7 +81,7 @@ impl Works {
     }
 }
 
-impl Watch for Works {
+impl Watch for StepWorks {
     fn step(&mut self, model: &Model, step: &SeriesStep) {
         self.slip(model, step, step.duration);
     }
@@ -97,7 +97,7 @@ impl Flow<'_> {
     /// # Errors
     /// [`Unfollowed`], where rounding carries the motion off.
     pub fn works_around(&mut self, cycle: &MachineCycle) -> Result<MachineLedger, Unfollowed> {
-        let mut works = Works::default();
+        let mut works = StepWorks::default();
         let start = (cycle.x.1, 0.0);
         self.around(cycle.x.1, cycle.is_followed_backward(), &mut works)?;
         Ok(works.ledger(self.model, start, start))

@@ -72,7 +72,7 @@ pub use cycles::MachineCycle;
 pub use gaps::MachineFate;
 pub use ledger::MachineLedger;
 pub use modal::Modal;
-pub use model::{Lines, Model, Phase, Unfit};
+pub use model::{Lines, Model, NoModel, Phase};
 pub use motion::MachineMotion;
 pub use portrait::{MachineBorder, MachineMargin, Portrait};
 pub use series::ORDER;

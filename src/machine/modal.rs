@@ -1,6 +1,6 @@
 //! The numbers of a vibration mode that has no belt.
 
-use super::model::{Model, Unfit};
+use super::model::{Model, NoModel};
 
 /// A vibration mode: what feeds and damps it is a polynomial in its velocity.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,8 +21,8 @@ impl Modal {
     /// Its whole model.
     ///
     /// # Errors
-    /// [`Unfit`] where the static friction or the numbers allow none.
-    pub fn model(&self) -> Result<Model, Unfit> {
+    /// [`NoModel`] where the static friction or the numbers allow none.
+    pub fn model(&self) -> Result<Model, NoModel> {
         let omega_0 = std::f64::consts::TAU * self.frequency;
         let at_rest = self.static_guide.unwrap_or(self.friction);
         Model::of_mode(omega_0, self.mass, &self.damping_ratio, self.friction, at_rest)

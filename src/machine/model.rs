@@ -80,7 +80,7 @@ pub struct Model {
 
 /// Why a machine has no whole model.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Unfit {
+pub enum NoModel {
     /// The law does not reach the belt's speed.
     OutsideLaw {
         /// Speed of the belt, in m/s.
@@ -113,43 +113,43 @@ pub enum Unfit {
     OutOfRange,
 }
 
-impl fmt::Display for Unfit {
+impl fmt::Display for NoModel {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Unfit::OutsideLaw { v0, range: (low, high) } => write!(
+            NoModel::OutsideLaw { v0, range: (low, high) } => write!(
                 out,
                 "v0 = {v0} m/s is outside the friction law; it reaches from {low} to {high} m/s"
             ),
-            Unfit::NoFriction { v0, mu } => {
+            NoModel::NoFriction { v0, mu } => {
                 write!(out, "mu = {mu} at v0 = {v0} m/s; it must be positive")
             }
-            Unfit::StaticBelowKinetic { mu_s, mu } => write!(
+            NoModel::StaticBelowKinetic { mu_s, mu } => write!(
                 out,
                 "mu_s = {mu_s} is below the coefficient {mu} of the law at rest; static friction is at least that"
             ),
-            Unfit::GuideStatic { at_rest, moving } => write!(
+            NoModel::GuideStatic { at_rest, moving } => write!(
                 out,
                 "R_static = {at_rest} N is below R = {moving} N; static friction is at least the kinetic one"
             ),
-            Unfit::OutOfRange => {
+            NoModel::OutOfRange => {
                 write!(out, "the machine's numbers leave the range of floating point")
             }
         }
     }
 }
 
-impl std::error::Error for Unfit {}
+impl std::error::Error for NoModel {}
 
 impl Model {
     /// The whole model of a mass on a belt.
     ///
     /// # Errors
-    /// [`Unfit`] where the law, the static friction or the numbers allow none.
-    pub fn new(belt: &Belt) -> Result<Self, Unfit> {
+    /// [`NoModel`] where the law, the static friction or the numbers allow none.
+    pub fn new(belt: &Belt) -> Result<Self, NoModel> {
         let v0 = belt.belt_speed;
-        let mu = belt.law.mu(v0).ok_or(Unfit::OutsideLaw { v0, range: belt.law.range() })?;
+        let mu = belt.law.mu(v0).ok_or(NoModel::OutsideLaw { v0, range: belt.law.range() })?;
         if !(mu.is_finite() && mu > 0.0) {
-            return Err(Unfit::NoFriction { v0, mu });
+            return Err(NoModel::NoFriction { v0, mu });
         }
         let omega_0 = (belt.stiffness / belt.mass).sqrt();
         let per_stiffness = 1.0 / belt.stiffness;
@@ -181,13 +181,13 @@ impl Model {
         };
         if model.guide_static < model.guide {
             let at_rest = belt.static_guide.unwrap_or(belt.friction);
-            return Err(Unfit::GuideStatic { at_rest, moving: belt.friction });
+            return Err(NoModel::GuideStatic { at_rest, moving: belt.friction });
         }
         model.damping = -model.slower.at(0.0).1;
         if let Some(mu_rest) = belt.law.mu(0.0) {
             let mu_s = belt.static_coefficient.unwrap_or(mu_rest);
             if mu_s < mu_rest {
-                return Err(Unfit::StaticBelowKinetic { mu_s, mu: mu_rest });
+                return Err(NoModel::StaticBelowKinetic { mu_s, mu: mu_rest });
             }
             let fold = model.slower.at(speed).0 - model.guide;
             let (excess, both) = (force * (mu_s - mu_rest), force * (mu_s + mu_rest));
@@ -197,7 +197,7 @@ impl Model {
         if numbers.iter().all(|number| number.is_finite()) && speed > 0.0 {
             Ok(model)
         } else {
-            Err(Unfit::OutOfRange)
+            Err(NoModel::OutOfRange)
         }
     }
 
@@ -206,16 +206,16 @@ impl Model {
     /// in N.
     ///
     /// # Errors
-    /// [`Unfit`] where the static friction or the numbers allow none.
+    /// [`NoModel`] where the static friction or the numbers allow none.
     pub fn of_mode(
         omega_0: f64,
         mass: f64,
         damping_ratio: &[f64],
         guide: f64,
         guide_static: f64,
-    ) -> Result<Self, Unfit> {
+    ) -> Result<Self, NoModel> {
         if guide_static < guide {
-            return Err(Unfit::GuideStatic { at_rest: guide_static, moving: guide });
+            return Err(NoModel::GuideStatic { at_rest: guide_static, moving: guide });
         }
         let stiffness = mass * omega_0 * omega_0;
         let ratio = |(k, number): (usize, &f64)| {
@@ -247,7 +247,7 @@ impl Model {
         if finite && stiffness.is_finite() && stiffness > 0.0 {
             Ok(model)
         } else {
-            Err(Unfit::OutOfRange)
+            Err(NoModel::OutOfRange)
         }
     }
 

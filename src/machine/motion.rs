@@ -2,7 +2,7 @@
 
 use super::arc::{Flow, SeriesStep, Unfollowed, Watch};
 use super::curve::{MachineCurve, Piece};
-use super::ledger::{MachineLedger, Works};
+use super::ledger::{MachineLedger, StepWorks};
 use super::model::{Model, Phase};
 use super::turn::Place;
 
@@ -62,7 +62,7 @@ pub struct MachineMotion {
 /// Collects a motion until its time is up.
 struct Recorder {
     curve: MachineCurve,
-    works: Works,
+    works: StepWorks,
     left: f64,
     state: (f64, f64),
     x: (f64, f64),
@@ -132,7 +132,7 @@ impl MachineMotion {
         let whole = until * omega_0;
         let mut recorder = Recorder {
             curve: MachineCurve::default(),
-            works: Works::default(),
+            works: StepWorks::default(),
             left: whole,
             state: start,
             x: (x, x),

@@ -19,7 +19,7 @@ use crate::numerics::root::{Change, illinois, try_bisect};
 /// A kind of change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Kind {
+pub enum MachineSpecialKind {
     /// Rest changes its stability.
     Hopf,
     /// A cycle that slips touches the belt's line, and sticks beyond.
@@ -38,7 +38,7 @@ pub enum Kind {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MachineSpecial {
     /// What happens.
-    pub kind: Kind,
+    pub kind: MachineSpecialKind,
     /// Value of the number that varies, in SI units.
     pub value: f64,
     /// Largest displacement of the cycle that it happens to, in m; none at rest.
@@ -103,27 +103,27 @@ impl Signs {
     }
 
     /// One of the numbers.
-    fn of(&self, kind: Kind) -> Option<f64> {
+    fn of(&self, kind: MachineSpecialKind) -> Option<f64> {
         let rides = self.released.is_some_and(|released| released <= 0.0);
         match kind {
-            Kind::Hopf => (!self.held).then_some(self.damping),
-            Kind::Grazing => self.touching,
-            Kind::Annihilation => self.released.filter(|_| self.jumps),
-            Kind::Overtaking => self.overtaking.filter(|_| rides),
-            Kind::Unsticking => self.unsticking.filter(|_| rides),
-            Kind::Fold => None,
+            MachineSpecialKind::Hopf => (!self.held).then_some(self.damping),
+            MachineSpecialKind::Grazing => self.touching,
+            MachineSpecialKind::Annihilation => self.released.filter(|_| self.jumps),
+            MachineSpecialKind::Overtaking => self.overtaking.filter(|_| rides),
+            MachineSpecialKind::Unsticking => self.unsticking.filter(|_| rides),
+            MachineSpecialKind::Fold => None,
         }
     }
 
     /// The change at a zero; a touch of an unstable cycle is where the stick-slip cycle ends.
-    fn special(&self, kind: Kind, value: f64) -> MachineSpecial {
-        let ends = kind == Kind::Grazing && !self.jumps && self.log_slope > 0.0;
+    fn special(&self, kind: MachineSpecialKind, value: f64) -> MachineSpecial {
+        let ends = kind == MachineSpecialKind::Grazing && !self.jumps && self.log_slope > 0.0;
         let x_max = match kind {
-            Kind::Hopf => None,
-            Kind::Grazing => self.turns.0,
+            MachineSpecialKind::Hopf => None,
+            MachineSpecialKind::Grazing => self.turns.0,
             _ => self.turns.1,
         };
-        let kind = if ends { Kind::Annihilation } else { kind };
+        let kind = if ends { MachineSpecialKind::Annihilation } else { kind };
         MachineSpecial { kind, value, x_max, jumps: Jumps::default() }
     }
 }
@@ -142,8 +142,13 @@ pub fn between(
     right: (f64, &Portrait),
 ) -> Vec<MachineSpecial> {
     /// Kinds that are zeros of [`Signs`].
-    const KINDS: [Kind; 5] =
-        [Kind::Hopf, Kind::Grazing, Kind::Annihilation, Kind::Overtaking, Kind::Unsticking];
+    const KINDS: [MachineSpecialKind; 5] = [
+        MachineSpecialKind::Hopf,
+        MachineSpecialKind::Grazing,
+        MachineSpecialKind::Annihilation,
+        MachineSpecialKind::Overtaking,
+        MachineSpecialKind::Unsticking,
+    ];
     let (Some(from), Some(to)) = (signs_at(family, left.0), signs_at(family, right.0)) else {
         return Vec::new();
     };
@@ -230,7 +235,12 @@ fn fold(family: Family, left: (f64, Portrait), right: (f64, Portrait)) -> Option
     let ends = (extremum(with)?, extremum(without)?);
     let value = zero(&|value| Some(extremum(value)?.f), (with, ends.0.f), (without, ends.1.f))?;
     let x = exp(extremum(value)?.u);
-    Some(MachineSpecial { kind: Kind::Fold, value, x_max: Some(x), jumps: Jumps::default() })
+    Some(MachineSpecial {
+        kind: MachineSpecialKind::Fold,
+        value,
+        x_max: Some(x),
+        jumps: Jumps::default(),
+    })
 }
 
 /// The extremum of the growth `ln(image/x)` over `u = ln x` near a place, by secants on its exact slope.

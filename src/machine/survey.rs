@@ -5,7 +5,7 @@ use std::fmt;
 
 use super::arc::{Flow, Unfollowed};
 use super::gaps::MachineFate;
-use super::model::{Model, Unfit};
+use super::model::{Model, NoModel};
 use super::motion::MachineMotion;
 use super::portrait::Portrait;
 use super::stepped::{Stepped, SteppedMethod, stepped};
@@ -81,7 +81,7 @@ pub enum Trouble {
     /// It has no dimensionless form.
     Belt(BeltError),
     /// It has no whole model.
-    Unfit(Unfit),
+    Unfit(NoModel),
     /// Its motions cannot be followed.
     Stop(Unfollowed),
 }
@@ -114,8 +114,8 @@ impl From<BeltError> for Trouble {
     }
 }
 
-impl From<Unfit> for Trouble {
-    fn from(unfit: Unfit) -> Self {
+impl From<NoModel> for Trouble {
+    fn from(unfit: NoModel) -> Self {
         Trouble::Unfit(unfit)
     }
 }

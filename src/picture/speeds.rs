@@ -7,7 +7,7 @@ use super::reading::reading;
 use super::role::{Dash, Role};
 use crate::machine::MachineCycle;
 use crate::machine::jumps::{Jump, Landing};
-use crate::machine::special::{Kind, MachineSpecial};
+use crate::machine::special::{MachineSpecial, MachineSpecialKind};
 use crate::question::speeds::Speed;
 use crate::scene::{Layer, Point, View};
 use crate::session::{self, Session};
@@ -94,12 +94,12 @@ fn rest(picture: &mut Picture, points: &[Speed]) {
 /// A change, by its letter, and the jumps from the stable states that end there.
 fn changes(picture: &mut Picture, special: &MachineSpecial) {
     let letter = match special.kind {
-        Kind::Hopf => "H",
-        Kind::Grazing => "G",
-        Kind::Annihilation => "A",
-        Kind::Overtaking => "O",
-        Kind::Unsticking => "U",
-        Kind::Fold => "F",
+        MachineSpecialKind::Hopf => "H",
+        MachineSpecialKind::Grazing => "G",
+        MachineSpecialKind::Annihilation => "A",
+        MachineSpecialKind::Overtaking => "O",
+        MachineSpecialKind::Unsticking => "U",
+        MachineSpecialKind::Fold => "F",
     };
     let at = special.value;
     let ways = [("jump on a faster belt", Dash::Dotted), ("jump on a slower belt", Dash::Sparse)];

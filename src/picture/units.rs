@@ -7,14 +7,14 @@ use crate::session::Session;
 use crate::words::number::resolved;
 
 /// Names of an axis with the units that it can have, the largest first, and how many of them are one in SI units.
-type Units = [(&'static str, &'static str, f64); 3];
+type AxisUnits = [(&'static str, &'static str, f64); 3];
 
-const LENGTHS: Units = [("x [m]", "m", 1.0), ("x [mm]", "mm", 1e3), ("x [um]", "um", 1e6)];
+const LENGTHS: AxisUnits = [("x [m]", "m", 1.0), ("x [mm]", "mm", 1e3), ("x [um]", "um", 1e6)];
 
-const VELOCITIES: Units =
+const VELOCITIES: AxisUnits =
     [("v [m/s]", "m/s", 1.0), ("v [mm/s]", "mm/s", 1e3), ("v [um/s]", "um/s", 1e6)];
 
-const TIMES: Units = [("t [s]", "s", 1.0), ("t [ms]", "ms", 1e3), ("t [us]", "us", 1e6)];
+const TIMES: AxisUnits = [("t [s]", "s", 1.0), ("t [ms]", "ms", 1e3), ("t [us]", "us", 1e6)];
 
 /// The units of the machine or the record in which a session shows its axes.
 fn shown(session: &Session) -> Option<Physical> {
@@ -22,14 +22,14 @@ fn shown(session: &Session) -> Option<Physical> {
 }
 
 /// The largest unit of which the axis reaches one, when 1 on it is so much in SI units.
-fn chosen(units: &Units, one: f64, span: Span) -> (&'static str, &'static str, f64) {
+fn chosen(units: &AxisUnits, one: f64, span: Span) -> (&'static str, &'static str, f64) {
     let far = one * span.from().abs().max(span.to().abs());
     let (name, unit, per_si) =
         *units.iter().find(|(.., per_si)| far * per_si >= 1.0).unwrap_or(&units[2]);
     (name, unit, one * per_si)
 }
 
-fn scale(units: &Units, one: f64, span: Span) -> Scale {
+fn scale(units: &AxisUnits, one: f64, span: Span) -> Scale {
     let (name, _, factor) = chosen(units, one, span);
     Scale::Times { factor, name }
 }
@@ -58,7 +58,7 @@ pub fn scales(session: &Session, index: usize) -> Option<[Scale; 2]> {
 /// A place of the phase plane in the units of the machine, to the digits that can be told apart.
 pub fn reading(session: &Session, x: f64, y: f64, window: Window, cells: f64) -> Option<String> {
     let units = shown(session)?;
-    let text = |table: &Units, one: f64, value: f64, span: Span| {
+    let text = |table: &AxisUnits, one: f64, value: f64, span: Span| {
         let (_, unit, factor) = chosen(table, one, span);
         format!("{} {unit}", resolved(factor * value, factor * span.width() / cells))
     };

@@ -7,7 +7,7 @@ use super::cycles::{Proof, ProvedCycle};
 use super::map::{Direction, ProvedMap};
 use super::theorems::Theorem;
 use crate::check::map::Map;
-use crate::check::{Bounds, Certificate, CertificateStep, Kind};
+use crate::check::{Bounds, Certificate, CertificateStep, StepKind};
 use crate::numerics::Interval;
 use crate::numerics::elementary::cbrt;
 
@@ -23,10 +23,10 @@ pub fn certificate(proof: &Proof) -> Result<Certificate, String> {
     let parameters = [d, d2, d3, r];
     let steps = if let Some(theorem) = proof.theorem {
         let kind = match theorem {
-            Theorem::OneWay => Kind::OneWay,
-            Theorem::Overdamped => Kind::Overdamped,
-            Theorem::Affine => Kind::Affine,
-            Theorem::Frictionless => Kind::Frictionless,
+            Theorem::OneWay => StepKind::OneWay,
+            Theorem::Overdamped => StepKind::Overdamped,
+            Theorem::Affine => StepKind::Affine,
+            Theorem::Frictionless => StepKind::Frictionless,
         };
         vec![CertificateStep { kind, from: 0.0, to: None, clearance: None, fences: None }]
     } else {
@@ -89,7 +89,7 @@ impl Walk {
         for _ in 0..40 {
             for (fences, map) in self.maps(false) {
                 if map.images(Interval::point(to)).upper() < 0.0 {
-                    self.take(Kind::Within, Some(to), None, fences);
+                    self.take(StepKind::Within, Some(to), None, fences);
                     return Ok(());
                 }
             }
@@ -101,13 +101,13 @@ impl Walk {
     }
 
     /// Goes a step.
-    fn take(&mut self, kind: Kind, to: Option<f64>, clearance: Option<Bounds>, fences: Fences) {
+    fn take(&mut self, kind: StepKind, to: Option<f64>, clearance: Option<Bounds>, fences: Fences) {
         self.steps.push(CertificateStep { kind, from: self.at, to, clearance, fences });
         self.at = to.unwrap_or(f64::INFINITY);
     }
 
-    fn aside(&self) -> Kind {
-        if self.above { Kind::Above } else { Kind::Below }
+    fn aside(&self) -> StepKind {
+        if self.above { StepKind::Above } else { StepKind::Below }
     }
 
     /// How far the image of the place allows to go; infinitely far if it never turns.
@@ -169,7 +169,7 @@ impl Walk {
             while self.at < from {
                 self.step(from)?;
             }
-            let kind = if cycle.stable { Kind::Stable } else { Kind::Unstable };
+            let kind = if cycle.stable { StepKind::Stable } else { StepKind::Unstable };
             self.take(kind, Some(to), Some(clearance), fences);
             self.above = !cycle.stable;
             return Ok(());
@@ -184,7 +184,7 @@ impl Walk {
         let greatest = map.images(all).upper();
         loop {
             if !self.above && greatest < self.at {
-                self.take(Kind::Within, None, None, fences);
+                self.take(StepKind::Within, None, None, fences);
                 return Ok(());
             }
             if let (f64::INFINITY, fences) = self.reach() {

@@ -8,7 +8,7 @@ use crate::numerics::Interval;
 
 /// An arrival at `v = 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Turn {
+pub struct ProvedTurn {
     /// When.
     pub tau: Interval,
     /// Where.
@@ -50,7 +50,7 @@ pub enum ProvedFate {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProvedMotion {
     /// Every arrival at `v = 0`, the last one included.
-    pub turns: Vec<Turn>,
+    pub turns: Vec<ProvedTurn>,
     /// How it ends.
     pub fate: ProvedFate,
 }
@@ -113,7 +113,7 @@ pub fn follow(parameters: &ParameterBox, [q, v]: [Interval; 2], until: f64) -> P
                 let end = end(&mut map, &field, &start, &found);
                 tau = arrived;
                 let q = if index == 1 { end - r } else { r - end };
-                turns.push(Turn { tau, q });
+                turns.push(ProvedTurn { tau, q });
                 if end.upper() <= map.gap.lower() {
                     break ProvedFate::Captured { tau, q };
                 }

@@ -17,7 +17,7 @@ pub struct Asked {
 
 /// The part of the kicks that leads out of the basin of the sticking set.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Lost {
+pub struct LostShare {
     /// The part and its error.
     pub share: Share,
     /// What the basin cost.
@@ -25,11 +25,11 @@ pub struct Lost {
 }
 
 impl Question for Asked {
-    type Found = Lost;
+    type Found = LostShare;
 
-    fn answer(&self, means: &Means) -> Result<Lost, Reason> {
+    fn answer(&self, means: &Means) -> Result<LostShare, Reason> {
         let found = basin(&self.parameters, self.kicks.reach(), means.limits)?;
-        Ok(Lost { share: self.kicks.lost(&found), cost: found.cost })
+        Ok(LostShare { share: self.kicks.lost(&found), cost: found.cost })
     }
 
     fn numbers(&self) -> [f64; 8] {

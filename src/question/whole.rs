@@ -275,7 +275,7 @@ fn drawn(found: &Portrait, parameters: &Parameters, points: u16) -> Result<Cycle
     }
     let edge = found.border.curve().map(|curve| places(curve, model, points));
     let margin = margin(found).unwrap_or(Margin { displacement: None, impulse: None });
-    let picture = cycle::Picture {
+    let picture = cycle::BasinPicture {
         curves,
         works: Vec::new(),
         edge: edge.unwrap_or_default(),

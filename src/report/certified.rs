@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::proof::certain;
 use super::table::Table;
-use crate::check::{Bounds as Pair, Certificate, Kind};
+use crate::check::{Bounds as Pair, Certificate, StepKind};
 use crate::numerics::Interval;
 use crate::numerics::elementary::{log10, pow};
 use crate::oscillator::Symbol;
@@ -32,7 +32,7 @@ impl From<Interval> for Bounds {
 }
 
 #[derive(Serialize)]
-struct Turn {
+struct TurnRow {
     tau: Bounds,
     q: Bounds,
 }
@@ -44,7 +44,7 @@ pub struct Followed {
     tau: Bounds,
     q: Option<Bounds>,
     v: Option<Bounds>,
-    turns: Vec<Turn>,
+    turns: Vec<TurnRow>,
     proved: bool,
     open: Option<&'static str>,
 }
@@ -79,7 +79,7 @@ impl PointBounds {
 
 /// A motion until a time, for documents.
 pub fn followed(motion: &ProvedMotion, until: f64) -> Followed {
-    let turns = motion.turns.iter().map(|turn| Turn { tau: turn.tau.into(), q: turn.q.into() });
+    let turns = motion.turns.iter().map(|turn| TurnRow { tau: turn.tau.into(), q: turn.q.into() });
     let (outcome, tau, q, v, open) = match motion.fate {
         ProvedFate::Captured { tau, q } => ("captured", tau, Some(q), None, None),
         ProvedFate::Moving { q, v } => ("moving", Interval::point(until), Some(q), Some(v), None),
@@ -423,7 +423,7 @@ pub fn certificate_table(certificate: &Certificate) -> String {
     for step in &certificate.steps {
         if let Some(clearance) = step.clearance {
             some = true;
-            let kind = stability(step.kind == Kind::Stable);
+            let kind = stability(step.kind == StepKind::Stable);
             table.row(vec![kind.to_owned(), certain(interval(clearance), PLACES)]);
         }
     }

@@ -35,7 +35,7 @@ struct Row<'a> {
 
 /// One claim of a document.
 #[derive(Serialize)]
-struct Claim<'a> {
+struct ClaimRow<'a> {
     #[serde(flatten)]
     row: Row<'a>,
     reason: Option<String>,
@@ -43,7 +43,7 @@ struct Claim<'a> {
 
 #[derive(Serialize)]
 struct Document<'a> {
-    claims: Vec<Claim<'a>>,
+    claims: Vec<ClaimRow<'a>>,
     cost: Cost,
 }
 
@@ -92,7 +92,7 @@ fn row(examined: &Examined) -> Row<'_> {
 /// One document with every claim.
 pub fn json(examined: &[Examined], seconds: f64) -> String {
     let reason = |examined: &Examined| examined.finding.as_ref().err().map(Reason::to_string);
-    let claim = |examined| Claim { row: row(examined), reason: reason(examined) };
+    let claim = |examined| ClaimRow { row: row(examined), reason: reason(examined) };
     let claims = examined.iter().map(claim).collect();
     super::json::text(&Document { claims, cost: Cost { seconds } })
 }

@@ -8,11 +8,11 @@ use super::table::Table;
 use crate::flow::{Method, Outcome};
 use crate::oscillator::Parameters;
 use crate::study::extremes::verdict::{BUDGET, METHODS};
-use crate::study::extremes::{MethodAnswer, Named, Verdict};
+use crate::study::extremes::{MethodAnswer, MethodsVerdict, Named};
 use crate::words::number::{exact as short, significant};
 
 /// As a table to read: the answer of `auto` and its cost, then the digits that each method lost.
-pub fn table(verdicts: &[Verdict], named: &[Named], tolerance: f64) -> String {
+pub fn table(verdicts: &[MethodsVerdict], named: &[Named], tolerance: f64) -> String {
     let mut titles = vec!["D", "r", "D2", "D3", "start", "answer", "evaluations", "sensitive"];
     titles.extend(METHODS.map(|method| method.spec().name));
     let mut rows = Table::new(&titles);
@@ -38,7 +38,7 @@ pub fn table(verdicts: &[Verdict], named: &[Named], tolerance: f64) -> String {
 }
 
 /// As comma-separated values: one row for each motion and method, all digits.
-pub fn csv(verdicts: &[Verdict]) -> String {
+pub fn csv(verdicts: &[MethodsVerdict]) -> String {
     let rows = verdicts
         .iter()
         .flat_map(|verdict| verdict.answers.iter().map(move |answer| Row::new(verdict, answer)));
@@ -68,7 +68,7 @@ struct Row {
 }
 
 impl Row {
-    fn new(verdict: &Verdict, answer: &MethodAnswer) -> Self {
+    fn new(verdict: &MethodsVerdict, answer: &MethodAnswer) -> Self {
         let (kind, tau, q, v) = match answer.outcome {
             Outcome::Captured { tau, q } => ("captured", tau, Some(q), Some(0.0)),
             Outcome::Moving { tau, q, v } => ("moving", tau, Some(q), Some(v)),
@@ -103,12 +103,12 @@ impl Row {
 struct Document<'a> {
     tolerance: f64,
     budget: u64,
-    motions: &'a [Verdict],
+    motions: &'a [MethodsVerdict],
     named: &'a [Named],
 }
 
 /// As one JSON document.
-pub fn json(verdicts: &[Verdict], named: &[Named], tolerance: f64) -> String {
+pub fn json(verdicts: &[MethodsVerdict], named: &[Named], tolerance: f64) -> String {
     json::text(&Document { tolerance, budget: BUDGET, motions: verdicts, named })
 }
 
@@ -139,7 +139,7 @@ fn mark(answer: &MethodAnswer) -> String {
 }
 
 /// How often each method answered how well.
-fn summary(verdicts: &[Verdict]) -> String {
+fn summary(verdicts: &[MethodsVerdict]) -> String {
     type Asked<'a> = (Method, Vec<&'a MethodAnswer>);
     let asked = |method| (method, verdicts.iter().filter_map(|it| it.answer(method)).collect());
     let count = |answers: &[&MethodAnswer], which: &dyn Fn(&MethodAnswer) -> bool| {

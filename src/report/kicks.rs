@@ -14,13 +14,13 @@ use crate::words::number::{duration, significant};
 struct Document<'a> {
     parameters: &'a Parameters,
     kicks: String,
-    lost: Lost,
+    lost: LostRow,
     repeated: Again<'a>,
     cost: Price,
 }
 
 #[derive(Serialize)]
-struct Lost {
+struct LostRow {
     part: f64,
     error: f64,
 }
@@ -45,7 +45,7 @@ pub fn json(parameters: &Parameters, kicks: &RandomKick, found: &Repeated, secon
     text(&Document {
         parameters,
         kicks: kicks.to_string(),
-        lost: Lost { part: found.first.part, error: found.first.error },
+        lost: LostRow { part: found.first.part, error: found.first.error },
         repeated: Again {
             lost: found.later,
             mean: found.mean.is_finite().then_some(found.mean),

@@ -11,7 +11,7 @@ use crate::words::measured::{exact, rounded};
 
 /// The form of the rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
+pub enum RowForm {
     /// Names in the first line, then one row a line, all digits.
     Csv,
     /// One JSON object a line, all digits.
@@ -23,12 +23,12 @@ pub enum Form {
 /// Width of a column of the table: eight digits, sign, point and exponent.
 const WIDTH: usize = 14;
 
-impl Form {
+impl RowForm {
     /// The form that the name of a file asks for: JSON where it ends so, else CSV.
     pub fn of_file(path: &std::path::Path) -> Self {
         let ending = path.extension();
         let json = ending.is_some_and(|ending| ending == "json" || ending == "jsonl");
-        if json { Form::Json } else { Form::Csv }
+        if json { RowForm::Json } else { RowForm::Csv }
     }
 
     /// The line before the rows; empty where there is none.
@@ -36,9 +36,9 @@ impl Form {
         let inputs = scan.inputs(0).into_iter().map(|(name, _)| name);
         let names = inputs.chain(scan.measured()).chain(["reason"]);
         match self {
-            Form::Csv => names.collect::<Vec<_>>().join(",") + "\n",
-            Form::Json => String::new(),
-            Form::Table => {
+            RowForm::Csv => names.collect::<Vec<_>>().join(",") + "\n",
+            RowForm::Json => String::new(),
+            RowForm::Table => {
                 let varied: Vec<_> =
                     scan.over().iter().map(|sweep| sweep.symbol.spec().name).collect();
                 let names = varied.into_iter().chain(scan.measured());
@@ -51,12 +51,12 @@ impl Form {
     pub fn beginning(self, scan: &Scan, index: usize) -> String {
         let inputs = scan.inputs(index).into_iter();
         match self {
-            Form::Csv => inputs.map(|(_, value)| exact(value) + ",").collect(),
-            Form::Json => {
+            RowForm::Csv => inputs.map(|(_, value)| exact(value) + ",").collect(),
+            RowForm::Json => {
                 let fields = inputs.map(|(name, value)| field(name, value) + ",");
                 std::iter::once("{".to_owned()).chain(fields).collect()
             }
-            Form::Table => {
+            RowForm::Table => {
                 let varies =
                     |name: &str| scan.over().iter().any(|sweep| sweep.symbol.spec().name == name);
                 inputs
@@ -72,18 +72,18 @@ impl Form {
         let mut line = self.beginning(scan, index);
         let values = row.values.iter().copied();
         match self {
-            Form::Csv => {
+            RowForm::Csv => {
                 let cells = values.map(exact).chain([row.reason.clone().unwrap_or_default()]);
                 line += &csv::line(&cells.collect::<Vec<_>>());
             }
-            Form::Json => {
+            RowForm::Json => {
                 for (name, value) in scan.measured().into_iter().zip(values) {
                     line += &(field(name, value) + ",");
                 }
                 let reason = serde_json::Value::from(row.reason.clone());
                 line += &format!("\"reason\":{reason}}}\n");
             }
-            Form::Table => {
+            RowForm::Table => {
                 line.extend(values.map(|value| column(&rounded(value))));
                 if let Some(reason) = &row.reason {
                     line += &format!("  {reason}");

@@ -15,7 +15,7 @@ use super::headless::{self, Played};
 use super::launch::{Options, launch};
 use super::worker::Tell;
 use super::{print, provenance_file, scanning};
-use crate::figure::{self, Form};
+use crate::figure::{self, FileForm};
 use crate::fit::Unfit;
 use crate::flow::{Limits, Reason};
 use crate::question::{self, Fineness, Fit, Means, Recording};
@@ -87,7 +87,7 @@ impl Application for Explorer {
     }
 
     fn figure(&self, path: &Path, plot: Option<usize>) -> Result<Work, String> {
-        let form = Form::of_file(path)?;
+        let form = FileForm::of_file(path)?;
         let mut session = self.session.clone();
         let provenance = provenance_file::of_process();
         Ok(Box::new(move |limits: &Limits| {

@@ -13,7 +13,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use super::lines::{FileLine, Lines};
-use crate::report::scan::Form;
+use crate::report::scan::RowForm;
 use crate::study::scan::Scan;
 
 /// What the name of a file of rows is followed by.
@@ -43,7 +43,7 @@ impl Journal {
     pub fn resume(
         path: &Path,
         scan: &Scan,
-        form: Form,
+        form: RowForm,
         points: &Range<usize>,
     ) -> (Self, BTreeMap<usize, String>) {
         let open = OpenOptions::new().read(true).append(true).open(beside(path));
@@ -56,7 +56,12 @@ impl Journal {
     }
 
     /// Notes a row. Fails if it cannot be written.
-    pub fn note(&mut self, scan: &Scan, form: Form, (index, row): (usize, &str)) -> io::Result<()> {
+    pub fn note(
+        &mut self,
+        scan: &Scan,
+        form: RowForm,
+        (index, row): (usize, &str),
+    ) -> io::Result<()> {
         let file = match &mut self.file {
             Some(file) => file,
             none => {
@@ -103,7 +108,7 @@ fn beside(path: &Path) -> PathBuf {
 fn rows(
     file: &File,
     scan: &Scan,
-    form: Form,
+    form: RowForm,
     points: &Range<usize>,
 ) -> (BTreeMap<usize, String>, u64) {
     let mut found = BTreeMap::new();
@@ -120,6 +125,6 @@ fn rows(
 }
 
 /// The first line: the columns, in any form.
-fn heading(scan: &Scan, form: Form) -> String {
-    format!("{form:?},{}", Form::Csv.heading(scan))
+fn heading(scan: &Scan, form: RowForm) -> String {
+    format!("{form:?},{}", RowForm::Csv.heading(scan))
 }

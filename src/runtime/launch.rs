@@ -14,7 +14,7 @@ use super::application::Application;
 use super::effects::Files;
 use super::event::{Event, LoopEnd};
 use super::pump::Pump;
-use super::record::Record;
+use super::record::RecordingFile;
 use super::signals::{self, exit_code};
 use super::worker::Tell;
 use super::workers::Workers;
@@ -38,7 +38,7 @@ pub struct Options {
     /// What that stands for in such a file, with what is played at the start as its last step.
     pub recorder: Recorder,
     /// The file that is kept of what the user does.
-    pub record: Option<Record>,
+    pub record: Option<RecordingFile>,
     /// Where to keep a session that is interrupted.
     pub keep: Option<PathBuf>,
     /// Where to keep a session that is left.

@@ -13,7 +13,7 @@ use std::path::PathBuf;
 use super::lines::{FileLine, Lines, Refusal};
 use super::scan_file::compare;
 use crate::flow::Limits;
-use crate::report::scan::Form;
+use crate::report::scan::RowForm;
 use crate::study::scan::Scan;
 
 /// A file with some of the rows of a scan.
@@ -58,7 +58,7 @@ impl fmt::Display for Conflict {
 /// With `recheck`, the first and the last row of each part are computed again within these limits and compared.
 pub fn merge(
     scan: &Scan,
-    form: Form,
+    form: RowForm,
     parts: &[Part],
     recheck: Option<&Limits>,
     write: &mut dyn FnMut(&[u8]) -> io::Result<()>,
@@ -105,7 +105,7 @@ pub fn merge(
 /// What is put together, and whether rows are computed again.
 struct Task<'a> {
     scan: &'a Scan,
-    form: Form,
+    form: RowForm,
     recheck: Option<&'a Limits<'a>>,
 }
 

@@ -35,5 +35,5 @@ pub use event::{Event, LoopEnd};
 pub use explorer::{Explorer, explore, replay};
 pub use launch::{Options, launch};
 pub use pump::Pump;
-pub use record::Record;
+pub use record::RecordingFile;
 pub use worker::Worker;

@@ -17,7 +17,7 @@ use ratatui::layout::Size;
 use super::application::{Application, EffectOutcome, Host};
 use super::effects::Files;
 use super::event::{Event, LoopEnd};
-use super::record::Record;
+use super::record::RecordingFile;
 use super::workers::Workers;
 use super::{picture, scan_file};
 use crate::scene::Request;
@@ -58,7 +58,7 @@ pub struct Pump<M, W: Write> {
     /// What the user did, how the session was started, and the file that is kept of it.
     recorder: Recorder,
     started: String,
-    record: Option<Record>,
+    record: Option<RecordingFile>,
     terminal_size: fn() -> Size,
 }
 
@@ -100,7 +100,12 @@ impl<M: Application, W: Write> Pump<M, W> {
 
     /// Says how the session was started, and begins the recording of what is done with what that stands
     /// for; what is played at the start is its last step.
-    pub fn started(mut self, started: String, recorder: Recorder, record: Option<Record>) -> Self {
+    pub fn started(
+        mut self,
+        started: String,
+        recorder: Recorder,
+        record: Option<RecordingFile>,
+    ) -> Self {
         if let Some(playing) = &mut self.playing {
             playing.asked = 1;
         }
@@ -252,7 +257,7 @@ impl<M: Application, W: Write> Pump<M, W> {
 
     /// Writes what was recorded to a file, without the presses that asked for that.
     fn write_record(&self, path: &Path, forget: u32, replace: bool) -> Notice {
-        if let Err(text) = Record::admit(path, replace, "! behind the command replaces it") {
+        if let Err(text) = RecordingFile::admit(path, replace, "! behind the command replaces it") {
             return Notice { error: true, text };
         }
         let mut recorder = self.recorder.clone();

@@ -10,7 +10,7 @@ use crate::session::replay::{HEADER, Recorder, comment, heading, lines};
 
 /// The file of a recording.
 #[derive(Debug)]
-pub struct Record {
+pub struct RecordingFile {
     path: PathBuf,
     file: File,
     /// Where each line of steps begins: the place of its first step, and its byte.
@@ -19,23 +19,23 @@ pub struct Record {
     heading: u64,
 }
 
-impl Record {
-    /// Begins the file with what is known already; see [`Record::admit`]. Fails with one line: the file may not be
+impl RecordingFile {
+    /// Begins the file with what is known already; see [`RecordingFile::admit`]. Fails with one line: the file may not be
     /// replaced, or cannot be written.
     pub fn begin(
         path: &Path,
         replace: bool,
         started: &str,
         recorder: &mut Recorder,
-    ) -> Result<Record, String> {
-        Record::admit(path, replace, "--force replaces it")?;
+    ) -> Result<RecordingFile, String> {
+        RecordingFile::admit(path, replace, "--force replaces it")?;
         let told = |why: io::Error| format!("{}: {why}", path.display());
         let open = OpenOptions::new().create(true).truncate(true).write(true).open(path);
         let file = open.map_err(told)?;
         let comment = comment(&heading(started));
         file.write_all_at(comment.as_bytes(), 0).map_err(told)?;
         let heading = comment.len() as u64;
-        let mut record = Record { path: path.to_owned(), file, lines: Vec::new(), heading };
+        let mut record = RecordingFile { path: path.to_owned(), file, lines: Vec::new(), heading };
         record.keep(recorder)?;
         Ok(record)
     }
@@ -102,7 +102,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.keys");
         let mut recorder = Recorder::default();
-        let mut record = Record::begin(&path, false, "hopfscope", &mut recorder).unwrap();
+        let mut record = RecordingFile::begin(&path, false, "hopfscope", &mut recorder).unwrap();
         for round in 0..200_u32 {
             note(&mut recorder, ["<right>", "u", "<S-left>"][round as usize / 2 % 3]);
             if round % 17 == 0 {
@@ -133,12 +133,12 @@ mod tests {
             ("# A recording of hopfscope; `hopfscope replay FILE` plays it.\n", true),
         ] {
             std::fs::write(&path, text).unwrap();
-            assert_eq!(Record::admit(&path, false, "no").is_ok(), may, "{text:?}");
-            assert!(Record::admit(&path, true, "no").is_ok(), "{text:?}");
+            assert_eq!(RecordingFile::admit(&path, false, "no").is_ok(), may, "{text:?}");
+            assert!(RecordingFile::admit(&path, true, "no").is_ok(), "{text:?}");
         }
         std::fs::write(&path, [0xff; 64]).unwrap();
-        let refused = Record::admit(&path, false, "--force replaces it").unwrap_err();
+        let refused = RecordingFile::admit(&path, false, "--force replaces it").unwrap_err();
         assert!(refused.ends_with("is not a recording; --force replaces it"), "{refused}");
-        assert!(Record::admit(folder.path(), true, "no").is_err(), "a folder is no file");
+        assert!(RecordingFile::admit(folder.path(), true, "no").is_err(), "a folder is no file");
     }
 }

@@ -16,7 +16,7 @@ pub use super::lines::Refusal;
 use super::lines::{FileLine, Lines};
 use super::provenance_file;
 use crate::flow::{Limits, Reason};
-use crate::report::scan::Form;
+use crate::report::scan::RowForm;
 use crate::session::Notice;
 use crate::study::scan::{Scan, ScanRow};
 
@@ -24,7 +24,7 @@ use crate::study::scan::{Scan, ScanRow};
 #[derive(Debug)]
 pub struct ScanFile {
     file: File,
-    form: Form,
+    form: RowForm,
     journal: Journal,
     /// Rows that the journal of an earlier process has, and whose turn has not come.
     ahead: BTreeMap<usize, String>,
@@ -38,7 +38,7 @@ impl ScanFile {
     pub fn create(
         path: &Path,
         scan: &Scan,
-        form: Form,
+        form: RowForm,
         headed: bool,
         points: Range<usize>,
     ) -> Result<Self, Refusal> {
@@ -62,7 +62,7 @@ impl ScanFile {
     pub fn resume(
         path: &Path,
         scan: &Scan,
-        form: Form,
+        form: RowForm,
         headed: bool,
         points: Range<usize>,
         limits: &Limits,
@@ -133,7 +133,7 @@ impl ScanFile {
 
 /// What of the file belongs to this scan; nothing where not even the heading is whole.
 fn kept(
-    (file, form): (&mut File, Form),
+    (file, form): (&mut File, RowForm),
     scan: &Scan,
     headed: bool,
     points: &Range<usize>,
@@ -182,7 +182,7 @@ fn kept(
 /// Computes the row that stands in line `number` again: the same program on the same scan writes the same line.
 pub(super) fn compare(
     scan: &Scan,
-    form: Form,
+    form: RowForm,
     (index, line): (usize, &[u8]),
     number: usize,
     limits: &Limits,
@@ -210,7 +210,7 @@ fn opened(path: &Path) -> Result<File, Refusal> {
 /// A file that holds the beginning of the same scan is gone on with, one of anything else left alone. A new one is
 /// there as a whole or not at all.
 pub fn save(path: &Path, scan: &Scan, rows: &[ScanRow]) -> Notice {
-    let form = Form::of_file(path);
+    let form = RowForm::of_file(path);
     let is_new = !path.exists();
     let points = 0..scan.points();
     let opened = ScanFile::resume(path, scan, form, true, points, &Limits::PATIENT);

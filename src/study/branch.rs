@@ -25,7 +25,7 @@ use serde::Serialize;
 
 use super::closing::{Equation, Route, first_side};
 use super::closings::{STEP, other_closings};
-use super::continuation::{Curve, CurvePlace, CurvePoint, covers, passes};
+use super::continuation::{CurvePlace, CurvePoint, CycleCurve, covers, passes};
 use super::cycle::Cycle;
 use super::escape::{escape_point, escape_product};
 use super::polish::polish_near;
@@ -93,7 +93,8 @@ pub fn branch(
         // Without friction the innermost cycle has shrunk to the steady state: begin just above.
         from = from.max(LEAST_FRICTION * to);
     }
-    let mut curve = Curve::new(parameters, parameter, Side::Upper, to - from, tolerance, limits);
+    let mut curve =
+        CycleCurve::new(parameters, parameter, Side::Upper, to - from, tolerance, limits);
     if points == Points::Followed {
         (curve.strides, curve.budget) = (LONG_STRIDES, BUDGET);
     }
@@ -155,7 +156,7 @@ const SHALLOW: f64 = 28.0;
 
 /// A branch in the making.
 struct Tracer<'a> {
-    curve: Curve<'a>,
+    curve: CycleCurve<'a>,
     parameter: Symbol,
     points: Points,
     found: Branch,

@@ -39,7 +39,7 @@ const PROBES: (f64, f64) = (1e-11, 1e-5);
 const CORRECTIONS: usize = 8;
 
 /// A family of closing equations along a parameter.
-pub struct Curve<'a> {
+pub struct CycleCurve<'a> {
     parameters: Parameters,
     symbol: Symbol,
     /// The side of the first swing, the same all along the curve.
@@ -48,9 +48,9 @@ pub struct Curve<'a> {
     pub scale: f64,
     /// Relative error accepted in the clearance.
     tolerance: f64,
-    /// Length of the longest stride of [`Curve::follow`], in units of the usual one.
+    /// Length of the longest stride of [`CycleCurve::follow`], in units of the usual one.
     pub strides: f64,
-    /// Evaluations after which [`Curve::follow`] stops where it is.
+    /// Evaluations after which [`CycleCurve::follow`] stops where it is.
     pub budget: u64,
     limits: &'a Limits<'a>,
     /// Stride of a difference quotient in p, in parts of the range.
@@ -61,7 +61,7 @@ pub struct Curve<'a> {
     pub cost: Cost,
 }
 
-impl<'a> Curve<'a> {
+impl<'a> CycleCurve<'a> {
     /// The curve along `symbol` with p measured in units of `scale`; `side` is that of the first swing.
     pub fn new(
         parameters: &Parameters,
@@ -73,7 +73,7 @@ impl<'a> Curve<'a> {
     ) -> Self {
         let (parameters, cost) = (*parameters, Cost::default());
         let (probe, slope_in_p, strides, budget) = (PROBES.1, None, 1.0, u64::MAX);
-        Curve {
+        CycleCurve {
             parameters,
             symbol,
             side,

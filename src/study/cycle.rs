@@ -19,7 +19,7 @@ use super::closed_pair::{Closing, share};
 use super::closing::Equation;
 use super::closings::{STEP, all_closings};
 use super::lift::lifted;
-pub use super::limit_cycle::{Cycle, CycleErrors, Cycles, Edge, Picture};
+pub use super::limit_cycle::{BasinPicture, Cycle, CycleErrors, Cycles, Edge};
 use super::works::works as works_over;
 use crate::closed_form::harmonic::amplitudes;
 use crate::flow::{Limits, Reason};
@@ -79,7 +79,7 @@ fn found(parameters: &Parameters, points: Option<u16>, limits: &Limits) -> Resul
         let reach = PICTURE_REACH / parameters.d2.abs().max(f64::MIN_POSITIVE);
         let basin = Basin::around(parameters, &closings, reach, limits)?;
         answer.cost += basin.cost;
-        answer.picture = Some(Picture::of(&basin, points));
+        answer.picture = Some(BasinPicture::of(&basin, points));
     }
     Ok(answer)
 }
@@ -102,7 +102,7 @@ fn searched(parameters: &Parameters, limits: &Limits) -> Result<(Cycles, Vec<Clo
     Ok((answer, closings))
 }
 
-impl Picture {
+impl BasinPicture {
     fn of(basin: &Basin, points: u16) -> Self {
         let mut curves: Vec<Vec<State>> =
             basin.borders.iter().map(|border| border.curve(points)).collect();
@@ -113,7 +113,7 @@ impl Picture {
             Edge::Cycle => curves.first().cloned().unwrap_or_default(),
             Edge::Separatrix => curves.remove(0),
         };
-        Picture {
+        BasinPicture {
             curves,
             works,
             edge,

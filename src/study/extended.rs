@@ -32,7 +32,7 @@ pub struct FoldCycle {
 
 /// A place near a fold.
 #[derive(Clone, Copy, Debug)]
-pub struct Guess {
+pub struct FoldGuess {
     pub parameters: Parameters,
     /// The unknown `ln c0`.
     pub u: f64,
@@ -41,10 +41,10 @@ pub struct Guess {
 
 type Slopes = [[f64; 2]; 2];
 
-impl Guess {
+impl FoldGuess {
     /// A place known otherwise.
     pub fn at(parameters: &Parameters, u: f64) -> Self {
-        Guess { parameters: *parameters, u, slopes: None }
+        FoldGuess { parameters: *parameters, u, slopes: None }
     }
 
     /// The fold in D at these values of D2, D3 and r; `None` where there is none, or D2 bends the cycle too much.
@@ -52,7 +52,7 @@ impl Guess {
         /// Largest product of D2 and the amplitude at which the estimate is any good.
         const BENT: f64 = 3.5;
         let FoldEstimate { d, u, bend } = FoldEstimate::of(parameters)?;
-        (bend <= BENT).then(|| Guess::at(&Parameters { d, ..*parameters }, u))
+        (bend <= BENT).then(|| FoldGuess::at(&Parameters { d, ..*parameters }, u))
     }
 
     /// The same beside a fold that is known: as far from the estimate as this one is.
@@ -60,12 +60,12 @@ impl Guess {
         let (here, there) = (FoldEstimate::of(parameters)?, FoldEstimate::of(&known.parameters)?);
         let d = here.d * (known.parameters.d / there.d);
         let (parameters, u) = (Parameters { d, ..*parameters }, known.u + here.u - there.u);
-        Some(Guess { parameters, u, slopes: Some(known.along) })
+        Some(FoldGuess { parameters, u, slopes: Some(known.along) })
     }
 
     /// The same cycle at other parameters.
     pub fn moved_to(self, parameters: &Parameters) -> Self {
-        Guess { parameters: *parameters, ..self }
+        FoldGuess { parameters: *parameters, ..self }
     }
 }
 
@@ -100,7 +100,7 @@ impl FoldEstimate {
 /// Finds the fold next to a guess while `symbol` varies, to a relative error of `tolerance` of its clearance, and its
 /// square of the parameter; `None` where Newton's method leads nowhere. Fails with [`Reason::Interrupted`].
 pub fn fold_near(
-    guess: &Guess,
+    guess: &FoldGuess,
     symbol: Symbol,
     tolerance: f64,
     limits: &Limits,
@@ -123,7 +123,7 @@ struct Values {
 
 /// The two equations. A place is a value of u and the logarithm of the parameter in units of the guess.
 struct System<'a> {
-    guess: &'a Guess,
+    guess: &'a FoldGuess,
     symbol: Symbol,
     side: Side,
     limits: &'a Limits<'a>,

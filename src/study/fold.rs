@@ -24,7 +24,7 @@ use serde::Serialize;
 
 use super::basin::between;
 use super::escape::escape_point;
-use super::extended::{Guess, fold_near};
+use super::extended::{FoldGuess, fold_near};
 use super::fold_graph::highest_cycle;
 use super::fold_point::FoldPoint;
 use super::grazing::grazing;
@@ -63,7 +63,7 @@ pub fn fold_within(
     let limits =
         &Limits { evaluations: limits.evaluations.min(BUDGET), interrupted: limits.interrupted };
     let mut cost = Cost::default();
-    if let Some(guess) = Guess::in_damping(parameters) {
+    if let Some(guess) = FoldGuess::in_damping(parameters) {
         let (found, spent) = fold_near(&guess, Symbol::D, tolerance, limits)?;
         cost += spent;
         if let Some(found) = found {

@@ -4,7 +4,7 @@
 //! much weaker than D2, so that the graph is flat, and beyond critical negative damping.
 
 use super::closing::{Route, first_side};
-use super::continuation::{Curve, CurvePoint, Tangent};
+use super::continuation::{CurvePoint, CycleCurve, Tangent};
 use super::fold_point::FoldPoint;
 use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason};
@@ -45,7 +45,7 @@ pub fn highest_cycle(
 ) -> (Result<Highest, Reason>, Cost) {
     let Some(start) = start(parameters) else { return (Err(LOST), Cost::default()) };
     let side = first_side(parameters);
-    let curve = Curve::new(parameters, Symbol::D, side, 1.0, tolerance, limits);
+    let curve = CycleCurve::new(parameters, Symbol::D, side, 1.0, tolerance, limits);
     let mut graph = Graph { curve, parameters: *parameters, d: start.d };
     let met = graph.meeting(start).map(|point| {
         let parameters = graph.curve.parameters_at(point.p);
@@ -93,7 +93,7 @@ enum Around {
 
 /// All cycles as the graph `D(u)`.
 struct Graph<'a> {
-    curve: Curve<'a>,
+    curve: CycleCurve<'a>,
     parameters: Parameters,
     /// D of the last cycle found, the guess for the next.
     d: f64,

@@ -4,7 +4,7 @@
 //! by, and differences of them are noise. Motions scale (equation 4), and scaling by a power of two is
 //! exact, so the same cycles are found where numbers have all their digits, and brought back.
 
-use super::limit_cycle::{Cycle, CycleErrors, Cycles, Margin, Picture};
+use super::limit_cycle::{BasinPicture, Cycle, CycleErrors, Cycles, Margin};
 use crate::closed_form::harmonic::Harmonic;
 use crate::numerics::scaling::{exponent, times_power};
 use crate::oscillator::{Ledger, Parameters, State};
@@ -65,7 +65,7 @@ impl Cycle {
     }
 }
 
-impl Picture {
+impl BasinPicture {
     fn times_power(self, unit: i32) -> Self {
         let length = |value| times_power(value, unit);
         let square = |value| length(length(value));
@@ -80,7 +80,7 @@ impl Picture {
             friction: square(it.friction),
             residual: square(it.residual),
         };
-        Picture {
+        BasinPicture {
             curves: self.curves.into_iter().map(curve).collect(),
             works: self.works.into_iter().map(works).collect(),
             edge: curve(self.edge),

@@ -79,7 +79,7 @@ pub enum Edge {
 
 /// What a picture of the basin shows.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Picture {
+pub struct BasinPicture {
     /// The closed curve of each cycle.
     pub curves: Vec<Vec<State>>,
     /// What each source does over one turn of each cycle.
@@ -107,7 +107,7 @@ pub struct Cycles {
     /// What borders the basin of the sticking set.
     pub edge: Edge,
     /// Curves and margins, if asked for.
-    pub picture: Option<Picture>,
+    pub picture: Option<BasinPicture>,
     /// What it cost.
     pub cost: Cost,
 }

@@ -71,6 +71,6 @@ pub(crate) mod works;
 
 pub use branch::{Branch, BranchPoint};
 pub use harmonic_error::HarmonicBalance;
-pub use limit_cycle::{Cycle, Cycles, Edge, Margin, Picture};
+pub use limit_cycle::{BasinPicture, Cycle, Cycles, Edge, Margin};
 pub use return_map::{Return, ReturnMap};
 pub use special::{Special, SpecialKind};

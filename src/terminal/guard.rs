@@ -15,7 +15,7 @@ use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use super::painter::{END, PLAIN};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Mode {
+pub struct ScreenMode {
     pub on: &'static str,
     pub off: &'static str,
     /// What it does, for the handbook.
@@ -23,22 +23,22 @@ pub struct Mode {
 }
 
 /// The modes of the explorer, in the order in which they are turned on.
-pub const MODES: [Mode; 3] = [
-    Mode {
+pub const MODES: [ScreenMode; 3] = [
+    ScreenMode {
         on: "\x1b[?1049h",
         off: "\x1b[?1049l",
         meaning: "alternate screen: what was on the terminal comes back at the end",
     },
-    Mode {
+    ScreenMode {
         on: "\x1b[?2004h",
         off: "\x1b[?2004l",
         meaning: "bracketed paste: a paste arrives as one message, not as keys",
     },
-    Mode { on: "\x1b[?25l", off: "\x1b[?25h", meaning: "hidden cursor" },
+    ScreenMode { on: "\x1b[?25l", off: "\x1b[?25h", meaning: "hidden cursor" },
 ];
 
 /// The mode that only some users want: without it, the mouse selects text in the terminal.
-pub const MOUSE: Mode = Mode {
+pub const MOUSE: ScreenMode = ScreenMode {
     on: "\x1b[?1000h\x1b[?1006h",
     off: "\x1b[?1006l\x1b[?1000l",
     meaning: "the mouse: clicks and the wheel are reported, with decimal coordinates",
@@ -57,7 +57,7 @@ fn leaving(mouse: bool) -> String {
 
 /// What is turned on.
 #[derive(Debug, Default)]
-struct State {
+struct GuardState {
     taken: bool,
     mouse: bool,
 }
@@ -65,7 +65,7 @@ struct State {
 /// The terminal, taken or not. Clones share that state.
 #[derive(Clone, Debug)]
 pub struct Guard {
-    state: Arc<Mutex<State>>,
+    state: Arc<Mutex<GuardState>>,
     out: Arc<File>,
 }
 
@@ -106,7 +106,7 @@ impl Guard {
         Ok(())
     }
 
-    fn state(&self) -> MutexGuard<'_, State> {
+    fn state(&self) -> MutexGuard<'_, GuardState> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 

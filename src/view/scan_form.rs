@@ -9,7 +9,7 @@ use super::lists::frame;
 use super::look::Look;
 use super::pane;
 use crate::picture::role::Role;
-use crate::session::state::scan_form::{FIELDS, Field, Form};
+use crate::session::state::scan_form::{FIELDS, FormField, ScanForm};
 use crate::session::{Overlay, Session};
 use crate::study::measure::MEASURES;
 
@@ -63,9 +63,9 @@ pub fn draw(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
 }
 
 /// What the field takes, or what the measure in it means.
-fn about(form: &Form) -> String {
+fn about(form: &ScanForm) -> String {
     let spec = FIELDS[form.at];
     let text = form.inputs[form.at].text();
-    let measure = MEASURES.iter().find(|row| spec.field == Field::Measure && row.name == text);
+    let measure = MEASURES.iter().find(|row| spec.field == FormField::Measure && row.name == text);
     measure.map_or(spec.help, |row| row.meaning).to_owned()
 }

@@ -1,7 +1,7 @@
 //! Guaranteed margins of machines: no machine within the tolerances has a smaller margin, whatever disturbs it.
 
 use crate::program::{json, run};
-use hopfscope::machine::guarantee::{Uncertain, guaranteed};
+use hopfscope::machine::guarantee::{MachineUncertain, guaranteed};
 use hopfscope::machine::survey::portrait;
 use hopfscope::machine::varied::Varied;
 use hopfscope::machine::{Portrait, Tolerances};
@@ -94,7 +94,7 @@ fn tolerances_of_friction_and_damping_and_a_disturbance_are_those_of_one_machine
     assert!((found.displacement / displacement - 1.0).abs() < 1e-12);
     assert!((found.impulse / impulse - 1.0).abs() < 1e-12);
     let refused = guaranteed(&belt, &tolerances(&[], &belt, belt.friction)).unwrap();
-    assert!(matches!(refused, Err(Uncertain::Disturbance { .. })), "{refused:?}");
+    assert!(matches!(refused, Err(MachineUncertain::Disturbance { .. })), "{refused:?}");
 }
 
 #[test]

@@ -5,7 +5,7 @@ use hopfscope::flow::Limits;
 use hopfscope::machine::MachineCycle;
 use hopfscope::machine::branch::branch;
 use hopfscope::machine::jumps::{Jump, Landing};
-use hopfscope::machine::special::{Kind, MachineSpecial};
+use hopfscope::machine::special::{MachineSpecial, MachineSpecialKind};
 use hopfscope::machine::varied::Varied;
 use hopfscope::oscillator::Belt;
 use hopfscope::oscillator::belt::FrictionLaw;
@@ -30,7 +30,10 @@ fn rest_and_stick_slip_end_at_different_speeds() {
         let mut found = specials(&machine("bstab"), from, to, 4);
         found.sort_by(|one, other| one.value.total_cmp(&other.value));
         let [hopf, end] = found[..] else { panic!("{found:?}") };
-        assert_eq!((hopf.kind, end.kind), (Kind::Hopf, Kind::Annihilation));
+        assert_eq!(
+            (hopf.kind, end.kind),
+            (MachineSpecialKind::Hopf, MachineSpecialKind::Annihilation)
+        );
         assert_eq!((hopf.jumps.up, end.jumps.down), (None, None), "{found:?}");
         let Some(Jump { from: 0.0, to: Landing::Cycle { x_max } }) = hopf.jumps.down else {
             panic!("{hopf:?}")
@@ -46,7 +49,7 @@ fn rest_and_stick_slip_end_at_different_speeds() {
 fn a_cycle_that_grows_into_the_line_does_not_jump_and_one_that_folds_does() {
     let found = specials(&machine("textbook"), 0.05, 0.9, 6);
     let [touch, fold] = found[..] else { panic!("{found:?}") };
-    assert_eq!((touch.kind, fold.kind), (Kind::Grazing, Kind::Fold));
+    assert_eq!((touch.kind, fold.kind), (MachineSpecialKind::Grazing, MachineSpecialKind::Fold));
     assert_eq!((touch.jumps.up, touch.jumps.down, fold.jumps.down), (None, None, None));
     assert!(matches!(fold.jumps.up, Some(Jump { to: Landing::Rest, .. })), "{fold:?}");
 }
@@ -60,13 +63,14 @@ fn where_friction_at_rest_is_higher_stick_slip_and_slip_change_into_each_other()
         _ => None,
     };
     // Down: the cycle that slips touches the line, and is carried on to the larger one that sticks.
-    let touch = found.iter().find(|special| special.kind == Kind::Grazing).unwrap();
+    let touch = found.iter().find(|special| special.kind == MachineSpecialKind::Grazing).unwrap();
     let (from, to) = cycle(touch.jumps.down).unwrap();
     assert!(from > 0.0 && to > 1.02 * from, "{touch:?}");
     // Up: stick-slip ends on a faster belt than that, and falls back to slip where that is there, not to rest.
-    let end = found.iter().find(|special| special.kind == Kind::Annihilation).unwrap();
+    let end =
+        found.iter().find(|special| special.kind == MachineSpecialKind::Annihilation).unwrap();
     assert!(end.value > touch.value, "{found:?}");
-    let fold = found.iter().find(|special| special.kind == Kind::Fold).unwrap();
+    let fold = found.iter().find(|special| special.kind == MachineSpecialKind::Fold).unwrap();
     if end.value < fold.value {
         let (from, to) = cycle(end.jumps.up).unwrap();
         assert!(to > 0.0 && to < 0.98 * from, "{end:?}");
@@ -83,7 +87,7 @@ fn a_cycle_that_is_born_at_rest_is_no_jump() {
     let belt = Belt { cubic_damping: 0.3, belt_speed: 1.0, normal_force: 1.0, ..belt };
     let found = branch(&belt, Varied::named("d1").unwrap(), (0.1, 0.3), 4).unwrap().special;
     let [hopf] = found[..] else { panic!("{found:?}") };
-    assert!(hopf.kind == Kind::Hopf && (hopf.value - 0.2).abs() < 1e-12, "{hopf:?}");
+    assert!(hopf.kind == MachineSpecialKind::Hopf && (hopf.value - 0.2).abs() < 1e-12, "{hopf:?}");
     assert_eq!((hopf.jumps.up, hopf.jumps.down), (None, None));
 }
 

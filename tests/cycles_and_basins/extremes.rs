@@ -3,7 +3,7 @@
 
 use hopfscope::flow::{Limits, Method, Outcome};
 use hopfscope::study::extremes::verdict::{BUDGET, METHODS, TOLERANCE};
-use hopfscope::study::extremes::{Case, MethodAnswer, Verdict, cases, judge, named};
+use hopfscope::study::extremes::{Case, MethodAnswer, MethodsVerdict, cases, judge, named};
 use rayon::prelude::*;
 
 /// One step of any method after the budget is spent: a Taylor series, or a step of the implicit method
@@ -30,7 +30,7 @@ fn is_answer(outcome: &Outcome) -> bool {
     }
 }
 
-fn complaint(verdict: &Verdict, answer: &MethodAnswer, extra: f64) -> Option<String> {
+fn complaint(verdict: &MethodsVerdict, answer: &MethodAnswer, extra: f64) -> Option<String> {
     let gave_up = matches!(answer.outcome, Outcome::GaveUp { .. });
     let what = if !is_answer(&answer.outcome) {
         "not a number"
@@ -57,7 +57,7 @@ fn complaint(verdict: &Verdict, answer: &MethodAnswer, extra: f64) -> Option<Str
 fn check(tolerance: f64, extra: f64) {
     let cases: Vec<Case> = cases(false).collect();
     let count = cases.len();
-    let verdicts: Vec<Verdict> =
+    let verdicts: Vec<MethodsVerdict> =
         cases.into_par_iter().map(|case| judge(&case, tolerance, &Limits::PATIENT)).collect();
     let complaints: Vec<String> = verdicts
         .iter()

@@ -12,8 +12,9 @@ fn figures_have_no_two_panels_alike_and_no_circles_that_belong_to_nothing() {
             };
             assert!(drawn.panels[..index].iter().find(alike).is_none(), "{scene}: panel {index}");
             for start in panel.marks.iter().filter(|mark| mark.name == "start") {
-                let begins = |curve: &Curve| curve.points.first() == Some(&[start.x, start.y]);
-                let on = |curve: &&Curve| begins(curve) || curve.role == "energy";
+                let begins =
+                    |curve: &FigureCurve| curve.points.first() == Some(&[start.x, start.y]);
+                let on = |curve: &&FigureCurve| begins(curve) || curve.role == "energy";
                 assert!(panel.curves.iter().any(|it| on(&it)), "{scene}: {start:?} starts nothing");
             }
         }
@@ -23,7 +24,7 @@ fn figures_have_no_two_panels_alike_and_no_circles_that_belong_to_nothing() {
 #[test]
 fn legends_name_what_is_drawn_once_and_as_it_is_called() {
     let legend = |scene: &str| -> Vec<String> {
-        let svg = text(&figure(scene, Fineness::SCREEN), Form::Svg);
+        let svg = text(&figure(scene, Fineness::SCREEN), FileForm::Svg);
         let picture = Document::parse(&svg).unwrap();
         let entry = |node: &roxmltree::Node| {
             node.has_tag_name("text") && node.attribute("font-size") == Some("11")
@@ -56,7 +57,7 @@ fn the_dashes_of_the_constructed_cycle_lie_over_its_half_turns() {
 #[test]
 fn the_name_of_a_fold_covers_no_branch() {
     let drawn = figure("fig11", Fineness::SCREEN);
-    let svg = text(&drawn, Form::Svg);
+    let svg = text(&drawn, FileForm::Svg);
     let picture = Document::parse(&svg).unwrap();
     let number = |node: &roxmltree::Node, name: &str| -> f64 {
         node.attribute(name).and_then(|text| text.parse().ok()).unwrap()

@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use std::f64::consts::PI;
 use std::fs;
 
-use hopfscope::figure::{Curve, Figure, Form, file};
+use hopfscope::figure::{Figure, FigureCurve, FileForm, file};
 use hopfscope::flow::Limits;
 use hopfscope::numerics::elementary::{atan2, cbrt, exp, exp_m1, hypot, powi};
 use hopfscope::question::Fineness;
@@ -30,7 +30,7 @@ fn figure(scene: &str, fineness: Fineness) -> Figure {
     Figure::of(&session, plots)
 }
 
-fn text(figure: &Figure, form: Form) -> String {
+fn text(figure: &Figure, form: FileForm) -> String {
     String::from_utf8(file(figure, form).unwrap()).unwrap()
 }
 
@@ -39,7 +39,7 @@ fn scenes() -> impl Iterator<Item = &'static str> {
 }
 
 /// The curves of a panel, from 0, whose name begins so.
-fn curves<'a>(figure: &'a Figure, panel: usize, name: &str) -> Vec<&'a Curve> {
+fn curves<'a>(figure: &'a Figure, panel: usize, name: &str) -> Vec<&'a FigureCurve> {
     let all = figure.panels[panel].curves.iter();
     let found: Vec<_> = all.filter(|curve| curve.name.starts_with(name)).collect();
     assert!(!found.is_empty(), "{} has no {name}", figure.figure);
@@ -50,13 +50,13 @@ fn curves<'a>(figure: &'a Figure, panel: usize, name: &str) -> Vec<&'a Curve> {
 fn every_scene_is_the_same_figure_in_every_form() {
     for scene in scenes() {
         let drawn = figure(scene, Fineness::PRINT);
-        let json: Value = serde_json::from_str(&text(&drawn, Form::Json)).unwrap();
+        let json: Value = serde_json::from_str(&text(&drawn, FileForm::Json)).unwrap();
         for field in ["figure", "title", "program", "units", "parameters", "method", "tolerance"] {
             assert!(!json[field].is_null(), "{scene}: {field}");
         }
         assert_eq!(json["figure"], scene);
-        same_numbers(scene, &json, &text(&drawn, Form::Csv));
-        vector_picture(&drawn, &text(&drawn, Form::Svg));
+        same_numbers(scene, &json, &text(&drawn, FileForm::Csv));
+        vector_picture(&drawn, &text(&drawn, FileForm::Svg));
     }
 }
 
@@ -166,7 +166,7 @@ fn no_text_covers_another(scene: &str, picture: &Document) {
 const PANEL: (f64, f64) = (380.0, 300.0);
 
 /// A curve within its panel, in pixels.
-fn on_paper(figure: &Figure, panel: usize, curve: &Curve) -> Vec<(f64, f64)> {
+fn on_paper(figure: &Figure, panel: usize, curve: &FigureCurve) -> Vec<(f64, f64)> {
     let window = figure.panels[panel].window;
     let place =
         |[x, y]: &[f64; 2]| (PANEL.0 * window.x.fraction(*x), PANEL.1 * window.y.fraction(*y));

@@ -1,7 +1,7 @@
 //! Certificates of limit cycles: what is written is accepted, and nothing else.
 
 use hopfscope::check::motion::Field;
-use hopfscope::check::{Certificate, CertificateStep, Kind, check};
+use hopfscope::check::{Certificate, CertificateStep, StepKind, check};
 use hopfscope::numerics::Interval;
 use hopfscope::numerics::elementary::cbrt;
 use hopfscope::oscillator::Parameters;
@@ -42,7 +42,7 @@ fn what_is_written_is_accepted() {
 #[test]
 fn the_clearance_holds_the_reference() {
     let accepted = check(&written(-0.2, 0.2, 0.5, 0.1)).unwrap();
-    let stable = accepted.steps.iter().find(|step| step.kind == Kind::Stable).unwrap();
+    let stable = accepted.steps.iter().find(|step| step.kind == StepKind::Stable).unwrap();
     let [low, high] = stable.clearance.unwrap();
     assert!(low < 0.622_333_333_030_272_5 && 0.622_333_333_030_272_5 < high);
     assert!(high - low < 1e-11);
@@ -139,7 +139,7 @@ fn a_step_that_is_missing_or_out_of_place_is_refused_with_its_line() {
         assert!((there - 1..=there).contains(&line(&refusal)), "without step {gone}: {refusal}");
     }
     let steps = vec![CertificateStep {
-        kind: Kind::OneWay,
+        kind: StepKind::OneWay,
         from: 0.0,
         to: None,
         clearance: None,
@@ -209,7 +209,7 @@ fn a_swing_from_an_interval_holds_all_of_them() {
 #[test]
 fn what_is_nearly_true_is_refused() {
     let whole = check(&written(-0.2, 0.2, 0.5, 0.1)).unwrap();
-    let at = whole.steps.iter().position(|step| step.kind == Kind::Stable).unwrap();
+    let at = whole.steps.iter().position(|step| step.kind == StepKind::Stable).unwrap();
     let [low, high] = whole.steps[at].clearance.unwrap();
     let refused = |change: &dyn Fn(&mut Certificate)| {
         let mut changed = whole.clone();
@@ -222,7 +222,7 @@ fn what_is_nearly_true_is_refused() {
         assert!(why.contains(words), "{why}");
     }
     // From within the unstable cycle on there are two.
-    let first = whole.steps.iter().position(|step| step.kind == Kind::Unstable).unwrap();
+    let first = whole.steps.iter().position(|step| step.kind == StepKind::Unstable).unwrap();
     let why = refused(&|it| {
         it.steps.drain(first..at);
         it.steps[first].from = it.steps[first - 1].to.unwrap();
@@ -230,7 +230,7 @@ fn what_is_nearly_true_is_refused() {
     assert!(why.contains("contract") || why.contains("certain"), "{why}");
     // 32 |D|^3 < 27 r^2 D3 decides.
     let steps = vec![CertificateStep {
-        kind: Kind::OneWay,
+        kind: StepKind::OneWay,
         from: 0.0,
         to: None,
         clearance: None,

@@ -10,10 +10,12 @@ use std::f64::consts::PI;
 use hopfscope::machine::branch::branch;
 use hopfscope::machine::motion::MachineOutcome;
 use hopfscope::machine::return_map::MachineReturn;
-use hopfscope::machine::special::Kind;
+use hopfscope::machine::special::MachineSpecialKind;
 use hopfscope::machine::turn::Place;
 use hopfscope::machine::varied::Varied;
-use hopfscope::machine::{Flow, MachineBorder, MachineFate, MachineMotion, Model, Portrait, Unfit};
+use hopfscope::machine::{
+    Flow, MachineBorder, MachineFate, MachineMotion, Model, NoModel, Portrait,
+};
 use hopfscope::numerics::elementary::{asin, atan, atan2, exp, exp_m1, hypot, ln, powi, tanh};
 use hopfscope::oscillator::Belt;
 use hopfscope::oscillator::belt::FrictionLaw;
@@ -236,7 +238,7 @@ fn a_cubic_law_far_from_the_belt_is_the_oscillator_of_the_paper() {
 #[test]
 fn static_friction_below_the_kinetic_one_is_refused() {
     let belt = Belt { static_coefficient: Some(0.29), ..machine("coulomb-guide") };
-    assert_eq!(Model::new(&belt), Err(Unfit::StaticBelowKinetic { mu_s: 0.29, mu: 0.3 }));
+    assert_eq!(Model::new(&belt), Err(NoModel::StaticBelowKinetic { mu_s: 0.29, mu: 0.3 }));
     let belt = Belt { static_guide: Some(0.1), ..machine("coulomb-guide") };
     let refused = Model::new(&belt).unwrap_err().to_string();
     assert_eq!(
@@ -383,7 +385,12 @@ fn a_search_for_cycles_that_did_not_settle_says_so() {
 }
 
 /// The special values along a number.
-fn special(belt: &Belt, name: &str, range: (f64, f64), count: usize) -> Vec<(Kind, f64)> {
+fn special(
+    belt: &Belt,
+    name: &str,
+    range: (f64, f64),
+    count: usize,
+) -> Vec<(MachineSpecialKind, f64)> {
     let found = branch(belt, Varied::named(name).unwrap(), range, count).unwrap();
     found.special.iter().map(|special| (special.kind, special.value)).collect()
 }
@@ -391,7 +398,10 @@ fn special(belt: &Belt, name: &str, range: (f64, f64), count: usize) -> Vec<(Kin
 #[test]
 fn every_change_of_a_portrait_is_located() {
     let bench = machine("bstab-1.5");
-    let expected = [(Kind::Hopf, 0.5 * ln(10.0)), (Kind::Annihilation, 1.836_600_972_207_926)];
+    let expected = [
+        (MachineSpecialKind::Hopf, 0.5 * ln(10.0)),
+        (MachineSpecialKind::Annihilation, 1.836_600_972_207_926),
+    ];
     for count in [4, 7] {
         let found = special(&bench, "v0", (0.5, 2.0), count);
         assert_eq!(found.len(), 2, "{found:?}");
@@ -403,18 +413,30 @@ fn every_change_of_a_portrait_is_located() {
     // With higher static friction the unstable cycle touches the belt first, and stick-slip outlives it.
     let held = Belt { static_coefficient: Some(1.1), ..bench.clone() };
     let found = special(&held, "v0", (1.5, 2.0), 4);
-    assert!(matches!(found[..], [(Kind::Grazing, _), (Kind::Annihilation, _)]), "{found:?}");
+    assert!(
+        matches!(
+            found[..],
+            [(MachineSpecialKind::Grazing, _), (MachineSpecialKind::Annihilation, _)]
+        ),
+        "{found:?}"
+    );
     assert!((found[0].1 - expected[1].1).abs() < 1e-12 && found[1].1 > 1.84);
     // The stable cycle that grows into the line.
     let found = special(&machine("graze-slip"), "v0", (0.05, 0.9), 6);
     let (kind, value) = found[0];
-    assert!(kind == Kind::Grazing && (value - 0.226_957_326_340_235).abs() < 1e-12, "{found:?}");
-    assert_eq!(found[1].0, Kind::Fold);
+    assert!(
+        kind == MachineSpecialKind::Grazing && (value - 0.226_957_326_340_235).abs() < 1e-12,
+        "{found:?}"
+    );
+    assert_eq!(found[1].0, MachineSpecialKind::Fold);
     // A machine that the damper feeds: stick-slip overtakes the belt, then only overtakes.
     let fed = Belt { damping: -0.3, friction: 0.02, belt_speed: 0.6, ..bench };
-    let kinds: Vec<Kind> =
+    let kinds: Vec<MachineSpecialKind> =
         special(&fed, "d1", (-0.5, 0.0), 9).into_iter().map(|(kind, _)| kind).collect();
-    assert_eq!(kinds, [Kind::Fold, Kind::Unsticking, Kind::Overtaking]);
+    assert_eq!(
+        kinds,
+        [MachineSpecialKind::Fold, MachineSpecialKind::Unsticking, MachineSpecialKind::Overtaking]
+    );
 }
 
 #[test]
@@ -422,7 +444,7 @@ fn a_fold_of_a_cubic_law_is_that_of_the_oscillator_of_the_paper() {
     let law = FrictionLaw::Polynomial { coefficients: vec![0.5, -0.4, 0.1, 0.2] };
     let belt = Belt { law, ..machine("graze-slip") };
     let found = special(&belt, "d1", (10.0, 20.0), 3);
-    let [(Kind::Fold, value)] = found[..] else { panic!("{found:?}") };
+    let [(MachineSpecialKind::Fold, value)] = found[..] else { panic!("{found:?}") };
     let parameters = Belt { damping: value, ..belt }.reduce().unwrap().parameters;
     let limits = hopfscope::flow::Limits::PATIENT;
     let (fold, _) = hopfscope::study::fold::fold(&parameters, &limits).unwrap();

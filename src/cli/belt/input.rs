@@ -20,7 +20,7 @@ pub enum Name {
 
 /// A number and the values through which it goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Range {
+pub struct RangeInUnits {
     /// The number.
     pub varied: Varied,
     /// The first value and the last, in SI units.
@@ -40,7 +40,7 @@ pub struct StartOverride {
 
 /// A window of the phase plane, in m and m/s.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Window {
+pub struct WindowInUnits {
     /// Displacements, in m.
     pub x: (f64, f64),
     /// Velocities, in m/s.
@@ -104,7 +104,7 @@ pub fn start(text: &str) -> Result<StartOverride, String> {
 }
 
 /// `XMIN:XMAX,VMIN:VMAX`.
-pub fn window(text: &str) -> Result<Window, String> {
+pub fn window(text: &str) -> Result<WindowInUnits, String> {
     let form =
         format!("{text:?} is not a window; expected XMIN:XMAX,VMIN:VMAX, such as -2mm:2mm,0:1");
     let read = |dimension, unit| {
@@ -112,11 +112,11 @@ pub fn window(text: &str) -> Result<Window, String> {
     };
     let [x, v] =
         sides(text, &form, [&read(Dimension::LENGTH, "m"), &read(Dimension::VELOCITY, "m/s")])?;
-    Ok(Window { x, v })
+    Ok(WindowInUnits { x, v })
 }
 
 /// `NAME=FROM:TO:COUNT`.
-pub fn range(text: &str) -> Result<Range, String> {
+pub fn range(text: &str) -> Result<RangeInUnits, String> {
     /// Most points of a sweep.
     const MOST: usize = 100_000;
     let form = "expected NAME=FROM:TO:COUNT, such as \"v0=0.1 m/s:0.5 m/s:21\"";
@@ -130,7 +130,7 @@ pub fn range(text: &str) -> Result<Range, String> {
         }
         Ok((value_of(varied, &from)?, value_of(varied, &to)?))
     })?;
-    Ok(Range { varied, ends, count })
+    Ok(RangeInUnits { varied, ends, count })
 }
 
 /// A margin: a displacement or an impulse, told apart by the unit.
@@ -181,8 +181,11 @@ mod tests {
 
     #[test]
     fn sweeps_and_margins_are_read() {
-        let expected =
-            Range { varied: Varied::Quantity(Quantity::BeltSpeed), ends: (0.1, 0.5), count: 5 };
+        let expected = RangeInUnits {
+            varied: Varied::Quantity(Quantity::BeltSpeed),
+            ends: (0.1, 0.5),
+            count: 5,
+        };
         assert_eq!(range("v0=10 cm/s:50 cm/s:5"), Ok(expected));
         for text in ["v0", "v0=1:2", "v0=1 m/s:2:5", "v0=1:2:1", "v9=1:2:3", "v0=0:1:3", "v0=1:1:3"]
         {

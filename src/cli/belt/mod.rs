@@ -8,7 +8,8 @@ use std::sync::Arc;
 use clap::Args;
 
 use self::input::{
-    Name, Range, StartOverride, Window, assignment, disturbance, margin, range, start, window,
+    Name, RangeInUnits, StartOverride, WindowInUnits, assignment, disturbance, margin, range,
+    start, window,
 };
 use super::failure::Failure;
 use super::input::method;
@@ -54,21 +55,21 @@ pub struct Arguments {
     start: Option<StartOverride>,
     /// Window "XMIN:XMAX,VMIN:VMAX": tells the part of it from which the mass comes to rest
     #[arg(long, value_name = "WINDOW", value_parser = window, allow_hyphen_values = true)]
-    window: Option<Window>,
+    window: Option<WindowInUnits>,
     /// Counts the window's displacements from the relaxed spring, and not from the steady position
     #[arg(long, requires = "window")]
     elongation: bool,
     /// Varies a number, such as "v0=0.1 m/s:0.5 m/s:21": margins and cycles along its way
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = range, allow_hyphen_values = true)]
-    sweep: Option<Range>,
+    sweep: Option<RangeInUnits>,
     /// Follows the cycles along a number and locates every change of them: Hopf, fold, grazing, annihilation ..
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = range, allow_hyphen_values = true,
           conflicts_with_all = ["sweep", "design"])]
-    branch: Option<Range>,
+    branch: Option<RangeInUnits>,
     /// With --branch: the changes at each value of another number
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = range, allow_hyphen_values = true,
           requires = "branch")]
-    against: Option<Range>,
+    against: Option<RangeInUnits>,
     /// Asks how much friction R a margin needs: a displacement ("2 mm") or an impulse ("0.1 N s")
     #[arg(long, value_name = "MARGIN", value_parser = margin, allow_hyphen_values = true)]
     design: Option<(Kick, f64)>,
@@ -295,8 +296,8 @@ impl Arguments {
     }
 
     /// The branch, or the changes along it at values of another number.
-    fn branched(&self, subject: &Subject, head: &Head, range: Range) -> Result<(), Failure> {
-        let Range { varied, ends, count } = range;
+    fn branched(&self, subject: &Subject, head: &Head, range: RangeInUnits) -> Result<(), Failure> {
+        let RangeInUnits { varied, ends, count } = range;
         if let Some(other) = self.against {
             let (rows, seconds) = timed(self.output.repeat, || {
                 let against = (other.varied, other.ends, other.count);
@@ -321,7 +322,9 @@ impl Arguments {
     }
 
     fn share(&self, portrait: &Portrait) -> RestShare {
-        let Some(Window { x: (from, to), v }) = self.window else { return RestShare::NotAsked };
+        let Some(WindowInUnits { x: (from, to), v }) = self.window else {
+            return RestShare::NotAsked;
+        };
         let steady = if self.elongation { portrait.model.pull } else { 0.0 };
         let known = portrait.rest_share((from - steady, to - steady), v);
         known.map_or(RestShare::Unknown, RestShare::Is)
@@ -342,9 +345,9 @@ impl Arguments {
         subject: &Subject,
         head: &'a Head,
         known: &Tolerances,
-        range: Range,
+        range: RangeInUnits,
     ) -> Result<Sweep<'a>, Failure> {
-        let Range { varied, ends, count } = range;
+        let RangeInUnits { varied, ends, count } = range;
         let point = |index: usize| {
             let value = spaced(ends, index, count);
             let here = subject.with(varied, value).map_err(Failure::Usage)?;

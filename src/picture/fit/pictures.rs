@@ -2,7 +2,7 @@
 //! together.
 
 use super::damping::damping;
-use super::pieces::{Curve, at, curve, picture, points, window, with_unit};
+use super::pieces::{StyledPoints, at, curve, picture, points, window, with_unit};
 use crate::fit::Fitted;
 use crate::fit::curves::memory as memory_of;
 use crate::fit::observation::{D, OFFSET, Q0, R, parameters};
@@ -69,7 +69,7 @@ fn memory(fitted: &Fitted) -> Option<Picture<'static>> {
 }
 
 /// The first border of a basin, thinned, as a curve.
-fn border(found: &Basin, name: &'static str, role: Role, dash: Dash) -> Option<Curve> {
+fn border(found: &Basin, name: &'static str, role: Role, dash: Dash) -> Option<StyledPoints> {
     const COUNT: u16 = 24;
     if found.edge == Edge::None {
         return None;
@@ -85,7 +85,7 @@ fn phase(fitted: &Fitted) -> Option<Picture<'static>> {
     let edge_of = |parameters: &Parameters| basin(parameters, 2.0 * largest, &Limits::PATIENT).ok();
     let every = (fitted.margins.draws.len() / EDGES).max(1);
     let drawn = fitted.margins.draws.iter().step_by(every);
-    let mut curves: Vec<Curve> = drawn
+    let mut curves: Vec<StyledPoints> = drawn
         .filter_map(|draw| {
             border(&edge_of(draw)?, "borders of twenty drawn basins", Role::Ghost, Dash::Dotted)
         })

@@ -6,7 +6,7 @@ use crate::picture::role::{Dash, Role};
 use crate::scene::{Point, Span, Window};
 
 /// A curve before it stands in a picture.
-pub type Curve = (LineStyle, Vec<Point>);
+pub type StyledPoints = (LineStyle, Vec<Point>);
 
 pub fn at(x: f64, y: f64) -> Point {
     Point { x, y }
@@ -22,7 +22,7 @@ pub fn window([left, right, low, high]: Extent) -> Option<Window> {
 }
 
 /// A curve through these points.
-pub fn curve(name: &'static str, role: Role, dash: Dash, points: Vec<Point>) -> Curve {
+pub fn curve(name: &'static str, role: Role, dash: Dash, points: Vec<Point>) -> StyledPoints {
     (LineStyle::new(name, role, dash), points)
 }
 
@@ -31,7 +31,7 @@ pub fn curve(name: &'static str, role: Role, dash: Dash, points: Vec<Point>) -> 
 pub fn picture(
     title: &'static str,
     (x, y): (String, String),
-    curves: Vec<Curve>,
+    curves: Vec<StyledPoints>,
     within: Option<Window>,
 ) -> Option<Picture<'static>> {
     let around = |place: fn(&Point) -> f64| {

@@ -7,7 +7,7 @@ use super::table::{CYCLE, cells};
 use super::{Head, PLACES};
 use crate::machine::branch::MachineBranch;
 use crate::machine::jumps::{Jump, Landing};
-use crate::machine::special::{Kind, MachineSpecial};
+use crate::machine::special::{MachineSpecial, MachineSpecialKind};
 use crate::machine::varied::Varied;
 use crate::report::csv::Sheet;
 use crate::report::json::text;
@@ -85,14 +85,16 @@ pub fn json(branched: &Branched) -> String {
 }
 
 /// What happens at a change, in a few words.
-fn words(kind: Kind) -> &'static str {
+fn words(kind: MachineSpecialKind) -> &'static str {
     match kind {
-        Kind::Hopf => "Hopf: rest changes its stability",
-        Kind::Grazing => "grazing: a slip cycle touches the belt's line",
-        Kind::Annihilation => "annihilation: the stick-slip cycle meets the border of rest",
-        Kind::Overtaking => "the stick-slip cycle comes to overtake the belt",
-        Kind::Unsticking => "the cycle overtakes the belt without sticking",
-        Kind::Fold => "fold: two cycles meet",
+        MachineSpecialKind::Hopf => "Hopf: rest changes its stability",
+        MachineSpecialKind::Grazing => "grazing: a slip cycle touches the belt's line",
+        MachineSpecialKind::Annihilation => {
+            "annihilation: the stick-slip cycle meets the border of rest"
+        }
+        MachineSpecialKind::Overtaking => "the stick-slip cycle comes to overtake the belt",
+        MachineSpecialKind::Unsticking => "the cycle overtakes the belt without sticking",
+        MachineSpecialKind::Fold => "fold: two cycles meet",
     }
 }
 
@@ -192,7 +194,7 @@ pub fn csv(branched: &Branched) -> String {
 }
 
 /// The name of a kind as in documents.
-fn name_of(kind: Kind) -> String {
+fn name_of(kind: MachineSpecialKind) -> String {
     serde_json::to_value(kind)
         .ok()
         .and_then(|value| value.as_str().map(str::to_owned))

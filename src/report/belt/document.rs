@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::expansion::Expansion;
 use super::{BeltAnswer, Designed, RestShare, finite, margins};
-use crate::machine::guarantee::{GuaranteedKicks, Uncertain};
+use crate::machine::guarantee::{GuaranteedKicks, MachineUncertain};
 use crate::machine::motion::{MachineOutcome, MachineState};
 use crate::machine::survey::{Course, Second};
 use crate::machine::turn::Place;
@@ -55,7 +55,7 @@ struct GuaranteedOf {
 }
 
 impl GuaranteedOf {
-    fn new(answer: &BeltAnswer, certain: &Result<GuaranteedKicks, Uncertain>) -> Self {
+    fn new(answer: &BeltAnswer, certain: &Result<GuaranteedKicks, MachineUncertain>) -> Self {
         let kicks = certain.ok();
         GuaranteedOf {
             displacement: kicks.and_then(|kicks| finite(kicks.displacement)),

@@ -13,7 +13,7 @@ pub use table::{csv, table};
 
 use serde::Serialize;
 
-use crate::machine::guarantee::{GuaranteedKicks, Uncertain};
+use crate::machine::guarantee::{GuaranteedKicks, MachineUncertain};
 use crate::machine::survey::Survey;
 use crate::machine::varied::Varied;
 use crate::machine::{Modal, Portrait};
@@ -78,7 +78,7 @@ pub struct BeltAnswer<'a> {
     /// The friction for a margin, if asked for.
     pub design: Option<Designed>,
     /// The kicks that are survived for certain, or why none is; `None` if not asked for.
-    pub certain: Option<Result<GuaranteedKicks, Uncertain>>,
+    pub certain: Option<Result<GuaranteedKicks, MachineUncertain>>,
     pub seconds: f64,
 }
 

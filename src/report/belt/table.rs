@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::document::kind;
 use super::expansion::Expansion;
 use super::{BeltAnswer, PLACES, RestShare, finite, line, margins, numbers};
-use crate::machine::guarantee::{GuaranteedKicks, Uncertain};
+use crate::machine::guarantee::{GuaranteedKicks, MachineUncertain};
 use crate::machine::motion::{MachineOutcome, MachineState};
 use crate::machine::stepped::Stepped;
 use crate::machine::survey::{Course, Second};
@@ -133,7 +133,7 @@ pub(super) fn border(portrait: &Portrait) -> &'static str {
 }
 
 /// The nominal margins and those that hold for certain, side by side, and what they allow for.
-fn guaranteed(answer: &BeltAnswer, certain: &Result<GuaranteedKicks, Uncertain>) -> String {
+fn guaranteed(answer: &BeltAnswer, certain: &Result<GuaranteedKicks, MachineUncertain>) -> String {
     let tolerances = &answer.machine.tolerances;
     let unit = |varied: Varied, value| with_unit(value, 12, varied.unit());
     let number = |(varied, interval): (Varied, Interval)| {

@@ -17,7 +17,7 @@ use crate::session::state::overlay::Overlay;
 use crate::session::state::plot::Pane;
 use crate::session::state::rows::Row;
 use crate::session::state::scan::{Progress, SCANNING, Scanned};
-use crate::session::state::scan_form::Form;
+use crate::session::state::scan_form::ScanForm;
 use crate::session::state::session::Session;
 use crate::study::scan::Scan;
 use crate::study::scan::Sweep;
@@ -31,29 +31,29 @@ pub const PAGE: isize = 10;
 /// Opens the form: the last one, or one over the parameter at hand.
 pub fn open(session: &mut Session) -> Vec<Effect> {
     let form = session.scan_form.clone().unwrap_or_else(|| fresh(session));
-    session.overlay = Some(Overlay::Scan(Form { refused: None, ..form }));
+    session.overlay = Some(Overlay::Scan(ScanForm { refused: None, ..form }));
     Vec::new()
 }
 
 /// A form over the parameter of a diagram on show, else over the selected one about its value.
-fn fresh(session: &Session) -> Form {
+fn fresh(session: &Session) -> ScanForm {
     let diagrams = session.plots.iter().filter(|plot| plot.view == View::Diagram);
     if let Some(diagram) = diagrams.into_iter().next() {
         let symbol = diagram.axes.abscissa;
         let (spec, x) = (symbol.spec(), diagram.window.x);
         if let Some(span) = x.within(spec.min, spec.max) {
-            return Form::new(symbol, (span.from(), span.to()));
+            return ScanForm::new(symbol, (span.from(), span.to()));
         }
     }
     let Row::Parameter(symbol) = session.selected else {
-        return Form::new(crate::oscillator::Symbol::D, (-0.9, 0.0));
+        return ScanForm::new(crate::oscillator::Symbol::D, (-0.9, 0.0));
     };
     let (spec, value) = (symbol.spec(), session.value(symbol));
     let reach = 10.0 * spec.step;
-    Form::new(symbol, ((value - reach).max(spec.min), (value + reach).min(spec.max)))
+    ScanForm::new(symbol, ((value - reach).max(spec.min), (value + reach).min(spec.max)))
 }
 
-fn form(session: &mut Session) -> Option<&mut Form> {
+fn form(session: &mut Session) -> Option<&mut ScanForm> {
     match &mut session.overlay {
         Some(Overlay::Scan(form)) => Some(form),
         _ => None,
@@ -72,9 +72,10 @@ pub fn go_to_field(session: &mut Session, by: isize) -> Vec<Effect> {
 /// Takes the next choice of a field that has some; moves the caret of any other.
 pub fn sideways(session: &mut Session, by: isize) -> Vec<Effect> {
     let Some(form) = form(session) else { return Vec::new() };
-    let mut choices = Form::choices(form.at);
+    let mut choices = ScanForm::choices(form.at);
     // Over one parameter there is one scan.
-    let other = form.inputs[if form.at == 0 { Form::SECOND } else { 0 }].text().trim().to_owned();
+    let other =
+        form.inputs[if form.at == 0 { ScanForm::SECOND } else { 0 }].text().trim().to_owned();
     choices.retain(|choice| choice.is_empty() || *choice != other);
     if choices.is_empty() {
         form.input_mut().move_caret(by);

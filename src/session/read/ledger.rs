@@ -116,7 +116,7 @@ fn add_works(lines: &mut Vec<LedgerLine>, owner: Owner, ledger: &machine::Machin
 }
 
 /// What works on a motion: its name, how strong it is, and what it did.
-type Source = (&'static str, f64, fn(&Ledger) -> f64);
+type EnergySource = (&'static str, f64, fn(&Ledger) -> f64);
 
 /// Adds the lines of one owner, with those until the present moment; a term that the model does not have
 /// gets none.
@@ -128,7 +128,7 @@ fn add(
     parameters: &Parameters,
 ) {
     let Parameters { d, d2, d3, r } = *parameters;
-    let sources: [Source; 4] = [
+    let sources: [EnergySource; 4] = [
         ("linear", d, |ledger| ledger.linear),
         ("quadratic", d2, |ledger| ledger.quadratic),
         ("cubic", d3, |ledger| ledger.cubic),

@@ -2,14 +2,14 @@
 
 use crate::scene::{Request, Span, View};
 use crate::session::state::plot::Pane;
-use crate::session::state::scan_form::Form;
+use crate::session::state::scan_form::ScanForm;
 use crate::session::state::session::Session;
 use crate::study::basin;
 use crate::study::measure::Measure;
 use crate::study::scan::{Scan, Sweep};
 
 /// The scan that is typed, of the motion on show. Fails with one line that says what is wrong and what is allowed.
-pub fn typed(form: &Form, session: &Session) -> Result<Scan, String> {
+pub fn typed(form: &ScanForm, session: &Session) -> Result<Scan, String> {
     let texts = form.inputs.each_ref().map(|input| input.text().trim().replace('\u{2212}', "-"));
     let [name, from, to, count, second, from2, to2, count2, measures] = &texts;
     let sweep = |name: &str, from: &str, to: &str, count: &str| {

@@ -52,7 +52,7 @@ pub enum Context {
 
 /// What a context is about; this decides which others hold with it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
+enum ContextKind {
     /// A pane that is no plot like the others.
     Pane,
     Plot,
@@ -76,36 +76,41 @@ pub struct ContextSpec {
     pub name: &'static str,
     /// A heading for its keys.
     pub title: &'static str,
-    kind: Kind,
+    kind: ContextKind,
 }
 
-const fn row(context: Context, name: &'static str, title: &'static str, kind: Kind) -> ContextSpec {
+const fn row(
+    context: Context,
+    name: &'static str,
+    title: &'static str,
+    kind: ContextKind,
+) -> ContextSpec {
     ContextSpec { context, name, title, kind }
 }
 
 /// The contexts besides those of the views.
 #[rustfmt::skip]
 const OTHERS: [ContextSpec; 20] = [
-    row(Context::Parameters, "parameters", "Parameters", Kind::Pane),
-    row(Context::Walk, "walk", "Walking along the branch", Kind::Held),
-    row(Context::Plots, "plots", "Every plot", Kind::Shared),
-    row(Context::Everywhere, "everywhere", "Everywhere", Kind::Shared),
-    row(Context::Help, "help", "In this list", Kind::List),
-    row(Context::Scenes, "scenes", "In the scene picker", Kind::List),
-    row(Context::Layers, "layers", "In the layer list", Kind::List),
-    row(Context::Views, "views", "In the picker of views", Kind::List),
-    row(Context::Paper, "paper", "In the list of claims", Kind::List),
-    row(Context::Interrupted, "interrupted", "In the list of interrupted sessions", Kind::List),
-    row(Context::Palette, "palette", "While searching the list", Kind::Text),
-    row(Context::Count, "count", "After a count", Kind::Question),
-    row(Context::Letter, "letter", "Before the letter of a register or mark", Kind::Question),
-    row(Context::Lists, "lists", "In every list", Kind::SharedByLists),
-    row(Context::Search, "search", "While searching", Kind::Text),
-    row(Context::Entry, "entry", "While typing a value", Kind::Text),
-    row(Context::Prompt, "prompt", "On the command line", Kind::Text),
-    row(Context::Form, "form", "While typing a scan", Kind::Text),
-    row(Context::Offer, "offer", "After pasting keystrokes", Kind::Question),
-    row(Context::Always, "always", "At any time", Kind::Shared),
+    row(Context::Parameters, "parameters", "Parameters", ContextKind::Pane),
+    row(Context::Walk, "walk", "Walking along the branch", ContextKind::Held),
+    row(Context::Plots, "plots", "Every plot", ContextKind::Shared),
+    row(Context::Everywhere, "everywhere", "Everywhere", ContextKind::Shared),
+    row(Context::Help, "help", "In this list", ContextKind::List),
+    row(Context::Scenes, "scenes", "In the scene picker", ContextKind::List),
+    row(Context::Layers, "layers", "In the layer list", ContextKind::List),
+    row(Context::Views, "views", "In the picker of views", ContextKind::List),
+    row(Context::Paper, "paper", "In the list of claims", ContextKind::List),
+    row(Context::Interrupted, "interrupted", "In the list of interrupted sessions", ContextKind::List),
+    row(Context::Palette, "palette", "While searching the list", ContextKind::Text),
+    row(Context::Count, "count", "After a count", ContextKind::Question),
+    row(Context::Letter, "letter", "Before the letter of a register or mark", ContextKind::Question),
+    row(Context::Lists, "lists", "In every list", ContextKind::SharedByLists),
+    row(Context::Search, "search", "While searching", ContextKind::Text),
+    row(Context::Entry, "entry", "While typing a value", ContextKind::Text),
+    row(Context::Prompt, "prompt", "On the command line", ContextKind::Text),
+    row(Context::Form, "form", "While typing a scan", ContextKind::Text),
+    row(Context::Offer, "offer", "After pasting keystrokes", ContextKind::Question),
+    row(Context::Always, "always", "At any time", ContextKind::Shared),
 ];
 
 /// Every context, those of the views after the first.
@@ -117,7 +122,7 @@ pub fn contexts() -> impl Iterator<Item = ContextSpec> {
 impl Context {
     fn spec(self) -> ContextSpec {
         if let Context::View(view) = self {
-            let kind = if view == View::Scan { Kind::Pane } else { Kind::Plot };
+            let kind = if view == View::Scan { ContextKind::Pane } else { ContextKind::Plot };
             return row(self, view.spec().name, view.spec().heading, kind);
         }
         let own = |row: &&ContextSpec| row.context == self;
@@ -136,12 +141,18 @@ impl Context {
 
     /// Whether characters without a command are typed into a line.
     pub fn takes_text(self) -> bool {
-        self.spec().kind == Kind::Text
+        self.spec().kind == ContextKind::Text
     }
 
     /// Whether this holds only while something is open or waited for.
     pub fn is_overlay(self) -> bool {
-        matches!(self.spec().kind, Kind::List | Kind::Text | Kind::Question | Kind::SharedByLists)
+        matches!(
+            self.spec().kind,
+            ContextKind::List
+                | ContextKind::Text
+                | ContextKind::Question
+                | ContextKind::SharedByLists
+        )
     }
 
     /// The view that must have the focus for this to hold, if it is about one.
@@ -153,12 +164,14 @@ impl Context {
 /// Every set of contexts that can hold together, the most specific first.
 pub fn chains() -> &'static [Vec<Context>] {
     static CHAINS: LazyLock<Vec<Vec<Context>>> = LazyLock::new(|| {
-        let others: fn(Kind) -> Option<&'static [Context]> = |kind| match kind {
-            Kind::Plot => Some(&[Context::Plots, Context::Everywhere, Context::Always]),
-            Kind::Pane => Some(&[Context::Everywhere, Context::Always]),
-            Kind::List => Some(&[Context::Lists, Context::Always]),
-            Kind::Held | Kind::Text | Kind::Question => Some(&[Context::Always]),
-            Kind::Shared | Kind::SharedByLists => None,
+        let others: fn(ContextKind) -> Option<&'static [Context]> = |kind| match kind {
+            ContextKind::Plot => Some(&[Context::Plots, Context::Everywhere, Context::Always]),
+            ContextKind::Pane => Some(&[Context::Everywhere, Context::Always]),
+            ContextKind::List => Some(&[Context::Lists, Context::Always]),
+            ContextKind::Held | ContextKind::Text | ContextKind::Question => {
+                Some(&[Context::Always])
+            }
+            ContextKind::Shared | ContextKind::SharedByLists => None,
         };
         let chain = |row: ContextSpec| Some([&[row.context], others(row.kind)?].concat());
         contexts().filter_map(chain).collect()

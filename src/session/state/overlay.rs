@@ -3,7 +3,7 @@
 use crate::session::replay::script::Script;
 use crate::session::state::input::Input;
 use crate::session::state::rows::Row;
-use crate::session::state::scan_form::Form;
+use crate::session::state::scan_form::ScanForm;
 
 /// Something over the panes.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,7 +15,7 @@ pub enum Overlay {
     /// The line in which commands are typed by name.
     Prompt(Prompt),
     /// The form in which a scan is typed.
-    Scan(Form),
+    Scan(ScanForm),
     /// A pasted keystroke file, waiting for a yes.
     Offer(Script),
 }

@@ -5,7 +5,7 @@ use crate::session::state::input::Input;
 use crate::study::measure::MEASURES;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Field {
+pub enum FormField {
     /// The name of a parameter.
     Parameter,
     From,
@@ -17,7 +17,7 @@ pub enum Field {
 /// One row of [`FIELDS`].
 #[derive(Clone, Copy, Debug)]
 pub struct FieldSpec {
-    pub field: Field,
+    pub field: FormField,
     /// Its name on the screen.
     pub name: &'static str,
     /// What may be typed.
@@ -25,31 +25,40 @@ pub struct FieldSpec {
 }
 
 const FROM: FieldSpec = FieldSpec {
-    field: Field::From,
+    field: FormField::From,
     name: "from",
     help: "first value; log: before it for equal ratios",
 };
 
-const TO: FieldSpec = FieldSpec { field: Field::To, name: "to", help: "last value" };
+const TO: FieldSpec = FieldSpec { field: FormField::To, name: "to", help: "last value" };
 
-const COUNT: FieldSpec = FieldSpec { field: Field::Count, name: "count", help: "how many values" };
+const COUNT: FieldSpec =
+    FieldSpec { field: FormField::Count, name: "count", help: "how many values" };
 
 /// Every field of the form, in the order in which they stand.
 pub const FIELDS: [FieldSpec; 9] = [
-    FieldSpec { field: Field::Parameter, name: "over", help: "D, D2, D3, r, q0 or v0" },
+    FieldSpec { field: FormField::Parameter, name: "over", help: "D, D2, D3, r, q0 or v0" },
     FROM,
     TO,
     COUNT,
-    FieldSpec { field: Field::Parameter, name: "and over", help: "a second parameter, or nothing" },
+    FieldSpec {
+        field: FormField::Parameter,
+        name: "and over",
+        help: "a second parameter, or nothing",
+    },
     FROM,
     TO,
     COUNT,
-    FieldSpec { field: Field::Measure, name: "measure", help: "one or more, with commas between" },
+    FieldSpec {
+        field: FormField::Measure,
+        name: "measure",
+        help: "one or more, with commas between",
+    },
 ];
 
 /// A scan being typed.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Form {
+pub struct ScanForm {
     /// What is typed, one line for each of [`FIELDS`].
     pub inputs: [Input; 9],
     /// The field that is typed in.
@@ -58,7 +67,7 @@ pub struct Form {
     pub refused: Option<String>,
 }
 
-impl Form {
+impl ScanForm {
     /// The field of the second parameter.
     pub const SECOND: usize = 4;
 
@@ -69,7 +78,7 @@ impl Form {
         let over = [name, text(from), text(to), "100".to_owned()];
         let second = ["", "", "", "20"].map(str::to_owned);
         let mut texts = over.into_iter().chain(second).chain(["margin".to_owned()]);
-        Form {
+        ScanForm {
             inputs: std::array::from_fn(|_| Input::new(texts.next().unwrap_or_default())),
             at: 0,
             refused: None,
@@ -84,12 +93,12 @@ impl Form {
     /// What a field offers to choose from.
     pub fn choices(at: usize) -> Vec<&'static str> {
         match FIELDS[at].field {
-            Field::Parameter => {
+            FormField::Parameter => {
                 let none = (at > 0).then_some("");
                 none.into_iter().chain(PARAMETERS.map(|row| row.name)).collect()
             }
-            Field::Measure => MEASURES.map(|row| row.name).to_vec(),
-            Field::From | Field::To | Field::Count => Vec::new(),
+            FormField::Measure => MEASURES.map(|row| row.name).to_vec(),
+            FormField::From | FormField::To | FormField::Count => Vec::new(),
         }
     }
 }

@@ -26,7 +26,7 @@ use crate::session::state::playback::Playback;
 use crate::session::state::plot::{Pane, Plot};
 use crate::session::state::rows::{ROWS, Row, Steps};
 use crate::session::state::scan::Scanned;
-use crate::session::state::scan_form::Form;
+use crate::session::state::scan_form::ScanForm;
 use crate::session::state::settings::Wishes;
 use crate::session::state::setup::Setup;
 use crate::session::state::starts::Starts;
@@ -143,7 +143,7 @@ pub struct Session {
     /// The scan, once there is one.
     pub scanned: Option<Scanned>,
     /// The form as it was when the last scan was started.
-    pub scan_form: Option<Form>,
+    pub scan_form: Option<ScanForm>,
     /// Motions that a fit has computed so far.
     pub fitting: u64,
     /// What the last key press cost.

@@ -48,7 +48,7 @@ use crate::study::harmonic_error::HarmonicBalance;
 use crate::study::stability::Share;
 use crate::study::trade::{Trade, Tried};
 use crate::study::{
-    Branch, BranchPoint, Cycle, Cycles, Edge, Margin, Picture, ReturnMap, Special, SpecialKind,
+    BasinPicture, Branch, BranchPoint, Cycle, Cycles, Edge, Margin, ReturnMap, Special, SpecialKind,
 };
 
 /// A session whose questions are answered as soon as they are asked.
@@ -249,7 +249,7 @@ pub fn by_hand(request: &Request) -> Answer {
                 cycles: vec![cycle(false, parameters.r), cycle(true, parameters.r)],
                 harmonic: Vec::new(),
                 edge: Edge::Cycle,
-                picture: Some(Picture {
+                picture: Some(BasinPicture {
                     curves: Vec::new(),
                     works: vec![Ledger { linear: 1.0, friction: -1.0, ..Ledger::default() }; 2],
                     edge: Vec::new(),
@@ -266,7 +266,7 @@ pub fn by_hand(request: &Request) -> Answer {
         Request::Zones(_) | Request::MachineZones(_) => Answer::Zones(zones()),
         Request::Kicks(_) => {
             let share = Share { part: 0.125, error: 1e-11 };
-            Answer::Kicks(question::kicks::Lost { share, cost })
+            Answer::Kicks(question::kicks::LostShare { share, cost })
         }
         Request::Capture(_) => Answer::Capture(Borders { curves: Vec::new(), cost }),
         Request::Balance(question::balance::Asked { parameters, harmonics }) => {

@@ -4,7 +4,7 @@ use super::Trial;
 use crate::oscillator::State;
 use crate::scene::{Answer, Point, Span, Topic, Window};
 use crate::session::Framing;
-use crate::study::{Cycles, Edge, Margin, Picture};
+use crate::study::{BasinPicture, Cycles, Edge, Margin};
 
 #[test]
 fn the_cursor_moves_on_round_numbers_and_sets_the_start() {
@@ -165,7 +165,7 @@ fn a_separatrix_has_two_sides_too() {
         found.cycles.clear();
         let margin = Margin { displacement: Some(1.1), impulse: Some(1.4) };
         let (curves, edge) = (Vec::new(), Vec::new());
-        found.picture = Some(Picture {
+        found.picture = Some(BasinPicture {
             curves,
             works: Vec::new(),
             edge,

@@ -9,7 +9,7 @@ use crate::numerics::root::{Change, illinois};
 use crate::oscillator::{Parameters, State, Symbol};
 use crate::study::cycle::cycles;
 use crate::study::escape::{escape_point, escape_product};
-use crate::study::extended::{FoldCycle, Guess, fold_near};
+use crate::study::extended::{FoldCycle, FoldGuess, fold_near};
 use crate::study::fold::fold_within;
 use crate::study::regime::Regime;
 
@@ -134,7 +134,11 @@ impl Tracer<'_> {
     }
 
     /// The fold next to a guess, while `symbol` varies.
-    fn fold_near(&mut self, guess: &Guess, symbol: Symbol) -> Result<Option<Parameters>, Reason> {
+    fn fold_near(
+        &mut self,
+        guess: &FoldGuess,
+        symbol: Symbol,
+    ) -> Result<Option<Parameters>, Reason> {
         let (found, cost) = fold_near(guess, symbol, self.tolerance, self.limits)?;
         self.cost += cost;
         self.known = found.or(self.known);
@@ -142,7 +146,7 @@ impl Tracer<'_> {
     }
 
     fn fold(&mut self, parameters: &Parameters) -> Result<f64, Reason> {
-        let beside = self.known.and_then(|known| Guess::beside(&known, parameters));
+        let beside = self.known.and_then(|known| FoldGuess::beside(&known, parameters));
         if let Some(guess) = beside
             && let Some(found) = self.fold_near(&guess, Symbol::D)?
         {
@@ -233,8 +237,8 @@ impl Tracer<'_> {
         let guess = guess * self.ratio;
         let near = self.with(here, guess);
         let beside = match &self.known {
-            Some(known) => Guess::beside(known, &near),
-            None => Guess::in_damping(&near),
+            Some(known) => FoldGuess::beside(known, &near),
+            None => FoldGuess::in_damping(&near),
         };
         if let Some(beside) = beside
             && let Some(found) = self.fold_near(&beside.moved_to(&near), self.along)?

@@ -4,7 +4,7 @@
 //! distances: they are interpolated between those that were followed. Next to a fold there may be no cycle at
 //! an interpolated parameter, so that those are corrected to the curve.
 
-use super::{Curve, CurvePoint, Tangent};
+use super::{CurvePoint, CycleCurve, Tangent};
 use crate::flow::Reason;
 use crate::study::closing::Route;
 
@@ -25,7 +25,7 @@ impl From<&CurvePoint> for CurvePlace {
     }
 }
 
-impl Curve<'_> {
+impl CycleCurve<'_> {
     /// `count` places spread evenly over a followed curve, both ends included.
     ///
     /// Distance is measured in p, u and amplitude together, each in parts of what the curve spans: this

@@ -14,4 +14,4 @@ pub mod verdict;
 pub use lattice::{Case, SpecialStart, cases};
 pub use named::{Named, named};
 pub use sets::{SetVerdict, judge_set, sets};
-pub use verdict::{MethodAnswer, Verdict, judge};
+pub use verdict::{MethodAnswer, MethodsVerdict, judge};

@@ -40,7 +40,7 @@ pub struct MethodAnswer {
 
 /// A motion of the lattice and what the methods answered.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Verdict {
+pub struct MethodsVerdict {
     /// The motion.
     pub case: Case,
     /// The method of the reference; `None` where no method answered within its budget.
@@ -53,7 +53,7 @@ pub struct Verdict {
     pub answers: Vec<MethodAnswer>,
 }
 
-impl Verdict {
+impl MethodsVerdict {
     /// What a method answered, where it serves these parameters.
     pub fn answer(&self, method: Method) -> Option<&MethodAnswer> {
         self.answers.iter().find(|answer| answer.method == method)
@@ -61,7 +61,7 @@ impl Verdict {
 }
 
 /// Follows a motion by every method that serves its parameters, to a relative `tolerance`.
-pub fn judge(case: &Case, tolerance: f64, limits: &Limits) -> Verdict {
+pub fn judge(case: &Case, tolerance: f64, limits: &Limits) -> MethodsVerdict {
     let linear = case.parameters.is_piecewise_linear();
     let reference = reference(case, tolerance, limits);
     let digits = |distance: f64| log10(distance / tolerance).max(0.0);
@@ -86,7 +86,7 @@ pub fn judge(case: &Case, tolerance: f64, limits: &Limits) -> Verdict {
         }
         _ => 0.0,
     };
-    Verdict {
+    MethodsVerdict {
         case: *case,
         answers,
         reference: reference.map(|motion| motion.problem.method),

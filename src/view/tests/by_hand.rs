@@ -18,7 +18,7 @@ use crate::study::regime::Regime;
 use crate::study::scan::ScanRow;
 use crate::study::trade::Trade;
 use crate::study::{
-    Branch, BranchPoint, Cycle, Cycles, Edge, Margin, Picture, Return, ReturnMap, Special,
+    BasinPicture, Branch, BranchPoint, Cycle, Cycles, Edge, Margin, Return, ReturnMap, Special,
     SpecialKind,
 };
 use std::f64::consts::TAU;
@@ -129,7 +129,7 @@ pub(super) fn by_hand(request: &Request) -> Answer {
     }
 }
 
-pub(super) fn picture(edge: Vec<State>, curves: Vec<Vec<State>>) -> Picture {
+pub(super) fn picture(edge: Vec<State>, curves: Vec<Vec<State>>) -> BasinPicture {
     let margin = Margin { displacement: Some(0.5), impulse: Some(0.5) };
     let ledger = Ledger {
         start: 0.72,
@@ -141,7 +141,7 @@ pub(super) fn picture(edge: Vec<State>, curves: Vec<Vec<State>>) -> Picture {
         residual: 3e-15,
     };
     let works = curves.iter().map(|_| ledger).collect();
-    Picture { curves, works, edge, margin, area: Some(0.8), lyapunov_share: Some(0.3) }
+    BasinPicture { curves, works, edge, margin, area: Some(0.8), lyapunov_share: Some(0.3) }
 }
 
 /// A motion that winds inwards and comes to rest after three half swings.
