@@ -58,6 +58,7 @@ impl Drop for LastWord {
 fn read(terminal: &impl AsFd, mut send: impl FnMut(Event)) {
     let mut parser = Parser::default();
     let mut buffer = [0; BUFFER];
+    let mut escape = false;
     loop {
         let bytes = match rustix::io::read(terminal, &mut buffer) {
             Ok(0) => return,
@@ -67,18 +68,49 @@ fn read(terminal: &impl AsFd, mut send: impl FnMut(Event)) {
             Err(Errno::INTR) => continue,
             Err(_) => return,
         };
-        parser.parse(bytes, true);
-        let parsed = drain(&mut parser, &mut send);
+        let parsed = understood(&mut parser, bytes, escape, &mut send);
+        escape = false;
         if bytes == INTERRUPT && !parsed {
             // The parser waits for the end of a sequence that was broken off: no key would ever end it.
             parser = Parser::default();
             parser.parse(bytes, true);
             drain(&mut parser, &mut send);
         }
-        if bytes.last() == Some(&b'\x1b') && !more(terminal, Some(ESCAPE_TIME)) {
-            parser.parse(&[], false);
-            drain(&mut parser, &mut send);
+        if bytes.last() == Some(&b'\x1b') {
+            escape = more(terminal, Some(ESCAPE_TIME));
+            if !escape {
+                parser.parse(&[], false);
+                drain(&mut parser, &mut send);
+            }
         }
+    }
+}
+
+/// Parses bytes and sends what has been understood; returns whether that was anything. `escape` says that an escape byte
+/// waits for the rest of its sequence.
+///
+/// What follows an escape byte is no second one: the first was the key, and the second begins a sequence, as where
+/// the terminal reports its cursor while the key is pressed. The parser would take both for one key, and the report for text.
+fn understood(
+    parser: &mut Parser,
+    mut bytes: &[u8],
+    mut escape: bool,
+    send: &mut impl FnMut(Event),
+) -> bool {
+    let mut any = false;
+    loop {
+        if escape && bytes.first() == Some(&b'\x1b') {
+            parser.parse(&[], false);
+            any |= drain(parser, send);
+        }
+        let two = bytes.windows(2).position(|two| two == b"\x1b\x1b");
+        let (now, later) = bytes.split_at(two.map_or(bytes.len(), |at| at + 1));
+        parser.parse(now, true);
+        any |= drain(parser, send);
+        if later.is_empty() {
+            return any;
+        }
+        (bytes, escape) = (later, true);
     }
 }
 
@@ -296,6 +328,18 @@ mod tests {
         let mut keyboard = keyboard();
         keyboard.types(b"a\x1b[24;80Rb");
         assert_eq!(keyboard.all(), ["Char('a')", "Shown", "Char('b')", "Closed"]);
+    }
+
+    #[test]
+    fn a_report_behind_an_escape_key_is_not_text() {
+        for reads in [&[b"\x1b\x1b[24;80Rb".as_slice()] as &[&[u8]], &[b"\x1b", b"\x1b[24;80Rb"]] {
+            let mut keyboard = keyboard();
+            reads.iter().for_each(|bytes| keyboard.types(bytes));
+            assert_eq!(keyboard.all(), ["Esc", "Shown", "Char('b')", "Closed"]);
+        }
+        let mut keyboard = keyboard();
+        keyboard.types(b"\x1b[200~one\x1b\x1btwo\x1b[201~");
+        assert_eq!(keyboard.all(), ["paste \"one\\u{1b}\\u{1b}two\"", "Closed"]);
     }
 
     #[test]
