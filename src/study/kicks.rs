@@ -165,7 +165,10 @@ impl RandomKick {
             law.above(high - self.v.0, self.v.1) + law.above(self.v.0 - low, self.v.1)
         };
         if spread == 0.0 {
-            return all(lost_at(mean).min(1.0));
+            // A border and an erfc known to 1e-12 of themselves: a tail nine spreads out falls eighty times as fast.
+            const KNOWN: f64 = 1e-10;
+            let part = lost_at(mean).min(1.0);
+            return Share { part, error: KNOWN * part };
         }
         let far = law.reach() * spread;
         let Some((left, right)) = support(edge, (mean - far, mean + far)) else { return all(1.0) };
@@ -284,6 +287,19 @@ mod tests {
         for spread in [1e4, 1e6] {
             let short = short_of_half(spread);
             assert!((short - at_thousand / spread).abs() < 1e-8, "{spread:e}: {short:e}");
+        }
+    }
+
+    #[test]
+    fn impulses_of_one_margin_as_spread_are_lost_beyond_one_standard_deviation() {
+        // Without D2 both sides are alike: erfc(1/sqrt(2)) lie beyond.
+        for (d, d3) in [(-0.3, 0.0), (-0.3, 0.5), (0.1, -0.2)] {
+            let parameters = Parameters { d, d2: 0.0, d3, r: 0.1 };
+            let found = basin(&parameters, 3.0, &Limits::PATIENT).unwrap();
+            let v = (0.0, found.margin().impulse.unwrap());
+            let lost = RandomKick { law: Distribution::Normal, q: (0.0, 0.0), v }.lost(&found);
+            assert!((lost.part - 0.317_310_507_862_914_15).abs() <= lost.error, "{lost:?}");
+            assert!(lost.error < 1e-10, "{lost:?}");
         }
     }
 
