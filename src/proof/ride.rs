@@ -54,9 +54,7 @@ impl Ride {
         self.series.expand(self.local.middles(), self.x, self.v);
         let mut h = self.series.step(TOLERANCE).min(most);
         let ahead = self.series.at(h).1;
-        let norm = self.local.norm(self.norm, [self.v, ahead], h);
-        self.radius *= self.norm.into(norm) * INFLATE;
-        self.norm = norm;
+        (self.norm, self.radius) = self.local.ball((self.norm, self.radius), [self.v, ahead], h);
         for _ in 0..ATTEMPTS {
             if let Some(reached) =
                 self.local.carry(self.norm, &self.series, (h, self.series.at(h)), self.radius)

@@ -57,12 +57,18 @@ impl Prepared {
         &self.field
     }
 
+    /// A ball, its norm and radius, in the norm of [`Prepared::norm`].
+    #[must_use]
+    pub fn ball(&self, (before, radius): (Norm, f64), velocities: [f64; 2], h: f64) -> (Norm, f64) {
+        let norm = self.norm(before, velocities, h);
+        (norm, radius * before.into(norm) * INFLATE)
+    }
+
     /// The norm in which errors grow least over the next step, between these two velocities, and a while beyond, the
     /// change of norm included.
     ///
     /// Any answer is right; this one keeps balls small.
-    #[must_use]
-    pub fn norm(&self, before: Norm, [now, next]: [f64; 2], h: f64) -> Norm {
+    fn norm(&self, before: Norm, [now, next]: [f64; 2], h: f64) -> Norm {
         /// How far the present step is taken to go on, in time.
         const WHILE: f64 = 0.6;
         /// A change that gains less than this, in the logarithm of the ball, is left alone.
@@ -122,6 +128,13 @@ const ROUNDINGS: [f64; 7] = [2.0, 4.0, 6.0, 11.0, 0.5, 13.0, 1.25];
 
 /// Roundings by Horner's rule in even and odd powers: two for each term, and so many for each degree of it.
 const HORNER: [f64; 2] = [2.0, 1.5];
+
+/// Roundings of a coefficient of `v^2`, of degree 27 at most: `k/4 + 2` in the sum of products, and two sums.
+const SQUARE: f64 = 11.0;
+
+/// Roundings of the integral of `v^2` but for its coefficients, for each term after it is divided by `k + 1`: 9 in the sum
+/// and one by the time, to which others add k for the power of the time, two products and an inverse.
+const INTEGRAL: f64 = 12.0;
 
 /// The bound of all roundings of the defect over a step, in units of roundoff.
 fn roundings(numbers: &[f64; 7], [a, b, c]: [f64; 3], [x, v, _, degree]: [f64; 4]) -> f64 {
@@ -231,8 +244,14 @@ impl Sums {
     /// Lemma 3: terms of degree [`ORDER`] and more of the defect, times h to their degree.
     fn truncation(&self, [a, b, c]: [f64; 3]) -> f64 {
         let Sums { v, last_x, last_v, high_squares, .. } = *self;
-        let cube_tail = self.high_cubes + 90.0 * UNIT * v * v * self.after_third + high_squares * v;
+        let cube_tail =
+            self.high_cubes + 3.0 * SQUARE * UNIT * v * v * self.after_third + high_squares * v;
         last_v + (last_x + a * last_v) + b * high_squares + c * cube_tail
+    }
+
+    /// The roundings of the integral of `v^2`, over h. A coefficient passes at most `k + 1`, by which it is divided.
+    fn area_roundings(&self) -> f64 {
+        UNIT * (self.v * self.v + INTEGRAL * self.squares)
     }
 }
 
@@ -287,11 +306,8 @@ impl Prepared {
         let at_end = factor.at_end * radius + factor.max_inside * (h * defect);
         let off = norm.stretch * carried;
         // v^2 along the motion against the polynomial, its tail, and the roundings of its coefficients and sum.
-        let square_error = h
-            * (off * (2.0 * v + off)
-                + square_tail
-                + UNIT * (v * v + 36.0 * sums.squares)
-                + UNDERFLOW);
+        let square_error =
+            h * (off * (2.0 * v + off) + square_tail + sums.area_roundings() + UNDERFLOW);
         Some(Reached {
             x: end.0,
             v: end.1,

@@ -273,10 +273,8 @@ impl Run {
         }
         let mut end = series.at(h);
         let mut last = false;
-        let norm = self.local.norm(self.norm, [self.v, end.1], h);
-        self.radius *= self.norm.into(norm) * INFLATE;
-        self.norm = norm;
-        if !(end.1 > 4.0 * norm.stretch * self.radius) {
+        (self.norm, self.radius) = self.local.ball((self.norm, self.radius), [self.v, end.1], h);
+        if !(end.1 > 4.0 * self.norm.stretch * self.radius) {
             (h, last) = arrival(series, h, end.1)?;
             end = series.at(h);
         }

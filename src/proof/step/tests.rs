@@ -443,3 +443,5 @@ fn a_change_of_norm_holds_every_direction() {
         assert!(bound >= most && bound < most * (1.0 + 1e-9), "{from} {to}: {bound} {most}");
     }
 }
+
+mod square;
