@@ -334,7 +334,9 @@ mod tests {
     fn a_report_behind_an_escape_key_is_not_text() {
         for reads in [&[b"\x1b\x1b[24;80Rb".as_slice()] as &[&[u8]], &[b"\x1b", b"\x1b[24;80Rb"]] {
             let mut keyboard = keyboard();
-            reads.iter().for_each(|bytes| keyboard.types(bytes));
+            for bytes in reads {
+                keyboard.types(bytes);
+            }
             assert_eq!(keyboard.all(), ["Esc", "Shown", "Char('b')", "Closed"]);
         }
         let mut keyboard = keyboard();
