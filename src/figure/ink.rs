@@ -29,6 +29,7 @@ pub(super) fn ink(role: Role) -> (f64, &'static str) {
 pub(super) fn dashes(style: &str) -> &'static str {
     match style {
         "dashed" => " stroke-dasharray=\"7 4\"",
+        "dash-dot" => " stroke-dasharray=\"7 3 1.6 3\"",
         "dotted" => " stroke-dasharray=\"1.6 2.6\"",
         "sparse" => " stroke-dasharray=\"1.6 5\"",
         _ => "",

@@ -166,16 +166,10 @@ fn beyond(edge: &[Point], window: Window) -> Vec<Point> {
 /// A line as data. One point is no line: a motion at rest has its mark.
 fn curve(line: &LineStyle, points: &[Point], parameters: Held) -> Option<FigureCurve> {
     let finite = points.iter().filter(|point| point.x.is_finite() && point.y.is_finite());
-    let style = match line.dash {
-        Dash::Solid => "solid",
-        Dash::Dashed => "dashed",
-        Dash::Dotted => "dotted",
-        Dash::Sparse => "sparse",
-    };
     (finite.count() > 1).then(|| FigureCurve {
         name: line.full_name().into_owned(),
         role: line.role.name(),
-        style,
+        style: line.dash.name(),
         parameters,
         points: pairs(points),
         kind: line.name.to_string(),

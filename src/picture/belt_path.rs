@@ -29,8 +29,8 @@ pub fn draw(picture: &mut Picture, session: &Session, right: Symbol, up: Symbol)
     };
     let nowhere = Point { x: f64::NAN, y: f64::NAN };
     let place = |(_, parameters): Station| parameters.as_ref().map_or(nowhere, at);
-    let line = LineStyle::new("over the speed of the belt", PEN, Dash::Solid);
-    let line = line.briefly("over the belt's speed");
+    let line = LineStyle::new("over the speed of the belt", PEN, Dash::Dotted);
+    let line = line.briefly("as the belt varies");
     picture.items.push(Item::Path(line, running.path().into_iter().map(place).collect()));
     let here = at(&session.problem.parameters);
     milestones(picture, &running, here, place);

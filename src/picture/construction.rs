@@ -17,7 +17,7 @@ pub(super) fn levels(picture: &mut Picture, parameters: &Parameters) {
     const CORNERS: u16 = 240;
     let y = picture.window.y;
     for (from, to) in falling(parameters, y) {
-        let line = LineStyle::new("energy falls", Role::Basin, Dash::Solid);
+        let line = LineStyle::new("energy falls", Role::Basin, Dash::Solid).briefly("V falls");
         picture.items.push(Item::Rows(line, from, to));
     }
     for level in 1..=LEVELS {
@@ -26,7 +26,10 @@ pub(super) fn levels(picture: &mut Picture, parameters: &Parameters) {
             let angle = std::f64::consts::TAU * f64::from(corner) / f64::from(CORNERS);
             Point { x: radius * cos(angle), y: radius * sin(angle) }
         });
-        picture.curve(LineStyle::new("level of the energy", Role::Field, Dash::Sparse), circle);
+        picture.curve(
+            LineStyle::new("level of the energy", Role::Field, Dash::Sparse).briefly("V constant"),
+            circle,
+        );
     }
 }
 

@@ -150,7 +150,8 @@ fn asymptotes(
     };
     let asymptotes = [small_asymptote as fn(&Parameters) -> Option<f64>, large_asymptote];
     for (name, asymptote) in names.into_iter().zip(asymptotes) {
-        let line = LineStyle::new(name, Role::Asymptote, Dash::Sparse).of(variant);
+        let line =
+            LineStyle::new(name, Role::Asymptote, Dash::DashDot).briefly("asymptote").of(variant);
         let shown = shown.clone();
         picture.graph(line, move |value| {
             let parameters = at(&shown, abscissa, value);
@@ -264,7 +265,7 @@ fn extents(picture: &mut Picture, piece: &[BranchPoint], found: &ComputedBranch)
     let height = Height { ordinate: Ordinate::VMax, ..found.height };
     let points =
         piece.iter().map(|point| Point { x: point.value, y: height.of(point.value, &point.cycle) });
-    let line = LineStyle::new("largest velocity A_v", Role::Velocity, Dash::Dashed);
+    let line = LineStyle::new("largest velocity A_v", Role::Velocity, Dash::DashDot);
     picture.curve(line.of(&found.variant).briefly("largest velocity"), points);
 }
 
@@ -318,7 +319,7 @@ fn caption(picture: &mut Picture, special: &Special, height: Height, top: f64) {
     };
     // A cycle that has gone to infinity is named at the top, where its branch leaves.
     if special.cycle.is_none() {
-        let line = LineStyle::new("escape", Role::Asymptote, Dash::Dotted);
+        let line = LineStyle::new("escape", Role::Asymptote, Dash::Dotted).captioned();
         picture.upright(line, special.value);
     }
     let y = special.cycle.map_or(top, |cycle| height.of(special.value, &cycle));

@@ -44,12 +44,12 @@ fn curves(picture: &mut Picture, parameters: Parameters) {
     picture.upright(LineStyle::guide(), 0.0);
     let smooth = Parameters { r: 0.0, ..parameters };
     let dry = Parameters { d: 0.0, d2: 0.0, d3: 0.0, ..parameters };
-    for (name, role, dash, of) in [
-        ("fed by damping", Role::Velocity, Dash::Dashed, smooth),
-        ("taken by friction", Role::Sticking, Dash::Dotted, dry),
-        ("rate of the energy V'", Role::Energy, Dash::Solid, parameters),
+    for (name, brief, role, dash, of) in [
+        ("fed by damping", "damping", Role::Velocity, Dash::DashDot, smooth),
+        ("taken by friction", "friction", Role::Sticking, Dash::Sparse, dry),
+        ("rate of the energy V'", "rate V'", Role::Energy, Dash::Thick, parameters),
     ] {
-        picture.graph(LineStyle::new(name, role, dash), move |v| Some(rate(&of, v)));
+        picture.graph(LineStyle::new(name, role, dash).briefly(brief), move |v| Some(rate(&of, v)));
     }
     if let Some(radius) = lyapunov::radius(&parameters).filter(|radius| *radius > 0.0) {
         for (v, name) in [(radius, "l"), (-radius, "-l")] {

@@ -2,7 +2,7 @@
 //! equilibrium at 0, stable on one side of the Hopf point and unstable on the other.
 
 use super::items::{Fill, Item, LineStyle, Pattern, Picture, Variant};
-use super::phase_plane::stability;
+use super::phase_plane::{AT_REST, stability};
 use super::role::{Dash, Role};
 use crate::oscillator::{Parameters, Symbol};
 use crate::scene::{Height, Ordinate};
@@ -32,7 +32,7 @@ pub fn draw(
         }
         return;
     }
-    let line = LineStyle::new(REST, Role::Sticking, Dash::Solid).of(variant);
+    let line = LineStyle::new(REST, Role::Sticking, Dash::Thick).briefly(AT_REST).of(variant);
     if !has_band {
         return picture.level(line, 0.0);
     }
@@ -78,8 +78,12 @@ fn is_stable(parameters: &Parameters) -> Option<bool> {
 /// The equilibrium at 0 without friction.
 fn point(picture: &mut Picture, shown: &Shown, variant: &Variant, abscissa: Symbol) {
     for stable in [true, false] {
-        let (role, dash) = stability(stable);
-        let name = if stable { "rest (stable)" } else { "rest (unstable)" };
+        let (name, dash) = if stable {
+            ("rest (stable)", Dash::Thick)
+        } else {
+            ("rest (unstable)", Dash::DashDot)
+        };
+        let (role, _) = stability(stable);
         let of = shown.clone();
         picture.graph(LineStyle::new(name, role, dash).of(variant), move |value| {
             (is_stable(&at(&of, abscissa, value)) == Some(stable)).then_some(0.0)

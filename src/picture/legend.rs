@@ -1,16 +1,17 @@
 //! What the legend of the screen explains: everything with a name that is seen, once.
 
 use super::items::{Item, Marks, Picture};
-use super::role::{Dash, Role};
+use super::role::{Dash, Mark, Role};
 
 /// What a sample in the legend shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Sample {
     Line(Dash),
-    Bar,
+    /// The single point that a bar can be.
+    Spot,
     Shade,
     Arrow,
-    Point,
+    Point(Mark),
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -40,18 +41,19 @@ pub fn entries(pictures: &[Picture]) -> Vec<LegendEntry> {
 
 fn entry(picture: &Picture, item: &Item) -> Option<LegendEntry> {
     let sample = match item {
-        Item::Marks(Marks { role, brief, .. }) => {
+        Item::Marks(Marks { mark, role, brief, .. }) => {
             return Some(LegendEntry {
-                sample: Sample::Point,
+                sample: Sample::Point(*mark),
                 role: *role,
                 text: (*brief).to_owned(),
             });
         }
         Item::Arrows(role, _) => {
-            let text = "direction of flow".to_owned();
+            let text = "flow".to_owned();
             return Some(LegendEntry { sample: Sample::Arrow, role: *role, text });
         }
-        Item::Bar(..) => Sample::Bar,
+        Item::Bar(_, from, to) if from == to => Sample::Spot,
+        Item::Bar(..) => Sample::Line(Dash::Thick),
         Item::Shade(..) | Item::Beyond(..) | Item::Columns(..) | Item::Rows(..) => Sample::Shade,
         Item::Curve(line, _)
         | Item::Path(line, _)

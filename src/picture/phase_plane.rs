@@ -133,7 +133,10 @@ fn belt(picture: &mut Picture, session: &Session) {
     let Some(running) = session.running() else { return };
     let y = running.reduced.sticking_velocity;
     let left = picture.window.x.from();
-    picture.level(LineStyle::new("speed of the belt", Role::Current, Dash::Dashed), y);
+    picture.level(
+        LineStyle::new("speed of the belt", Role::Current, Dash::DashDot).briefly("belt speed"),
+        y,
+    );
     picture.caption(Point { x: left, y }, "belt", Role::Current);
     if session.draws_whole() {
         rides(picture, session, y);
@@ -237,16 +240,21 @@ pub(super) fn motion(session: &Session, place: usize) -> LineStyle {
     let name = NAMES[(number - 1).min(NAMES.len() - 1)];
     match place {
         0 => LineStyle::new(name, Role::Trajectory, Dash::Solid),
-        _ => LineStyle::new(name, Role::Beside, DASHES[place % DASHES.len()]),
+        // They are numbered where they begin and end.
+        _ => LineStyle::new(name, Role::Beside, DASHES[place % DASHES.len()])
+            .briefly("motions beside"),
     }
 }
+
+/// What the legend of the screen calls the segment where the mass rests, in every plot.
+pub(super) const AT_REST: &str = "sticking set";
 
 /// The segment where the mass rests.
 pub(super) fn sticking_set(r: f64) -> LineStyle {
     if r == 0.0 {
         return LineStyle::new("equilibrium", Role::Sticking, Dash::Solid);
     }
-    LineStyle::new("sticking set", Role::Sticking, Dash::Solid).briefly("sticking set (at rest)")
+    LineStyle::new("sticking set", Role::Sticking, Dash::Solid).briefly(AT_REST)
 }
 
 fn point(state: &State) -> Point {

@@ -46,12 +46,12 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
             }
         };
         if shows(Layer::Boundaries) {
-            boundary(BoundaryKind::Fold, LineStyle::new("fold", Role::Special, Dash::Solid));
+            boundary(BoundaryKind::Fold, LineStyle::new("fold", Role::Special, Dash::Thick));
             boundary(BoundaryKind::Escape, LineStyle::new("escape", Role::Danger, Dash::Solid));
         }
         if shows(Layer::HarmonicFold) {
             let line = LineStyle::new("fold of the first harmonic", Role::Harmonic, Dash::Dotted);
-            boundary(BoundaryKind::Harmonic, line.briefly("fold of one harmonic"));
+            boundary(BoundaryKind::Harmonic, line.briefly("first harmonic"));
         }
         if shows(Layer::Regimes) {
             names_of_regimes(&mut picture, chart);

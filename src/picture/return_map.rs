@@ -24,7 +24,8 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     let r = session.problem.parameters.r;
 
     if shows(Layer::Map) && r > 0.0 {
-        let rest = || LineStyle::new("at rest there", Role::Basin, Dash::Solid);
+        let rest =
+            || LineStyle::new("at rest there", Role::Basin, Dash::Solid).briefly("comes to rest");
         picture.items.extend([Item::Rows(rest(), -r, r), Item::Columns(rest(), -r, r)]);
     }
     picture.graph(LineStyle::new("diagonal", Role::Axis, Dash::Sparse), Some);
@@ -34,7 +35,10 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         for side in &found.sides {
             let points =
                 side.iter().map(|turn| Point { x: turn.from, y: turn.to.unwrap_or(f64::NAN) });
-            picture.curve(LineStyle::new("next turning point", Role::Map, Dash::Solid), points);
+            picture.curve(
+                LineStyle::new("next turning point", Role::Map, Dash::Thick).briefly("return map"),
+                points,
+            );
         }
         // A mass at rest there stays there.
         let held = found.parameters.r;
@@ -47,13 +51,13 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     if shows(Layer::FixedPoints) {
         let cycles = session.cycles().filter(|_| !session.draws_whole());
         for cycle in cycles.into_iter().flat_map(|found| &found.cycles) {
-            let (mark, role) = if cycle.stable {
-                (Mark::Stable, Role::Stable)
+            let (mark, role, brief) = if cycle.stable {
+                (Mark::Stable, Role::Stable, "stable cycle")
             } else {
-                (Mark::Unstable, Role::Unstable)
+                (Mark::Unstable, Role::Unstable, "unstable cycle")
             };
             let turning = [cycle.q_min, cycle.q_max].map(|q| Point { x: q, y: q });
-            let marks = Marks { brief: "cycle", ..Marks::new(mark, role, turning.to_vec()) };
+            let marks = Marks { brief, ..Marks::new(mark, role, turning.to_vec()) };
             picture.items.push(Item::Marks(marks));
         }
     }

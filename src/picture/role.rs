@@ -112,9 +112,27 @@ impl Role {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dash {
     Solid,
+    /// Two dots wide.
+    Thick,
     Dashed,
+    /// Dashes with a dot between them.
+    DashDot,
     Dotted,
     Sparse,
+}
+
+impl Dash {
+    /// The name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Dash::Solid => "solid",
+            Dash::Thick => "thick",
+            Dash::Dashed => "dashed",
+            Dash::DashDot => "dash-dot",
+            Dash::Dotted => "dotted",
+            Dash::Sparse => "sparse",
+        }
+    }
 }
 
 /// What a mark says about its point.

@@ -43,8 +43,10 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         format!("v0 {speed} x_max {x}")
     });
     if let Some(running) = session.running() {
-        picture
-            .upright(LineStyle::new("present speed", Role::Current, Dash::Sparse), running.speed);
+        picture.upright(
+            LineStyle::new("present speed", Role::Current, Dash::Sparse).briefly("present value"),
+            running.speed,
+        );
     }
     if session.layers.contains(&Layer::Speeds)
         && let Some(found) = session.speeds(index)
@@ -85,7 +87,7 @@ fn cycles(picture: &mut Picture, points: &[Speed], (name, role, dash, is): Cycle
 fn rest(picture: &mut Picture, points: &[Speed]) {
     let stable =
         points.iter().map(|at| Point { x: at.v0, y: if at.rests { 0.0 } else { f64::NAN } });
-    picture.curve(LineStyle::new("rest", Role::Sticking, Dash::Solid), stable.collect::<Vec<_>>());
+    picture.curve(LineStyle::new("rest", Role::Sticking, Dash::Thick), stable.collect::<Vec<_>>());
     let touching = points.iter().map(|at| Point { x: at.v0, y: at.touching.unwrap_or(f64::NAN) });
     let line = LineStyle::new("touches the belt", Role::Special, Dash::Dotted);
     picture.curve(line, touching.collect::<Vec<_>>());

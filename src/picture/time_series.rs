@@ -73,14 +73,18 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         if let Some(force) = force.clone() {
             let points: Vec<Point> = force.into_iter().map(|(x, y)| Point { x, y }).collect();
             let first = points.first().copied();
-            picture.curve(LineStyle::new("friction force f", Role::Sticking, Dash::Solid), points);
+            picture
+                .curve(LineStyle::new("friction force f", Role::Sticking, Dash::DashDot), points);
             label(&mut picture, first, "f", Role::Sticking);
         }
         for (layer, letter, name, role, dash, read) in QUANTITIES {
             if shows(layer) {
                 let points = curve(motion, end, read);
                 number_curve(&mut picture, session.number(0), &points, role);
-                picture.curve(LineStyle::new(name, role, dash), points);
+                let line = LineStyle::new(name, role, dash);
+                // It is the motion of the phase plane, drawn like it.
+                let line = if layer == Layer::Position { line.briefly("motion") } else { line };
+                picture.curve(line, points);
                 let first = motion.samples.first();
                 let first = first.map(|s| Point { x: s.tau, y: read(State { q: s.q, v: s.v }) });
                 label(&mut picture, first, letter, role);

@@ -1,7 +1,7 @@
 //! A raster finer than the cells of the terminal: strokes with dashes, sparse textures and symbols.
 //!
 //! Each cell shows one thing in one colour, which keeps the stream of bytes short: a symbol hides
-//! curves, curves (solid or dashed, also in the gaps of their dashes) hide guides (dotted), and guides
+//! curves, curves (solid or dashed, also in the gaps of their dashes) hide guides (with dots), and guides
 //! hide texture. Where curves share a cell the dots of both are shown in the colour of the later one. Coordinates
 //! count dots from the top left corner; lines are clipped in floating point before they become dots, and what is not
 //! finite is not drawn.
@@ -91,6 +91,17 @@ impl Dots {
 
     /// Draws a polyline; a point that is not finite interrupts it.
     pub fn stroke(&mut self, points: impl IntoIterator<Item = Point>, pen: Pen) {
+        if pen.dash == Dash::Thick && self.glyphs != Glyphs::Ascii {
+            let points: Vec<Point> = points.into_iter().collect();
+            for offset in [-0.5, 0.5] {
+                self.line(points.iter().map(|(x, y)| (*x, y + offset)), pen);
+            }
+        } else {
+            self.line(points, pen);
+        }
+    }
+
+    fn line(&mut self, points: impl IntoIterator<Item = Point>, pen: Pen) {
         let mut stroke = Stroke::default();
         let mut previous: Option<Point> = None;
         let size = self.size();
@@ -137,8 +148,8 @@ impl Dots {
     }
 
     fn commit(&mut self, stroke: &mut Stroke, pen: Pen, dot: (i32, i32)) {
-        let (on, period) = self.glyphs.dash(pen.dash);
-        self.ink(dot, pen, stroke.length % period < on);
+        let (pattern, period) = self.glyphs.dash(pen.dash);
+        self.ink(dot, pen, pattern >> (stroke.length % period) & 1 == 1);
         stroke.length += 1;
         stroke.last = Some(dot);
     }
@@ -159,7 +170,7 @@ impl Dots {
         let cell = (x.div_euclid(across), y.div_euclid(down));
         let (Ok(column), Ok(row)) = (u16::try_from(cell.0), u16::try_from(cell.1)) else { return };
         let Some(content) = self.at(column, row) else { return };
-        let guide = matches!(dash, Dash::Dotted | Dash::Sparse);
+        let guide = matches!(dash, Dash::DashDot | Dash::Dotted | Dash::Sparse);
         *content = match *content {
             Content::Symbol(..) => return,
             Content::Ink(..) if guide => return,
@@ -237,17 +248,18 @@ impl Glyphs {
         }
     }
 
-    /// Dots drawn, and dots until the pattern repeats.
+    /// A bit for each dot, the first last, and how many until they repeat.
     fn dash(self, dash: Dash) -> (u32, u32) {
         let coarse = matches!(self, Glyphs::Ascii);
         match dash {
-            Dash::Solid => (1, 1),
-            Dash::Dashed if coarse => (2, 3),
-            Dash::Dashed => (4, 6),
-            Dash::Dotted if coarse => (1, 2),
-            Dash::Dotted => (1, 2),
-            Dash::Sparse if coarse => (1, 3),
-            Dash::Sparse => (1, 4),
+            Dash::Solid | Dash::Thick => (0b1, 1),
+            Dash::Dashed if coarse => (0b011, 3),
+            Dash::Dashed => (0b00_1111, 6),
+            Dash::DashDot if coarse => (0b0_1011, 5),
+            Dash::DashDot => (0b01_0111, 6),
+            Dash::Dotted => (0b01, 2),
+            Dash::Sparse if coarse => (0b001, 3),
+            Dash::Sparse => (0b0001, 4),
         }
     }
 

@@ -5,6 +5,7 @@ use ratatui::layout::Rect;
 
 use super::dots::{Dots, Pen};
 use super::look::Look;
+use super::paint::symbol;
 use crate::picture::items::Picture;
 use crate::picture::legend::{LegendEntry, Sample, entries};
 use crate::picture::role::{Dash, Role};
@@ -15,42 +16,59 @@ const SAMPLE: u16 = 3;
 /// Columns between entries.
 const GAP: u16 = 2;
 
-/// Draws the legend of some pictures side by side, in as many rows as `area` has, the main things first; a
-/// mark says that there is more.
+/// Columns of what says how much is left out.
+const MORE: u16 = 8;
+
+/// Draws the legend of some pictures, each entry in the first row with room, the main things first; what is
+/// left out is counted.
 pub fn draw(area: Rect, pictures: &[Picture], look: &Look, buffer: &mut Buffer) {
     let mut entries = entries(pictures);
     entries.sort_by_key(|entry| rank(entry.sample));
-    let (mut x, mut y) = (area.x + 1, area.y);
-    for (index, LegendEntry { sample, role, text }) in entries.iter().enumerate() {
-        let columns = u16::try_from(text.chars().count()).unwrap_or(u16::MAX);
-        let wanted = columns.saturating_add(SAMPLE + 1);
-        let room = |x: u16, y: u16| {
-            let more = y + 1 < area.bottom() || index + 1 == entries.len();
-            area.right().saturating_sub(if more { x } else { x + GAP })
-        };
-        if wanted > room(x, y) && y + 1 < area.bottom() {
-            (x, y) = (area.x + 1, y + 1);
-        }
-        if y >= area.bottom() {
-            return;
-        }
-        if wanted > room(x, y) {
-            buffer.set_string(x, y, look.symbols().more, look.style(Role::Quiet));
-            return;
-        }
-        let place = Rect { x, y, width: SAMPLE, height: 1 };
-        draw_sample(place, *role, *sample, look, buffer);
-        buffer.set_string(place.right() + 1, y, text, look.style(Role::Quiet));
-        x += wanted + GAP;
+    let texts = entries.iter().map(|entry| entry.text.chars().count());
+    let widths: Vec<u16> = texts
+        .map(|letters| u16::try_from(letters).unwrap_or(u16::MAX).saturating_add(SAMPLE + 1))
+        .collect();
+    let mut places = places(&widths, area, 0).0;
+    if places.contains(&None) && area.height > 0 {
+        let (shorter, x) = self::places(&widths, area, MORE + GAP);
+        places = shorter;
+        let left = places.iter().filter(|place| place.is_none()).count();
+        buffer.set_string(x, area.bottom() - 1, format!("+{left} more"), look.style(Role::Quiet));
     }
+    for (LegendEntry { sample, role, text }, place) in entries.iter().zip(places) {
+        if let Some(place) = place {
+            draw_sample(Rect { width: SAMPLE, ..place }, *role, *sample, look, buffer);
+            buffer.set_string(place.x + SAMPLE + 1, place.y, text, look.style(Role::Quiet));
+        }
+    }
+}
+
+/// Where entries of these widths stand, each in the first row with room, the last of which ends so many columns
+/// earlier; and where that row ends.
+fn places(widths: &[u16], area: Rect, reserved: u16) -> (Vec<Option<Rect>>, u16) {
+    let mut ends: Vec<u16> = area.rows().map(|row| row.x + 1).collect();
+    let places = widths.iter().map(|&width| {
+        let rooms = ends.iter_mut().zip(area.rows());
+        let room = |(end, row): &(&mut u16, Rect)| {
+            let last = row.bottom() == area.bottom();
+            let right = row.right().saturating_sub(if last { reserved } else { 0 });
+            right.saturating_sub(**end) >= width
+        };
+        let (end, row) = rooms.into_iter().find(room)?;
+        let place = Rect { x: *end, width, ..row };
+        *end += width + GAP;
+        Some(place)
+    });
+    let places = places.collect();
+    (places, ends.last().copied().unwrap_or(area.x))
 }
 
 /// What is drawn through is asked for first.
 fn rank(sample: Sample) -> u8 {
     match sample {
-        Sample::Line(Dash::Solid | Dash::Dashed) | Sample::Bar => 0,
-        Sample::Line(Dash::Dotted | Dash::Sparse) => 1,
-        Sample::Point | Sample::Shade | Sample::Arrow => 2,
+        Sample::Line(Dash::Solid | Dash::Thick | Dash::Dashed) | Sample::Spot => 0,
+        Sample::Line(Dash::DashDot | Dash::Dotted | Dash::Sparse) => 1,
+        Sample::Point(_) | Sample::Shade | Sample::Arrow => 2,
     }
 }
 
@@ -60,14 +78,14 @@ fn draw_sample(place: Rect, role: Role, sample: Sample, look: &Look, buffer: &mu
     let mut line = |y: f64, dash| dots.stroke([(0.0, y), (width - 0.5, y)], Pen { role, dash });
     match sample {
         Sample::Line(dash) => line(height / 2.0, dash),
-        Sample::Bar => {
-            line(height / 2.0 - 0.5, Dash::Solid);
-            line(height / 2.0, Dash::Solid);
+        Sample::Spot => {
+            let at = (width / 2.0, height / 2.0);
+            dots.stroke([at, at], Pen { role, dash: Dash::Thick });
         }
         Sample::Shade => {
             (0..SAMPLE).step_by(2).for_each(|x| dots.texture(x, 0, look.symbols().shade, role));
         }
-        Sample::Point => dots.symbol(1, 0, look.symbols().points[0], role),
+        Sample::Point(mark) => dots.symbol(1, 0, symbol(mark, look.symbols()), role),
         Sample::Arrow => dots.texture(1, 0, look.symbols().arrows[0], role),
     }
     dots.paint(buffer, look);

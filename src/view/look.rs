@@ -136,6 +136,7 @@ impl Look {
     /// The look that these settings ask for; what they leave open becomes braille in 16 colours.
     pub fn new(settings: settings::Wishes) -> Self {
         let settings::Wishes { glyphs, colors, fine, theme, .. } = settings;
+        let theme = if colors == Colors::Never { Theme::Mono } else { theme };
         // A test reads every theme, so the plain look never serves.
         Look::from_text(text_of(theme), glyphs, [colors, fine]).unwrap_or(Look {
             glyphs,

@@ -97,7 +97,7 @@ fn filling(pattern: Pattern, symbols: &Symbols) -> char {
     }
 }
 
-fn symbol(mark: Mark, symbols: &Symbols) -> char {
+pub fn symbol(mark: Mark, symbols: &Symbols) -> char {
     match mark {
         Mark::Start | Mark::Turn => symbols.start,
         Mark::Rest => symbols.rest,

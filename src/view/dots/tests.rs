@@ -39,6 +39,7 @@ fn dashes_differ_in_their_dots() {
     };
     assert_eq!(drawn(Dash::Solid), "⠉⠉⠉⠉⠉⠉⠉⠉");
     assert_eq!(drawn(Dash::Dashed), "⠉⠉ ⠉⠉ ⠉⠉");
+    assert_eq!(drawn(Dash::DashDot), "⠉⠁⠁⠉⠁⠁⠉⠁");
     assert_eq!(drawn(Dash::Dotted), "⠁⠁⠁⠁⠁⠁⠁⠁");
     assert_eq!(drawn(Dash::Sparse), "⠁ ⠁ ⠁ ⠁ ");
 }
@@ -111,7 +112,7 @@ proptest! {
     ) {
         for glyphs in [Glyphs::Braille, Glyphs::Octant, Glyphs::Block, Glyphs::Ascii] {
             let mut dots = Dots::new(Rect::new(3, 5, width, height), glyphs);
-            for dash in [Dash::Solid, Dash::Dashed, Dash::Dotted, Dash::Sparse] {
+            for dash in [Dash::Thick, Dash::Dashed, Dash::DashDot, Dash::Dotted, Dash::Sparse] {
                 dots.stroke(points.iter().chain(&near).copied(), Pen { role: Role::Stable, dash });
             }
             prop_assert!(near.iter().all(|point| dots.cell_at(*point).is_none_or(|(column, row)| column < width && row < height)));

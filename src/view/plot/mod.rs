@@ -26,7 +26,6 @@ use super::pane;
 use crate::picture::role::{Dash, Role};
 use crate::picture::ticks::{Scale, Tick, Ticks};
 use crate::scene::{Point, Window};
-use crate::session::settings::Glyphs;
 
 /// What a plot is called.
 #[derive(Clone, Debug)]
@@ -194,14 +193,7 @@ impl<'a> Canvas<'a> {
 
     /// Draws a straight line two dots thick, or one letter.
     pub fn bar(&mut self, from: Point, to: Point, role: Role) {
-        let offsets: &[f64] = if self.look.glyphs == Glyphs::Ascii { &[0.0] } else { &[-0.5, 0.5] };
-        for offset in offsets {
-            let ends = [from, to].map(|end| {
-                let (x, y) = self.place(end);
-                (x, y + offset)
-            });
-            self.dots.stroke(ends, Pen { role, dash: Dash::Solid });
-        }
+        self.curve([from, to], role, Dash::Thick);
     }
 
     /// Puts a symbol on a point, if it is in the window.

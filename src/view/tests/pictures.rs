@@ -69,9 +69,9 @@ fn rest_is_in_every_bifurcation_diagram() {
                     assert!((height.abs() - expected).abs() < 1e-15, "{}: {height}", scene.name);
                     // Without friction the equilibrium is stable to the right of the Hopf point.
                     let pen = match (r > 0.0, at > 0.0) {
-                        (true, _) => (Role::Sticking, Dash::Solid),
-                        (false, true) => (Role::Stable, Dash::Solid),
-                        (false, false) => (Role::Unstable, Dash::Dashed),
+                        (true, _) => (Role::Sticking, Dash::Thick),
+                        (false, true) => (Role::Stable, Dash::Thick),
+                        (false, false) => (Role::Unstable, Dash::DashDot),
                     };
                     assert_eq!((line.role, line.dash), pen, "{} at {at}", scene.name);
                     looked += 1;
@@ -111,7 +111,7 @@ fn the_legend_names_what_is_seen_and_nothing_else() {
         let entry = |entry: &&str| *entry == name || entry.ends_with(&format!(" {name}"));
         legend.split("  ").filter(entry).count()
     };
-    let names = ["stable cycle", "unstable cycle", "rest (attracts)", "first harmonic"];
+    let names = ["stable cycle", "unstable cycle", "sticking set", "first harmonic"];
     let mut session = settled("supercritical", 200, 60, "");
     for name in names {
         assert_eq!(rows(&session, name), 1, "{name}");

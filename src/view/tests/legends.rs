@@ -1,0 +1,65 @@
+//! Legends tell everything apart, without colour too, and name as much as there is room for.
+
+use super::by_hand::settle;
+use super::{braille, draw, settled};
+use crate::picture::legend::{LegendEntry, entries};
+use crate::scene::LAYERS;
+use crate::scene::library::library;
+use crate::session::settings::{Colors, Wishes};
+use crate::view::look::Look;
+use crate::view::screen::text;
+
+#[test]
+fn no_two_entries_of_a_legend_look_the_same_without_colour() {
+    let look = Look::new(Wishes { colors: Colors::Never, ..braille() });
+    let appearance = |entry: &LegendEntry| (entry.sample, look.style(entry.role).add_modifier);
+    let mut alike = Vec::new();
+    for scene in library() {
+        let session = settled(&scene.name, 200, 60, "");
+        let pictures = (0..session.plots.len()).map(|index| crate::picture::of(&session, index));
+        let entries = entries(&pictures.collect::<Vec<_>>());
+        assert!(entries.len() > 1, "{}", scene.name);
+        for (index, entry) in entries.iter().enumerate() {
+            let same =
+                entries[..index].iter().filter(|other| appearance(other) == appearance(entry));
+            alike.extend(
+                same.map(|other| (scene.name.clone(), &entry.text, &other.text))
+                    .map(|(scene, one, other)| format!("{scene}: {one}, {other}")),
+            );
+        }
+    }
+    assert_eq!(alike, [""; 0]);
+}
+
+#[test]
+fn legends_of_scenes_have_room_for_all_that_is_drawn() {
+    let mut cut = Vec::new();
+    for (width, height) in [(80, 24), (120, 40), (200, 60)] {
+        for scene in library() {
+            let screen = text(&draw(&settled(&scene.name, width, height, ""), braille()));
+            let more = screen
+                .lines()
+                .filter(|line| line.trim_end().ends_with(" more") && line.contains("  +"));
+            cut.extend(more.map(|line| format!("{} {width}x{height}: {line}", scene.name)));
+        }
+    }
+    assert_eq!(cut, [""; 0]);
+}
+
+#[test]
+fn a_legend_without_room_says_how_much_it_leaves_out() {
+    let mut session = settled("fig04", 80, 24, "");
+    session.layers = LAYERS.iter().map(|row| row.layer).collect();
+    settle(&mut session);
+    let pictures = (0..session.plots.len()).map(|index| crate::picture::of(&session, index));
+    let entries = entries(&pictures.collect::<Vec<_>>());
+    let screen = text(&draw(&session, braille()));
+    let line = screen.lines().find(|line| line.trim_end().ends_with(" more"));
+    let line = line.unwrap_or_else(|| panic!("{screen}"));
+    let rows: Vec<String> = screen.lines().map(|line| format!("{}  ", line.trim_end())).collect();
+    let told = entries
+        .iter()
+        .filter(|entry| rows.iter().any(|row| row.contains(&format!(" {}  ", entry.text))));
+    let left = entries.len() - told.count();
+    assert!(line.trim_end().ends_with(&format!("  +{left} more")), "{left}: {screen}");
+}
