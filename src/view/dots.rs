@@ -92,7 +92,12 @@ impl Dots {
     /// Draws a polyline; a point that is not finite interrupts it.
     pub fn stroke(&mut self, points: impl IntoIterator<Item = Point>, pen: Pen) {
         if pen.dash == Dash::Thick && self.glyphs != Glyphs::Ascii {
-            let points: Vec<Point> = points.into_iter().collect();
+            // At an edge both of its dots stand inside.
+            let height = self.size().1;
+            let inside = |y: f64| {
+                if (0.0..=height).contains(&y) { y.min(height - 1.0).max(0.5) } else { y }
+            };
+            let points: Vec<Point> = points.into_iter().map(|(x, y)| (x, inside(y))).collect();
             for offset in [-0.5, 0.5] {
                 self.line(points.iter().map(|(x, y)| (*x, y + offset)), pen);
             }
@@ -274,13 +279,13 @@ impl Glyphs {
     }
 }
 
-/// The part of a segment that lies on a raster of this size, by Liang and Barsky: its two ends, just
-/// short of the far borders so that they are on dots, and whether the second is the segment's own.
+/// The part of a segment that lies on a raster of this size, by Liang and Barsky: its two ends, drawn back
+/// from the far borders so that they are on dots, and whether the second is the segment's own.
 fn clip(start: Point, end: Point, size: Point) -> Option<(Point, Point, bool)> {
     const SHORT: f64 = 1e-6;
     let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
     let limits = (size.0 - SHORT, size.1 - SHORT);
-    for (from, to, limit) in [(start.0, end.0, limits.0), (start.1, end.1, limits.1)] {
+    for (from, to, limit) in [(start.0, end.0, size.0), (start.1, end.1, size.1)] {
         let run = to - from;
         if run == 0.0 {
             if !(0.0..=limit).contains(&from) {

@@ -72,6 +72,18 @@ fn strokes_hide_texture_and_symbols_hide_strokes() {
 }
 
 #[test]
+fn a_line_on_the_lower_edge_is_seen_and_a_thick_one_is_thick() {
+    let drawn = |y, dash| {
+        let mut dots = Dots::new(Rect::new(0, 0, 3, 1), Glyphs::Braille);
+        dots.stroke([(0.0, y), (5.9, y)], Pen { role: Role::Stable, dash });
+        painted(&dots).remove(0)
+    };
+    assert_eq!(drawn(4.0, Dash::Solid), "⣀⣀⣀");
+    assert_eq!([4.0, 3.9, 2.0, 0.0].map(|y| drawn(y, Dash::Thick)), ["⣤⣤⣤", "⣤⣤⣤", "⠶⠶⠶", "⠛⠛⠛"]);
+    assert_eq!(drawn(4.6, Dash::Thick), "   ");
+}
+
+#[test]
 fn curves_hide_guides_even_in_the_gaps_of_their_dashes() {
     let mut dots = Dots::new(Rect::new(0, 0, 6, 1), Glyphs::Ascii);
     let line = [(0.0, 0.0), (4.9, 0.0)];
