@@ -27,8 +27,20 @@ pub struct Arguments {
     #[command(flatten)]
     certify: Certify,
     /// The second parameter (D2, D3 or r), its range, and how many values
-    #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = input::over, allow_hyphen_values = true)]
+    #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = second, allow_hyphen_values = true)]
     over: Over,
+}
+
+/// Reads the second parameter; a border is found along D itself, and knows nothing of where a motion starts.
+fn second(text: &str) -> Result<Over, String> {
+    let over = input::over(text)?;
+    let name = over.symbol.spec().name;
+    match over.symbol {
+        Symbol::D2 | Symbol::D3 | Symbol::R => Ok(over),
+        _ => Err(format!(
+            "the border is a value of D over another parameter, not over {name}: D2, D3 or r"
+        )),
+    }
 }
 
 impl Arguments {

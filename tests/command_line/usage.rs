@@ -8,7 +8,7 @@ use std::process::Stdio;
 use crate::program::{command, run};
 
 /// A wrong command line, and what the complaint about it must name.
-const WRONG: [(&str, &[&str]); 34] = [
+const WRONG: [(&str, &[&str]); 35] = [
     ("--sett D=1", &["--sett", "did you mean '--set'"]),
     ("nowhere", &["nowhere", "hopfscope scenes", "hopfscope --help"]),
     ("supercritcal", &["supercritcal", "did you mean supercritical"]),
@@ -36,6 +36,7 @@ const WRONG: [(&str, &[&str]); 34] = [
     ("cycles --harmonics x", &["x", "1 .. 255"]),
     ("branch", &["--over"]),
     ("branch --over D", &["'D'", "NAME=FROM:TO:COUNT"]),
+    ("border --over D=-0.9:-0.1:4", &["not over D", "D2, D3 or r"]),
     ("branch --over D=0:1:0", &["COUNT = 0", "2 .. 1000000"]),
     ("branch --over D=0:nan:9", &["nan", "-1000000.0 .. 1000000.0"]),
     ("branch --over r=-1:1:9", &["r=-1:1:9", "0.0 .. 1e300"]),
