@@ -60,6 +60,8 @@ pub struct Estimate {
     pub saturated: usize,
     /// Samples at rest before the mass was struck, left out.
     pub before: usize,
+    /// Samples after the mass was excited again, left out.
+    pub after: usize,
     /// Samples at rest that repeat the rounding error of others, left out.
     pub alike: usize,
     /// Motions computed with and without derivatives.
@@ -195,6 +197,7 @@ pub fn judged(
         extremes: Vec::new(),
         noise: Noise::default(),
         saturated: 0,
+        after: 0,
         before: 0,
         alike: 0,
         motions: (runs.with_derivatives, runs.plain),

@@ -19,6 +19,8 @@ pub struct Guess {
     pub extremes: Vec<Extreme>,
     /// The first sample in motion of a mass that seems to have been struck where it rested.
     pub struck: Option<usize>,
+    /// The first sample after which the mass was excited again.
+    pub again: Option<usize>,
 }
 
 /// Reads guesses off a record; `None` where fewer than three turning points, a hold and a rest included, can be
@@ -37,6 +39,7 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise) -> Option<Guess> {
         extremes = turning_points(t, &cleaned, period, hysteresis);
         period = period_of(&extremes).unwrap_or(period);
     }
+    let again = excited_again(t, &cleaned, &extremes);
     let first = *extremes.first()?;
     let begins = begins(t, &cleaned, noise, first, period);
     let begin = first.t - 0.5 * period;
@@ -74,7 +77,7 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise) -> Option<Guess> {
         }
         Begins::Moving => vec![beginning(StartKind::Moving, true)],
     };
-    (!regressions.is_empty()).then_some(Guess { beginnings, extremes, struck })
+    (!regressions.is_empty()).then_some(Guess { beginnings, extremes, struck, again })
 }
 
 /// How many samples a stretch of time holds on average, at least one.
@@ -160,6 +163,31 @@ fn struck_at(
     let near = |x: &f64| (x - hold).abs() <= OFF * noise.deviation.max(noise.step);
     let from = x[..moving].iter().rposition(near)? + 2;
     BETWEEN.contains(&part).then_some(from.min(moving))
+}
+
+/// The last sample near the turning point after which a decay grows at once: a free motion that decays goes on decaying,
+/// since its swings keep their order.
+fn excited_again(t: &[f64], x: &[f64], extremes: &[Extreme]) -> Option<usize> {
+    /// A swing so many times as wide as the one before it was not free.
+    const WIDER: f64 = 1.5;
+    /// So many swings after it are wider, too: a wrong turning point spoils two.
+    const SWINGS: usize = 4;
+    /// Noise makes a swing of a decay wider than the one before by less than this.
+    const NARROWER: f64 = 0.9;
+    /// What is near, as a part of the new swing: more than a rest differs from the last turning point seen before it.
+    const NEAR: f64 = 0.1;
+    let widths: Vec<f64> = extremes.windows(2).map(|two| (two[1].x - two[0].x).abs()).collect();
+    let grows = |swings: &[f64]| {
+        let (decay, grown) = swings.split_at(2);
+        decay[1] < NARROWER * decay[0]
+            && grown[0] > WIDER * decay[1]
+            && grown.iter().all(|width| *width > decay[1])
+    };
+    let index = 2 + widths.windows(2 + SWINGS).position(grows)?;
+    let (last, next) = (extremes[index], extremes[index + 1]);
+    let [from, to] = [last, next].map(|extreme| t.partition_point(|&t| t < extreme.t));
+    let near = |x: &f64| (x - last.x).abs() <= NEAR * widths[index];
+    Some(from + x[from..to].iter().rposition(near)?)
 }
 
 /// Displacement and velocity at the first sample, from an undamped swing through the first third of a period.

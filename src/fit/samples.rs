@@ -32,15 +32,22 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
         return Err(Unfit::TooFew { measured: x.len(), unknowns });
     }
     let noise = Noise::of(&x, per_period);
-    let Guess { mut beginnings, extremes, struck } =
+    let Guess { mut beginnings, extremes, struck, again } =
         guess(&t, &x, &noise).ok_or(Unfit::NoSwings)?;
-    if let Some(from) = struck {
-        let moving =
-            Record { t: Some(t[from..].to_vec()), x: x[from..].to_vec(), ..Record::default() };
-        let found = samples(&moving, question, runs).ok();
-        if let Some(found) = found.filter(|found| !found.whiteness.systematic) {
-            return Ok(Estimate { before: from, saturated: all.len() - x.len(), ..found });
-        }
+    let saturated = all.len() - x.len();
+    let mut part = |t: &[f64], x: &[f64]| {
+        let part = Record { t: Some(t.to_vec()), x: x.to_vec(), ..Record::default() };
+        samples(&part, question, runs).ok().filter(|found| !found.whiteness.systematic)
+    };
+    if let Some(until) = again
+        && let Some(found) = part(&t[..until], &x[..until])
+    {
+        return Ok(Estimate { after: x.len() - until, saturated, ..found });
+    }
+    if let Some(from) = struck
+        && let Some(found) = part(&t[from..], &x[from..])
+    {
+        return Ok(Estimate { before: from, saturated, ..found });
     }
     for guess in beginnings.iter_mut().flat_map(|beginning| &mut beginning.guesses) {
         *guess = placed(&held, *guess);

@@ -34,6 +34,11 @@ fn left_out(fitted: &Fitted) -> Vec<String> {
         (fitted.record.missing, "row", "without a number"),
         (fitted.record.repeated, "row", "repeating another one"),
         (fitted.estimate.before, "sample", "at rest before the mass was struck"),
+        (
+            fitted.estimate.after,
+            "sample",
+            "after the mass was excited again: fit them as a file of their own",
+        ),
         (fitted.estimate.saturated, "sample", "flattened at full scale"),
         (fitted.estimate.alike, "sample", "at rest that the steps of the converter round alike"),
         (

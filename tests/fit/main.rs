@@ -108,6 +108,7 @@ fn a_margin_seen_in_the_record_is_found_and_one_beyond_it_is_called_extrapolated
 }
 
 /// A record of the program's own motion with noise.
+#[derive(Clone, Copy)]
 struct Simulated {
     p: Unknowns,
     start: StartKind,

@@ -38,6 +38,44 @@ fn a_mass_that_is_struck_where_it_rests_is_fitted_from_the_stroke_on() {
 }
 
 #[test]
+fn a_mass_that_is_excited_again_is_fitted_up_to_then() {
+    let release = Simulated {
+        p: [20.0, 0.2, 0.02, 0.0, 0.0, 0.05, 3.0, 0.3],
+        start: StartKind::Release,
+        seconds: 4.0,
+        samples: 1000,
+        noise: 0.01,
+        memory: 0.0,
+    };
+    let blow = Simulated {
+        p: [20.0, 0.2, 0.02, 0.0, 0.0, 0.05, -0.04, 2.0],
+        start: StartKind::Moving,
+        ..release
+    };
+    let strong = Simulated { p: [20.0, 0.2, 0.02, 0.0, 0.0, 0.05, 0.3, 4.0], ..blow };
+    for (seed, (second, rests)) in
+        [(release, true), (blow, true), (strong, false)].into_iter().enumerate()
+    {
+        let first = release.record(seed as u64 + 1);
+        // With the second excitation at rest, or in the middle of the motion.
+        let until = if rests { 1000 } else { 400 };
+        let again = second.record(seed as u64 + 11).x;
+        let x: Vec<f64> = first.x[..until].iter().copied().chain(again).collect();
+        let t =
+            (0..u32::try_from(x.len()).unwrap()).map(|index| 0.004 * f64::from(index)).collect();
+        let record = Record { t: Some(t), x, ..Record::default() };
+        let found = estimate(&record, &Question::default(), &|| false).unwrap();
+        assert!((1000..1060).contains(&found.after), "{seed}: {}", found.after);
+        assert!(found.whiteness.white && found.start == StartKind::Release, "{seed}");
+        for row in found.wanted() {
+            let off =
+                (found.p[row.place] - release.p[row.place]) / found.covariance.error(row.place);
+            assert!(off.abs() < 4.0, "{seed}: {}: {off}", row.name);
+        }
+    }
+}
+
+#[test]
 fn what_is_no_motion_of_this_oscillator_is_told_and_costs_little() {
     let oscillation = |phase: fn(f64) -> f64, size: fn(f64) -> f64, drift: fn(f64) -> f64| {
         let mut chance = Random::new(9);

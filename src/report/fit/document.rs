@@ -116,6 +116,7 @@ struct Document<'a> {
     valleys: Vec<Valley>,
     outliers: usize,
     saturated: usize,
+    excited_again: usize,
     missing: usize,
     repeated: usize,
     residuals: Residuals,
@@ -163,6 +164,7 @@ pub fn json(fitted: &Fitted) -> String {
         valleys,
         outliers: estimate.outliers(),
         saturated: estimate.saturated,
+        excited_again: estimate.after,
         missing: record.missing,
         repeated: record.repeated,
         residuals: Residuals {
