@@ -80,3 +80,47 @@ fn the_first_integral_falls_where_its_rate_has_one_sign() {
         assert_eq!(StepKind::OneWay.theorem(parameters.map(point)), holds, "{off}");
     }
 }
+
+/// Each set meets all conditions of its theorem but one, or all of them.
+#[test]
+fn a_theorem_needs_each_of_its_conditions() {
+    use StepKind::{Affine, Frictionless, OneWay, Overdamped};
+    for (kind, parameters, shown) in [
+        (Overdamped, [-1.0, 0.3, 0.0, 0.1], Some(0)),
+        (Overdamped, [-0.999, 0.3, 0.0, 0.1], None),
+        (Overdamped, [-1.0, 0.3, 1e-9, 0.1], None),
+        (Affine, [-0.2, 0.0, 0.0, 0.1], Some(1)),
+        (Affine, [-0.2, 1e-9, 0.0, 0.1], None),
+        (Affine, [-0.2, 0.0, 1e-9, 0.1], None),
+        (Affine, [-1.0, 0.0, 0.0, 0.1], None),
+        (Affine, [0.0, 0.0, 0.0, 0.1], None),
+        (Affine, [-0.2, 0.0, 0.0, 0.0], None),
+        (Frictionless, [-0.2, 0.3, 0.5, 0.0], Some(1)),
+        (Frictionless, [0.2, 0.3, -0.5, 0.0], Some(1)),
+        (Frictionless, [-0.2, 0.3, 0.5, 1e-9], None),
+        (Frictionless, [-0.2, 0.3, -0.5, 0.0], None),
+        (OneWay, [-0.2, 0.3, -0.5, 0.0], Some(0)),
+        (OneWay, [-0.2, 0.3, -0.5, 1e-9], None),
+        (OneWay, [0.2, 0.3, 0.0, 0.1], Some(0)),
+        (OneWay, [0.2, 0.3, -1e-9, 0.1], None),
+        (OneWay, [-0.2, 0.3, 0.0, 0.1], None),
+    ] {
+        assert_eq!(kind.theorem(parameters.map(point)), shown, "{kind:?} {parameters:?}");
+    }
+}
+
+/// Bounds in the wrong order hold nothing, of which everything would be true; and there is no friction below zero.
+#[test]
+fn bounds_that_hold_no_parameters_are_refused() {
+    let with = |d: &str, r: &str| {
+        let steps = r#"[{"step": "one-way", "from": 0.0}]"#;
+        check(&format!(
+            r#"{{"parameters": [{d}, [0, 0], [0, 0], {r}], "cycles": 0, "steps": {steps}}}"#
+        ))
+    };
+    assert!(with("[0.1, 0.2]", "[0.1, 0.1]").is_ok());
+    for (d, r) in [("[0.2, 0.1]", "[0.1, 0.1]"), ("[0.1, 0.2]", "[-0.1, 0.1]")] {
+        assert_eq!(with(d, r).unwrap_err(), "line 1: these are no bounds of parameters");
+    }
+    assert!(with("[0.1, 1e999]", "[0.1, 0.1]").is_err());
+}

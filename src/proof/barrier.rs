@@ -29,3 +29,25 @@ pub fn least_end(field: &Field, funnel: Option<&Funnel>) -> f64 {
     let passage = swing_below(&field, &start, ceiling);
     Funnel::least_after(funnel, &field, &passage).max(0.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::proof::swing::swing;
+
+    /// However near to the centre a swing starts, it ends beyond the bound of all.
+    #[test]
+    fn swings_from_next_to_a_node_end_beyond_their_bound() {
+        for coefficients in [[-2.0, 0.5, 1.0], [-2.2, -0.5, 1.0], [-2.5, 0.0, 3.0]] {
+            let [a, b, c] = coefficients.map(Interval::point);
+            let node = Field { a, b, c };
+            let least = least_end(&node, None);
+            assert!(least > 0.0, "{coefficients:?}");
+            for z in [1e-9, 1e-5, 1e-3, 0.1] {
+                let start = StartBox::at_rest(Interval::point(z));
+                let end = swing(&node, &start, false).arrived().unwrap().end;
+                assert!(end.upper() >= least, "{coefficients:?} {z}: {end} {least}");
+            }
+        }
+    }
+}

@@ -129,11 +129,11 @@ const ROUNDINGS: [f64; 7] = [2.0, 4.0, 6.0, 11.0, 0.5, 13.0, 1.25];
 /// Roundings by Horner's rule in even and odd powers: two for each term, and so many for each degree of it.
 const HORNER: [f64; 2] = [2.0, 1.5];
 
-/// Roundings of a coefficient of `v^2`, of degree 27 at most: `k/4 + 2` in the sum of products, and two sums.
+/// Roundings of a coefficient of `v^2`, of degree 27 at most: `k/4 + 2` in the sum of products, and two sums (lemma 3).
 const SQUARE: f64 = 11.0;
 
-/// Roundings of the integral of `v^2` but for its coefficients, for each term after it is divided by `k + 1`: 9 in the sum
-/// and one by the time, to which others add k for the power of the time, two products and an inverse.
+/// More than the roundings of the integral of `v^2` but for its coefficients, for each term after it is divided by
+/// `k + 1`: 10 for the first, 9 sums and the time; others, which pass `k + 12`, have fewer (end of lemma 4).
 const INTEGRAL: f64 = 12.0;
 
 /// The bound of all roundings of the defect over a step, in units of roundoff.

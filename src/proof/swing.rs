@@ -429,3 +429,6 @@ fn arrival(series: &Series, h: f64, ahead: f64) -> Option<(f64, bool)> {
         None
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -61,4 +61,28 @@ mod tests {
             assert_eq!(theorem(&ParameterBox { d, d2, d3, r }), decided, "{off}");
         }
     }
+
+    /// Each set next to a theorem meets all of its conditions but one.
+    #[test]
+    fn a_theorem_needs_each_of_its_conditions() {
+        for ([d, d2, d3, r], decided) in [
+            ([-1.0, 0.3, -1.0, 0.1], Some(Theorem::Overdamped)),
+            ([-1.0, 0.3, 0.0, 0.1], Some(Theorem::Overdamped)),
+            ([-0.999, 0.3, -1.0, 0.1], None),
+            ([-1.0, 0.3, 1e-9, 0.1], None),
+            ([-0.2, 0.0, 0.0, 0.1], Some(Theorem::Affine)),
+            ([-0.2, 1e-9, 0.0, 0.1], None),
+            ([-0.2, 0.0, 1e-9, 0.1], None),
+            ([-0.2, 0.3, 0.5, 0.0], Some(Theorem::Frictionless)),
+            ([0.2, 0.3, -0.5, 0.0], Some(Theorem::Frictionless)),
+            ([-0.2, 0.3, 0.5, 1e-9], None),
+            ([0.2, 0.3, -0.5, 1e-9], None),
+            // One way: the energy only grows.
+            ([-0.2, 0.3, -0.5, 0.0], Some(Theorem::OneWay)),
+            ([-0.2, 0.3, -0.5, 1e-9], None),
+        ] {
+            let [d, d2, d3, r] = [d, d2, d3, r].map(Interval::point);
+            assert_eq!(theorem(&ParameterBox { d, d2, d3, r }), decided, "{d} {d2} {d3} {r}");
+        }
+    }
 }

@@ -111,3 +111,42 @@ fn the_piece_of_a_fence_reaches_to_the_slow_line() {
     // Nearer to the centre than this no motion is held.
     assert!(fence(1.999).is_none());
 }
+
+/// From `v = 0` at `-m` on, `P` is `(v - 1)^2 + m - 1` for `a = 0`, `b = -1`; where it is negative somewhere nothing is claimed.
+#[test]
+fn what_never_returns_is_told_from_what_may() {
+    for (coefficients, place, never) in [
+        ([0.0, -1.0, 0.0], [-1.001, 0.0], true),
+        ([0.0, -1.0, 0.0], [-0.98, 0.0], false),
+        ([0.0, -1.0, 0.0], [-0.501, 0.5], true),
+        ([0.0, -1.0, 0.0], [-0.48, 0.5], false),
+        // `m - 0.05 v + 0.001 v^2`, at least `m - 0.625`.
+        ([-1.95, -0.001, 0.0], [-0.63, 0.0], true),
+        ([-1.95, -0.001, 0.0], [-0.62, 0.0], false),
+        // `P = m - 2.1756.. + (v - 1.475)^2`, `m = 1 - x`.
+        ([0.95, -1.0, 0.0], [-1.18, 1.0], true),
+        ([0.95, -1.0, 0.0], [-1.17, 1.0], false),
+        ([0.95, -1.0, 0.0], [-1.1, 1.0], false),
+        // The centre itself is at rest; a cubic damping brings everything back.
+        ([-3.0, -1.0, 0.0], [0.0, 0.0], false),
+        ([-3.0, -1.0, 1e-9], [-1.0, 0.0], false),
+    ] {
+        let found = field(coefficients).never_returns(place.map(point));
+        assert_eq!(found, never, "{coefficients:?} {place:?}");
+    }
+}
+
+/// Next to a node every swing ends beyond the bound of all, however near to the centre it starts; it is none in a spiral.
+#[test]
+fn swings_from_next_to_a_node_end_beyond_their_bound() {
+    for coefficients in [[-2.0, 0.5, 1.0], [-2.2, -0.5, 1.0], [-2.5, 0.0, 3.0]] {
+        let node = field(coefficients);
+        let least = node.least().lower();
+        assert!(least > 0.0, "{coefficients:?}");
+        for z in [1e-9, 1e-5, 1e-3, 0.1] {
+            let end = node.swing(point(z), 0.0).end;
+            assert!(end.is_finite() && end.upper() >= least, "{coefficients:?} {z}: {end} {least}");
+        }
+    }
+    assert!(field([-1.95, 0.5, 1.0]).least() == Interval::ALL);
+}
