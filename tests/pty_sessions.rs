@@ -45,7 +45,7 @@ fn kept(memory: &Path) -> Vec<PathBuf> {
 fn the_first_start_says_what_to_press_and_the_next_one_does_not() {
     let memory = tempfile::tempdir().unwrap();
     let mut terminal = explorer(&[], memory.path());
-    terminal.wait_for("arrows change the numbers; ? keys, <space> commands");
+    terminal.wait_for("arrows change the numbers; ? keys, space commands");
     leave(terminal);
     let terminal = explorer(&[], memory.path());
     assert!(!terminal.text().contains("arrows change the numbers"));
@@ -65,7 +65,7 @@ fn an_interrupted_session_is_kept_offered_and_brought_back() {
         assert_eq!(kept(memory.path()).len(), 1);
 
         let mut terminal = explorer(&[], memory.path());
-        terminal.wait_for("a session was interrupted: <f3> resumes it");
+        terminal.wait_for("a session was interrupted: F3 resumes it");
         terminal.types("\x1bOR");
         terminal.wait_for("the interrupted session is back");
         terminal.wait_for("-0.345");
@@ -321,7 +321,7 @@ fn interrupted_sessions_are_offered_newest_first_and_forgotten_all_at_once() {
     }
     assert_eq!(kept(memory.path()).len(), 2);
     let mut terminal = explorer(&[], memory.path());
-    terminal.wait_for("<f3> lists them, <f4> forgets all");
+    terminal.wait_for("F3 lists them, F4 forgets all");
     terminal.types("\x1bOR");
     terminal.wait_for("interrupted sessions");
     terminal.wait_for("linear D = -0.345 (1 change)");

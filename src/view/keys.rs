@@ -20,11 +20,7 @@ pub fn name(key: Key, look: &Look) -> String {
             modifier.into_iter().filter_map(|(on, text)| on.then_some(text)).collect();
         return format!("{held}{arrow}");
     }
-    if let Some(typed) = key.typed().filter(|typed| *typed != ' ') {
-        return typed.to_string();
-    }
-    let written = key.to_string();
-    written.trim_start_matches('<').trim_end_matches('>').to_owned()
+    key.said()
 }
 
 /// Several keys, side by side; single characters need no space between them.
@@ -56,6 +52,8 @@ mod tests {
             ("<space>", "space", "space"),
             ("<lt>", "<", "<"),
             ("<C-r>", "C-r", "C-r"),
+            ("<f6>", "F6", "F6"),
+            ("<S-f6>", "S-F6", "S-F6"),
             ("?", "?", "?"),
         ];
         for (written, drawn, plain) in cases {

@@ -110,10 +110,17 @@ impl Key {
         }
     }
 
-    /// The key as a sentence names it: a character by itself, any other by its name in angle brackets.
+    /// The key as the screen names it: a character by itself, any other by its name, as keyboards print it.
     pub fn said(self) -> String {
-        let typed = self.typed().filter(|typed| *typed != ' ');
-        typed.map_or_else(|| self.to_string(), String::from)
+        if let Some(typed) = self.typed().filter(|typed| *typed != ' ') {
+            return typed.to_string();
+        }
+        let written = self.to_string();
+        let name = written.trim_start_matches('<').trim_end_matches('>');
+        match self.code {
+            Code::F(number) => name.replace(&format!("f{number}"), &format!("F{number}")),
+            _ => name.to_owned(),
+        }
     }
 
     /// Reads what stands between angle brackets. Fails with [`NoKey`] with the nearest name.

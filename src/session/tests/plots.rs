@@ -14,7 +14,7 @@ fn the_cursor_moves_on_round_numbers_and_sets_the_start() {
         ("k k h <C-left>", "cursor 0.6 0.1"),
         ("<enter>", "q0 0.6 | v0 0.1"),
         ("<esc>", "cursor none | quit false"),
-        ("<enter>", "notice no cursor yet: <left>, <up> and so on show it"),
+        ("<enter>", "notice no cursor yet: left, up and so on show it"),
     ]);
 }
 

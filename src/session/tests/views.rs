@@ -145,7 +145,7 @@ fn the_trade_is_asked_for_the_motion_and_not_for_the_method_that_computes_it() {
         ("} m {", "asked"),
         ("<S-tab><down*3><right>", "asked Trade"),
         // Enter takes the method and the accuracy of the nearest row.
-        ("<tab><enter>", "notice no cursor yet: <left>, <up> and so on show it"),
+        ("<tab><enter>", "notice no cursor yet: left, up and so on show it"),
         ("<right*200> <down*200> <enter>", "method dop853 | tolerance 1e-12"),
         ("<left*200> <up*200> <enter>", "method taylor | tolerance 0.0001"),
     ]);
