@@ -46,7 +46,7 @@ fn curves(picture: &mut Picture, parameters: Parameters) {
     let dry = Parameters { d: 0.0, d2: 0.0, d3: 0.0, ..parameters };
     for (name, brief, role, dash, of) in [
         ("fed by damping", "damping", Role::Velocity, Dash::DashDot, smooth),
-        ("taken by friction", "friction", Role::Sticking, Dash::Sparse, dry),
+        ("taken by friction", "friction", Role::Sticking, Dash::Dotted, dry),
         ("rate of the energy V'", "rate V'", Role::Energy, Dash::Thick, parameters),
     ] {
         picture.graph(LineStyle::new(name, role, dash).briefly(brief), move |v| Some(rate(&of, v)));

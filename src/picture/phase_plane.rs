@@ -343,7 +343,8 @@ fn cycles(
         let (role, dash) = stability(cycle.stable);
         let points: Vec<Point> = curve.iter().map(point).collect();
         picture.name_curve(&points, own, role);
-        picture.curve(LineStyle::new(name, role, dash).of(variant), points);
+        // Of a machine the caption says of which kind it is.
+        picture.curve(LineStyle::new(name, role, dash).briefly(plain).of(variant), points);
     }
 }
 

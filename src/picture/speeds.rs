@@ -3,6 +3,7 @@
 //! stable state ends, the jump to the one that is left.
 
 use super::items::{Item, LineStyle, Picture};
+use super::phase_plane::AT_REST;
 use super::reading::reading;
 use super::role::{Dash, Role};
 use crate::machine::MachineCycle;
@@ -13,22 +14,24 @@ use crate::scene::{Layer, Point, View};
 use crate::session::{self, Session};
 use crate::words::quantity::with_unit;
 
-/// A kind of cycle: what it is called, how it is drawn, and which cycles are of it.
-type CycleKind = (&'static str, Role, Option<Dash>, fn(&MachineCycle) -> bool);
+/// A kind of cycle: what it is called, also by the legend of the screen, how it is drawn, and which cycles are of it.
+type CycleKind = ([&'static str; 2], Role, Dash, fn(&MachineCycle) -> bool);
 
-/// All kinds; those without a dash are drawn thick.
+/// All kinds.
 const KINDS: [CycleKind; 5] = [
-    ("stable slip cycle", Role::Stable, Some(Dash::Solid), |it| {
+    (["stable slip cycle", "stable cycle"], Role::Stable, Dash::Solid, |it| {
         it.stable && !it.sticks && !it.overtakes
     }),
-    ("unstable slip cycle", Role::Unstable, Some(Dash::Dashed), |it| {
+    (["unstable slip cycle", "unstable cycle"], Role::Unstable, Dash::Dashed, |it| {
         !it.stable && !it.sticks && !it.overtakes
     }),
-    ("branch of stick-slip cycles", Role::Stable, None, |it| it.sticks),
-    ("stable overtaking cycle", Role::Velocity, Some(Dash::Dotted), |it| {
+    (["branch of stick-slip cycles", "cycle on the belt"], Role::Stable, Dash::Thick, |it| {
+        it.sticks
+    }),
+    (["stable overtaking cycle"; 2], Role::Velocity, Dash::Dotted, |it| {
         it.stable && it.overtakes && !it.sticks
     }),
-    ("unstable overtaking cycle", Role::Unstable, Some(Dash::Sparse), |it| {
+    (["unstable overtaking cycle"; 2], Role::Unstable, Dash::Sparse, |it| {
         !it.stable && it.overtakes && !it.sticks
     }),
 ];
@@ -64,7 +67,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
 }
 
 /// The cycles of a kind: the smallest of it at all speeds are one curve, the next ones another.
-fn cycles(picture: &mut Picture, points: &[Speed], (name, role, dash, is): CycleKind) {
+fn cycles(picture: &mut Picture, points: &[Speed], ([name, brief], role, dash, is): CycleKind) {
     let most = points.iter().map(|at| at.cycles.iter().filter(|it| is(it)).count()).max();
     for rank in 0..most.unwrap_or(0) {
         let place = |at: &Speed| {
@@ -72,14 +75,7 @@ fn cycles(picture: &mut Picture, points: &[Speed], (name, role, dash, is): Cycle
             Point { x: at.v0, y: cycle.map_or(f64::NAN, |cycle| cycle.x.1) }
         };
         let places: Vec<Point> = points.iter().map(place).collect();
-        match dash {
-            Some(dash) => picture.curve(LineStyle::new(name, role, dash), places),
-            None => {
-                for pair in places.windows(2).filter(|pair| (pair[0].y + pair[1].y).is_finite()) {
-                    picture.bar(LineStyle::new(name, role, Dash::Solid), pair[0], pair[1]);
-                }
-            }
-        }
+        picture.curve(LineStyle::new(name, role, dash).briefly(brief), places);
     }
 }
 
@@ -87,7 +83,8 @@ fn cycles(picture: &mut Picture, points: &[Speed], (name, role, dash, is): Cycle
 fn rest(picture: &mut Picture, points: &[Speed]) {
     let stable =
         points.iter().map(|at| Point { x: at.v0, y: if at.rests { 0.0 } else { f64::NAN } });
-    picture.curve(LineStyle::new("rest", Role::Sticking, Dash::Thick), stable.collect::<Vec<_>>());
+    let rest = LineStyle::new("rest", Role::Sticking, Dash::Thick).briefly(AT_REST);
+    picture.curve(rest, stable.collect::<Vec<_>>());
     let touching = points.iter().map(|at| Point { x: at.v0, y: at.touching.unwrap_or(f64::NAN) });
     let line = LineStyle::new("touches the belt", Role::Special, Dash::Dotted);
     picture.curve(line, touching.collect::<Vec<_>>());

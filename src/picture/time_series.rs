@@ -94,11 +94,8 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
             for (.., read) in QUANTITIES.iter().filter(|(layer, ..)| shows(*layer)) {
                 let [from, to] =
                     ride.map(|end| Point { x: end.tau, y: read(State { q: end.q, v: end.v }) });
-                picture.bar(
-                    LineStyle::new("sticks to the belt", Role::Current, Dash::Solid),
-                    from,
-                    to,
-                );
+                let line = LineStyle::new("sticks to the belt", Role::Trajectory, Dash::Thick);
+                picture.bar(line.briefly("motion on the belt"), from, to);
             }
         }
         if shows(Layer::Events) {

@@ -22,7 +22,7 @@ pub(super) const DESIGNED: u16 = 20;
 /// steps, with meanings.
 const COLUMNS: [(u16, u16); 3] = [(150, 52), (110, 34), (0, 25)];
 
-/// Rows of a screen whose legend has two rows, unless it is wide enough for one.
+/// Rows of a screen whose legend has two rows.
 const TALL: u16 = 24;
 
 /// The parts of the screen; an empty area is not shown.
@@ -47,9 +47,9 @@ pub fn layout(screen: Rect, session: &Session) -> Option<Layout> {
     }
     let band = |y: u16, rows: u16| Rect { y: screen.y + y, height: rows, ..screen };
     let status = if height < DESIGNED { 1 } else { 2 };
-    let legend = match (height, width) {
-        (..DESIGNED, _) => 0,
-        (TALL.., ..150) => 2,
+    let legend = match height {
+        ..DESIGNED => 0,
+        TALL.. => 2,
         _ => 1,
     };
     let body = band(1, height - 2 - status - legend);

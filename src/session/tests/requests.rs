@@ -173,10 +173,7 @@ fn a_failure_is_told_once_and_not_tried_again() {
     update(&mut trial.session, failed(Failure::Reason(Reason::OutOfRange)));
     assert!(!trial.session.is_open(&request));
     assert!(trial.session.failure(Topic::Cycles, 1).is_some());
-    assert_eq!(
-        trial.notice(),
-        "cycles: left the range of floating-point numbers; F5 tries again"
-    );
+    assert_eq!(trial.notice(), "cycles: left the range of floating-point numbers; F5 tries again");
     assert!(trial.session.is_stale(Topic::Cycles, 1) && trial.session.cycles().is_some());
     trial.settle();
     assert_eq!(trial.press("<f5>"), [Topic::Cycles]);
