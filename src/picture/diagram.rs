@@ -54,10 +54,6 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         })
         .collect();
 
-    for (variant, shown) in variants(&all) {
-        let height = diagram.axes.height(shown.problem.parameters.r);
-        equilibria::draw(&mut picture, shown, &variant, abscissa, height);
-    }
     picture.upright(LineStyle::guide(), 0.0);
     if window.y.from() < 0.0 && window.y.to() > 0.0 {
         picture.level(LineStyle::guide(), 0.0);
@@ -85,6 +81,13 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
                 branch(&mut picture, piece, found);
             }
         }
+    }
+    // Over the branches, which come near it without reaching it and must not colour it.
+    for (variant, shown) in variants(&all) {
+        let height = diagram.axes.height(shown.problem.parameters.r);
+        equilibria::draw(&mut picture, shown, &variant, abscissa, height);
+    }
+    if shows(Layer::Branch) {
         for found in &found {
             for piece in &found.branch.pieces {
                 here(&mut picture, piece, found.height, current);
