@@ -83,9 +83,11 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         }
     }
     // Over the branches, which come near it without reaching it and must not colour it.
+    let beside = |shown: &Shown| !shown.present && all.len() > 1;
     for (variant, shown) in variants(&all) {
         let height = diagram.axes.height(shown.problem.parameters.r);
-        equilibria::draw(&mut picture, shown, &variant, abscissa, height);
+        let dash = if beside(shown) { Dash::Solid } else { Dash::Thick };
+        equilibria::draw(&mut picture, (shown, &variant), dash, abscissa, height);
     }
     if shows(Layer::Branch) {
         for found in &found {

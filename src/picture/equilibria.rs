@@ -15,8 +15,8 @@ const REST: &str = "rest (attracts)";
 /// rest (its period, its multiplier).
 pub fn draw(
     picture: &mut Picture,
-    shown: &Shown,
-    variant: &Variant,
+    (shown, variant): (&Shown, &Variant),
+    dash: Dash,
     abscissa: Symbol,
     height: Height,
 ) {
@@ -32,7 +32,7 @@ pub fn draw(
         }
         return;
     }
-    let line = LineStyle::new(REST, Role::Sticking, Dash::Thick).briefly(AT_REST).of(variant);
+    let line = LineStyle::new(REST, Role::Sticking, dash).briefly(AT_REST).of(variant);
     if !has_band {
         return picture.level(line, 0.0);
     }

@@ -45,6 +45,7 @@ fn rest_is_in_every_bifurcation_diagram() {
         let session = Session::new(scene.clone(), Size { width: 120, height: 40 });
         let diagrams = session.plots.iter().enumerate().filter(|(_, it)| it.view == View::Diagram);
         for (index, plot) in diagrams {
+            let family = session.shown(index).len() > 1;
             for shown in session.shown(index) {
                 let own: Vec<_> = [plot.window.x.from(), plot.window.x.to()]
                     .into_iter()
@@ -71,7 +72,9 @@ fn rest_is_in_every_bifurcation_diagram() {
                     let expected = if band { r / unit } else { 0.0 };
                     assert!((height.abs() - expected).abs() < 1e-15, "{}: {height}", scene.name);
                     // Without friction the equilibrium is stable to the right of the Hopf point.
+                    let beside = family && !shown.present;
                     let pen = match (r > 0.0, at > 0.0) {
+                        (true, _) if beside => (Role::Sticking, Dash::Solid),
                         (true, _) => (Role::Sticking, Dash::Thick),
                         (false, true) => (Role::Stable, Dash::Thick),
                         (false, false) => (Role::Unstable, Dash::DashDot),
