@@ -16,6 +16,7 @@ use crate::flow::{Outcome, Problem, Sample, Trajectory};
 use crate::machine;
 use crate::numerics::elementary::{hypot, sin_cos};
 use crate::oscillator::{HalfPlane, Parameters, Side, State};
+use crate::question::Fitted;
 use crate::question::zones::Extent;
 use crate::scene::{Answer, Layer, Point, Topic, View};
 use crate::session::starts::MOST_MOTIONS;
@@ -82,8 +83,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         }
     }
     if let Some(fitted) = session.fitted().filter(|_| shows(Layer::Recorded)) {
-        let points = fitted.points.iter().map(|point| Point { x: point.q, y: point.v });
-        picture.curve(LineStyle::new("record", Role::Ghost, Dash::Dotted), points);
+        record(&mut picture, fitted);
     }
     if shows(Layer::Trajectory) {
         motions(&mut picture, session, index);
@@ -126,6 +126,13 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     }
     picture.cross(cursor);
     picture
+}
+
+/// What was measured; the velocities are those of the fit.
+fn record(picture: &mut Picture, fitted: &Fitted) {
+    let points = fitted.points.iter().map(|point| Point { x: point.q, y: point.v });
+    let line = LineStyle::new("record", Role::Ghost, Dash::Dotted);
+    picture.curve(line.briefly("measured"), points);
 }
 
 /// The velocity at which the mass sticks to its belt, and where the motion reaches it.

@@ -45,7 +45,8 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     picture.level(LineStyle::guide(), 0.0);
     if let Some(fitted) = session.fitted().filter(|_| shows(Layer::Record)) {
         let points = fitted.points.iter().map(|point| Point { x: point.tau, y: point.q });
-        picture.curve(LineStyle::new("record", Role::Ghost, Dash::Solid), points);
+        picture
+            .curve(LineStyle::new("record", Role::Ghost, Dash::Solid).briefly("measured"), points);
     }
     for (place, beside) in session.motions().into_iter().filter(|(place, _)| *place > 0) {
         let line = motion(session, place);

@@ -17,16 +17,16 @@ pub fn damping(fitted: &Fitted) -> Option<Picture<'static>> {
     };
     let friction = |a: f64| 2.0 * p[R] / (PI * a);
     let mut curves = vec![
-        curve("linear part D", Role::Asymptote, Dash::Dashed, over(&|_| p[D])),
-        curve("friction 2 r/(pi A)", Role::Sticking, Dash::Dashed, over(&friction)),
+        curve("linear part D", Role::Asymptote, Dash::Sparse, over(&|_| p[D])),
+        curve("friction 2 r/(pi A)", Role::Sticking, Dash::Dotted, over(&friction)),
         curve(
             "cubic part (3/8) D3 A^2",
             Role::Lyapunov,
-            Dash::Dashed,
+            Dash::DashDot,
             over(&|a| 0.375 * p[D3] * a * a),
         ),
         curve("averaged", Role::Harmonic, Dash::Dashed, points(&found.averaged)),
-        curve("exact", Role::Trajectory, Dash::Solid, points(&found.exact)),
+        curve("exact", Role::Trajectory, Dash::Thick, points(&found.exact)),
     ];
     curves.extend(found.measured.iter().map(|&[x, y, error]| {
         let bar = [y - error, y + error].map(|y| Point { x, y });

@@ -139,8 +139,8 @@ pub fn margin(fitted: &Fitted) -> Option<Picture<'static>> {
     let steps = points(&fitted.curves.spread);
     let ends = vec![at(largest, 0.0), at(largest, 1.0)];
     let curves = vec![
-        curve("margin is less than this", Role::Danger, Dash::Solid, steps),
-        curve("largest amplitude measured", Role::Current, Dash::Dashed, ends),
+        curve("margin is less than this", Role::Danger, Dash::Thick, steps),
+        curve("largest amplitude measured", Role::Current, Dash::DashDot, ends),
     ];
     let name = with_unit("smallest displacement not survived", fitted.unit());
     let names = (name, "probability".to_owned());

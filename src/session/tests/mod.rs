@@ -11,7 +11,7 @@ mod screen_setup;
 mod drafts;
 mod entries;
 mod facts;
-mod fitting;
+pub(crate) mod fitting;
 mod kicks;
 mod language;
 mod motions;

@@ -1,38 +1,51 @@
 //! Legends tell everything apart, without colour too, and name as much as there is room for.
 
 use super::by_hand::settle;
-use super::pictures::computed;
+use super::pictures::{answered, computed};
 use super::{braille, draw, settled};
 use crate::picture::legend::{LegendEntry, entries};
 use crate::scene::LAYERS;
 use crate::scene::library::library;
 use crate::session::settings::{Colors, Wishes};
+use crate::session::tests::fitting::record;
+use crate::session::{Msg, Purpose, Session, update};
 use crate::view::look::Look;
 use crate::view::screen::text;
 
-#[test]
-fn no_two_entries_of_a_legend_look_the_same_without_colour() {
+/// Pairs in the legend of a session that nothing but colour tells apart.
+fn alike(session: &Session) -> Vec<[String; 2]> {
     let look = Look::new(Wishes { colors: Colors::Never, ..braille() });
     let appearance = |entry: &LegendEntry| (entry.sample, look.style(entry.role).add_modifier);
+    let pictures = (0..session.plots.len()).map(|index| crate::picture::of(session, index));
+    let entries = entries(&pictures.collect::<Vec<_>>());
+    assert!(entries.len() > 1, "{}", session.scene.name);
     let mut alike = Vec::new();
+    for (index, entry) in entries.iter().enumerate() {
+        let same = entries[..index].iter().filter(|other| appearance(other) == appearance(entry));
+        alike.extend(same.map(|other| [entry.text.clone(), other.text.clone()]));
+    }
+    alike
+}
+
+#[test]
+fn no_two_entries_of_a_legend_look_the_same_without_colour() {
     for scene in library() {
         let mut session = settled(&scene.name, 200, 60, "");
         if session.running().is_some() {
             session = computed(&scene.name);
         }
-        let pictures = (0..session.plots.len()).map(|index| crate::picture::of(&session, index));
-        let entries = entries(&pictures.collect::<Vec<_>>());
-        assert!(entries.len() > 1, "{}", scene.name);
-        for (index, entry) in entries.iter().enumerate() {
-            let same =
-                entries[..index].iter().filter(|other| appearance(other) == appearance(entry));
-            alike.extend(
-                same.map(|other| (scene.name.clone(), &entry.text, &other.text))
-                    .map(|(scene, one, other)| format!("{scene}: {one}, {other}")),
-            );
-        }
+        assert_eq!(alike(&session), [] as [[String; 2]; 0], "{}", scene.name);
     }
-    assert_eq!(alike, [""; 0]);
+}
+
+#[test]
+fn no_two_entries_of_the_legend_of_a_fit_look_the_same_without_colour() {
+    let mut session = settled("plain", 200, 60, "");
+    let purpose = Purpose::Fit(String::new());
+    update(&mut session, Msg::Read { path: "decay.csv".into(), purpose, result: Ok(record()) });
+    answered(&mut session);
+    assert!(session.fitted().is_some());
+    assert_eq!(alike(&session), [] as [[String; 2]; 0]);
 }
 
 #[test]

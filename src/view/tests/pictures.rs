@@ -16,14 +16,19 @@ use crate::view::screen::text;
 /// A scene whose questions about branches are answered by computation.
 pub(super) fn computed(scene: &str) -> Session {
     let mut session = Session::new(find(scene).unwrap(), Size { width: 120, height: 40 });
+    answered(&mut session);
+    session
+}
+
+/// Answers what a session asks for by computation.
+pub(super) fn answered(session: &mut Session) {
     // Some ask for what others find.
     for _ in 0..2 {
         for request in session.wants() {
             let result = Ok(answer(&request, &Limits::default()).unwrap());
-            update(&mut session, Msg::answered(request, result, 0.0));
+            update(session, Msg::answered(request, result, 0.0));
         }
     }
-    session
 }
 
 /// The heights of what is called rest at a value of the parameter of a diagram, with its line.
