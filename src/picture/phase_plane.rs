@@ -240,7 +240,7 @@ pub(super) fn motion(session: &Session, place: usize) -> LineStyle {
         "motion 1", "motion 2", "motion 3", "motion 4", "motion 5", "motion 6", "motion 7",
         "motion 8",
     ];
-    const DASHES: [Dash; 3] = [Dash::Dashed, Dash::Dotted, Dash::Solid];
+    const DASHES: [Dash; 2] = [Dash::DashDot, Dash::Dotted];
     let Some(number) = session.number(place) else {
         return LineStyle::new("motion", Role::Trajectory, Dash::Solid);
     };
@@ -249,7 +249,7 @@ pub(super) fn motion(session: &Session, place: usize) -> LineStyle {
         0 => LineStyle::new(name, Role::Trajectory, Dash::Solid),
         // They are numbered where they begin and end.
         _ => LineStyle::new(name, Role::Beside, DASHES[place % DASHES.len()])
-            .briefly("motions beside"),
+            .briefly("other motions"),
     }
 }
 

@@ -61,7 +61,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
                 number_curve(&mut picture, number, &points, line.role);
                 let name = format!("{name}, {}", line.name);
                 picture
-                    .curve(LineStyle::new(name, line.role, dash).briefly("motions beside"), points);
+                    .curve(LineStyle::new(name, line.role, dash).briefly("other motions"), points);
             }
         }
     }

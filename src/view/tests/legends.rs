@@ -36,6 +36,8 @@ fn no_two_entries_of_a_legend_look_the_same_without_colour() {
         }
         assert_eq!(alike(&session), [] as [[String; 2]; 0], "{}", scene.name);
     }
+    let several = settled("supercritical", 200, 60, "i o");
+    assert_eq!(alike(&several), [] as [[String; 2]; 0], "several motions");
 }
 
 #[test]
