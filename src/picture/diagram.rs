@@ -83,11 +83,15 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         }
     }
     // Over the branches, which come near it without reaching it and must not colour it.
-    let beside = |shown: &Shown| !shown.present && all.len() > 1;
+    let has_present = all.iter().any(|one| one.present);
+    let rest = |shown: &Shown| match (shown.present || all.len() == 1, has_present) {
+        (true, _) => (equilibria::REST, Dash::Thick),
+        (false, true) => ("rest at other values", Dash::Solid),
+        (false, false) => (equilibria::REST, Dash::Solid),
+    };
     for (variant, shown) in variants(&all) {
         let height = diagram.axes.height(shown.problem.parameters.r);
-        let dash = if beside(shown) { Dash::Solid } else { Dash::Thick };
-        equilibria::draw(&mut picture, (shown, &variant), dash, abscissa, height);
+        equilibria::draw(&mut picture, (shown, &variant), rest(shown), abscissa, height);
     }
     if shows(Layer::Branch) {
         for found in &found {

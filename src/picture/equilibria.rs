@@ -9,14 +9,14 @@ use crate::scene::{Height, Ordinate};
 use crate::session::Shown;
 
 /// What stands where the motion rests.
-const REST: &str = "rest (attracts)";
+pub(super) const REST: &str = "rest (attracts)";
 
 /// Draws where one of the motions of a diagram can rest; nothing where the ordinate is no property of a
 /// rest (its period, its multiplier).
 pub fn draw(
     picture: &mut Picture,
     (shown, variant): (&Shown, &Variant),
-    dash: Dash,
+    (name, dash): (&'static str, Dash),
     abscissa: Symbol,
     height: Height,
 ) {
@@ -32,7 +32,7 @@ pub fn draw(
         }
         return;
     }
-    let line = LineStyle::new(REST, Role::Sticking, dash).briefly(AT_REST).of(variant);
+    let line = LineStyle::new(name, Role::Sticking, dash).briefly(AT_REST).of(variant);
     if !has_band {
         return picture.level(line, 0.0);
     }
@@ -45,7 +45,7 @@ pub fn draw(
     let (upper, lower) = (edge.clone(), edge.clone());
     let band = edge(picture.window.x.from()).filter(|_| abscissa != Symbol::R);
     if abscissa == Symbol::R {
-        let fill = Fill { pattern: Pattern::Shade, role: Role::Sticking, name: REST };
+        let fill = Fill { pattern: Pattern::Shade, role: Role::Sticking, name };
         let within = move |place: crate::scene::Point| {
             edge(place.x).filter(|edge| place.y.abs() <= *edge).map(|_| fill)
         };
