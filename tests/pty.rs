@@ -206,6 +206,9 @@ const HASTY: [(&str, &[&str]); 10] = [
     ("plain", &["\x1b[C", "\x1b[15~", "i", "o", "d"]),
 ];
 
+/// Silences after which two screens that are still unlike will stay so.
+const MOST_SILENCES: usize = 40;
+
 #[test]
 fn keys_that_need_an_answer_end_on_the_same_screen_in_one_write_and_one_by_one() {
     for (scene, keys) in HASTY {
@@ -215,10 +218,20 @@ fn keys_that_need_an_answer_end_on_the_same_screen_in_one_write_and_one_by_one()
             slow.wait("the answers", |it| !it.text().contains("computing"));
             slow.quiet(QUIET);
         }
-        let expected = picture(&slow);
         let mut fast = explorer(&[scene], &[], (120, 40));
         fast.types(&keys.concat());
-        fast.wait("the same screen", |it| picture(it) == expected);
+        // Either may be silent while it computes.
+        let mut end_alike = || {
+            slow.quiet(QUIET);
+            fast.quiet(QUIET);
+            picture(&slow) == picture(&fast)
+        };
+        assert!(
+            (0..MOST_SILENCES).any(|_| end_alike()),
+            "{scene} {keys:?}:\n{}\n{}",
+            slow.text(),
+            fast.text()
+        );
         leave(slow);
         leave(fast);
     }

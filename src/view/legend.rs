@@ -83,7 +83,7 @@ fn draw_sample(place: Rect, role: Role, sample: Sample, look: &Look, buffer: &mu
             dots.stroke([at, at], Pen { role, dash: Dash::Thick });
         }
         Sample::Shade => {
-            (0..SAMPLE).step_by(2).for_each(|x| dots.texture(x, 0, look.symbols().shade, role));
+            (0..SAMPLE).for_each(|x| dots.texture(x, 0, look.symbols().shade, role));
         }
         Sample::Point(mark) => dots.symbol(1, 0, symbol(mark, look.symbols()), role),
         Sample::Arrow => dots.texture(1, 0, look.symbols().arrows[0], role),
